@@ -1,0 +1,56 @@
+#pragma once
+// The lanes in which things go wrong. Each kind carries the exit code of the command line (docs/conventions.md).
+// A numerical outcome that the caller can handle is not an error: it is a status beside the result.
+
+#include <stdexcept>
+#include <string>
+
+namespace thinwall::core {
+
+enum class ExitCode : int {
+  done = 0,
+  internal = 1,
+  usage = 2,
+  invalid_case = 3,
+  unreadable_data = 4,
+  numerical = 5,
+  expectation = 6,
+  interrupted = 130,
+};
+
+/// Base of every error that reaches the user. The message says what, where, the bound and the remedy, in one line.
+class Error : public std::runtime_error {
+ public:
+  Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  [[nodiscard]] ExitCode code() const { return code_; }
+
+ private:
+  ExitCode code_;
+};
+
+/// The command line itself is wrong (exit 2).
+struct UsageError : Error {
+  explicit UsageError(const std::string& message) : Error(ExitCode::usage, message) {}
+};
+
+/// The case asks for something that cannot be (exit 3).
+struct InputError : Error {
+  explicit InputError(const std::string& message) : Error(ExitCode::invalid_case, message) {}
+};
+
+/// A data file cannot be read, or the output cannot be written (exit 4).
+struct DataError : Error {
+  explicit DataError(const std::string& message) : Error(ExitCode::unreadable_data, message) {}
+};
+
+/// The numbers could not be computed to the accuracy that was asked (exit 5).
+struct NumericalError : Error {
+  explicit NumericalError(const std::string& message) : Error(ExitCode::numerical, message) {}
+};
+
+/// The user stopped the run (exit 130).
+struct Interrupted : Error {
+  Interrupted() : Error(ExitCode::interrupted, "interrupted") {}
+};
+
+}  // namespace thinwall::core

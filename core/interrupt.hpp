@@ -1,0 +1,18 @@
+#pragma once
+// A request to stop, set by a signal handler and looked at between pieces of work.
+
+namespace thinwall::core {
+
+/// Asks the running computation to stop. Safe to call from a signal handler.
+void request_interrupt() noexcept;
+
+/// Forgets an earlier request (tests, repeated runs in one process).
+void clear_interrupt() noexcept;
+
+/// True once request_interrupt() was called.
+[[nodiscard]] bool interrupt_requested() noexcept;
+
+/// Throws Interrupted if a stop was requested. Cost: one relaxed atomic load.
+void check_interrupt();
+
+}  // namespace thinwall::core

@@ -1,0 +1,25 @@
+#pragma once
+// The frequencies at which a response is known.
+
+#include <Eigen/Core>
+
+namespace thinwall::dynamics {
+
+/// Frequencies in Hz, strictly rising.
+struct FrequencyAxis {
+  Eigen::VectorXd hz;
+
+  [[nodiscard]] Eigen::Index size() const { return hz.size(); }
+  [[nodiscard]] double omega_rad_s(Eigen::Index line) const;
+};
+
+/// `lines` frequencies from `from_hz` to `to_hz`, evenly spaced. Throws InputError unless 0 ≤ from < to and lines ≥ 2.
+[[nodiscard]] FrequencyAxis linear_axis(double from_hz, double to_hz, int lines);
+
+/// The same, evenly spaced in the logarithm; from_hz > 0.
+[[nodiscard]] FrequencyAxis logarithmic_axis(double from_hz, double to_hz, int lines);
+
+/// Throws InputError unless both axes are equal line by line (relative 1e-12): FRFs on different axes never meet.
+void require_equal(const FrequencyAxis& a, const FrequencyAxis& b);
+
+}  // namespace thinwall::dynamics
