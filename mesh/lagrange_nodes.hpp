@@ -1,0 +1,28 @@
+#pragma once
+// The nodes of order p on a mesh of straight-sided tetrahedra.
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "mesh/tet_mesh.hpp"
+
+namespace thinwall::mesh {
+
+/// Barycentric lattice of order p: all α with α₀ + α₁ + α₂ + α₃ = p, (p+1)(p+2)(p+3)/6 of them; local node a of every
+/// element lies at λ = α_a / p. The four vertices come first, in order.
+[[nodiscard]] std::vector<std::array<int, 4>> lattice(int order);
+
+/// Nodes shared by the elements: positions (nodes × 3, m) and for each element its (p+1)(p+2)(p+3)/6 node indices, in the
+/// order of lattice(p), one row an element. The mesh's vertices keep their indices as the first nodes.
+struct LagrangeNodes {
+  int order = 0;
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> positions;
+  Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> elements;
+};
+
+/// Numbers the nodes of order 1…6. Two elements share a node exactly if it is the same weighted set of vertices, so
+/// orientation needs no special case. Throws InputError for another order. Cost O(nodes log nodes).
+[[nodiscard]] LagrangeNodes lagrange_nodes(const TetMesh& mesh, int order);
+
+}  // namespace thinwall::mesh
