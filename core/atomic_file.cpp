@@ -1,0 +1,110 @@
+#include "core/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace thinwall::core {
+
+namespace {
+
+constexpr std::string_view partial_mark = ".partial-";
+
+[[noreturn]] void fail(std::string_view what, const std::filesystem::path& path, int error) {
+  const std::string remedy = error == ENOSPC || error == EDQUOT || error == EFBIG
+                                 ? "free space or choose another folder"
+                                 : "choose another folder";
+  throw DataError("cannot " + std::string(what) + " \"" + path.string() +
+                  "\": " + std::generic_category().message(error) + "; " + remedy);
+}
+
+std::filesystem::path partial_path(const std::filesystem::path& target) {
+  static std::atomic<int> counter{0};
+  std::ostringstream name;
+  name << '.' << target.stem().string() << partial_mark << ::getpid() << '-' << counter++
+       << target.extension().string();
+  return target.parent_path() / name.str();
+}
+
+/// A descriptor that closes itself.
+struct Descriptor {
+  int value = -1;
+  explicit Descriptor(int descriptor) : value(descriptor) {}
+  ~Descriptor() {
+    if (value >= 0) ::close(value);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+};
+
+void write_all(int descriptor, std::string_view content, const std::filesystem::path& target) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(descriptor, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("write", target, errno);
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+}  // namespace
+
+PartialFile::PartialFile(std::filesystem::path target) : target_(std::move(target)), partial_(partial_path(target_)) {
+  std::error_code error;
+  const auto folder = target_.has_parent_path() ? target_.parent_path() : std::filesystem::path(".");
+  if (!std::filesystem::is_directory(folder, error)) fail("write", target_, error ? error.value() : ENOTDIR);
+  const auto status = std::filesystem::status(target_, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw DataError("cannot write \"" + target_.string() + "\": it exists and is not a plain file; remove it first");
+  }
+}
+
+PartialFile::~PartialFile() {
+  std::error_code ignored;
+  std::filesystem::remove(partial_, ignored);
+}
+
+void PartialFile::commit() {
+  {
+    const Descriptor file(::open(partial_.c_str(), O_RDONLY | O_CLOEXEC));
+    if (file.value < 0) fail("write", target_, errno);
+    if (::fsync(file.value) != 0) fail("write", target_, errno);
+  }
+  if (std::rename(partial_.c_str(), target_.c_str()) != 0) fail("write", target_, errno);
+}
+
+bool is_partial_name(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  return name.starts_with('.') && name.find(partial_mark) != std::string::npos;
+}
+
+void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
+  PartialFile file(path);
+  {
+    const Descriptor partial(::open(file.partial().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (partial.value < 0) fail("write", path, errno);
+    write_all(partial.value, content, path);
+  }
+  file.commit();
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) fail("read", path, EISDIR);
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) fail("read", path, errno);
+  std::ostringstream content;
+  content << file.rdbuf();
+  if (file.bad()) fail("read", path, EIO);
+  return std::move(content).str();
+}
+
+}  // namespace thinwall::core

@@ -1,0 +1,85 @@
+#include "core/atomic_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "core/error.hpp"
+
+namespace thinwall::core {
+namespace {
+
+class AtomicFile : public testing::Test {
+ protected:
+  AtomicFile() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "thinwall-XXXXXX").string();
+    folder = ::mkdtemp(pattern.data());
+  }
+  ~AtomicFile() override { std::filesystem::remove_all(folder); }
+
+  [[nodiscard]] int entries() const {
+    return static_cast<int>(std::distance(std::filesystem::directory_iterator(folder), {}));
+  }
+
+  std::filesystem::path folder;
+};
+
+TEST_F(AtomicFile, HoldsExactlyTheContentAndNothingElseRemains) {
+  const std::string content("bytes \0 and\nlines", 17);
+  write_file_atomically(folder / "a.csv", content);
+  EXPECT_EQ(read_file(folder / "a.csv"), content);
+  write_file_atomically(folder / "a.csv", "second");
+  EXPECT_EQ(read_file(folder / "a.csv"), "second");
+  EXPECT_EQ(entries(), 1);
+}
+
+// A file-size limit makes write() fail in the middle of a file exactly as a full disk does, for root as well.
+TEST_F(AtomicFile, AWriteThatFailsHalfwayLeavesTheEarlierFileAndNoRemains) {
+  write_file_atomically(folder / "a.csv", "earlier");
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{1024, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  EXPECT_THROW(write_file_atomically(folder / "a.csv", std::string(4096, 'x')), DataError);
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(read_file(folder / "a.csv"), "earlier");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(AtomicFile, APartialFileThatIsNotCommittedDisappears) {
+  {
+    PartialFile file(folder / "modes.vtu");
+    EXPECT_TRUE(is_partial_name(file.partial()));
+    EXPECT_EQ(file.partial().extension(), ".vtu");
+    std::ofstream(file.partial()) << "half";
+  }
+  EXPECT_EQ(entries(), 0);
+  EXPECT_FALSE(is_partial_name("modes.vtu"));
+}
+
+TEST_F(AtomicFile, RefusesWhatIsNotAPlainFileOrHasNoFolder) {
+  EXPECT_THROW(write_file_atomically(folder, "x"), DataError);
+  EXPECT_THROW(write_file_atomically("/dev/full", "x"), DataError);
+  EXPECT_THROW(write_file_atomically(folder / "absent" / "a.csv", "x"), DataError);
+  write_file_atomically(folder / "file", "x");
+  EXPECT_THROW(write_file_atomically(folder / "file" / "a.csv", "x"), DataError);
+  EXPECT_EQ(read_file(folder / "file"), "x");
+}
+
+TEST_F(AtomicFile, ReadingNamesThePathAndTheCause) {
+  try {
+    (void)read_file(folder / "absent.csv");
+    FAIL() << "no error";
+  } catch (const DataError& error) {
+    EXPECT_NE(std::string(error.what()).find("absent.csv"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos);
+  }
+  EXPECT_THROW((void)read_file(folder), DataError);
+}
+
+}  // namespace
+}  // namespace thinwall::core
