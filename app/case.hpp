@@ -1,0 +1,237 @@
+#pragma once
+// What a case file says, in SI and typed (frequencies in Hz, spindle speeds in rpm, as their names tell).
+// Every key is described in app/schema.cpp and docs/case-file.md. The pipeline does what the case holds.
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/case_values.hpp"
+
+namespace thinwall::app {
+
+struct Material {
+  double youngs_modulus = 0.0;  ///< Pa
+  double poisson_ratio = 0.0;
+  double density = 0.0;  ///< kg/m³
+};
+
+struct MeshOptions {
+  double element_size = 0.0;  ///< m; edge of a regular tetrahedron of the largest volume allowed
+  int order = 2;
+  double quality = 1.4;                      ///< TetGen's bound on circumradius over shortest edge
+  std::optional<double> grading;             ///< growth of the size away from the named points
+  std::optional<double> point_element_size;  ///< m, near the named points
+  double time_limit = 120.0;                 ///< s
+  double memory_limit = 4e9;                 ///< bytes
+};
+
+/// A named set of boundary points of the part: exactly one of the three predicates.
+struct Selection {
+  struct Plane {
+    Eigen::Vector3d point, normal;
+  };
+  struct Box {
+    Eigen::Vector3d min, max;
+  };
+  struct Sphere {
+    Eigen::Vector3d centre;
+    double radius = 0.0;
+  };
+  std::string name;
+  std::optional<Plane> plane;
+  std::optional<Box> box;
+  std::optional<Sphere> sphere;
+};
+
+/// Directions held at zero on a face (`x_min` … `z_max`) or on a selection.
+struct Support {
+  std::string on;
+  std::vector<int> fixed;  ///< 0, 1, 2 for x, y, z
+};
+
+/// A box with one corner at the origin.
+struct Part {
+  double length = 0.0, height = 0.0, thickness = 0.0;        ///< m
+  int length_axis = 1, height_axis = 2, thickness_axis = 0;  ///< 0, 1, 2 for x, y, z
+  Material material;
+  MeshOptions mesh;
+  std::vector<Support> supports;  ///< none: a free part
+};
+
+/// One measured FRF in a CSV file, converted by io/ to receptance.
+struct MeasuredFrf {
+  std::string response;  ///< DOF name, "P.x"
+  std::string force;
+  std::filesystem::path file;  ///< absolute, or relative to the working directory
+  std::string quantity;        ///< receptance, mobility, accelerance
+  std::string unit;            ///< of the FRF, "um/N"
+  std::string frequency_unit;  ///< "Hz", "rad/s"
+};
+
+/// A named point of the part: a fraction of the box along x, y, z or a position, then an offset.
+struct Point {
+  std::string name;
+  std::optional<Eigen::Vector3d> at;
+  std::optional<Eigen::Vector3d> position;           ///< m
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< m
+  double patch_radius = 0.0;                         ///< m; 0: the nearest node alone
+  std::vector<Eigen::Vector3d> directions;           ///< unit vectors
+};
+
+/// Modes wanted, by count or by frequency.
+struct ModeRange {
+  std::optional<int> count;
+  std::optional<double> up_to_hz;
+};
+
+struct Modes {
+  ModeRange range;
+  bool verify_count = false;
+};
+
+struct Reduction {
+  std::string method = "craig_bampton";
+  ModeRange fixed_interface;
+  std::vector<std::string> interface;  ///< names of points
+  int check_frequencies = 5;
+};
+
+struct Damping {
+  std::string model = "modal";  ///< modal, rayleigh, structural
+  double ratio = 0.0;           ///< of every mode that `ratios` does not name
+  std::vector<double> ratios;   ///< of the first modes
+  std::optional<MeasuredFrf> from_frf;
+  double alpha = 0.0;  ///< 1/s
+  double beta = 0.0;   ///< s
+  double loss_factor = 0.0;
+};
+
+/// What is known of the robot's tip. `one_mode`: stiffness with frequency and damping ratio, or mass with stiffness and
+/// damping (or damping ratio); what was not given is empty.
+struct Robot {
+  std::string model = "one_mode";  ///< one_mode, measured
+  std::string point = "R";
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+  std::optional<double> frequency_hz, damping_ratio, mass, stiffness, damping;
+  std::vector<MeasuredFrf> measured;
+};
+
+struct Contact {
+  std::string part_point, robot_point;
+  std::vector<Eigen::Vector3d> directions;
+  std::vector<double> stiffness;  ///< N/m, one per direction; infinite allowed
+  std::vector<double> damping;    ///< N s/m, one per direction
+  double loss_factor = 0.0;
+};
+
+struct ResponseOptions {
+  double from_hz = 1.0, to_hz = 2000.0;
+  int lines = 2000;
+  bool logarithmic = false;
+  std::vector<std::string> points;
+};
+
+struct UpdatingParameter {
+  std::string key;  ///< full dotted key for get_value and set_value
+  double lower = 0.0, upper = 0.0;
+};
+
+struct UpdatingTarget {
+  std::string quantity;                 ///< part_frequency, coupled_frequency, reduction_at
+  double value = 0.0;                   ///< Hz, or 1 for a reduction
+  std::string point;                    ///< DOF "P.x" at which the mode takes part or the reduction is read
+  std::string match = "participation";  ///< participation, mac, number
+  int rank = 1;                         ///< the rank-th such mode by rising frequency
+  double frequency_hz = 0.0;            ///< of reduction_at
+  double weight = 1.0;
+};
+
+struct Updating {
+  std::string name;
+  std::string on = "part";  ///< part, coupled
+  std::vector<UpdatingParameter> parameters;
+  std::vector<UpdatingTarget> targets;
+};
+
+struct ToolMode {
+  double frequency_hz = 0.0, damping_ratio = 0.0, stiffness = 0.0;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+};
+
+struct Tool {
+  int teeth = 0;
+  double diameter = 0.0;  ///< m
+  double length = 0.0;    ///< m
+  std::vector<ToolMode> modes;
+};
+
+struct Cutting {
+  double radial_depth = 0.0;  ///< m
+  bool down_milling = true;
+  Eigen::Vector3d feed_direction = Eigen::Vector3d::UnitY();
+  Eigen::Vector3d tool_axis = Eigen::Vector3d::UnitZ();
+  std::string at;                          ///< name of the point that is cut
+  double Kt = 0.0, Kr = 0.0, Ka = 0.0;     ///< N/m²
+  double Kte = 0.0, Kre = 0.0, Kae = 0.0;  ///< N/m
+  std::optional<double> spindle_speed_rpm;
+  std::optional<double> feed_rate;  ///< m/s
+};
+
+struct LobesOptions {
+  double from_rpm = 0.0, to_rpm = 0.0;
+  int count = 400;
+  double depth_limit = 0.0;  ///< m
+  double tolerance = 0.01;   ///< bound on the estimated relative error of the limiting depth
+  std::optional<double> modes_up_to_hz;
+};
+
+struct Case {
+  std::string name;  ///< name of the case's folder
+  std::string title;
+  std::filesystem::path file;
+  std::string source;  ///< text of the file, as read
+  std::optional<Part> part;
+  std::vector<MeasuredFrf> measured_part;
+  std::vector<Selection> selections;
+  std::vector<Point> points;
+  Modes modes;
+  Reduction reduction;
+  Damping damping;
+  std::optional<Robot> robot;
+  std::vector<Contact> contacts;
+  ResponseOptions response;
+  std::vector<Updating> updating;
+  std::optional<Tool> tool;
+  std::optional<Cutting> cutting;
+  std::optional<LobesOptions> lobes;
+  CaseValues values;  ///< what all of the above was bound from, defaults included
+};
+
+/// Extents of the part along x, y, z, m.
+[[nodiscard]] Eigen::Vector3d box_size(const Part& part);
+
+/// Position of a point in the part's axes, m: fractions of the box (or the given position) plus the offset.
+[[nodiscard]] Eigen::Vector3d position(const Part& part, const Point& point);
+
+/// The point of that name; throws InputError with the nearest name if there is none.
+[[nodiscard]] const Point& point(const Case& source, const std::string& name);
+
+/// True if `p` (m) satisfies the predicate within `tolerance` (m).
+[[nodiscard]] bool contains(const Selection& selection, const Eigen::Vector3d& p, double tolerance);
+
+/// Data files that the case names, besides the case file itself.
+[[nodiscard]] std::vector<std::filesystem::path> input_files(const Case& source);
+
+/// Value of a numeric key by its dotted name, "part.length", "damping.ratios[0]", "robot.stiffness", in the unit of the
+/// schema (SI; Hz; rpm). Tables in the middle may be left out where that is unambiguous ("part.element_size"). Throws
+/// InputError with the nearest key if the case has no such number.
+[[nodiscard]] double get_value(const Case& source, const std::string& key);
+
+/// Sets it and binds the case anew, so that everything that follows from the key follows. Throws InputError if the
+/// value is not finite or outside the schema's bounds. Cost: microseconds; for model updating and sweeps.
+void set_value(Case& target, const std::string& key, double value);
+
+}  // namespace thinwall::app
