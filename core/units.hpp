@@ -1,0 +1,79 @@
+#pragma once
+// Quantities as people write them: "6 mm", "210 GPa", "1900 rpm", "1.7e6 N/m".
+//
+// A unit is a product of powers, written with spaces, dots, * or /, each / dividing by the one factor that follows:
+// "N s/m", "kg/m^3", "m/s^2/N". Numbers are read and written independently of the locale.
+
+#include <string>
+#include <string_view>
+
+namespace thinwall::core {
+
+/// Exponents of the base dimensions. Angle and amount of data are dimensions of their own, so that 29 Hz (1/time), 29
+/// rad/s and 29 rpm (angle/time) are told apart.
+struct Dimension {
+  int length = 0;
+  int mass = 0;
+  int time = 0;
+  int angle = 0;
+  int data = 0;
+  bool operator==(const Dimension&) const = default;
+};
+
+/// A number in base units (m, kg, s, rad, byte).
+struct Quantity {
+  double value = 0.0;
+  Dimension dimension;
+};
+
+/// What a number stands for: the name shown to people, the unit in which the program holds it, and how one writes it.
+struct QuantityKind {
+  std::string_view name;
+  std::string_view unit;     ///< "" for a pure number
+  std::string_view example;  ///< shown as the remedy
+  bool bare_number = true;   ///< may be written without a unit (then it is in `unit`)
+};
+
+namespace kind {
+inline constexpr QuantityKind number{"number", "", "0.3"};
+inline constexpr QuantityKind length{"length", "m", "6 mm"};
+inline constexpr QuantityKind mass{"mass", "kg", "12 kg"};
+inline constexpr QuantityKind time{"time", "s", "120 s"};
+inline constexpr QuantityKind angle{"angle", "rad", "45 deg"};
+inline constexpr QuantityKind density{"density", "kg/m^3", "7850 kg/m^3"};
+inline constexpr QuantityKind stress{"stress", "Pa", "210 GPa"};
+inline constexpr QuantityKind frequency{"frequency", "Hz", "29 Hz"};
+inline constexpr QuantityKind spindle_speed{"spindle speed", "rpm", "1900 rpm", false};
+inline constexpr QuantityKind velocity{"velocity", "m/s", "1800 mm/min"};
+inline constexpr QuantityKind stiffness{"stiffness", "N/m", "1.7e6 N/m"};
+inline constexpr QuantityKind damping{"damping", "N s/m", "200 N s/m"};
+inline constexpr QuantityKind rate{"rate", "1/s", "12 1/s"};
+inline constexpr QuantityKind memory{"memory", "B", "4 GB"};
+}  // namespace kind
+
+/// The text as a number in base units. Throws InputError: no number, not finite, an unknown unit (nearest one named).
+[[nodiscard]] Quantity parse_quantity(std::string_view text);
+
+/// The text as a number in `kind.unit`; a bare number is taken in that unit where the kind allows it. Throws InputError
+/// naming the dimension that was expected, the one that was got and an example.
+[[nodiscard]] double parse_quantity(std::string_view text, const QuantityKind& kind);
+
+/// A bare number as a quantity: itself, or InputError where the kind needs a unit ("write \"1900 rpm\"").
+[[nodiscard]] double bare_number(double value, const QuantityKind& kind);
+
+/// Factor and dimension of a unit, "N/mm^2" → 1e6 kg/(m s²). Throws InputError.
+[[nodiscard]] Quantity parse_unit(std::string_view text);
+
+/// "stress", "length", or the exponents where the dimension has no name among the kinds.
+[[nodiscard]] std::string dimension_name(const Dimension& dimension);
+
+/// Exactly the number that is given, with the kind's unit: parse_quantity(exact_text(x, k), k) == x for every finite x.
+[[nodiscard]] std::string exact_text(double value, const QuantityKind& kind);
+
+/// Four significant digits with a unit that suits people: 0.392 → "392 mm", 2.1e11 → "210 GPa".
+[[nodiscard]] std::string readable_text(double value, const QuantityKind& kind);
+
+/// Shortest text that reads back as the same number, with a point whatever the locale.
+[[nodiscard]] std::string number_text(double value);
+
+}  // namespace thinwall::core
