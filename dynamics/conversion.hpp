@@ -13,17 +13,21 @@ struct UndampedModes {
   Eigen::MatrixXd Phi;
 };
 
-/// Cost O(n³). Throws NumericalError if M is not positive definite.
+///
+/// With M = L Lᵀ and K = G Gᵀ, ω and L ᵀφ are singular values and left singular vectors of L⁻¹ G (Demmel & Veselić
+/// 1992). The square root of K is taken before the decomposition, so that the error of ω is ε ω_max and not ε ω_max²/ω.
+/// A singular K gives exactly as many ω = 0 as its rank is short. Cost O(n³). Throws NumericalError if M is not
+/// positive definite or K is indefinite.
 [[nodiscard]] UndampedModes undamped_modes(const SpatialModel& model);
 
 /// All 2n poles of a viscously damped model. With Φ, Ω the undamped modes and D = Φᵀ C Φ the state matrix
 ///
 ///     A = [ 0  Ω ; −Ω  −D ],   state (Ω η, η')
 ///
-/// has norm ω_max instead of ω_max², which keeps the low poles exact to round-off. Non-proportional damping allowed; if D
-/// is diagonal to round-off the poles are written down in closed form. Structural damping is refused (InputError): such a
-/// model has no causal pole pairs; use direct_response, or equivalent_viscous() first. Cost O((2n)³).
-/// A singular K (free part) is allowed as long as no pole is exactly double and defective; rigid-body poles at zero make H
+/// has norm ω_max instead of ω_max², which keeps the low poles exact to round-off. Non-proportional damping allowed; if
+/// D is diagonal to round-off the poles are written down in closed form. Structural damping is refused (InputError):
+/// such a model has no causal pole pairs; use direct_response, or equivalent_viscous() first. Cost O((2n)³). A singular
+/// K (free part) is allowed as long as no pole is exactly double and defective; rigid-body poles at zero make H
 /// singular at ω = 0 only.
 [[nodiscard]] ModalModel to_modal(const SpatialModel& model);
 
@@ -31,7 +35,8 @@ struct UndampedModes {
 /// to C as M Φ diag(2 ζ ω) Φᵀ M. Exact at resonance, approximate elsewhere.
 [[nodiscard]] SpatialModel equivalent_viscous(const SpatialModel& model);
 
-/// H = R + Σ φ ψᵀ / (a (iω − λ)) at every line, between all DOFs that are not modal amplitudes. Cost lines · poles · n².
+/// H = R + Σ φ ψᵀ / (a (iω − λ)) at every line, between all DOFs that are not modal amplitudes. Cost lines · poles ·
+/// n².
 [[nodiscard]] ResponseModel to_response(const ModalModel& model, const FrequencyAxis& axis);
 
 /// H = (K + iD + iωC − ω²M)⁻¹ by one LU factorisation a line, between all DOFs that are not modal amplitudes. The

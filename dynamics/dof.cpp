@@ -25,18 +25,24 @@ std::string direction_name(const Eigen::Vector3d& d) {
 
 std::string name(const Dof& dof) {
   switch (dof.kind) {
-    case DofKind::modal: return dof.point;
-    case DofKind::rotation: return dof.point + ".r" + direction_name(dof.direction);
-    case DofKind::translation: break;
+    case DofKind::modal:
+      return dof.point;
+    case DofKind::rotation:
+      return dof.point + ".r" + direction_name(dof.direction);
+    case DofKind::translation:
+      break;
   }
   return dof.point + "." + direction_name(dof.direction);
 }
 
 std::string unit(const Dof& dof) {
   switch (dof.kind) {
-    case DofKind::modal: return "1";
-    case DofKind::rotation: return "rad";
-    case DofKind::translation: break;
+    case DofKind::modal:
+      return "1";
+    case DofKind::rotation:
+      return "rad";
+    case DofKind::translation:
+      break;
   }
   return "m";
 }
@@ -67,7 +73,8 @@ std::vector<int> rows_of_point(const DofTable& dofs, const std::string& point) {
     if (dof.point == point) rows.push_back(row);
   }
   if (rows.empty()) {
-    throw core::InputError("no degree of freedom belongs to point \"" + point + "\"" + core::did_you_mean(point, points));
+    throw core::InputError("no degree of freedom belongs to point \"" + point + "\"" +
+                           core::did_you_mean(point, points));
   }
   return rows;
 }

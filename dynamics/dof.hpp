@@ -35,7 +35,8 @@ using DofTable = std::vector<Dof>;
 /// Unit vector of "x", "-y", "z"; throws InputError for anything else.
 [[nodiscard]] Eigen::Vector3d axis(const std::string& letter);
 
-/// Rows of the DOFs that belong to `point`, in table order; throws InputError (naming the nearest point) if there are none.
+/// Rows of the DOFs that belong to `point`, in table order; throws InputError (naming the nearest point) if there are
+/// none.
 [[nodiscard]] std::vector<int> rows_of_point(const DofTable& dofs, const std::string& point);
 
 /// Row of the DOF named "P.x" (see name()); throws InputError with the nearest name if there is none.
@@ -43,6 +44,7 @@ using DofTable = std::vector<Dof>;
 
 /// Row vector b with b·q = n·u_point: the displacement of `point` along n (unit vector), from the DOF amplitudes q.
 /// Shape: dofs.size(). Throws InputError if the point has no translation.
-[[nodiscard]] Eigen::VectorXd displacement_row(const DofTable& dofs, const std::string& point, const Eigen::Vector3d& n);
+[[nodiscard]] Eigen::VectorXd displacement_row(const DofTable& dofs, const std::string& point,
+                                               const Eigen::Vector3d& n);
 
 }  // namespace thinwall::dynamics

@@ -9,12 +9,13 @@ namespace thinwall::dynamics {
 
 /// A component as a sum over its poles,
 ///
-///     H(ω) = R + Σ_k φ_k ψ_kᵀ / (a_k (iω − λ_k))                                    (Ewins 2000, Eq. 2.163, residual added)
+///     H(ω) = R + Σ_k φ_k ψ_kᵀ / (a_k (iω − λ_k))              (Ewins 2000, Eq. 2.163, residual added)
 ///
 /// with λ_k in rad/s (Re < 0: decaying), φ_k the columns of `right` (response), ψ_k the columns of `left` (force), both
-/// dofs × poles, a_k in `scaling`. Every pole is listed: an oscillating mode appears as two conjugate poles side by side,
-/// the one with Im λ > 0 first. `residual` (dofs × dofs, m/N) stands for the modes that are not listed; empty means none.
-/// Real parameters of a time-domain model follow from the pairs; nothing here assumes symmetry (ψ ≠ φ is allowed).
+/// dofs × poles, a_k in `scaling`. Every pole is listed: an oscillating mode appears as two conjugate poles side by
+/// side, the one with Im λ > 0 first. `residual` (dofs × dofs, m/N) stands for the modes that are not listed; empty
+/// means none. Real parameters of a time-domain model follow from the pairs; nothing here assumes symmetry (ψ ≠ φ is
+/// allowed).
 struct ModalModel {
   Eigen::VectorXcd poles;
   Eigen::MatrixXcd right;

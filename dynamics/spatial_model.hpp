@@ -20,4 +20,7 @@ struct SpatialModel {
   [[nodiscard]] bool has_structural_damping() const { return D.size() > 0; }
 };
 
+/// Throws InputError unless M, C, K (and D if present) are as large as the table and finite. Cost O(n²).
+void require_consistent(const SpatialModel& model);
+
 }  // namespace thinwall::dynamics

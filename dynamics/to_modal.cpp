@@ -1,0 +1,200 @@
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "dynamics/conversion.hpp"
+
+namespace thinwall::dynamics {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Solutions of (λ² + λ D + Ω²) η = 0 in undamped modal coordinates, with a = ηᵀ (2λ + D) η.
+struct QuadraticModes {
+  Eigen::VectorXcd lambda;
+  Eigen::MatrixXcd eta;
+  Eigen::VectorXcd a;
+};
+
+[[noreturn]] void refuse_double_pole(Complex lambda) {
+  std::ostringstream text;
+  text << "the pole at " << lambda.real() << (lambda.imag() < 0.0 ? " - " : " + ") << std::abs(lambda.imag())
+       << "i rad/s is double (an undamped rigid-body motion, or critical damping) and has no modal form; change its "
+          "stiffness or damping, or use the direct response";
+  throw core::NumericalError(text.str());
+}
+
+/// a = ηᵀ (2λ + D) η vanishes at a defective pole only; near one the residues lose the digits that a has lost.
+void require_simple(Complex lambda, Complex a, double scale) {
+  if (!(std::abs(a) > 1e-7 * scale)) refuse_double_pole(lambda);
+}
+
+/// ΦᵀCΦ and whether it is diagonal to the round-off of forming it, or to 1e-12 of the damping on either side: what is
+/// dropped then changes no receptance by more than 1e-12 of itself.
+std::optional<Eigen::VectorXd> proportional_damping(const Eigen::MatrixXd& C, const Eigen::MatrixXd& Phi,
+                                                    const Eigen::MatrixXd& D) {
+  const Eigen::MatrixXd round_off = static_cast<double>(C.rows()) * std::numeric_limits<double>::epsilon() *
+                                    (Phi.cwiseAbs().transpose() * C.cwiseAbs() * Phi.cwiseAbs());
+  Eigen::VectorXd d = D.diagonal();
+  for (Eigen::Index i = 0; i < d.size(); ++i) {
+    for (Eigen::Index j = 0; j < d.size(); ++j) {
+      const double bound = round_off(i, j) + 1e-12 * std::sqrt(std::abs(D(i, i) * D(j, j)));
+      if (i != j && std::abs(D(i, j)) > bound) return std::nullopt;
+    }
+    if (std::abs(d(i)) <= round_off(i, i)) d(i) = 0.0;
+  }
+  return d;
+}
+
+/// λ = −d/2 ± √(d²/4 − ω²) for each mode, the smaller root of an overdamped one as ω² over the larger.
+QuadraticModes proportional_modes(const Eigen::VectorXd& omega, const Eigen::VectorXd& d) {
+  const Eigen::Index n = omega.size();
+  QuadraticModes modes{Eigen::VectorXcd(2 * n), Eigen::MatrixXcd::Zero(n, 2 * n), Eigen::VectorXcd(2 * n)};
+  for (Eigen::Index r = 0; r < n; ++r) {
+    const double half = 0.5 * d(r);
+    const double root = std::sqrt(std::abs((omega(r) - half) * (omega(r) + half)));
+    const bool oscillates = omega(r) > std::abs(half);
+    const double larger = half >= 0.0 ? -half - root : -half + root;
+    const Complex first = oscillates ? Complex(-half, root) : Complex(larger, 0.0);
+    const Complex second = oscillates ? std::conj(first) : Complex(omega(r) * omega(r) / larger, 0.0);
+    const Complex a = oscillates ? Complex(0.0, 2.0 * root) : Complex(half >= 0.0 ? -2.0 * root : 2.0 * root, 0.0);
+    require_simple(first, a, 2.0 * std::max(omega(r), std::abs(half)));
+    modes.lambda.segment(2 * r, 2) << first, second;
+    modes.a.segment(2 * r, 2) << a, -a;
+    modes.eta.row(r).segment(2 * r, 2).setOnes();
+  }
+  return modes;
+}
+
+/// State matrix [0 Γ; −Ω²/Γ −D] of the state (Γ η, η'), Γ = Ω but for rigid-body modes, which take the mean instead of
+/// 0 so that their displacement stays in the state.
+Eigen::MatrixXd state_matrix(const Eigen::VectorXd& omega, const Eigen::VectorXd& Gamma, const Eigen::MatrixXd& D) {
+  const Eigen::Index n = omega.size();
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  A.topRightCorner(n, n).diagonal() = Gamma;
+  A.bottomLeftCorner(n, n).diagonal() = -omega.array().square() / Gamma.array();
+  A.bottomRightCorner(n, n) = -D;
+  return A;
+}
+
+/// Indices of one of each conjugate pair (Im λ > 0) and of all real poles, by rising |λ|.
+std::vector<Eigen::Index> upper_half(const Eigen::VectorXcd& lambda) {
+  std::vector<Eigen::Index> indices;
+  for (Eigen::Index k = 0; k < lambda.size(); ++k) {
+    if (lambda(k).imag() >= 0.0) indices.push_back(k);
+  }
+  std::stable_sort(indices.begin(), indices.end(),
+                   [&](Eigen::Index i, Eigen::Index j) { return std::abs(lambda(i)) < std::abs(lambda(j)); });
+  return indices;
+}
+
+/// One Newton step on the Rayleigh functional ηᵀ (λ² + λ D + Ω²) η = 0 (Lancaster 1961): it is stationary at an
+/// eigenvector, so the pole's error becomes the square of the vector's, and low poles beside high ones keep all digits.
+struct RefinedPole {
+  Complex lambda;
+  Complex a;
+};
+RefinedPole refine(Complex lambda, const Eigen::VectorXcd& eta, const Eigen::VectorXd& omega,
+                   const Eigen::MatrixXd& D) {
+  const Complex m = eta.cwiseProduct(eta).sum();
+  const Complex d = eta.cwiseProduct(D * eta).sum();
+  const Complex k = eta.cwiseProduct(omega.cwiseAbs2().asDiagonal() * eta).sum();
+  const double scale = 2.0 * std::abs(lambda) * eta.squaredNorm() + std::abs(d);
+  require_simple(lambda, 2.0 * lambda * m + d, scale);
+  lambda -= (lambda * (lambda * m + d) + k) / (2.0 * lambda * m + d);
+  return {lambda, 2.0 * lambda * m + d};
+}
+
+/// Σ λ η ηᵀ / a = I holds for a complete set of simple poles (the response at high frequency is that of the mass
+/// alone).
+void require_complete(const QuadraticModes& modes) {
+  const Eigen::VectorXcd weight = modes.lambda.cwiseQuotient(modes.a);
+  const Eigen::MatrixXcd sum = modes.eta * weight.asDiagonal() * modes.eta.transpose();
+  const double error = (sum - Eigen::MatrixXcd::Identity(sum.rows(), sum.rows())).cwiseAbs().maxCoeff();
+  if (error <= 1e-7) return;
+  std::ostringstream text;
+  text << "the complex modes do not add up to the mass (error " << error
+       << ", bound 1e-7): two poles coincide; change their damping slightly, or use the direct response";
+  throw core::NumericalError(text.str());
+}
+
+QuadraticModes general_modes(const Eigen::VectorXd& omega, const Eigen::MatrixXd& D) {
+  const Eigen::Index n = omega.size();
+  const double mean = omega.maxCoeff() > 0.0 ? omega.mean() : std::max(D.norm(), 1.0);
+  const Eigen::VectorXd Gamma = omega.unaryExpr([mean](double w) { return w > 0.0 ? w : mean; });
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(state_matrix(omega, Gamma, D));
+  if (solver.info() != Eigen::Success) {
+    throw core::NumericalError("the eigenvalues of the damped model of " + std::to_string(n) +
+                               " modes did not converge; use the direct response");
+  }
+  const Eigen::MatrixXcd X = solver.eigenvectors();
+  QuadraticModes modes{Eigen::VectorXcd(2 * n), Eigen::MatrixXcd(n, 2 * n), Eigen::VectorXcd(2 * n)};
+  Eigen::Index column = 0;
+  for (const Eigen::Index k : upper_half(solver.eigenvalues())) {
+    const Complex lambda = solver.eigenvalues()(k);
+    // both halves of the state hold η: Γ η and λ η; each component from the half in which it is larger, as least
+    // squares
+    const Eigen::ArrayXd weight = Gamma.array().square() + std::norm(lambda);
+    Eigen::VectorXcd eta =
+        ((Gamma.array() * X.col(k).head(n).array() + std::conj(lambda) * X.col(k).tail(n).array()) / weight).matrix();
+    eta.normalize();
+    const RefinedPole pole = refine(lambda, eta, omega, D);
+    modes.lambda(column) = pole.lambda;
+    modes.a(column) = pole.a;
+    modes.eta.col(column++) = eta;
+    if (lambda.imag() == 0.0) continue;
+    modes.lambda(column) = std::conj(pole.lambda);
+    modes.a(column) = std::conj(pole.a);
+    modes.eta.col(column++) = eta.conjugate();
+  }
+  require_complete(modes);
+  return modes;
+}
+
+}  // namespace
+
+ModalModel to_modal(const SpatialModel& model) {
+  require_consistent(model);
+  if (model.has_structural_damping() && !model.D.isZero(0.0)) {
+    throw core::InputError(
+        "a model with structural damping has no causal poles: convert it with equivalent_viscous, or use the direct "
+        "response");
+  }
+  const UndampedModes undamped = undamped_modes(model);
+  const Eigen::MatrixXd product = undamped.Phi.transpose() * model.C * undamped.Phi;
+  const Eigen::MatrixXd D = 0.5 * (product + product.transpose());
+  const auto diagonal = proportional_damping(model.C, undamped.Phi, D);
+  const QuadraticModes modes =
+      diagonal ? proportional_modes(undamped.omega_rad_s, *diagonal) : general_modes(undamped.omega_rad_s, D);
+  const Eigen::MatrixXcd shapes = undamped.Phi * modes.eta;
+  return {modes.lambda, shapes, shapes, modes.a, Eigen::MatrixXd(), model.dofs};
+}
+
+SpatialModel equivalent_viscous(const SpatialModel& model) {
+  require_consistent(model);
+  SpatialModel viscous{model.M, model.C, model.K, Eigen::MatrixXd(), model.dofs};
+  if (!model.has_structural_damping()) return viscous;
+  const UndampedModes modes = undamped_modes(model);
+  const Eigen::VectorXd loss = (modes.Phi.transpose() * model.D * modes.Phi).diagonal();
+  Eigen::VectorXd modal_damping = Eigen::VectorXd::Zero(loss.size());
+  for (Eigen::Index r = 0; r < loss.size(); ++r) {
+    if (modes.omega_rad_s(r) > 0.0) {
+      modal_damping(r) = loss(r) / modes.omega_rad_s(r);
+    } else if (std::abs(loss(r)) > 1e-9 * loss.cwiseAbs().maxCoeff()) {
+      throw core::InputError(
+          "structural damping acts on a rigid-body motion, where no stiffness is: no viscous "
+          "damping is equivalent to it");
+    }
+  }
+  const Eigen::MatrixXd MPhi = model.M * modes.Phi;
+  viscous.C += MPhi * modal_damping.asDiagonal() * MPhi.transpose();
+  return viscous;
+}
+
+}  // namespace thinwall::dynamics

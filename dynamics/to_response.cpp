@@ -1,0 +1,137 @@
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "dynamics/conversion.hpp"
+
+namespace thinwall::dynamics {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Lines that one task works through with one workspace.
+constexpr Eigen::Index block_lines = 16;
+
+std::vector<int> physical_rows(const DofTable& dofs) {
+  std::vector<int> rows;
+  for (int row = 0; row < static_cast<int>(dofs.size()); ++row) {
+    if (dofs[static_cast<std::size_t>(row)].kind != DofKind::modal) rows.push_back(row);
+  }
+  if (rows.empty()) throw core::InputError("no response to compute: every degree of freedom of the model is modal");
+  return rows;
+}
+
+ResponseModel empty_response(const DofTable& dofs, const std::vector<int>& rows, const FrequencyAxis& axis) {
+  if (axis.size() == 0) throw core::InputError("a response needs at least one frequency line");
+  DofTable table;
+  for (const int row : rows) table.push_back(dofs[static_cast<std::size_t>(row)]);
+  const auto size = static_cast<Eigen::Index>(rows.size());
+  return {axis, table, table,
+          std::vector<Eigen::MatrixXcd>(static_cast<std::size_t>(axis.size()), Eigen::MatrixXcd(size, size))};
+}
+
+[[noreturn]] void refuse_line(double hz, const char* cause) {
+  std::ostringstream text;
+  text.precision(10);
+  text << "no receptance at " << hz << " Hz: " << cause << "; add damping or leave this frequency out";
+  throw core::NumericalError(text.str());
+}
+
+template <typename Body>
+void for_line_blocks(Eigen::Index lines, Body body) {
+  core::parallel_for(static_cast<std::size_t>((lines + block_lines - 1) / block_lines), [&](std::size_t block) {
+    const Eigen::Index first = static_cast<Eigen::Index>(block) * block_lines;
+    body(first, std::min(first + block_lines, lines));
+  });
+}
+
+/// K + iD + iωC − ω²M, scaled on both sides to a diagonal of order one: interface rows in N/m and modal rows in s⁻²
+/// differ by many decades, and partial pivoting compares them. Powers of two leave the entries' digits alone.
+class DynamicStiffness {
+ public:
+  explicit DynamicStiffness(const SpatialModel& model) : model_(model), complex_K_(model.K.cast<Complex>()) {
+    if (model.has_structural_damping()) complex_K_.imag() = model.D;
+  }
+
+  void factor(double omega) {
+    scale_ = (model_.K.diagonal().cwiseAbs() + omega * omega * model_.M.diagonal().cwiseAbs()).unaryExpr([](double k) {
+      return k > 0.0 ? std::exp2(-std::round(0.5 * std::log2(k))) : 1.0;
+    });
+    matrix_ = complex_K_;
+    matrix_.real() -= omega * omega * model_.M;
+    matrix_.imag() += omega * model_.C;
+    matrix_ = scale_.asDiagonal() * matrix_ * scale_.asDiagonal();
+    lu_.compute(matrix_);
+  }
+
+  /// Smallest pivot beside the matrix's entries of order one.
+  [[nodiscard]] double smallest_pivot() const { return lu_.matrixLU().diagonal().cwiseAbs().minCoeff(); }
+
+  void solve_unit_forces(const std::vector<int>& rows, Eigen::MatrixXcd& H) {
+    const auto count = static_cast<Eigen::Index>(rows.size());
+    solution_.setZero(matrix_.rows(), count);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const int row = rows[static_cast<std::size_t>(j)];
+      solution_(row, j) = scale_(row);
+    }
+    solution_ = lu_.solve(solution_);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const int row = rows[static_cast<std::size_t>(i)];
+      H.row(i) = scale_(row) * solution_.row(row);
+    }
+  }
+
+ private:
+  const SpatialModel& model_;
+  Eigen::MatrixXcd complex_K_;
+  Eigen::VectorXd scale_;
+  Eigen::MatrixXcd matrix_;
+  Eigen::MatrixXcd solution_;
+  Eigen::PartialPivLU<Eigen::MatrixXcd> lu_;
+};
+
+}  // namespace
+
+ResponseModel to_response(const ModalModel& model, const FrequencyAxis& axis) {
+  const std::vector<int> rows = physical_rows(model.dofs);
+  ResponseModel response = empty_response(model.dofs, rows, axis);
+  const Eigen::MatrixXcd right = model.right(rows, Eigen::all);
+  const Eigen::MatrixXcd left = model.left(rows, Eigen::all).transpose();
+  const bool has_residual = model.residual.size() > 0;
+  const Eigen::MatrixXcd residual =
+      has_residual ? Eigen::MatrixXcd(model.residual(rows, rows).cast<Complex>()) : Eigen::MatrixXcd();
+  for_line_blocks(axis.size(), [&](Eigen::Index first, Eigen::Index end) {
+    Eigen::MatrixXcd weighted(right.rows(), right.cols());
+    for (Eigen::Index line = first; line < end; ++line) {
+      const Complex s(0.0, axis.omega_rad_s(line));
+      weighted = right * (model.scaling.array() * (s - model.poles.array())).inverse().matrix().asDiagonal();
+      Eigen::MatrixXcd& H = response.H[static_cast<std::size_t>(line)];
+      H.noalias() = weighted * left;
+      if (has_residual) H += residual;
+      if (!H.allFinite()) refuse_line(axis.hz(line), "a pole without damping lies there");
+    }
+  });
+  return response;
+}
+
+ResponseModel direct_response(const SpatialModel& model, const FrequencyAxis& axis) {
+  require_consistent(model);
+  const std::vector<int> rows = physical_rows(model.dofs);
+  ResponseModel response = empty_response(model.dofs, rows, axis);
+  const double zero = static_cast<double>(model.size()) * std::numeric_limits<double>::epsilon();
+  for_line_blocks(axis.size(), [&](Eigen::Index first, Eigen::Index end) {
+    DynamicStiffness stiffness(model);
+    for (Eigen::Index line = first; line < end; ++line) {
+      stiffness.factor(axis.omega_rad_s(line));
+      if (!(stiffness.smallest_pivot() > zero)) refuse_line(axis.hz(line), "the dynamic stiffness is singular");
+      stiffness.solve_unit_forces(rows, response.H[static_cast<std::size_t>(line)]);
+    }
+  });
+  return response;
+}
+
+}  // namespace thinwall::dynamics

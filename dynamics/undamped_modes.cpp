@@ -1,0 +1,68 @@
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "dynamics/conversion.hpp"
+
+namespace thinwall::dynamics {
+
+namespace {
+
+/// K = G Gᵀ by Cholesky with diagonal pivoting (Higham 2002, section 10.3), on K scaled to a unit diagonal so that what
+/// counts as zero does not depend on units or on a few stiff rows. G has as many columns as K has rank.
+Eigen::MatrixXd semidefinite_factor(const Eigen::MatrixXd& K) {
+  const Eigen::Index n = K.rows();
+  const Eigen::VectorXd scale = K.diagonal().unaryExpr([](double k) { return k > 0.0 ? std::sqrt(k) : 1.0; });
+  const Eigen::VectorXd inverse_scale = scale.cwiseInverse();
+  Eigen::MatrixXd S = inverse_scale.asDiagonal() * K * inverse_scale.asDiagonal();
+  Eigen::MatrixXd G(n, n);
+  const double zero = 100.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
+  Eigen::Index rank = 0;
+  for (Eigen::Index p = 0; rank < n && S.diagonal().maxCoeff(&p) > zero; ++rank) {
+    G.col(rank) = S.col(p) / std::sqrt(S(p, p));
+    S.noalias() -= G.col(rank) * G.col(rank).transpose();
+    S.row(p).setZero();
+    S.col(p).setZero();
+  }
+  if (const double left = S.cwiseAbs().maxCoeff(); left > 1e3 * zero) {
+    std::ostringstream text;
+    text << "the stiffness matrix is indefinite: after " << rank << " of " << n << " pivots a part of relative size "
+         << left << " is left that no positive pivot explains; check its signs";
+    throw core::NumericalError(text.str());
+  }
+  return scale.asDiagonal() * G.leftCols(rank);
+}
+
+void fix_signs(Eigen::MatrixXd& Phi) {
+  for (auto column : Phi.colwise()) {
+    Eigen::Index largest = 0;
+    column.cwiseAbs().maxCoeff(&largest);
+    if (column(largest) < 0.0) column = -column;
+  }
+}
+
+}  // namespace
+
+UndampedModes undamped_modes(const SpatialModel& model) {
+  require_consistent(model);
+  const Eigen::Index n = model.size();
+  const Eigen::LLT<Eigen::MatrixXd> mass(model.M);
+  if (mass.info() != Eigen::Success) {
+    throw core::NumericalError("the mass matrix of " + std::to_string(n) +
+                               " degrees of freedom is not positive definite: give every one of them mass");
+  }
+  const Eigen::MatrixXd G = semidefinite_factor(model.K);
+  UndampedModes modes{Eigen::VectorXd::Zero(n), mass.matrixU().solve(Eigen::MatrixXd::Identity(n, n))};
+  if (G.cols() > 0) {
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(mass.matrixL().solve(G), Eigen::ComputeFullU);
+    modes.omega_rad_s.tail(G.cols()) = svd.singularValues().reverse();
+    modes.Phi = mass.matrixU().solve(svd.matrixU().rowwise().reverse());
+  }
+  fix_signs(modes.Phi);
+  return modes;
+}
+
+}  // namespace thinwall::dynamics
