@@ -1,0 +1,51 @@
+#include "io/pvd.hpp"
+
+#include <cmath>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+namespace thinwall::io {
+
+namespace {
+
+std::string xml_escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+}  // namespace
+
+void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+      "  <Collection>\n";
+  for (const PvdEntry& entry : entries) {
+    if (!std::isfinite(entry.time)) throw core::NumericalError("the time of \"" + entry.file + "\" is not finite");
+    text += "    <DataSet timestep=\"" + core::number_text(entry.time) + "\" part=\"0\" file=\"" +
+            xml_escaped(entry.file) + "\"/>\n";
+  }
+  core::write_file_atomically(path, text + "  </Collection>\n</VTKFile>\n");
+}
+
+}  // namespace thinwall::io
