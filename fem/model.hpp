@@ -1,0 +1,51 @@
+#pragma once
+// A part ready to be solved: mesh, nodes, matrices on the free DOFs.
+
+#include <vector>
+
+#include "fem/assembly.hpp"
+#include "fem/material.hpp"
+#include "fem/rigid_body.hpp"
+#include "linalg/eigenpairs.hpp"
+#include "linalg/sparse_cholesky.hpp"
+#include "mesh/lagrange_nodes.hpp"
+#include "mesh/tet_mesh.hpp"
+
+namespace thinwall::fem {
+
+/// The constrained part. Constraints are eliminated: K and M hold the free rows only.
+struct Model {
+  mesh::TetMesh mesh;
+  mesh::LagrangeNodes nodes;
+  linalg::SparseMatrix K;        ///< free × free, N/m
+  linalg::SparseMatrix M;        ///< free × free, kg
+  std::vector<int> free_rows;    ///< for each row of K its 3·node + axis, ascending
+  std::vector<int> node_of_row;  ///< for each row of K its node
+  int rigid_motions = 0;         ///< 0 for a held part, 6 for a free one
+  MassProperties mass;           ///< from the unconstrained mass matrix
+};
+
+/// Assembles and constrains. `fixed`: rows 3·node + axis with zero displacement, in any order, duplicates allowed.
+/// Throws InputError if nothing is left free.
+[[nodiscard]] Model build_model(mesh::TetMesh mesh, int order, const Material& material, const std::vector<int>& fixed);
+
+/// Displacements of all nodes (nodes × 3, fixed ones zero) from a vector over the free rows.
+[[nodiscard]] Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> displacements(const Model& model,
+                                                                                      const Eigen::VectorXd& free);
+
+/// Rows 3·node + axis of the given nodes in the given axes (0…2).
+[[nodiscard]] std::vector<int> rows_of(const std::vector<int>& nodes, const std::vector<int>& axes);
+
+/// The factor of K − σM that all later stages share. σ = 0 for a held part; a part with free rigid motions gets a negative
+/// shift σ = −1e-9 tr K / tr M, which scales with units, size and material and lies near the first elastic eigenvalue of
+/// meshes with some ten thousand DOFs; anything between 1e-6 and 1e3 times that eigenvalue serves.
+struct Factored {
+  linalg::SparseCholesky factor;
+  double sigma = 0.0;
+};
+[[nodiscard]] Factored factorise(const Model& model);
+
+/// The inverse of a factor as linalg's eigen-solver wants it. Keeps a reference.
+[[nodiscard]] linalg::ShiftedInverse inverse_of(const Factored& factored);
+
+}  // namespace thinwall::fem

@@ -1,0 +1,67 @@
+#include "fem/rigid_body.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+namespace thinwall::fem {
+
+namespace {
+
+Eigen::Matrix<double, 3, 6> motion_at(const Eigen::Vector3d& x) {
+  Eigen::Matrix<double, 3, 6> R = Eigen::Matrix<double, 3, 6>::Zero();
+  R.leftCols<3>().setIdentity();
+  for (int axis = 0; axis < 3; ++axis) R.col(3 + axis) = Eigen::Vector3d::Unit(axis).cross(x);
+  return R;
+}
+
+}  // namespace
+
+Eigen::MatrixXd rigid_body_motions(const mesh::LagrangeNodes& nodes) {
+  Eigen::MatrixXd R(3 * nodes.positions.rows(), 6);
+  for (Eigen::Index node = 0; node < nodes.positions.rows(); ++node) {
+    R.middleRows<3>(3 * node) = motion_at(nodes.positions.row(node).transpose());
+  }
+  return R;
+}
+
+int free_rigid_motions(const mesh::LagrangeNodes& nodes, const std::vector<int>& fixed) {
+  const Eigen::RowVector3d centre = nodes.positions.colwise().mean();
+  const double size = (nodes.positions.rowwise() - centre).rowwise().norm().maxCoeff();
+  Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();
+  for (const int row : fixed) {
+    const Eigen::Vector3d x = (nodes.positions.row(row / 3) - centre).transpose() / size;
+    const Eigen::Matrix<double, 1, 6> r = motion_at(x).row(row % 3);
+    gram += r.transpose() * r;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(gram);
+  const double largest = std::max(eigen.eigenvalues().maxCoeff(), 1.0);
+  return static_cast<int>((eigen.eigenvalues().array() < 1e-10 * largest).count());
+}
+
+MassProperties mass_properties(const linalg::SparseMatrix& M, const mesh::LagrangeNodes& nodes) {
+  const Eigen::MatrixXd R = rigid_body_motions(nodes);
+  const Eigen::Matrix<double, 6, 6> G = R.transpose() * (M * R);
+  MassProperties p;
+  p.mass_kg = G.topLeftCorner<3, 3>().trace() / 3.0;
+  // Column 3 + k of the upper right block is m e_k × c.
+  p.centre_m = Eigen::Vector3d(G(1, 5), G(2, 3), G(0, 4)) / p.mass_kg;
+  const Eigen::Vector3d& c = p.centre_m;
+  p.inertia_kg_m2 = G.bottomRightCorner<3, 3>() - p.mass_kg * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+  return p;
+}
+
+MassProperties box_mass_properties(const Eigen::Vector3d& size, double density_kg_m3) {
+  MassProperties p;
+  p.mass_kg = density_kg_m3 * size.prod();
+  p.centre_m = 0.5 * size;
+  const Eigen::Vector3d squares = size.cwiseAbs2();
+  p.inertia_kg_m2 = (p.mass_kg / 12.0 * (squares.sum() - squares.array()).matrix()).asDiagonal();
+  return p;
+}
+
+double relative_difference(const MassProperties& a, const MassProperties& b) {
+  return std::max({std::abs(a.mass_kg - b.mass_kg) / b.mass_kg, (a.centre_m - b.centre_m).norm() / b.centre_m.norm(),
+                   (a.inertia_kg_m2 - b.inertia_kg_m2).norm() / b.inertia_kg_m2.trace()});
+}
+
+}  // namespace thinwall::fem

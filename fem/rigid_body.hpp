@@ -1,0 +1,35 @@
+#pragma once
+// Rigid-body motions: of the nodes, left free by the supports, and the mass properties that they measure.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "linalg/sparse.hpp"
+#include "mesh/lagrange_nodes.hpp"
+
+namespace thinwall::fem {
+
+/// The six rigid-body motions about the origin as columns (three translations in m, three rotations in rad): 3·nodes × 6.
+[[nodiscard]] Eigen::MatrixXd rigid_body_motions(const mesh::LagrangeNodes& nodes);
+
+/// Number of independent rigid-body motions (0…6) that vanish on all `fixed` rows (3·node + axis): 6 − rank. Rotations are
+/// scaled by the part's size first.
+[[nodiscard]] int free_rigid_motions(const mesh::LagrangeNodes& nodes, const std::vector<int>& fixed);
+
+/// Mass (kg), centre (m) and inertia about the centre (kg m², moments and products with the sign of the tensor).
+struct MassProperties {
+  double mass_kg = 0.0;
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();
+};
+
+/// From the mass matrix alone: R = rigid_body_motions, Rᵀ M R = [m I, −m ĉ; m ĉ, J₀]. M: all nodes, unconstrained.
+[[nodiscard]] MassProperties mass_properties(const linalg::SparseMatrix& M, const mesh::LagrangeNodes& nodes);
+
+/// Of a homogeneous block 0…size (m), in closed form.
+[[nodiscard]] MassProperties box_mass_properties(const Eigen::Vector3d& size, double density_kg_m3);
+
+/// Largest relative difference of mass, centre (over the size) and inertia (over its trace).
+[[nodiscard]] double relative_difference(const MassProperties& a, const MassProperties& b);
+
+}  // namespace thinwall::fem

@@ -1,0 +1,102 @@
+#include "mesh/lagrange_nodes.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <unordered_map>
+
+#include "core/error.hpp"
+
+namespace thinwall::mesh {
+
+namespace {
+
+/// The identity of a node: its vertices with their weights, sorted by vertex; unused places are −1, 0.
+struct Key {
+  std::array<std::int32_t, 4> vertices{-1, -1, -1, -1};
+  std::array<std::int8_t, 4> weights{};
+  bool operator==(const Key&) const = default;
+};
+
+struct KeyHash {
+  std::size_t operator()(const Key& key) const {
+    std::uint64_t h = 0x9e3779b97f4a7c15ULL;
+    for (std::size_t i = 0; i < 4; ++i) {
+      h ^= static_cast<std::uint64_t>(static_cast<std::uint32_t>(key.vertices[i])) * 8 + static_cast<std::uint64_t>(key.weights[i]);
+      h *= 0xff51afd7ed558ccdULL;
+      h ^= h >> 32U;
+    }
+    return h;
+  }
+};
+
+Key key_of(const std::array<int, 4>& tet, const std::array<int, 4>& alpha) {
+  std::array<std::pair<int, int>, 4> parts{};
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (alpha[k] > 0) parts[count++] = {tet[k], alpha[k]};
+  }
+  std::sort(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count));
+  Key key;
+  for (std::size_t k = 0; k < count; ++k) {
+    key.vertices[k] = parts[k].first;
+    key.weights[k] = static_cast<std::int8_t>(parts[k].second);
+  }
+  return key;
+}
+
+}  // namespace
+
+std::vector<std::array<int, 4>> lattice(int order) {
+  std::vector<std::array<int, 4>> vertices_first;
+  std::vector<std::array<int, 4>> others;
+  for (std::size_t k = 0; k < 4; ++k) {
+    std::array<int, 4> alpha{};
+    alpha[k] = order;
+    vertices_first.push_back(alpha);
+  }
+  for (int d = 0; d <= order; ++d) {
+    for (int c = 0; c <= order - d; ++c) {
+      for (int b = 0; b <= order - d - c; ++b) {
+        const std::array<int, 4> alpha{order - b - c - d, b, c, d};
+        if (*std::max_element(alpha.begin(), alpha.end()) < order) others.push_back(alpha);
+      }
+    }
+  }
+  vertices_first.insert(vertices_first.end(), others.begin(), others.end());
+  return vertices_first;
+}
+
+LagrangeNodes lagrange_nodes(const TetMesh& mesh, int order) {
+  if (order < 1 || order > 6) {
+    throw core::InputError("element order " + std::to_string(order) + " is outside 1 to 6");
+  }
+  const auto alphas = lattice(order);
+  LagrangeNodes nodes;
+  nodes.order = order;
+  nodes.elements.resize(static_cast<Eigen::Index>(mesh.tets.size()), static_cast<Eigen::Index>(alphas.size()));
+  std::unordered_map<Key, int, KeyHash> number;
+  number.reserve(mesh.tets.size() * alphas.size() / 3);
+  std::vector<Eigen::Vector3d> positions = mesh.vertices;
+  for (std::size_t tet = 0; tet < mesh.tets.size(); ++tet) {
+    for (std::size_t a = 0; a < alphas.size(); ++a) {
+      int& node = nodes.elements(static_cast<Eigen::Index>(tet), static_cast<Eigen::Index>(a));
+      if (a < 4) {
+        node = mesh.tets[tet][a];
+        continue;
+      }
+      const auto [found, inserted] = number.try_emplace(key_of(mesh.tets[tet], alphas[a]), static_cast<int>(positions.size()));
+      node = found->second;
+      if (!inserted) continue;
+      Eigen::Vector3d position = Eigen::Vector3d::Zero();
+      for (std::size_t k = 0; k < 4; ++k) {
+        position += alphas[a][k] * mesh.vertices[static_cast<std::size_t>(mesh.tets[tet][k])];
+      }
+      positions.push_back(position / order);
+    }
+  }
+  nodes.positions.resize(static_cast<Eigen::Index>(positions.size()), 3);
+  for (std::size_t i = 0; i < positions.size(); ++i) nodes.positions.row(static_cast<Eigen::Index>(i)) = positions[i].transpose();
+  return nodes;
+}
+
+}  // namespace thinwall::mesh

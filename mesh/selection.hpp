@@ -1,0 +1,48 @@
+#pragma once
+// Faces chosen by where they lie.
+
+#include <Eigen/Core>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "mesh/box.hpp"
+#include "mesh/lagrange_nodes.hpp"
+#include "mesh/tet_mesh.hpp"
+
+namespace thinwall::mesh {
+
+/// All boundary faces in the plane through `point` (m) with the given normal.
+struct PlaneRegion {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
+};
+
+/// All boundary faces inside the axis-parallel block from `min` to `max` (m).
+struct BoxRegion {
+  Eigen::Vector3d min = Eigen::Vector3d::Zero();
+  Eigen::Vector3d max = Eigen::Vector3d::Zero();
+};
+
+/// All boundary faces inside the ball (m).
+struct SphereRegion {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double radius = 0.0;
+};
+
+using Region = std::variant<PlaneRegion, BoxRegion, SphereRegion>;
+
+/// The plane of a box's face by its name ("y_min"); throws InputError with the nearest name otherwise.
+[[nodiscard]] Region face_of(const Box& box, const std::string& name);
+
+/// The boundary triangles with all three corners in the region, within 1e-6 of the part's diagonal. A region that holds no
+/// face, or every face, is an InputError that says where the part lies and how far the nearest face is; `name` is what the
+/// user called the region.
+[[nodiscard]] std::vector<BoundaryTriangle> select(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary,
+                                                   const Region& region, const std::string& name);
+
+/// The nodes (ascending) on the selected triangles.
+[[nodiscard]] std::vector<int> nodes_on(const LagrangeNodes& nodes, const TetMesh& mesh,
+                                        const std::vector<BoundaryTriangle>& triangles);
+
+}  // namespace thinwall::mesh
