@@ -192,7 +192,8 @@ struct Case {
   std::string name;  ///< name of the case's folder
   std::string title;
   std::filesystem::path file;
-  std::string source;  ///< text of the file, as read
+  std::filesystem::path folder;  ///< where relative names of data files start
+  std::string source;            ///< text of the file, as read
   std::optional<Part> part;
   std::vector<MeasuredFrf> measured_part;
   std::vector<Selection> selections;

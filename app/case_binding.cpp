@@ -1,0 +1,324 @@
+#include "app/case_binding.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "app/schema.hpp"
+#include "core/error.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// The values below one table.
+struct Table {
+  const CaseValues& values;
+  std::string path;
+
+  [[nodiscard]] const CaseValue* get(std::string_view name) const {
+    return find(values, path.empty() ? std::string(name) : path + "." + std::string(name));
+  }
+  [[nodiscard]] bool has(std::string_view name) const { return get(name) != nullptr; }
+
+  template <typename T>
+  [[nodiscard]] T value(std::string_view name, T otherwise) const {
+    const CaseValue* found = get(name);
+    const T* held = found == nullptr ? nullptr : std::get_if<T>(&found->value);
+    return held == nullptr ? otherwise : *held;
+  }
+  [[nodiscard]] double number(std::string_view name) const { return value<double>(name, nan); }
+  [[nodiscard]] std::optional<double> optional(std::string_view name) const {
+    return has(name) ? std::optional(number(name)) : std::nullopt;
+  }
+  /// Whole numbers; −1 stands for one that could not be read.
+  [[nodiscard]] int integer(std::string_view name) const {
+    const double held = number(name);
+    return std::isfinite(held) ? static_cast<int>(held) : -1;
+  }
+  [[nodiscard]] std::string text(std::string_view name) const { return value<std::string>(name, ""); }
+  [[nodiscard]] bool flag(std::string_view name) const { return value<bool>(name, false); }
+  [[nodiscard]] std::vector<double> numbers(std::string_view name) const {
+    return value<std::vector<double>>(name, {});
+  }
+  [[nodiscard]] std::vector<std::string> names(std::string_view name) const {
+    return value<std::vector<std::string>>(name, {});
+  }
+  [[nodiscard]] std::vector<Eigen::Vector3d> directions(std::string_view name) const {
+    return value<std::vector<Eigen::Vector3d>>(name, {});
+  }
+  [[nodiscard]] Eigen::Vector3d direction(std::string_view name) const {
+    const auto list = directions(name);
+    return list.empty() ? Eigen::Vector3d::Constant(nan) : list.front();
+  }
+  [[nodiscard]] Eigen::Vector3d vector(std::string_view name) const {
+    const auto list = numbers(name);
+    return list.size() == 3 ? Eigen::Vector3d(list[0], list[1], list[2]) : Eigen::Vector3d::Constant(nan);
+  }
+  [[nodiscard]] Table table(std::string_view name) const {
+    return {values, path.empty() ? std::string(name) : path + "." + std::string(name)};
+  }
+  [[nodiscard]] std::vector<Table> tables(std::string_view name) const {
+    const std::string prefix = table(name).path;
+    std::vector<Table> list;
+    for (int i = 0; i < array_size(values, prefix); ++i)
+      list.push_back({values, prefix + "[" + std::to_string(i) + "]"});
+    return list;
+  }
+  [[nodiscard]] bool exists() const { return has_table(values, path); }
+};
+
+int axis_index(const std::string& letter) {
+  return letter == "x" ? 0 : letter == "y" ? 1 : letter == "z" ? 2 : -1;
+}
+
+MeasuredFrf bind_measured(const Table& table, const std::filesystem::path& folder) {
+  const std::string file = table.text("file");
+  return {table.text("response"), table.text("force"), file.empty() ? std::filesystem::path() : folder / file,
+          table.text("quantity"), table.text("unit"),  table.text("frequency_unit")};
+}
+
+std::vector<MeasuredFrf> bind_all_measured(const std::vector<Table>& tables, const std::filesystem::path& folder) {
+  std::vector<MeasuredFrf> list;
+  for (const auto& table : tables) list.push_back(bind_measured(table, folder));
+  return list;
+}
+
+Part bind_part(const Table& table) {
+  Part part;
+  part.length = table.number("length");
+  part.height = table.number("height");
+  part.thickness = table.number("thickness");
+  part.length_axis = axis_index(table.text("axes.length"));
+  part.height_axis = axis_index(table.text("axes.height"));
+  part.thickness_axis = axis_index(table.text("axes.thickness"));
+  const Table material = table.table("material"), mesh = table.table("mesh");
+  part.material = {material.number("youngs_modulus"), material.number("poisson_ratio"), material.number("density")};
+  part.mesh = {mesh.number("element_size"),
+               mesh.integer("order"),
+               mesh.number("quality"),
+               mesh.optional("grading"),
+               mesh.optional("point_element_size"),
+               mesh.number("time_limit"),
+               mesh.number("memory_limit")};
+  for (const auto& support : table.tables("supports")) {
+    Support bound{support.text("on"), {}};
+    for (const auto& letter : support.names("fixed")) bound.fixed.push_back(axis_index(letter));
+    part.supports.push_back(std::move(bound));
+  }
+  return part;
+}
+
+std::vector<Selection> bind_selections(const Table& table) {
+  std::vector<Selection> list;
+  for (const auto& name : children(table.values, table.path)) {
+    const Table selection = table.table(name);
+    Selection bound;
+    bound.name = name;
+    if (const Table plane = selection.table("plane"); plane.exists()) {
+      bound.plane = {plane.vector("point"), plane.direction("normal")};
+    }
+    if (const Table box = selection.table("box"); box.exists()) bound.box = {box.vector("min"), box.vector("max")};
+    if (const Table sphere = selection.table("sphere"); sphere.exists()) {
+      bound.sphere = {sphere.vector("centre"), sphere.number("radius")};
+    }
+    list.push_back(std::move(bound));
+  }
+  return list;
+}
+
+std::vector<Point> bind_points(const Table& table) {
+  std::vector<Point> list;
+  for (const auto& name : children(table.values, table.path)) {
+    const Table point = table.table(name);
+    Point bound;
+    bound.name = name;
+    if (point.has("at")) bound.at = point.vector("at");
+    if (point.has("position")) bound.position = point.vector("position");
+    bound.offset = point.vector("offset");
+    bound.patch_radius = point.number("patch_radius");
+    bound.directions = point.directions("directions");
+    list.push_back(std::move(bound));
+  }
+  return list;
+}
+
+/// count or up_to; `otherwise` modes if neither is given.
+ModeRange bind_range(const Table& table, std::string_view count, int otherwise) {
+  ModeRange range;
+  if (table.has(count)) range.count = table.integer(count);
+  range.up_to_hz = table.optional("up_to");
+  if (!range.count && !range.up_to_hz) range.count = otherwise;
+  return range;
+}
+
+Damping bind_damping(const Table& table, const std::filesystem::path& folder) {
+  Damping damping;
+  if (!table.exists()) return damping;
+  damping.model = table.text("model");
+  damping.ratio = table.number("ratio");
+  damping.ratios = table.numbers("ratios");
+  damping.alpha = table.number("alpha");
+  damping.beta = table.number("beta");
+  damping.loss_factor = table.number("loss_factor");
+  if (const Table frf = table.table("from_frf"); frf.exists()) damping.from_frf = bind_measured(frf, folder);
+  return damping;
+}
+
+Robot bind_robot(const Table& table, const std::filesystem::path& folder) {
+  return {table.text("model"),
+          table.text("point"),
+          table.direction("direction"),
+          table.optional("frequency"),
+          table.optional("damping_ratio"),
+          table.optional("mass"),
+          table.optional("stiffness"),
+          table.optional("damping"),
+          bind_all_measured(table.tables("measured"), folder)};
+}
+
+/// One value for every direction, where one was given for all.
+std::vector<double> spread(std::vector<double> list, std::size_t count) {
+  return list.size() == 1 ? std::vector<double>(count, list.front()) : list;
+}
+
+std::vector<Contact> bind_contacts(const std::vector<Table>& tables) {
+  std::vector<Contact> list;
+  for (const auto& table : tables) {
+    Contact contact{table.text("part"), table.text("robot"), table.directions("directions"), {}, {}, 0.0};
+    contact.stiffness = spread(table.numbers("stiffness"), contact.directions.size());
+    contact.damping = spread(table.numbers("damping"), contact.directions.size());
+    contact.loss_factor = table.number("loss_factor");
+    list.push_back(std::move(contact));
+  }
+  return list;
+}
+
+ResponseOptions bind_response(const Table& table) {
+  if (!table.exists()) return {};
+  return {table.number("from"), table.number("to"), table.integer("lines"), table.text("spacing") == "logarithmic",
+          table.names("points")};
+}
+
+/// An amount in the unit of `kind`; NaN if it is not such a quantity (check_case() says why).
+double bind_amount(const std::string& text, const core::QuantityKind& kind) {
+  try {
+    return core::parse_quantity(text, kind);
+  } catch (const core::InputError&) {
+    return nan;
+  }
+}
+
+std::vector<Updating> bind_updating(const std::vector<Table>& tables) {
+  std::vector<Updating> list;
+  for (const auto& table : tables) {
+    Updating updating{table.text("name"), table.text("on"), {}, {}};
+    for (const auto& parameter : table.tables("parameters")) {
+      const std::string key = full_path(case_schema(), parameter.text("key"));
+      const Key* described = find_key(case_schema(), pattern_of(case_schema(), key));
+      const auto& kind = described == nullptr ? core::kind::number : described->kind;
+      updating.parameters.push_back(
+          {key, bind_amount(parameter.text("lower"), kind), bind_amount(parameter.text("upper"), kind)});
+    }
+    for (const auto& target : table.tables("targets")) {
+      UpdatingTarget bound;
+      bound.quantity = target.text("quantity");
+      bound.value = bind_amount(target.text("value"),
+                                bound.quantity == "reduction_at" ? core::kind::number : core::kind::frequency);
+      bound.point = target.text("point");
+      bound.match = target.text("match");
+      bound.rank = target.integer("rank");
+      bound.frequency_hz = target.has("frequency") ? target.number("frequency") : 0.0;
+      bound.weight = target.number("weight");
+      updating.targets.push_back(std::move(bound));
+    }
+    list.push_back(std::move(updating));
+  }
+  return list;
+}
+
+Tool bind_tool(const Table& table) {
+  Tool tool{table.integer("teeth"), table.number("diameter"), table.number("length"), {}};
+  for (const auto& mode : table.tables("modes")) {
+    tool.modes.push_back({mode.number("frequency"), mode.number("damping_ratio"), mode.number("stiffness"),
+                          mode.direction("direction")});
+  }
+  return tool;
+}
+
+Cutting bind_cutting(const Table& table) {
+  Cutting cutting;
+  cutting.radial_depth = table.number("radial_depth");
+  cutting.down_milling = table.text("mode") != "up";
+  cutting.feed_direction = table.direction("feed_direction");
+  cutting.tool_axis = table.direction("tool_axis");
+  cutting.at = table.text("at");
+  cutting.Kt = table.number("Kt");
+  cutting.Kr = table.number("Kr");
+  cutting.Ka = table.number("Ka");
+  cutting.Kte = table.number("Kte");
+  cutting.Kre = table.number("Kre");
+  cutting.Kae = table.number("Kae");
+  cutting.spindle_speed_rpm = table.optional("spindle_speed");
+  cutting.feed_rate = table.optional("feed_rate");
+  return cutting;
+}
+
+LobesOptions bind_lobes(const Table& table, const std::optional<Tool>& tool) {
+  const double deepest = tool ? tool->length : nan;
+  return {table.number("from"),      table.number("to"),
+          table.integer("count"),    table.optional("depth_limit").value_or(deepest),
+          table.number("tolerance"), table.optional("modes_up_to")};
+}
+
+std::vector<std::string> point_names(const std::vector<Point>& points) {
+  std::vector<std::string> names;
+  for (const auto& point : points) names.push_back(point.name);
+  return names;
+}
+
+}  // namespace
+
+Case bind_case(CaseValues values, const std::filesystem::path& folder) {
+  const Table root{values, ""};
+  Case bound;
+  bound.folder = folder;
+  bound.title = root.text("title");
+  if (root.has("part.length") || root.has("part.height") || root.has("part.thickness")) {
+    bound.part = bind_part(root.table("part"));
+  }
+  bound.measured_part = bind_all_measured(root.tables("part.measured"), folder);
+  bound.selections = bind_selections(root.table("selections"));
+  bound.points = bind_points(root.table("points"));
+  bound.modes = {bind_range(root.table("modes"), "count", 10), root.flag("modes.verify_count")};
+  bound.reduction.fixed_interface = bind_range(root.table("reduction"), "modes", 30);
+  bound.reduction.interface = root.names("reduction.interface");
+  if (bound.reduction.interface.empty()) bound.reduction.interface = point_names(bound.points);
+  if (root.has("reduction.check_frequencies"))
+    bound.reduction.check_frequencies = root.integer("reduction.check_frequencies");
+  bound.damping = bind_damping(root.table("damping"), folder);
+  if (root.table("robot").exists()) bound.robot = bind_robot(root.table("robot"), folder);
+  bound.contacts = bind_contacts(root.tables("contacts"));
+  bound.response = bind_response(root.table("response"));
+  if (bound.response.points.empty()) bound.response.points = bound.reduction.interface;
+  bound.updating = bind_updating(root.tables("updating"));
+  if (root.table("tool").exists()) bound.tool = bind_tool(root.table("tool"));
+  if (root.table("cutting").exists()) bound.cutting = bind_cutting(root.table("cutting"));
+  if (root.table("lobes").exists()) bound.lobes = bind_lobes(root.table("lobes"), bound.tool);
+  bound.values = std::move(values);
+  return bound;
+}
+
+std::vector<Expectation> bind_expectations(const CaseValues& values) {
+  std::vector<Expectation> list;
+  for (const auto& table : Table{values, ""}.tables("expect")) {
+    list.push_back({table.text("name"), table.text("quantity"), table.optional("value"), table.optional("tolerance"),
+                    table.optional("relative"), table.optional("at_least"), table.optional("at_most"),
+                    table.text("origin")});
+  }
+  return list;
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,23 @@
+#pragma once
+// Checks of the part's geometry, mesh, supports and points.
+
+#include "app/case.hpp"
+#include "app/findings.hpp"
+
+namespace thinwall::app {
+
+void check_part(const Case& source, Findings& findings);
+
+/// Names of the points that the part has: those of [points], or those that its measured FRFs name.
+[[nodiscard]] std::vector<std::string> part_points(const Case& source);
+
+/// Name of the support that holds the point in the direction, or "" if it is free to move (or not known well enough).
+[[nodiscard]] std::string clamped_by(const Case& source, const std::string& point, const Eigen::Vector3d& direction);
+
+/// True if at most three directions are given and none follows from the others.
+[[nodiscard]] bool independent(const std::vector<Eigen::Vector3d>& directions);
+
+/// "P.x" → "P".
+[[nodiscard]] std::string point_of(const std::string& dof);
+
+}  // namespace thinwall::app

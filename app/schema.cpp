@@ -1,0 +1,222 @@
+#include "app/schema.hpp"
+
+#include <array>
+
+namespace thinwall::app {
+
+namespace {
+
+namespace kind = core::kind;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Bounds any{};
+constexpr Bounds positive{0.0, infinity, true, false, false, ""};
+constexpr Bounds not_negative{0.0, infinity, false, false, false, ""};
+constexpr Bounds at_least_one{1.0, 1e6, false, false, false, ""};
+constexpr Bounds fraction{0.0, 1.0, false, false, false, "a fraction of the box, 0 at one face and 1 at the other"};
+constexpr Bounds damping_ratio{0.0, 1.0, false, true, false, "a ratio to critical damping: 1 % is 0.01"};
+constexpr Bounds density_bounds{100.0, 25000.0, false, false, false, "for g/cm^3 write the unit: \"7.85 g/cm^3\""};
+constexpr Bounds modulus_bounds{1e6, 2e12, false, false, false, "for GPa write the unit: \"210 GPa\""};
+constexpr Bounds poisson_bounds{0.0,  0.5,   false,
+                                true, false, "isotropic solids lie at 0.2 to 0.45; 0.5 would be incompressible"};
+constexpr Bounds stiffness_or_infinite{0.0, infinity, true, false, true, "\"inf\" for a rigid contact"};
+constexpr Bounds coefficient_bounds{1e6, 1e11, false, false, false, "for N/mm^2 write the unit: \"1800 N/mm^2\""};
+constexpr Bounds radial_bounds{0.0, 1e12, false, false, false, "for N/mm^2 write the unit: \"600 N/mm^2\""};
+
+constexpr bool required = true;
+
+constexpr std::array case_sections{
+    Section{"", "The case as a whole.", ""},
+    Section{"part", "A box with one corner at the origin.", ""},
+    Section{"part.axes", "Which axis each extent runs along.", "part.length"},
+    Section{"part.material", "Isotropic linear elasticity.", "part.length"},
+    Section{"part.mesh", "Tetrahedra by TetGen, elements of any order.", "part.length"},
+    Section{"part.supports[]", "Directions held at zero; none makes the part free.", ""},
+    Section{"part.measured[]", "FRFs of a measured part; they take the place of the box.", ""},
+    Section{"selections.*", "A named set of boundary points: exactly one of plane, box, sphere.", ""},
+    Section{"selections.*.plane", "All points of a plane.", ""},
+    Section{"selections.*.box", "All points in a box along the axes.", ""},
+    Section{"selections.*.sphere", "All points in a sphere.", ""},
+    Section{"points.*", "A named point: `at` or `position`, then an offset.", ""},
+    Section{"modes", "Modes of the whole part. Give `count` or `up_to`; 10 modes if neither.", "part.length"},
+    Section{"reduction", "The reduced model of the part. Give `modes` or `up_to`; 30 modes if neither.", "part.length"},
+    Section{"damping", "Damping of the part.", "part.length"},
+    Section{"damping.from_frf", "Damping ratios from a measured driving point, by a fit of each peak.", ""},
+    Section{"robot", "The robot's tip.", ""},
+    Section{"robot.measured[]", "FRFs of a measured robot (`model = \"measured\"`).", ""},
+    Section{"contacts[]", "Where the robot touches the part.", ""},
+    Section{"response", "The lines at which FRFs are computed.", "part"},
+    Section{"updating[]", "Values of the case found by fitting it to known results.", ""},
+    Section{"updating[].parameters[]", "A number of this case that may be changed.", ""},
+    Section{"updating[].targets[]", "A result that is known.", ""},
+    Section{"tool", "The cutter.", ""},
+    Section{"tool.modes[]", "Modes of the tool tip; none makes the tool rigid.", ""},
+    Section{"cutting", "How the cutter meets the part.", ""},
+    Section{"lobes", "The stability chart.", ""},
+};
+
+// clang-format off
+constexpr std::array case_keys{
+    Key{"title", Type::text, kind::number, "\"\"", any, "", "What the case is, in a line."},
+
+    Key{"part.shape", Type::choice, kind::number, "", any, "box", "The shape."},
+    Key{"part.length", Type::quantity, kind::length, "", positive, "", "Extent along `axes.length`."},
+    Key{"part.height", Type::quantity, kind::length, "", positive, "", "Extent along `axes.height`."},
+    Key{"part.thickness", Type::quantity, kind::length, "", positive, "", "Extent along `axes.thickness`."},
+    Key{"part.axes.length", Type::choice, kind::number, "\"y\"", any, "x|y|z", "Axis of the length."},
+    Key{"part.axes.height", Type::choice, kind::number, "\"z\"", any, "x|y|z", "Axis of the height."},
+    Key{"part.axes.thickness", Type::choice, kind::number, "\"x\"", any, "x|y|z", "Axis of the thickness."},
+    Key{"part.material.youngs_modulus", Type::quantity, kind::stress, "", modulus_bounds, "", "Young's modulus.", required},
+    Key{"part.material.poisson_ratio", Type::quantity, kind::number, "", poisson_bounds, "", "Poisson's ratio.", required},
+    Key{"part.material.density", Type::quantity, kind::density, "", density_bounds, "", "Density.", required},
+    Key{"part.mesh.element_size", Type::quantity, kind::length, "", positive, "", "Edge of a regular tetrahedron of the largest volume allowed.", required},
+    Key{"part.mesh.order", Type::integer, kind::number, "2", {1, 6, false, false, false, ""}, "", "Polynomial order of the elements."},
+    Key{"part.mesh.quality", Type::quantity, kind::number, "1.4", {1.1, 5, false, false, false, "TetGen may not end below 1.1"}, "", "Bound on circumradius over shortest edge."},
+    Key{"part.mesh.grading", Type::quantity, kind::number, "", {1.0, 10.0, false, false, false, "1 keeps the size at the points, 1.5 lets it grow"}, "", "Growth of the element size away from the named points; uniform if not given."},
+    Key{"part.mesh.point_element_size", Type::quantity, kind::length, "", positive, "", "Element size near the named points."},
+    Key{"part.mesh.time_limit", Type::quantity, kind::time, "\"120 s\"", positive, "", "Time after which the mesher is stopped."},
+    Key{"part.mesh.memory_limit", Type::quantity, kind::memory, "\"4 GB\"", {1e7, infinity, false, false, false, "a memory needs its unit: \"4 GB\""}, "", "Memory at which the mesher is stopped."},
+    Key{"part.supports[].on", Type::name, kind::number, "", any, "", "A face of the box, `x_min` … `z_max`, or a selection.", required},
+    Key{"part.supports[].fixed", Type::names, kind::number, "[\"x\", \"y\", \"z\"]", any, "x|y|z", "Directions held at zero."},
+    Key{"part.measured[].response", Type::name, kind::number, "", any, "", "DOF that moves, `P.x`.", required},
+    Key{"part.measured[].force", Type::name, kind::number, "", any, "", "DOF that is excited.", required},
+    Key{"part.measured[].file", Type::file, kind::number, "", any, "", "CSV: frequency, real part, imaginary part.", required},
+    Key{"part.measured[].quantity", Type::choice, kind::number, "", any, "receptance|mobility|accelerance", "What was measured.", required},
+    Key{"part.measured[].unit", Type::text, kind::number, "", any, "", "Unit of the FRF: `m/N`, `um/N`, `m/s/N`, `m/s^2/N` …", required},
+    Key{"part.measured[].frequency_unit", Type::choice, kind::number, "\"Hz\"", any, "Hz|rad/s", "Unit of the first column."},
+
+    Key{"selections.*.plane.point", Type::vector, kind::length, "", any, "", "A point of the plane.", required},
+    Key{"selections.*.plane.normal", Type::direction, kind::number, "", any, "", "Its normal.", required},
+    Key{"selections.*.box.min", Type::vector, kind::length, "", any, "", "Smallest x, y, z.", required},
+    Key{"selections.*.box.max", Type::vector, kind::length, "", any, "", "Largest x, y, z.", required},
+    Key{"selections.*.sphere.centre", Type::vector, kind::length, "", any, "", "Centre.", required},
+    Key{"selections.*.sphere.radius", Type::quantity, kind::length, "", positive, "", "Radius.", required},
+
+    Key{"points.*.at", Type::vector, kind::number, "", fraction, "", "Position in fractions of the box along x, y, z."},
+    Key{"points.*.position", Type::vector, kind::length, "", any, "", "Position in the part's axes."},
+    Key{"points.*.offset", Type::vector, kind::length, "[0, 0, 0]", any, "", "Added to the position."},
+    Key{"points.*.patch_radius", Type::quantity, kind::length, "0", not_negative, "", "The point stands for the mean motion of the surface within this radius; 0 for a single node."},
+    Key{"points.*.directions", Type::directions, kind::number, "[\"x\", \"y\", \"z\"]", any, "", "Directions in which it can be loaded and watched."},
+
+    Key{"modes.count", Type::integer, kind::number, "", {1, 2000, false, false, false, ""}, "", "Number of modes."},
+    Key{"modes.up_to", Type::quantity, kind::frequency, "", positive, "", "All modes up to this frequency."},
+    Key{"modes.verify_count", Type::boolean, kind::number, "false", any, "", "Confirm by a Sturm count that no mode was missed."},
+
+    Key{"reduction.method", Type::choice, kind::number, "\"craig_bampton\"", any, "craig_bampton", "The method."},
+    Key{"reduction.modes", Type::integer, kind::number, "", {0, 2000, false, false, false, ""}, "", "Number of fixed-interface modes."},
+    Key{"reduction.up_to", Type::quantity, kind::frequency, "", positive, "", "All fixed-interface modes up to this frequency."},
+    Key{"reduction.interface", Type::names, kind::number, "", any, "", "Points that are kept; all points if not given."},
+    Key{"reduction.check_frequencies", Type::integer, kind::number, "5", {0, 1000, false, false, false, ""}, "", "Lines at which the reduced model is compared with the full one."},
+
+    Key{"damping.model", Type::choice, kind::number, "\"modal\"", any, "modal|rayleigh|structural", "The model."},
+    Key{"damping.ratio", Type::quantity, kind::number, "0.01", damping_ratio, "", "Ratio of every mode that `ratios` does not name."},
+    Key{"damping.ratios", Type::quantities, kind::number, "", damping_ratio, "", "Ratios of the first modes."},
+    Key{"damping.alpha", Type::quantity, kind::rate, "0", not_negative, "", "C = alpha M + beta K (rayleigh)."},
+    Key{"damping.beta", Type::quantity, kind::time, "0", not_negative, "", "C = alpha M + beta K (rayleigh)."},
+    Key{"damping.loss_factor", Type::quantity, kind::number, "0", {0.0, 1.0, false, true, false, "steel in a fixture lies at 0.001 to 0.05"}, "", "K (1 + i loss_factor) (structural)."},
+    Key{"damping.from_frf.response", Type::name, kind::number, "", any, "", "DOF that moves, `P.x`.", required},
+    Key{"damping.from_frf.force", Type::name, kind::number, "", any, "", "DOF that is excited.", required},
+    Key{"damping.from_frf.file", Type::file, kind::number, "", any, "", "CSV: frequency, real part, imaginary part.", required},
+    Key{"damping.from_frf.quantity", Type::choice, kind::number, "", any, "receptance|mobility|accelerance", "What was measured.", required},
+    Key{"damping.from_frf.unit", Type::text, kind::number, "", any, "", "Unit of the FRF.", required},
+    Key{"damping.from_frf.frequency_unit", Type::choice, kind::number, "\"Hz\"", any, "Hz|rad/s", "Unit of the first column."},
+
+    Key{"robot.model", Type::choice, kind::number, "\"one_mode\"", any, "one_mode|measured", "How the tip is known."},
+    Key{"robot.point", Type::text, kind::number, "\"R\"", any, "", "Name of the tip."},
+    Key{"robot.direction", Type::direction, kind::number, "\"x\"", any, "", "Direction in which the tip moves."},
+    Key{"robot.frequency", Type::quantity, kind::frequency, "", positive, "", "Natural frequency, with `stiffness` and `damping_ratio`."},
+    Key{"robot.damping_ratio", Type::quantity, kind::number, "", damping_ratio, "", "Damping ratio."},
+    Key{"robot.stiffness", Type::quantity, kind::stiffness, "", positive, "", "Stiffness of the mode at the tip."},
+    Key{"robot.mass", Type::quantity, kind::mass, "", positive, "", "Modal mass at the tip, in place of the frequency."},
+    Key{"robot.damping", Type::quantity, kind::damping, "", not_negative, "", "Viscous damping, in place of the ratio."},
+    Key{"robot.measured[].response", Type::name, kind::number, "", any, "", "DOF that moves, `R.x`.", required},
+    Key{"robot.measured[].force", Type::name, kind::number, "", any, "", "DOF that is excited.", required},
+    Key{"robot.measured[].file", Type::file, kind::number, "", any, "", "CSV: frequency, real part, imaginary part.", required},
+    Key{"robot.measured[].quantity", Type::choice, kind::number, "", any, "receptance|mobility|accelerance", "What was measured.", required},
+    Key{"robot.measured[].unit", Type::text, kind::number, "", any, "", "Unit of the FRF.", required},
+    Key{"robot.measured[].frequency_unit", Type::choice, kind::number, "\"Hz\"", any, "Hz|rad/s", "Unit of the first column."},
+
+    Key{"contacts[].part", Type::name, kind::number, "", any, "", "Point of the part.", required},
+    Key{"contacts[].robot", Type::name, kind::number, "\"R\"", any, "", "Point of the robot."},
+    Key{"contacts[].directions", Type::directions, kind::number, "[\"x\"]", any, "", "Directions in which they are joined; the others stay free."},
+    Key{"contacts[].stiffness", Type::quantities, kind::stiffness, "\"inf\"", stiffness_or_infinite, "", "One, or one per direction."},
+    Key{"contacts[].damping", Type::quantities, kind::damping, "0", not_negative, "", "Viscous damping, one or one per direction."},
+    Key{"contacts[].loss_factor", Type::quantity, kind::number, "0", {0.0, 1.0, false, true, false, "K (1 + i loss_factor)"}, "", "Structural damping of the contact."},
+
+    Key{"response.from", Type::quantity, kind::frequency, "\"1 Hz\"", not_negative, "", "First line."},
+    Key{"response.to", Type::quantity, kind::frequency, "\"2000 Hz\"", positive, "", "Last line."},
+    Key{"response.lines", Type::integer, kind::number, "2000", {2, 1e6, false, false, false, ""}, "", "Number of lines."},
+    Key{"response.spacing", Type::choice, kind::number, "\"linear\"", any, "linear|logarithmic", "How they are spread."},
+    Key{"response.points", Type::names, kind::number, "", any, "", "Points at and between which FRFs are written; the interface if not given."},
+
+    Key{"updating[].name", Type::text, kind::number, "", any, "", "Name of the fit in the results.", required},
+    Key{"updating[].on", Type::choice, kind::number, "\"part\"", any, "part|coupled", "The model that is fitted."},
+    Key{"updating[].parameters[].key", Type::text, kind::number, "", any, "", "Dotted key of the number, `part.length`.", required},
+    Key{"updating[].parameters[].lower", Type::amount, kind::number, "", any, "", "Least value, in the dimension of the key.", required},
+    Key{"updating[].parameters[].upper", Type::amount, kind::number, "", any, "", "Largest value.", required},
+    Key{"updating[].targets[].quantity", Type::choice, kind::number, "", any, "part_frequency|coupled_frequency|reduction_at", "What is known. `reduction_at`: 1 − \\|G\\|/\\|H\\| at `frequency`.", required},
+    Key{"updating[].targets[].value", Type::amount, kind::number, "", any, "", "Its value: a frequency, or a number for `reduction_at`.", required},
+    Key{"updating[].targets[].point", Type::name, kind::number, "", any, "", "DOF at which it is seen, `P.x`.", required},
+    Key{"updating[].targets[].match", Type::choice, kind::number, "\"participation\"", any, "participation|mac|number", "How the mode is found: those that take part at `point` by a tenth of the largest, the best MAC with the starting model, or the bare number."},
+    Key{"updating[].targets[].rank", Type::integer, kind::number, "1", at_least_one, "", "Which of these modes, by rising frequency."},
+    Key{"updating[].targets[].frequency", Type::quantity, kind::frequency, "", positive, "", "Where the reduction is read (`reduction_at`)."},
+    Key{"updating[].targets[].weight", Type::quantity, kind::number, "1", positive, "", "Weight of the relative deviation in the sum of squares."},
+
+    Key{"tool.teeth", Type::integer, kind::number, "", {1, 100, false, false, false, ""}, "", "Number of teeth.", required},
+    Key{"tool.diameter", Type::quantity, kind::length, "", positive, "", "Diameter.", required},
+    Key{"tool.length", Type::quantity, kind::length, "", positive, "", "Length of the cutting edges: no deeper cut is possible.", required},
+    Key{"tool.modes[].frequency", Type::quantity, kind::frequency, "", positive, "", "Natural frequency.", required},
+    Key{"tool.modes[].damping_ratio", Type::quantity, kind::number, "", damping_ratio, "", "Damping ratio.", required},
+    Key{"tool.modes[].stiffness", Type::quantity, kind::stiffness, "", positive, "", "Modal stiffness at the tip.", required},
+    Key{"tool.modes[].direction", Type::direction, kind::number, "", any, "", "Direction, in the part's axes.", required},
+
+    Key{"cutting.at", Type::name, kind::number, "", any, "", "Point of the part that is cut.", required},
+    Key{"cutting.radial_depth", Type::quantity, kind::length, "", positive, "", "Radial depth of cut.", required},
+    Key{"cutting.mode", Type::choice, kind::number, "\"down\"", any, "down|up", "Down (climb) or up (conventional) milling."},
+    Key{"cutting.feed_direction", Type::direction, kind::number, "\"y\"", any, "", "Feed of the tool, in the part's axes."},
+    Key{"cutting.tool_axis", Type::direction, kind::number, "\"z\"", any, "", "Axis of the tool, in the part's axes."},
+    Key{"cutting.Kt", Type::quantity, kind::stress, "", coefficient_bounds, "", "Tangential cutting coefficient.", required},
+    Key{"cutting.Kr", Type::quantity, kind::stress, "0", radial_bounds, "", "Radial cutting coefficient."},
+    Key{"cutting.Ka", Type::quantity, kind::stress, "0", radial_bounds, "", "Axial cutting coefficient."},
+    Key{"cutting.Kte", Type::quantity, kind::stiffness, "0", not_negative, "", "Tangential edge coefficient."},
+    Key{"cutting.Kre", Type::quantity, kind::stiffness, "0", not_negative, "", "Radial edge coefficient."},
+    Key{"cutting.Kae", Type::quantity, kind::stiffness, "0", not_negative, "", "Axial edge coefficient."},
+    Key{"cutting.spindle_speed", Type::quantity, kind::spindle_speed, "", positive, "", "The speed at which the depth is reported besides the chart."},
+    Key{"cutting.feed_rate", Type::quantity, kind::velocity, "", positive, "", "Feed rate; for information, the stability does not depend on it."},
+
+    Key{"lobes.from", Type::quantity, kind::spindle_speed, "", positive, "", "Lowest speed.", required},
+    Key{"lobes.to", Type::quantity, kind::spindle_speed, "", positive, "", "Highest speed.", required},
+    Key{"lobes.count", Type::integer, kind::number, "400", {1, 1e5, false, false, false, ""}, "", "Number of speeds."},
+    Key{"lobes.depth_limit", Type::quantity, kind::length, "", positive, "", "Deepest cut that is asked; `tool.length` if not given."},
+    Key{"lobes.tolerance", Type::quantity, kind::number, "0.01", {1e-6, 0.5, false, false, false, ""}, "", "Bound on the estimated relative error of the depth."},
+    Key{"lobes.modes_up_to", Type::quantity, kind::frequency, "", positive, "", "Only modes up to this frequency; the static share of the others is kept."},
+};
+
+constexpr std::array expectation_sections{
+    Section{"expect[]", "One figure of summary.json: `value` with `tolerance` or `relative`, or a bound.", ""},
+};
+constexpr std::array expectation_keys{
+    Key{"expect[].name", Type::text, kind::number, "", any, "", "What it is, for people.", required},
+    Key{"expect[].quantity", Type::text, kind::number, "", any, "", "Path into summary.json, `coupling.modes[0].frequency_hz`.", required},
+    Key{"expect[].value", Type::quantity, kind::number, "", any, "", "The expected number, in the unit of the summary."},
+    Key{"expect[].tolerance", Type::quantity, kind::number, "", not_negative, "", "Largest deviation, absolute."},
+    Key{"expect[].relative", Type::quantity, kind::number, "", not_negative, "", "Largest deviation relative to the value."},
+    Key{"expect[].at_least", Type::quantity, kind::number, "", any, "", "Least value."},
+    Key{"expect[].at_most", Type::quantity, kind::number, "", any, "", "Largest value."},
+    Key{"expect[].origin", Type::text, kind::number, "", any, "", "Where the figure comes from: published (where), analytic, another program (which), recorded.", required},
+};
+// clang-format on
+
+}  // namespace
+
+const Schema& case_schema() {
+  static constexpr Schema schema{case_sections, case_keys};
+  return schema;
+}
+
+const Schema& expectation_schema() {
+  static constexpr Schema schema{expectation_sections, expectation_keys};
+  return schema;
+}
+
+}  // namespace thinwall::app
