@@ -1,6 +1,8 @@
 #pragma once
 // spatial → modal → response, and spatial → response without the detour.
 
+#include <functional>
+
 #include "dynamics/modal_model.hpp"
 #include "dynamics/response_model.hpp"
 #include "dynamics/spatial_model.hpp"
@@ -43,5 +45,18 @@ struct UndampedModes {
 /// independent check of the modal sum. Cost lines · n³. Throws NumericalError where the matrix is singular (an undamped
 /// resonance, or a free part at ω = 0), with the frequency.
 [[nodiscard]] ResponseModel direct_response(const SpatialModel& model, const FrequencyAxis& axis);
+
+/// Adds the frequency-dependent part of the dynamic stiffness of one line to its matrix (N/m, rows of the model).
+using AddedStiffness = std::function<void(Eigen::Index line, Eigen::MatrixXcd& dynamic_stiffness)>;
+
+/// The same for a model in coordinates y that stand for the DOFs `dofs` by x = T y, with a dynamic stiffness S(ω) that
+/// the model's matrices do not hold:
+///
+///     H = T (K + iD + iωC − ω²M + S(ω))⁻¹ Tᵀ
+///
+/// T: dofs × coordinates; the result is between those of `dofs` that are not modal. Zero rows on the diagonal
+/// (constraint forces) are allowed. Cost and errors as above.
+[[nodiscard]] ResponseModel direct_response(const SpatialModel& model, const Eigen::MatrixXd& T, const DofTable& dofs,
+                                            const FrequencyAxis& axis, const AddedStiffness& added = {});
 
 }  // namespace thinwall::dynamics

@@ -49,21 +49,34 @@ void for_line_blocks(Eigen::Index lines, Body body) {
   });
 }
 
-/// K + iD + iωC − ω²M, scaled on both sides to a diagonal of order one: interface rows in N/m and modal rows in s⁻²
-/// differ by many decades, and partial pivoting compares them. Powers of two leave the entries' digits alone.
+/// Powers of two that bring a dynamic stiffness to a diagonal of order one: interface rows in N/m and modal rows in s⁻²
+/// differ by many decades, and partial pivoting compares them. The size is that of K + ω²M, which does not vanish at a
+/// resonance; a row without either (a constraint force) is scaled by its largest entry.
+void equilibration(const SpatialModel& model, double omega, const Eigen::MatrixXcd& matrix, Eigen::VectorXd& scale) {
+  scale = model.K.diagonal().cwiseAbs() + omega * omega * model.M.diagonal().cwiseAbs();
+  for (double& size : scale) size = size > 0.0 ? 1.0 / std::sqrt(size) : 0.0;
+  for (Eigen::Index i = 0; i < scale.size(); ++i) {
+    if (scale(i) > 0.0) continue;
+    const double largest = (matrix.row(i).cwiseAbs() * scale.asDiagonal()).maxCoeff();
+    const double own = std::sqrt(std::abs(matrix(i, i)));
+    scale(i) = std::max(largest, own) > 0.0 ? 1.0 / std::max(largest, own) : 1.0;
+  }
+  for (double& size : scale) size = std::exp2(std::round(std::log2(size)));
+}
+
+/// The factor of K + iD + iωC − ω²M + S of one line after another, in storage that is kept between lines.
 class DynamicStiffness {
  public:
   explicit DynamicStiffness(const SpatialModel& model) : model_(model), complex_K_(model.K.cast<Complex>()) {
     if (model.has_structural_damping()) complex_K_.imag() = model.D;
   }
 
-  void factor(double omega) {
-    scale_ = (model_.K.diagonal().cwiseAbs() + omega * omega * model_.M.diagonal().cwiseAbs()).unaryExpr([](double k) {
-      return k > 0.0 ? std::exp2(-std::round(0.5 * std::log2(k))) : 1.0;
-    });
+  void factor(double omega, Eigen::Index line, const AddedStiffness& added) {
     matrix_ = complex_K_;
     matrix_.real() -= omega * omega * model_.M;
     matrix_.imag() += omega * model_.C;
+    if (added) added(line, matrix_);
+    equilibration(model_, omega, matrix_, scale_);
     matrix_ = scale_.asDiagonal() * matrix_ * scale_.asDiagonal();
     lu_.compute(matrix_);
   }
@@ -71,18 +84,9 @@ class DynamicStiffness {
   /// Smallest pivot beside the matrix's entries of order one.
   [[nodiscard]] double smallest_pivot() const { return lu_.matrixLU().diagonal().cwiseAbs().minCoeff(); }
 
-  void solve_unit_forces(const std::vector<int>& rows, Eigen::MatrixXcd& H) {
-    const auto count = static_cast<Eigen::Index>(rows.size());
-    solution_.setZero(matrix_.rows(), count);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const int row = rows[static_cast<std::size_t>(j)];
-      solution_(row, j) = scale_(row);
-    }
-    solution_ = lu_.solve(solution_);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const int row = rows[static_cast<std::size_t>(i)];
-      H.row(i) = scale_(row) * solution_.row(row);
-    }
+  void response(const Eigen::MatrixXd& T, Eigen::MatrixXcd& H) {
+    solution_ = lu_.solve((scale_.asDiagonal() * T.transpose()).cast<Complex>());
+    H.noalias() = (T * scale_.asDiagonal()).cast<Complex>() * solution_;
   }
 
  private:
@@ -120,15 +124,23 @@ ResponseModel to_response(const ModalModel& model, const FrequencyAxis& axis) {
 
 ResponseModel direct_response(const SpatialModel& model, const FrequencyAxis& axis) {
   require_consistent(model);
-  const std::vector<int> rows = physical_rows(model.dofs);
-  ResponseModel response = empty_response(model.dofs, rows, axis);
+  return direct_response(model, Eigen::MatrixXd::Identity(model.size(), model.size()), model.dofs, axis);
+}
+
+ResponseModel direct_response(const SpatialModel& model, const Eigen::MatrixXd& T, const DofTable& dofs,
+                              const FrequencyAxis& axis, const AddedStiffness& added) {
+  const std::vector<int> rows = physical_rows(dofs);
+  const Eigen::MatrixXd observed = T(rows, Eigen::all);
+  ResponseModel response = empty_response(dofs, rows, axis);
   const double zero = static_cast<double>(model.size()) * std::numeric_limits<double>::epsilon();
   for_line_blocks(axis.size(), [&](Eigen::Index first, Eigen::Index end) {
     DynamicStiffness stiffness(model);
     for (Eigen::Index line = first; line < end; ++line) {
-      stiffness.factor(axis.omega_rad_s(line));
+      Eigen::MatrixXcd& H = response.H[static_cast<std::size_t>(line)];
+      stiffness.factor(axis.omega_rad_s(line), line, added);
       if (!(stiffness.smallest_pivot() > zero)) refuse_line(axis.hz(line), "the dynamic stiffness is singular");
-      stiffness.solve_unit_forces(rows, response.H[static_cast<std::size_t>(line)]);
+      stiffness.response(observed, H);
+      if (!H.allFinite()) refuse_line(axis.hz(line), "the dynamic stiffness is not finite");
     }
   });
   return response;

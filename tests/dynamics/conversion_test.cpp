@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -258,17 +258,17 @@ TEST(DirectResponse, NamesTheFrequencyAtWhichAFreePartHasNoResponse) {
   }
 }
 
-TEST(DirectResponse, TwoThousandLinesOfFortySixDofsTakeLessThanASecond) {
+TEST(DirectResponse, TwoThousandLinesOfFortySixDofsTakeLessThanASecondOnTwoCores) {
   SpatialModel model = spring_chain(46, 19);
   model.C = 1e-6 * model.K;
   for (int i = 9; i < 46; ++i) model.dofs[static_cast<std::size_t>(i)].kind = DofKind::modal;
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();  // of the processor, all threads: not disturbed by other programs
   const ResponseModel response = direct_response(model, linear_axis(0.5, 5000.0, 2000));
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  RecordProperty("seconds", std::to_string(seconds));
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  RecordProperty("processor_seconds", std::to_string(seconds));
   EXPECT_EQ(response.H[0].rows(), 9);
 #ifdef NDEBUG
-  EXPECT_LT(seconds, 1.0);
+  EXPECT_LT(seconds, 2.0);
 #endif
 }
 

@@ -1,0 +1,50 @@
+#pragma once
+// The spatial route: the coupled matrices assembled from the components' matrices, then their own modes and responses.
+
+#include <vector>
+
+#include "coupling/contact.hpp"
+#include "dynamics/conversion.hpp"
+
+namespace thinwall::coupling {
+
+/// Part and robot as one structure, in independent coordinates y with x = T y.
+struct CoupledModel {
+  dynamics::SpatialModel independent;  ///< M, C, K, D over y; its table names the DOF that each coordinate is
+  Eigen::MatrixXd T;                   ///< all DOFs × coordinates; the identity if no spring is rigid
+  dynamics::DofTable dofs;             ///< all DOFs x: the part's, then the robot's
+};
+
+/// Assembles (Barrios 2019, Eq. 16-18, any direction)
+///
+///     M = blkdiag(M_P, M_R),   K = blkdiag(K_P, K_R) + Σ k b bᵀ,   C likewise with c,   D likewise with η k
+///
+/// over the springs of finite stiffness, b = +n at the part's point and −n at the robot's; then eliminates bᵀx = 0 of
+/// the rigid ones by a null-space basis T in which each coordinate is a DOF of x (no penalty), M ← TᵀMT and so on. A
+/// point that lost a DOF by this is no longer complete in `independent`; its remaining DOFs are marked modal there, so
+/// that its displacement is taken from T and `dofs` only.
+///
+/// Errors: InputError for a faulty contact, an unknown point, points of one name in both components, or rigid
+/// directions that depend on each other. Cost O(n³).
+[[nodiscard]] CoupledModel couple(const dynamics::SpatialModel& part, const dynamics::SpatialModel& robot,
+                                  const std::vector<Contact>& contacts);
+
+/// Complex modes of the coupled structure at all its DOFs, φ = T φ_y. Errors as dynamics::to_modal.
+[[nodiscard]] dynamics::ModalModel to_modal(const CoupledModel& model);
+
+/// T (K + iD + iωC − ω²M)⁻¹ Tᵀ at all physical DOFs, by one factorisation a line and no modes.
+[[nodiscard]] dynamics::ResponseModel direct_response(const CoupledModel& model, const dynamics::FrequencyAxis& axis);
+
+/// The spatial part against a robot that is known by its receptance only. The joint forces f stay as unknowns,
+///
+///     [ P(ω)  B_P ; B_Pᵀ  −W(ω) ] [ x ; f ] = [ F ; 0 ],     W = Z⁻¹ + B_Rᵀ H_R B_R,
+///
+/// which is P + B_P W⁻¹ B_Pᵀ, the joint and the robot as a dynamic stiffness, where W can be inverted, and holds as
+/// well where it cannot (a robot of rank one in three rigid directions). Between the part's physical DOFs. Errors as
+/// above, and InputError if the axes differ.
+[[nodiscard]] dynamics::ResponseModel direct_response(const dynamics::SpatialModel& part,
+                                                      const dynamics::ResponseModel& robot,
+                                                      const std::vector<Contact>& contacts,
+                                                      const dynamics::FrequencyAxis& axis);
+
+}  // namespace thinwall::coupling
