@@ -145,7 +145,7 @@ struct UpdatingTarget {
   std::string point;                    ///< DOF "P.x" at which the mode takes part or the reduction is read
   std::string match = "participation";  ///< participation, mac, number
   int rank = 1;                         ///< the rank-th such mode by rising frequency
-  double frequency_hz = 0.0;            ///< of reduction_at
+  double frequency_hz = 0.0;            ///< of reduction_at; 0: the matched mode of the part
   double weight = 1.0;
 };
 

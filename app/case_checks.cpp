@@ -36,19 +36,16 @@ void check_ranges(const Case& source, Findings& findings) {
 
 void check_damping(const Case& source, Findings& findings) {
   const Damping& damping = source.damping;
-  const auto only_with = [&](const char* key, const char* model) {
-    const CaseValue* value = find(source.values, key);
-    if (value != nullptr && value->from_file && !damping.model.empty() && damping.model != model) {
-      findings.report(
-          key, "belongs to damping.model = \"" + std::string(model) + "\", but the model is \"" + damping.model + "\"");
-    }
+  const auto belongs_to = [&](const char* key, const char* model, bool used) {
+    if (!used || damping.model.empty() || damping.model == model) return;
+    findings.report(
+        key, "belongs to damping.model = \"" + std::string(model) + "\", but the model is \"" + damping.model + "\"");
   };
-  only_with("damping.ratio", "modal");
-  only_with("damping.ratios", "modal");
-  only_with("damping.from_frf.file", "modal");
-  only_with("damping.alpha", "rayleigh");
-  only_with("damping.beta", "rayleigh");
-  only_with("damping.loss_factor", "structural");
+  belongs_to("damping.ratios", "modal", !damping.ratios.empty());
+  belongs_to("damping.from_frf.file", "modal", damping.from_frf.has_value());
+  belongs_to("damping.alpha", "rayleigh", damping.alpha != 0.0);
+  belongs_to("damping.beta", "rayleigh", damping.beta != 0.0);
+  belongs_to("damping.loss_factor", "structural", damping.loss_factor != 0.0);
   if (damping.model == "rayleigh" && damping.alpha == 0.0 && damping.beta == 0.0) {
     findings.report("damping.model", "rayleigh needs alpha or beta");
   }
@@ -197,8 +194,6 @@ void check_target(const Case& source, const std::string& on, const std::string& 
   const bool reduction = target.quantity == "reduction_at";
   const auto points = part_points(source);
   findings.require_known(key + ".point", point_of(target.point), points, "point");
-  if (reduction && target.frequency_hz == 0.0)
-    findings.report(key + ".frequency", "missing; a reduction is read at a frequency");
   if (reduction && (target.value <= 0.0 || target.value >= 1.0))
     findings.report(key + ".value", "a reduction lies between 0 and 1");
   if (!reduction && target.value <= 0.0) findings.report(key + ".value", "a frequency lies above 0 Hz");
