@@ -4,8 +4,11 @@
 #include <matio.h>
 #include <sys/mman.h>
 #include <unistd.h>
+#include <utf8cpp/utf8.h>
 
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -77,6 +80,12 @@ void write_matrix(mat_t* file, const char* name, const Eigen::MatrixXd& matrix) 
   write_variable(file, Variable(Mat_VarCreate(name, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size.data(), values.data(), 0)));
 }
 
+/// The format counts characters, not bytes: UTF-16 keeps a name with an umlaut readable everywhere.
+std::u16string utf16(const std::string& text) {
+  if (!utf8::is_valid(text)) throw core::InputError("the name \"" + text + "\" is not UTF-8; rename the point");
+  return utf8::utf8to16(text);
+}
+
 /// One text a DOF, as a cell array n × 1.
 template <typename TextOf>
 void write_texts(mat_t* file, const char* name, const dynamics::DofTable& dofs, TextOf text_of) {
@@ -84,10 +93,10 @@ void write_texts(mat_t* file, const char* name, const dynamics::DofTable& dofs, 
   const Variable cells(Mat_VarCreate(name, MAT_C_CELL, MAT_T_CELL, 2, size.data(), nullptr, 0));
   if (!cells) throw core::DataError("matio cannot encode the model");
   for (std::size_t i = 0; i < dofs.size(); ++i) {
-    std::string text = text_of(dofs[i]);
+    std::u16string text = utf16(text_of(dofs[i]));
     std::array length{std::size_t{1}, text.size()};
     Mat_VarSetCell(cells.get(), static_cast<int>(i),
-                   Mat_VarCreate(nullptr, MAT_C_CHAR, MAT_T_UTF8, 2, length.data(), text.data(), 0));
+                   Mat_VarCreate(nullptr, MAT_C_CHAR, MAT_T_UTF16, 2, length.data(), text.data(), 0));
   }
   write_variable(file, cells);
 }
@@ -124,8 +133,35 @@ Eigen::MatrixXd read_matrix(mat_t* file, const char* name, const std::filesystem
   return matrix;
 }
 
+/// matio reads a variable whose end is missing as if its last entries were zero; the lengths in the file tell. An
+/// element is a tag (type, bytes), then its data in whole words of 8 bytes unless they are compressed.
+void require_whole(const std::filesystem::path& path) {
+  constexpr std::size_t header_size = 128;
+  constexpr std::size_t tag_size = 8;
+  const std::string bytes = core::read_file(path);
+  std::size_t at = header_size;
+  while (at + tag_size <= bytes.size()) {
+    std::array<std::uint32_t, 2> tag{};
+    std::memcpy(tag.data(), bytes.data() + at, tag_size);
+    const std::size_t size = tag[1];
+    at += tag_size + (tag[0] == MAT_T_COMPRESSED ? size : (size + 7) / 8 * 8);
+  }
+  if (at != bytes.size()) fail(path, "is no whole MAT file of version 5; write it again with that version");
+}
+
 bool has_variable(mat_t* file, const char* name) {
   return Variable(Mat_VarReadInfo(file, name)) != nullptr;
+}
+
+/// The characters of a cell as UTF-8; MATLAB writes 16-bit characters, other programs bytes.
+std::string utf8_text(const matvar_t& cell, const std::filesystem::path& path) {
+  const std::size_t length = cell.dims[0] * cell.dims[1];
+  if (cell.data_size != 2) return {static_cast<const char*>(cell.data), length};
+  try {
+    return utf8::utf16to8(std::u16string(static_cast<const char16_t*>(cell.data), length));
+  } catch (const utf8::exception&) {
+    fail(path, "holds a name with broken characters");
+  }
 }
 
 std::vector<std::string> read_texts(mat_t* file, const char* name, const std::filesystem::path& path,
@@ -141,11 +177,7 @@ std::vector<std::string> read_texts(mat_t* file, const char* name, const std::fi
     const matvar_t* cell = Mat_VarGetCell(cells.get(), i);
     if (cell == nullptr || cell->class_type != MAT_C_CHAR)
       fail(path, std::string(name) + " holds something not a text");
-    const std::size_t units = cell->nbytes;
-    if (cell->data_type != MAT_T_UTF8 && cell->data_type != MAT_T_UINT8 && cell->data_type != MAT_T_INT8) {
-      fail(path, std::string(name) + " holds text that is not UTF-8");
-    }
-    texts.emplace_back(static_cast<const char*>(cell->data), units);
+    texts.push_back(utf8_text(*cell, path));
   }
   return texts;
 }
@@ -181,6 +213,7 @@ void write_mat(const std::filesystem::path& path, const SpatialModel& model) {
 }
 
 SpatialModel read_mat(const std::filesystem::path& path) {
+  require_whole(path);
   const MatFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
   if (!file) fail(path, "cannot be read as a MAT file");
   SpatialModel model;
