@@ -1,0 +1,58 @@
+#include "milling/lobes.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+namespace thinwall::milling {
+
+namespace {
+
+void summarise(Lobes& lobes) {
+  const auto least = std::min_element(lobes.rows.begin(), lobes.rows.end(), [](const LobeRow& a, const LobeRow& b) {
+    return a.limiting_depth_m < b.limiting_depth_m;
+  });
+  lobes.minimum_depth_m = least->limiting_depth_m;
+  lobes.at_spindle_speed_rpm = least->spindle_speed_rpm;
+  for (const LobeRow& row : lobes.rows) {
+    if (row.at_limit) ++lobes.rows_at_limit;
+    else lobes.worst_error_estimate = std::max(lobes.worst_error_estimate, row.error_estimate);
+    const bool sound = row.status == StabilityStatus::converged || row.status == StabilityStatus::stable_to_depth_limit;
+    if (!sound) ++lobes.rows_not_converged;
+  }
+}
+
+}  // namespace
+
+std::vector<double> spindle_speeds(double from_rpm, double to_rpm, int count) {
+  if (!(from_rpm > 0.0) || !(to_rpm > from_rpm) || count < 2) {
+    std::ostringstream text;
+    text << "spindle speeds: " << count << " from " << from_rpm << " to " << to_rpm
+         << " rpm, must be at least 2, rising from above 0; correct the speed range";
+    throw core::InputError(text.str());
+  }
+  std::vector<double> speeds(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    speeds[static_cast<std::size_t>(i)] = from_rpm + (to_rpm - from_rpm) * i / (count - 1);
+  }
+  return speeds;
+}
+
+Lobes stability_lobes(const RelativeStructure& structure, const MillingProcess& process,
+                      const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options) {
+  if (spindle_speeds_rpm.empty())
+    throw core::InputError("stability lobes: no spindle speeds, at least 1 is needed; give a range");
+  Lobes lobes;
+  lobes.method = "semi-discretization, first order (Insperger & Stepan 2004)";
+  lobes.residual_share = residual_share(structure);
+  lobes.rows.resize(spindle_speeds_rpm.size());
+  core::parallel_for(spindle_speeds_rpm.size(), [&](std::size_t i) {
+    lobes.rows[i] = limiting_depth(structure, process, spindle_speeds_rpm[i], options);
+  });
+  summarise(lobes);
+  return lobes;
+}
+
+}  // namespace thinwall::milling

@@ -1,0 +1,30 @@
+#pragma once
+// A stability chart: the limiting depth over a range of speeds.
+
+#include <string>
+#include <vector>
+
+#include "milling/stability.hpp"
+
+namespace thinwall::milling {
+
+struct Lobes {
+  std::string method;
+  std::vector<LobeRow> rows;          ///< in the order of the speeds
+  double minimum_depth_m = 0.0;       ///< least limiting depth, the absolute stability limit of the range
+  double at_spindle_speed_rpm = 0.0;  ///< where that is
+  double worst_error_estimate = 0.0;  ///< largest relative estimate of the rows that are not at the limit
+  double residual_share = 0.0;        ///< static compliance that the analysis leaves out, see RelativeStructure
+  int rows_at_limit = 0;              ///< stable up to the depth limit
+  int rows_not_converged = 0;         ///< step limit reached, or eigenvalue not converged
+};
+
+/// `count` speeds, evenly spaced from `from_rpm` to `to_rpm`. Throws InputError unless 0 < from < to and count ≥ 2.
+[[nodiscard]] std::vector<double> spindle_speeds(double from_rpm, double to_rpm, int count);
+
+/// limiting_depth() at every speed, the speeds shared out among core::thread_count() threads; the rows do not depend on
+/// the number of threads. Throws InputError for a bad process, option or speed, or if there are no speeds; Interrupted.
+[[nodiscard]] Lobes stability_lobes(const RelativeStructure& structure, const MillingProcess& process,
+                                    const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options);
+
+}  // namespace thinwall::milling

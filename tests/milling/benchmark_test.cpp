@@ -1,0 +1,104 @@
+// The one-DOF benchmark of Insperger & Stepan (2004) against values computed independently of this project's method
+// (data/lobes_1dof.csv: Chebyshev collocation, three discretisations agreeing to 1e-9).
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "milling/lobes.hpp"
+#include "tests/milling/single_mode.hpp"
+
+namespace thinwall::milling {
+namespace {
+
+struct Reference {
+  std::string quantity;
+  double immersion, rpm, depth_m, modulus;
+  std::string kind;
+  double base_hz;
+
+  [[nodiscard]] std::string where() const {
+    std::ostringstream text;
+    text << quantity << " at a/D = " << immersion << ", " << rpm << " rpm, " << depth_m * 1e3 << " mm";
+    return text.str();
+  }
+};
+
+std::vector<Reference> references(const std::string& quantity) {
+  std::ifstream file(THINWALL_SOURCE_DIR "/tests/milling/data/lobes_1dof.csv");
+  std::vector<Reference> rows;
+  std::string line;
+  while (std::getline(file, line)) {
+    std::stringstream cells(line);
+    std::vector<std::string> cell;
+    for (std::string text; std::getline(cells, text, ',');) cell.push_back(text);
+    if (cell.empty() || cell[0] != quantity) continue;
+    rows.push_back({cell[0], std::stod(cell[2]), std::stod(cell[3]), std::stod(cell[4]) * 1e-3, std::stod(cell[5]),
+                    cell[8], std::stod(cell[11])});
+  }
+  return rows;
+}
+
+RelativeStructure benchmark_structure() {
+  return relative_structure(testing::modal_model({{922.0, 0.011, 0.03993, Eigen::Vector3d::UnitX()}}), "P");
+}
+
+MillingProcess benchmark_process(double immersion) {
+  MillingProcess process;
+  process.cutter = {2, 0.01};
+  process.coefficients = {6e8, 2e8, 0.0, 0.0, 0.0, 0.0};
+  process.engagement = engagement_of(process.cutter, immersion * 0.01, MillingDirection::down);
+  return process;
+}
+
+Bifurcation kind_of(const std::string& text) {
+  return text == "Hopf" ? Bifurcation::hopf : Bifurcation::flip;
+}
+
+// The chatter frequency is one of (±arg μ + 2πk)/T, so its distance from a multiple of 1/T is the base frequency.
+double base_frequency(double chatter_hz, double rpm) {
+  const double tooth_hz = rpm * 2.0 / 60.0;
+  return std::abs(chatter_hz - tooth_hz * std::round(chatter_hz / tooth_hz));
+}
+
+TEST(Benchmark, LimitingDepthsLieWithinTheirErrorEstimateOfOnePercent) {
+  const auto rows = references("wcrit_mm");
+  ASSERT_EQ(rows.size(), 15u);
+  for (const Reference& row : rows) {
+    SCOPED_TRACE(row.where());
+    const LobeRow found = limiting_depth(benchmark_structure(), benchmark_process(row.immersion), row.rpm, {});
+    EXPECT_EQ(found.status, StabilityStatus::converged);
+    EXPECT_FALSE(found.at_limit);
+    EXPECT_LE(found.error_estimate, 0.01);
+    EXPECT_NEAR(found.limiting_depth_m / row.depth_m, 1.0, found.error_estimate);
+    EXPECT_EQ(found.kind, kind_of(row.kind));
+    // A change of 1 % in depth moves the multiplier by about as much, hence the frequency by 1 % of the tooth
+    // frequency.
+    EXPECT_NEAR(base_frequency(found.chatter_frequency_hz, row.rpm), row.base_hz, 0.01 * row.rpm / 30.0);
+    if (std::getenv("SHOW") != nullptr)
+      std::printf("%s: err %.2e est %.2e steps %d f %.1f\n", row.where().c_str(),
+                  found.limiting_depth_m / row.depth_m - 1, found.error_estimate, found.steps,
+                  found.chatter_frequency_hz);
+  }
+}
+
+TEST(Benchmark, MultipliersLieWithinTheirErrorEstimate) {
+  const auto rows = references("rho");
+  ASSERT_EQ(rows.size(), 30u);
+  for (const Reference& row : rows) {
+    SCOPED_TRACE(row.where());
+    const Multiplier mu =
+        multiplier_at(benchmark_structure(), benchmark_process(row.immersion), row.rpm, row.depth_m, {});
+    EXPECT_EQ(mu.status, StabilityStatus::converged);
+    EXPECT_LE(mu.error_estimate, 0.01);
+    EXPECT_NEAR(mu.modulus / row.modulus, 1.0, mu.error_estimate);
+    EXPECT_EQ(mu.kind, kind_of(row.kind));
+    if (std::getenv("SHOW") != nullptr)
+      std::printf("%s: err %.2e est %.2e steps %d f %.1f\n", row.where().c_str(), mu.modulus / row.modulus - 1,
+                  mu.error_estimate, mu.steps, mu.chatter_frequency_hz);
+  }
+}
+
+}  // namespace
+}  // namespace thinwall::milling
