@@ -61,7 +61,7 @@ void check_mesh_size(const Part& part, Findings& findings) {
       part.mesh.point_element_size && *part.mesh.point_element_size < part.mesh.element_size && !part.mesh.grading;
   findings.report(near_points ? "part.mesh.point_element_size" : "part.mesh.element_size",
                   core::readable_text(part.mesh.element_size, core::kind::length) + " would make about " +
-                      core::number_text(std::round(size.elements / 1e5) * 1e5) +
+                      core::readable_text(size.elements, core::kind::number) +
                       " tetrahedra, at most 2e+07 are made; take " +
                       core::readable_text(finest * 1.05, core::kind::length) + " or more");
 }

@@ -1,0 +1,190 @@
+#include "app/command_line.hpp"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <new>
+#include <sstream>
+
+#include "app/case_checks.hpp"
+#include "app/case_reader.hpp"
+#include "app/case_template.hpp"
+#include "app/compare.hpp"
+#include "app/doctor.hpp"
+#include "app/log.hpp"
+#include "app/result_folder.hpp"
+#include "core/interrupt.hpp"
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+using core::ExitCode;
+
+/// Everything that the words of the command line can carry.
+struct Arguments {
+  std::string case_path, out, template_name = "plate", folder, left, right;
+  std::vector<std::string> overrides;
+  bool fresh = false, quiet = false, verbose = false;
+  int threads = 0;
+  double tolerance = 1e-9;
+};
+
+ExitCode run(const Arguments& arguments, const RunCase& run_case) {
+  const int verbosity = arguments.quiet ? -1 : arguments.verbose ? 1 : 0;
+  log_to_terminal(verbosity);
+  if (arguments.threads > 0) core::set_thread_count(arguments.threads);
+  const Case source = read_case(arguments.case_path, arguments.overrides);
+  const ResultFolder folder(arguments.out.empty() ? default_result_folder(source)
+                                                  : std::filesystem::path(arguments.out));
+  log_to_file(folder.path() / "run.log");
+  const bool progress = !arguments.quiet && ::isatty(STDERR_FILENO) != 0;
+  const RunResult result = run_case(source, {folder.path(), arguments.fresh, verbosity, progress});
+  return result.expectations_hold ? ExitCode::done : ExitCode::expectation;
+}
+
+ExitCode check(const Arguments& arguments, std::ostream& out) {
+  const Case source = read_case(arguments.case_path, arguments.overrides);
+  const auto expectations = read_expectations(source.file);
+  out << source.file.string() << ": no errors\n";
+  if (!source.title.empty()) out << "  " << source.title << '\n';
+  if (source.part) {
+    const SizeEstimate size = estimate_size(*source.part);
+    const auto rounded = [](double value) { return core::readable_text(value, core::kind::number); };
+    out << "  elements  about " << rounded(size.elements) << " of order " << source.part->mesh.order << ", size "
+        << core::readable_text(source.part->mesh.element_size, core::kind::length) << '\n'
+        << "  DOFs      about " << rounded(size.dofs) << '\n'
+        << "  time      about " << core::readable_text(std::max(1.0, size.seconds), core::kind::time)
+        << " for mesh, modes and reduction on two cores\n";
+  }
+  if (source.lobes) out << "  lobes     " << source.lobes->count << " speeds\n";
+  if (!expectations.empty()) out << "  expected  " << expectations.size() << " figures\n";
+  return ExitCode::done;
+}
+
+ExitCode compare(const Arguments& arguments, std::ostream& out) {
+  constexpr std::size_t shown = 20;
+  const Comparison comparison = compare_results(arguments.left, arguments.right, arguments.tolerance);
+  for (std::size_t i = 0; i < std::min(shown, comparison.differences.size()); ++i) {
+    const auto& difference = comparison.differences[i];
+    out << difference.where << ": " << difference.left << " against " << difference.right << '\n';
+  }
+  if (comparison.differences.size() > shown) out << "and " << comparison.differences.size() - shown << " more\n";
+  out << comparison.numbers << " numbers compared, " << comparison.differences.size() << " differences\n";
+  return comparison.differences.empty() ? ExitCode::done : ExitCode::expectation;
+}
+
+void add_case_arguments(CLI::App& command, Arguments& arguments) {
+  command.add_option("CASE", arguments.case_path, "a folder with a case.toml, or the file")->required();
+  command.add_option("--set", arguments.overrides, "a value put over the case: --set part.element_size=\"8 mm\"")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void describe(CLI::App& app, Arguments& arguments) {
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "thinwall " + program_version());
+  auto* run_command = app.add_subcommand("run", "compute a case");
+  add_case_arguments(*run_command, arguments);
+  run_command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
+  run_command->add_flag("--fresh", arguments.fresh, "ignore results of an earlier run");
+  auto* quiet = run_command->add_flag("-q,--quiet", arguments.quiet, "log warnings only");
+  run_command->add_flag("-v,--verbose", arguments.verbose, "log everything")->excludes(quiet);
+  run_command->add_option("--threads", arguments.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
+  add_case_arguments(*app.add_subcommand("check", "report every error of a case, and sizes to expect"), arguments);
+  auto* init = app.add_subcommand("init", "write a commented case to start from");
+  init->add_option("--template", arguments.template_name, "plate or wall")->type_name("NAME");
+  init->add_option("DIR", arguments.folder, "folder for the case (default: the template's name)");
+  auto* compare_command = app.add_subcommand("compare", "compare two result folders, number by number");
+  compare_command->add_option("A", arguments.left, "result folder")->required();
+  compare_command->add_option("B", arguments.right, "result folder")->required();
+  compare_command->add_option("--tolerance", arguments.tolerance, "relative tolerance")->check(CLI::NonNegativeNumber);
+  app.add_subcommand("doctor", "versions, libraries, threads, optional parts");
+}
+
+ExitCode execute(const CLI::App& app, const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
+  if (app.got_subcommand("run")) return run(arguments, run_case);
+  if (app.got_subcommand("check")) return check(arguments, out);
+  if (app.got_subcommand("compare")) return compare(arguments, out);
+  if (app.got_subcommand("init")) {
+    const auto folder = arguments.folder.empty() ? arguments.template_name : arguments.folder;
+    const auto file = write_template(arguments.template_name, folder);
+    out << "wrote " << file.string() << "; compute it with: thinwall run " << file.parent_path().string() << '\n';
+    return ExitCode::done;
+  }
+  out << doctor_report();
+  return ExitCode::done;
+}
+
+/// Every line of the message behind "thinwall: ".
+void report(std::ostream& err, const std::string& message) {
+  std::istringstream lines(message);
+  for (std::string line; std::getline(lines, line);) err << "thinwall: " << line << '\n';
+}
+
+/// CLI11 has exit codes of its own (105, 106, …): help and version are 0, all else is a usage error.
+ExitCode parse(CLI::App& app, int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
+  try {
+    app.parse(argc, argv);
+    return ExitCode::done;
+  } catch (const CLI::Success& success) {
+    app.exit(success, out, err);
+    throw;
+  } catch (const CLI::ParseError& error) {
+    report(err, std::string(error.what()) + "; \"thinwall --help\" lists the commands");
+    return ExitCode::usage;
+  }
+}
+
+int guarded(const std::function<ExitCode()>& command, std::ostream& err) {
+  try {
+    return static_cast<int>(command());
+  } catch (const core::Error& error) {
+    report(err, error.what());
+    return static_cast<int>(error.code());
+  } catch (const CLI::Success&) {
+    return static_cast<int>(ExitCode::done);
+  } catch (const std::bad_alloc&) {
+    report(err, "out of memory; take larger elements or fewer modes");
+    return static_cast<int>(ExitCode::numerical);
+  } catch (const std::exception& error) {
+    report(err, std::string("internal error: ") + error.what());
+    return static_cast<int>(ExitCode::internal);
+  } catch (...) {
+    report(err, "internal error of an unknown kind");
+    return static_cast<int>(ExitCode::internal);
+  }
+}
+
+extern "C" void on_signal(int signal) {
+  core::request_interrupt();
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv, const RunCase& run_case, std::ostream& out, std::ostream& err) {
+  return guarded(
+      [&] {
+        Arguments arguments;
+        CLI::App app("What a thin-walled part will do under the cutter, and which speeds and depths are stable.",
+                     "thinwall");
+        describe(app, arguments);
+        if (const ExitCode code = parse(app, argc, argv, out, err); code != ExitCode::done) return code;
+        const ExitCode code = execute(app, arguments, run_case, out);
+        out.flush();
+        if (!out) throw core::DataError("cannot write to the standard output; free space or write elsewhere");
+        return code;
+      },
+      err);
+}
+
+void install_signal_handlers() {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,22 @@
+#pragma once
+// The words of the command line (design: run, check, init, compare, doctor).
+
+#include <functional>
+#include <ostream>
+
+#include "app/pipeline.hpp"
+
+namespace thinwall::app {
+
+/// What `run` hands the case to; in the program this is run_case().
+using RunCase = std::function<RunResult(const Case&, const RunOptions&)>;
+
+/// Runs one command. Results go to `out`, the log and every error to `err`, a line each. Returns the exit code: 0 done,
+/// 1 internal error, 2 usage, 3 invalid case, 4 unreadable data, 5 numerical failure, 6 an expectation does not hold
+/// (for `compare`: the results differ), 130 interrupted. Throws nothing.
+int run_command_line(int argc, const char* const* argv, const RunCase& run, std::ostream& out, std::ostream& err);
+
+/// SIGINT and SIGTERM ask the computation to stop; a second signal ends the program at once.
+void install_signal_handlers();
+
+}  // namespace thinwall::app

@@ -1,0 +1,26 @@
+#pragma once
+// Two result folders, number by number.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace thinwall::app {
+
+struct Difference {
+  std::string where;  ///< "summary.json: coupling.modes[0].frequency_hz", "lobes/part.csv: line 12, column 2"
+  std::string left, right;
+};
+
+struct Comparison {
+  std::size_t numbers = 0;  ///< numbers that were compared
+  std::vector<Difference> differences;
+};
+
+/// Compares summary.json (without times) and every CSV file of two result folders. Two numbers are equal if
+/// |a − b| ≤ tolerance · max(|a|, |b|, s), where s is the largest magnitude of the column for a CSV and 1 for the
+/// summary, so that round-off beside zero does not count. Throws DataError if a folder has no summary.json.
+[[nodiscard]] Comparison compare_results(const std::filesystem::path& left, const std::filesystem::path& right,
+                                         double tolerance);
+
+}  // namespace thinwall::app

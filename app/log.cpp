@@ -1,0 +1,32 @@
+#include "app/log.hpp"
+
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "core/error.hpp"
+
+namespace thinwall::app {
+
+void log_to_terminal(int verbosity) {
+  auto terminal = std::make_shared<spdlog::sinks::stderr_sink_mt>();
+  terminal->set_level(verbosity < 0 ? spdlog::level::warn : verbosity > 0 ? spdlog::level::debug : spdlog::level::info);
+  terminal->set_pattern("%v");
+  auto logger = std::make_shared<spdlog::logger>("thinwall", terminal);
+  logger->set_level(spdlog::level::debug);
+  spdlog::set_default_logger(logger);
+}
+
+void log_to_file(const std::filesystem::path& file) {
+  try {
+    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), true);
+    sink->set_pattern("%Y-%m-%dT%H:%M:%S%z %l %v");
+    spdlog::default_logger()->sinks().push_back(sink);
+    spdlog::default_logger()->flush_on(spdlog::level::info);
+  } catch (const spdlog::spdlog_ex& error) {
+    throw core::DataError("cannot write \"" + file.string() + "\": " + error.what() +
+                          "; choose another folder with --out");
+  }
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,14 @@
+#pragma once
+// The log: to stderr, and whole to run.log.
+
+#include <filesystem>
+
+namespace thinwall::app {
+
+/// Sends spdlog's default logger to stderr. −1: warnings only, 0: information, 1: everything.
+void log_to_terminal(int verbosity);
+
+/// From now on also to `file` (replaced), in full. Throws DataError if it cannot be opened.
+void log_to_file(const std::filesystem::path& file);
+
+}  // namespace thinwall::app

@@ -1,0 +1,8 @@
+#include <iostream>
+
+#include "app/command_line.hpp"
+
+int main(int argc, char** argv) {
+  thinwall::app::install_signal_handlers();
+  return thinwall::app::run_command_line(argc, argv, thinwall::app::run_case, std::cout, std::cerr);
+}

@@ -1,0 +1,205 @@
+// Every way in which a case can be wrong: where, what, and what to do.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "app/case_checks.hpp"
+#include "app/case_reader.hpp"
+#include "case_text.hpp"
+#include "core/atomic_file.hpp"
+
+namespace thinwall::app {
+namespace {
+
+std::vector<Problem> problems_of(const std::string& text) {
+  EXPECT_FALSE(text.empty()) << "the replacement did not match";
+  try {
+    (void)parse_case(text, ".");
+  } catch (const CaseError& error) {
+    EXPECT_EQ(error.code(), core::ExitCode::invalid_case);
+    return error.problems;
+  }
+  return {};
+}
+
+/// The one problem of the plate case with `from` replaced by `to`.
+Problem problem_of(const std::string& from, const std::string& to) {
+  const auto problems = problems_of(with(plate_case(), from, to));
+  EXPECT_EQ(problems.size(), 1U) << from << " -> " << to;
+  for (const auto& problem : problems) {
+    EXPECT_EQ(problem.text.find('\n'), std::string::npos);
+    if (problems.size() > 1) ADD_FAILURE() << problem.text;
+  }
+  return problems.empty() ? Problem{} : problems.front();
+}
+
+void expect_problem(const std::string& from, const std::string& to, const std::string& part) {
+  const Problem problem = problem_of(from, to);
+  EXPECT_NE(problem.text.find(part), std::string::npos) << problem.text;
+}
+
+TEST(BadCase, TheGoodCaseHasNoProblem) {
+  EXPECT_TRUE(problems_of(plate_case()).empty());
+}
+
+TEST(BadCase, EmptyMissingAndMalformedCasesAreRefused) {
+  EXPECT_NE(problems_of("\n").at(0).text.find("a case holds a part"), std::string::npos);
+  EXPECT_THROW((void)read_case("/nowhere/at/all"), core::InputError);
+  const auto malformed = problems_of("[part]\nlength = 6 mm\n");
+  ASSERT_EQ(malformed.size(), 1U);
+  EXPECT_EQ(malformed[0].line, 2);
+  EXPECT_NE(malformed[0].text.find("quantities with units go in quotes"), std::string::npos);
+}
+
+TEST(BadCase, AnUnknownKeyNamesTheNearestAndItsPlace) {
+  const Problem problem = problem_of("thickness = \"6 mm\"", "thickness = \"6 mm\"\n  thicknes = \"6 mm\"");
+  EXPECT_EQ(problem.line, 6);
+  EXPECT_EQ(problem.column, 3);
+  EXPECT_NE(problem.text.find("part.thicknes: unknown key (did you mean \"thickness\"?)"), std::string::npos);
+  expect_problem("[part.material]", "element_size = 1\n[part.material]", "belongs to [part.mesh]");
+  expect_problem("[points.P]", "[points.\"P 1\"]\nat = [1.0, 0.5, 0.5]\n[points.P]", "a name starts with a letter");
+}
+
+TEST(BadCase, WrongTypesSayWhatIsExpected) {
+  expect_problem("length = \"392 mm\"", "length = true", "got true or false, expected a length such as \"6 mm\"");
+  expect_problem("element_size = \"12 mm\"", "element_size = \"12 mm\"\norder = 2.5", "expected a whole number");
+  expect_problem("title = \"plate\"", "title = 3", "expected a text in quotes");
+  expect_problem("at = [1.0, 0.5, 0.95]", "at = [1.0, 0.5]", "list of three");
+  expect_problem("[damping]", "[modes]\nverify_count = 1\n[damping]", "expected true or false");
+}
+
+TEST(BadCase, WrongDimensionsNameBothAndAnExample) {
+  const Problem problem = problem_of("youngs_modulus = \"210 GPa\"", "youngs_modulus = \"210 mm\"");
+  EXPECT_EQ(
+      problem.text,
+      "part.material.youngs_modulus: \"210 mm\" is a length, but a stress is expected; write for example \"210 GPa\"");
+  EXPECT_EQ(problem.line, 7);
+  expect_problem("from = \"1000 rpm\"", "from = 1000", "write \"1000 rpm\"");
+  expect_problem("lower = \"380 mm\"", "lower = \"380 Hz\"", "is a frequency, but a length is expected");
+  expect_problem("value = \"212 Hz\"", "value = \"212 mm\"", "is a length, but a frequency is expected");
+}
+
+TEST(BadCase, OutOfRangeNamesTheBoundAndTheRemedy) {
+  expect_problem("poisson_ratio = 0.3", "poisson_ratio = 0.5", "at least 0, below 0.5");
+  expect_problem("density = \"7850 kg/m^3\"", "density = 7.85", "write the unit: \"7.85 g/cm^3\"");
+  expect_problem("youngs_modulus = \"210 GPa\"", "youngs_modulus = 210", "write the unit: \"210 GPa\"");
+  expect_problem("damping_ratio = 0.02", "damping_ratio = 1.0", "below 1");
+  expect_problem("spindle_speed = \"1900 rpm\"", "spindle_speed = \"0 rpm\"", "above 0 rpm");
+  expect_problem("from = \"1000 rpm\"", "from = \"4000 rpm\"", "must lie below the highest");
+  expect_problem("radial_depth = \"0.2 mm\"", "radial_depth = \"17 mm\"", "more than the tool's diameter of 16 mm");
+  expect_problem("thickness = \"6 mm\"", "thickness = \"0 mm\"", "above 0 m");
+  expect_problem("teeth = 6", "teeth = 0", "at least 1");
+  expect_problem("at = [1.0, 0.5, 0.95]", "at = [1.2, 0.5, 0.95]", "at most 1");
+  expect_problem("offset = [\"0 mm\", \"20 mm\"", "offset = [\"0 mm\", \"200 mm\"", "lies outside the part");
+  expect_problem("to = \"3000 rpm\"", "to = \"3000 rpm\"\ndepth_limit = \"30 mm\"",
+                 "more than the tool's length of 20 mm");
+}
+
+TEST(BadCase, NanAndInfinityAreNeverTaken) {
+  expect_problem("poisson_ratio = 0.3", "poisson_ratio = nan", "finite");
+  expect_problem("length = \"392 mm\"", "length = inf", "finite");
+  expect_problem("stiffness = \"1.7e6 N/m\"", "stiffness = \"inf\"", "finite");
+}
+
+TEST(BadCase, ReferencesMustExist) {
+  expect_problem("on = \"y_min\"", "on = \"y_mim\"", "did you mean \"y_min\"?");
+  expect_problem("[[contacts]]\npart = \"P\"", "[[contacts]]\npart = \"P3\"",
+                 "there is no point \"P3\" (did you mean \"P");
+  expect_problem("[[contacts]]\npart = \"P\"", "[[contacts]]\npart = \"P\"\nrobot = \"S\"", "point of the robot \"S\"");
+  expect_problem("key = \"part.length\"", "key = \"part.lenght\"", "did you mean \"part.length\"?");
+  expect_problem("point = \"P.x\"", "point = \"Q.x\"", "there is no point \"Q\"");
+  expect_problem("at = \"P\"", "at = \"X\"", "there is no point \"X\"");
+}
+
+TEST(BadCase, AContactOnAClampedFaceIsRefused) {
+  const auto problems = problems_of(with(plate_case(), "at = [1.0, 0.5, 0.95]", "at = [1.0, 0.0, 0.95]"));
+  ASSERT_EQ(problems.size(), 2U);
+  EXPECT_NE(problems[0].text.find("contacts[0].part: point \"P\" is clamped by \"y_min\""), std::string::npos);
+  EXPECT_NE(problems[1].text.find("cutting.at"), std::string::npos);
+}
+
+TEST(BadCase, AContactAcrossTheHeldDirectionIsAllowed) {
+  auto text = with(plate_case(), "at = [1.0, 0.5, 0.95]", "at = [1.0, 0.0, 0.95]");
+  text = with(text, "on = \"y_min\"", "on = \"y_min\"\nfixed = [\"y\"]");
+  text = with(text, "[cutting]\nat = \"P\"", "[cutting]\nat = \"P2\"");
+  EXPECT_TRUE(problems_of(text).empty());
+}
+
+TEST(BadCase, AMeshBeyondMemoryIsRefusedWithItsEstimate) {
+  // 392 · 100 · 6 mm³ · 6√2 / (0.3 mm)³ = 7.4e7 tetrahedra; (0.27 mm)³ makes 1e8.
+  expect_problem("element_size = \"12 mm\"", "element_size = \"0.27 mm\"", "would make about 1.014e+08 tetrahedra");
+  EXPECT_EQ(problem_of("element_size = \"12 mm\"", "element_size = \"0.3 mm\"").line, 11);
+}
+
+TEST(BadCase, KeysThatExcludeEachOtherAreNamed) {
+  expect_problem("[damping]", "[modes]\ncount = 10\nup_to = \"3 kHz\"\n[damping]", "not both");
+  expect_problem("frequency = \"29 Hz\"", "frequency = \"29 Hz\"\nmass = \"50 kg\"", "either frequency or mass");
+  expect_problem("[damping]", "[damping]\nloss_factor = 0.01", "belongs to damping.model = \"structural\"");
+  expect_problem("[robot]",
+                 "[selections.foot]\nplane = { point = [0,0,0], normal = \"y\" }\nsphere = { centre = [0,0,0], "
+                 "radius = 1 }\n[robot]",
+                 "exactly one of plane, box, sphere");
+}
+
+TEST(BadCase, MeasuredFilesMustExistAndCarryTheUnitOfTheirQuantity) {
+  const std::string text =
+      "[[part.measured]]\nresponse = \"P.x\"\nforce = \"P\"\nfile = \"absent.csv\"\n"
+      "quantity = \"mobility\"\nunit = \"m/N\"\n";
+  const auto problems = problems_of(text);
+  ASSERT_EQ(problems.size(), 3U);
+  EXPECT_NE(problems[0].text.find("names no direction; write for example \"P.x\""), std::string::npos);
+  EXPECT_NE(problems[1].text.find("there is no file"), std::string::npos);
+  EXPECT_NE(problems[2].text.find("is no unit of a mobility"), std::string::npos);
+}
+
+TEST(BadCase, SeveralErrorsAreFoundInOnePassInTheOrderOfTheFile) {
+  auto text = with(plate_case(), "poisson_ratio = 0.3", "poisson_ratio = 0.5");
+  text = with(text, "density = \"7850 kg/m^3\"", "density = 7.85");
+  text = with(text, "radial_depth = \"0.2 mm\"", "radial_depth = \"17 mm\"");
+  text = with(text, "[[contacts]]\npart = \"P\"", "[[contacts]]\npart = \"Q\"\nnonsense = 1");
+  text = with(text, "diameter = \"16 mm\"\n", "");
+  const auto problems = problems_of(text);
+  ASSERT_EQ(problems.size(), 5U);
+  for (std::size_t i = 1; i < problems.size(); ++i) EXPECT_LE(problems[i - 1].line, problems[i].line);
+  EXPECT_NE(problems[4].text.find("tool.diameter: missing"), std::string::npos) << problems[4].text;
+  for (const auto& problem : problems) EXPECT_GT(problem.line, 0) << problem.text;
+}
+
+TEST(BadCase, EveryProblemIsPrintedWithFileLineAndColumn) {
+  try {
+    (void)parse_case(with(plate_case(), "teeth = 6", "teeth = 0"), ".", "cases/plate/case.toml");
+    FAIL() << "no error";
+  } catch (const CaseError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("cases/plate/case.toml:39:9: tool.teeth: 0 is out of range"))
+        << error.what();
+  }
+}
+
+TEST(Cases, EveryCaseOfTheProjectIsRight) {
+  for (const auto* name : {"barrios-2019", "cantilever-wall"}) {
+    const auto folder = std::filesystem::path(THINWALL_SOURCE_DIR) / "cases" / name;
+    EXPECT_NO_THROW({
+      const Case c = read_case(folder);
+      EXPECT_EQ(c.name, name);
+      (void)read_expectations(c.file);
+    });
+  }
+}
+
+TEST(SizeEstimate, GrowsWithTheCubeOfTheFinenessAndWithTheNodesOfTheOrder) {
+  Case c = parse_case(plate_case(), ".");
+  c.part->mesh.element_size = 0.002;
+  c.part->mesh.order = 1;
+  const SizeEstimate coarse = estimate_size(*c.part);
+  // V · 6√2 / a³ for regular tetrahedra of edge a.
+  EXPECT_NEAR(coarse.elements, 0.392 * 0.1 * 0.006 * 8.485281374 / 8e-9, 1.0);
+  c.part->mesh.element_size = 0.001;
+  EXPECT_NEAR(estimate_size(*c.part).elements / coarse.elements, 8.0, 1e-12);
+  c.part->mesh.order = 2;
+  // A quadratic mesh has its vertices and its edges as nodes.
+  EXPECT_GT(estimate_size(*c.part).nodes, 8 * coarse.nodes * 4);
+}
+
+}  // namespace
+}  // namespace thinwall::app

@@ -1,0 +1,234 @@
+#include "app/command_line.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <sstream>
+#include <thread>
+
+#include "app/case_reader.hpp"
+#include "app/case_template.hpp"
+#include "app/compare.hpp"
+#include "case_text.hpp"
+#include "core/atomic_file.hpp"
+#include "core/interrupt.hpp"
+#include "temporary_folder.hpp"
+
+namespace thinwall::app {
+namespace {
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+Outcome call(std::vector<std::string> words, const RunCase& run = {}) {
+  words.insert(words.begin(), "thinwall");
+  std::vector<const char*> argv;
+  for (const auto& word : words) argv.push_back(word.c_str());
+  std::ostringstream out, err;
+  const int code = run_command_line(static_cast<int>(argv.size()), argv.data(), run, out, err);
+  return {code, out.str(), err.str()};
+}
+
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() {
+    std::filesystem::create_directory(temporary.path / "plate");
+    core::write_file_atomically(temporary.path / "plate" / "case.toml", plate_case());
+  }
+  [[nodiscard]] std::string plate() const { return (temporary.path / "plate").string(); }
+  [[nodiscard]] std::string out() const { return (temporary.path / "results").string(); }
+
+  TemporaryFolder temporary;
+};
+
+TEST_F(CommandLine, HelpAndVersionEndWithZero) {
+  EXPECT_EQ(call({"--help"}).code, 0);
+  EXPECT_NE(call({"--help"}).out.find("doctor"), std::string::npos);
+  EXPECT_EQ(call({"run", "--help"}).code, 0);
+  EXPECT_EQ(call({"--version"}).code, 0);
+  EXPECT_NE(call({"--version"}).out.find("thinwall "), std::string::npos);
+}
+
+TEST_F(CommandLine, WrongUseEndsWithTwoAndOneLine) {
+  for (const auto& words : std::vector<std::vector<std::string>>{{},
+                                                                 {"run"},
+                                                                 {"fly"},
+                                                                 {"run", "a", "b"},
+                                                                 {"compare", "a"},
+                                                                 {"run", "a", "-q", "-v"},
+                                                                 {"run", "a", "--threads", "0"},
+                                                                 {"check", plate(), "--set", "part.length"},
+                                                                 {"init", "--template", "walls", out()}}) {
+    const Outcome outcome = call(words);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
+TEST_F(CommandLine, RunHandsTheCaseAndThePreparedFolderToThePipeline) {
+  const Outcome outcome = call({"run", plate(), "--out", out(), "--set", "part.element_size=8 mm", "--fresh", "-q"},
+                               [&](const Case& source, const RunOptions& options) {
+                                 EXPECT_DOUBLE_EQ(source.part->mesh.element_size, 0.008);
+                                 EXPECT_EQ(options.out, out());
+                                 EXPECT_TRUE(options.fresh);
+                                 EXPECT_EQ(options.verbosity, -1);
+                                 EXPECT_TRUE(std::filesystem::exists(options.out / "run.log"));
+                                 return RunResult{};
+                               });
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+TEST_F(CommandLine, EveryKindOfFailureHasItsExitCode) {
+  const auto code_of = [&](const RunCase& run) { return call({"run", plate(), "--out", out(), "-q"}, run).code; };
+  EXPECT_EQ(code_of([](const Case&, const RunOptions&) -> RunResult { throw core::InputError("x"); }), 3);
+  EXPECT_EQ(code_of([](const Case&, const RunOptions&) -> RunResult { throw core::DataError("x"); }), 4);
+  EXPECT_EQ(code_of([](const Case&, const RunOptions&) -> RunResult { throw core::NumericalError("x"); }), 5);
+  EXPECT_EQ(code_of([](const Case&, const RunOptions&) -> RunResult { throw core::Interrupted(); }), 130);
+  EXPECT_EQ(code_of([](const Case&, const RunOptions&) -> RunResult { throw std::logic_error("x"); }), 1);
+  EXPECT_EQ(code_of([](const Case&, const RunOptions&) -> RunResult { throw 7; }), 1);
+  EXPECT_EQ(code_of([](const Case&, const RunOptions&) { return RunResult{{}, false}; }), 6);
+  EXPECT_EQ(call({"run", (temporary.path / "absent").string()}).code, 3);
+  EXPECT_EQ(call({"run", plate(), "--out", plate() + "/case.toml"}).code, 4);
+}
+
+TEST_F(CommandLine, NothingIsComputedForACaseWithErrors) {
+  core::write_file_atomically(temporary.path / "plate" / "case.toml", with(plate_case(), "teeth = 6", "teeth = 0"));
+  const Outcome outcome = call({"run", plate(), "--out", out()}, [](const Case&, const RunOptions&) {
+    ADD_FAILURE() << "computed";
+    return RunResult{};
+  });
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_NE(outcome.err.find("case.toml:39:9: tool.teeth"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(out()));
+}
+
+TEST_F(CommandLine, CheckReportsEveryErrorAndOtherwiseTheSizes) {
+  const Outcome good = call({"check", plate()});
+  EXPECT_EQ(good.code, 0);
+  EXPECT_NE(good.out.find("DOFs"), std::string::npos);
+  core::write_file_atomically(
+      temporary.path / "plate" / "case.toml",
+      with(with(plate_case(), "teeth = 6", "teeth = 0"), "poisson_ratio = 0.3", "poisson_ratio = 0.5"));
+  const Outcome bad = call({"check", plate()});
+  EXPECT_EQ(bad.code, 3);
+  EXPECT_EQ(std::count(bad.err.begin(), bad.err.end(), '\n'), 2) << bad.err;
+}
+
+TEST_F(CommandLine, TemplatesAreRightCasesAndNeverOverwrite) {
+  for (const auto& name : template_names()) {
+    const auto folder = temporary.path / name / "new";
+    EXPECT_EQ(call({"init", "--template", name, folder.string()}).code, 0);
+    EXPECT_NO_THROW((void)read_case(folder));
+    core::write_file_atomically(folder / "case.toml", "mine");
+    EXPECT_EQ(call({"init", "--template", name, folder.string()}).code, 4);
+    EXPECT_EQ(core::read_file(folder / "case.toml"), "mine");
+  }
+}
+
+TEST_F(CommandLine, DoctorNamesTheLibraries) {
+  const Outcome outcome = call({"doctor"});
+  EXPECT_EQ(outcome.code, 0);
+  for (const auto* name : {"Eigen", "SuiteSparse", "METIS", "VTK", "threads"}) {
+    EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
+  }
+}
+
+TEST_F(CommandLine, AFullStandardOutputIsAnError) {
+  std::ostringstream out_stream, err_stream;
+  out_stream.setstate(std::ios::badbit);
+  const char* argv[] = {"thinwall", "doctor"};
+  EXPECT_EQ(run_command_line(2, argv, {}, out_stream, err_stream), 4);
+}
+
+TEST_F(CommandLine, ASignalEndsTheRunWith130AndLeavesNoUnfinishedFile) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const pid_t child = fork();
+    if (child == 0) {
+      install_signal_handlers();
+      const Outcome outcome = call({"run", plate(), "--out", out(), "-q"}, [](const Case&, const RunOptions& options) {
+        core::PartialFile file(options.out / "frf.csv");
+        core::write_file_atomically(options.out / "started", "");
+        while (true) {
+          core::check_interrupt();
+          std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        return RunResult{};
+      });
+      _exit(outcome.code);
+    }
+    for (int i = 0; i < 2000 && !std::filesystem::exists(out() + "/started"); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    ::kill(child, signal);
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    for (const auto& entry : std::filesystem::directory_iterator(out())) {
+      EXPECT_FALSE(core::is_partial_name(entry.path())) << entry.path();
+    }
+    std::filesystem::remove_all(out());
+  }
+}
+
+class Compare : public testing::Test {
+ protected:
+  Compare() {
+    write("a", 38.0, "1,2.5e-6");
+    write("b", 38.0, "1,2.5e-6");
+  }
+  void write(const std::string& name, double frequency, const std::string& row) const {
+    const auto folder = temporary.path / name;
+    std::filesystem::create_directories(folder / "frf");
+    const nlohmann::json summary = {{"modes", {{{"frequency_hz", frequency}}}},
+                                    {"timings_s", {{"total", frequency * 2}}}};
+    core::write_file_atomically(folder / "summary.json", summary.dump());
+    core::write_file_atomically(folder / "frf" / "part.csv",
+                                "# comment of " + name + "\nfrequency_hz,x\n0.5,1e-3\n" + row + "\n");
+  }
+  [[nodiscard]] Comparison compare(double tolerance = 1e-9) const {
+    return compare_results(temporary.path / "a", temporary.path / "b", tolerance);
+  }
+  TemporaryFolder temporary;
+};
+
+TEST_F(Compare, EqualFoldersHaveNoDifference) {
+  EXPECT_TRUE(compare().differences.empty());
+  EXPECT_EQ(compare().numbers, 5U);
+  EXPECT_EQ(call({"compare", temporary.path / "a", temporary.path / "b"}).code, 0);
+}
+
+TEST_F(Compare, OneNumberThatDiffersIsFoundAndNamed) {
+  write("b", 38.1, "1,2.5e-6");
+  const auto differences = compare().differences;
+  ASSERT_EQ(differences.size(), 1U);
+  EXPECT_EQ(differences[0].where, "summary.json: modes[0].frequency_hz");
+  EXPECT_TRUE(compare(0.01).differences.empty());
+  EXPECT_EQ(call({"compare", temporary.path / "a", temporary.path / "b"}).code, 6);
+  EXPECT_EQ(call({"compare", temporary.path / "a", temporary.path / "b", "--tolerance", "0.01"}).code, 0);
+}
+
+TEST_F(Compare, ACsvIsJudgedByTheScaleOfItsColumn) {
+  write("b", 38.0, "1,2.6e-6");
+  ASSERT_EQ(compare().differences.size(), 1U);
+  EXPECT_EQ(compare().differences[0].where, "frf/part.csv: row 3, column 2");
+  EXPECT_TRUE(compare(1e-3).differences.empty());
+  write("b", 38.0, "1,2.6e-6\n2,0");
+  EXPECT_EQ(compare().differences.at(0).where, "frf/part.csv: rows");
+}
+
+TEST_F(Compare, MissingFilesAreDifferencesAndAMissingSummaryIsAnError) {
+  std::filesystem::remove(temporary.path / "b" / "frf" / "part.csv");
+  EXPECT_EQ(compare().differences.size(), 1U);
+  std::filesystem::remove(temporary.path / "b" / "summary.json");
+  EXPECT_EQ(call({"compare", temporary.path / "a", temporary.path / "b"}).code, 4);
+}
+
+}  // namespace
+}  // namespace thinwall::app

@@ -1,0 +1,67 @@
+#include "app/schema.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+
+namespace thinwall::app {
+namespace {
+
+TEST(Schema, EveryKeyIsThereOnceAndLiesInASectionThatIsDescribed) {
+  std::set<std::string_view> seen;
+  for (const auto& key : case_schema().keys) {
+    EXPECT_TRUE(seen.insert(key.path).second) << key.path;
+    const auto dot = key.path.rfind('.');
+    const auto section = dot == std::string_view::npos ? std::string_view() : key.path.substr(0, dot);
+    EXPECT_NE(find_section(case_schema(), section), nullptr) << key.path;
+    EXPECT_FALSE(key.meaning.empty()) << key.path;
+    EXPECT_FALSE(key.required && !key.fallback.empty()) << key.path;
+  }
+}
+
+TEST(Schema, PatternsFollowFromConcretePaths) {
+  const auto pattern = [](const char* path) { return pattern_of(case_schema(), path); };
+  EXPECT_EQ(pattern("points.P.at"), "points.*.at");
+  EXPECT_EQ(pattern("points.P.at[2]"), "points.*.at");
+  EXPECT_EQ(pattern("contacts[2].part"), "contacts[].part");
+  EXPECT_EQ(pattern("updating[0].targets[1].value"), "updating[].targets[].value");
+  EXPECT_EQ(pattern("damping.ratios[3]"), "damping.ratios");
+  EXPECT_EQ(pattern("selections.foot.plane.normal"), "selections.*.plane.normal");
+}
+
+TEST(Schema, TablesInTheMiddleMayBeLeftOutWhereThatIsUnambiguous) {
+  EXPECT_EQ(full_path(case_schema(), "part.element_size"), "part.mesh.element_size");
+  EXPECT_EQ(full_path(case_schema(), "part.length"), "part.length");
+  EXPECT_EQ(full_path(case_schema(), "part.nonsense"), "part.nonsense");
+}
+
+TEST(Schema, BoundsAreOpenOrClosedAsSaid) {
+  const Key& poisson = *find_key(case_schema(), "part.material.poisson_ratio");
+  EXPECT_NO_THROW(require_within_bounds(poisson, 0.0));
+  EXPECT_NO_THROW(require_within_bounds(poisson, 0.4999));
+  EXPECT_THROW(require_within_bounds(poisson, 0.5), core::InputError);
+  EXPECT_THROW(require_within_bounds(poisson, std::numeric_limits<double>::quiet_NaN()), core::InputError);
+  EXPECT_EQ(bounds_text(poisson), "at least 0, below 0.5");
+}
+
+// The page is printed from the table; with THINWALL_WRITE_DOCS set the test writes it instead.
+TEST(Schema, TheDocumentedKeysAreTheKeysOfTheTable) {
+  const std::filesystem::path page = std::filesystem::path(THINWALL_SOURCE_DIR) / "docs" / "case-file.md";
+  const std::string begin = "<!-- keys of case.toml, printed from app/schema.cpp -->\n";
+  const std::string middle = "<!-- keys of expected.toml, printed from app/schema.cpp -->\n";
+  const std::string text = core::read_file(page);
+  const auto start = text.find(begin);
+  ASSERT_NE(start, std::string::npos);
+  const std::string expected = text.substr(0, start) + begin + "\n" + schema_markdown(case_schema()) +
+                               "## Keys of `expected.toml`\n\n" + middle + "\n" + schema_markdown(expectation_schema());
+  if (std::getenv("THINWALL_WRITE_DOCS") != nullptr) core::write_file_atomically(page, expected);
+  EXPECT_EQ(core::read_file(page), expected) << "run test_app with THINWALL_WRITE_DOCS=1";
+}
+
+}  // namespace
+}  // namespace thinwall::app

@@ -1,0 +1,25 @@
+#pragma once
+// A folder that goes with the test.
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace thinwall::app {
+
+struct TemporaryFolder {
+  TemporaryFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "thinwall-XXXXXX").string();
+    path = ::mkdtemp(pattern.data());
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path path;
+};
+
+}  // namespace thinwall::app
