@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <numeric>
 
 #include "core/error.hpp"
 
@@ -40,61 +39,149 @@ SpatialModel side_by_side(const SpatialModel& part, const SpatialModel& robot) {
           block_diagonal(structural_damping(part), structural_damping(robot)), dofs};
 }
 
-/// bᵀx is the opening of a spring: part minus robot, along its direction.
-Eigen::VectorXd opening(const SpatialModel& part, const SpatialModel& robot, const Contact& contact,
-                        const ContactSpring& spring) {
-  Eigen::VectorXd b(part.size() + robot.size());
-  b << dynamics::displacement_row(part.dofs, contact.part_point, spring.direction),
-      -dynamics::displacement_row(robot.dofs, contact.robot_point, spring.direction);
-  return b;
-}
-
-/// Basis of { x : Bᵀx = 0 } in which each coordinate is one DOF (the pivots' DOFs follow from the others), and those
-/// DOFs.
-struct NullSpace {
-  Eigen::MatrixXd T;
-  std::vector<Eigen::Index> coordinates;
+/// A spring between the components: bᵀx is its opening.
+struct Joint {
+  Eigen::VectorXd b;
+  ContactSpring spring;
 };
 
-/// Gaussian elimination with full pivoting of Bᵀ. The robot's DOFs stand first, so that of two equal pivots the robot's
-/// is the one that is eliminated.
-NullSpace null_space(const Eigen::MatrixXd& B) {
-  const Eigen::Index n = B.rows();
-  if (B.cols() == 0) {
-    NullSpace all{Eigen::MatrixXd::Identity(n, n), std::vector<Eigen::Index>(static_cast<std::size_t>(n))};
-    std::iota(all.coordinates.begin(), all.coordinates.end(), Eigen::Index{0});
-    return all;
+std::vector<Joint> joints(const SpatialModel& part, const SpatialModel& robot, const std::vector<Contact>& contacts) {
+  std::vector<Joint> all;
+  for (const Contact& contact : contacts) {
+    for (const ContactSpring& spring : contact.springs) {
+      Eigen::VectorXd b(part.size() + robot.size());
+      b << dynamics::displacement_row(part.dofs, contact.part_point, spring.direction),
+          -dynamics::displacement_row(robot.dofs, contact.robot_point, spring.direction);
+      all.push_back({b, spring});
+    }
   }
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(B.transpose().rowwise().reverse());
-  if (lu.rank() < B.cols()) {
-    throw core::InputError("of " + std::to_string(B.cols()) + " rigid contact directions only " +
-                           std::to_string(lu.rank()) + " are independent: leave out those that follow from the others");
-  }
-  const Eigen::MatrixXd kernel = lu.kernel().colwise().reverse();
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(kernel.cols()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  const auto dof = [&](Eigen::Index column) { return n - 1 - lu.permutationQ().indices()(lu.rank() + column); };
-  std::sort(order.begin(), order.end(), [&](Eigen::Index i, Eigen::Index j) { return dof(i) < dof(j); });
-  NullSpace space{kernel(Eigen::all, order), {}};
-  for (const Eigen::Index column : order) space.coordinates.push_back(dof(column));
-  return space;
+  return all;
 }
 
-DofTable coordinate_table(const DofTable& dofs, const std::vector<Eigen::Index>& coordinates) {
-  std::vector<bool> kept(dofs.size(), false);
-  for (const Eigen::Index i : coordinates) kept[static_cast<std::size_t>(i)] = true;
-  const auto incomplete = [&](const std::string& point) {
-    for (std::size_t i = 0; i < dofs.size(); ++i) {
-      if (!kept[i] && dofs[i].point == point) return true;
-    }
-    return false;
-  };
-  DofTable table;
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    if (!kept[i]) continue;
-    table.push_back(incomplete(dofs[i].point) ? Dof{dynamics::name(dofs[i]), Eigen::Vector3d::Zero(), DofKind::modal}
-                                              : dofs[i]);
+/// True if k in the sum K_ii + k b_i² would push out digits of K_ii.
+bool outweighs(const Joint& joint, const Eigen::MatrixXd& K) {
+  const Eigen::ArrayXd added = joint.spring.stiffness * joint.b.array().square();
+  return (joint.b.array() != 0.0 && added > K.diagonal().array().abs()).any();
+}
+
+/// Which springs become coordinates, the rigid ones first, and which DOF each replaces.
+struct Elimination {
+  std::vector<std::size_t> joints;
+  std::vector<Eigen::Index> replaced;
+};
+
+/// The largest entry of the rows `candidates` of the reduced Bᵀ (columns of `rows`); of equal ones in a row the last,
+/// which is the robot's.
+struct Pivot {
+  std::size_t joint = 0;
+  Eigen::Index dof = 0;
+  double size = 0.0;
+};
+Pivot largest_pivot(const Eigen::MatrixXd& rows, const std::vector<std::size_t>& candidates) {
+  Pivot largest;
+  for (const std::size_t j : candidates) {
+    Eigen::Index from_end = 0;
+    const double size = rows.col(static_cast<Eigen::Index>(j)).cwiseAbs().reverse().maxCoeff(&from_end);
+    if (size > largest.size) largest = {j, rows.rows() - 1 - from_end, size};
   }
+  return largest;
+}
+
+/// Gaussian elimination with full pivoting of the candidates' rows bᵀ, as far as they are independent; `rows` holds all
+/// rows, reduced by what was eliminated before, and is reduced further.
+void eliminate(std::vector<std::size_t> candidates, Eigen::MatrixXd& rows, Elimination& elimination) {
+  constexpr double dependent = 1e-10;  // beside unit directions
+  while (!candidates.empty()) {
+    const Pivot pivot = largest_pivot(rows, candidates);
+    if (!(pivot.size > dependent)) return;
+    const Eigen::VectorXd row = rows.col(static_cast<Eigen::Index>(pivot.joint));
+    rows -= row * (rows.row(pivot.dof) / row(pivot.dof));
+    elimination.joints.push_back(pivot.joint);
+    elimination.replaced.push_back(pivot.dof);
+    candidates.erase(std::find(candidates.begin(), candidates.end(), pivot.joint));
+  }
+}
+
+/// Rigid springs first, since they must all be eliminated; then those that would outweigh the components' entries. The
+/// others do no harm where they are.
+Elimination eliminate(const std::vector<Joint>& joints, const Eigen::MatrixXd& K) {
+  std::vector<std::size_t> rigid, stiff;
+  Eigen::MatrixXd rows(K.rows(), static_cast<Eigen::Index>(joints.size()));
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    rows.col(static_cast<Eigen::Index>(j)) = joints[j].b;
+    if (joints[j].spring.rigid()) {
+      rigid.push_back(j);
+    } else if (outweighs(joints[j], K)) {
+      stiff.push_back(j);
+    }
+  }
+  Elimination elimination;
+  eliminate(rigid, rows, elimination);
+  if (elimination.joints.size() < rigid.size()) {
+    throw core::InputError("of " + std::to_string(rigid.size()) + " rigid contact directions only " +
+                           std::to_string(elimination.joints.size()) +
+                           " are independent: leave out those that follow from the others or that nothing moves along");
+  }
+  eliminate(stiff, rows, elimination);
+  return elimination;
+}
+
+std::vector<Eigen::Index> others(Eigen::Index n, const std::vector<Eigen::Index>& replaced) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (std::find(replaced.begin(), replaced.end(), i) == replaced.end()) kept.push_back(i);
+  }
+  return kept;
+}
+
+/// T of x = T (u, d), over all openings, also those of rigid springs (which stand first among the openings).
+Eigen::MatrixXd opening_coordinates(const std::vector<Joint>& joints, const Elimination& elimination,
+                                    const std::vector<Eigen::Index>& kept) {
+  const Eigen::Index n = joints.front().b.size();
+  const auto m = static_cast<Eigen::Index>(elimination.joints.size());
+  Eigen::MatrixXd B(n, m);
+  for (Eigen::Index j = 0; j < m; ++j) B.col(j) = joints[elimination.joints[static_cast<std::size_t>(j)]].b;
+  const Eigen::MatrixXd B_s = B(elimination.replaced, Eigen::all).transpose();
+  const Eigen::MatrixXd B_u = B(kept, Eigen::all).transpose();
+  const Eigen::MatrixXd B_s_inverse = B_s.inverse();
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < n - m; ++i) T(kept[static_cast<std::size_t>(i)], i) = 1.0;
+  T(elimination.replaced, Eigen::seqN(0, n - m)) = -B_s_inverse * B_u;
+  T(elimination.replaced, Eigen::seqN(n - m, m)) = B_s_inverse;
+  return T;
+}
+
+/// Adds the springs of finite stiffness: those with an opening of their own on its diagonal, the others by Tᵀb.
+void add_springs(const std::vector<Joint>& joints, const Elimination& elimination, Eigen::Index first_opening,
+                 const Eigen::MatrixXd& T, SpatialModel& model) {
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const ContactSpring& spring = joints[j].spring;
+    if (spring.rigid()) continue;
+    const auto own = std::find(elimination.joints.begin(), elimination.joints.end(), j);
+    Eigen::VectorXd opening = T.transpose() * joints[j].b;
+    if (own != elimination.joints.end()) {
+      opening = Eigen::VectorXd::Unit(T.cols(), first_opening + (own - elimination.joints.begin()));
+    }
+    const Eigen::MatrixXd unit = opening * opening.transpose();
+    model.K += spring.stiffness * unit;
+    model.C += spring.damping * unit;
+    model.D += spring.loss_factor * spring.stiffness * unit;
+  }
+}
+
+DofTable coordinate_table(const DofTable& dofs, const std::vector<Eigen::Index>& kept,
+                          const std::vector<Eigen::Index>& replaced) {
+  const auto incomplete = [&](const std::string& point) {
+    return std::any_of(replaced.begin(), replaced.end(),
+                       [&](Eigen::Index i) { return dofs[static_cast<std::size_t>(i)].point == point; });
+  };
+  const auto amplitude = [](const std::string& name) { return Dof{name, Eigen::Vector3d::Zero(), DofKind::modal}; };
+  DofTable table;
+  for (const Eigen::Index i : kept) {
+    const Dof& dof = dofs[static_cast<std::size_t>(i)];
+    table.push_back(incomplete(dof.point) ? amplitude(dynamics::name(dof)) : dof);
+  }
+  for (std::size_t j = 0; j < replaced.size(); ++j) table.push_back(amplitude("opening " + std::to_string(j + 1)));
   return table;
 }
 
@@ -104,26 +191,25 @@ CoupledModel couple(const SpatialModel& part, const SpatialModel& robot, const s
   require_valid(contacts);
   require_consistent(part);
   require_consistent(robot);
-  SpatialModel all = side_by_side(part, robot);
-  Eigen::MatrixXd rigid(all.size(), 0);
-  for (const Contact& contact : contacts) {
-    for (const ContactSpring& spring : contact.springs) {
-      const Eigen::VectorXd b = opening(part, robot, contact, spring);
-      if (spring.rigid()) {
-        rigid.conservativeResize(Eigen::NoChange, rigid.cols() + 1);
-        rigid.rightCols(1) = b;
-        continue;
-      }
-      const Eigen::MatrixXd unit = b * b.transpose();
-      all.K += spring.stiffness * unit;
-      all.C += spring.damping * unit;
-      all.D += spring.loss_factor * spring.stiffness * unit;
-    }
+  const SpatialModel all = side_by_side(part, robot);
+  const std::vector<Joint> springs = joints(part, robot, contacts);
+  const Elimination elimination = eliminate(springs, all.K);
+  const std::vector<Eigen::Index> kept = others(all.size(), elimination.replaced);
+  const Eigen::MatrixXd T = opening_coordinates(springs, elimination, kept);
+  SpatialModel joined{T.transpose() * all.M * T, T.transpose() * all.C * T, T.transpose() * all.K * T,
+                      T.transpose() * all.D * T, coordinate_table(all.dofs, kept, elimination.replaced)};
+  const auto first_opening = static_cast<Eigen::Index>(kept.size());
+  add_springs(springs, elimination, first_opening, T, joined);
+
+  const auto closed = std::count_if(springs.begin(), springs.end(), [](const Joint& j) { return j.spring.rigid(); });
+  std::vector<Eigen::Index> open;
+  for (Eigen::Index i = 0; i < all.size(); ++i) {
+    if (i < first_opening || i >= first_opening + closed) open.push_back(i);
   }
-  const auto [T, coordinates] = null_space(rigid);
-  CoupledModel coupled{{}, T, all.dofs};
-  coupled.independent = {T.transpose() * all.M * T, T.transpose() * all.C * T, T.transpose() * all.K * T,
-                         T.transpose() * all.D * T, coordinate_table(all.dofs, coordinates)};
+  CoupledModel coupled{{joined.M(open, open), joined.C(open, open), joined.K(open, open), joined.D(open, open), {}},
+                       T(Eigen::all, open),
+                       all.dofs};
+  for (const Eigen::Index i : open) coupled.independent.dofs.push_back(joined.dofs[static_cast<std::size_t>(i)]);
   if (coupled.independent.D.isZero(0.0)) coupled.independent.D.resize(0, 0);
   return coupled;
 }

@@ -10,8 +10,8 @@ namespace thinwall::coupling {
 
 /// Part and robot as one structure, in independent coordinates y with x = T y.
 struct CoupledModel {
-  dynamics::SpatialModel independent;  ///< M, C, K, D over y; its table names the DOF that each coordinate is
-  Eigen::MatrixXd T;                   ///< all DOFs × coordinates; the identity if no spring is rigid
+  dynamics::SpatialModel independent;  ///< M, C, K, D over y; its table says what each coordinate is
+  Eigen::MatrixXd T;                   ///< all DOFs × coordinates
   dynamics::DofTable dofs;             ///< all DOFs x: the part's, then the robot's
 };
 
@@ -19,10 +19,14 @@ struct CoupledModel {
 ///
 ///     M = blkdiag(M_P, M_R),   K = blkdiag(K_P, K_R) + Σ k b bᵀ,   C likewise with c,   D likewise with η k
 ///
-/// over the springs of finite stiffness, b = +n at the part's point and −n at the robot's; then eliminates bᵀx = 0 of
-/// the rigid ones by a null-space basis T in which each coordinate is a DOF of x (no penalty), M ← TᵀMT and so on. A
-/// point that lost a DOF by this is no longer complete in `independent`; its remaining DOFs are marked modal there, so
-/// that its displacement is taken from T and `dofs` only.
+/// over the springs, b = +n at the part's point and −n at the robot's. A spring that outweighs the components (k_P + k
+/// in one entry keeps k_P to ε k only) is not added to their entries: its opening d = bᵀx becomes a coordinate in the
+/// place of a DOF (the robot's where there is a choice), and k stands alone on the diagonal of d. With u the DOFs that
+/// stay and s those replaced, x_s = B_s⁻ᵀ (d − B_uᵀ u), which is T, and M ← TᵀMT and so on. A rigid spring is the same
+/// without its opening, d = 0: an elimination, not a penalty.
+///
+/// A coordinate u bears the name of its DOF; points that lost a DOF are not complete in `independent`, so what is left
+/// of them, and the openings, are marked modal there: displacements are taken from T and `dofs`.
 ///
 /// Errors: InputError for a faulty contact, an unknown point, points of one name in both components, or rigid
 /// directions that depend on each other. Cost O(n³).
