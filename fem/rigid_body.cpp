@@ -1,6 +1,7 @@
 #include "fem/rigid_body.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace thinwall::fem {

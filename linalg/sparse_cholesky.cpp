@@ -2,6 +2,7 @@
 
 #include <cholmod.h>
 #include <metis.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <chrono>
@@ -9,12 +10,25 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
+
+extern "C" void openblas_set_num_threads(int);
 
 namespace thinwall::linalg {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// Threads of the libraries below for one call. CHOLMOD's own OpenMP loops ask for four threads whatever the machine has and
+/// spin between the small ones: allowing no active level turns them off. BLAS gets `blas` threads: all for a factorisation,
+/// whose large supernodes keep them busy, one for a solve, whose small products do not.
+struct LibraryThreads {
+  explicit LibraryThreads(int blas) {
+    omp_set_max_active_levels(0);
+    openblas_set_num_threads(blas);
+  }
+};
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -135,6 +149,7 @@ struct Factor {
     statistics.nonzeros = common.lnz;
     statistics.seconds_ordering = seconds_since(start);
     start = Clock::now();
+    const LibraryThreads threads(core::thread_count());
     cholmod_factorize(&S, L, &common);
     statistics.seconds_numeric = seconds_since(start);
     if (common.status == CHOLMOD_OUT_OF_MEMORY) {
@@ -144,6 +159,7 @@ struct Factor {
   }
 
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& B) const {
+    const LibraryThreads threads(1);
     cholmod_dense D = view(B);
     cholmod_dense* X = cholmod_solve(CHOLMOD_A, L, &D, &common);
     if (X == nullptr) throw core::NumericalError("out of memory in a solve with " + std::to_string(B.cols()) + " right-hand sides");

@@ -1,5 +1,7 @@
 #include "mesh/box.hpp"
 
+#include <Eigen/Geometry>
+
 namespace thinwall::mesh {
 
 FacetedSurface surface(const Box& box) {

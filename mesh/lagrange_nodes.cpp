@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <unordered_map>
 
 #include "core/error.hpp"
@@ -31,14 +32,13 @@ struct KeyHash {
 
 Key key_of(const std::array<int, 4>& tet, const std::array<int, 4>& alpha) {
   std::array<std::pair<int, int>, 4> parts{};
-  std::size_t count = 0;
   for (std::size_t k = 0; k < 4; ++k) {
-    if (alpha[k] > 0) parts[count++] = {tet[k], alpha[k]};
+    parts[k] = alpha[k] > 0 ? std::pair{tet[k], alpha[k]} : std::pair{std::numeric_limits<int>::max(), 0};
   }
-  std::sort(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count));
+  std::sort(parts.begin(), parts.end());
   Key key;
-  for (std::size_t k = 0; k < count; ++k) {
-    key.vertices[k] = parts[k].first;
+  for (std::size_t k = 0; k < 4; ++k) {
+    key.vertices[k] = parts[k].second > 0 ? parts[k].first : -1;
     key.weights[k] = static_cast<std::int8_t>(parts[k].second);
   }
   return key;

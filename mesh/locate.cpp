@@ -1,5 +1,6 @@
 #include "mesh/locate.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "mesh/tet_mesh.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 

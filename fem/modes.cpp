@@ -1,0 +1,59 @@
+#include "fem/modes.hpp"
+
+#include <numbers>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace thinwall::fem {
+
+namespace {
+
+double hertz(double lambda) { return std::sqrt(std::max(lambda, 0.0)) / (2.0 * std::numbers::pi); }
+
+linalg::Eigenpairs solve(const Model& model, const Factored& factored, const ModeOptions& options) {
+  if (options.up_to_hz) {
+    const double omega = 2.0 * std::numbers::pi * *options.up_to_hz;
+    return linalg::eigenpairs_up_to(model.K, model.M, inverse_of(factored), omega * omega);
+  }
+  return linalg::lowest_eigenpairs(model.K, model.M, inverse_of(factored), options.count + model.rigid_motions);
+}
+
+/// Counts the eigenvalues below a shift between the last mode found and the next one.
+bool none_missed(const Model& model, const linalg::Eigenpairs& pairs) {
+  const double last = pairs.lambda(pairs.lambda.size() - 1);
+  for (const double above : {1e-6, 1e-5, 1e-4}) {
+    const auto below = linalg::count_eigenvalues_below(model.K, model.M, last * (1.0 + above), model.node_of_row);
+    if (below) return *below == static_cast<int>(pairs.lambda.size());
+  }
+  return false;
+}
+
+}  // namespace
+
+Modes modes(const Model& model, const Factored& factored, const ModeOptions& options) {
+  Modes result;
+  result.rigid_motions = model.rigid_motions;
+  result.pairs = solve(model, factored, options);
+  if (result.pairs.status != linalg::EigenStatus::converged) {
+    throw core::NumericalError("the part's modes did not converge (" + std::to_string(result.pairs.lambda.size()) +
+                               " found): ask for fewer modes, or mesh more evenly");
+  }
+  auto& lambda = result.pairs.lambda;
+  if (lambda.size() <= result.rigid_motions) {
+    throw core::InputError("no elastic mode lies below the frequency that was asked for; raise modes.up_to");
+  }
+  const int rigid = result.rigid_motions;
+  if (rigid > 0 && lambda.head(rigid).cwiseAbs().maxCoeff() > 1e-6 * lambda(rigid)) {
+    throw core::NumericalError("a part with " + std::to_string(rigid) + " free rigid motions shows modes that are neither rigid nor " +
+                               "elastic: the mesh may have parts that hang together at a point or edge only");
+  }
+  result.residual = linalg::residuals(model.K, model.M, result.pairs);
+  result.residual.head(rigid).setZero();
+  result.frequency_hz = lambda.unaryExpr(&hertz);
+  result.frequency_hz.head(rigid).setZero();
+  if (options.verify_count) result.count_verified = none_missed(model, result.pairs);
+  return result;
+}
+
+}  // namespace thinwall::fem
