@@ -62,9 +62,10 @@ struct Table {
   }
   [[nodiscard]] std::vector<Table> tables(std::string_view name) const {
     const std::string prefix = table(name).path;
+    const int count = array_size(values, prefix);
     std::vector<Table> list;
-    for (int i = 0; i < array_size(values, prefix); ++i)
-      list.push_back({values, prefix + "[" + std::to_string(i) + "]"});
+    list.reserve(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) list.push_back({values, prefix + "[" + std::to_string(i) + "]"});
     return list;
   }
   [[nodiscard]] bool exists() const { return has_table(values, path); }
@@ -82,6 +83,7 @@ MeasuredFrf bind_measured(const Table& table, const std::filesystem::path& folde
 
 std::vector<MeasuredFrf> bind_all_measured(const std::vector<Table>& tables, const std::filesystem::path& folder) {
   std::vector<MeasuredFrf> list;
+  list.reserve(tables.size());
   for (const auto& table : tables) list.push_back(bind_measured(table, folder));
   return list;
 }
@@ -275,6 +277,7 @@ LobesOptions bind_lobes(const Table& table, const std::optional<Tool>& tool) {
 
 std::vector<std::string> point_names(const std::vector<Point>& points) {
   std::vector<std::string> names;
+  names.reserve(points.size());
   for (const auto& point : points) names.push_back(point.name);
   return names;
 }

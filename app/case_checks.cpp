@@ -51,6 +51,11 @@ void check_damping(const Case& source, Findings& findings) {
   }
 }
 
+void require_direction(const std::string& key, const std::string& dof, Findings& findings) {
+  if (dof.empty() || (dof.find('.') != std::string::npos && dof.find('.') + 1 < dof.size())) return;
+  findings.report(key, "\"" + dof + "\" names no direction; write for example \"" + point_of(dof) + ".x\"");
+}
+
 /// Dimension of an FRF per newton: m/N has s²/kg, a mobility s/kg, an accelerance 1/kg.
 void check_measured(const std::string& key, const MeasuredFrf& frf, Findings& findings) {
   const int time = frf.quantity == "receptance" ? 2 : frf.quantity == "mobility" ? 1 : 0;
@@ -68,11 +73,8 @@ void check_measured(const std::string& key, const MeasuredFrf& frf, Findings& fi
       findings.report(key + ".unit", error.what());
     }
   }
-  for (const auto& [name, dof] : {std::pair{".response", frf.response}, std::pair{".force", frf.force}}) {
-    if (!dof.empty() && (dof.find('.') == std::string::npos || dof.find('.') + 1 == dof.size())) {
-      findings.report(key + name, "\"" + dof + "\" names no direction; write for example \"" + dof + ".x\"");
-    }
-  }
+  require_direction(key + ".response", frf.response, findings);
+  require_direction(key + ".force", frf.force, findings);
   std::error_code ignored;
   if (!frf.file.empty() && !std::filesystem::is_regular_file(frf.file, ignored)) {
     findings.report(key + ".file", "there is no file \"" + frf.file.string() + "\"");

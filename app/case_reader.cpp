@@ -64,7 +64,7 @@ double read_integer(const toml::node& node, const Key& key) {
 }
 
 std::string read_choice(const toml::node& node, const Key& key) {
-  const std::string text = read_text(node);
+  std::string text = read_text(node);
   const auto allowed = choices(key);
   if (allowed.empty() || std::ranges::find(allowed, text) != allowed.end()) return text;
   std::string list;
@@ -365,8 +365,7 @@ void apply_override(toml::table& document, const Schema& schema, const std::stri
 
 std::filesystem::path case_file(const std::filesystem::path& folder_or_file) {
   std::error_code ignored;
-  const auto file =
-      std::filesystem::is_directory(folder_or_file, ignored) ? folder_or_file / "case.toml" : folder_or_file;
+  auto file = std::filesystem::is_directory(folder_or_file, ignored) ? folder_or_file / "case.toml" : folder_or_file;
   if (!std::filesystem::is_regular_file(file, ignored)) {
     throw InputError("no case at \"" + folder_or_file.string() +
                      "\": a case is a folder with a case.toml, or that file; \"thinwall init\" makes one");

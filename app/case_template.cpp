@@ -140,7 +140,7 @@ std::string case_template(const std::string& name) {
 
 std::filesystem::path write_template(const std::string& name, const std::filesystem::path& folder) {
   const std::string text = case_template(name);
-  const auto file = folder / "case.toml";
+  auto file = folder / "case.toml";
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)

@@ -54,7 +54,9 @@ struct Comparer {
     for (const auto& [name, value] : b.items()) names.insert(name);
     names.erase("timings_s");
     for (const auto& name : names) {
-      const std::string place = where.ends_with(": ") ? where + name : where + "." + name;
+      std::string place = where;
+      if (!where.ends_with(": ")) place += '.';
+      place += name;
       if (a.contains(name) && b.contains(name)) {
         node(place, a[name], b[name]);
       } else {

@@ -75,6 +75,7 @@ const NamedUnit& named_unit(std::string_view symbol, std::string_view whole) {
     if (unit.symbol == symbol) return unit;
   }
   std::vector<std::string> known;
+  known.reserve(units.size());
   for (const auto& unit : units) known.emplace_back(unit.symbol);
   throw InputError("unknown unit \"" + std::string(symbol) + "\" in \"" + std::string(whole) + "\"" +
                    did_you_mean(symbol, known) +
