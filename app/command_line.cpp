@@ -14,6 +14,7 @@
 #include "app/doctor.hpp"
 #include "app/log.hpp"
 #include "app/result_folder.hpp"
+#include "app/terminal_report.hpp"
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
@@ -33,7 +34,7 @@ struct Arguments {
   double tolerance = 1e-9;
 };
 
-ExitCode run(const Arguments& arguments, const RunCase& run_case) {
+ExitCode run(const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
   const int verbosity = arguments.quiet ? -1 : arguments.verbose ? 1 : 0;
   log_to_terminal(verbosity);
   if (arguments.threads > 0) core::set_thread_count(arguments.threads);
@@ -43,6 +44,7 @@ ExitCode run(const Arguments& arguments, const RunCase& run_case) {
   log_to_file(folder.path() / "run.log");
   const bool progress = !arguments.quiet && ::isatty(STDERR_FILENO) != 0;
   const RunResult result = run_case(source, {folder.path(), arguments.fresh, verbosity, progress});
+  out << terminal_report(result.summary, folder.path().string());
   return result.expectations_hold ? ExitCode::done : ExitCode::expectation;
 }
 
@@ -106,7 +108,7 @@ void describe(CLI::App& app, Arguments& arguments) {
 }
 
 ExitCode execute(const CLI::App& app, const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
-  if (app.got_subcommand("run")) return run(arguments, run_case);
+  if (app.got_subcommand("run")) return run(arguments, run_case, out);
   if (app.got_subcommand("check")) return check(arguments, out);
   if (app.got_subcommand("compare")) return compare(arguments, out);
   if (app.got_subcommand("init")) {

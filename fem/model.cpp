@@ -41,7 +41,7 @@ std::vector<int> rows_of(const std::vector<int>& nodes, const std::vector<int>& 
 
 Factored factorise(const Model& model) {
   if (model.rigid_motions == 0) return {linalg::SparseCholesky(model.K, model.node_of_row), 0.0};
-  const double sigma = -1e-9 * model.K.diagonal().sum() / model.M.diagonal().sum();
+  const double sigma = -1e-8 * model.K.diagonal().sum() / model.M.diagonal().sum();
   return {linalg::SparseCholesky(linalg::combine(1.0, model.K, -sigma, model.M), model.node_of_row), sigma};
 }
 

@@ -1,0 +1,61 @@
+#include "app/least_squares.hpp"
+
+#include <Eigen/QR>
+#include <vector>
+
+namespace thinwall::app {
+
+namespace {
+
+Eigen::VectorXd clamped(const Eigen::VectorXd& x) { return x.cwiseMax(0.0).cwiseMin(1.0); }
+
+/// Gauss-Newton step with the parameters that sit on a bound and push outwards held there.
+Eigen::VectorXd step_within_bounds(const LeastSquares& at) {
+  const Eigen::VectorXd downhill = -at.jacobian.transpose() * at.residuals;
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index k = 0; k < at.parameters.size(); ++k) {
+    const bool stuck = (at.parameters(k) <= 0.0 && downhill(k) < 0.0) || (at.parameters(k) >= 1.0 && downhill(k) > 0.0);
+    if (!stuck) free.push_back(k);
+  }
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(at.parameters.size());
+  if (free.empty()) return step;
+  const Eigen::VectorXd inner = at.jacobian(Eigen::all, free).colPivHouseholderQr().solve(-at.residuals);
+  step(free) = inner;
+  return clamped(at.parameters + step) - at.parameters;
+}
+
+}  // namespace
+
+LeastSquares bounded_least_squares(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& r, const Eigen::VectorXd& start,
+                                   double difference, double tolerance, int most_iterations) {
+  LeastSquares at;
+  at.parameters = clamped(start);
+  at.residuals = r(at.parameters);
+  at.jacobian.resize(at.residuals.size(), start.size());
+  at.evaluations = 1 + static_cast<int>(start.size());
+  for (Eigen::Index k = 0; k < start.size(); ++k) {
+    Eigen::VectorXd x = at.parameters;
+    const double h = x(k) + difference <= 1.0 ? difference : -difference;
+    x(k) += h;
+    at.jacobian.col(k) = (r(x) - at.residuals) / h;
+  }
+  for (int iteration = 0; iteration < most_iterations && !at.converged; ++iteration) {
+    Eigen::VectorXd step = step_within_bounds(at);
+    for (int halving = 0; halving < 6; ++halving, step *= 0.5) {
+      if (step.cwiseAbs().maxCoeff() < tolerance) {
+        at.converged = true;
+        break;
+      }
+      const Eigen::VectorXd tried = r(at.parameters + step);
+      ++at.evaluations;
+      at.jacobian += (tried - at.residuals - at.jacobian * step) * step.transpose() / step.squaredNorm();
+      if (tried.norm() >= at.residuals.norm()) continue;
+      at.parameters += step;
+      at.residuals = tried;
+      break;
+    }
+  }
+  return at;
+}
+
+}  // namespace thinwall::app

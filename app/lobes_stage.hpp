@@ -1,0 +1,12 @@
+#pragma once
+// Stability charts of the part alone and of the supported part.
+
+#include "app/case.hpp"
+#include "app/results.hpp"
+
+namespace thinwall::app {
+
+/// The chart of one structure at the case's cutting point. `structure` must hold that point.
+[[nodiscard]] NamedLobes compute_lobes(const Case& source, const std::string& name, const dynamics::ModalModel& structure);
+
+}  // namespace thinwall::app

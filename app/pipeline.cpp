@@ -1,0 +1,109 @@
+#include "app/pipeline.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <ctime>
+
+#include "app/case_reader.hpp"
+#include "app/expectation.hpp"
+#include "app/lobes_stage.hpp"
+#include "app/part_stage.hpp"
+#include "app/result_files.hpp"
+#include "app/results.hpp"
+#include "app/stages.hpp"
+#include "app/summary.hpp"
+#include "app/support_stage.hpp"
+#include "app/updating.hpp"
+#include "core/error.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+std::string now_utc() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+/// Mesh, fits of the part, the part itself. Parameters that were fitted are written into `work`.
+void run_part(Case& work, Results& results, Stages& stages) {
+  stages.begin("mesh");
+  mesh::TetMesh mesh = mesh_part(work);
+  const Eigen::Vector3d meshed_size = box_size(*work.part);
+  spdlog::info("{} tetrahedra, {} vertices", mesh.tets.size(), mesh.vertices.size());
+  for (const Updating& updating : work.updating) {
+    if (updating.on != "part") continue;
+    stages.begin("updating");
+    const Eigen::Vector3d size_before = box_size(*work.part);
+    results.updating.push_back(update_part(work, updating, stretched(mesh, meshed_size, size_before)));
+    spdlog::info("{}: {} evaluations", updating.name, results.updating.back().evaluations);
+  }
+  results.finite_elements = compute_part(work, stretched(std::move(mesh), meshed_size, box_size(*work.part)), stages);
+}
+
+/// Fits on the reduced part; damping may be among the parameters, so it is applied anew.
+void run_coupled_updating(Case& work, Results& results, Stages& stages) {
+  PartResult& part = *results.finite_elements;
+  for (const Updating& updating : work.updating) {
+    if (updating.on != "coupled") continue;
+    stages.begin("updating");
+    results.updating.push_back(update_coupled(work, updating, part.reduced->model));
+    part.damped = damped(work, part.reduced->model, part.identified);
+  }
+}
+
+void run_responses(const Case& work, Results& results, Stages& stages) {
+  const bool reduced = results.finite_elements && results.finite_elements->damped;
+  if (!reduced && work.measured_part.empty()) return;
+  stages.begin("receptances");
+  const dynamics::FrequencyAxis axis = frequency_axis(work);
+  results.part = reduced ? component(*results.finite_elements->damped, axis) : measured_part(work, axis);
+  if (work.robot) results.robot = robot_component(work, axis);
+  if (!work.robot || work.contacts.empty()) return;
+  stages.begin("coupling");
+  results.coupled = couple(work, *results.part, *results.robot);
+  results.reductions = reductions(work, *results.part, *results.coupled);
+  if (results.coupled->receptance.status == coupling::KernelStatus::ill_conditioned) {
+    spdlog::warn("the coupling's kernel is ill-conditioned at some line (condition up to {:.1e}): expect lost digits there",
+                 results.coupled->receptance.kernel_condition.maxCoeff());
+  }
+}
+
+void run_lobes(const Case& work, Results& results, Stages& stages) {
+  if (!work.lobes || !work.cutting || !work.tool) return;
+  if (!results.part || !results.part->modal) {
+    throw core::InputError("lobes need the part as a model (part.shape); from measured receptances alone they cannot be computed yet");
+  }
+  stages.begin("lobes");
+  results.lobes.push_back(compute_lobes(work, "part", *results.part->modal));
+  if (results.coupled && results.coupled->modal) results.lobes.push_back(compute_lobes(work, "supported", *results.coupled->modal));
+}
+
+}  // namespace
+
+RunResult run_case(const Case& source, const RunOptions& options) {
+  const std::string started = now_utc();
+  const auto expectations = read_expectations(source.file);
+  Stages stages(options.progress);
+  Results results;
+  Case work = source;
+  if (work.part) run_part(work, results, stages);
+  if (results.finite_elements && results.finite_elements->reduced) run_coupled_updating(work, results, stages);
+  run_responses(work, results, stages);
+  run_lobes(work, results, stages);
+  stages.begin("output");
+  write_results(options.out, source, results);
+  stages.end();
+  results.timings_s = stages.timings_s();
+  RunResult run{summary_of(work, results), true};
+  run.expectations_hold = add_checks(run.summary, expectations);
+  if (!run.expectations_hold) run.summary["status"] = "expectation_not_met";
+  write_summary(options.out, source, work, run.summary, started);
+  return run;
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,167 @@
+#include "app/result_files.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+
+#include "app/case_writer.hpp"
+#include "app/doctor.hpp"
+#include "core/atomic_file.hpp"
+#include "core/parallel.hpp"
+#include "io/csv_table.hpp"
+#include "io/manifest.hpp"
+#include "io/mat.hpp"
+#include "io/pvd.hpp"
+#include "io/response_csv.hpp"
+#include "io/vtu.hpp"
+#include "milling/stability.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string numbered(const std::string& stem, std::size_t number) {
+  char text[16];
+  std::snprintf(text, sizeof text, "_%02zu", number);
+  return stem + text;
+}
+
+/// One shape a file, and the collection that names them in order.
+struct ShapeSeries {
+  fs::path folder;
+  std::string stem;  ///< "part_mode", "coupled_mode"
+  std::vector<io::PvdEntry> entries;
+
+  void add(const fem::Model& model, const Eigen::VectorXd& free, double frequency_hz, double damping_ratio) {
+    const std::size_t number = entries.size() + 1;
+    const std::string file = numbered(stem, number) + ".vtu";
+    io::write_vtu(folder / file, model.nodes, {{"displacement", fem::displacements(model, free)}},
+                  {{"frequency_hz", frequency_hz}, {"damping_ratio", damping_ratio}});
+    entries.push_back({static_cast<double>(number), file});
+  }
+};
+
+void write_part_modes(const fs::path& folder, const Results& results) {
+  const PartResult& part = *results.finite_elements;
+  ShapeSeries series{folder, "part_mode", {}};
+  std::vector<double> ratios;
+  if (results.part && results.part->modal) {
+    for (const int k : dynamics::oscillating_modes(*results.part->modal)) ratios.push_back(dynamics::summarise(results.part->modal->poles(k)).damping_ratio);
+  }
+  std::vector<double> number;
+  std::vector<double> frequency;
+  std::vector<double> damping;
+  std::vector<double> residual;
+  for (Eigen::Index k = 0; k < part.modes.frequency_hz.size(); ++k) {
+    const auto elastic = static_cast<std::size_t>(std::max<Eigen::Index>(0, k - part.modes.rigid_motions));
+    const double zeta = k >= part.modes.rigid_motions && elastic < ratios.size() ? ratios[elastic] : 0.0;
+    series.add(part.model, part.modes.pairs.Phi.col(k), part.modes.frequency_hz(k), zeta);
+    number.push_back(static_cast<double>(k + 1));
+    frequency.push_back(part.modes.frequency_hz(k));
+    damping.push_back(zeta);
+    residual.push_back(part.modes.residual(k));
+  }
+  io::write_pvd(folder / "part.pvd", series.entries);
+  io::write_csv(folder / "modes.csv", {{"mode", number}, {"frequency_hz", frequency}, {"damping_ratio", damping}, {"relative_residual", residual}});
+}
+
+/// Coupled shapes on the part's mesh: u = T_CB q with q the part's rows of a coupled mode, turned so that the largest entry is
+/// real (a complex mode is drawn at the phase of its largest displacement).
+void write_coupled_modes(const fs::path& folder, const Results& results) {
+  const PartResult& part = *results.finite_elements;
+  const dynamics::ModalModel& modal = *results.coupled->modal;
+  const Eigen::MatrixXd& T = part.reduced->T;
+  const double highest = 2.0 * 3.14159265358979323846 * part.modes.frequency_hz.maxCoeff();
+  ShapeSeries series{folder, "coupled_mode", {}};
+  std::vector<double> number;
+  std::vector<double> frequency;
+  std::vector<double> damping;
+  for (const int k : dynamics::oscillating_modes(modal)) {
+    if (std::abs(modal.poles(k)) > highest) break;
+    Eigen::VectorXcd q = modal.right.col(k).head(T.cols());
+    Eigen::Index largest = 0;
+    q.cwiseAbs().maxCoeff(&largest);
+    q *= std::conj(q(largest)) / std::abs(q(largest));
+    Eigen::VectorXd shape = T * q.real();
+    shape /= shape.cwiseAbs().maxCoeff();
+    const auto summary = dynamics::summarise(modal.poles(k));
+    series.add(part.model, shape, summary.frequency_hz, summary.damping_ratio);
+    number.push_back(static_cast<double>(number.size() + 1));
+    frequency.push_back(summary.frequency_hz);
+    damping.push_back(summary.damping_ratio);
+  }
+  io::write_pvd(folder / "coupled.pvd", series.entries);
+  io::write_csv(folder / "coupled_modes.csv", {{"mode", number}, {"frequency_hz", frequency}, {"damping_ratio", damping}});
+}
+
+void write_frf(const fs::path& folder, const std::string& name, const dynamics::ResponseModel& response) {
+  io::write_response(folder / (name + ".csv"), response);
+}
+
+void write_lobes(const fs::path& folder, const NamedLobes& named) {
+  std::vector<double> speed;
+  std::vector<double> depth;
+  std::vector<double> chatter;
+  std::vector<double> error;
+  std::vector<std::string> kind;
+  std::vector<std::string> status;
+  for (const milling::LobeRow& row : named.lobes.rows) {
+    speed.push_back(row.spindle_speed_rpm);
+    depth.push_back(row.limiting_depth_m);
+    chatter.push_back(row.chatter_frequency_hz);
+    error.push_back(row.error_estimate);
+    kind.push_back(milling::name(row.kind));
+    status.push_back(milling::name(row.status));
+  }
+  io::write_csv(folder / (named.name + ".csv"),
+                {{"spindle_speed_rpm", speed}, {"limiting_depth_m", depth}, {"chatter_frequency_hz", chatter}, {"bifurcation", kind},
+                 {"error_estimate_relative", error}, {"status", status}},
+                {"method: " + named.lobes.method, "rows with status stable_to_depth_limit are stable up to the depth given, the limit of the chart"});
+}
+
+nlohmann::json records(const std::vector<io::FileRecord>& files) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const auto& file : files) list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
+  return list;
+}
+
+}  // namespace
+
+void write_results(const fs::path& folder, const Case&, const Results& results) {
+  for (const char* name : {"modes", "frf", "lobes", "models"}) {
+    fs::remove_all(folder / name);  // nothing of an earlier run stays beside the new files
+    fs::create_directories(folder / name);
+  }
+  if (results.finite_elements) write_part_modes(folder / "modes", results);
+  if (results.finite_elements && results.coupled && results.coupled->modal) write_coupled_modes(folder / "modes", results);
+  if (results.finite_elements && results.finite_elements->damped) io::write_mat(folder / "models" / "part.mat", *results.finite_elements->damped);
+  if (results.part) write_frf(folder / "frf", "part", results.part->response);
+  if (results.robot) write_frf(folder / "frf", "robot", results.robot->response);
+  if (results.coupled) {
+    write_frf(folder / "frf", "coupled_receptance", results.coupled->receptance.response);
+    if (results.coupled->spatial_response) write_frf(folder / "frf", "coupled_spatial", *results.coupled->spatial_response);
+  }
+  for (const auto& lobes : results.lobes) write_lobes(folder / "lobes", lobes);
+}
+
+void write_summary(const fs::path& folder, const Case& source, const Case& resolved, const nlohmann::json& summary, const std::string& started_utc) {
+  core::write_file_atomically(folder / "case.toml", source.source);
+  core::write_file_atomically(folder / "case.resolved.toml", resolved_text(resolved));
+  core::write_file_atomically(folder / "summary.json", summary.dump(2) + "\n");
+  nlohmann::json manifest;
+  manifest["program"] = {{"name", "thinwall"}, {"version", program_version()}, {"built_with", doctor_report()}};
+  manifest["threads"] = core::thread_count();
+  manifest["started_utc"] = started_utc;
+  manifest["timings_s"] = summary["timings_s"];
+  manifest["inputs"] = nlohmann::json::array();
+  for (const auto& input : input_files(source)) manifest["inputs"].push_back({{"name", input.string()}, {"sha256", io::sha256_of_file(input)}});
+  manifest["inputs"].push_back({{"name", source.file.string()}, {"sha256", io::sha256(source.source)}});
+  auto files = io::file_records(folder);
+  std::erase_if(files, [](const auto& file) { return file.name == "manifest.json" || file.name == "run.log"; });
+  manifest["outputs"] = records(files);
+  core::write_file_atomically(folder / "manifest.json", manifest.dump(2) + "\n");
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,21 @@
+#pragma once
+// The files of a result folder (docs/results.md).
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/case.hpp"
+#include "app/results.hpp"
+
+namespace thinwall::app {
+
+/// modes/, frf/, lobes/, models/: everything but the summary and the manifest. Each file whole or not at all.
+/// Throws DataError if one cannot be written.
+void write_results(const std::filesystem::path& folder, const Case& source, const Results& results);
+
+/// case.toml, case.resolved.toml, summary.json and, last, manifest.json with the SHA-256 of every input and output.
+/// `started_utc` as 2026-11-21T10:00:00Z.
+void write_summary(const std::filesystem::path& folder, const Case& source, const Case& resolved, const nlohmann::json& summary,
+                   const std::string& started_utc);
+
+}  // namespace thinwall::app

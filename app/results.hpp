@@ -1,0 +1,96 @@
+#pragma once
+// What the stages of a run hand to each other and to the output: one plain struct a stage.
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "coupling/receptance.hpp"
+#include "coupling/route_difference.hpp"
+#include "coupling/spatial.hpp"
+#include "dynamics/modal_model.hpp"
+#include "dynamics/response_model.hpp"
+#include "dynamics/spatial_model.hpp"
+#include "fem/modes.hpp"
+#include "milling/lobes.hpp"
+#include "reduction/craig_bampton.hpp"
+#include "reduction/identification.hpp"
+
+namespace thinwall::app {
+
+/// The part by finite elements, and its reduced model.
+struct PartResult {
+  fem::Model model;
+  fem::Modes modes;
+  double min_quality = 0.0;
+  double mass_difference = 0.0;                     ///< mass, centre, inertia: matrix against geometry, relative
+  reduction::Interface interface;
+  std::optional<reduction::CraigBampton> reduced;   ///< none without an interface
+  double frequency_error = 0.0;                     ///< of the reduced model, largest relative
+  std::optional<double> receptance_error;           ///< against direct solves of the full model, largest relative
+  std::vector<reduction::IdentifiedMode> identified;  ///< damping found in a measured FRF
+  std::optional<dynamics::SpatialModel> damped;     ///< the reduced model with its damping
+};
+
+/// A component as the coupling sees it: matrices where they are known, and its response on the axis of the run.
+struct Component {
+  std::optional<dynamics::SpatialModel> spatial;
+  std::optional<dynamics::ModalModel> modal;
+  dynamics::ResponseModel response;
+};
+
+/// Part and robot joined by both routes.
+struct CouplingResult {
+  coupling::CoupledResponse receptance;
+  std::optional<coupling::CoupledModel> model;              ///< none if a component is known by measurement only
+  std::optional<dynamics::ModalModel> modal;
+  std::optional<dynamics::ResponseModel> spatial_response;  ///< between the part's DOFs
+  std::optional<coupling::RouteDifference> difference;      ///< none if both components are measured
+};
+
+/// How much smaller the coupled receptance is at a resonance of the part.
+struct AmplitudeReduction {
+  std::string dof;
+  double frequency_hz = 0.0;
+  double alone = 0.0;      ///< |H|, m/N
+  double supported = 0.0;  ///< |G|, m/N
+};
+
+struct NamedLobes {
+  std::string name;  ///< "part", "supported"
+  milling::Lobes lobes;
+  std::optional<milling::LobeRow> at_spindle_speed;  ///< at the case's own speed
+};
+
+/// One fit of model updating.
+struct UpdatingResult {
+  struct Parameter {
+    std::string key;
+    double start = 0.0, fitted = 0.0, lower = 0.0, upper = 0.0;
+    bool at_bound = false;
+  };
+  struct Target {
+    std::string quantity;
+    double wanted = 0.0, reached = 0.0;
+    std::vector<double> sensitivity;  ///< relative change of the quantity per relative change of each parameter
+  };
+  std::string name;
+  std::vector<Parameter> parameters;
+  std::vector<Target> targets;
+  int evaluations = 0;
+  bool converged = false;
+};
+
+struct Results {
+  std::vector<UpdatingResult> updating;
+  std::optional<PartResult> finite_elements;
+  std::optional<Component> part;
+  std::optional<Component> robot;
+  std::optional<CouplingResult> coupled;
+  std::vector<AmplitudeReduction> reductions;
+  std::vector<NamedLobes> lobes;
+  std::vector<std::pair<std::string, double>> timings_s;  ///< stage, seconds, in the order they ran
+};
+
+}  // namespace thinwall::app

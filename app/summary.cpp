@@ -1,0 +1,188 @@
+#include "app/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/support_stage.hpp"
+#include "milling/stability.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+using nlohmann::json;
+
+json mode(double frequency_hz, double damping_ratio) { return {{"frequency_hz", frequency_hz}, {"damping_ratio", damping_ratio}}; }
+
+/// JSON has no infinity; what is not finite becomes null, and a script that needs the number notices.
+json finite(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+json mesh_of(const PartResult& part) {
+  return {{"nodes", part.model.nodes.positions.rows()},
+          {"elements", part.model.mesh.tets.size()},
+          {"order", part.model.nodes.order},
+          {"dofs", part.model.K.rows()},
+          {"min_quality", part.min_quality}};
+}
+
+/// Damping ratio of each full-model mode: that of the reduced model's mode of the same number, if it has one.
+json part_of(const Results& results) {
+  const PartResult& part = *results.finite_elements;
+  json modes = json::array();
+  std::vector<double> ratios;
+  if (results.part && results.part->modal) {
+    for (const int k : dynamics::oscillating_modes(*results.part->modal)) ratios.push_back(dynamics::summarise(results.part->modal->poles(k)).damping_ratio);
+  }
+  for (Eigen::Index k = 0; k < part.modes.frequency_hz.size(); ++k) {
+    const Eigen::Index elastic = k - part.modes.rigid_motions;
+    const bool known = elastic >= 0 && elastic < static_cast<Eigen::Index>(ratios.size());
+    json entry = mode(part.modes.frequency_hz(k), known ? ratios[static_cast<std::size_t>(elastic)] : 0.0);
+    entry["residual"] = part.modes.residual(k);
+    entry["inverse_residual"] = part.modes.pairs.inverse_residual(k);
+    if (elastic < 0) entry["rigid_body"] = true;
+    modes.push_back(entry);
+  }
+  const auto& mass = part.model.mass;
+  json result = {{"mass_kg", mass.mass_kg},
+                 {"centre_m", {mass.centre_m.x(), mass.centre_m.y(), mass.centre_m.z()}},
+                 {"mass_difference_relative", part.mass_difference},
+                 {"rigid_body_modes", part.modes.rigid_motions},
+                 {"modes", modes}};
+  if (part.modes.count_verified) result["count_verified"] = *part.modes.count_verified;
+  for (const auto& found : part.identified) {
+    json entry = mode(found.frequency_hz, found.damping_ratio);
+    entry["relative_misfit"] = found.relative_misfit;
+    result["identified"].push_back(entry);
+  }
+  return result;
+}
+
+json reduction_of(const PartResult& part) {
+  return {{"method", "craig_bampton"},
+          {"interface_dofs", part.interface.W.cols()},
+          {"kept_modes", part.reduced->fixed_interface_hz.size()},
+          {"size", part.reduced->model.size()},
+          {"max_relative_frequency_error", part.frequency_error},
+          {"max_relative_receptance_error", part.receptance_error ? json(*part.receptance_error) : json(nullptr)}};
+}
+
+json modes_of(const dynamics::ModalModel& model) {
+  json modes = json::array();
+  for (const int k : dynamics::oscillating_modes(model)) {
+    const auto m = dynamics::summarise(model.poles(k));
+    modes.push_back(mode(m.frequency_hz, m.damping_ratio));
+  }
+  return modes;
+}
+
+json robot_of(const Case& source, const Component& robot) {
+  return {{"model", source.robot->model}, {"modes", robot.modal ? modes_of(*robot.modal) : json::array()}};
+}
+
+json coupling_of(const Results& results) {
+  const CouplingResult& coupled = *results.coupled;
+  json result;
+  result["modes"] = coupled.modal ? modes_of(*coupled.modal) : json::array();
+  result["main_modes"] = json::array();
+  if (coupled.modal && !results.reductions.empty()) {
+    for (const auto& m : participating_modes(*coupled.modal, results.reductions.front().dof)) {
+      result["main_modes"].push_back({{"frequency_hz", m.frequency_hz}, {"static_share_m_per_n", m.share}});
+    }
+  }
+  if (coupled.difference) {
+    result["route_difference"] = {{"max_relative", coupled.difference->max_relative},
+                                  {"at_frequency_hz", coupled.difference->at_frequency_hz},
+                                  {"entry", coupled.difference->entry}};
+  } else {
+    result["route_difference"] = nullptr;
+  }
+  result["kernel_condition_max"] = finite(coupled.receptance.kernel_condition.maxCoeff());
+  result["reductions"] = json::array();
+  for (const AmplitudeReduction& r : results.reductions) {
+    result["reductions"].push_back({{"dof", r.dof},
+                                    {"frequency_hz", r.frequency_hz},
+                                    {"alone_m_per_n", r.alone},
+                                    {"supported_m_per_n", r.supported},
+                                    {"reduction", 1.0 - r.supported / r.alone}});
+  }
+  return result;
+}
+
+json row_of(const milling::LobeRow& row) {
+  return {{"spindle_speed_rpm", row.spindle_speed_rpm},
+          {"limiting_depth_m", row.limiting_depth_m},
+          {"at_depth_limit", row.at_limit},
+          {"chatter_frequency_hz", finite(row.chatter_frequency_hz)},
+          {"bifurcation", milling::name(row.kind)},
+          {"status", milling::name(row.status)},
+          {"error_estimate_relative", finite(row.error_estimate)}};
+}
+
+json lobes_of(const NamedLobes& named) {
+  const milling::Lobes& lobes = named.lobes;
+  const auto deepest = std::max_element(lobes.rows.begin(), lobes.rows.end(), [](const auto& a, const auto& b) {
+    return a.limiting_depth_m < b.limiting_depth_m;
+  });
+  json result = {{"name", named.name},
+                 {"method", lobes.method},
+                 {"minimum_depth_m", lobes.minimum_depth_m},
+                 {"at_spindle_speed_rpm", lobes.at_spindle_speed_rpm},
+                 {"maximum", row_of(*deepest)},
+                 {"error_estimate_relative", finite(lobes.worst_error_estimate)},
+                 {"static_compliance_left_out", finite(lobes.residual_share)},
+                 {"speeds", lobes.rows.size()},
+                 {"speeds_stable_to_depth_limit", lobes.rows_at_limit},
+                 {"speeds_not_converged", lobes.rows_not_converged}};
+  if (named.at_spindle_speed) result["at_case_speed"] = row_of(*named.at_spindle_speed);
+  return result;
+}
+
+json updating_of(const UpdatingResult& fit) {
+  json result = {{"name", fit.name}, {"evaluations", fit.evaluations}, {"converged", fit.converged}};
+  for (const auto& p : fit.parameters) {
+    result["parameters"].push_back({{"key", p.key}, {"start", p.start}, {"fitted", p.fitted}, {"lower", p.lower}, {"upper", p.upper}, {"at_bound", p.at_bound}});
+  }
+  for (const auto& t : fit.targets) {
+    result["targets"].push_back({{"quantity", t.quantity}, {"wanted", t.wanted}, {"reached", t.reached}, {"sensitivity", t.sensitivity}});
+  }
+  return result;
+}
+
+}  // namespace
+
+json summary_of(const Case& source, const Results& results) {
+  json summary = {{"schema", 1}, {"case", source.name}, {"title", source.title}, {"status", "ok"}};
+  summary["updating"] = json::array();
+  for (const auto& fit : results.updating) summary["updating"].push_back(updating_of(fit));
+  if (results.finite_elements) {
+    summary["mesh"] = mesh_of(*results.finite_elements);
+    summary["part"] = part_of(results);
+    if (results.finite_elements->reduced) summary["reduction"] = reduction_of(*results.finite_elements);
+  }
+  if (results.robot) summary["robot"] = robot_of(source, *results.robot);
+  if (results.coupled) summary["coupling"] = coupling_of(results);
+  summary["lobes"] = json::array();
+  for (const auto& lobes : results.lobes) summary["lobes"].push_back(lobes_of(lobes));
+  summary["checks"] = json::array();
+  for (const auto& [stage, seconds] : results.timings_s) summary["timings_s"][stage] = seconds;
+  return summary;
+}
+
+bool add_checks(json& summary, const std::vector<Expectation>& expectations) {
+  bool all = true;
+  for (const Expectation& expected : expectations) {
+    const ExpectationResult result = compare(expected, summary);
+    json check = {{"name", expected.name}, {"quantity", expected.quantity}, {"origin", expected.origin}, {"ok", result.ok}};
+    check["value"] = result.actual ? json(*result.actual) : json(nullptr);
+    check["expected"] = expected.value ? json(*expected.value) : json(nullptr);
+    if (expected.tolerance) check["tolerance"] = *expected.tolerance;
+    if (expected.relative && expected.value) check["tolerance"] = *expected.relative * std::abs(*expected.value);
+    if (expected.at_least) check["at_least"] = *expected.at_least;
+    if (expected.at_most) check["at_most"] = *expected.at_most;
+    summary["checks"].push_back(check);
+    all = all && result.ok;
+  }
+  return all;
+}
+
+}  // namespace thinwall::app

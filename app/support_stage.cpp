@@ -1,0 +1,164 @@
+#include "app/support_stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/measured.hpp"
+#include "core/error.hpp"
+#include "dynamics/conversion.hpp"
+#include "robot/measured.hpp"
+#include "robot/one_mode.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+/// Names of a contact's directed DOFs on the part, "P.x".
+std::vector<std::string> contact_dofs(const Case& source) {
+  std::vector<std::string> names;
+  for (const Contact& c : source.contacts) {
+    for (const auto& n : c.directions) names.push_back(dynamics::name({c.part_point, n, dynamics::DofKind::translation}));
+  }
+  return names;
+}
+
+bool has_dof(const dynamics::DofTable& dofs, const std::string& name) {
+  return std::any_of(dofs.begin(), dofs.end(), [&](const dynamics::Dof& d) { return dynamics::name(d) == name; });
+}
+
+/// Only the part's rows and columns of a coupled response.
+dynamics::ResponseModel part_block(const dynamics::ResponseModel& all, const dynamics::ResponseModel& part) {
+  dynamics::ResponseModel block;
+  block.axis = all.axis;
+  block.responses = part.responses;
+  block.forces = part.forces;
+  const auto n = static_cast<Eigen::Index>(part.responses.size());
+  for (const auto& H : all.H) block.H.emplace_back(H.topLeftCorner(n, n));
+  return block;
+}
+
+double peak_near(const dynamics::FrequencyAxis& axis, const Eigen::VectorXcd& H, double hz, Eigen::Index& line) {
+  double largest = -1.0;
+  for (Eigen::Index i = 0; i < axis.size(); ++i) {
+    if (std::abs(axis.hz(i) - hz) > 0.02 * hz || std::abs(H(i)) <= largest) continue;
+    largest = std::abs(H(i));
+    line = i;
+  }
+  return largest;
+}
+
+}  // namespace
+
+dynamics::FrequencyAxis frequency_axis(const Case& source) {
+  const ResponseOptions& r = source.response;
+  return r.logarithmic ? dynamics::logarithmic_axis(r.from_hz, r.to_hz, r.lines) : dynamics::linear_axis(r.from_hz, r.to_hz, r.lines);
+}
+
+Component component(dynamics::SpatialModel model, const dynamics::FrequencyAxis& axis) {
+  Component result;
+  result.modal = dynamics::to_modal(model.has_structural_damping() ? dynamics::equivalent_viscous(model) : model);
+  result.response = model.has_structural_damping() ? dynamics::direct_response(model, axis) : dynamics::to_response(*result.modal, axis);
+  result.spatial = std::move(model);
+  return result;
+}
+
+Component measured_part(const Case& source, const dynamics::FrequencyAxis& axis) {
+  Component part;
+  part.response = measured_response(source.measured_part, axis);
+  return part;
+}
+
+dynamics::SpatialModel robot_mode(const Robot& robot) {
+  const double k = *robot.stiffness;
+  robot::OneMode mode;
+  if (robot.mass) {
+    const double c = robot.damping ? *robot.damping : 2.0 * robot.damping_ratio.value_or(0.0) * std::sqrt(k * *robot.mass);
+    mode = {*robot.mass, c, k, robot.direction};
+  } else {
+    mode = robot::one_mode(*robot.frequency_hz, robot.damping_ratio.value_or(0.0), k, robot.direction);
+  }
+  return robot::spatial_model({mode}, robot.point);
+}
+
+Component robot_component(const Case& source, const dynamics::FrequencyAxis& axis) {
+  const Robot& robot = *source.robot;
+  if (robot.model == "one_mode") return component(robot_mode(robot), axis);
+  if (robot.measured.size() != 1) {
+    throw core::InputError("a measured robot is described by one direct receptance along robot.direction; the case gives " +
+                           std::to_string(robot.measured.size()) + " files");
+  }
+  Component result;
+  result.response = robot::measured_receptance(axis, io::resample(read_measured(robot.measured.front()), axis), robot.point, robot.direction);
+  return result;
+}
+
+std::vector<coupling::Contact> contacts_of(const Case& source) {
+  std::vector<coupling::Contact> contacts;
+  for (const Contact& c : source.contacts) {
+    coupling::Contact contact{c.part_point, c.robot_point, {}};
+    for (std::size_t i = 0; i < c.directions.size(); ++i) {
+      contact.springs.push_back({c.directions[i], c.stiffness[i], c.damping[i], c.loss_factor});
+    }
+    contacts.push_back(std::move(contact));
+  }
+  return contacts;
+}
+
+CouplingResult couple(const Case& source, const Component& part, const Component& robot) {
+  const auto contacts = contacts_of(source);
+  const dynamics::FrequencyAxis& axis = part.response.axis;
+  CouplingResult result{coupling::couple(part.response, robot.response, contacts), {}, {}, {}, {}};
+  if (part.spatial && robot.spatial) {
+    result.model = coupling::couple(*part.spatial, *robot.spatial, contacts);
+    coupling::CoupledModel viscous = *result.model;
+    if (viscous.independent.has_structural_damping()) viscous.independent = dynamics::equivalent_viscous(viscous.independent);
+    result.modal = coupling::to_modal(viscous);
+    result.spatial_response = part_block(coupling::direct_response(*result.model, axis), part.response);
+  } else if (part.spatial) {
+    result.spatial_response = coupling::direct_response(*part.spatial, robot.response, contacts, axis);
+  }
+  if (result.spatial_response) {
+    const std::string& point = source.contacts.front().part_point;
+    result.difference = coupling::route_difference(*result.spatial_response, part_block(result.receptance.response, part.response), point, point);
+  }
+  return result;
+}
+
+std::vector<Participation> participating_modes(const dynamics::ModalModel& model, const std::string& dof) {
+  const int row = dynamics::row_of(model.dofs, dof);
+  std::vector<Participation> all;
+  double largest = 0.0;
+  for (const int k : dynamics::oscillating_modes(model)) {
+    const double omega = std::abs(model.poles(k));
+    const double share = 2.0 * std::abs(model.right(row, k) * model.left(row, k) / model.scaling(k)) / omega;
+    all.push_back({omega / (2.0 * std::numbers::pi), share});
+    largest = std::max(largest, share);
+  }
+  std::erase_if(all, [&](const Participation& p) { return p.share < 0.1 * largest; });
+  return all;
+}
+
+std::vector<AmplitudeReduction> reductions(const Case& source, const Component& part, const CouplingResult& coupled) {
+  std::vector<AmplitudeReduction> result;
+  const dynamics::FrequencyAxis& axis = part.response.axis;
+  for (const std::string& dof : contact_dofs(source)) {
+    if (!has_dof(part.response.responses, dof)) continue;
+    const Eigen::VectorXcd H = dynamics::entry(part.response, dof, dof);
+    const Eigen::VectorXcd G = dynamics::entry(coupled.receptance.response, dof, dof);
+    std::vector<double> resonances;
+    if (part.modal) {
+      for (const auto& mode : participating_modes(*part.modal, dof)) resonances.push_back(mode.frequency_hz);
+    } else {
+      for (const auto& mode : reduction::identify_modes(axis, H)) resonances.push_back(mode.frequency_hz);
+    }
+    for (const double hz : resonances) {
+      Eigen::Index line = 0;
+      const double alone = peak_near(axis, H, hz, line);
+      if (alone > 0.0) result.push_back({dof, axis.hz(line), alone, std::abs(G(line))});
+    }
+  }
+  return result;
+}
+
+}  // namespace thinwall::app

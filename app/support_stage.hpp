@@ -1,0 +1,44 @@
+#pragma once
+// The components as the coupling sees them, and the part held by the robot.
+
+#include "app/case.hpp"
+#include "app/results.hpp"
+
+namespace thinwall::app {
+
+/// The axis of [response].
+[[nodiscard]] dynamics::FrequencyAxis frequency_axis(const Case& source);
+
+/// A component from its matrices: poles (structural damping taken as equivalent viscous) and receptances; with structural
+/// damping the receptances come from the matrices directly.
+[[nodiscard]] Component component(dynamics::SpatialModel model, const dynamics::FrequencyAxis& axis);
+
+/// The part from its measured FRFs.
+[[nodiscard]] Component measured_part(const Case& source, const dynamics::FrequencyAxis& axis);
+
+/// The robot's one mode as matrices.
+[[nodiscard]] dynamics::SpatialModel robot_mode(const Robot& robot);
+
+/// The robot as the case knows it.
+[[nodiscard]] Component robot_component(const Case& source, const dynamics::FrequencyAxis& axis);
+
+/// The contacts of the case.
+[[nodiscard]] std::vector<coupling::Contact> contacts_of(const Case& source);
+
+/// Both routes and their difference. Throws NumericalError if the kernel cannot be solved.
+[[nodiscard]] CouplingResult couple(const Case& source, const Component& part, const Component& robot);
+
+/// A mode that a DOF feels: its frequency, and its share φ²/ω² of the static receptance there.
+struct Participation {
+  double frequency_hz = 0.0;
+  double share = 0.0;
+};
+
+/// The modes that take part at a DOF by at least a tenth of the largest share, by rising frequency.
+[[nodiscard]] std::vector<Participation> participating_modes(const dynamics::ModalModel& model, const std::string& dof);
+
+/// Alone and supported at the participating modes of the part, at every contact direction: the largest |H| near the mode, and
+/// |G| at the same frequency.
+[[nodiscard]] std::vector<AmplitudeReduction> reductions(const Case& source, const Component& part, const CouplingResult& coupled);
+
+}  // namespace thinwall::app

@@ -1,0 +1,12 @@
+#pragma once
+// The table that a run prints: the answer first.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace thinwall::app {
+
+/// Plain text, at most 100 columns, from a summary. Ends with a line break.
+[[nodiscard]] std::string terminal_report(const nlohmann::json& summary, const std::string& result_folder);
+
+}  // namespace thinwall::app
