@@ -319,8 +319,8 @@ toml::table parse_document(const std::string& text, const std::string& name) {
 toml::table& descend(toml::table& table, std::string_view name, const std::string& path) {
   const auto bracket = name.find('[');
   if (bracket == std::string_view::npos) {
-    auto& node = *table.insert(name, toml::table{}).first;
-    if (auto* inner = node.second.as_table()) return *inner;
+    table.insert(name, toml::table{});
+    if (auto* inner = table.get(name)->as_table()) return *inner;
   } else if (auto* array = table[name.substr(0, bracket)].as_array()) {
     const std::size_t index = std::stoul("0" + std::string(name.substr(bracket + 1)));
     if (index < array->size() && (*array)[index].is_table()) return *(*array)[index].as_table();

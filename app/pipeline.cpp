@@ -35,7 +35,8 @@ void run_part(Case& work, Results& results, Stages& stages) {
   mesh::TetMesh mesh = mesh_part(work);
   const Eigen::Vector3d meshed_size = box_size(*work.part);
   spdlog::info("{} tetrahedra, {} vertices", mesh.tets.size(), mesh.vertices.size());
-  for (const Updating& updating : work.updating) {
+  const std::vector<Updating> fits = work.updating;  // a fit rewrites `work`
+  for (const Updating& updating : fits) {
     if (updating.on != "part") continue;
     stages.begin("updating");
     const Eigen::Vector3d size_before = box_size(*work.part);
@@ -48,7 +49,8 @@ void run_part(Case& work, Results& results, Stages& stages) {
 /// Fits on the reduced part; damping may be among the parameters, so it is applied anew.
 void run_coupled_updating(Case& work, Results& results, Stages& stages) {
   PartResult& part = *results.finite_elements;
-  for (const Updating& updating : work.updating) {
+  const std::vector<Updating> fits = work.updating;  // a fit rewrites `work`
+  for (const Updating& updating : fits) {
     if (updating.on != "coupled") continue;
     stages.begin("updating");
     results.updating.push_back(update_coupled(work, updating, part.reduced->model));

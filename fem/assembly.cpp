@@ -64,8 +64,9 @@ linalg::SparseMatrix blocks_on(const NodeGraph& graph, bool full) {
   const int nodes = static_cast<int>(graph.start.size()) - 1;
   const std::ptrdiff_t per_block_column = full ? 3 : 1;
   linalg::SparseMatrix A(3 * nodes, 3 * nodes);
-  A.resizeNonZeros(3 * per_block_column * graph.start.back());
-  std::fill_n(A.valuePtr(), A.nonZeros(), 0.0);
+  const std::ptrdiff_t entries = 3 * per_block_column * graph.start.back();
+  A.resizeNonZeros(entries);
+  std::fill_n(A.valuePtr(), entries, 0.0);
   int* row = A.innerIndexPtr();
   int* column = A.outerIndexPtr();
   int filled = 0;

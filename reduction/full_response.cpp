@@ -23,12 +23,12 @@ FullResponse full_response(const linalg::SparseMatrix& K, const linalg::SparseMa
   const Eigen::MatrixXd amplitude = interface.W.transpose() * Phi;
   Eigen::MatrixXd X = inverse.apply(W);
   Eigen::MatrixXd undamped = Eigen::MatrixXd::Zero(W.rows(), W.cols());  // the series at the highest frequency
-  std::vector<Eigen::MatrixXd> moments;
+  std::vector<Eigen::MatrixXd> moments;  // times ω_max^{2k}, which keeps them of one size
   for (double power = 1.0; power > 1e-14; power *= quotient) {
     X -= Phi * (MPhi.transpose() * X);
-    undamped += std::pow(omega_max, 2.0 * static_cast<double>(moments.size())) * X;
+    undamped += X;
     moments.emplace_back(interface.W.transpose() * X);
-    X = inverse.apply(M * X);
+    X = omega_max * omega_max * inverse.apply(M * X);
   }
   FullResponse result;
   const Eigen::VectorXd dynamic = (pairs.lambda.array() - omega_max * omega_max).inverse();
@@ -49,7 +49,7 @@ FullResponse full_response(const linalg::SparseMatrix& K, const linalg::SparseMa
     double power = 1.0;
     for (const auto& moment : moments) {
       H += power * moment;
-      power *= omega * omega;
+      power *= (omega / omega_max) * (omega / omega_max);
     }
     result.response.H.push_back(std::move(H));
   }
