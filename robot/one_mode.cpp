@@ -45,8 +45,7 @@ OneMode one_mode(double frequency_hz, double damping_ratio, double stiffness_n_m
   require(damping_ratio >= 0.0 && damping_ratio < 1.0, "damping ratio", damping_ratio, "it must be in [0, 1)");
   require(stiffness_n_m > 0.0 && std::isfinite(stiffness_n_m), "stiffness (N/m)", stiffness_n_m, "it must be positive");
   const double omega = 2.0 * std::numbers::pi * frequency_hz;
-  const OneMode mode{stiffness_n_m / (omega * omega), 2.0 * damping_ratio * stiffness_n_m / omega, stiffness_n_m,
-                     direction};
+  OneMode mode{stiffness_n_m / (omega * omega), 2.0 * damping_ratio * stiffness_n_m / omega, stiffness_n_m, direction};
   require_valid(mode);
   return mode;
 }
