@@ -47,6 +47,7 @@ struct CouplingResult {
   std::optional<dynamics::ModalModel> modal;
   std::optional<dynamics::ResponseModel> spatial_response;  ///< between the part's DOFs
   std::optional<coupling::RouteDifference> difference;      ///< none if both components are measured
+  std::vector<reduction::IdentifiedMode> identified;        ///< peaks of the coupled receptance where there is no modal model
 };
 
 /// How much smaller the coupled receptance is at a resonance of the part.

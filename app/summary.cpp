@@ -89,6 +89,11 @@ json coupling_of(const Results& results) {
       result["main_modes"].push_back({{"frequency_hz", m.frequency_hz}, {"static_share_m_per_n", m.share}});
     }
   }
+  for (const auto& found : coupled.identified) {
+    json entry = mode(found.frequency_hz, found.damping_ratio);
+    entry["relative_misfit"] = found.relative_misfit;
+    result["main_modes"].push_back(entry);
+  }
   if (coupled.difference) {
     result["route_difference"] = {{"max_relative", coupled.difference->max_relative},
                                   {"at_frequency_hz", coupled.difference->at_frequency_hz},

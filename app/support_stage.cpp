@@ -38,6 +38,15 @@ dynamics::ResponseModel part_block(const dynamics::ResponseModel& all, const dyn
   return block;
 }
 
+/// Peaks of a measured curve; none is an answer here.
+std::vector<reduction::IdentifiedMode> identified_peaks(const dynamics::FrequencyAxis& axis, const Eigen::VectorXcd& H) {
+  try {
+    return reduction::identify_modes(axis, H);
+  } catch (const core::InputError&) {
+    return {};
+  }
+}
+
 double peak_near(const dynamics::FrequencyAxis& axis, const Eigen::VectorXcd& H, double hz, Eigen::Index& line) {
   double largest = -1.0;
   for (Eigen::Index i = 0; i < axis.size(); ++i) {
@@ -108,7 +117,7 @@ std::vector<coupling::Contact> contacts_of(const Case& source) {
 CouplingResult couple(const Case& source, const Component& part, const Component& robot) {
   const auto contacts = contacts_of(source);
   const dynamics::FrequencyAxis& axis = part.response.axis;
-  CouplingResult result{coupling::couple(part.response, robot.response, contacts), {}, {}, {}, {}};
+  CouplingResult result{coupling::couple(part.response, robot.response, contacts), {}, {}, {}, {}, {}};
   if (part.spatial && robot.spatial) {
     result.model = coupling::couple(*part.spatial, *robot.spatial, contacts);
     coupling::CoupledModel viscous = *result.model;
@@ -121,6 +130,10 @@ CouplingResult couple(const Case& source, const Component& part, const Component
   if (result.spatial_response) {
     const std::string& point = source.contacts.front().part_point;
     result.difference = coupling::route_difference(*result.spatial_response, part_block(result.receptance.response, part.response), point, point);
+  }
+  const std::string dof = contact_dofs(source).front();
+  if (!result.modal && has_dof(part.response.responses, dof)) {
+    result.identified = identified_peaks(axis, dynamics::entry(result.receptance.response, dof, dof));
   }
   return result;
 }
@@ -150,7 +163,7 @@ std::vector<AmplitudeReduction> reductions(const Case& source, const Component& 
     if (part.modal) {
       for (const auto& mode : participating_modes(*part.modal, dof)) resonances.push_back(mode.frequency_hz);
     } else {
-      for (const auto& mode : reduction::identify_modes(axis, H)) resonances.push_back(mode.frequency_hz);
+      for (const auto& mode : identified_peaks(axis, H)) resonances.push_back(mode.frequency_hz);
     }
     for (const double hz : resonances) {
       Eigen::Index line = 0;

@@ -127,7 +127,10 @@ std::string terminal_report(const json& summary, const std::string& result_folde
   out.insert(0, "\n" + (title.empty() ? summary["case"].get<std::string>() : title) + "\n\n");
   if (summary.contains("part")) modes(out, "modes of the part", summary["part"]["modes"], 6);
   if (summary.contains("robot")) modes(out, "modes of the robot", summary["robot"]["modes"], 6);
-  if (summary.contains("coupling")) modes(out, "part with robot", summary["coupling"]["modes"], 6);
+  if (summary.contains("coupling")) {
+    const json& coupling = summary["coupling"];
+    modes(out, "part with robot", coupling["modes"].empty() ? coupling["main_modes"] : coupling["modes"], 6);
+  }
   charts(out, summary);
   out += '\n';
   updating(out, summary);

@@ -104,12 +104,17 @@ Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const
 
 Eigenpairs eigenpairs_up_to(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, double lambda_max) {
   const int most = static_cast<int>(K.rows()) - 1;
-  for (int count = std::min(most, 12);; count = std::min(most, 2 * count)) {
+  for (int count = std::min(most, 16);;) {
     Eigenpairs pairs = lowest_eigenpairs(K, M, inverse, count);
     if (pairs.status != EigenStatus::converged) return pairs;
-    const auto above = std::upper_bound(pairs.lambda.begin(), pairs.lambda.end(), lambda_max);
-    if (above == pairs.lambda.end() && count < most) continue;
-    const Eigen::Index kept = above - pairs.lambda.begin();
+    const double last = pairs.lambda(pairs.lambda.size() - 1);
+    if (last <= lambda_max && count < most) {
+      // The number of modes of a wall grows with the frequency, of a block with its cube: the next guess lies between.
+      const double octave = std::sqrt(lambda_max / std::max(last, 1e-6 * lambda_max));
+      count = std::min({most, 4 * count, static_cast<int>(1.1 * count * std::pow(octave, 1.3)) + 4});
+      continue;
+    }
+    const Eigen::Index kept = std::upper_bound(pairs.lambda.begin(), pairs.lambda.end(), lambda_max) - pairs.lambda.begin();
     pairs.lambda.conservativeResize(kept);
     pairs.inverse_residual.conservativeResize(kept);
     pairs.Phi.conservativeResize(Eigen::NoChange, kept);

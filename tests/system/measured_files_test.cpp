@@ -1,0 +1,70 @@
+// The prediction from two FRF files against the prediction from the model that they were made with.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "app/case_reader.hpp"
+#include "app/pipeline.hpp"
+#include "io/response_csv.hpp"
+#include "synthetic_measurement.hpp"
+
+namespace thinwall {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path cases = fs::path(THINWALL_SOURCE_DIR) / "cases";
+
+fs::path scratch(const std::string& name) {
+  const fs::path folder = fs::path(::testing::TempDir()) / name;
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(MeasuredCase, NoiseFreeFilesGiveTheModelsPredictionWithinAThousandthOfThePeak) {
+  app::Case model = app::read_case(cases / "barrios-2019", {"part.mesh.element_size=25 mm", "response.from=1 Hz", "response.to=1000 Hz",
+                                                            "response.lines=1999", "reduction.modes=40"});
+  model.updating.clear();
+  app::Stages stages(false);
+  const app::PartResult part = app::compute_part(model, app::mesh_part(model), stages);
+  const auto axis = app::frequency_axis(model);
+  const app::Component part_component = app::component(*part.damped, axis);
+  const app::Component robot = app::robot_component(model, axis);
+  const auto predicted = dynamics::entry(app::couple(model, part_component, robot).receptance.response, "P.x", "P.x");
+
+  const auto files = testing_support::measure(model, part, "P");
+  EXPECT_LT(files.relative_residual, 1e-7) << "the full model is solved, not approximated";
+  const fs::path folder = scratch("measured_noise_free");
+  std::ofstream(folder / "case.toml") << text_of(cases / "barrios-2019-measured" / "case.toml");
+  testing_support::write_measurement(folder / "part_xx.csv", "# noise-free\n", files.axis, files.part);
+  testing_support::write_measurement(folder / "robot_xx.csv", "# noise-free\n", files.axis, files.robot);
+  const app::Case measured = app::read_case(folder, {});
+  const fs::path out = scratch("measured_noise_free_out");
+  static_cast<void>(app::run_case(measured, {out, true, -1, false}));
+  const auto G = dynamics::entry(io::read_response(out / "frf" / "coupled_receptance.csv"), "P.x", "P.x");
+  ASSERT_EQ(G.size(), predicted.size());
+  const double difference = (G - predicted).cwiseAbs().maxCoeff() / predicted.cwiseAbs().maxCoeff();
+  std::printf("measured files against model: %.2e of the peak\n", difference);
+  EXPECT_LE(difference, 1e-3);
+}
+
+TEST(MeasuredCase, TheCommittedFilesSayWhatTheyAreAndMeetTheCasesExpectations) {
+  for (const char* name : {"part_xx.csv", "robot_xx.csv"}) {
+    const std::string text = text_of(cases / "barrios-2019-measured" / name);
+    EXPECT_NE(text.find("# synthetic"), std::string::npos) << name;
+    EXPECT_NE(text.find("seed"), std::string::npos) << name;
+  }
+  const app::RunResult run = app::run_case(app::read_case(cases / "barrios-2019-measured", {}), {scratch("measured_committed"), true, -1, false});
+  EXPECT_TRUE(run.expectations_hold) << run.summary["checks"].dump(2);
+}
+
+}  // namespace
+}  // namespace thinwall
