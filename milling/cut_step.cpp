@@ -50,12 +50,12 @@ Eigen::MatrixXd force_to_state(const ContactState& state, const Eigen::VectorXd&
 int nodes_of_step(double rate_times_step) {
   // c_n = (n!)⁴ / ((2n+1) ((2n)!)³), built up from c_1 = 1/24.
   double c = 1.0 / 24.0;
-  for (int n = 1; n < 8; ++n) {
-    if (n >= 2 && c * std::pow(rate_times_step, 2 * n) <= 1e-10) return n;
+  for (int n = 1; n < 10; ++n) {
+    if (n >= 2 && c * std::pow(2.0 * rate_times_step, 2 * n) <= 1e-9) return n;
     const double next = n + 1.0;
     c *= std::pow(next, 4) * (2.0 * n + 1.0) / ((2.0 * next + 1.0) * std::pow(2.0 * next * (2.0 * next - 1.0), 3));
   }
-  return 8;
+  return 10;
 }
 
 CutStep cut_step(const ContactState& state, double step_s, int nodes) {

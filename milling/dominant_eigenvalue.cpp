@@ -106,13 +106,14 @@ DominantEigenvalue dominant_eigenvalue_arnoldi(const LinearMap& map, Eigen::Inde
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(most + 1, most);
   V.col(0) = start_vector(size);
   DominantEigenvalue result;
-  Eigen::Index next_look = 16;
+  // A look costs as much as several vectors; few maps are done before this one.
+  Eigen::Index next_look = 20;
   for (Eigen::Index k = 1; k <= most; ++k) {
     const double rest = extend_basis(map, V, H, k - 1);
     if (!std::isfinite(rest)) return result;
     const bool last = k == most || rest == 0.0;
     if (k < next_look && !last) continue;
-    next_look = k + std::max<Eigen::Index>(6, k / 4);
+    next_look = k + k / 4;
     const Eigen::MatrixXd Hk = H.topLeftCorner(k, k);
     const auto values = ritz_values(Hk);
     if (values.empty()) return result;

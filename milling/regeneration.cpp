@@ -8,8 +8,6 @@ namespace thinwall::milling {
 
 namespace {
 
-constexpr double eigenvalue_tolerance = 1e-8;
-
 // Bound of ‖D(φ)‖ over the cut: one tooth's Frobenius norm does not depend on φ.
 double largest_stiffness(const MillingProcess& process) {
   int teeth = 0;
@@ -48,19 +46,18 @@ Regeneration::Regeneration(const RelativeStructure& structure, const ContactStat
       state_(state),
       process_(process),
       spindle_speed_rpm_(spindle_speed_rpm),
-      rate_rad_s_(std::max(fastest_pole(state), contact_rate(state, process, deepest_m))),
+      rate_rad_s_(std::hypot(fastest_pole(state), contact_rate(state, process, deepest_m))),
       mean_stiffness_(mean_stiffness(process)) {
   const double pitch = process.cutter.pitch_rad();
   cut_s_ = tooth_period_s(process.cutter, spindle_speed_rpm) * std::min(1.0, process.engagement.arc_rad() / pitch);
 }
 
-DominantEigenvalue Regeneration::multiplier(double depth_m, StepCount steps) {
+DominantEigenvalue Regeneration::multiplier(double depth_m, StepCount steps, double tolerance) {
   auto [found, is_new] =
       maps_.try_emplace(Key{steps.base, steps.division}, state_, process_, spindle_speed_rpm_, steps, rate_rad_s_);
   ToothPeriodMap& map = found->second;
   map.set_depth(depth_m);
-  return dominant_eigenvalue([&map](const auto& in, auto out) { map.apply(in, out); }, map.size(),
-                             eigenvalue_tolerance);
+  return dominant_eigenvalue([&map](const auto& in, auto out) { map.apply(in, out); }, map.size(), tolerance);
 }
 
 int Regeneration::resolving_steps(double depth_m) const {

@@ -16,8 +16,8 @@ class Regeneration {
   Regeneration(const RelativeStructure& structure, const ContactState& state, const MillingProcess& process,
                double spindle_speed_rpm, double deepest_m);
 
-  /// The dominant multiplier at depth `depth_m`, relative residual 1e-8.
-  DominantEigenvalue multiplier(double depth_m, StepCount steps);
+  /// The dominant multiplier at depth `depth_m`, to the given relative residual.
+  DominantEigenvalue multiplier(double depth_m, StepCount steps, double tolerance = 1e-7);
 
   /// Five steps a wave, over the cut, for the fastest mode that can regenerate at this depth; at least 8.
   [[nodiscard]] int resolving_steps(double depth_m) const;

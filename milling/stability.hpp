@@ -64,9 +64,9 @@ struct LobeRow {
 
 /// |μ| at a point, by first-order semi-discretization with m and 2m steps. The method is of second order, so with
 /// δ = |μ_2m| − |μ_m| the result is |μ_2m| + δ/3 (Richardson 1911) and the estimate |δ|/3, the distance from the finer
-/// of the two values. m is raised until the estimate meets the tolerance and 2m resolves the chatter frequency by ten
-/// steps a wave. Throws InputError for a bad process, option, speed or depth (≤ 0). Cost: two dominant eigenvalues for
-/// each m.
+/// of the two values, plus (ω_c Δ)⁴/10 for the term that is left where δ happens to vanish. m is raised until the
+/// estimate meets the tolerance and 2m resolves the chatter frequency by sixteen steps a wave. Throws InputError for a
+/// bad process, option, speed or depth (≤ 0). Cost: two dominant eigenvalues for each m.
 [[nodiscard]] Multiplier multiplier_at(const RelativeStructure& structure, const MillingProcess& process,
                                        double spindle_speed_rpm, double depth_m, const StabilityOptions& options);
 

@@ -76,10 +76,6 @@ TEST(Benchmark, LimitingDepthsLieWithinTheirErrorEstimateOfOnePercent) {
     // A change of 1 % in depth moves the multiplier by about as much, hence the frequency by 1 % of the tooth
     // frequency.
     EXPECT_NEAR(base_frequency(found.chatter_frequency_hz, row.rpm), row.base_hz, 0.01 * row.rpm / 30.0);
-    if (std::getenv("SHOW") != nullptr)
-      std::printf("%s: err %.2e est %.2e steps %d f %.1f\n", row.where().c_str(),
-                  found.limiting_depth_m / row.depth_m - 1, found.error_estimate, found.steps,
-                  found.chatter_frequency_hz);
   }
 }
 
@@ -94,9 +90,6 @@ TEST(Benchmark, MultipliersLieWithinTheirErrorEstimate) {
     EXPECT_LE(mu.error_estimate, 0.01);
     EXPECT_NEAR(mu.modulus / row.modulus, 1.0, mu.error_estimate);
     EXPECT_EQ(mu.kind, kind_of(row.kind));
-    if (std::getenv("SHOW") != nullptr)
-      std::printf("%s: err %.2e est %.2e steps %d f %.1f\n", row.where().c_str(), mu.modulus / row.modulus - 1,
-                  mu.error_estimate, mu.steps, mu.chatter_frequency_hz);
   }
 }
 

@@ -1,0 +1,161 @@
+#include "milling/lobes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "tests/milling/single_mode.hpp"
+
+namespace thinwall::milling {
+namespace {
+
+using testing::modal_model;
+
+RelativeStructure structure_of(const std::vector<testing::Mode>& modes) {
+  return relative_structure(modal_model(modes), "P");
+}
+
+const std::vector<testing::Mode> wall{{212.0, 0.01, 0.5, Eigen::Vector3d(1.0, 0.2, 0.1)},
+                                      {567.0, 0.02, 0.4, Eigen::Vector3d(0.8, -0.3, 0.0)}};
+
+MillingProcess wall_cut(MillingDirection direction) {
+  MillingProcess process;
+  process.cutter = {6, 0.016};
+  process.coefficients = {2e9, 0.8e9, 0.3e9, 0.0, 0.0, 0.0};
+  process.engagement = engagement_of(process.cutter, 0.2e-3, direction);
+  process.frame = {Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+  return process;
+}
+
+TEST(Lobes, TurningLimitIsTheClosedForm) {
+  // z ≥ 3 teeth in full immersion with K_t = 0 act as one constant K = z K_r/2 along x with the delay T: turning. At
+  // frequency ratio r: K w/k = ((1−r²)² + 4ζ²r²)/(2(r²−1)), 1/T = ω_n/2π · rπ/(jπ − atan((r²−1)/(2ζr))).
+  const double zeta = 0.02;
+  const double r = 1.05;
+  const double hz = 150.0;
+  const double mass = 0.8;
+  const double omega = 2.0 * std::numbers::pi * hz;
+  const double stiffness = mass * omega * omega;
+  MillingProcess process;
+  process.cutter = {4, 0.01};
+  process.coefficients = {0.0, 3e8, 0.0, 0.0, 0.0, 0.0};
+  process.engagement = {0.0, 2.0 * std::numbers::pi};
+  StabilityOptions options;
+  options.error_tolerance = 1e-3;
+  options.depth_limit_m = 0.05;
+  const double r2 = r * r;
+  const double depth = stiffness * (std::pow(1.0 - r2, 2) + 4.0 * zeta * zeta * r2) / (2.0 * (r2 - 1.0)) / (2.0 * 3e8);
+  for (const int j : {1, 2, 3}) {
+    const double delay_rate =
+        hz * r * std::numbers::pi / (j * std::numbers::pi - std::atan((r2 - 1.0) / (2.0 * zeta * r)));
+    const LobeRow row = limiting_depth(structure_of({{hz, zeta, mass, Eigen::Vector3d::UnitX()}}), process,
+                                       delay_rate * 60.0 / 4.0, options);
+    EXPECT_NEAR(row.limiting_depth_m / depth, 1.0, row.error_estimate) << "lobe " << j;
+    EXPECT_LE(row.error_estimate, 1e-3);
+    EXPECT_NEAR(row.chatter_frequency_hz, r * hz, 0.02) << "lobe " << j;
+    EXPECT_EQ(row.kind, Bifurcation::hopf);
+  }
+}
+
+TEST(Lobes, IsotropicStructureDoesNotFeelTheSenseOfMilling) {
+  const RelativeStructure s =
+      structure_of({{400.0, 0.02, 0.5, Eigen::Vector3d::UnitX()}, {400.0, 0.02, 0.5, Eigen::Vector3d::UnitY()}});
+  for (const double rpm : {1500.0, 2200.0}) {
+    const Multiplier up = multiplier_at(s, wall_cut(MillingDirection::up), rpm, 3e-3, {});
+    const Multiplier down = multiplier_at(s, wall_cut(MillingDirection::down), rpm, 3e-3, {});
+    // Rotating the structure and the cut together changes nothing; only the linear delayed term is not rotated exactly.
+    EXPECT_NEAR(up.modulus / down.modulus, 1.0, up.error_estimate + down.error_estimate);
+  }
+}
+
+TEST(Lobes, TwiceTheReceptanceHalvesTheDepth) {
+  const RelativeStructure one = structure_of(wall);
+  for (const double rpm : {1300.0, 1900.0}) {
+    const MillingProcess process = wall_cut(MillingDirection::down);
+    const LobeRow single = limiting_depth(one, process, rpm, {});
+    const LobeRow twice = limiting_depth(sum(one, one), process, rpm, {});
+    EXPECT_NEAR(2.0 * twice.limiting_depth_m / single.limiting_depth_m, 1.0,
+                single.error_estimate + twice.error_estimate);
+  }
+}
+
+TEST(Lobes, StiffenerBehindTheWallRaisesTheMinimum) {
+  // The same modal masses and damping constants with 20 times the damping ratio of the first mode and 1.4 times its
+  // frequency, as a robot behind the wall does.
+  std::vector<testing::Mode> backed = wall;
+  backed[0].frequency_hz *= 1.4;
+  backed[0].damping_ratio = 0.2;
+  backed[1].damping_ratio = 0.1;
+  const auto speeds = spindle_speeds(1000.0, 3000.0, 21);
+  const Lobes alone = stability_lobes(structure_of(wall), wall_cut(MillingDirection::down), speeds, {});
+  const Lobes held = stability_lobes(structure_of(backed), wall_cut(MillingDirection::down), speeds, {});
+  EXPECT_GT(held.minimum_depth_m, 3.0 * alone.minimum_depth_m);
+  EXPECT_EQ(alone.rows_not_converged, 0);
+  EXPECT_LE(alone.worst_error_estimate, 0.01);
+}
+
+TEST(Lobes, DoNotDependOnTheNumberOfThreads) {
+  const auto speeds = spindle_speeds(1000.0, 3000.0, 12);
+  const int before = core::thread_count();
+  core::set_thread_count(1);
+  const Lobes one = stability_lobes(structure_of(wall), wall_cut(MillingDirection::down), speeds, {});
+  core::set_thread_count(3);
+  const Lobes three = stability_lobes(structure_of(wall), wall_cut(MillingDirection::down), speeds, {});
+  core::set_thread_count(before);
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    EXPECT_EQ(one.rows[i].limiting_depth_m, three.rows[i].limiting_depth_m);
+    EXPECT_EQ(one.rows[i].chatter_frequency_hz, three.rows[i].chatter_frequency_hz);
+  }
+}
+
+TEST(Lobes, StableUpToTheLimitIsSaidAndNotCut) {
+  StabilityOptions options;
+  options.depth_limit_m = 1e-5;
+  const LobeRow row = limiting_depth(structure_of(wall), wall_cut(MillingDirection::down), 1900.0, options);
+  EXPECT_TRUE(row.at_limit);
+  EXPECT_EQ(row.status, StabilityStatus::stable_to_depth_limit);
+  EXPECT_EQ(row.limiting_depth_m, 1e-5);
+}
+
+TEST(Lobes, MultiplierCrossesOneAtTheLimitingDepth) {
+  for (const double rpm : {1100.0, 1900.0, 2700.0}) {
+    const MillingProcess process = wall_cut(MillingDirection::down);
+    const LobeRow row = limiting_depth(structure_of(wall), process, rpm, {});
+    EXPECT_LT(multiplier_at(structure_of(wall), process, rpm, 0.97 * row.limiting_depth_m, {}).modulus, 1.0);
+    EXPECT_GT(multiplier_at(structure_of(wall), process, rpm, 1.03 * row.limiting_depth_m, {}).modulus, 1.0);
+  }
+}
+
+TEST(Lobes, StepLimitIsAStatusWithTheErrorThatRemains) {
+  StabilityOptions options;
+  options.most_steps = 32;
+  options.error_tolerance = 1e-6;
+  const LobeRow row = limiting_depth(structure_of(wall), wall_cut(MillingDirection::down), 1100.0, options);
+  EXPECT_EQ(row.status, StabilityStatus::step_limit_reached);
+  EXPECT_GT(row.error_estimate, 1e-6);
+}
+
+TEST(Lobes, RefuseBadInput) {
+  const RelativeStructure s = structure_of(wall);
+  const MillingProcess good = wall_cut(MillingDirection::down);
+  MillingProcess bad = good;
+  bad.cutter.teeth = 0;
+  EXPECT_THROW((void)stability_lobes(s, bad, {1000.0}, {}), core::InputError);
+  EXPECT_THROW((void)stability_lobes(s, good, {}, {}), core::InputError);
+  EXPECT_THROW((void)stability_lobes(s, good, {1000.0, 0.0}, {}), core::InputError);
+  EXPECT_THROW((void)multiplier_at(s, good, 1000.0, -1e-3, {}), core::InputError);
+  EXPECT_THROW((void)spindle_speeds(0.0, 1000.0, 10), core::InputError);
+  EXPECT_THROW((void)spindle_speeds(1000.0, 1000.0, 10), core::InputError);
+  StabilityOptions options;
+  options.depth_limit_m = 0.0;
+  options.scan_ratio = 1.0;
+  options.most_steps = 1;
+  options.error_tolerance = 0.0;
+  EXPECT_EQ(validate(options).size(), 4u);
+  EXPECT_THROW((void)limiting_depth(s, good, 1000.0, options), core::InputError);
+}
+
+}  // namespace
+}  // namespace thinwall::milling
