@@ -14,6 +14,7 @@
 #include "app/summary.hpp"
 #include "app/support_stage.hpp"
 #include "app/updating.hpp"
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 
 namespace thinwall::app {
@@ -98,7 +99,9 @@ RunResult run_case(const Case& source, const RunOptions& options) {
   run_responses(work, results, stages);
   run_lobes(work, results, stages);
   stages.begin("output");
-  write_results(options.out, source, results);
+  const auto staging = core::partial_path(options.out / "results");
+  write_results(staging, results);
+  publish(staging, options.out);
   stages.end();
   results.timings_s = stages.timings_s();
   RunResult run{summary_of(work, results), true};

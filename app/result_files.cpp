@@ -1,18 +1,20 @@
 #include "app/result_files.hpp"
 
-#include <chrono>
+#include <array>
 #include <cstdio>
-#include <ctime>
+#include <numbers>
 
 #include "app/case_writer.hpp"
 #include "app/doctor.hpp"
 #include "core/atomic_file.hpp"
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "io/csv_table.hpp"
 #include "io/manifest.hpp"
 #include "io/mat.hpp"
 #include "io/pvd.hpp"
 #include "io/response_csv.hpp"
+#include "io/uff.hpp"
 #include "io/vtu.hpp"
 #include "milling/stability.hpp"
 
@@ -21,6 +23,8 @@ namespace thinwall::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::array subfolders{"modes", "frf", "lobes", "models"};
 
 std::string numbered(const std::string& stem, std::size_t number) {
   char text[16];
@@ -73,7 +77,7 @@ void write_coupled_modes(const fs::path& folder, const Results& results) {
   const PartResult& part = *results.finite_elements;
   const dynamics::ModalModel& modal = *results.coupled->modal;
   const Eigen::MatrixXd& T = part.reduced->T;
-  const double highest = 2.0 * 3.14159265358979323846 * part.modes.frequency_hz.maxCoeff();
+  const double highest = 2.0 * std::numbers::pi * part.modes.frequency_hz.maxCoeff();
   ShapeSeries series{folder, "coupled_mode", {}};
   std::vector<double> number;
   std::vector<double> frequency;
@@ -98,6 +102,7 @@ void write_coupled_modes(const fs::path& folder, const Results& results) {
 
 void write_frf(const fs::path& folder, const std::string& name, const dynamics::ResponseModel& response) {
   io::write_response(folder / (name + ".csv"), response);
+  io::write_uff(folder / (name + ".uff"), response);
 }
 
 void write_lobes(const fs::path& folder, const NamedLobes& named) {
@@ -129,11 +134,8 @@ nlohmann::json records(const std::vector<io::FileRecord>& files) {
 
 }  // namespace
 
-void write_results(const fs::path& folder, const Case&, const Results& results) {
-  for (const char* name : {"modes", "frf", "lobes", "models"}) {
-    fs::remove_all(folder / name);  // nothing of an earlier run stays beside the new files
-    fs::create_directories(folder / name);
-  }
+void write_results(const fs::path& folder, const Results& results) {
+  for (const char* name : subfolders) fs::create_directories(folder / name);
   if (results.finite_elements) write_part_modes(folder / "modes", results);
   if (results.finite_elements && results.coupled && results.coupled->modal) write_coupled_modes(folder / "modes", results);
   if (results.finite_elements && results.finite_elements->damped) io::write_mat(folder / "models" / "part.mat", *results.finite_elements->damped);
@@ -144,6 +146,18 @@ void write_results(const fs::path& folder, const Case&, const Results& results) 
     if (results.coupled->spatial_response) write_frf(folder / "frf", "coupled_spatial", *results.coupled->spatial_response);
   }
   for (const auto& lobes : results.lobes) write_lobes(folder / "lobes", lobes);
+}
+
+void publish(const fs::path& staging, const fs::path& folder) {
+  try {
+    for (const char* name : subfolders) {
+      fs::remove_all(folder / name);  // nothing of an earlier run stays beside the new files
+      fs::rename(staging / name, folder / name);
+    }
+    fs::remove_all(staging);
+  } catch (const fs::filesystem_error& error) {
+    throw core::DataError(std::string("cannot replace the results of an earlier run: ") + error.what());
+  }
 }
 
 void write_summary(const fs::path& folder, const Case& source, const Case& resolved, const nlohmann::json& summary, const std::string& started_utc) {

@@ -9,9 +9,13 @@
 
 namespace thinwall::app {
 
-/// modes/, frf/, lobes/, models/: everything but the summary and the manifest. Each file whole or not at all.
-/// Throws DataError if one cannot be written.
-void write_results(const std::filesystem::path& folder, const Case& source, const Results& results);
+/// modes/, frf/, lobes/, models/ below `folder`: everything but the summary and the manifest. Throws DataError if a file
+/// cannot be written.
+void write_results(const std::filesystem::path& folder, const Results& results);
+
+/// Moves what write_results() left in `staging` into the result folder, in place of an earlier run's: until then an
+/// interrupted run changes nothing there.
+void publish(const std::filesystem::path& staging, const std::filesystem::path& folder);
 
 /// case.toml, case.resolved.toml, summary.json and, last, manifest.json with the SHA-256 of every input and output.
 /// `started_utc` as 2026-11-21T10:00:00Z.

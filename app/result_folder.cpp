@@ -78,7 +78,7 @@ void remove_unfinished_files(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (core::is_partial_name(entry.path())) unfinished.push_back(entry.path());
   }
-  for (const auto& file : unfinished) std::filesystem::remove(file);
+  for (const auto& path : unfinished) std::filesystem::remove_all(path);
 }
 
 }  // namespace thinwall::app

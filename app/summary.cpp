@@ -169,6 +169,7 @@ json summary_of(const Case& source, const Results& results) {
   summary["lobes"] = json::array();
   for (const auto& lobes : results.lobes) summary["lobes"].push_back(lobes_of(lobes));
   summary["checks"] = json::array();
+  summary["timings_s"] = json::object();
   for (const auto& [stage, seconds] : results.timings_s) summary["timings_s"][stage] = seconds;
   return summary;
 }

@@ -136,7 +136,7 @@ std::string terminal_report(const json& summary, const std::string& result_folde
   updating(out, summary);
   trust(out, summary);
   checks(out, summary);
-  out += fmt::format("\n  {:.1f} s; results in {}\n", summary["timings_s"]["total"].get<double>(), result_folder);
+  out += fmt::format("\n  {:.1f} s; results in {}\n", summary["timings_s"].value("total", 0.0), result_folder);
   return out;
 }
 

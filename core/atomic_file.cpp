@@ -26,14 +26,6 @@ constexpr std::string_view partial_mark = ".partial-";
                   "\": " + std::generic_category().message(error) + "; " + remedy);
 }
 
-std::filesystem::path partial_path(const std::filesystem::path& target) {
-  static std::atomic<int> counter{0};
-  std::ostringstream name;
-  name << '.' << target.stem().string() << partial_mark << ::getpid() << '-' << counter++
-       << target.extension().string();
-  return target.parent_path() / name.str();
-}
-
 /// A descriptor that closes itself.
 struct Descriptor {
   int value = -1;
@@ -55,6 +47,14 @@ void write_all(int descriptor, std::string_view content, const std::filesystem::
 }
 
 }  // namespace
+
+std::filesystem::path partial_path(const std::filesystem::path& target) {
+  static std::atomic<int> counter{0};
+  std::ostringstream name;
+  name << '.' << target.stem().string() << partial_mark << ::getpid() << '-' << counter++
+       << target.extension().string();
+  return target.parent_path() / name.str();
+}
 
 PartialFile::PartialFile(std::filesystem::path target) : target_(std::move(target)), partial_(partial_path(target_)) {
   std::error_code error;

@@ -29,6 +29,9 @@ class PartialFile {
   std::filesystem::path partial_;
 };
 
+/// A name beside `target` that is_partial_name() knows and nobody else uses, for an unfinished file or folder.
+[[nodiscard]] std::filesystem::path partial_path(const std::filesystem::path& target);
+
 /// True for the names that PartialFile gives to unfinished files: leftovers of a killed run can be told and removed.
 [[nodiscard]] bool is_partial_name(const std::filesystem::path& path);
 

@@ -39,7 +39,8 @@ class MassOperator {
   [[nodiscard]] Eigen::Index rows() const { return M_.rows(); }
   [[nodiscard]] Eigen::Index cols() const { return M_.cols(); }
   void perform_op(const double* x_in, double* y_out) const {
-    Eigen::Map<Eigen::VectorXd>(y_out, M_.rows()) = M_ * Eigen::Map<const Eigen::VectorXd>(x_in, M_.rows());
+    Eigen::Map<Eigen::VectorXd>(y_out, M_.rows()) =
+        M_.transpose() * Eigen::Map<const Eigen::VectorXd>(x_in, M_.rows());  // M is symmetric; its columns gather faster
   }
 
  private:

@@ -1,0 +1,133 @@
+// The program as a user runs it: a process, its exit code, what it leaves.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "core/atomic_file.hpp"
+
+namespace thinwall {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string program = std::string(THINWALL_BUILD_DIR) + "/app/thinwall";
+const std::string wall = std::string(THINWALL_SOURCE_DIR) + "/cases/cantilever-wall";
+const std::string plate = std::string(THINWALL_SOURCE_DIR) + "/cases/barrios-2019";
+
+fs::path scratch(const std::string& name) {
+  const fs::path folder = fs::path(::testing::TempDir()) / name;
+  fs::remove_all(folder);
+  return folder;
+}
+
+pid_t start(const std::vector<std::string>& words, const fs::path& output) {
+  const pid_t pid = fork();
+  if (pid != 0) return pid;
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};
+  for (const auto& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  if (std::freopen(output.c_str(), "w", stdout) == nullptr || std::freopen("/dev/null", "w", stderr) == nullptr) _exit(99);
+  execv(program.c_str(), argv.data());
+  _exit(99);
+}
+
+int exit_code(pid_t pid) {
+  int status = 0;
+  waitpid(pid, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+int run(const std::vector<std::string>& words, const fs::path& output = "/dev/null") { return exit_code(start(words, output)); }
+
+std::vector<fs::path> unfinished(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (core::is_partial_name(entry.path())) found.push_back(entry.path());
+  }
+  return found;
+}
+
+nlohmann::json summary_in(const fs::path& folder) {
+  std::ifstream file(folder / "summary.json");
+  return nlohmann::json::parse(file);
+}
+
+const std::vector<std::string> quick{"--set", "part.mesh.element_size=25 mm", "--set", "lobes.count=6", "--set", "response.lines=200",
+                                     "--set", "reduction.modes=20"};
+
+std::vector<std::string> words(const std::string& verb, const std::string& source, const fs::path& out, const std::vector<std::string>& more) {
+  std::vector<std::string> all{verb, source, "--out", out.string()};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+TEST(Run, LeavesEveryFileOfAResultFolder) {
+  const fs::path out = scratch("run_plate");
+  const fs::path table = scratch("run_plate.txt");
+  const int code = run(words("run", plate, out, quick), table);
+  EXPECT_TRUE(code == 0 || code == 6) << code;
+  for (const char* name : {"summary.json", "manifest.json", "case.toml", "case.resolved.toml", "run.log", "modes/part.pvd", "modes/part_mode_01.vtu",
+                           "modes/coupled.pvd", "modes/coupled_mode_01.vtu", "modes/modes.csv", "frf/part.csv", "frf/part.uff", "frf/robot.csv",
+                           "frf/coupled_receptance.csv", "frf/coupled_spatial.csv", "lobes/part.csv", "lobes/supported.csv", "models/part.mat"}) {
+    EXPECT_TRUE(fs::exists(out / name)) << name;
+  }
+  EXPECT_TRUE(unfinished(out).empty());
+  const auto summary = summary_in(out);
+  EXPECT_LE(summary["coupling"]["route_difference"]["max_relative"].get<double>(), 1e-9);
+  EXPECT_LE(summary["part"]["mass_difference_relative"].get<double>(), 1e-9);
+  std::ifstream text(table);
+  std::string all((std::istreambuf_iterator<char>(text)), {});
+  EXPECT_NE(all.find("part alone"), std::string::npos) << "the answer comes first";
+}
+
+TEST(Run, TheResolvedCaseGivesTheSameNumbersAndAnotherRunDoesToo) {
+  const fs::path a = scratch("run_same_a");
+  const fs::path b = scratch("run_same_b");
+  const std::vector<std::string> small{"--set", "part.mesh.element_size=12 mm", "--set", "lobes.count=4", "--set", "response.lines=100",
+                                       "--set", "reduction.modes=10"};
+  ASSERT_EQ(run(words("run", wall, a, small)), 0);
+  auto one_thread = words("run", (a / "case.resolved.toml").string(), b, {"--threads", "1"});
+  ASSERT_EQ(run(one_thread), 0);
+  EXPECT_EQ(run({"compare", a.string(), b.string(), "--tolerance", "1e-6"}), 0) << "numbers do not depend on threads or on how a default was written";
+}
+
+TEST(Run, InterruptionAtAnyStageLeavesTheEarlierResultsAlone) {
+  const fs::path out = scratch("run_interrupted");
+  fs::create_directories(out);
+  core::write_file_atomically(out / "summary.json", "{\"earlier\": true}\n");
+  int interrupted = 0;
+  for (const int milliseconds : {20, 150, 500, 1000, 2000}) {
+    const pid_t pid = start(words("run", wall, out, {}), "/dev/null");
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    kill(pid, SIGINT);
+    const int code = exit_code(pid);
+    // Before the handlers stand, the signal ends the process itself (-1); after the end there is nothing to interrupt (0).
+    EXPECT_TRUE(code == 130 || code == -1 || code == 0) << code;
+    if (code == 0) break;
+    interrupted += code == 130 ? 1 : 0;
+    EXPECT_TRUE(summary_in(out).contains("earlier"));
+    EXPECT_FALSE(fs::exists(out / "modes"));
+    EXPECT_TRUE(code == -1 || unfinished(out).empty());
+  }
+  EXPECT_GE(interrupted, 2);
+}
+
+TEST(Run, TwoRunsDoNotMeetInOneFolder) {
+  const fs::path out = scratch("run_twice");
+  const pid_t first = start(words("run", wall, out, {}), "/dev/null");
+  while (!fs::exists(out / "run.log")) std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the folder is taken
+  EXPECT_EQ(run(words("run", wall, out, {})), 4);
+  kill(first, SIGINT);
+  EXPECT_EQ(exit_code(first), 130);
+}
+
+}  // namespace
+}  // namespace thinwall
