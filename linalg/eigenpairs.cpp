@@ -2,6 +2,7 @@
 
 #include <Spectra/SymGEigsShiftSolver.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
@@ -132,8 +133,10 @@ Eigenpairs dense_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const 
   }
   const Eigen::MatrixXd Kz = Z.transpose() * (K * Z);
   const Eigen::MatrixXd Mz = Z.transpose() * (M * Z);
+  // Eigen's solver factors M itself but does not say whether that went well.
+  const bool positive = Mz.llt().info() == Eigen::Success;
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(0.5 * (Kz + Kz.transpose()), 0.5 * (Mz + Mz.transpose()));
-  if (dense.info() != Eigen::Success) throw core::NumericalError("the mass matrix of a dense eigenproblem is not positive definite");
+  if (!positive || dense.info() != Eigen::Success) throw core::NumericalError("the mass matrix of a dense eigenproblem is not positive definite");
   Eigenpairs pairs;
   pairs.lambda = dense.eigenvalues();
   pairs.Phi = Z * dense.eigenvectors();

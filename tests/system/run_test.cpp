@@ -92,7 +92,7 @@ TEST(Run, TheResolvedCaseGivesTheSameNumbersAndAnotherRunDoesToo) {
   const fs::path a = scratch("run_same_a");
   const fs::path b = scratch("run_same_b");
   const std::vector<std::string> small{"--set", "part.mesh.element_size=12 mm", "--set", "lobes.count=4", "--set", "response.lines=100",
-                                       "--set", "reduction.modes=10"};
+                                       "--set", "reduction.up_to=8 kHz"};
   ASSERT_EQ(run(words("run", wall, a, small)), 0);
   auto one_thread = words("run", (a / "case.resolved.toml").string(), b, {"--threads", "1"});
   ASSERT_EQ(run(one_thread), 0);
