@@ -7,7 +7,9 @@ namespace thinwall::app {
 
 namespace {
 
-Eigen::VectorXd clamped(const Eigen::VectorXd& x) { return x.cwiseMax(0.0).cwiseMin(1.0); }
+Eigen::VectorXd clamped(const Eigen::VectorXd& x) {
+  return x.cwiseMax(0.0).cwiseMin(1.0);
+}
 
 /// Gauss-Newton step with the parameters that sit on a bound and push outwards held there.
 Eigen::VectorXd step_within_bounds(const LeastSquares& at) {
@@ -26,8 +28,9 @@ Eigen::VectorXd step_within_bounds(const LeastSquares& at) {
 
 }  // namespace
 
-LeastSquares bounded_least_squares(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& r, const Eigen::VectorXd& start,
-                                   double difference, double tolerance, int most_iterations) {
+LeastSquares bounded_least_squares(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& r,
+                                   const Eigen::VectorXd& start, double difference, double tolerance,
+                                   int most_iterations) {
   LeastSquares at;
   at.parameters = clamped(start);
   at.residuals = r(at.parameters);

@@ -2,10 +2,10 @@
 
 #include <numbers>
 
+#include "dynamics/conversion.hpp"
 #include "milling/process.hpp"
 #include "milling/stability.hpp"
 #include "robot/one_mode.hpp"
-#include "dynamics/conversion.hpp"
 
 namespace thinwall::app {
 
@@ -16,8 +16,8 @@ milling::MillingProcess process_of(const Case& source) {
   milling::MillingProcess process;
   process.cutter = {source.tool->teeth, source.tool->diameter};
   process.coefficients = {c.Kt, c.Kr, c.Ka, c.Kte, c.Kre, c.Kae};
-  process.engagement = milling::engagement_of(process.cutter, c.radial_depth,
-                                              c.down_milling ? milling::MillingDirection::down : milling::MillingDirection::up);
+  process.engagement = milling::engagement_of(
+      process.cutter, c.radial_depth, c.down_milling ? milling::MillingDirection::down : milling::MillingDirection::up);
   process.frame = {c.feed_direction, c.tool_axis};
   return process;
 }
@@ -25,8 +25,10 @@ milling::MillingProcess process_of(const Case& source) {
 milling::RelativeStructure with_tool(const Case& source, milling::RelativeStructure structure) {
   if (source.tool->modes.empty()) return structure;
   std::vector<robot::OneMode> modes;
-  for (const ToolMode& m : source.tool->modes) modes.push_back(robot::one_mode(m.frequency_hz, m.damping_ratio, m.stiffness, m.direction));
-  return milling::sum(structure, milling::relative_structure(dynamics::to_modal(robot::spatial_model(modes, "tool")), "tool"));
+  for (const ToolMode& m : source.tool->modes)
+    modes.push_back(robot::one_mode(m.frequency_hz, m.damping_ratio, m.stiffness, m.direction));
+  return milling::sum(structure,
+                      milling::relative_structure(dynamics::to_modal(robot::spatial_model(modes, "tool")), "tool"));
 }
 
 }  // namespace
@@ -34,7 +36,8 @@ milling::RelativeStructure with_tool(const Case& source, milling::RelativeStruct
 NamedLobes compute_lobes(const Case& source, const std::string& name, const dynamics::ModalModel& structure) {
   const LobesOptions& wanted = *source.lobes;
   dynamics::ModalModel kept = structure;
-  if (wanted.modes_up_to_hz) kept = dynamics::truncate(structure, 2.0 * std::numbers::pi * *wanted.modes_up_to_hz, true);
+  if (wanted.modes_up_to_hz)
+    kept = dynamics::truncate(structure, 2.0 * std::numbers::pi * *wanted.modes_up_to_hz, true);
   const auto relative = with_tool(source, milling::relative_structure(kept, source.cutting->at));
   const auto process = process_of(source);
   milling::StabilityOptions options;
@@ -42,7 +45,8 @@ NamedLobes compute_lobes(const Case& source, const std::string& name, const dyna
   options.error_tolerance = wanted.tolerance;
   NamedLobes result;
   result.name = name;
-  result.lobes = milling::stability_lobes(relative, process, milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count), options);
+  result.lobes = milling::stability_lobes(
+      relative, process, milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count), options);
   if (source.cutting->spindle_speed_rpm) {
     result.at_spindle_speed = milling::limiting_depth(relative, process, *source.cutting->spindle_speed_rpm, options);
   }

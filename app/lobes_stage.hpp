@@ -7,6 +7,7 @@
 namespace thinwall::app {
 
 /// The chart of one structure at the case's cutting point. `structure` must hold that point.
-[[nodiscard]] NamedLobes compute_lobes(const Case& source, const std::string& name, const dynamics::ModalModel& structure);
+[[nodiscard]] NamedLobes compute_lobes(const Case& source, const std::string& name,
+                                       const dynamics::ModalModel& structure);
 
 }  // namespace thinwall::app

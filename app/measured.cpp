@@ -45,27 +45,31 @@ dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files,
   for (Eigen::Index a = 0; a < n; ++a) {
     for (Eigen::Index b = 0; b < n; ++b) {
       auto found = entries.find({names[static_cast<std::size_t>(a)], names[static_cast<std::size_t>(b)]});
-      if (found == entries.end()) found = entries.find({names[static_cast<std::size_t>(b)], names[static_cast<std::size_t>(a)]});
+      if (found == entries.end())
+        found = entries.find({names[static_cast<std::size_t>(b)], names[static_cast<std::size_t>(a)]});
       if (found == entries.end()) {
-        throw core::InputError("no file gives the response of " + names[static_cast<std::size_t>(a)] + " to a force at " +
-                               names[static_cast<std::size_t>(b)] + ", nor the reverse: add one, or leave the others out");
+        throw core::InputError("no file gives the response of " + names[static_cast<std::size_t>(a)] +
+                               " to a force at " + names[static_cast<std::size_t>(b)] +
+                               ", nor the reverse: add one, or leave the others out");
       }
-      for (Eigen::Index line = 0; line < axis.size(); ++line) model.H[static_cast<std::size_t>(line)](a, b) = found->second(line);
+      for (Eigen::Index line = 0; line < axis.size(); ++line)
+        model.H[static_cast<std::size_t>(line)](a, b) = found->second(line);
     }
   }
   return model;
 }
 
-std::vector<double> matched_ratios(const dynamics::SpatialModel& reduced, const std::vector<reduction::IdentifiedMode>& identified,
-                                   double rest) {
+std::vector<double> matched_ratios(const dynamics::SpatialModel& reduced,
+                                   const std::vector<reduction::IdentifiedMode>& identified, double rest) {
   const Eigen::VectorXd hz = dynamics::undamped_modes(reduced).omega_rad_s / (2.0 * std::numbers::pi);
   std::vector<double> ratios(static_cast<std::size_t>(hz.size()), rest);
   for (const auto& mode : identified) {
     Eigen::Index nearest = 0;
     (hz.array() - mode.frequency_hz).abs().minCoeff(&nearest);
     if (std::abs(hz(nearest) - mode.frequency_hz) > 0.1 * mode.frequency_hz) {
-      throw core::InputError("the measured resonance at " + std::to_string(mode.frequency_hz) +
-                             " Hz has no mode of the part within 10 %: fit the part first (updating), or give damping.ratios");
+      throw core::InputError(
+          "the measured resonance at " + std::to_string(mode.frequency_hz) +
+          " Hz has no mode of the part within 10 %: fit the part first (updating), or give damping.ratios");
     }
     ratios[static_cast<std::size_t>(nearest)] = mode.damping_ratio;
   }

@@ -14,13 +14,14 @@ namespace thinwall::app {
 /// One file as receptance on its own axis. Errors as io::read_frf.
 [[nodiscard]] io::MeasuredFrf read_measured(const MeasuredFrf& measured);
 
-/// The files of one component as an FRF matrix on `axis`: rows and columns are the DOFs that the files name; an entry that
-/// only its transpose gives is taken from there (reciprocity). Throws InputError for an entry that no file
-/// gives, DataError as io::resample.
-[[nodiscard]] dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files, const dynamics::FrequencyAxis& axis);
+/// The files of one component as an FRF matrix on `axis`: rows and columns are the DOFs that the files name; an entry
+/// that only its transpose gives is taken from there (reciprocity). Throws InputError for an entry that no file gives,
+/// DataError as io::resample.
+[[nodiscard]] dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files,
+                                                        const dynamics::FrequencyAxis& axis);
 
-/// Damping ratios of the reduced model's first modes: to each undamped mode the identified one within 10 % of its frequency,
-/// nearest first; `rest` where none is.
+/// Damping ratios of the reduced model's first modes: to each undamped mode the identified one within 10 % of its
+/// frequency, nearest first; `rest` where none is.
 [[nodiscard]] std::vector<double> matched_ratios(const dynamics::SpatialModel& reduced,
                                                  const std::vector<reduction::IdentifiedMode>& identified, double rest);
 

@@ -25,7 +25,8 @@ fem::Material material_of(const Case& source) {
 }
 
 mesh::Region region_of(const Case& source, const std::string& name) {
-  const auto selection = std::find_if(source.selections.begin(), source.selections.end(), [&](const Selection& s) { return s.name == name; });
+  const auto selection = std::find_if(source.selections.begin(), source.selections.end(),
+                                      [&](const Selection& s) { return s.name == name; });
   if (selection == source.selections.end()) return mesh::face_of({box_size(*source.part)}, name);
   if (selection->plane) return mesh::PlaneRegion{selection->plane->point, selection->plane->normal};
   if (selection->box) return mesh::BoxRegion{selection->box->min, selection->box->max};
@@ -51,28 +52,35 @@ fem::ModeOptions mode_options(const Case& source) {
 }
 
 reduction::CraigBampton reduce(const Case& source, const PartResult& part, const fem::Factored& factored) {
-  const reduction::CraigBamptonOptions options{source.reduction.fixed_interface.count.value_or(30), source.reduction.fixed_interface.up_to_hz};
-  if (factored.sigma == 0.0) return reduction::craig_bampton(part.model.K, part.model.M, fem::inverse_of(factored), part.interface, options);
+  const reduction::CraigBamptonOptions options{source.reduction.fixed_interface.count.value_or(30),
+                                               source.reduction.fixed_interface.up_to_hz};
+  if (factored.sigma == 0.0)
+    return reduction::craig_bampton(part.model.K, part.model.M, fem::inverse_of(factored), part.interface, options);
   // A free part: the interface itself restrains it, if its points hold all rigid-body motions.
   const linalg::SparseCholesky held(reduction::restrained(part.model.K, part.interface), part.model.node_of_row);
-  const linalg::ShiftedInverse inverse{[&held](const Eigen::Ref<const Eigen::MatrixXd>& B) { return held.solve(B); }, 0.0};
+  const linalg::ShiftedInverse inverse{[&held](const Eigen::Ref<const Eigen::MatrixXd>& B) { return held.solve(B); },
+                                       0.0};
   return reduction::craig_bampton(part.model.K, part.model.M, inverse, part.interface, options);
 }
 
-/// Undamped receptances of the full model at a few frequencies between its resonances. A held part's factor serves all of
-/// them; a free part, whose K has no inverse, is factored anew at each.
-std::vector<reduction::FullReceptance> full_receptances(const PartResult& part, const fem::Factored& factored, const std::vector<double>& hz) {
+/// Undamped receptances of the full model at a few frequencies between its resonances. A held part's factor serves all
+/// of them; a free part, whose K has no inverse, is factored anew at each.
+std::vector<reduction::FullReceptance> full_receptances(const PartResult& part, const fem::Factored& factored,
+                                                        const std::vector<double>& hz) {
   if (factored.sigma != 0.0) {
     return reduction::full_receptances(part.model.K, part.model.M, part.model.node_of_row, part.interface, hz);
   }
   dynamics::FrequencyAxis axis;
   axis.hz = Eigen::Map<const Eigen::VectorXd>(hz.data(), static_cast<Eigen::Index>(hz.size()));
-  const auto full = reduction::full_response(part.model.K, part.model.M, fem::inverse_of(factored), part.modes.pairs, {}, 0.0, part.interface, axis);
+  const auto full = reduction::full_response(part.model.K, part.model.M, fem::inverse_of(factored), part.modes.pairs,
+                                             {}, 0.0, part.interface, axis);
   if (!(full.max_relative_residual < 1e-6)) {
-    throw core::NumericalError("the check of the reduced model did not solve the full one (residual " + std::to_string(full.max_relative_residual) + ")");
+    throw core::NumericalError("the check of the reduced model did not solve the full one (residual " +
+                               std::to_string(full.max_relative_residual) + ")");
   }
   std::vector<reduction::FullReceptance> result;
-  for (std::size_t i = 0; i < hz.size(); ++i) result.push_back({hz[i], full.response.H[i].real(), full.max_relative_residual});
+  for (std::size_t i = 0; i < hz.size(); ++i)
+    result.push_back({hz[i], full.response.H[i].real(), full.max_relative_residual});
   return result;
 }
 
@@ -84,7 +92,8 @@ void check_reduction(const Case& source, PartResult& part, const fem::Factored& 
   const double to = std::min(source.response.to_hz, 0.5 * elastic.maxCoeff());
   if (source.reduction.check_frequencies == 0 || to <= from) return;
   const auto frequencies = reduction::frequencies_between(elastic, from, to, source.reduction.check_frequencies);
-  part.receptance_error = reduction::max_relative_receptance_error(part.reduced->model, full_receptances(part, factored, frequencies));
+  part.receptance_error =
+      reduction::max_relative_receptance_error(part.reduced->model, full_receptances(part, factored, frequencies));
 }
 
 }  // namespace
@@ -117,7 +126,8 @@ reduction::Interface part_interface(const Case& source, const fem::Model& model)
   std::vector<Eigen::Triplet<double>> entries;
   for (const std::string& name : source.reduction.interface) {
     const Point& p = point(source, name);
-    const linalg::SparseMatrix columns = fem::point_columns(model, {p.name, position(*source.part, p), p.patch_radius, p.directions});
+    const linalg::SparseMatrix columns =
+        fem::point_columns(model, {p.name, position(*source.part, p), p.patch_radius, p.directions});
     for (Eigen::Index j = 0; j < columns.cols(); ++j) {
       for (linalg::SparseMatrix::InnerIterator it(columns, j); it; ++it) {
         entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(interface.dofs.size()), it.value());
@@ -130,7 +140,8 @@ reduction::Interface part_interface(const Case& source, const fem::Model& model)
   return interface;
 }
 
-dynamics::SpatialModel damped(const Case& source, const dynamics::SpatialModel& reduced, std::vector<reduction::IdentifiedMode>& identified) {
+dynamics::SpatialModel damped(const Case& source, const dynamics::SpatialModel& reduced,
+                              std::vector<reduction::IdentifiedMode>& identified) {
   const Damping& damping = source.damping;
   if (damping.model == "rayleigh") return reduction::with_rayleigh_damping(reduced, damping.alpha, damping.beta);
   if (damping.model == "structural") return reduction::with_structural_damping(reduced, damping.loss_factor);
@@ -148,9 +159,11 @@ PartResult compute_part(const Case& source, mesh::TetMesh mesh, Stages& stages) 
   for (int tet = 0; tet < static_cast<int>(part.model.mesh.tets.size()); ++tet) {
     part.min_quality = std::min(part.min_quality, mesh::mean_ratio(part.model.mesh, tet));
   }
-  part.mass_difference = fem::relative_difference(part.model.mass, fem::box_mass_properties(box_size(*source.part), source.part->material.density));
+  part.mass_difference = fem::relative_difference(
+      part.model.mass, fem::box_mass_properties(box_size(*source.part), source.part->material.density));
   if (!(part.mass_difference < 1e-8)) {
-    throw core::NumericalError("mass, centre or inertia of the mesh differ from the geometry's by " + std::to_string(part.mass_difference) + " relative");
+    throw core::NumericalError("mass, centre or inertia of the mesh differ from the geometry's by " +
+                               std::to_string(part.mass_difference) + " relative");
   }
   stages.begin("modes");
   const fem::Factored factored = fem::factorise(part.model);
@@ -168,7 +181,8 @@ PartResult compute_part(const Case& source, mesh::TetMesh mesh, Stages& stages) 
   part.damped = damped(source, part.reduced->model, part.identified);
   stages.begin("reduction check");
   check_reduction(source, part, factored);
-  spdlog::info("reduced to {} degrees of freedom; frequencies agree to {:.1e}", part.reduced->model.size(), part.frequency_error);
+  spdlog::info("reduced to {} degrees of freedom; frequencies agree to {:.1e}", part.reduced->model.size(),
+               part.frequency_error);
   return part;
 }
 

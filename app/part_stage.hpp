@@ -11,9 +11,10 @@ namespace thinwall::app {
 /// TetGen's mesh of the part's box, graded towards the named points where the case asks for it.
 [[nodiscard]] mesh::TetMesh mesh_part(const Case& source);
 
-/// The same mesh stretched from one box to another: model updating changes the part without changing the mesh's topology,
-/// so that frequencies move smoothly with the parameters.
-[[nodiscard]] mesh::TetMesh stretched(mesh::TetMesh mesh, const Eigen::Vector3d& from_size, const Eigen::Vector3d& to_size);
+/// The same mesh stretched from one box to another: model updating changes the part without changing the mesh's
+/// topology, so that frequencies move smoothly with the parameters.
+[[nodiscard]] mesh::TetMesh stretched(mesh::TetMesh mesh, const Eigen::Vector3d& from_size,
+                                      const Eigen::Vector3d& to_size);
 
 /// Assembles the constrained model on the mesh.
 [[nodiscard]] fem::Model part_model(const Case& source, mesh::TetMesh mesh);

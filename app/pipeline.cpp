@@ -71,19 +71,22 @@ void run_responses(const Case& work, Results& results, Stages& stages) {
   results.coupled = couple(work, *results.part, *results.robot);
   results.reductions = reductions(work, *results.part, *results.coupled);
   if (results.coupled->receptance.status == coupling::KernelStatus::ill_conditioned) {
-    spdlog::warn("the coupling's kernel is ill-conditioned at some line (condition up to {:.1e}): expect lost digits there",
-                 results.coupled->receptance.kernel_condition.maxCoeff());
+    spdlog::warn(
+        "the coupling's kernel is ill-conditioned at some line (condition up to {:.1e}): expect lost digits there",
+        results.coupled->receptance.kernel_condition.maxCoeff());
   }
 }
 
 void run_lobes(const Case& work, Results& results, Stages& stages) {
   if (!work.lobes || !work.cutting || !work.tool) return;
   if (!results.part || !results.part->modal) {
-    throw core::InputError("lobes need the part as a model (part.shape); from measured receptances alone they cannot be computed yet");
+    throw core::InputError(
+        "lobes need the part as a model (part.shape); from measured receptances alone they cannot be computed yet");
   }
   stages.begin("lobes");
   results.lobes.push_back(compute_lobes(work, "part", *results.part->modal));
-  if (results.coupled && results.coupled->modal) results.lobes.push_back(compute_lobes(work, "supported", *results.coupled->modal));
+  if (results.coupled && results.coupled->modal)
+    results.lobes.push_back(compute_lobes(work, "supported", *results.coupled->modal));
 }
 
 }  // namespace

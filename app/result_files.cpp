@@ -52,7 +52,8 @@ void write_part_modes(const fs::path& folder, const Results& results) {
   ShapeSeries series{folder, "part_mode", {}};
   std::vector<double> ratios;
   if (results.part && results.part->modal) {
-    for (const int k : dynamics::oscillating_modes(*results.part->modal)) ratios.push_back(dynamics::summarise(results.part->modal->poles(k)).damping_ratio);
+    for (const int k : dynamics::oscillating_modes(*results.part->modal))
+      ratios.push_back(dynamics::summarise(results.part->modal->poles(k)).damping_ratio);
   }
   std::vector<double> number;
   std::vector<double> frequency;
@@ -68,11 +69,13 @@ void write_part_modes(const fs::path& folder, const Results& results) {
     residual.push_back(part.modes.residual(k));
   }
   io::write_pvd(folder / "part.pvd", series.entries);
-  io::write_csv(folder / "modes.csv", {{"mode", number}, {"frequency_hz", frequency}, {"damping_ratio", damping}, {"relative_residual", residual}});
+  io::write_csv(
+      folder / "modes.csv",
+      {{"mode", number}, {"frequency_hz", frequency}, {"damping_ratio", damping}, {"relative_residual", residual}});
 }
 
-/// Coupled shapes on the part's mesh: u = T_CB q with q the part's rows of a coupled mode, turned so that the largest entry is
-/// real (a complex mode is drawn at the phase of its largest displacement).
+/// Coupled shapes on the part's mesh: u = T_CB q with q the part's rows of a coupled mode, turned so that the largest
+/// entry is real (a complex mode is drawn at the phase of its largest displacement).
 void write_coupled_modes(const fs::path& folder, const Results& results) {
   const PartResult& part = *results.finite_elements;
   const dynamics::ModalModel& modal = *results.coupled->modal;
@@ -97,7 +100,8 @@ void write_coupled_modes(const fs::path& folder, const Results& results) {
     damping.push_back(summary.damping_ratio);
   }
   io::write_pvd(folder / "coupled.pvd", series.entries);
-  io::write_csv(folder / "coupled_modes.csv", {{"mode", number}, {"frequency_hz", frequency}, {"damping_ratio", damping}});
+  io::write_csv(folder / "coupled_modes.csv",
+                {{"mode", number}, {"frequency_hz", frequency}, {"damping_ratio", damping}});
 }
 
 void write_frf(const fs::path& folder, const std::string& name, const dynamics::ResponseModel& response) {
@@ -121,9 +125,14 @@ void write_lobes(const fs::path& folder, const NamedLobes& named) {
     status.push_back(milling::name(row.status));
   }
   io::write_csv(folder / (named.name + ".csv"),
-                {{"spindle_speed_rpm", speed}, {"limiting_depth_m", depth}, {"chatter_frequency_hz", chatter}, {"bifurcation", kind},
-                 {"error_estimate_relative", error}, {"status", status}},
-                {"method: " + named.lobes.method, "rows with status stable_to_depth_limit are stable up to the depth given, the limit of the chart"});
+                {{"spindle_speed_rpm", speed},
+                 {"limiting_depth_m", depth},
+                 {"chatter_frequency_hz", chatter},
+                 {"bifurcation", kind},
+                 {"error_estimate_relative", error},
+                 {"status", status}},
+                {"method: " + named.lobes.method,
+                 "rows with status stable_to_depth_limit are stable up to the depth given, the limit of the chart"});
 }
 
 nlohmann::json records(const std::vector<io::FileRecord>& files) {
@@ -137,13 +146,16 @@ nlohmann::json records(const std::vector<io::FileRecord>& files) {
 void write_results(const fs::path& folder, const Results& results) {
   for (const char* name : subfolders) fs::create_directories(folder / name);
   if (results.finite_elements) write_part_modes(folder / "modes", results);
-  if (results.finite_elements && results.coupled && results.coupled->modal) write_coupled_modes(folder / "modes", results);
-  if (results.finite_elements && results.finite_elements->damped) io::write_mat(folder / "models" / "part.mat", *results.finite_elements->damped);
+  if (results.finite_elements && results.coupled && results.coupled->modal)
+    write_coupled_modes(folder / "modes", results);
+  if (results.finite_elements && results.finite_elements->damped)
+    io::write_mat(folder / "models" / "part.mat", *results.finite_elements->damped);
   if (results.part) write_frf(folder / "frf", "part", results.part->response);
   if (results.robot) write_frf(folder / "frf", "robot", results.robot->response);
   if (results.coupled) {
     write_frf(folder / "frf", "coupled_receptance", results.coupled->receptance.response);
-    if (results.coupled->spatial_response) write_frf(folder / "frf", "coupled_spatial", *results.coupled->spatial_response);
+    if (results.coupled->spatial_response)
+      write_frf(folder / "frf", "coupled_spatial", *results.coupled->spatial_response);
   }
   for (const auto& lobes : results.lobes) write_lobes(folder / "lobes", lobes);
 }
@@ -160,7 +172,8 @@ void publish(const fs::path& staging, const fs::path& folder) {
   }
 }
 
-void write_summary(const fs::path& folder, const Case& source, const Case& resolved, const nlohmann::json& summary, const std::string& started_utc) {
+void write_summary(const fs::path& folder, const Case& source, const Case& resolved, const nlohmann::json& summary,
+                   const std::string& started_utc) {
   core::write_file_atomically(folder / "case.toml", source.source);
   core::write_file_atomically(folder / "case.resolved.toml", resolved_text(resolved));
   core::write_file_atomically(folder / "summary.json", summary.dump(2) + "\n");
@@ -170,7 +183,8 @@ void write_summary(const fs::path& folder, const Case& source, const Case& resol
   manifest["started_utc"] = started_utc;
   manifest["timings_s"] = summary["timings_s"];
   manifest["inputs"] = nlohmann::json::array();
-  for (const auto& input : input_files(source)) manifest["inputs"].push_back({{"name", input.string()}, {"sha256", io::sha256_of_file(input)}});
+  for (const auto& input : input_files(source))
+    manifest["inputs"].push_back({{"name", input.string()}, {"sha256", io::sha256_of_file(input)}});
   manifest["inputs"].push_back({{"name", source.file.string()}, {"sha256", io::sha256(source.source)}});
   auto files = io::file_records(folder);
   std::erase_if(files, [](const auto& file) { return file.name == "manifest.json" || file.name == "run.log"; });

@@ -9,8 +9,8 @@
 
 namespace thinwall::app {
 
-/// modes/, frf/, lobes/, models/ below `folder`: everything but the summary and the manifest. Throws DataError if a file
-/// cannot be written.
+/// modes/, frf/, lobes/, models/ below `folder`: everything but the summary and the manifest. Throws DataError if a
+/// file cannot be written.
 void write_results(const std::filesystem::path& folder, const Results& results);
 
 /// Moves what write_results() left in `staging` into the result folder, in place of an earlier run's: until then an
@@ -19,7 +19,7 @@ void publish(const std::filesystem::path& staging, const std::filesystem::path& 
 
 /// case.toml, case.resolved.toml, summary.json and, last, manifest.json with the SHA-256 of every input and output.
 /// `started_utc` as 2026-11-21T10:00:00Z.
-void write_summary(const std::filesystem::path& folder, const Case& source, const Case& resolved, const nlohmann::json& summary,
-                   const std::string& started_utc);
+void write_summary(const std::filesystem::path& folder, const Case& source, const Case& resolved,
+                   const nlohmann::json& summary, const std::string& started_utc);
 
 }  // namespace thinwall::app

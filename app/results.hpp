@@ -24,13 +24,13 @@ struct PartResult {
   fem::Model model;
   fem::Modes modes;
   double min_quality = 0.0;
-  double mass_difference = 0.0;                     ///< mass, centre, inertia: matrix against geometry, relative
+  double mass_difference = 0.0;  ///< mass, centre, inertia: matrix against geometry, relative
   reduction::Interface interface;
-  std::optional<reduction::CraigBampton> reduced;   ///< none without an interface
-  double frequency_error = 0.0;                     ///< of the reduced model, largest relative
-  std::optional<double> receptance_error;           ///< against direct solves of the full model, largest relative
+  std::optional<reduction::CraigBampton> reduced;     ///< none without an interface
+  double frequency_error = 0.0;                       ///< of the reduced model, largest relative
+  std::optional<double> receptance_error;             ///< against direct solves of the full model, largest relative
   std::vector<reduction::IdentifiedMode> identified;  ///< damping found in a measured FRF
-  std::optional<dynamics::SpatialModel> damped;     ///< the reduced model with its damping
+  std::optional<dynamics::SpatialModel> damped;       ///< the reduced model with its damping
 };
 
 /// A component as the coupling sees it: matrices where they are known, and its response on the axis of the run.
@@ -43,11 +43,11 @@ struct Component {
 /// Part and robot joined by both routes.
 struct CouplingResult {
   coupling::CoupledResponse receptance;
-  std::optional<coupling::CoupledModel> model;              ///< none if a component is known by measurement only
+  std::optional<coupling::CoupledModel> model;  ///< none if a component is known by measurement only
   std::optional<dynamics::ModalModel> modal;
   std::optional<dynamics::ResponseModel> spatial_response;  ///< between the part's DOFs
   std::optional<coupling::RouteDifference> difference;      ///< none if both components are measured
-  std::vector<reduction::IdentifiedMode> identified;        ///< peaks of the coupled receptance where there is no modal model
+  std::vector<reduction::IdentifiedMode> identified;  ///< peaks of the coupled receptance where there is no modal model
 };
 
 /// How much smaller the coupled receptance is at a resonance of the part.

@@ -12,10 +12,14 @@ namespace {
 
 using nlohmann::json;
 
-json mode(double frequency_hz, double damping_ratio) { return {{"frequency_hz", frequency_hz}, {"damping_ratio", damping_ratio}}; }
+json mode(double frequency_hz, double damping_ratio) {
+  return {{"frequency_hz", frequency_hz}, {"damping_ratio", damping_ratio}};
+}
 
 /// JSON has no infinity; what is not finite becomes null, and a script that needs the number notices.
-json finite(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+json finite(double value) {
+  return std::isfinite(value) ? json(value) : json(nullptr);
+}
 
 json mesh_of(const PartResult& part) {
   return {{"nodes", part.model.nodes.positions.rows()},
@@ -31,7 +35,8 @@ json part_of(const Results& results) {
   json modes = json::array();
   std::vector<double> ratios;
   if (results.part && results.part->modal) {
-    for (const int k : dynamics::oscillating_modes(*results.part->modal)) ratios.push_back(dynamics::summarise(results.part->modal->poles(k)).damping_ratio);
+    for (const int k : dynamics::oscillating_modes(*results.part->modal))
+      ratios.push_back(dynamics::summarise(results.part->modal->poles(k)).damping_ratio);
   }
   for (Eigen::Index k = 0; k < part.modes.frequency_hz.size(); ++k) {
     const Eigen::Index elastic = k - part.modes.rigid_motions;
@@ -145,10 +150,16 @@ json lobes_of(const NamedLobes& named) {
 json updating_of(const UpdatingResult& fit) {
   json result = {{"name", fit.name}, {"evaluations", fit.evaluations}, {"converged", fit.converged}};
   for (const auto& p : fit.parameters) {
-    result["parameters"].push_back({{"key", p.key}, {"start", p.start}, {"fitted", p.fitted}, {"lower", p.lower}, {"upper", p.upper}, {"at_bound", p.at_bound}});
+    result["parameters"].push_back({{"key", p.key},
+                                    {"start", p.start},
+                                    {"fitted", p.fitted},
+                                    {"lower", p.lower},
+                                    {"upper", p.upper},
+                                    {"at_bound", p.at_bound}});
   }
   for (const auto& t : fit.targets) {
-    result["targets"].push_back({{"quantity", t.quantity}, {"wanted", t.wanted}, {"reached", t.reached}, {"sensitivity", t.sensitivity}});
+    result["targets"].push_back(
+        {{"quantity", t.quantity}, {"wanted", t.wanted}, {"reached", t.reached}, {"sensitivity", t.sensitivity}});
   }
   return result;
 }
@@ -178,7 +189,8 @@ bool add_checks(json& summary, const std::vector<Expectation>& expectations) {
   bool all = true;
   for (const Expectation& expected : expectations) {
     const ExpectationResult result = compare(expected, summary);
-    json check = {{"name", expected.name}, {"quantity", expected.quantity}, {"origin", expected.origin}, {"ok", result.ok}};
+    json check = {
+        {"name", expected.name}, {"quantity", expected.quantity}, {"origin", expected.origin}, {"ok", result.ok}};
     check["value"] = result.actual ? json(*result.actual) : json(nullptr);
     check["expected"] = expected.value ? json(*expected.value) : json(nullptr);
     if (expected.tolerance) check["tolerance"] = *expected.tolerance;

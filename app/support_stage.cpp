@@ -18,7 +18,8 @@ namespace {
 std::vector<std::string> contact_dofs(const Case& source) {
   std::vector<std::string> names;
   for (const Contact& c : source.contacts) {
-    for (const auto& n : c.directions) names.push_back(dynamics::name({c.part_point, n, dynamics::DofKind::translation}));
+    for (const auto& n : c.directions)
+      names.push_back(dynamics::name({c.part_point, n, dynamics::DofKind::translation}));
   }
   return names;
 }
@@ -39,7 +40,8 @@ dynamics::ResponseModel part_block(const dynamics::ResponseModel& all, const dyn
 }
 
 /// Peaks of a measured curve; none is an answer here.
-std::vector<reduction::IdentifiedMode> identified_peaks(const dynamics::FrequencyAxis& axis, const Eigen::VectorXcd& H) {
+std::vector<reduction::IdentifiedMode> identified_peaks(const dynamics::FrequencyAxis& axis,
+                                                        const Eigen::VectorXcd& H) {
   try {
     return reduction::identify_modes(axis, H);
   } catch (const core::InputError&) {
@@ -61,13 +63,15 @@ double peak_near(const dynamics::FrequencyAxis& axis, const Eigen::VectorXcd& H,
 
 dynamics::FrequencyAxis frequency_axis(const Case& source) {
   const ResponseOptions& r = source.response;
-  return r.logarithmic ? dynamics::logarithmic_axis(r.from_hz, r.to_hz, r.lines) : dynamics::linear_axis(r.from_hz, r.to_hz, r.lines);
+  return r.logarithmic ? dynamics::logarithmic_axis(r.from_hz, r.to_hz, r.lines)
+                       : dynamics::linear_axis(r.from_hz, r.to_hz, r.lines);
 }
 
 Component component(dynamics::SpatialModel model, const dynamics::FrequencyAxis& axis) {
   Component result;
   result.modal = dynamics::to_modal(model.has_structural_damping() ? dynamics::equivalent_viscous(model) : model);
-  result.response = model.has_structural_damping() ? dynamics::direct_response(model, axis) : dynamics::to_response(*result.modal, axis);
+  result.response = model.has_structural_damping() ? dynamics::direct_response(model, axis)
+                                                   : dynamics::to_response(*result.modal, axis);
   result.spatial = std::move(model);
   return result;
 }
@@ -82,7 +86,8 @@ dynamics::SpatialModel robot_mode(const Robot& robot) {
   const double k = *robot.stiffness;
   robot::OneMode mode;
   if (robot.mass) {
-    const double c = robot.damping ? *robot.damping : 2.0 * robot.damping_ratio.value_or(0.0) * std::sqrt(k * *robot.mass);
+    const double c =
+        robot.damping ? *robot.damping : 2.0 * robot.damping_ratio.value_or(0.0) * std::sqrt(k * *robot.mass);
     mode = {*robot.mass, c, k, robot.direction};
   } else {
     mode = robot::one_mode(*robot.frequency_hz, robot.damping_ratio.value_or(0.0), k, robot.direction);
@@ -94,11 +99,13 @@ Component robot_component(const Case& source, const dynamics::FrequencyAxis& axi
   const Robot& robot = *source.robot;
   if (robot.model == "one_mode") return component(robot_mode(robot), axis);
   if (robot.measured.size() != 1) {
-    throw core::InputError("a measured robot is described by one direct receptance along robot.direction; the case gives " +
-                           std::to_string(robot.measured.size()) + " files");
+    throw core::InputError(
+        "a measured robot is described by one direct receptance along robot.direction; the case gives " +
+        std::to_string(robot.measured.size()) + " files");
   }
   Component result;
-  result.response = robot::measured_receptance(axis, io::resample(read_measured(robot.measured.front()), axis), robot.point, robot.direction);
+  result.response = robot::measured_receptance(axis, io::resample(read_measured(robot.measured.front()), axis),
+                                               robot.point, robot.direction);
   return result;
 }
 
@@ -121,7 +128,8 @@ CouplingResult couple(const Case& source, const Component& part, const Component
   if (part.spatial && robot.spatial) {
     result.model = coupling::couple(*part.spatial, *robot.spatial, contacts);
     coupling::CoupledModel viscous = *result.model;
-    if (viscous.independent.has_structural_damping()) viscous.independent = dynamics::equivalent_viscous(viscous.independent);
+    if (viscous.independent.has_structural_damping())
+      viscous.independent = dynamics::equivalent_viscous(viscous.independent);
     result.modal = coupling::to_modal(viscous);
     result.spatial_response = part_block(coupling::direct_response(*result.model, axis), part.response);
   } else if (part.spatial) {
@@ -129,7 +137,8 @@ CouplingResult couple(const Case& source, const Component& part, const Component
   }
   if (result.spatial_response) {
     const std::string& point = source.contacts.front().part_point;
-    result.difference = coupling::route_difference(*result.spatial_response, part_block(result.receptance.response, part.response), point, point);
+    result.difference = coupling::route_difference(*result.spatial_response,
+                                                   part_block(result.receptance.response, part.response), point, point);
   }
   const std::string dof = contact_dofs(source).front();
   if (!result.modal && has_dof(part.response.responses, dof)) {

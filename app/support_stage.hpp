@@ -9,8 +9,8 @@ namespace thinwall::app {
 /// The axis of [response].
 [[nodiscard]] dynamics::FrequencyAxis frequency_axis(const Case& source);
 
-/// A component from its matrices: poles (structural damping taken as equivalent viscous) and receptances; with structural
-/// damping the receptances come from the matrices directly.
+/// A component from its matrices: poles (structural damping taken as equivalent viscous) and receptances; with
+/// structural damping the receptances come from the matrices directly.
 [[nodiscard]] Component component(dynamics::SpatialModel model, const dynamics::FrequencyAxis& axis);
 
 /// The part from its measured FRFs.
@@ -37,8 +37,9 @@ struct Participation {
 /// The modes that take part at a DOF by at least a tenth of the largest share, by rising frequency.
 [[nodiscard]] std::vector<Participation> participating_modes(const dynamics::ModalModel& model, const std::string& dof);
 
-/// Alone and supported at the participating modes of the part, at every contact direction: the largest |H| near the mode, and
-/// |G| at the same frequency.
-[[nodiscard]] std::vector<AmplitudeReduction> reductions(const Case& source, const Component& part, const CouplingResult& coupled);
+/// Alone and supported at the participating modes of the part, at every contact direction: the largest |H| near the
+/// mode, and |G| at the same frequency.
+[[nodiscard]] std::vector<AmplitudeReduction> reductions(const Case& source, const Component& part,
+                                                         const CouplingResult& coupled);
 
 }  // namespace thinwall::app

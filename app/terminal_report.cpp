@@ -16,11 +16,14 @@ std::string depth(const json& row) {
   return row["at_depth_limit"].get<bool>() ? fmt::format("over {:.1f} mm", mm) : fmt::format("{:.2f} mm", mm);
 }
 
-std::string title_of(const std::string& name) { return name == "part" ? "part alone" : "with the robot"; }
+std::string title_of(const std::string& name) {
+  return name == "part" ? "part alone" : "with the robot";
+}
 
 std::string minimum(const json& lobes) {
   const double mm = lobes["minimum_depth_m"].get<double>() * 1e3;
-  if (lobes["speeds_stable_to_depth_limit"] == lobes["speeds"]) return fmt::format("over {:.1f} mm at every speed of the chart", mm);
+  if (lobes["speeds_stable_to_depth_limit"] == lobes["speeds"])
+    return fmt::format("over {:.1f} mm at every speed of the chart", mm);
   return fmt::format("{:.2f} mm at {:.0f} rpm", mm, lobes["at_spindle_speed_rpm"].get<double>());
 }
 
@@ -28,14 +31,18 @@ void answer(std::string& out, const json& summary) {
   for (const json& lobes : summary["lobes"]) {
     if (!lobes.contains("at_case_speed")) continue;
     const json& row = lobes["at_case_speed"];
-    out += fmt::format("  {:<15} stable up to {} at {:.0f} rpm", title_of(lobes["name"]), depth(row), row["spindle_speed_rpm"].get<double>());
-    if (!row["at_depth_limit"].get<bool>()) out += fmt::format(", chatter at {:.1f} Hz ({})", row["chatter_frequency_hz"].get<double>(), row["bifurcation"].get<std::string>());
+    out += fmt::format("  {:<15} stable up to {} at {:.0f} rpm", title_of(lobes["name"]), depth(row),
+                       row["spindle_speed_rpm"].get<double>());
+    if (!row["at_depth_limit"].get<bool>())
+      out += fmt::format(", chatter at {:.1f} Hz ({})", row["chatter_frequency_hz"].get<double>(),
+                         row["bifurcation"].get<std::string>());
     out += '\n';
   }
   if (summary.contains("coupling")) {
     for (const json& r : summary["coupling"]["reductions"]) {
-      out += fmt::format("  vibration at {} falls by {:.2f} % at {:.1f} Hz ({:.3g} to {:.3g} um/N)\n", r["dof"].get<std::string>(),
-                         r["reduction"].get<double>() * 100.0, r["frequency_hz"].get<double>(), r["alone_m_per_n"].get<double>() * 1e6,
+      out += fmt::format("  vibration at {} falls by {:.2f} % at {:.1f} Hz ({:.3g} to {:.3g} um/N)\n",
+                         r["dof"].get<std::string>(), r["reduction"].get<double>() * 100.0,
+                         r["frequency_hz"].get<double>(), r["alone_m_per_n"].get<double>() * 1e6,
                          r["supported_m_per_n"].get<double>() * 1e6);
     }
   }
@@ -45,11 +52,13 @@ void answer(std::string& out, const json& summary) {
 void modes(std::string& out, const std::string& title, const json& list, std::size_t most) {
   if (list.empty()) return;
   out += fmt::format("  {:<22}", title);
-  for (std::size_t k = 0; k < std::min(most, list.size()); ++k) out += fmt::format("{:>9.2f}", list[k]["frequency_hz"].get<double>());
+  for (std::size_t k = 0; k < std::min(most, list.size()); ++k)
+    out += fmt::format("{:>9.2f}", list[k]["frequency_hz"].get<double>());
   out += list.size() > most ? "  Hz …\n" : "  Hz\n";
   if (!list.front().contains("damping_ratio")) return;
   out += fmt::format("  {:<22}", "  damping");
-  for (std::size_t k = 0; k < std::min(most, list.size()); ++k) out += fmt::format("{:>9.2f}", list[k]["damping_ratio"].get<double>() * 100.0);
+  for (std::size_t k = 0; k < std::min(most, list.size()); ++k)
+    out += fmt::format("{:>9.2f}", list[k]["damping_ratio"].get<double>() * 100.0);
   out += "  %\n";
 }
 
@@ -58,12 +67,14 @@ void charts(std::string& out, const json& summary) {
   out += "\n  stability chart        least depth anywhere                   deepest pocket            error est.\n";
   for (const json& lobes : summary["lobes"]) {
     const json& best = lobes["maximum"];
-    out += fmt::format("  {:<22} {:<38} {:<25} {:.2f} %\n", title_of(lobes["name"]), minimum(lobes),
-                       fmt::format("{} at {:.0f} rpm", depth(best), best["spindle_speed_rpm"].get<double>()),
-                       lobes["error_estimate_relative"].is_null() ? 0.0 : lobes["error_estimate_relative"].get<double>() * 100.0);
+    out += fmt::format(
+        "  {:<22} {:<38} {:<25} {:.2f} %\n", title_of(lobes["name"]), minimum(lobes),
+        fmt::format("{} at {:.0f} rpm", depth(best), best["spindle_speed_rpm"].get<double>()),
+        lobes["error_estimate_relative"].is_null() ? 0.0 : lobes["error_estimate_relative"].get<double>() * 100.0);
     if (lobes["speeds_not_converged"].get<int>() > 0) {
       out += fmt::format("    {} of {} speeds did not reach the tolerance: see the status column of lobes/{}.csv\n",
-                         lobes["speeds_not_converged"].get<int>(), lobes["speeds"].get<int>(), lobes["name"].get<std::string>());
+                         lobes["speeds_not_converged"].get<int>(), lobes["speeds"].get<int>(),
+                         lobes["name"].get<std::string>());
     }
   }
 }
@@ -72,11 +83,14 @@ void updating(std::string& out, const json& summary) {
   for (const json& fit : summary["updating"]) {
     out += fmt::format("  fitted: {}\n", fit["name"].get<std::string>());
     for (const json& p : fit["parameters"]) {
-      out += fmt::format("    {:<28} {:>12.6g}  (from {:.6g}; bounds {:.6g} to {:.6g}{})\n", p["key"].get<std::string>(), p["fitted"].get<double>(),
-                         p["start"].get<double>(), p["lower"].get<double>(), p["upper"].get<double>(), p["at_bound"].get<bool>() ? "; at a bound" : "");
+      out +=
+          fmt::format("    {:<28} {:>12.6g}  (from {:.6g}; bounds {:.6g} to {:.6g}{})\n", p["key"].get<std::string>(),
+                      p["fitted"].get<double>(), p["start"].get<double>(), p["lower"].get<double>(),
+                      p["upper"].get<double>(), p["at_bound"].get<bool>() ? "; at a bound" : "");
     }
     for (const json& t : fit["targets"]) {
-      out += fmt::format("    {:<28} {:>12.6g}  (wanted {:.6g})\n", t["quantity"].get<std::string>(), t["reached"].get<double>(), t["wanted"].get<double>());
+      out += fmt::format("    {:<28} {:>12.6g}  (wanted {:.6g})\n", t["quantity"].get<std::string>(),
+                         t["reached"].get<double>(), t["wanted"].get<double>());
     }
     if (!fit["converged"].get<bool>()) out += "    did not converge\n";
   }
@@ -84,14 +98,17 @@ void updating(std::string& out, const json& summary) {
 
 void trust(std::string& out, const json& summary) {
   if (summary.contains("mesh")) {
-    out += fmt::format("  mesh        {} tetrahedra of order {}, {} degrees of freedom, lowest quality {:.2f}\n", summary["mesh"]["elements"].get<int>(),
-                       summary["mesh"]["order"].get<int>(), summary["mesh"]["dofs"].get<int>(), summary["mesh"]["min_quality"].get<double>());
+    out += fmt::format("  mesh        {} tetrahedra of order {}, {} degrees of freedom, lowest quality {:.2f}\n",
+                       summary["mesh"]["elements"].get<int>(), summary["mesh"]["order"].get<int>(),
+                       summary["mesh"]["dofs"].get<int>(), summary["mesh"]["min_quality"].get<double>());
   }
   if (summary.contains("reduction")) {
     const json& r = summary["reduction"];
-    out += fmt::format("  reduction   {} to {} degrees of freedom, frequencies within {:.1e}", summary["mesh"]["dofs"].get<int>(), r["size"].get<int>(),
+    out += fmt::format("  reduction   {} to {} degrees of freedom, frequencies within {:.1e}",
+                       summary["mesh"]["dofs"].get<int>(), r["size"].get<int>(),
                        r["max_relative_frequency_error"].get<double>());
-    if (!r["max_relative_receptance_error"].is_null()) out += fmt::format(", receptances within {:.1e}", r["max_relative_receptance_error"].get<double>());
+    if (!r["max_relative_receptance_error"].is_null())
+      out += fmt::format(", receptances within {:.1e}", r["max_relative_receptance_error"].get<double>());
     out += " of the full model\n";
   }
   if (summary.contains("coupling")) {
@@ -99,8 +116,9 @@ void trust(std::string& out, const json& summary) {
     if (d.is_null()) {
       out += "  routes      receptance only: neither component has matrices\n";
     } else {
-      out += fmt::format("  routes      spatial and receptance coupling agree to {:.1e} (largest at {:.1f} Hz, entry {})\n", d["max_relative"].get<double>(),
-                         d["at_frequency_hz"].get<double>(), d["entry"].get<std::string>());
+      out += fmt::format(
+          "  routes      spatial and receptance coupling agree to {:.1e} (largest at {:.1f} Hz, entry {})\n",
+          d["max_relative"].get<double>(), d["at_frequency_hz"].get<double>(), d["entry"].get<std::string>());
     }
   }
 }

@@ -17,8 +17,9 @@ namespace thinwall::app {
 namespace {
 
 [[noreturn]] void no_such_mode(const UpdatingTarget& target, std::size_t found) {
-  throw core::InputError("updating: mode " + std::to_string(target.rank) + " at " + target.point + " was asked for, but only " +
-                         std::to_string(found) + " take part there; raise modes.count or modes.up_to, or choose another point");
+  throw core::InputError("updating: mode " + std::to_string(target.rank) + " at " + target.point +
+                         " was asked for, but only " + std::to_string(found) +
+                         " take part there; raise modes.count or modes.up_to, or choose another point");
 }
 
 double ranked(const UpdatingTarget& target, const std::vector<Participation>& modes) {
@@ -27,7 +28,8 @@ double ranked(const UpdatingTarget& target, const std::vector<Participation>& mo
 }
 
 /// Modes of the full model that take part at "P.x" by at least a tenth of the largest share φ²/ω².
-std::vector<Participation> full_participation(const Case& source, const fem::Model& model, const fem::Modes& modes, const std::string& dof) {
+std::vector<Participation> full_participation(const Case& source, const fem::Model& model, const fem::Modes& modes,
+                                              const std::string& dof) {
   const auto dot = dof.rfind('.');
   const Point& p = point(source, dof.substr(0, dot));
   const fem::NamedPoint named{p.name, position(*source.part, p), p.patch_radius, {dynamics::axis(dof.substr(dot + 1))}};
@@ -71,7 +73,8 @@ class PartEvaluation {
       if (target.match == "participation") {
         values(i) = ranked(target, full_participation(now, model, modes, target.point));
       } else {
-        values(i) = target.match == "mac" ? most_alike(model, modes, reference_.col(number)) : modes.frequency_hz(number);
+        values(i) =
+            target.match == "mac" ? most_alike(model, modes, reference_.col(number)) : modes.frequency_hz(number);
       }
     }
     return values;
@@ -115,7 +118,8 @@ Eigen::VectorXd evaluate_coupled(const Case& now, const Updating& updating, cons
     part.response = part_matrices.has_structural_damping() ? dynamics::direct_response(part_matrices, axis)
                                                            : dynamics::to_response(*part.modal, axis);
     const Component robot = robot_component(now, axis);
-    if (!robot.spatial) throw core::InputError("updating on = \"coupled\" needs a robot of one mode, not a measured one");
+    if (!robot.spatial)
+      throw core::InputError("updating on = \"coupled\" needs a robot of one mode, not a measured one");
     values(i) = coupled_value(target, part, couple(now, part, robot));
   }
   return values;
@@ -135,7 +139,8 @@ Case with_parameters(const Case& source, const Updating& updating, const Eigen::
   return now;
 }
 
-UpdatingResult fit(Case& source, const Updating& updating, const std::function<Eigen::VectorXd(const Case&)>& evaluate) {
+UpdatingResult fit(Case& source, const Updating& updating,
+                   const std::function<Eigen::VectorXd(const Case&)>& evaluate) {
   Eigen::VectorXd start(static_cast<Eigen::Index>(updating.parameters.size()));
   UpdatingResult result;
   result.name = updating.name;
@@ -148,7 +153,8 @@ UpdatingResult fit(Case& source, const Updating& updating, const std::function<E
   const auto residuals = [&](const Eigen::VectorXd& scaled) {
     const Eigen::VectorXd values = evaluate(with_parameters(source, updating, scaled));
     Eigen::VectorXd r(values.size());
-    for (Eigen::Index i = 0; i < r.size(); ++i) r(i) = residual(updating.targets[static_cast<std::size_t>(i)], values(i));
+    for (Eigen::Index i = 0; i < r.size(); ++i)
+      r(i) = residual(updating.targets[static_cast<std::size_t>(i)], values(i));
     return r;
   };
   const LeastSquares found = bounded_least_squares(residuals, start, 0.02, 1e-4, 12);

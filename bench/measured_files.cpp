@@ -5,7 +5,7 @@
 
 #include "app/case_reader.hpp"
 #include "app/updating.hpp"
-#include "../tests/system/synthetic_measurement.hpp"
+#include "tests/system/synthetic_measurement.hpp"
 
 int main(int argc, char** argv) {
   using namespace thinwall;
@@ -22,7 +22,8 @@ int main(int argc, char** argv) {
   for (const auto& fit : fits) {
     if (fit.on == "part") static_cast<void>(app::update_part(source, fit, mesh));
   }
-  const app::PartResult part = app::compute_part(source, app::stretched(mesh, meshed, app::box_size(*source.part)), stages);
+  const app::PartResult part =
+      app::compute_part(source, app::stretched(mesh, meshed, app::box_size(*source.part)), stages);
   for (const auto& fit : fits) {
     if (fit.on == "coupled") static_cast<void>(app::update_coupled(source, fit, part.reduced->model));
   }
@@ -30,14 +31,15 @@ int main(int argc, char** argv) {
   const auto header = [&](const char* what, unsigned seed) {
     char text[512];
     std::snprintf(text, sizeof text,
-                  "# synthetic: %s along x, receptance in m/N, from the fitted model of cases/barrios-2019 (bench/measured_files.cpp)\n"
+                  "# synthetic: %s along x, receptance in m/N, from the fitted model of cases/barrios-2019 "
+                  "(bench/measured_files.cpp)\n"
                   "# every line times 1 + %g (a + ib), a and b standard normal, seed %u (std::mt19937)\n",
                   what, level, seed);
     return std::string(text);
   };
   const std::string folder = argv[2];
-  testing_support::write_measurement(folder + "/part_xx.csv", header("the part at P, full finite-element model", 2019), files.axis,
-                                     testing_support::with_noise(files.part, level, 2019));
+  testing_support::write_measurement(folder + "/part_xx.csv", header("the part at P, full finite-element model", 2019),
+                                     files.axis, testing_support::with_noise(files.part, level, 2019));
   testing_support::write_measurement(folder + "/robot_xx.csv", header("the robot's tip, one mode", 2020), files.axis,
                                      testing_support::with_noise(files.robot, level, 2020));
   std::printf("relative residual of the full model %.1e\n", files.relative_residual);

@@ -20,7 +20,9 @@ int thread_count() {
   return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-void set_thread_count(int threads) { threads_wanted.store(std::max(1, threads)); }
+void set_thread_count(int threads) {
+  threads_wanted.store(std::max(1, threads));
+}
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
   std::atomic<std::size_t> next{0};

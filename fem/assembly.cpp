@@ -90,7 +90,9 @@ struct Geometry {
 
 Geometry geometry(const mesh::TetMesh& mesh, int tet) {
   const auto& t = mesh.tets[static_cast<std::size_t>(tet)];
-  const auto at = [&](std::size_t k) -> const Eigen::Vector3d& { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+  const auto at = [&](std::size_t k) -> const Eigen::Vector3d& {
+    return mesh.vertices[static_cast<std::size_t>(t[k])];
+  };
   Eigen::Matrix3d edges;
   edges << at(1) - at(0), at(2) - at(0), at(3) - at(0);
   const double volume = edges.determinant() / 6.0;
@@ -104,7 +106,8 @@ void gradient_products(const Geometry& g, const ReferenceElement& reference, Eig
   for (int k = 0; k < 3; ++k) {
     for (int l = 0; l < 3; ++l) {
       for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) contraction(3 * k + l, 3 * i + j) = g.volume * g.gradients(i, k) * g.gradients(j, l);
+        for (int j = 0; j < 3; ++j)
+          contraction(3 * k + l, 3 * i + j) = g.volume * g.gradients(i, k) * g.gradients(j, l);
       }
     }
   }

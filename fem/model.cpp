@@ -24,10 +24,12 @@ Model build_model(mesh::TetMesh mesh, int order, const Material& material, const
   return model;
 }
 
-Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> displacements(const Model& model, const Eigen::VectorXd& free) {
+Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> displacements(const Model& model,
+                                                                        const Eigen::VectorXd& free) {
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> u(model.nodes.positions.rows(), 3);
   u.setZero();
-  for (std::size_t i = 0; i < model.free_rows.size(); ++i) u(model.free_rows[i] / 3, model.free_rows[i] % 3) = free(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < model.free_rows.size(); ++i)
+    u(model.free_rows[i] / 3, model.free_rows[i] % 3) = free(static_cast<Eigen::Index>(i));
   return u;
 }
 

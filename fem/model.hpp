@@ -36,9 +36,9 @@ struct Model {
 /// Rows 3·node + axis of the given nodes in the given axes (0…2).
 [[nodiscard]] std::vector<int> rows_of(const std::vector<int>& nodes, const std::vector<int>& axes);
 
-/// The factor of K − σM that all later stages share. σ = 0 for a held part; a part with free rigid motions gets a negative
-/// shift σ = −1e-9 tr K / tr M, which scales with units, size and material and lies near the first elastic eigenvalue of
-/// meshes with some ten thousand DOFs; anything between 1e-6 and 1e3 times that eigenvalue serves.
+/// The factor of K − σM that all later stages share. σ = 0 for a held part; a part with free rigid motions gets a
+/// negative shift σ = −1e-9 tr K / tr M, which scales with units, size and material and lies near the first elastic
+/// eigenvalue of meshes with some ten thousand DOFs; anything between 1e-6 and 1e3 times that eigenvalue serves.
 struct Factored {
   linalg::SparseCholesky factor;
   double sigma = 0.0;

@@ -9,7 +9,9 @@ namespace thinwall::fem {
 
 namespace {
 
-double hertz(double lambda) { return std::sqrt(std::max(lambda, 0.0)) / (2.0 * std::numbers::pi); }
+double hertz(double lambda) {
+  return std::sqrt(std::max(lambda, 0.0)) / (2.0 * std::numbers::pi);
+}
 
 linalg::Eigenpairs solve(const Model& model, const Factored& factored, const ModeOptions& options) {
   if (options.up_to_hz) {
@@ -45,7 +47,8 @@ Modes modes(const Model& model, const Factored& factored, const ModeOptions& opt
   }
   const int rigid = result.rigid_motions;
   if (rigid > 0 && lambda.head(rigid).cwiseAbs().maxCoeff() > 1e-6 * lambda(rigid)) {
-    throw core::NumericalError("a part with " + std::to_string(rigid) + " free rigid motions shows modes that are neither rigid nor " +
+    throw core::NumericalError("a part with " + std::to_string(rigid) +
+                               " free rigid motions shows modes that are neither rigid nor " +
                                "elastic: the mesh may have parts that hang together at a point or edge only");
   }
   result.residual = linalg::residuals(model.K, model.M, result.pairs);

@@ -10,23 +10,23 @@ namespace thinwall::fem {
 
 /// How many modes, or up to which frequency; whether to prove that none was missed.
 struct ModeOptions {
-  int count = 10;                      ///< elastic modes; used if up_to_hz is not given
-  std::optional<double> up_to_hz;      ///< all modes below this frequency instead
-  bool verify_count = false;           ///< Sturm count: inertia of K − σM just above the last mode
+  int count = 10;                  ///< elastic modes; used if up_to_hz is not given
+  std::optional<double> up_to_hz;  ///< all modes below this frequency instead
+  bool verify_count = false;       ///< Sturm count: inertia of K − σM just above the last mode
 };
 
 /// Modes in ascending order, the rigid-body modes first (as many as Model::rigid_motions).
 struct [[nodiscard]] Modes {
-  Eigen::VectorXd frequency_hz;        ///< 0 for rigid-body modes
-  linalg::Eigenpairs pairs;            ///< λ in rad²/s², Φ over the free rows, M-normalised
-  Eigen::VectorXd residual;            ///< ‖Kφ−λMφ‖/(λ‖Mφ‖), 0 for rigid-body modes
+  Eigen::VectorXd frequency_hz;  ///< 0 for rigid-body modes
+  linalg::Eigenpairs pairs;      ///< λ in rad²/s², Φ over the free rows, M-normalised
+  Eigen::VectorXd residual;      ///< ‖Kφ−λMφ‖/(λ‖Mφ‖), 0 for rigid-body modes
   int rigid_motions = 0;
   std::optional<bool> count_verified;  ///< set on request: true if the Sturm count agrees
 };
 
 /// Cost: see linalg::lowest_eigenpairs; the Sturm count adds a simplicial factorisation.
-/// Throws NumericalError if the iteration does not converge, or if a free part does not show exactly its rigid-body modes,
-/// |λ| < 1e-6 of the first elastic eigenvalue.
+/// Throws NumericalError if the iteration does not converge, or if a free part does not show exactly its rigid-body
+/// modes, |λ| < 1e-6 of the first elastic eigenvalue.
 Modes modes(const Model& model, const Factored& factored, const ModeOptions& options);
 
 }  // namespace thinwall::fem

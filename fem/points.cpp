@@ -15,13 +15,15 @@ linalg::SparseMatrix point_columns(const Model& model, const NamedPoint& point) 
     for (const mesh::PatchSample& sample :
          mesh::patch_samples(model.mesh, mesh::boundary(model.mesh), point.position_m, point.patch_radius_m)) {
       const Eigen::VectorXd N = shape_functions(model.nodes.order, sample.location.lambda);
-      for (Eigen::Index a = 0; a < N.size(); ++a) weight_of_node[model.nodes.elements(sample.location.tet, a)] += sample.weight * N(a);
+      for (Eigen::Index a = 0; a < N.size(); ++a)
+        weight_of_node[model.nodes.elements(sample.location.tet, a)] += sample.weight * N(a);
     }
   } catch (const core::InputError& error) {
     throw core::InputError("point \"" + point.name + "\": " + error.what());
   }
   std::vector<int> row_of(static_cast<std::size_t>(3 * model.nodes.positions.rows()), -1);
-  for (std::size_t i = 0; i < model.free_rows.size(); ++i) row_of[static_cast<std::size_t>(model.free_rows[i])] = static_cast<int>(i);
+  for (std::size_t i = 0; i < model.free_rows.size(); ++i)
+    row_of[static_cast<std::size_t>(model.free_rows[i])] = static_cast<int>(i);
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t d = 0; d < point.directions.size(); ++d) {
     double movable = 0.0;

@@ -14,8 +14,8 @@ namespace thinwall::fem {
 struct NamedPoint {
   std::string name;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
-  double patch_radius_m = 0.0;                ///< 0: the displacement at the position itself
-  std::vector<Eigen::Vector3d> directions;    ///< unit vectors
+  double patch_radius_m = 0.0;              ///< 0: the displacement at the position itself
+  std::vector<Eigen::Vector3d> directions;  ///< unit vectors
 };
 
 /// Column for each direction: w with wᵀu = n · ∫ u dA / ∫ dA over the patch (or n · u at the position), from the shape

@@ -63,8 +63,8 @@ Real integral(const std::array<const Polynomial*, 4>& f) {
   return sum;
 }
 
-/// Products of one-dimensional factors of two shape functions in one coordinate, with derivatives on neither, the first,
-/// the second, both; indexed [derivative of a][derivative of b][m_a][m_b].
+/// Products of one-dimensional factors of two shape functions in one coordinate, with derivatives on neither, the
+/// first, the second, both; indexed [derivative of a][derivative of b][m_a][m_b].
 using Products = std::array<std::array<std::vector<std::vector<Polynomial>>, 2>, 2>;
 
 Products factor_products(int p) {
@@ -86,7 +86,8 @@ Products factor_products(int p) {
 }
 
 /// ∫ ∂N_a/∂λ_k ∂N_b/∂λ_l dV / V with the four λ taken as independent; k or l = −1: no derivative.
-Real pair_integral(const Products& table, const std::array<int, 4>& alpha, const std::array<int, 4>& beta, int k, int l) {
+Real pair_integral(const Products& table, const std::array<int, 4>& alpha, const std::array<int, 4>& beta, int k,
+                   int l) {
   std::array<const Polynomial*, 4> f{};
   for (int c = 0; c < 4; ++c) {
     const auto i = static_cast<std::size_t>(c);
@@ -110,11 +111,13 @@ ReferenceElement make(int order) {
       element.mass(a, b) = static_cast<double>(pair_integral(table, alpha, beta, -1, -1));
       std::array<std::array<Real, 4>, 4> d{};
       for (int k = 0; k < 4; ++k) {
-        for (int l = 0; l < 4; ++l) d[static_cast<std::size_t>(k)][static_cast<std::size_t>(l)] = pair_integral(table, alpha, beta, k, l);
+        for (int l = 0; l < 4; ++l)
+          d[static_cast<std::size_t>(k)][static_cast<std::size_t>(l)] = pair_integral(table, alpha, beta, k, l);
       }
       for (std::size_t k = 1; k < 4; ++k) {
         for (std::size_t l = 1; l < 4; ++l) {
-          element.stiffness(a + static_cast<Eigen::Index>(element.nodes) * b, static_cast<Eigen::Index>(3 * (k - 1) + l - 1)) =
+          element.stiffness(a + static_cast<Eigen::Index>(element.nodes) * b,
+                            static_cast<Eigen::Index>(3 * (k - 1) + l - 1)) =
               static_cast<double>(d[k][l] - d[0][l] - d[k][0] + d[0][0]);
         }
       }

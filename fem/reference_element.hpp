@@ -15,8 +15,8 @@ struct ReferenceElement {
   int nodes = 0;
   /// M̂_ab = ∫ N_a N_b dV / V, nodes × nodes.
   Eigen::MatrixXd mass;
-  /// D̂^{kl}_ab = ∫ ∂N_a/∂ξ_k ∂N_b/∂ξ_l dV / V with ξ_k = λ_{k+1}, k, l = 0…2 and λ₀ = 1 − Σξ. Column 3k + l holds D̂^{kl},
-  /// row a + nodes·b: nodes² × 9, so that the contraction with the gradients is one matrix product.
+  /// D̂^{kl}_ab = ∫ ∂N_a/∂ξ_k ∂N_b/∂ξ_l dV / V with ξ_k = λ_{k+1}, k, l = 0…2 and λ₀ = 1 − Σξ. Column 3k + l holds
+  /// D̂^{kl}, row a + nodes·b: nodes² × 9, so that the contraction with the gradients is one matrix product.
   Eigen::MatrixXd stiffness;
 };
 

@@ -47,7 +47,8 @@ MassProperties mass_properties(const linalg::SparseMatrix& M, const mesh::Lagran
   // Column 3 + k of the upper right block is m e_k × c.
   p.centre_m = Eigen::Vector3d(G(1, 5), G(2, 3), G(0, 4)) / p.mass_kg;
   const Eigen::Vector3d& c = p.centre_m;
-  p.inertia_kg_m2 = G.bottomRightCorner<3, 3>() - p.mass_kg * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+  p.inertia_kg_m2 =
+      G.bottomRightCorner<3, 3>() - p.mass_kg * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
   return p;
 }
 

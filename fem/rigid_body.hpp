@@ -9,11 +9,12 @@
 
 namespace thinwall::fem {
 
-/// The six rigid-body motions about the origin as columns (three translations in m, three rotations in rad): 3·nodes × 6.
+/// The six rigid-body motions about the origin as columns (three translations in m, three rotations in rad): 3·nodes
+/// × 6.
 [[nodiscard]] Eigen::MatrixXd rigid_body_motions(const mesh::LagrangeNodes& nodes);
 
-/// Number of independent rigid-body motions (0…6) that vanish on all `fixed` rows (3·node + axis): 6 − rank. Rotations are
-/// scaled by the part's size first.
+/// Number of independent rigid-body motions (0…6) that vanish on all `fixed` rows (3·node + axis): 6 − rank. Rotations
+/// are scaled by the part's size first.
 [[nodiscard]] int free_rigid_motions(const mesh::LagrangeNodes& nodes, const std::vector<int>& fixed);
 
 /// Mass (kg), centre (m) and inertia about the centre (kg m², moments and products with the sign of the tensor).

@@ -2,7 +2,8 @@
 
 namespace thinwall::fem {
 
-std::vector<int> fixed_rows(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes, const std::vector<Support>& supports) {
+std::vector<int> fixed_rows(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes,
+                            const std::vector<Support>& supports) {
   const auto boundary = mesh::boundary(mesh);
   std::vector<int> fixed;
   for (const Support& support : supports) {

@@ -41,7 +41,8 @@ class MassOperator {
   [[nodiscard]] Eigen::Index cols() const { return M_.cols(); }
   void perform_op(const double* x_in, double* y_out) const {
     Eigen::Map<Eigen::VectorXd>(y_out, M_.rows()) =
-        M_.transpose() * Eigen::Map<const Eigen::VectorXd>(x_in, M_.rows());  // M is symmetric; its columns gather faster
+        M_.transpose() *
+        Eigen::Map<const Eigen::VectorXd>(x_in, M_.rows());  // M is symmetric; its columns gather faster
   }
 
  private:
@@ -90,8 +91,8 @@ Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const
   InverseOperator op(inverse, n);
   MassOperator mass(M);
   const Eigen::Index basis = std::min<Eigen::Index>(n, 2 * count + 20);
-  Spectra::SymGEigsShiftSolver<InverseOperator, MassOperator, Spectra::GEigsMode::ShiftInvert> lanczos(op, mass, count, basis,
-                                                                                                      inverse.sigma);
+  Spectra::SymGEigsShiftSolver<InverseOperator, MassOperator, Spectra::GEigsMode::ShiftInvert> lanczos(
+      op, mass, count, basis, inverse.sigma);
   lanczos.init();
   lanczos.compute(Spectra::SortRule::LargestMagn, 300, 1e-11, Spectra::SortRule::SmallestAlge);
   Eigenpairs pairs;
@@ -104,7 +105,8 @@ Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const
   return pairs;
 }
 
-Eigenpairs eigenpairs_up_to(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, double lambda_max) {
+Eigenpairs eigenpairs_up_to(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse,
+                            double lambda_max) {
   const int most = static_cast<int>(K.rows()) - 1;
   for (int count = std::min(most, 16);;) {
     Eigenpairs pairs = lowest_eigenpairs(K, M, inverse, count);
@@ -116,7 +118,8 @@ Eigenpairs eigenpairs_up_to(const SparseMatrix& K, const SparseMatrix& M, const 
       count = std::min({most, 4 * count, static_cast<int>(1.1 * count * std::pow(octave, 1.3)) + 4});
       continue;
     }
-    const Eigen::Index kept = std::upper_bound(pairs.lambda.begin(), pairs.lambda.end(), lambda_max) - pairs.lambda.begin();
+    const Eigen::Index kept =
+        std::upper_bound(pairs.lambda.begin(), pairs.lambda.end(), lambda_max) - pairs.lambda.begin();
     pairs.lambda.conservativeResize(kept);
     pairs.inverse_residual.conservativeResize(kept);
     pairs.Phi.conservativeResize(Eigen::NoChange, kept);
@@ -135,8 +138,10 @@ Eigenpairs dense_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const 
   const Eigen::MatrixXd Mz = Z.transpose() * (M * Z);
   // Eigen's solver factors M itself but does not say whether that went well.
   const bool positive = Mz.llt().info() == Eigen::Success;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(0.5 * (Kz + Kz.transpose()), 0.5 * (Mz + Mz.transpose()));
-  if (!positive || dense.info() != Eigen::Success) throw core::NumericalError("the mass matrix of a dense eigenproblem is not positive definite");
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(0.5 * (Kz + Kz.transpose()),
+                                                                        0.5 * (Mz + Mz.transpose()));
+  if (!positive || dense.info() != Eigen::Success)
+    throw core::NumericalError("the mass matrix of a dense eigenproblem is not positive definite");
   Eigenpairs pairs;
   pairs.lambda = dense.eigenvalues();
   pairs.Phi = Z * dense.eigenvectors();

@@ -29,19 +29,19 @@ struct [[nodiscard]] Eigenpairs {
   EigenStatus status = EigenStatus::converged;
 };
 
-/// The `count` eigenpairs next above σ, by shift-invert Lanczos with implicit restarts (Spectra; Lehoucq & Sorensen 1996)
-/// on the operator (K−σM)⁻¹M, followed by one step of inverse iteration on all vectors and a Rayleigh-Ritz projection, which
-/// takes the round-off of the high modes out of them.
-/// K, M: n × n; M positive definite on the range of the inverse; σ below the wanted eigenvalues; 1 ≤ count < n.
-/// Cost: about 2·count + 20 single solves and one of count right-hand sides. Pairs of an exactly multiple eigenvalue may be
-/// missed: count_eigenvalues_below() tells.
+/// The `count` eigenpairs next above σ, by shift-invert Lanczos with implicit restarts (Spectra; Lehoucq & Sorensen
+/// 1996) on the operator (K−σM)⁻¹M, followed by one step of inverse iteration on all vectors and a Rayleigh-Ritz
+/// projection, which takes the round-off of the high modes out of them. K, M: n × n; M positive definite on the range
+/// of the inverse; σ below the wanted eigenvalues; 1 ≤ count < n. Cost: about 2·count + 20 single solves and one of
+/// count right-hand sides. Pairs of an exactly multiple eigenvalue may be missed: count_eigenvalues_below() tells.
 Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, int count);
 
 /// All eigenpairs with λ ≤ lambda_max, by the same method with as many pairs as it takes.
-Eigenpairs eigenpairs_up_to(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, double lambda_max);
+Eigenpairs eigenpairs_up_to(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse,
+                            double lambda_max);
 
-/// All eigenpairs of the model restricted to Wᵀφ = 0 (W: n × constraints; empty: none), by dense algebra: for small models
-/// and as the independent check. Cost O(n³).
+/// All eigenpairs of the model restricted to Wᵀφ = 0 (W: n × constraints; empty: none), by dense algebra: for small
+/// models and as the independent check. Cost O(n³).
 Eigenpairs dense_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const Eigen::MatrixXd& W);
 
 /// ‖Kφ − λMφ‖ / (|λ| ‖Mφ‖) of each pair.

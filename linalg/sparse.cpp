@@ -19,6 +19,8 @@ SparseMatrix restrict_to(const SparseMatrix& A, const std::vector<int>& kept) {
   return B;
 }
 
-SparseMatrix combine(double a, const SparseMatrix& A, double b, const SparseMatrix& B) { return a * A + b * B; }
+SparseMatrix combine(double a, const SparseMatrix& A, double b, const SparseMatrix& B) {
+  return a * A + b * B;
+}
 
 }  // namespace thinwall::linalg

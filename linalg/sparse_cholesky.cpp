@@ -20,9 +20,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Threads of the libraries below for one call. CHOLMOD's own OpenMP loops ask for four threads whatever the machine has and
-/// spin between the small ones: allowing no active level turns them off. BLAS gets `blas` threads: all for a factorisation,
-/// whose large supernodes keep them busy, one for a solve, whose small products do not.
+/// Threads of the libraries below for one call. CHOLMOD's own OpenMP loops ask for four threads whatever the machine
+/// has and spin between the small ones: allowing no active level turns them off. BLAS gets `blas` threads: all for a
+/// factorisation, whose large supernodes keep them busy, one for a solve, whose small products do not.
 struct LibraryThreads {
   explicit LibraryThreads(int blas) {
     omp_set_max_active_levels(0);
@@ -30,7 +30,9 @@ struct LibraryThreads {
   }
 };
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// Nested dissection of the graph whose vertices are nodes: a permutation of the rows (new position → old row).
 std::vector<int> nested_dissection(const SparseMatrix& A, const std::vector<int>& node_of_row) {
@@ -75,7 +77,8 @@ std::vector<int> nested_dissection(const SparseMatrix& A, const std::vector<int>
     idx_t count = nodes;
     const int status =
         METIS_NodeND(&count, start.data(), neighbours.data(), weights.data(), options, order.data(), position.data());
-    if (status != METIS_OK) throw core::NumericalError("METIS could not order a graph of " + std::to_string(nodes) + " nodes");
+    if (status != METIS_OK)
+      throw core::NumericalError("METIS could not order a graph of " + std::to_string(nodes) + " nodes");
   }
   std::vector<int> permutation;
   permutation.reserve(n);
@@ -144,7 +147,8 @@ struct Factor {
     auto start = Clock::now();
     std::vector<int> permutation = nested_dissection(A, node_of_row);
     L = cholmod_analyze_p(&S, permutation.data(), nullptr, 0, &common);
-    if (L == nullptr) throw core::NumericalError("out of memory while analysing a matrix of " + std::to_string(A.rows()) + " rows");
+    if (L == nullptr)
+      throw core::NumericalError("out of memory while analysing a matrix of " + std::to_string(A.rows()) + " rows");
     statistics.flops = common.fl;
     statistics.nonzeros = common.lnz;
     statistics.seconds_ordering = seconds_since(start);
@@ -154,7 +158,8 @@ struct Factor {
     statistics.seconds_numeric = seconds_since(start);
     if (common.status == CHOLMOD_OUT_OF_MEMORY) {
       throw core::NumericalError("out of memory in the factorisation of " + std::to_string(A.rows()) +
-                                 " rows (factor of " + std::to_string(statistics.nonzeros * 8e-9) + " GB): use larger elements");
+                                 " rows (factor of " + std::to_string(statistics.nonzeros * 8e-9) +
+                                 " GB): use larger elements");
     }
   }
 
@@ -162,7 +167,8 @@ struct Factor {
     const LibraryThreads threads(1);
     cholmod_dense D = view(B);
     cholmod_dense* X = cholmod_solve(CHOLMOD_A, L, &D, &common);
-    if (X == nullptr) throw core::NumericalError("out of memory in a solve with " + std::to_string(B.cols()) + " right-hand sides");
+    if (X == nullptr)
+      throw core::NumericalError("out of memory in a solve with " + std::to_string(B.cols()) + " right-hand sides");
     Eigen::MatrixXd result = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(X->x), B.rows(), B.cols());
     cholmod_free_dense(&X, &common);
     return result;
@@ -177,7 +183,8 @@ struct SparseCholesky::Impl {
   Eigen::Index rows = 0;
 };
 
-SparseCholesky::SparseCholesky(const SparseMatrix& A, const std::vector<int>& node_of_row) : impl_(std::make_unique<Impl>()) {
+SparseCholesky::SparseCholesky(const SparseMatrix& A, const std::vector<int>& node_of_row)
+    : impl_(std::make_unique<Impl>()) {
   impl_->rows = A.rows();
   impl_->factor.common.supernodal = CHOLMOD_SUPERNODAL;
   impl_->factor.common.final_ll = 1;
@@ -195,9 +202,15 @@ SparseCholesky::~SparseCholesky() = default;
 SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
-Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& B) const { return impl_->factor.solve(B); }
-const FactorStatistics& SparseCholesky::statistics() const { return impl_->statistics; }
-Eigen::Index SparseCholesky::rows() const { return impl_->rows; }
+Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& B) const {
+  return impl_->factor.solve(B);
+}
+const FactorStatistics& SparseCholesky::statistics() const {
+  return impl_->statistics;
+}
+Eigen::Index SparseCholesky::rows() const {
+  return impl_->rows;
+}
 
 struct SparseIndefinite::Impl {
   Factor factor;
@@ -205,7 +218,8 @@ struct SparseIndefinite::Impl {
   SparseMatrix A;
 };
 
-SparseIndefinite::SparseIndefinite(const SparseMatrix& A, const std::vector<int>& node_of_row) : impl_(std::make_unique<Impl>()) {
+SparseIndefinite::SparseIndefinite(const SparseMatrix& A, const std::vector<int>& node_of_row)
+    : impl_(std::make_unique<Impl>()) {
   impl_->A = A;
   impl_->factor.common.supernodal = CHOLMOD_SIMPLICIAL;
   impl_->factor.common.final_ll = 0;

@@ -12,21 +12,21 @@ namespace thinwall::linalg {
 
 /// What a factorisation cost.
 struct FactorStatistics {
-  double flops = 0.0;      ///< of the numeric factorisation
-  double nonzeros = 0.0;   ///< of the factor L
+  double flops = 0.0;     ///< of the numeric factorisation
+  double nonzeros = 0.0;  ///< of the factor L
   double seconds_ordering = 0.0;
   double seconds_numeric = 0.0;
 };
 
 /// P A Pᵀ = L Lᵀ by CHOLMOD's supernodal method (Chen et al. 2008) with METIS nested dissection.
 ///
-/// Why an ordering of our own: the DOFs of one node have equal patterns, so the graph of *nodes* has nine times fewer edges
-/// than that of the DOFs and orders three times faster, with the same fill.
+/// Why an ordering of our own: the DOFs of one node have equal patterns, so the graph of *nodes* has nine times fewer
+/// edges than that of the DOFs and orders three times faster, with the same fill.
 class SparseCholesky {
  public:
-  /// A: n × n, symmetric positive definite, both triangles stored. node_of_row: for each row the node it belongs to, any
-  /// numbering; rows of one node are ordered together. Throws NumericalError if A is not positive definite, naming the
-  /// row. Cost: statistics().flops.
+  /// A: n × n, symmetric positive definite, both triangles stored. node_of_row: for each row the node it belongs to,
+  /// any numbering; rows of one node are ordered together. Throws NumericalError if A is not positive definite, naming
+  /// the row. Cost: statistics().flops.
   SparseCholesky(const SparseMatrix& A, const std::vector<int>& node_of_row);
   ~SparseCholesky();
   SparseCholesky(SparseCholesky&&) noexcept;

@@ -42,9 +42,11 @@ void limit_resources(double time_limit_s, double memory_limit_bytes) {
 }
 
 /// The forked process: works, writes, never returns.
-[[noreturn]] void child(const std::function<std::vector<char>()>& work, int out, double time_limit_s, double memory_limit_bytes) {
+[[noreturn]] void child(const std::function<std::vector<char>()>& work, int out, double time_limit_s,
+                        double memory_limit_bytes) {
   // The parent's handlers and its terminal output are not this process's business.
-  for (const int signal_number : {SIGINT, SIGTERM, SIGABRT, SIGSEGV, SIGBUS, SIGFPE}) std::signal(signal_number, SIG_DFL);
+  for (const int signal_number : {SIGINT, SIGTERM, SIGABRT, SIGSEGV, SIGBUS, SIGFPE})
+    std::signal(signal_number, SIG_DFL);
   std::signal(SIGINT, SIG_IGN);  // the parent decides and kills
   const int null = open("/dev/null", O_WRONLY);
   if (null >= 0) {
@@ -111,7 +113,8 @@ std::string cause(int status) {
 
 }  // namespace
 
-std::vector<char> run_confined(const std::function<std::vector<char>()>& work, double time_limit_s, double memory_limit_bytes) {
+std::vector<char> run_confined(const std::function<std::vector<char>()>& work, double time_limit_s,
+                               double memory_limit_bytes) {
   int ends[2];
   if (pipe(ends) != 0) throw core::NumericalError("the mesher could not be started: no pipe");
   const pid_t pid = fork();

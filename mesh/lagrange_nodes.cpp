@@ -22,7 +22,8 @@ struct KeyHash {
   std::size_t operator()(const Key& key) const {
     std::uint64_t h = 0x9e3779b97f4a7c15ULL;
     for (std::size_t i = 0; i < 4; ++i) {
-      h ^= static_cast<std::uint64_t>(static_cast<std::uint32_t>(key.vertices[i])) * 8 + static_cast<std::uint64_t>(key.weights[i]);
+      h ^= static_cast<std::uint64_t>(static_cast<std::uint32_t>(key.vertices[i])) * 8 +
+           static_cast<std::uint64_t>(key.weights[i]);
       h *= 0xff51afd7ed558ccdULL;
       h ^= h >> 32U;
     }
@@ -84,7 +85,8 @@ LagrangeNodes lagrange_nodes(const TetMesh& mesh, int order) {
         node = mesh.tets[tet][a];
         continue;
       }
-      const auto [found, inserted] = number.try_emplace(key_of(mesh.tets[tet], alphas[a]), static_cast<int>(positions.size()));
+      const auto [found, inserted] =
+          number.try_emplace(key_of(mesh.tets[tet], alphas[a]), static_cast<int>(positions.size()));
       node = found->second;
       if (!inserted) continue;
       Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -95,7 +97,8 @@ LagrangeNodes lagrange_nodes(const TetMesh& mesh, int order) {
     }
   }
   nodes.positions.resize(static_cast<Eigen::Index>(positions.size()), 3);
-  for (std::size_t i = 0; i < positions.size(); ++i) nodes.positions.row(static_cast<Eigen::Index>(i)) = positions[i].transpose();
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    nodes.positions.row(static_cast<Eigen::Index>(i)) = positions[i].transpose();
   return nodes;
 }
 

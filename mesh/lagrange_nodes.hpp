@@ -13,8 +13,8 @@ namespace thinwall::mesh {
 /// element lies at λ = α_a / p. The four vertices come first, in order.
 [[nodiscard]] std::vector<std::array<int, 4>> lattice(int order);
 
-/// Nodes shared by the elements: positions (nodes × 3, m) and for each element its (p+1)(p+2)(p+3)/6 node indices, in the
-/// order of lattice(p), one row an element. The mesh's vertices keep their indices as the first nodes.
+/// Nodes shared by the elements: positions (nodes × 3, m) and for each element its (p+1)(p+2)(p+3)/6 node indices, in
+/// the order of lattice(p), one row an element. The mesh's vertices keep their indices as the first nodes.
 struct LagrangeNodes {
   int order = 0;
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> positions;

@@ -14,7 +14,9 @@ namespace thinwall::mesh {
 
 namespace {
 
-const Eigen::Vector3d& vertex(const TetMesh& mesh, int index) { return mesh.vertices[static_cast<std::size_t>(index)]; }
+const Eigen::Vector3d& vertex(const TetMesh& mesh, int index) {
+  return mesh.vertices[static_cast<std::size_t>(index)];
+}
 
 Eigen::Vector4d barycentric(const TetMesh& mesh, int tet, const Eigen::Vector3d& x) {
   const auto& t = mesh.tets[static_cast<std::size_t>(tet)];
@@ -27,7 +29,8 @@ Eigen::Vector4d barycentric(const TetMesh& mesh, int tet, const Eigen::Vector3d&
 Eigen::Vector3d position(const TetMesh& mesh, const Location& location) {
   Eigen::Vector3d x = Eigen::Vector3d::Zero();
   for (int k = 0; k < 4; ++k) {
-    x += location.lambda(k) * vertex(mesh, mesh.tets[static_cast<std::size_t>(location.tet)][static_cast<std::size_t>(k)]);
+    x += location.lambda(k) *
+         vertex(mesh, mesh.tets[static_cast<std::size_t>(location.tet)][static_cast<std::size_t>(k)]);
   }
   return x;
 }
@@ -83,8 +86,8 @@ const BoundaryTriangle& nearest_triangle(const TetMesh& mesh, const std::vector<
 
 [[noreturn]] void off_the_part(const Eigen::Vector3d& x, double distance, const char* what) {
   std::ostringstream text;
-  text << "the point (" << x.x() * 1e3 << ", " << x.y() * 1e3 << ", " << x.z() * 1e3 << ") mm lies " << distance * 1e3 << " mm off "
-       << what << "; move it onto the part";
+  text << "the point (" << x.x() * 1e3 << ", " << x.y() * 1e3 << ", " << x.z() * 1e3 << ") mm lies " << distance * 1e3
+       << " mm off " << what << "; move it onto the part";
   throw core::InputError(text.str());
 }
 
@@ -109,16 +112,20 @@ Located locate(const TetMesh& mesh, const Eigen::Vector3d& x) {
 std::vector<PatchSample> patch_samples(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary,
                                        const Eigen::Vector3d& x, double radius_m) {
   const double tolerance = 1e-6 * diagonal(mesh);
+  double distance = 0.0;
   if (radius_m <= 0.0) {
     const Located found = locate(mesh, x);
-    if (found.distance_m > tolerance) off_the_part(x, found.distance_m, "the part");
+    if (found.distance_m > tolerance) {
+      nearest_triangle(mesh, boundary, x, distance);  // locate() moves x by more than its distance
+      off_the_part(x, distance, "the part");
+    }
     return {{found.location, 1.0}};
   }
-  double distance = 0.0;
   const BoundaryTriangle& triangle = nearest_triangle(mesh, boundary, x, distance);
   if (distance > tolerance) off_the_part(x, distance, "the part's surface, where a patch must lie");
   const Eigen::Vector3d e1 = (vertex(mesh, triangle.vertices[1]) - vertex(mesh, triangle.vertices[0])).normalized();
-  const Eigen::Vector3d normal = e1.cross(vertex(mesh, triangle.vertices[2]) - vertex(mesh, triangle.vertices[0])).normalized();
+  const Eigen::Vector3d normal =
+      e1.cross(vertex(mesh, triangle.vertices[2]) - vertex(mesh, triangle.vertices[0])).normalized();
   const Eigen::Vector3d e2 = normal.cross(e1);
   constexpr int rings = 8;
   constexpr int sectors = 24;
@@ -126,7 +133,9 @@ std::vector<PatchSample> patch_samples(const TetMesh& mesh, const std::vector<Bo
   for (int ring = 0; ring < rings; ++ring) {
     const double r = radius_m * std::sqrt((ring + 0.5) / rings);
     for (int sector = 0; sector < sectors; ++sector) {
-      const double angle = 2.0 * std::numbers::pi * (sector + 0.5 * (ring % 2)) / sectors;
+      // A quarter of a sector on, so that no ray lies on an edge of the part along e1, where half a sector would count
+      // whole.
+      const double angle = 2.0 * std::numbers::pi * (sector + 0.25 + 0.5 * (ring % 2)) / sectors;
       const Located found = locate(mesh, x + r * (std::cos(angle) * e1 + std::sin(angle) * e2));
       if (found.distance_m <= tolerance) samples.push_back({found.location, 1.0});
     }

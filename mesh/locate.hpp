@@ -14,8 +14,8 @@ struct Location {
   Eigen::Vector4d lambda = Eigen::Vector4d::Zero();
 };
 
-/// The tetrahedron that contains x (m), or the one that misses it least. `distance_m` says by how much x was moved to lie in
-/// it, 0 inside. Cost O(tets).
+/// The tetrahedron that contains x (m), or the one that misses it least. `distance_m` says by how much x was moved to
+/// lie in it, 0 inside. Cost O(tets).
 struct Located {
   Location location;
   double distance_m = 0.0;
@@ -28,11 +28,11 @@ struct PatchSample {
   double weight = 0.0;
 };
 
-/// The disc of radius r (m) about x on the part's surface, cut where it leaves the surface, as weighted samples of equal
-/// area, for the area-weighted average ∫ u dA / ∫ dA. The disc lies in the plane of the boundary triangle nearest to x.
-/// 8 rings × 24 sectors, midpoint in area: the average of a quadratic field is right to 1 % of its variation over the disc.
-/// r = 0 gives the one sample x. Throws InputError if x lies more than 1e-6 of the part's diagonal off the part, or (r > 0)
-/// off its surface.
+/// The disc of radius r (m) about x on the part's surface, cut where it leaves the surface, as weighted samples of
+/// equal area, for the area-weighted average ∫ u dA / ∫ dA. The disc lies in the plane of the boundary triangle nearest
+/// to x. 8 rings × 24 sectors, midpoint in area: the average of a quadratic field is right to 1 % of its variation over
+/// the disc. r = 0 gives the one sample x. Throws InputError if x lies more than 1e-6 of the part's diagonal off the
+/// part, or (r > 0) off its surface.
 [[nodiscard]] std::vector<PatchSample> patch_samples(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary,
                                                      const Eigen::Vector3d& x, double radius_m);
 

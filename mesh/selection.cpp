@@ -13,7 +13,9 @@ namespace thinwall::mesh {
 namespace {
 
 /// How far x lies outside the region; 0 inside.
-double distance(const PlaneRegion& plane, const Eigen::Vector3d& x) { return std::abs(plane.normal.normalized().dot(x - plane.point)); }
+double distance(const PlaneRegion& plane, const Eigen::Vector3d& x) {
+  return std::abs(plane.normal.normalized().dot(x - plane.point));
+}
 double distance(const BoxRegion& box, const Eigen::Vector3d& x) {
   return (box.min - x).cwiseMax(x - box.max).cwiseMax(0.0).norm();
 }
@@ -43,8 +45,8 @@ Region face_of(const Box& box, const std::string& name) {
   return plane;
 }
 
-std::vector<BoundaryTriangle> select(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary, const Region& region,
-                                     const std::string& name) {
+std::vector<BoundaryTriangle> select(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary,
+                                     const Region& region, const std::string& name) {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::max());
   Eigen::Vector3d high = -low;
   for (const auto& v : mesh.vertices) {
@@ -72,8 +74,8 @@ std::vector<BoundaryTriangle> select(const TetMesh& mesh, const std::vector<Boun
   const std::string extent = "; the part reaches from " + in_mm(low) + " to " + in_mm(high);
   if (chosen.empty()) {
     std::ostringstream text;
-    text << "selection \"" << name << "\" holds no face of the part: the nearest, at " << in_mm(nearest_centre) << ", lies "
-         << nearest * 1e3 << " mm outside" << extent << ", and its faces are x_min, x_max … z_max";
+    text << "selection \"" << name << "\" holds no face of the part: the nearest, at " << in_mm(nearest_centre)
+         << ", lies " << nearest * 1e3 << " mm outside" << extent << ", and its faces are x_min, x_max … z_max";
     throw core::InputError(text.str());
   }
   if (chosen.size() == boundary.size()) {
@@ -82,13 +84,15 @@ std::vector<BoundaryTriangle> select(const TetMesh& mesh, const std::vector<Boun
   return chosen;
 }
 
-std::vector<int> nodes_on(const LagrangeNodes& nodes, const TetMesh& mesh, const std::vector<BoundaryTriangle>& triangles) {
+std::vector<int> nodes_on(const LagrangeNodes& nodes, const TetMesh& mesh,
+                          const std::vector<BoundaryTriangle>& triangles) {
   const auto alphas = lattice(nodes.order);
   std::set<int> chosen;
   for (const BoundaryTriangle& triangle : triangles) {
     const auto& tet = mesh.tets[static_cast<std::size_t>(triangle.tet)];
     std::size_t opposite = 0;
-    while (std::find(triangle.vertices.begin(), triangle.vertices.end(), tet[opposite]) != triangle.vertices.end()) ++opposite;
+    while (std::find(triangle.vertices.begin(), triangle.vertices.end(), tet[opposite]) != triangle.vertices.end())
+      ++opposite;
     for (std::size_t a = 0; a < alphas.size(); ++a) {
       if (alphas[a][opposite] == 0) chosen.insert(nodes.elements(triangle.tet, static_cast<Eigen::Index>(a)));
     }

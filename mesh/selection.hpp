@@ -35,9 +35,9 @@ using Region = std::variant<PlaneRegion, BoxRegion, SphereRegion>;
 /// The plane of a box's face by its name ("y_min"); throws InputError with the nearest name otherwise.
 [[nodiscard]] Region face_of(const Box& box, const std::string& name);
 
-/// The boundary triangles with all three corners in the region, within 1e-6 of the part's diagonal. A region that holds no
-/// face, or every face, is an InputError that says where the part lies and how far the nearest face is; `name` is what the
-/// user called the region.
+/// The boundary triangles with all three corners in the region, within 1e-6 of the part's diagonal. A region that holds
+/// no face, or every face, is an InputError that says where the part lies and how far the nearest face is; `name` is
+/// what the user called the region.
 [[nodiscard]] std::vector<BoundaryTriangle> select(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary,
                                                    const Region& region, const std::string& name);
 

@@ -1,7 +1,6 @@
 #include "mesh/tet_mesh.hpp"
 
 #include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +8,9 @@ namespace thinwall::mesh {
 
 namespace {
 
-const Eigen::Vector3d& vertex(const TetMesh& mesh, int index) { return mesh.vertices[static_cast<std::size_t>(index)]; }
+const Eigen::Vector3d& vertex(const TetMesh& mesh, int index) {
+  return mesh.vertices[static_cast<std::size_t>(index)];
+}
 
 /// Face k is opposite vertex k; its normal points away from it.
 constexpr std::array<std::array<int, 3>, 4> faces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};

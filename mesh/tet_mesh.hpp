@@ -7,7 +7,8 @@
 
 namespace thinwall::mesh {
 
-/// Vertices in m, part axes; each tetrahedron by four vertex indices with positive volume (det[v1−v0, v2−v0, v3−v0] > 0).
+/// Vertices in m, part axes; each tetrahedron by four vertex indices with positive volume (det[v1−v0, v2−v0, v3−v0] >
+/// 0).
 struct TetMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<int, 4>> tets;

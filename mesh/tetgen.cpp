@@ -38,7 +38,8 @@ void fill(tetgenio& in, const FacetedSurface& surface) {
 
 Eigen::Vector3d centroid(const tetgenio& mesh, int tet) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (int k = 0; k < 4; ++k) sum += Eigen::Map<const Eigen::Vector3d>(mesh.pointlist + 3 * mesh.tetrahedronlist[4 * tet + k]);
+  for (int k = 0; k < 4; ++k)
+    sum += Eigen::Map<const Eigen::Vector3d>(mesh.pointlist + 3 * mesh.tetrahedronlist[4 * tet + k]);
   return sum / 4.0;
 }
 
@@ -46,7 +47,8 @@ Eigen::Vector3d centroid(const tetgenio& mesh, int tet) {
 void refine(tetgenio& mesh, tetgenio& refined, const TetgenOptions& options, std::string switches) {
   mesh.tetrahedronvolumelist = new REAL[static_cast<std::size_t>(mesh.numberoftetrahedra)];
   for (int tet = 0; tet < mesh.numberoftetrahedra; ++tet) {
-    mesh.tetrahedronvolumelist[tet] = regular_volume(std::min(options.element_size_m, options.size_at(centroid(mesh, tet))));
+    mesh.tetrahedronvolumelist[tet] =
+        regular_volume(std::min(options.element_size_m, options.size_at(centroid(mesh, tet))));
   }
   tetrahedralize(switches.data(), &mesh, &refined);
 }
@@ -77,7 +79,8 @@ TetMesh deserialise(const std::vector<char>& bytes) {
   std::memcpy(static_cast<void*>(mesh.tets.data()), points + mesh.vertices.size() * sizeof(Eigen::Vector3d),
               mesh.tets.size() * sizeof(std::array<int, 4>));
   for (int tet = 0; tet < counts[1]; ++tet) {
-    if (volume(mesh, tet) < 0.0) std::swap(mesh.tets[static_cast<std::size_t>(tet)][2], mesh.tets[static_cast<std::size_t>(tet)][3]);
+    if (volume(mesh, tet) < 0.0)
+      std::swap(mesh.tets[static_cast<std::size_t>(tet)][2], mesh.tets[static_cast<std::size_t>(tet)][3]);
   }
   return mesh;
 }
@@ -124,20 +127,25 @@ std::vector<char> run_tetgen(const FacetedSurface& surface, const TetgenOptions&
 
 }  // namespace
 
-double regular_volume(double edge_m) { return edge_m * edge_m * edge_m / (6.0 * std::sqrt(2.0)); }
+double regular_volume(double edge_m) {
+  return edge_m * edge_m * edge_m / (6.0 * std::sqrt(2.0));
+}
 
 TetMesh tetrahedralise(const FacetedSurface& surface, const TetgenOptions& options) {
-  const std::string remedy = "; try another part.mesh.element_size, a larger part.mesh.quality (at most 5), or larger limits";
+  const std::string remedy =
+      "; try another part.mesh.element_size, a larger part.mesh.quality (at most 5), or larger limits";
   std::vector<char> bytes;
   try {
-    bytes = run_confined([&] { return run_tetgen(surface, options); }, options.time_limit_s, options.memory_limit_bytes);
+    bytes =
+        run_confined([&] { return run_tetgen(surface, options); }, options.time_limit_s, options.memory_limit_bytes);
   } catch (const core::NumericalError& error) {
     throw core::NumericalError(std::string("TetGen failed on the part's surface: ") + error.what() + remedy);
   }
   if (bytes.size() < 2 * sizeof(int)) throw core::NumericalError("TetGen returned nothing" + remedy);
   TetMesh mesh = deserialise(bytes);
   drop_unused_vertices(mesh);
-  if (mesh.tets.empty()) throw core::NumericalError("TetGen returned no tetrahedra: the surface is not closed" + remedy);
+  if (mesh.tets.empty())
+    throw core::NumericalError("TetGen returned no tetrahedra: the surface is not closed" + remedy);
   const double expected = volume(surface);
   const double found = volume(mesh);
   if (!(std::abs(found - expected) <= 1e-9 * expected)) {

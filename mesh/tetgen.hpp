@@ -11,10 +11,10 @@ namespace thinwall::mesh {
 
 /// What the mesher is asked for, and what it may use.
 struct TetgenOptions {
-  double element_size_m = 0.0;       ///< edge of the wanted tetrahedra; the volume bound is that of the regular one
-  double radius_edge_ratio = 1.4;    ///< bound on circumradius / shortest edge (Shewchuk 1998); 1.1 to 5, lower is better
-  double time_limit_s = 120.0;       ///< the process is killed after this
-  double memory_limit_bytes = 4e9;   ///< address space the process may take beyond what it starts with
+  double element_size_m = 0.0;     ///< edge of the wanted tetrahedra; the volume bound is that of the regular one
+  double radius_edge_ratio = 1.4;  ///< bound on circumradius / shortest edge (Shewchuk 1998); 1.1 to 5, lower is better
+  double time_limit_s = 120.0;     ///< the process is killed after this
+  double memory_limit_bytes = 4e9;  ///< address space the process may take beyond what it starts with
   /// Wanted size (m) at a point; empty: element_size_m everywhere. Met by refining the first mesh tet by tet.
   std::function<double(const Eigen::Vector3d&)> size_at;
 };
@@ -24,12 +24,13 @@ struct TetgenOptions {
 
 /// Constrained Delaunay tetrahedralisation of the inside of `surface` with quality refinement (TetGen 1.5, Si 2015).
 /// TetGen aborts, throws, crashes or hangs on some input: it runs in a forked process with a limit on time and memory.
-/// Throws NumericalError if that process fails in any way, if it returns no tetrahedra, or if the volume of the mesh differs
-/// from the surface's by more than 1e-9 relative; the message says what to try. Interruptible.
+/// Throws NumericalError if that process fails in any way, if it returns no tetrahedra, or if the volume of the mesh
+/// differs from the surface's by more than 1e-9 relative; the message says what to try. Interruptible.
 [[nodiscard]] TetMesh tetrahedralise(const FacetedSurface& surface, const TetgenOptions& options);
 
-/// The part of tetrahedralise() that watches over the process: runs `work` in a forked process under the limits and returns
-/// the bytes that it gave back. Throws NumericalError if it is killed, crashes, throws or exceeds a limit. For tests.
+/// The part of tetrahedralise() that watches over the process: runs `work` in a forked process under the limits and
+/// returns the bytes that it gave back. Throws NumericalError if it is killed, crashes, throws or exceeds a limit. For
+/// tests.
 [[nodiscard]] std::vector<char> run_confined(const std::function<std::vector<char>()>& work, double time_limit_s,
                                              double memory_limit_bytes);
 

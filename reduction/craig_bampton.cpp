@@ -34,7 +34,8 @@ ConstraintModes constraint_modes(const linalg::ShiftedInverse& inverse, const In
   }
   ConstraintModes result;
   result.Psi = flexibility.llt().solve(SW.transpose()).transpose();
-  result.inner_inverse.apply = [&inverse, &interface, Psi = result.Psi](const Eigen::Ref<const Eigen::MatrixXd>& B) -> Eigen::MatrixXd {
+  result.inner_inverse.apply = [&inverse, &interface,
+                                Psi = result.Psi](const Eigen::Ref<const Eigen::MatrixXd>& B) -> Eigen::MatrixXd {
     Eigen::MatrixXd X = inverse.apply(B);
     // Twice: the second pass takes out what round-off of the first left on the interface.
     for (int pass = 0; pass < 2; ++pass) X -= (Psi * (interface.W.transpose() * X)).eval();
@@ -43,8 +44,9 @@ ConstraintModes constraint_modes(const linalg::ShiftedInverse& inverse, const In
   return result;
 }
 
-linalg::Eigenpairs fixed_interface_modes(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M, const Interface& interface,
-                                         const linalg::ShiftedInverse& inner_inverse, const CraigBamptonOptions& options) {
+linalg::Eigenpairs fixed_interface_modes(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M,
+                                         const Interface& interface, const linalg::ShiftedInverse& inner_inverse,
+                                         const CraigBamptonOptions& options) {
   const Eigen::Index inner = K.rows() - interface.W.cols();
   if (!options.up_to_hz && options.modes > inner) {
     throw core::InputError("asked for " + std::to_string(options.modes) + " fixed-interface modes; the model has " +
@@ -53,7 +55,8 @@ linalg::Eigenpairs fixed_interface_modes(const linalg::SparseMatrix& K, const li
   const double omega_max = 2.0 * std::numbers::pi * options.up_to_hz.value_or(0.0);
   if (K.rows() <= 600) {
     linalg::Eigenpairs all = linalg::dense_eigenpairs(K, M, interface.W);
-    const Eigen::Index kept = options.up_to_hz ? (all.lambda.array() <= omega_max * omega_max).count() : Eigen::Index(options.modes);
+    const Eigen::Index kept =
+        options.up_to_hz ? (all.lambda.array() <= omega_max * omega_max).count() : Eigen::Index(options.modes);
     all.lambda.conservativeResize(kept);
     all.inverse_residual.conservativeResize(kept);
     all.Phi.conservativeResize(Eigen::NoChange, kept);
@@ -64,13 +67,17 @@ linalg::Eigenpairs fixed_interface_modes(const linalg::SparseMatrix& K, const li
   return linalg::lowest_eigenpairs(K, M, inner_inverse, options.modes);
 }
 
-Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& A) { return 0.5 * (A + A.transpose()); }
+Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& A) {
+  return 0.5 * (A + A.transpose());
+}
 
 }  // namespace
 
-CraigBampton craig_bampton(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M, const linalg::ShiftedInverse& inverse,
-                           const Interface& interface, const CraigBamptonOptions& options) {
-  if (inverse.sigma != 0.0) throw core::NumericalError("constraint modes are static: they need the inverse at zero shift");
+CraigBampton craig_bampton(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M,
+                           const linalg::ShiftedInverse& inverse, const Interface& interface,
+                           const CraigBamptonOptions& options) {
+  if (inverse.sigma != 0.0)
+    throw core::NumericalError("constraint modes are static: they need the inverse at zero shift");
   const ConstraintModes constraint = constraint_modes(inverse, interface);
   const linalg::Eigenpairs inner = fixed_interface_modes(K, M, interface, constraint.inner_inverse, options);
   CraigBampton result;

@@ -11,17 +11,20 @@ namespace {
 
 void require_ratio(double zeta) {
   if (!(zeta >= 0.0 && zeta < 1.0)) {
-    throw core::InputError("damping ratio " + std::to_string(zeta) + " is outside 0 ≤ ζ < 1; write 0.01 or \"1 %\" for one per cent");
+    throw core::InputError("damping ratio " + std::to_string(zeta) +
+                           " is outside 0 ≤ ζ < 1; write 0.01 or \"1 %\" for one per cent");
   }
 }
 
 void require_not_negative(double value, const char* name) {
-  if (!(value >= 0.0)) throw core::InputError(std::string(name) + " is " + std::to_string(value) + "; it must not be negative");
+  if (!(value >= 0.0))
+    throw core::InputError(std::string(name) + " is " + std::to_string(value) + "; it must not be negative");
 }
 
 }  // namespace
 
-dynamics::SpatialModel with_modal_damping(dynamics::SpatialModel model, const std::vector<double>& ratios, double rest) {
+dynamics::SpatialModel with_modal_damping(dynamics::SpatialModel model, const std::vector<double>& ratios,
+                                          double rest) {
   for (const double zeta : ratios) require_ratio(zeta);
   require_ratio(rest);
   const dynamics::UndampedModes modes = dynamics::undamped_modes(model);

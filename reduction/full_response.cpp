@@ -8,8 +8,9 @@
 
 namespace thinwall::reduction {
 
-FullResponse full_response(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M, const linalg::ShiftedInverse& inverse,
-                           const linalg::Eigenpairs& pairs, const std::vector<double>& ratios, double rest, const Interface& interface,
+FullResponse full_response(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M,
+                           const linalg::ShiftedInverse& inverse, const linalg::Eigenpairs& pairs,
+                           const std::vector<double>& ratios, double rest, const Interface& interface,
                            const dynamics::FrequencyAxis& axis) {
   const double omega_max = axis.omega_rad_s(axis.size() - 1);
   const double quotient = omega_max * omega_max / pairs.lambda(pairs.lambda.size() - 1);
@@ -43,7 +44,8 @@ FullResponse full_response(const linalg::SparseMatrix& K, const linalg::SparseMa
     Eigen::VectorXcd pole(pairs.lambda.size());
     for (Eigen::Index k = 0; k < pole.size(); ++k) {
       const double zeta = k < static_cast<Eigen::Index>(ratios.size()) ? ratios[static_cast<std::size_t>(k)] : rest;
-      pole(k) = 1.0 / std::complex<double>(pairs.lambda(k) - omega * omega, 2.0 * zeta * std::sqrt(pairs.lambda(k)) * omega);
+      pole(k) =
+          1.0 / std::complex<double>(pairs.lambda(k) - omega * omega, 2.0 * zeta * std::sqrt(pairs.lambda(k)) * omega);
     }
     Eigen::MatrixXcd H = amplitude * pole.asDiagonal() * amplitude.transpose();
     double power = 1.0;

@@ -13,17 +13,18 @@ struct [[nodiscard]] FullResponse {
   double max_relative_residual = 0.0;  ///< ‖(K − ω²M) x − w‖ / ‖w‖ of the undamped solution at the highest frequency
 };
 
-/// H(ω) = Wᵀ (K − ω²M + iωC)⁻¹ W with C = M Φ diag(2ζω_r) Φᵀ M on the modes that are known. The known modes are summed; what
-/// is left has all its resonances above the band, where its power series in ω² converges:
+/// H(ω) = Wᵀ (K − ω²M + iωC)⁻¹ W with C = M Φ diag(2ζω_r) Φᵀ M on the modes that are known. The known modes are summed;
+/// what is left has all its resonances above the band, where its power series in ω² converges:
 ///
 ///     H(ω) = Σ_r (Wᵀφ_r)(Wᵀφ_r)ᵀ / (λ_r − ω² + 2iζ_r ω_r ω) + Σ_k ω^{2k} Wᵀ X_k,
 ///     X_0 = K⁻¹W − Φ Λ⁻¹ Φᵀ W,   X_{k+1} = K⁻¹ M X_k,   all X_k M-orthogonal to Φ
 ///
-/// so the sum is exact to round-off and no mode is left out (Leung 1978, the accelerated modal sum). `pairs` must hold every
-/// mode below, and some beyond, the band; `inverse` is K⁻¹ (sigma 0). `ratios`: ζ of the first modes, `rest` of the others.
-/// Throws InputError if the band reaches beyond 0.9 of the highest known frequency. Cost: some ten solves.
-FullResponse full_response(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M, const linalg::ShiftedInverse& inverse,
-                           const linalg::Eigenpairs& pairs, const std::vector<double>& ratios, double rest, const Interface& interface,
+/// so the sum is exact to round-off and no mode is left out (Leung 1978, the accelerated modal sum). `pairs` must hold
+/// every mode below, and some beyond, the band; `inverse` is K⁻¹ (sigma 0). `ratios`: ζ of the first modes, `rest` of
+/// the others. Throws InputError if the band reaches beyond 0.9 of the highest known frequency. Cost: some ten solves.
+FullResponse full_response(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M,
+                           const linalg::ShiftedInverse& inverse, const linalg::Eigenpairs& pairs,
+                           const std::vector<double>& ratios, double rest, const Interface& interface,
                            const dynamics::FrequencyAxis& axis);
 
 }  // namespace thinwall::reduction

@@ -18,7 +18,8 @@ struct Peak {
   Eigen::Index last = 0;
 };
 
-/// Lines around `line` with magnitude at least `fraction` of the peak's, towards both sides until the first that is lower.
+/// Lines around `line` with magnitude at least `fraction` of the peak's, towards both sides until the first that is
+/// lower.
 Peak shoulders(const Eigen::VectorXd& magnitude, Eigen::Index line, double fraction) {
   Peak peak{line, line, line};
   while (peak.first > 0 && magnitude(peak.first - 1) >= fraction * magnitude(line)) --peak.first;
@@ -26,8 +27,8 @@ Peak shoulders(const Eigen::VectorXd& magnitude, Eigen::Index line, double fract
   return peak;
 }
 
-/// Local maxima that stand out by the wanted factor: within the lines down to |H|/prominence no line is higher, and both
-/// sides get that low before the axis ends.
+/// Local maxima that stand out by the wanted factor: within the lines down to |H|/prominence no line is higher, and
+/// both sides get that low before the axis ends.
 std::vector<Peak> peaks(const Eigen::VectorXd& magnitude, const PeakOptions& options) {
   std::vector<Peak> found;
   const Eigen::Index lines = magnitude.size();
@@ -87,16 +88,18 @@ std::optional<IdentifiedMode> fit(const dynamics::FrequencyAxis& axis, const Eig
 
 }  // namespace
 
-std::vector<IdentifiedMode> identify_modes(const dynamics::FrequencyAxis& axis, const Eigen::VectorXcd& H, const PeakOptions& options) {
+std::vector<IdentifiedMode> identify_modes(const dynamics::FrequencyAxis& axis, const Eigen::VectorXcd& H,
+                                           const PeakOptions& options) {
   std::vector<IdentifiedMode> modes;
   for (const Peak& peak : peaks(H.cwiseAbs(), options)) {
     const auto mode = fit(axis, H, peak);
     if (mode && mode->relative_misfit <= options.max_misfit && mode->damping_ratio < 1.0) modes.push_back(*mode);
   }
   if (modes.empty()) {
-    throw core::InputError("no resonance could be fitted in the receptance between " + std::to_string(axis.hz(0)) + " and " +
-                           std::to_string(axis.hz(axis.size() - 1)) + " Hz: it needs a peak that stands out by a factor of " +
-                           std::to_string(options.prominence) + " with lines on both sides");
+    throw core::InputError("no resonance could be fitted in the receptance between " + std::to_string(axis.hz(0)) +
+                           " and " + std::to_string(axis.hz(axis.size() - 1)) +
+                           " Hz: it needs a peak that stands out by a factor of " + std::to_string(options.prominence) +
+                           " with lines on both sides");
   }
   return modes;
 }

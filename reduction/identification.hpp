@@ -22,14 +22,14 @@ struct PeakOptions {
   double max_misfit = 0.3;  ///< a worse fit is not a mode
 };
 
-/// Fits each peak of |H| on the lines where |H| ≥ peak/3 (at least `least_lines`), by the rational function of one mode and a
-/// quadratic rest in the numerator,
+/// Fits each peak of |H| on the lines where |H| ≥ peak/3 (at least `least_lines`), by the rational function of one mode
+/// and a quadratic rest in the numerator,
 ///
 ///     H(ω) = (n₀ + n₁ iω − n₂ ω²) / (d₀ + d₁ iω − ω²),      ω_r = √d₀, ζ = d₁ / (2 ω_r),
 ///
-/// linear least squares with real unknowns, reweighted by the denominator of the pass before (Sanathanan & Koerner 1963), six
-/// passes. H: receptance m/N at every line of the axis. Peaks whose fit is unstable (d₀ or d₁ ≤ 0) or poor are left out.
-/// Throws InputError if no peak can be fitted. Cost O(lines).
+/// linear least squares with real unknowns, reweighted by the denominator of the pass before (Sanathanan & Koerner
+/// 1963), six passes. H: receptance m/N at every line of the axis. Peaks whose fit is unstable (d₀ or d₁ ≤ 0) or poor
+/// are left out. Throws InputError if no peak can be fitted. Cost O(lines).
 [[nodiscard]] std::vector<IdentifiedMode> identify_modes(const dynamics::FrequencyAxis& axis, const Eigen::VectorXcd& H,
                                                          const PeakOptions& options = {});
 

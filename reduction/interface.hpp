@@ -6,8 +6,8 @@
 
 namespace thinwall::reduction {
 
-/// Interface DOFs u_b = Wᵀ u: column j of W (full × interface) holds the weights of the displacement called dofs[j] over the
-/// full model's free rows; a single node is a unit column, a patch a weighted average. Wᵀ W must be regular.
+/// Interface DOFs u_b = Wᵀ u: column j of W (full × interface) holds the weights of the displacement called dofs[j]
+/// over the full model's free rows; a single node is a unit column, a patch a weighted average. Wᵀ W must be regular.
 struct Interface {
   linalg::SparseMatrix W;
   dynamics::DofTable dofs;

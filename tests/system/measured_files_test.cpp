@@ -30,8 +30,9 @@ std::string text_of(const fs::path& path) {
 }
 
 TEST(MeasuredCase, NoiseFreeFilesGiveTheModelsPredictionWithinAThousandthOfThePeak) {
-  app::Case model = app::read_case(cases / "barrios-2019", {"part.mesh.element_size=25 mm", "response.from=1 Hz", "response.to=1000 Hz",
-                                                            "response.lines=1999", "reduction.modes=40"});
+  app::Case model =
+      app::read_case(cases / "barrios-2019", {"part.mesh.element_size=25 mm", "response.from=1 Hz",
+                                              "response.to=1000 Hz", "response.lines=1999", "reduction.modes=40"});
   model.updating.clear();
   app::Stages stages(false);
   const app::PartResult part = app::compute_part(model, app::mesh_part(model), stages);
@@ -62,7 +63,8 @@ TEST(MeasuredCase, TheCommittedFilesSayWhatTheyAreAndMeetTheCasesExpectations) {
     EXPECT_NE(text.find("# synthetic"), std::string::npos) << name;
     EXPECT_NE(text.find("seed"), std::string::npos) << name;
   }
-  const app::RunResult run = app::run_case(app::read_case(cases / "barrios-2019-measured", {}), {scratch("measured_committed"), true, -1, false});
+  const app::RunResult run = app::run_case(app::read_case(cases / "barrios-2019-measured", {}),
+                                           {scratch("measured_committed"), true, -1, false});
   EXPECT_TRUE(run.expectations_hold) << run.summary["checks"].dump(2);
 }
 

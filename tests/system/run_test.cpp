@@ -34,7 +34,8 @@ pid_t start(const std::vector<std::string>& words, const fs::path& output) {
   std::vector<char*> argv{const_cast<char*>(program.c_str())};
   for (const auto& word : words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
-  if (std::freopen(output.c_str(), "w", stdout) == nullptr || std::freopen("/dev/null", "w", stderr) == nullptr) _exit(99);
+  if (std::freopen(output.c_str(), "w", stdout) == nullptr || std::freopen("/dev/null", "w", stderr) == nullptr)
+    _exit(99);
   execv(program.c_str(), argv.data());
   _exit(99);
 }
@@ -45,7 +46,9 @@ int exit_code(pid_t pid) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-int run(const std::vector<std::string>& words, const fs::path& output = "/dev/null") { return exit_code(start(words, output)); }
+int run(const std::vector<std::string>& words, const fs::path& output = "/dev/null") {
+  return exit_code(start(words, output));
+}
 
 std::vector<fs::path> unfinished(const fs::path& folder) {
   std::vector<fs::path> found;
@@ -60,10 +63,11 @@ nlohmann::json summary_in(const fs::path& folder) {
   return nlohmann::json::parse(file);
 }
 
-const std::vector<std::string> quick{"--set", "part.mesh.element_size=25 mm", "--set", "lobes.count=6", "--set", "response.lines=200",
-                                     "--set", "reduction.modes=20"};
+const std::vector<std::string> quick{"--set", "part.mesh.element_size=25 mm", "--set", "lobes.count=6",
+                                     "--set", "response.lines=200",           "--set", "reduction.modes=20"};
 
-std::vector<std::string> words(const std::string& verb, const std::string& source, const fs::path& out, const std::vector<std::string>& more) {
+std::vector<std::string> words(const std::string& verb, const std::string& source, const fs::path& out,
+                               const std::vector<std::string>& more) {
   std::vector<std::string> all{verb, source, "--out", out.string()};
   all.insert(all.end(), more.begin(), more.end());
   return all;
@@ -74,9 +78,11 @@ TEST(Run, LeavesEveryFileOfAResultFolder) {
   const fs::path table = scratch("run_plate.txt");
   const int code = run(words("run", plate, out, quick), table);
   EXPECT_TRUE(code == 0 || code == 6) << code;
-  for (const char* name : {"summary.json", "manifest.json", "case.toml", "case.resolved.toml", "run.log", "modes/part.pvd", "modes/part_mode_01.vtu",
-                           "modes/coupled.pvd", "modes/coupled_mode_01.vtu", "modes/modes.csv", "frf/part.csv", "frf/part.uff", "frf/robot.csv",
-                           "frf/coupled_receptance.csv", "frf/coupled_spatial.csv", "lobes/part.csv", "lobes/supported.csv", "models/part.mat"}) {
+  for (const char* name :
+       {"summary.json", "manifest.json", "case.toml", "case.resolved.toml", "run.log", "modes/part.pvd",
+        "modes/part_mode_01.vtu", "modes/coupled.pvd", "modes/coupled_mode_01.vtu", "modes/modes.csv", "frf/part.csv",
+        "frf/part.uff", "frf/robot.csv", "frf/coupled_receptance.csv", "frf/coupled_spatial.csv", "lobes/part.csv",
+        "lobes/supported.csv", "models/part.mat"}) {
     EXPECT_TRUE(fs::exists(out / name)) << name;
   }
   EXPECT_TRUE(unfinished(out).empty());
@@ -91,12 +97,13 @@ TEST(Run, LeavesEveryFileOfAResultFolder) {
 TEST(Run, TheResolvedCaseGivesTheSameNumbersAndAnotherRunDoesToo) {
   const fs::path a = scratch("run_same_a");
   const fs::path b = scratch("run_same_b");
-  const std::vector<std::string> small{"--set", "part.mesh.element_size=12 mm", "--set", "lobes.count=4", "--set", "response.lines=100",
-                                       "--set", "reduction.up_to=8 kHz"};
+  const std::vector<std::string> small{"--set", "part.mesh.element_size=12 mm", "--set", "lobes.count=4",
+                                       "--set", "response.lines=100",           "--set", "reduction.up_to=8 kHz"};
   ASSERT_EQ(run(words("run", wall, a, small)), 0);
   auto one_thread = words("run", (a / "case.resolved.toml").string(), b, {"--threads", "1"});
   ASSERT_EQ(run(one_thread), 0);
-  EXPECT_EQ(run({"compare", a.string(), b.string(), "--tolerance", "1e-6"}), 0) << "numbers do not depend on threads or on how a default was written";
+  EXPECT_EQ(run({"compare", a.string(), b.string(), "--tolerance", "1e-6"}), 0)
+      << "numbers do not depend on threads or on how a default was written";
 }
 
 TEST(Run, InterruptionAtAnyStageLeavesTheEarlierResultsAlone) {
@@ -109,7 +116,8 @@ TEST(Run, InterruptionAtAnyStageLeavesTheEarlierResultsAlone) {
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
     kill(pid, SIGINT);
     const int code = exit_code(pid);
-    // Before the handlers stand, the signal ends the process itself (-1); after the end there is nothing to interrupt (0).
+    // Before the handlers stand, the signal ends the process itself (-1); after the end there is nothing to interrupt
+    // (0).
     EXPECT_TRUE(code == 130 || code == -1 || code == 0) << code;
     if (code == 0) break;
     interrupted += code == 130 ? 1 : 0;
@@ -123,7 +131,8 @@ TEST(Run, InterruptionAtAnyStageLeavesTheEarlierResultsAlone) {
 TEST(Run, TwoRunsDoNotMeetInOneFolder) {
   const fs::path out = scratch("run_twice");
   const pid_t first = start(words("run", wall, out, {}), "/dev/null");
-  while (!fs::exists(out / "run.log")) std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the folder is taken
+  while (!fs::exists(out / "run.log"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the folder is taken
   EXPECT_EQ(run(words("run", wall, out, {})), 4);
   kill(first, SIGINT);
   EXPECT_EQ(exit_code(first), 130);

@@ -28,8 +28,8 @@ inline SyntheticMeasurement measure(const app::Case& source, const app::PartResu
   const fem::Factored factored = fem::factorise(part.model);
   SyntheticMeasurement result;
   result.axis = app::frequency_axis(source);
-  const auto full = reduction::full_response(part.model.K, part.model.M, fem::inverse_of(factored), part.modes.pairs, source.damping.ratios,
-                                             source.damping.ratio, part.interface, result.axis);
+  const auto full = reduction::full_response(part.model.K, part.model.M, fem::inverse_of(factored), part.modes.pairs,
+                                             source.damping.ratios, source.damping.ratio, part.interface, result.axis);
   result.part = dynamics::entry(full.response, point + ".x", point + ".x");
   result.relative_residual = full.max_relative_residual;
   const auto robot = app::robot_component(source, result.axis);
@@ -51,7 +51,8 @@ inline Eigen::VectorXcd with_noise(Eigen::VectorXcd H, double level, std::uint32
 }
 
 /// frequency_hz, real, imaginary under a header that says what the file is.
-inline void write_measurement(const std::string& path, const std::string& header, const dynamics::FrequencyAxis& axis, const Eigen::VectorXcd& H) {
+inline void write_measurement(const std::string& path, const std::string& header, const dynamics::FrequencyAxis& axis,
+                              const Eigen::VectorXcd& H) {
   std::ofstream file(path);
   file.imbue(std::locale::classic());
   file << header << "frequency_hz,real_m_per_n,imaginary_m_per_n\n" << std::setprecision(9);

@@ -25,7 +25,8 @@ dynamics::SpatialModel reduced_plate() {
   mesh::TetgenOptions options;
   options.element_size_m = 0.020;
   const auto face = [&](const char* name) { return fem::Support{name, mesh::face_of(box, name), {0, 1, 2}}; };
-  const auto model = fem::supported_model(mesh::tetrahedralise(mesh::surface(box), options), 2, {210e9, 0.3, 7850.0}, {face("y_min"), face("y_max")});
+  const auto model = fem::supported_model(mesh::tetrahedralise(mesh::surface(box), options), 2, {210e9, 0.3, 7850.0},
+                                          {face("y_min"), face("y_max")});
   const std::vector<Eigen::Vector3d> xyz{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
   reduction::Interface interface;
   std::vector<Eigen::Triplet<double>> entries;
@@ -41,7 +42,8 @@ dynamics::SpatialModel reduced_plate() {
   interface.W.resize(model.K.rows(), 6);
   interface.W.setFromTriplets(entries.begin(), entries.end());
   const auto factored = fem::factorise(model);
-  const auto reduced = reduction::craig_bampton(model.K, model.M, fem::inverse_of(factored), interface, {.modes = 40, .up_to_hz = {}});
+  const auto reduced =
+      reduction::craig_bampton(model.K, model.M, fem::inverse_of(factored), interface, {.modes = 40, .up_to_hz = {}});
   return reduction::with_modal_damping(reduced.model, {0.0104, 0.033}, 0.01);
 }
 
@@ -55,7 +57,8 @@ double worst_difference(const dynamics::SpatialModel& part, double stiffness) {
   const auto receptance = coupling::couple(H_part, H_robot, contacts).response;
   const auto spatial = coupling::direct_response(coupling::couple(part, robot, contacts), axis);
   double worst = 0.0;
-  for (const char* point : {"P", "P2"}) worst = std::max(worst, coupling::route_difference(spatial, receptance, point, point).max_relative);
+  for (const char* point : {"P", "P2"})
+    worst = std::max(worst, coupling::route_difference(spatial, receptance, point, point).max_relative);
   std::printf("plate, K = %g N/m: routes differ by %.1e\n", stiffness, worst);
   return worst;
 }
