@@ -5,7 +5,7 @@
 
 #include "app/case_reader.hpp"
 #include "app/updating.hpp"
-#include "tests/system/synthetic_measurement.hpp"
+#include "bench/synthetic_measurement.hpp"
 
 int main(int argc, char** argv) {
   using namespace thinwall;

@@ -7,8 +7,8 @@
 
 #include "app/case_reader.hpp"
 #include "app/pipeline.hpp"
+#include "bench/synthetic_measurement.hpp"
 #include "io/response_csv.hpp"
-#include "synthetic_measurement.hpp"
 
 namespace thinwall {
 namespace {
