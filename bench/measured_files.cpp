@@ -4,8 +4,10 @@
 #include <cstdio>
 
 #include "app/case_reader.hpp"
+#include "app/part_stage.hpp"
+#include "app/stages.hpp"
+#include "app/synthetic_measurement.hpp"
 #include "app/updating.hpp"
-#include "bench/synthetic_measurement.hpp"
 
 int main(int argc, char** argv) {
   using namespace thinwall;
@@ -27,7 +29,7 @@ int main(int argc, char** argv) {
   for (const auto& fit : fits) {
     if (fit.on == "coupled") static_cast<void>(app::update_coupled(source, fit, part.reduced->model));
   }
-  const auto files = testing_support::measure(source, part, "P");
+  const auto files = app::synthetic_measurement(source, part, "P");
   const auto header = [&](const char* what, unsigned seed) {
     char text[512];
     std::snprintf(text, sizeof text,
@@ -38,10 +40,10 @@ int main(int argc, char** argv) {
     return std::string(text);
   };
   const std::string folder = argv[2];
-  testing_support::write_measurement(folder + "/part_xx.csv", header("the part at P, full finite-element model", 2019),
-                                     files.axis, testing_support::with_noise(files.part, level, 2019));
-  testing_support::write_measurement(folder + "/robot_xx.csv", header("the robot's tip, one mode", 2020), files.axis,
-                                     testing_support::with_noise(files.robot, level, 2020));
+  app::write_measurement(folder + "/part_xx.csv", header("the part at P, full finite-element model", 2019), files.axis,
+                         app::with_noise(files.part, level, 2019));
+  app::write_measurement(folder + "/robot_xx.csv", header("the robot's tip, one mode", 2020), files.axis,
+                         app::with_noise(files.robot, level, 2020));
   std::printf("relative residual of the full model %.1e\n", files.relative_residual);
   return 0;
 }

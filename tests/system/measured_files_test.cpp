@@ -6,8 +6,11 @@
 #include <fstream>
 
 #include "app/case_reader.hpp"
+#include "app/part_stage.hpp"
 #include "app/pipeline.hpp"
-#include "bench/synthetic_measurement.hpp"
+#include "app/stages.hpp"
+#include "app/support_stage.hpp"
+#include "app/synthetic_measurement.hpp"
 #include "io/response_csv.hpp"
 
 namespace thinwall {
@@ -41,12 +44,12 @@ TEST(MeasuredCase, NoiseFreeFilesGiveTheModelsPredictionWithinAThousandthOfThePe
   const app::Component robot = app::robot_component(model, axis);
   const auto predicted = dynamics::entry(app::couple(model, part_component, robot).receptance.response, "P.x", "P.x");
 
-  const auto files = testing_support::measure(model, part, "P");
+  const auto files = app::synthetic_measurement(model, part, "P");
   EXPECT_LT(files.relative_residual, 1e-7) << "the full model is solved, not approximated";
   const fs::path folder = scratch("measured_noise_free");
   std::ofstream(folder / "case.toml") << text_of(cases / "barrios-2019-measured" / "case.toml");
-  testing_support::write_measurement(folder / "part_xx.csv", "# noise-free\n", files.axis, files.part);
-  testing_support::write_measurement(folder / "robot_xx.csv", "# noise-free\n", files.axis, files.robot);
+  app::write_measurement(folder / "part_xx.csv", "# noise-free\n", files.axis, files.part);
+  app::write_measurement(folder / "robot_xx.csv", "# noise-free\n", files.axis, files.robot);
   const app::Case measured = app::read_case(folder, {});
   const fs::path out = scratch("measured_noise_free_out");
   static_cast<void>(app::run_case(measured, {out, true, -1, false}));
