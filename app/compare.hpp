@@ -18,8 +18,9 @@ struct Comparison {
 };
 
 /// Compares summary.json (without times) and every CSV file of two result folders. Two numbers are equal if
-/// |a − b| ≤ tolerance · max(|a|, |b|, s), where s is the largest magnitude of the column for a CSV and 1 for the
-/// summary, so that round-off beside zero does not count. Throws DataError if a folder has no summary.json.
+/// |a − b| ≤ tolerance · max(|a|, |b|, s), where s is the largest magnitude of the column for a CSV, so that
+/// round-off beside zero does not count, and 0 for the summary; s = 1 for what is named residual, difference or error.
+/// Throws DataError if a folder has no summary.json.
 [[nodiscard]] Comparison compare_results(const std::filesystem::path& left, const std::filesystem::path& right,
                                          double tolerance);
 

@@ -100,7 +100,10 @@ TEST(Run, TheResolvedCaseGivesTheSameNumbersAndAnotherRunDoesToo) {
   const std::vector<std::string> small{"--set", "part.mesh.element_size=12 mm", "--set", "lobes.count=4",
                                        "--set", "response.lines=100",           "--set", "reduction.up_to=8 kHz"};
   ASSERT_EQ(run(words("run", wall, a, small)), 0);
-  auto one_thread = words("run", (a / "case.resolved.toml").string(), b, {"--threads", "1"});
+  const fs::path resolved = scratch("run_resolved") / "cantilever-wall";
+  fs::create_directories(resolved);
+  fs::copy_file(a / "case.resolved.toml", resolved / "case.toml");
+  const auto one_thread = words("run", resolved.string(), b, {"--threads", "1"});
   ASSERT_EQ(run(one_thread), 0);
   EXPECT_EQ(run({"compare", a.string(), b.string(), "--tolerance", "1e-6"}), 0)
       << "numbers do not depend on threads or on how a default was written";
