@@ -13,8 +13,8 @@ namespace thinwall::milling {
 
 namespace {
 
-// Relative accuracy of a root at one step count, small beside any tolerance; it is added to the estimate.
-constexpr double root_tolerance = 1e-4;
+// Roache's (1994) factor on a Richardson estimate whose order is known.
+constexpr double safety = 1.25;
 
 Bifurcation kind_of(std::complex<double> mu) {
   if (std::abs(mu.imag()) > 1e-6 * std::abs(mu)) return Bifurcation::hopf;
@@ -29,6 +29,9 @@ class Search {
   Regeneration& cut;
   const StabilityOptions& options;
   bool eigenvalue_lost = false;
+
+  // Relative accuracy of a root at one step count: small beside the tolerance, and part of the estimate.
+  [[nodiscard]] double root_tolerance() const { return 0.01 * options.error_tolerance; }
 
   // ln |μ|: negative if stable, and nearly linear in the depth where |μ| itself is not.
   double growth(double depth_m, StepCount steps) { return growth_of(cut.multiplier(depth_m, steps)); }
@@ -58,15 +61,29 @@ struct Scan {
   std::optional<Bracket> bracket;
   int base = 0;              ///< steps at the last depth
   double worst_depth_m = 0;  ///< least stable of the stable depths
+  int worst_base = 0;        ///< steps there
   double worst_growth = 0;
 };
+
+// The theorem is about the exact cut. Should the discretised one be unstable there, a depth below is looked for.
+double stable_start(Search& search, int least_base) {
+  double depth = std::min(search.cut.small_gain_depth_m(), search.options.depth_limit_m);
+  for (int halvings = 0; halvings < 30; ++halvings, depth *= 0.5) {
+    if (search.growth(depth, {std::max(least_base, search.cut.resolving_steps(depth)), 1}) < 0.0) return depth;
+  }
+  std::ostringstream text;
+  text << "stability: unstable at any depth, down to " << depth
+       << " m, so the structure's damping is lost in round-off; give its modes more damping";
+  throw core::NumericalError(text.str());
+}
 
 Scan scan_depths(Search& search, int least_base) {
   const double limit = search.options.depth_limit_m;
   Scan scan;
   double stable_m = 0.0;
   double stable_growth = 0.0;
-  for (double depth = std::min(search.cut.small_gain_depth_m(), limit);;) {
+  double depth = stable_start(search, least_base);
+  while (true) {
     scan.base = std::max(least_base, search.cut.resolving_steps(depth));
     const double growth = search.rough_growth(depth, {scan.base, 1});
     if (growth >= 0.0 && stable_m > 0.0) {
@@ -76,30 +93,32 @@ Scan scan_depths(Search& search, int least_base) {
     if (stable_m == 0.0 || growth > scan.worst_growth) {
       scan.worst_growth = growth;
       scan.worst_depth_m = depth;
+      scan.worst_base = scan.base;
     }
     if (depth >= limit) return scan;
     stable_m = depth;
-    stable_growth = std::min(growth, -1e-12);
+    stable_growth = growth;
     depth = std::min(depth * search.options.scan_ratio, limit);
   }
 }
 
-// Illinois method: regula falsi that halves the value at an end which stays.
 struct Root {
   double depth_m = 0.0;
   double slope = 0.0;  ///< d ln|μ| / dw, 1/m
 };
 
+// Illinois method: regula falsi that halves the value at an end which stays.
 Root root(Search& search, StepCount steps, Bracket b) {
+  const double tolerance = search.root_tolerance();
   double slope = (b.unstable_growth - b.stable_growth) / (b.unstable_m - b.stable_m);
   double before_m = b.unstable_m;
   double before_growth = b.unstable_growth;
   int kept = 0;
-  for (int i = 0; i < 60 && b.unstable_m - b.stable_m > root_tolerance * b.unstable_m; ++i) {
+  for (int i = 0; i < 60 && b.unstable_m - b.stable_m > tolerance * b.unstable_m; ++i) {
     double depth =
         (b.stable_m * b.unstable_growth - b.unstable_m * b.stable_growth) / (b.unstable_growth - b.stable_growth);
     // Clear of the ends, so that the bracket shrinks from both sides.
-    const double margin = 0.25 * root_tolerance * b.unstable_m;
+    const double margin = 0.25 * tolerance * b.unstable_m;
     depth = std::clamp(depth, b.stable_m + margin, b.unstable_m - margin);
     if (i % 8 == 7) depth = 0.5 * (b.stable_m + b.unstable_m);
     const double growth = search.growth(depth, steps);
@@ -117,7 +136,7 @@ Root root(Search& search, StepCount steps, Bracket b) {
       if (kept == -1) b.stable_growth *= 0.5;
       kept = -1;
     }
-    if (slope > 0.0 && std::abs(growth / slope) <= root_tolerance * depth) return {depth - growth / slope, slope};
+    if (slope > 0.0 && std::abs(growth / slope) <= tolerance * depth) return {depth - growth / slope, slope};
   }
   return {0.5 * (b.stable_m + b.unstable_m), slope};
 }
@@ -125,12 +144,13 @@ Root root(Search& search, StepCount steps, Bracket b) {
 // The crossing of another step count near `guess`, by secants that start from a known slope d ln|μ| / dw; nothing if
 // they do not settle within a third of the guess, as when another branch takes over.
 std::optional<double> root_near(Search& search, StepCount steps, double guess, double& slope) {
+  const double tolerance = search.root_tolerance();
   double depth = guess;
   double growth = search.growth(depth, steps);
   for (int i = 0; i < 8; ++i) {
     const double next = depth - growth / slope;
     if (!(slope > 0.0) || !(std::abs(next - guess) <= guess / 3.0)) return std::nullopt;
-    if (std::abs(next - depth) <= root_tolerance * depth) return next;
+    if (std::abs(next - depth) <= tolerance * depth) return next;
     const double next_growth = search.growth(next, steps);
     slope = (next_growth - growth) / (next - depth);
     depth = next;
@@ -170,7 +190,7 @@ Multiplier multiplier_of(Search& search, double depth_m, int base) {
     const double third = (std::abs(fine.value) - std::abs(coarse.value)) / 3.0;
     result.value = fine.value;
     result.modulus = std::abs(fine.value) + third;
-    result.error_estimate = std::abs(third) / result.modulus;
+    result.error_estimate = safety * std::abs(third) / result.modulus;
     result.kind = kind_of(fine.value);
     result.steps = search.cut.steps({base, 2});
     if (fine.converged) result.chatter_frequency_hz = search.cut.chatter_frequency_hz(fine, {base, 2});
@@ -209,8 +229,7 @@ LobeRow row_at_limit(Search& search, int base) {
 
 // A scan that found nothing is believed if its least stable depth is stable at twice the steps and extrapolated too.
 bool stable_throughout(Search& search, const Scan& scan) {
-  const StepCount fine{std::max(search.cut.resolving_steps(scan.worst_depth_m), 8), 2};
-  const double growth = search.growth(scan.worst_depth_m, fine);
+  const double growth = search.growth(scan.worst_depth_m, {scan.worst_base, 2});
   return growth < 0.0 && growth + std::abs(growth - scan.worst_growth) / 3.0 < 0.0;
 }
 
@@ -225,7 +244,7 @@ std::optional<Pair> crossing_pair(Search& search, int base, double coarse_m, dou
   if (!fine_m) return std::nullopt;
   const double third = (*fine_m - coarse_m) / 3.0;
   const double depth = *fine_m + third;
-  return Pair{depth, std::abs(third) / std::abs(depth) + 2.0 * root_tolerance};
+  return Pair{depth, safety * std::abs(third) / std::abs(depth) + 2.0 * search.root_tolerance()};
 }
 
 // Refines a crossing that the scan has bracketed.

@@ -63,10 +63,11 @@ struct LobeRow {
 };
 
 /// |μ| at a point, by first-order semi-discretization with m and 2m steps. The method is of second order, so with
-/// δ = |μ_2m| − |μ_m| the result is |μ_2m| + δ/3 (Richardson 1911) and the estimate |δ|/3, the distance from the finer
-/// of the two values, plus (ω_c Δ)⁴/10 for the term that is left where δ happens to vanish. m is raised until the
-/// estimate meets the tolerance and 2m resolves the chatter frequency by sixteen steps a wave. Throws InputError for a
-/// bad process, option, speed or depth (≤ 0). Cost: two dominant eigenvalues for each m.
+/// δ = |μ_2m| − |μ_m| the result is |μ_2m| + δ/3 (Richardson 1911). The estimate is 1.25 |δ|/3, the distance from the
+/// finer of the two values with Roache's (1994) safety factor, plus (ω_c Δ)⁴/10 for the term that is left where δ
+/// happens to vanish. m is raised until the estimate meets the tolerance and 2m resolves the chatter frequency by
+/// sixteen steps a wave. Throws InputError for a bad process, option, speed or depth (≤ 0). Cost: two dominant
+/// eigenvalues for each m.
 [[nodiscard]] Multiplier multiplier_at(const RelativeStructure& structure, const MillingProcess& process,
                                        double spindle_speed_rpm, double depth_m, const StabilityOptions& options);
 
@@ -75,7 +76,8 @@ struct LobeRow {
 /// progression finds the first unstable depth, then bracketed root finding (Illinois method, Dowell & Jarratt 1971)
 /// with m and 2m steps and Richardson's estimate as above, now of the depth. The scan resolves by five steps a wave
 /// every mode that could regenerate at the depth in question, that is with loop gain 2 w ‖D̄‖ ‖φ‖ ‖b‖ / |Re λ| of at
-/// least ½. A scan that ends stable is repeated at its least stable depth with 2m steps. Throws InputError as above.
+/// least ½. A scan that ends stable is repeated at its least stable depth with 2m steps. Throws InputError as above,
+/// NumericalError if no depth is stable.
 /// Cost: some 10 to 30 dominant eigenvalues.
 [[nodiscard]] LobeRow limiting_depth(const RelativeStructure& structure, const MillingProcess& process,
                                      double spindle_speed_rpm, const StabilityOptions& options);
