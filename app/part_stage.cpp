@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 
@@ -51,12 +52,26 @@ fem::ModeOptions mode_options(const Case& source) {
   return {source.modes.range.count.value_or(10), source.modes.range.up_to_hz, source.modes.verify_count};
 }
 
+/// The part's rigid-body modes must all show at the interface: points on one line, say, do not see the turn about it.
+void require_held_by_interface(const PartResult& part) {
+  const Eigen::Index rigid = part.modes.rigid_motions;
+  const Eigen::MatrixXd seen = part.interface.W.transpose() * part.modes.pairs.Phi.leftCols(rigid);
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd(seen);
+  svd.setThreshold(1e-6);
+  if (svd.rank() == rigid) return;
+  throw core::InputError(
+      "the part can move rigidly in " + std::to_string(rigid) + " ways and its points see " +
+      std::to_string(svd.rank()) +
+      " of them: add a support, or a point off the line of the others; without points, modes alone are computed");
+}
+
 reduction::CraigBampton reduce(const Case& source, const PartResult& part, const fem::Factored& factored) {
   const reduction::CraigBamptonOptions options{source.reduction.fixed_interface.count.value_or(30),
                                                source.reduction.fixed_interface.up_to_hz};
   if (factored.sigma == 0.0)
     return reduction::craig_bampton(part.model.K, part.model.M, fem::inverse_of(factored), part.interface, options);
   // A free part: the interface itself restrains it, if its points hold all rigid-body motions.
+  require_held_by_interface(part);
   const linalg::SparseCholesky held(reduction::restrained(part.model.K, part.interface), part.model.node_of_row);
   const linalg::ShiftedInverse inverse{[&held](const Eigen::Ref<const Eigen::MatrixXd>& B) { return held.solve(B); },
                                        0.0};

@@ -81,7 +81,8 @@ void run_lobes(const Case& work, Results& results, Stages& stages) {
   if (!work.lobes || !work.cutting || !work.tool) return;
   if (!results.part || !results.part->modal) {
     throw core::InputError(
-        "lobes need the part as a model (part.shape); from measured receptances alone they cannot be computed yet");
+        "lobes need a part that is held and known as a model (part.shape with part.supports), not by measured "
+        "receptances alone");
   }
   stages.begin("lobes");
   results.lobes.push_back(compute_lobes(work, "part", *results.part->modal));

@@ -1,5 +1,7 @@
 #include "app/result_files.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <array>
 #include <cstdio>
 #include <numbers>
@@ -106,7 +108,12 @@ void write_coupled_modes(const fs::path& folder, const Results& results) {
 
 void write_frf(const fs::path& folder, const std::string& name, const dynamics::ResponseModel& response) {
   io::write_response(folder / (name + ".csv"), response);
-  io::write_uff(folder / (name + ".uff"), response);
+  try {
+    io::write_uff(folder / (name + ".uff"), response);
+  } catch (const core::InputError& error) {
+    // The format holds six digits of a frequency; a finer axis is in the CSV only.
+    spdlog::warn("{}.uff was not written: {}", name, error.what());
+  }
 }
 
 void write_lobes(const fs::path& folder, const NamedLobes& named) {

@@ -69,6 +69,12 @@ dynamics::FrequencyAxis frequency_axis(const Case& source) {
 
 Component component(dynamics::SpatialModel model, const dynamics::FrequencyAxis& axis) {
   Component result;
+  if (dynamics::undamped_modes(model).omega_rad_s.minCoeff() < 1e-3 * axis.omega_rad_s(0)) {
+    // A rigid-body motion has no decaying pole pair.
+    result.response = dynamics::direct_response(model, axis);
+    result.spatial = std::move(model);
+    return result;
+  }
   result.modal = dynamics::to_modal(model.has_structural_damping() ? dynamics::equivalent_viscous(model) : model);
   result.response = model.has_structural_damping() ? dynamics::direct_response(model, axis)
                                                    : dynamics::to_response(*result.modal, axis);

@@ -27,7 +27,10 @@ Eigen::MatrixXd semidefinite_factor(const Eigen::MatrixXd& K) {
     S.row(p).setZero();
     S.col(p).setZero();
   }
-  if (const double left = S.cwiseAbs().maxCoeff(); left > 1e3 * zero) {
+  // A rigid-body motion leaves rows whose stiffness is round-off of the stiff ones: measured by those, it is none.
+  const Eigen::MatrixXd unscaled = scale.asDiagonal() * S * scale.asDiagonal();
+  const double left = std::min(S.cwiseAbs().maxCoeff(), unscaled.cwiseAbs().maxCoeff() / K.diagonal().maxCoeff());
+  if (left > 1e3 * zero) {
     std::ostringstream text;
     text << "the stiffness matrix is indefinite: after " << rank << " of " << n << " pivots a part of relative size "
          << left << " is left that no positive pivot explains; check its signs";

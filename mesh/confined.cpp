@@ -108,7 +108,7 @@ std::string cause(int status) {
     return std::string("it crashed (") + strsignal(signal_number) + ")";
   }
   if (WEXITSTATUS(status) == out_of_memory) return "it ran out of its memory limit";
-  return "it gave up with an internal error";
+  return "it gave up with an internal error, or for lack of memory";
 }
 
 }  // namespace
