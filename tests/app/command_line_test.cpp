@@ -1,4 +1,3 @@
-#include "app/summary.hpp"
 #include "app/command_line.hpp"
 
 #include <gtest/gtest.h>
@@ -13,6 +12,7 @@
 #include "app/case_reader.hpp"
 #include "app/case_template.hpp"
 #include "app/compare.hpp"
+#include "app/summary.hpp"
 #include "case_text.hpp"
 #include "core/atomic_file.hpp"
 #include "core/interrupt.hpp"
