@@ -51,8 +51,9 @@ LeastSquares bounded_least_squares(const std::function<Eigen::VectorXd(const Eig
       }
       const Eigen::VectorXd tried = r(at.parameters + step);
       ++at.evaluations;
+      if (!tried.allFinite()) continue;
       at.jacobian += (tried - at.residuals - at.jacobian * step) * step.transpose() / step.squaredNorm();
-      if (tried.norm() >= at.residuals.norm()) continue;
+      if (!(tried.norm() < at.residuals.norm())) continue;
       at.parameters += step;
       at.residuals = tried;
       break;

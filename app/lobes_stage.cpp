@@ -1,7 +1,9 @@
 #include "app/lobes_stage.hpp"
 
 #include <numbers>
+#include <optional>
 
+#include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 #include "milling/process.hpp"
 #include "milling/stability.hpp"
@@ -22,23 +24,33 @@ milling::MillingProcess process_of(const Case& source) {
   return process;
 }
 
-milling::RelativeStructure with_tool(const Case& source, milling::RelativeStructure structure) {
-  if (source.tool->modes.empty()) return structure;
+std::optional<milling::RelativeStructure> tool_structure(const Case& source) {
+  if (source.tool->modes.empty()) return std::nullopt;
   std::vector<robot::OneMode> modes;
-  for (const ToolMode& m : source.tool->modes)
+  for (const ToolMode& m : source.tool->modes) {
     modes.push_back(robot::one_mode(m.frequency_hz, m.damping_ratio, m.stiffness, m.direction));
-  return milling::sum(structure,
-                      milling::relative_structure(dynamics::to_modal(robot::spatial_model(modes, "tool")), "tool"));
+  }
+  return milling::relative_structure(dynamics::to_modal(robot::spatial_model(modes, "tool")), "tool");
+}
+
+/// Part and tool as the cut feels them.
+milling::RelativeStructure relative_structure(const Case& source, const dynamics::ModalModel* part) {
+  const auto tool = tool_structure(source);
+  if (part == nullptr) {
+    if (!tool) throw core::InputError("lobes need something that moves: a part, or tool.modes");
+    return *tool;
+  }
+  const auto& limit = source.lobes->modes_up_to_hz;
+  const auto kept = limit ? dynamics::truncate(*part, 2.0 * std::numbers::pi * *limit, true) : *part;
+  const auto structure = milling::relative_structure(kept, source.cutting->at);
+  return tool ? milling::sum(structure, *tool) : structure;
 }
 
 }  // namespace
 
-NamedLobes compute_lobes(const Case& source, const std::string& name, const dynamics::ModalModel& structure) {
+NamedLobes compute_lobes(const Case& source, const std::string& name, const dynamics::ModalModel* structure) {
   const LobesOptions& wanted = *source.lobes;
-  dynamics::ModalModel kept = structure;
-  if (wanted.modes_up_to_hz)
-    kept = dynamics::truncate(structure, 2.0 * std::numbers::pi * *wanted.modes_up_to_hz, true);
-  const auto relative = with_tool(source, milling::relative_structure(kept, source.cutting->at));
+  const auto relative = relative_structure(source, structure);
   const auto process = process_of(source);
   milling::StabilityOptions options;
   options.depth_limit_m = wanted.depth_limit;

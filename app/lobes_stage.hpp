@@ -6,8 +6,9 @@
 
 namespace thinwall::app {
 
-/// The chart of one structure at the case's cutting point. `structure` must hold that point.
+/// The chart of one structure at the case's cutting point, the tool's modes added. `structure` must hold that point;
+/// null: a rigid part, the tool alone.
 [[nodiscard]] NamedLobes compute_lobes(const Case& source, const std::string& name,
-                                       const dynamics::ModalModel& structure);
+                                       const dynamics::ModalModel* structure);
 
 }  // namespace thinwall::app

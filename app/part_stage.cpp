@@ -78,21 +78,26 @@ reduction::CraigBampton reduce(const Case& source, const PartResult& part, const
   return reduction::craig_bampton(part.model.K, part.model.M, inverse, part.interface, options);
 }
 
+void require_solved(double relative_residual) {
+  if (relative_residual < 1e-6) return;
+  throw core::NumericalError("the check of the reduced model did not solve the full one (residual " +
+                             std::to_string(relative_residual) + ")");
+}
+
 /// Undamped receptances of the full model at a few frequencies between its resonances. A held part's factor serves all
 /// of them; a free part, whose K has no inverse, is factored anew at each.
 std::vector<reduction::FullReceptance> full_receptances(const PartResult& part, const fem::Factored& factored,
                                                         const std::vector<double>& hz) {
   if (factored.sigma != 0.0) {
-    return reduction::full_receptances(part.model.K, part.model.M, part.model.node_of_row, part.interface, hz);
+    auto direct = reduction::full_receptances(part.model.K, part.model.M, part.model.node_of_row, part.interface, hz);
+    for (const auto& line : direct) require_solved(line.relative_residual);
+    return direct;
   }
   dynamics::FrequencyAxis axis;
   axis.hz = Eigen::Map<const Eigen::VectorXd>(hz.data(), static_cast<Eigen::Index>(hz.size()));
   const auto full = reduction::full_response(part.model.K, part.model.M, fem::inverse_of(factored), part.modes.pairs,
                                              {}, 0.0, part.interface, axis);
-  if (!(full.max_relative_residual < 1e-6)) {
-    throw core::NumericalError("the check of the reduced model did not solve the full one (residual " +
-                               std::to_string(full.max_relative_residual) + ")");
-  }
+  require_solved(full.max_relative_residual);
   std::vector<reduction::FullReceptance> result;
   for (std::size_t i = 0; i < hz.size(); ++i)
     result.push_back({hz[i], full.response.H[i].real(), full.max_relative_residual});

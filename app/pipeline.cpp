@@ -79,15 +79,23 @@ void run_responses(const Case& work, Results& results, Stages& stages) {
 
 void run_lobes(const Case& work, Results& results, Stages& stages) {
   if (!work.lobes || !work.cutting || !work.tool) return;
+  if (!work.part && work.measured_part.empty()) {
+    stages.begin("lobes");
+    results.lobes.push_back(compute_lobes(work, "tool", nullptr));
+    return;
+  }
   if (!results.part || !results.part->modal) {
     throw core::InputError(
         "lobes need a part that is held and known as a model (part.shape with part.supports), not by measured "
         "receptances alone");
   }
   stages.begin("lobes");
-  results.lobes.push_back(compute_lobes(work, "part", *results.part->modal));
-  if (results.coupled && results.coupled->modal)
-    results.lobes.push_back(compute_lobes(work, "supported", *results.coupled->modal));
+  results.lobes.push_back(compute_lobes(work, "part", &*results.part->modal));
+  if (results.coupled && results.coupled->modal) {
+    results.lobes.push_back(compute_lobes(work, "supported", &*results.coupled->modal));
+  } else if (results.coupled) {
+    spdlog::warn("no chart of the supported part: the robot is known by its receptance only, which has no poles");
+  }
 }
 
 }  // namespace
@@ -105,13 +113,13 @@ RunResult run_case(const Case& source, const RunOptions& options) {
   stages.begin("output");
   const auto staging = core::partial_path(options.out / "results");
   write_results(staging, results);
-  publish(staging, options.out);
   stages.end();
   results.timings_s = stages.timings_s();
   RunResult run{summary_of(work, results), true};
   run.expectations_hold = add_checks(run.summary, expectations);
   if (!run.expectations_hold) run.summary["status"] = "expectation_not_met";
-  write_summary(options.out, source, work, run.summary, started);
+  write_summary(staging, source, work, run.summary, started);
+  publish(staging, options.out);
   return run;
 }
 

@@ -168,21 +168,33 @@ void write_results(const fs::path& folder, const Results& results) {
 }
 
 void publish(const fs::path& staging, const fs::path& folder) {
+  const fs::path earlier = core::partial_path(folder / "earlier");
   try {
+    fs::create_directory(earlier);
     for (const char* name : subfolders) {
-      fs::remove_all(folder / name);  // nothing of an earlier run stays beside the new files
+      if (fs::exists(folder / name)) fs::rename(folder / name, earlier / name);
       fs::rename(staging / name, folder / name);
     }
+    // The summary comes last but one: where it is, everything it speaks of is there.
+    for (const char* name : {"case.toml", "case.resolved.toml", "case.fitted.toml", "summary.json", "manifest.json"}) {
+      if (fs::exists(staging / name)) {
+        fs::rename(staging / name, folder / name);
+      } else {
+        fs::remove(folder / name);
+      }
+    }
     fs::remove_all(staging);
+    fs::remove_all(earlier);
   } catch (const fs::filesystem_error& error) {
     throw core::DataError(std::string("cannot replace the results of an earlier run: ") + error.what());
   }
 }
 
-void write_summary(const fs::path& folder, const Case& source, const Case& resolved, const nlohmann::json& summary,
+void write_summary(const fs::path& folder, const Case& source, const Case& fitted, const nlohmann::json& summary,
                    const std::string& started_utc) {
   core::write_file_atomically(folder / "case.toml", source.source);
-  core::write_file_atomically(folder / "case.resolved.toml", resolved_text(resolved));
+  core::write_file_atomically(folder / "case.resolved.toml", resolved_text(source));
+  if (!source.updating.empty()) core::write_file_atomically(folder / "case.fitted.toml", resolved_text(fitted));
   core::write_file_atomically(folder / "summary.json", summary.dump(2) + "\n");
   nlohmann::json manifest;
   manifest["program"] = {{"name", "thinwall"}, {"version", program_version()}, {"built_with", doctor_report()}};
@@ -193,6 +205,11 @@ void write_summary(const fs::path& folder, const Case& source, const Case& resol
   for (const auto& input : input_files(source))
     manifest["inputs"].push_back({{"name", input.string()}, {"sha256", io::sha256_of_file(input)}});
   manifest["inputs"].push_back({{"name", source.file.string()}, {"sha256", io::sha256(source.source)}});
+  const fs::path expected = source.file.parent_path() / "expected.toml";
+  if (fs::exists(expected)) {
+    manifest["inputs"].push_back({{"name", expected.string()}, {"sha256", io::sha256_of_file(expected)}});
+  }
+  manifest["seeds"] = nlohmann::json::array();  // nothing here is drawn at random
   auto files = io::file_records(folder);
   std::erase_if(files, [](const auto& file) { return file.name == "manifest.json" || file.name == "run.log"; });
   manifest["outputs"] = records(files);

@@ -30,6 +30,17 @@ void make_folder(const std::filesystem::path& folder) {
   if (error) refuse(folder, error.message());
 }
 
+/// Folders that a run replaces must be a run's own.
+void refuse_foreign_content(const std::filesystem::path& folder) {
+  if (std::filesystem::exists(folder / "run.log") || std::filesystem::exists(folder / "manifest.json")) return;
+  for (const char* name : {"modes", "frf", "lobes", "models"}) {
+    if (std::filesystem::exists(folder / name)) {
+      refuse(folder, std::string("it has a \"") + name +
+                         "\" that no run of thinwall left there and that this run would replace");
+    }
+  }
+}
+
 /// A lock on the folder itself: it goes with the process, however that ends, and leaves no file behind.
 int lock_folder(const std::filesystem::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -54,6 +65,7 @@ std::filesystem::path default_result_folder(const Case& source) {
 
 ResultFolder::ResultFolder(std::filesystem::path folder) : path_(std::move(folder)) {
   make_folder(path_);
+  refuse_foreign_content(path_);
   lock_ = lock_folder(path_);
   try {
     remove_unfinished_files(path_);

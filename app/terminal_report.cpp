@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace thinwall::app {
@@ -49,17 +50,28 @@ void answer(std::string& out, const json& summary) {
   if (!out.empty()) out += '\n';
 }
 
+/// Frequencies and damping ratios in two lines; rigid-body modes are counted, not listed.
 void modes(std::string& out, const std::string& title, const json& list, std::size_t most) {
-  if (list.empty()) return;
-  out += fmt::format("  {:<22}", title);
-  for (std::size_t k = 0; k < std::min(most, list.size()); ++k)
-    out += fmt::format("{:>9.2f}", list[k]["frequency_hz"].get<double>());
-  out += list.size() > most ? "  Hz …\n" : "  Hz\n";
-  if (!list.front().contains("damping_ratio")) return;
-  out += fmt::format("  {:<22}", "  damping");
-  for (std::size_t k = 0; k < std::min(most, list.size()); ++k)
-    out += fmt::format("{:>9.2f}", list[k]["damping_ratio"].get<double>() * 100.0);
-  out += "  %\n";
+  std::vector<const json*> elastic;
+  for (const json& mode : list) {
+    if (!mode.contains("rigid_body")) elastic.push_back(&mode);
+  }
+  if (elastic.size() < list.size())
+    out += fmt::format("  {:<22}{:>9}\n", "rigid-body modes", list.size() - elastic.size());
+  if (elastic.empty()) return;
+  const std::size_t shown = std::min(most, elastic.size());
+  std::string frequencies;
+  std::string ratios;
+  bool damped = false;
+  for (std::size_t k = 0; k < shown; ++k) {
+    const json& given = (*elastic[k])["damping_ratio"];
+    const double ratio = given.is_null() ? 0.0 : given.get<double>();
+    frequencies += fmt::format("{:>9.2f}", (*elastic[k])["frequency_hz"].get<double>());
+    ratios += fmt::format("{:>9.2f}", ratio * 100.0);
+    damped = damped || ratio > 0.0;
+  }
+  out += fmt::format("  {:<22}{}  Hz{}\n", title, frequencies, elastic.size() > shown ? " …" : "");
+  if (damped) out += fmt::format("  {:<22}{}  %\n", "  damping", ratios);
 }
 
 void charts(std::string& out, const json& summary) {
@@ -67,10 +79,16 @@ void charts(std::string& out, const json& summary) {
   out += "\n  stability chart        least depth anywhere                   deepest pocket            error est.\n";
   for (const json& lobes : summary["lobes"]) {
     const json& best = lobes["maximum"];
-    out += fmt::format(
-        "  {:<22} {:<38} {:<25} {:.2f} %\n", title_of(lobes["name"]), minimum(lobes),
-        fmt::format("{} at {:.0f} rpm", depth(best), best["spindle_speed_rpm"].get<double>()),
-        lobes["error_estimate_relative"].is_null() ? 0.0 : lobes["error_estimate_relative"].get<double>() * 100.0);
+    const json& error = lobes["error_estimate_relative"];
+    const std::string estimate = error.is_null() ? "unknown" : fmt::format("{:.2f} %", error.get<double>() * 100.0);
+    out += fmt::format("  {:<22} {:<38} {:<25} {}\n", title_of(lobes["name"]), minimum(lobes),
+                       fmt::format("{} at {:.0f} rpm", depth(best), best["spindle_speed_rpm"].get<double>()), estimate);
+    if (const json& left_out = lobes["static_compliance_left_out"];
+        !left_out.is_null() && left_out.get<double>() > 0.01) {
+      out += fmt::format(
+          "    {:.1f} % of the static compliance lies in modes that the chart leaves out (lobes.modes_up_to)\n",
+          left_out.get<double>() * 100.0);
+    }
     if (lobes["speeds_not_converged"].get<int>() > 0) {
       out += fmt::format("    {} of {} speeds did not reach the tolerance: see the status column of lobes/{}.csv\n",
                          lobes["speeds_not_converged"].get<int>(), lobes["speeds"].get<int>(),
@@ -109,7 +127,8 @@ void trust(std::string& out, const json& summary) {
                        r["max_relative_frequency_error"].get<double>());
     if (!r["max_relative_receptance_error"].is_null())
       out += fmt::format(", receptances within {:.1e}", r["max_relative_receptance_error"].get<double>());
-    out += " of the full model\n";
+    out += r["max_relative_receptance_error"].is_null() ? " of the full model; receptances not checked\n"
+                                                        : " of the full model\n";
   }
   if (summary.contains("coupling")) {
     const json& d = summary["coupling"]["route_difference"];

@@ -114,6 +114,7 @@ Eigen::VectorXd evaluate_coupled(const Case& now, const Updating& updating, cons
     dynamics::FrequencyAxis axis;
     axis.hz = Eigen::VectorXd::Constant(1, 1.0);
     Component part = component(part_matrices, axis);
+    if (!part.modal) throw core::InputError("updating on = \"coupled\" needs a part that is held; add part.supports");
     axis.hz(0) = reading_frequency(target, *part.modal);
     part.response = part_matrices.has_structural_damping() ? dynamics::direct_response(part_matrices, axis)
                                                            : dynamics::to_response(*part.modal, axis);

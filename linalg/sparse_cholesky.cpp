@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -147,15 +148,25 @@ struct Factor {
     auto start = Clock::now();
     std::vector<int> permutation = nested_dissection(A, node_of_row);
     L = cholmod_analyze_p(&S, permutation.data(), nullptr, 0, &common);
+    if (common.status == CHOLMOD_TOO_LARGE) {
+      throw core::NumericalError("a factor of " + std::to_string(A.rows()) +
+                                 " rows is beyond 32-bit indices: use larger elements or a lower order");
+    }
     if (L == nullptr)
       throw core::NumericalError("out of memory while analysing a matrix of " + std::to_string(A.rows()) + " rows");
     statistics.flops = common.fl;
     statistics.nonzeros = common.lnz;
     statistics.seconds_ordering = seconds_since(start);
     start = Clock::now();
-    const LibraryThreads threads(core::thread_count());
+    // Below some 20 GFlop a second thread gains less than the waiting of BLAS threads for each other costs on a busy
+    // machine.
+    const LibraryThreads threads(statistics.flops > 2e10 ? core::thread_count() : 1);
     cholmod_factorize(&S, L, &common);
     statistics.seconds_numeric = seconds_since(start);
+    if (common.status < CHOLMOD_OK && common.status != CHOLMOD_OUT_OF_MEMORY) {
+      throw core::NumericalError("CHOLMOD could not factor a matrix of " + std::to_string(A.rows()) + " rows (status " +
+                                 std::to_string(common.status) + ")");
+    }
     if (common.status == CHOLMOD_OUT_OF_MEMORY) {
       throw core::NumericalError("out of memory in the factorisation of " + std::to_string(A.rows()) +
                                  " rows (factor of " + std::to_string(statistics.nonzeros * 8e-9) +
@@ -250,6 +261,7 @@ SparseIndefinite::Solution SparseIndefinite::solve(const Eigen::Ref<const Eigen:
   const Eigen::MatrixXd residual = B - impl_->A * solution.X;
   for (Eigen::Index j = 0; j < B.cols(); ++j) {
     const double relative = residual.col(j).norm() / B.col(j).norm();
+    if (std::isnan(solution.relative_residual)) break;
     if (!(relative <= solution.relative_residual)) solution.relative_residual = relative;
   }
   return solution;

@@ -17,7 +17,8 @@ double max_relative_frequency_error(const dynamics::SpatialModel& reduced, const
   double worst = 0.0;
   for (Eigen::Index k = 0; k < count; ++k) {
     const double hz = modes.omega_rad_s(k + rigid) / (2.0 * std::numbers::pi);
-    worst = std::max(worst, std::abs(hz - full_hz(k)) / full_hz(k));
+    const double error = std::abs(hz - full_hz(k)) / full_hz(k);
+    if (!(error <= worst)) worst = error;  // NaN stays
   }
   return worst;
 }
@@ -65,7 +66,8 @@ double max_relative_receptance_error(const dynamics::SpatialModel& reduced, cons
                                   .partialPivLu()
                                   .solve(Eigen::MatrixXd::Identity(reduced.size(), nb))
                                   .topRows(nb);
-    worst = std::max(worst, (H - line.H).cwiseAbs().maxCoeff() / line.H.cwiseAbs().maxCoeff());
+    const double error = (H - line.H).cwiseAbs().maxCoeff() / line.H.cwiseAbs().maxCoeff();
+    if (!(error <= worst)) worst = error;
   }
   return worst;
 }

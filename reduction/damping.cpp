@@ -29,9 +29,12 @@ dynamics::SpatialModel with_modal_damping(dynamics::SpatialModel model, const st
   require_ratio(rest);
   const dynamics::UndampedModes modes = dynamics::undamped_modes(model);
   Eigen::VectorXd two_zeta_omega = 2.0 * modes.omega_rad_s;
-  for (Eigen::Index k = 0; k < two_zeta_omega.size(); ++k) {
-    two_zeta_omega(k) *= k < static_cast<Eigen::Index>(ratios.size()) ? ratios[static_cast<std::size_t>(k)] : rest;
+  const Eigen::Index rigid = (modes.omega_rad_s.array() <= 1e-6 * modes.omega_rad_s.maxCoeff()).count();
+  for (Eigen::Index k = rigid; k < two_zeta_omega.size(); ++k) {
+    const auto elastic = static_cast<std::size_t>(k - rigid);
+    two_zeta_omega(k) *= elastic < ratios.size() ? ratios[elastic] : rest;
   }
+  two_zeta_omega.head(rigid).setZero();
   const Eigen::MatrixXd MPhi = model.M * modes.Phi;
   model.C = MPhi * two_zeta_omega.asDiagonal() * MPhi.transpose();
   model.C = (0.5 * (model.C + model.C.transpose())).eval();

@@ -8,8 +8,8 @@
 namespace thinwall::reduction {
 
 /// C = M Φ diag(2 ζ ω) Φᵀ M over the model's undamped modes Φ (M-normalised): mode k then decays with exactly ζ_k and
-/// the modes stay what they are. `ratios`: ζ of the first modes in ascending order; `rest` for all others. Rigid-body
-/// modes (ω = 0) get none. Returns the model with C set. Throws InputError unless 0 ≤ ζ < 1. Cost O(n³).
+/// the modes stay what they are. `ratios`: ζ of the first elastic modes in ascending order; `rest` for all others.
+/// Rigid-body modes (ω = 0) get none. Returns the model with C set. Throws InputError unless 0 ≤ ζ < 1. Cost O(n³).
 [[nodiscard]] dynamics::SpatialModel with_modal_damping(dynamics::SpatialModel model, const std::vector<double>& ratios,
                                                         double rest);
 
