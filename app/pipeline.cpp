@@ -112,7 +112,7 @@ RunResult run_case(const Case& source, const RunOptions& options) {
   run_lobes(work, results, stages);
   stages.begin("output");
   const auto staging = core::partial_path(options.out / "results");
-  write_results(staging, results);
+  write_results(staging, source, results);
   stages.end();
   results.timings_s = stages.timings_s();
   RunResult run{summary_of(work, results), true};

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <numbers>
@@ -116,6 +117,22 @@ void write_frf(const fs::path& folder, const std::string& name, const dynamics::
   }
 }
 
+/// Only the DOFs of the points that the case wants written; all of a component of which it names none (the robot).
+dynamics::ResponseModel at_points(const dynamics::ResponseModel& all, const std::vector<std::string>& points) {
+  std::vector<Eigen::Index> kept;
+  for (std::size_t i = 0; i < all.responses.size(); ++i) {
+    if (std::find(points.begin(), points.end(), all.responses[i].point) != points.end())
+      kept.push_back(static_cast<Eigen::Index>(i));
+  }
+  if (kept.empty() || kept.size() == all.responses.size()) return all;
+  dynamics::ResponseModel chosen;
+  chosen.axis = all.axis;
+  for (const Eigen::Index i : kept) chosen.responses.push_back(all.responses[static_cast<std::size_t>(i)]);
+  chosen.forces = chosen.responses;
+  for (const auto& H : all.H) chosen.H.emplace_back(H(kept, kept));
+  return chosen;
+}
+
 void write_lobes(const fs::path& folder, const NamedLobes& named) {
   std::vector<double> speed;
   std::vector<double> depth;
@@ -150,19 +167,20 @@ nlohmann::json records(const std::vector<io::FileRecord>& files) {
 
 }  // namespace
 
-void write_results(const fs::path& folder, const Results& results) {
+void write_results(const fs::path& folder, const Case& source, const Results& results) {
+  const auto& points = source.response.points;
   for (const char* name : subfolders) fs::create_directories(folder / name);
   if (results.finite_elements) write_part_modes(folder / "modes", results);
   if (results.finite_elements && results.coupled && results.coupled->modal)
     write_coupled_modes(folder / "modes", results);
   if (results.finite_elements && results.finite_elements->damped)
     io::write_mat(folder / "models" / "part.mat", *results.finite_elements->damped);
-  if (results.part) write_frf(folder / "frf", "part", results.part->response);
+  if (results.part) write_frf(folder / "frf", "part", at_points(results.part->response, points));
   if (results.robot) write_frf(folder / "frf", "robot", results.robot->response);
   if (results.coupled) {
-    write_frf(folder / "frf", "coupled_receptance", results.coupled->receptance.response);
+    write_frf(folder / "frf", "coupled_receptance", at_points(results.coupled->receptance.response, points));
     if (results.coupled->spatial_response)
-      write_frf(folder / "frf", "coupled_spatial", *results.coupled->spatial_response);
+      write_frf(folder / "frf", "coupled_spatial", at_points(*results.coupled->spatial_response, points));
   }
   for (const auto& lobes : results.lobes) write_lobes(folder / "lobes", lobes);
 }

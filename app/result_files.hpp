@@ -9,9 +9,10 @@
 
 namespace thinwall::app {
 
-/// modes/, frf/, lobes/, models/ below `folder`: everything but the summary and the manifest. Throws DataError if a
+/// modes/, frf/, lobes/, models/ below `folder`: everything but the summary and the manifest; receptances at
+/// the points of [response]. Throws DataError if a
 /// file cannot be written.
-void write_results(const std::filesystem::path& folder, const Results& results);
+void write_results(const std::filesystem::path& folder, const Case& source, const Results& results);
 
 /// Moves a complete result from `staging` into the result folder, in place of an earlier run's, the summary and the
 /// manifest last: until then an interrupted run changes nothing there.

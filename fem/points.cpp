@@ -21,7 +21,7 @@ linalg::SparseMatrix point_columns(const Model& model, const NamedPoint& point) 
   } catch (const core::InputError& error) {
     throw core::InputError("point \"" + point.name + "\": " + error.what());
   }
-  std::vector<int> row_of(static_cast<std::size_t>(3 * model.nodes.positions.rows()), -1);
+  std::vector<int> row_of(3 * static_cast<std::size_t>(model.nodes.positions.rows()), -1);
   for (std::size_t i = 0; i < model.free_rows.size(); ++i)
     row_of[static_cast<std::size_t>(model.free_rows[i])] = static_cast<int>(i);
   std::vector<Eigen::Triplet<double>> entries;
@@ -30,7 +30,7 @@ linalg::SparseMatrix point_columns(const Model& model, const NamedPoint& point) 
     for (const auto& [node, weight] : weight_of_node) {
       for (int axis = 0; axis < 3; ++axis) {
         const double value = weight * point.directions[d](axis);
-        const int row = row_of[static_cast<std::size_t>(3 * node + axis)];
+        const int row = row_of[3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis)];
         if (row < 0 || std::abs(value) < 1e-15) continue;
         entries.emplace_back(row, static_cast<int>(d), value);
         movable += std::abs(value);

@@ -21,7 +21,8 @@ const Eigen::Vector3d& vertex(const TetMesh& mesh, int index) {
 Eigen::Vector4d barycentric(const TetMesh& mesh, int tet, const Eigen::Vector3d& x) {
   const auto& t = mesh.tets[static_cast<std::size_t>(tet)];
   Eigen::Matrix3d edges;
-  for (int k = 0; k < 3; ++k) edges.col(k) = vertex(mesh, t[static_cast<std::size_t>(k + 1)]) - vertex(mesh, t[0]);
+  edges << vertex(mesh, t[1]) - vertex(mesh, t[0]), vertex(mesh, t[2]) - vertex(mesh, t[0]),
+      vertex(mesh, t[3]) - vertex(mesh, t[0]);
   const Eigen::Vector3d last = edges.inverse() * (x - vertex(mesh, t[0]));
   return {1.0 - last.sum(), last.x(), last.y(), last.z()};
 }

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "core/atomic_file.hpp"
+#include "io/response_csv.hpp"
 
 namespace thinwall {
 namespace {
@@ -73,6 +74,23 @@ std::vector<std::string> words(const std::string& verb, const std::string& sourc
   return all;
 }
 
+/// H = Hᵀ to 1e-10 of the line's largest entry, and Im of the driving points never positive.
+void expect_reciprocal_and_passive(const dynamics::ResponseModel& response, const std::string& name) {
+  for (std::size_t line = 0; line < response.H.size(); ++line) {
+    const Eigen::MatrixXcd& H = response.H[line];
+    const double largest = H.cwiseAbs().maxCoeff();
+    ASSERT_LE((H - H.transpose()).cwiseAbs().maxCoeff(), 1e-10 * largest) << name << " line " << line;
+    ASSERT_LE(H.diagonal().imag().maxCoeff(), 0.0) << name << " line " << line;
+  }
+}
+
+TEST(Run, FoldersThatAreNotARunsAreLeftAlone) {
+  const fs::path out = scratch("run_foreign");
+  fs::create_directories(out / "models");
+  EXPECT_EQ(run(words("run", wall, out, {})), 4);
+  EXPECT_TRUE(fs::exists(out / "models"));
+}
+
 TEST(Run, LeavesEveryFileOfAResultFolder) {
   const fs::path out = scratch("run_plate");
   const fs::path table = scratch("run_plate.txt");
@@ -89,6 +107,10 @@ TEST(Run, LeavesEveryFileOfAResultFolder) {
   const auto summary = summary_in(out);
   EXPECT_LE(summary["coupling"]["route_difference"]["max_relative"].get<double>(), 1e-9);
   EXPECT_LE(summary["part"]["mass_difference_relative"].get<double>(), 1e-9);
+  EXPECT_TRUE(fs::exists(out / "case.fitted.toml")) << "what updating found";
+  for (const char* name : {"part.csv", "robot.csv", "coupled_receptance.csv", "coupled_spatial.csv"}) {
+    expect_reciprocal_and_passive(io::read_response(out / "frf" / name), name);
+  }
   std::ifstream text(table);
   std::string all((std::istreambuf_iterator<char>(text)), {});
   EXPECT_NE(all.find("part alone"), std::string::npos) << "the answer comes first";
@@ -103,6 +125,7 @@ TEST(Run, TheResolvedCaseGivesTheSameNumbersAndAnotherRunDoesToo) {
   const fs::path resolved = scratch("run_resolved") / "cantilever-wall";
   fs::create_directories(resolved);
   fs::copy_file(a / "case.resolved.toml", resolved / "case.toml");
+  fs::copy_file(fs::path(wall) / "expected.toml", resolved / "expected.toml");
   const auto one_thread = words("run", resolved.string(), b, {"--threads", "1"});
   ASSERT_EQ(run(one_thread), 0);
   EXPECT_EQ(run({"compare", a.string(), b.string(), "--tolerance", "1e-6"}), 0)
