@@ -57,49 +57,48 @@ struct Bracket {
   double unstable_growth = 0.0;
 };
 
+struct StableDepth {
+  double depth_m = 0.0;
+  double growth = 0.0;
+  int base = 0;
+};
+
 struct Scan {
   std::optional<Bracket> bracket;
-  int base = 0;              ///< steps at the last depth
-  double worst_depth_m = 0;  ///< least stable of the stable depths
-  int worst_base = 0;        ///< steps there
-  double worst_growth = 0;
+  int base = 0;       ///< steps at the last depth
+  StableDepth worst;  ///< least stable of the stable depths
 };
 
 // The theorem is about the exact cut. Should the discretised one be unstable there, a depth below is looked for.
-double stable_start(Search& search, int least_base) {
-  double depth = std::min(search.cut.small_gain_depth_m(), search.options.depth_limit_m);
-  for (int halvings = 0; halvings < 30; ++halvings, depth *= 0.5) {
-    if (search.growth(depth, {std::max(least_base, search.cut.resolving_steps(depth)), 1}) < 0.0) return depth;
+StableDepth stable_start(Search& search, int least_base) {
+  StableDepth start{std::min(search.cut.small_gain_depth_m(), search.options.depth_limit_m), 0.0, 0};
+  for (int halvings = 0; halvings < 30; ++halvings, start.depth_m *= 0.5) {
+    start.base = std::max(least_base, search.cut.resolving_steps(start.depth_m));
+    start.growth = search.rough_growth(start.depth_m, {start.base, 1});
+    if (start.growth < 0.0) return start;
   }
   std::ostringstream text;
-  text << "stability: unstable at any depth, down to " << depth
+  text << "stability: unstable at any depth, down to " << start.depth_m
        << " m, so the structure's damping is lost in round-off; give its modes more damping";
   throw core::NumericalError(text.str());
 }
 
 Scan scan_depths(Search& search, int least_base) {
   const double limit = search.options.depth_limit_m;
-  Scan scan;
-  double stable_m = 0.0;
-  double stable_growth = 0.0;
-  double depth = stable_start(search, least_base);
-  while (true) {
+  StableDepth stable = stable_start(search, least_base);
+  Scan scan{std::nullopt, stable.base, stable};
+  while (stable.depth_m < limit) {
+    const double depth = std::min(stable.depth_m * search.options.scan_ratio, limit);
     scan.base = std::max(least_base, search.cut.resolving_steps(depth));
     const double growth = search.rough_growth(depth, {scan.base, 1});
-    if (growth >= 0.0 && stable_m > 0.0) {
-      scan.bracket = Bracket{stable_m, stable_growth, depth, growth};
+    if (growth >= 0.0) {
+      scan.bracket = Bracket{stable.depth_m, stable.growth, depth, growth};
       return scan;
     }
-    if (stable_m == 0.0 || growth > scan.worst_growth) {
-      scan.worst_growth = growth;
-      scan.worst_depth_m = depth;
-      scan.worst_base = scan.base;
-    }
-    if (depth >= limit) return scan;
-    stable_m = depth;
-    stable_growth = growth;
-    depth = std::min(depth * search.options.scan_ratio, limit);
+    stable = {depth, growth, scan.base};
+    if (growth > scan.worst.growth) scan.worst = stable;
   }
+  return scan;
 }
 
 struct Root {
@@ -195,8 +194,12 @@ Multiplier multiplier_of(Search& search, double depth_m, int base) {
     result.steps = search.cut.steps({base, 2});
     if (fine.converged) result.chatter_frequency_hz = search.cut.chatter_frequency_hz(fine, {base, 2});
     result.error_estimate += fourth_order(search.cut, {base, 2}, result.chatter_frequency_hz);
-    const bool converged =
-        result.error_estimate <= tolerance && resolves(search.cut, {base, 2}, result.chatter_frequency_hz);
+    bool converged = result.error_estimate <= tolerance && resolves(search.cut, {base, 2}, result.chatter_frequency_hz);
+    if (converged) {
+      const double witness = std::exp(search.growth(depth_m, {base, 4}));
+      result.error_estimate = std::max(result.error_estimate, std::abs(witness / result.modulus - 1.0));
+      converged = result.error_estimate <= tolerance;
+    }
     const int next = refined(base, result.error_estimate, tolerance);
     if (converged || 2 * next > search.options.most_steps || search.eigenvalue_lost) {
       result.status = status_of(search, converged);
@@ -227,10 +230,25 @@ LobeRow row_at_limit(Search& search, int base) {
   return row;
 }
 
+// A flip island may hide between the last two depths of the scan: a finer look from the stable end narrows the bracket
+// to the first crossing that it sees, and shortens the root finding.
+Bracket narrowed(Search& search, StepCount steps, Bracket b) {
+  constexpr int parts = 4;
+  const double width = (b.unstable_m - b.stable_m) / parts;
+  for (int i = 1; i < parts; ++i) {
+    const double depth = b.stable_m + width;
+    const double growth = search.rough_growth(depth, steps);
+    if (growth >= 0.0) return {b.stable_m, b.stable_growth, depth, growth};
+    b.stable_m = depth;
+    b.stable_growth = growth;
+  }
+  return b;
+}
+
 // A scan that found nothing is believed if its least stable depth is stable at twice the steps and extrapolated too.
 bool stable_throughout(Search& search, const Scan& scan) {
-  const double growth = search.growth(scan.worst_depth_m, {scan.worst_base, 2});
-  return growth < 0.0 && growth + std::abs(growth - scan.worst_growth) / 3.0 < 0.0;
+  const double growth = search.growth(scan.worst.depth_m, {scan.worst.base, 2});
+  return growth < 0.0 && growth + std::abs(growth - scan.worst.growth) / 3.0 < 0.0;
 }
 
 // One pair of step counts.
@@ -263,8 +281,13 @@ std::optional<LobeRow> refined_crossing(Search& search, int base, const Root& st
     row.steps = search.cut.steps({base, 2});
     if (eigen.converged) row.chatter_frequency_hz = search.cut.chatter_frequency_hz(eigen, {base, 2});
     row.error_estimate += fourth_order(search.cut, {base, 2}, row.chatter_frequency_hz);
-    const bool converged =
+    bool converged =
         row.error_estimate <= options.error_tolerance && resolves(search.cut, {base, 2}, row.chatter_frequency_hz);
+    if (converged) {
+      const double growth = search.growth(pair->depth_m, {base, 4});
+      row.error_estimate = std::max(row.error_estimate, std::abs(growth / slope) / pair->depth_m);
+      converged = row.error_estimate <= options.error_tolerance;
+    }
     const int next = refined(base, row.error_estimate, options.error_tolerance);
     if (converged || 2 * next > options.most_steps || search.eigenvalue_lost) {
       row.status = status_of(search, converged);
@@ -283,7 +306,7 @@ LobeRow lowest_crossing(Search& search) {
     const Scan scan = scan_depths(search, least_base);
     const bool last = 4 * scan.base > search.options.most_steps;
     if (scan.bracket) {
-      const Root coarse = root(search, {scan.base, 1}, *scan.bracket);
+      const Root coarse = root(search, {scan.base, 1}, narrowed(search, {scan.base, 1}, *scan.bracket));
       const std::optional<LobeRow> row = refined_crossing(search, scan.base, coarse);
       if (row && row->limiting_depth_m <= search.options.depth_limit_m) return *row;
       if (row) return row_at_limit(search, scan.base);

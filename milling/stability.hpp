@@ -33,7 +33,8 @@ struct StabilityOptions {
   double error_tolerance = 0.01;  ///< relative, in (0, 1): of the depth, or of |μ| at a point
   int most_steps = 4096;          ///< ≥ 32: steps in the cut at which refinement gives up
   double scan_ratio = 1.25;  ///< in (1, 2]: between neighbouring depths of the scan. Every unstable range wider than
-                             ///< this ratio is found; a narrower island below the limit may be missed
+                             ///< this ratio is found; a narrower island below the limit may be missed, a quarter
+                             ///< as wide if it lies just below the limit
 };
 
 /// Every violation, empty if there is none.
