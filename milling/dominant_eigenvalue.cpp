@@ -99,25 +99,26 @@ DominantEigenvalue dominant_eigenvalue_dense(const LinearMap& map, Eigen::Index 
   return result;
 }
 
-DominantEigenvalue dominant_eigenvalue_arnoldi(const LinearMap& map, Eigen::Index size, double tolerance) {
+DominantEigenvalue dominant_eigenvalue_arnoldi(const LinearMap& map, Eigen::Index size, double tolerance,
+                                               Eigen::Index first_look) {
   constexpr double follower_tolerance = 1e-3;
   const Eigen::Index most = std::min(size, largest_basis);
   Eigen::MatrixXd V(size, most + 1);
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(most + 1, most);
   V.col(0) = start_vector(size);
   DominantEigenvalue result;
-  // A look costs as much as several vectors; few maps are done before this one.
-  Eigen::Index next_look = 20;
+  Eigen::Index next_look = first_look;
   for (Eigen::Index k = 1; k <= most; ++k) {
     const double rest = extend_basis(map, V, H, k - 1);
     if (!std::isfinite(rest)) return result;
     const bool last = k == most || rest == 0.0;
     if (k < next_look && !last) continue;
-    next_look = k + k / 4;
+    next_look = k + std::max<Eigen::Index>(3, k / 6);
     const Eigen::MatrixXd Hk = H.topLeftCorner(k, k);
     const auto values = ritz_values(Hk);
     if (values.empty()) return result;
     const Eigen::VectorXcd y = eigenvector_of(Hk, values[0]);
+    result.basis = k;
     result.value = values[0];
     result.residual = relative(rest * std::abs(y(k - 1)), values[0]);
     if (result.residual > tolerance) {
@@ -135,9 +136,10 @@ DominantEigenvalue dominant_eigenvalue_arnoldi(const LinearMap& map, Eigen::Inde
   return result;
 }
 
-DominantEigenvalue dominant_eigenvalue(const LinearMap& map, Eigen::Index size, double tolerance) {
+DominantEigenvalue dominant_eigenvalue(const LinearMap& map, Eigen::Index size, double tolerance,
+                                       Eigen::Index first_look) {
   return size <= largest_dense ? dominant_eigenvalue_dense(map, size, tolerance)
-                               : dominant_eigenvalue_arnoldi(map, size, tolerance);
+                               : dominant_eigenvalue_arnoldi(map, size, tolerance, first_look);
 }
 
 }  // namespace thinwall::milling

@@ -57,7 +57,11 @@ DominantEigenvalue Regeneration::multiplier(double depth_m, StepCount steps, dou
       maps_.try_emplace(Key{steps.base, steps.division}, state_, process_, spindle_speed_rpm_, steps, rate_rad_s_);
   ToothPeriodMap& map = found->second;
   map.set_depth(depth_m);
-  return dominant_eigenvalue([&map](const auto& in, auto out) { map.apply(in, out); }, map.size(), tolerance);
+  DominantEigenvalue eigen =
+      dominant_eigenvalue([&map](const auto& in, auto out) { map.apply(in, out); }, map.size(), tolerance, first_look_);
+  // A little less than last time, so that an easier map is noticed.
+  if (eigen.basis > 0) first_look_ = std::max<Eigen::Index>(12, eigen.basis - 2);
+  return eigen;
 }
 
 int Regeneration::resolving_steps(double depth_m) const {

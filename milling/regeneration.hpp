@@ -46,6 +46,7 @@ class Regeneration {
   double rate_rad_s_;
   double mean_stiffness_;  ///< ‖D̄‖ over the tooth period, N/m²
   double cut_s_ = 0.0;
+  Eigen::Index first_look_ = 20;  ///< basis at which the next eigenvalue is expected
   std::map<Key, ToothPeriodMap> maps_;
 };
 
