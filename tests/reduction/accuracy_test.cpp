@@ -1,0 +1,119 @@
+#include "reduction/accuracy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cstdio>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "dynamics/conversion.hpp"
+#include "fem/modes.hpp"
+#include "reduction/damping.hpp"
+#include "reduction/full_response.hpp"
+#include "tests/reduction/solid_part.hpp"
+
+namespace thinwall::reduction {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A clamped block with two patches, its modes and its static inverse.
+struct Part {
+  fem::Model model = block({0.3, 0.2, 0.1}, {2, 2, 1}, 2, true);
+  Interface interface = interface_at(model, {{"P", {0.3, 0.11, 0.05}, 0.03, xyz}, {"Q", {0.1, 0.2, 0.05}, 0.02, xyz}});
+  StaticInverse inverse{model.K, model.node_of_row};
+  Eigen::VectorXd natural_hz = dynamics::undamped_modes(dense(model.K, model.M)).omega_rad_s / (2.0 * pi);
+
+  [[nodiscard]] dynamics::SpatialModel reduced(int modes) const {
+    return craig_bampton(model.K, model.M, inverse.action(), interface, {.modes = modes, .up_to_hz = {}}).model;
+  }
+};
+
+TEST(FullReceptances, EqualADenseSolve) {
+  const Part part;
+  const auto lines = frequencies_between(part.natural_hz.head(8), 100.0, part.natural_hz(7), 5);
+  const auto full = full_receptances(part.model.K, part.model.M, part.model.node_of_row, part.interface, lines);
+  ASSERT_EQ(full.size(), 5U);
+  const Eigen::MatrixXd W = part.interface.W;
+  for (const auto& line : full) {
+    const double w = 2 * pi * line.frequency_hz;
+    const Eigen::MatrixXd Z = Eigen::MatrixXd(part.model.K) - w * w * Eigen::MatrixXd(part.model.M);
+    const Eigen::MatrixXd expected = W.transpose() * Z.partialPivLu().solve(W);
+    EXPECT_LT((line.H - expected).cwiseAbs().maxCoeff(), 1e-9 * expected.cwiseAbs().maxCoeff())
+        << line.frequency_hz << " Hz";
+    EXPECT_LT((line.H - line.H.transpose()).cwiseAbs().maxCoeff(), 1e-9 * expected.cwiseAbs().maxCoeff())
+        << "reciprocity";
+    EXPECT_LT(line.relative_residual, 1e-9);
+  }
+}
+
+TEST(Accuracy, ErrorsFallAsModesAreAddedAndVanishWithAllOfThem) {
+  const Part part;
+  const Eigen::VectorXd lowest = part.natural_hz.head(6);
+  const auto lines = frequencies_between(part.natural_hz, 100.0, lowest(5), 5);
+  const auto full = full_receptances(part.model.K, part.model.M, part.model.node_of_row, part.interface, lines);
+  double frequency_before = 1e9;
+  double receptance_before = 1e9;
+  const int all = static_cast<int>(part.model.K.rows() - part.interface.W.cols());
+  for (const int modes : {5, 10, 20, 40, 80, all}) {
+    const auto reduced = part.reduced(modes);
+    const double frequency = max_relative_frequency_error(reduced, lowest, 0);
+    const double receptance = max_relative_receptance_error(reduced, full);
+    std::printf("%3d fixed-interface modes: frequency error %.1e, receptance error %.1e\n", modes, frequency,
+                receptance);
+    EXPECT_LT(frequency, frequency_before);
+    EXPECT_LT(receptance, receptance_before);
+    frequency_before = frequency;
+    receptance_before = receptance;
+  }
+  EXPECT_LT(frequency_before, 1e-9);
+  EXPECT_LT(receptance_before, 1e-8);
+}
+
+TEST(FrequenciesBetween, AreTheMiddlesOfTheWidestGapsAwayFromEveryResonance) {
+  const Eigen::VectorXd natural = (Eigen::VectorXd(4) << 50.0, 200.0, 220.0, 5000.0).finished();
+  const auto lines = frequencies_between(natural, 100.0, 1000.0, 2);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_NEAR(lines[0], std::sqrt(100.0 * 200.0), 1e-9);
+  EXPECT_NEAR(lines[1], std::sqrt(220.0 * 1000.0), 1e-9);
+  EXPECT_EQ(frequencies_between(natural, 100.0, 1000.0, 9).size(), 3U) << "no more than there are gaps";
+}
+
+TEST(FullResponse, EqualsADirectSolveOfTheDampedFullModel) {
+  const Part part;
+  const fem::Factored factored = fem::factorise(part.model);
+  const auto modes = fem::modes(part.model, factored, {.count = 14, .up_to_hz = {}, .verify_count = false});
+  const std::vector<double> ratios{0.01, 0.02};
+  const double rest = 0.005;
+  const auto axis = dynamics::linear_axis(50.0, 0.8 * modes.frequency_hz(13), 40);
+  const auto full =
+      full_response(part.model.K, part.model.M, part.inverse.action(), modes.pairs, ratios, rest, part.interface, axis);
+  EXPECT_LT(full.max_relative_residual, 1e-8);
+
+  // The same damping on the known modes only, as the function says, by one dense solve a line.
+  const Eigen::MatrixXd MPhi = part.model.M * modes.pairs.Phi;
+  Eigen::VectorXd two_zeta_omega = 2.0 * rest * modes.pairs.lambda.cwiseSqrt();
+  for (std::size_t k = 0; k < 2; ++k) two_zeta_omega(static_cast<Eigen::Index>(k)) *= ratios[k] / rest;
+  const Eigen::MatrixXd C = MPhi * two_zeta_omega.asDiagonal() * MPhi.transpose();
+  const Eigen::MatrixXd W = part.interface.W;
+  double worst = 0.0;
+  for (const Eigen::Index line : {0, 13, 26, 39}) {
+    const double w = axis.omega_rad_s(line);
+    Eigen::MatrixXcd Z =
+        (Eigen::MatrixXd(part.model.K) - w * w * Eigen::MatrixXd(part.model.M)).cast<std::complex<double>>();
+    Z.imag() = w * C;
+    const Eigen::MatrixXcd expected = W.transpose() * Z.partialPivLu().solve(W.cast<std::complex<double>>());
+    const Eigen::MatrixXcd& H = full.response.H[static_cast<std::size_t>(line)];
+    worst = std::max(worst, (H - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff());
+  }
+  std::printf("full response against direct solves: %.1e, residual %.1e\n", worst, full.max_relative_residual);
+  EXPECT_LT(worst, 1e-9);
+  const auto too_far = dynamics::linear_axis(50.0, 0.95 * modes.frequency_hz(13), 40);
+  EXPECT_THROW((void)full_response(part.model.K, part.model.M, part.inverse.action(), modes.pairs, ratios, rest,
+                                   part.interface, too_far),
+               core::InputError);
+}
+
+}  // namespace
+}  // namespace thinwall::reduction
