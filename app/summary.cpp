@@ -41,7 +41,7 @@ json part_of(const Results& results) {
   for (Eigen::Index k = 0; k < part.modes.frequency_hz.size(); ++k) {
     const Eigen::Index elastic = k - part.modes.rigid_motions;
     const bool known = elastic >= 0 && elastic < static_cast<Eigen::Index>(ratios.size());
-    json entry = mode(part.modes.frequency_hz(k), 0.0);
+    json entry = mode(part.modes.frequency_hz(k), known ? ratios[static_cast<std::size_t>(elastic)] : 0.0);
     if (!known) entry["damping_ratio"] = nullptr;
     entry["residual"] = part.modes.residual(k);
     entry["inverse_residual"] = part.modes.pairs.inverse_residual(k);
