@@ -1,5 +1,6 @@
 #include "app/case_checks.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -34,6 +35,15 @@ void check_ranges(const Case& source, Findings& findings) {
   }
 }
 
+/// A point at which the reduced model is asked for something: known, and kept by the reduction.
+void require_kept(const Case& source, const std::string& key, const std::string& name, Findings& findings) {
+  const auto points = part_points(source);
+  findings.require_known(key, name, points, "point");
+  const auto& kept = source.reduction.interface;
+  if (!source.part || std::ranges::find(points, name) == points.end() || std::ranges::count(kept, name) > 0) return;
+  findings.report(key, "point \"" + name + "\" is not kept by the reduction; add it to reduction.interface");
+}
+
 void check_damping(const Case& source, Findings& findings) {
   const Damping& damping = source.damping;
   const auto belongs_to = [&](const char* key, const char* model, bool used) {
@@ -46,13 +56,15 @@ void check_damping(const Case& source, Findings& findings) {
   belongs_to("damping.alpha", "rayleigh", damping.alpha != 0.0);
   belongs_to("damping.beta", "rayleigh", damping.beta != 0.0);
   belongs_to("damping.loss_factor", "structural", damping.loss_factor != 0.0);
+  if (!damping.ratios.empty() && damping.from_frf)
+    findings.report("damping.ratios", "give either damping.ratios or damping.from_frf, not both");
   if (damping.model == "rayleigh" && damping.alpha == 0.0 && damping.beta == 0.0) {
     findings.report("damping.model", "rayleigh needs alpha or beta");
   }
 }
 
 void require_direction(const std::string& key, const std::string& dof, Findings& findings) {
-  if (dof.empty() || (dof.find('.') != std::string::npos && dof.find('.') + 1 < dof.size())) return;
+  if (dof.empty() || direction_of(dof)) return;
   findings.report(key, "\"" + dof + "\" names no direction; write for example \"" + point_of(dof) + ".x\"");
 }
 
@@ -81,11 +93,21 @@ void check_measured(const std::string& key, const MeasuredFrf& frf, Findings& fi
   }
 }
 
+void require_driving_point(const std::string& key, const MeasuredFrf& frf, Findings& findings) {
+  if (frf.response.empty() || frf.force.empty() || frf.response == frf.force) return;
+  findings.report(key + ".force", "\"" + frf.force + "\" is not the DOF that moves; only a driving point, force = \"" +
+                                      frf.response + "\", serves here");
+}
+
 void check_all_measured(const Case& source, Findings& findings) {
   for (std::size_t i = 0; i < source.measured_part.size(); ++i) {
     check_measured(indexed("part.measured", i), source.measured_part[i], findings);
   }
-  if (source.damping.from_frf) check_measured("damping.from_frf", *source.damping.from_frf, findings);
+  if (const auto& frf = source.damping.from_frf) {
+    check_measured("damping.from_frf", *frf, findings);
+    findings.require_known("damping.from_frf.response", point_of(frf->response), part_points(source), "point");
+    require_driving_point("damping.from_frf", *frf, findings);
+  }
   if (!source.robot) return;
   for (std::size_t i = 0; i < source.robot->measured.size(); ++i) {
     const std::string key = indexed("robot.measured", i);
@@ -95,9 +117,33 @@ void check_all_measured(const Case& source, Findings& findings) {
   }
 }
 
+bool parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return !(a.cross(b).norm() > 1e-6);
+}
+
+/// A measured robot is its driving-point receptance along robot.direction, nothing else.
+void check_measured_robot(const Robot& robot, Findings& findings) {
+  if (robot.measured.empty()) {
+    findings.report("robot.model", "measured needs [[robot.measured]] with a file");
+    return;
+  }
+  if (robot.measured.size() > 1)
+    findings.report("robot.measured[1]", "one direct receptance along robot.direction is used; remove the others");
+  const MeasuredFrf& frf = robot.measured.front();
+  require_driving_point("robot.measured[0]", frf, findings);
+  const auto measured_along = direction_of(frf.response);
+  if (!measured_along || point_of(frf.response) != robot.point) return;
+  for (const auto* letter : {"x", "y", "z"}) {
+    const Eigen::Vector3d axis = *direction_of(robot.point + "." + letter);
+    if ((robot.direction - axis).norm() < 1e-9 && *measured_along != axis)
+      findings.report("robot.measured[0].response", "\"" + frf.response + "\" is not along robot.direction; give \"" +
+                                                        robot.point + "." + letter + "\"");
+  }
+}
+
 void check_robot(const Robot& robot, Findings& findings) {
   if (robot.model == "measured") {
-    if (robot.measured.empty()) findings.report("robot.model", "measured needs [[robot.measured]] with a file");
+    check_measured_robot(robot, findings);
     for (const auto* key :
          {"robot.frequency", "robot.mass", "robot.stiffness", "robot.damping", "robot.damping_ratio"}) {
       if (findings.given(key)) findings.report(key, "belongs to robot.model = \"one_mode\"");
@@ -114,8 +160,27 @@ void check_robot(const Robot& robot, Findings& findings) {
   }
 }
 
+/// A contact joins what both sides can do: the part's point in its directions, the robot along its own.
+void check_contact_directions(const Case& source, const std::string& key, const Contact& contact, Findings& findings) {
+  const auto here = directions_at(source, contact.part_point);
+  for (const auto& direction : contact.directions) {
+    if (here.empty() || spanned(here, direction)) continue;
+    findings.report(key + ".directions", "point \"" + contact.part_point +
+                                             "\" is not known in all of these directions; add them to the point, or "
+                                             "join fewer");
+    break;
+  }
+  for (const auto& direction : contact.directions) {
+    if (!source.robot || parallel(direction, source.robot->direction)) continue;
+    findings.report(key + ".directions",
+                    "the robot resists along robot.direction only; join that direction alone, or turn the robot's");
+    break;
+  }
+}
+
 void check_contact(const Case& source, const std::string& key, const Contact& contact, Findings& findings) {
-  findings.require_known(key + ".part", contact.part_point, part_points(source), "point");
+  require_kept(source, key + ".part", contact.part_point, findings);
+  check_contact_directions(source, key, contact, findings);
   if (!source.robot) {
     findings.report(key, "there is no robot to touch the part; add [robot]");
   } else {
@@ -160,12 +225,30 @@ void check_response(const Case& source, Findings& findings) {
   if (response.logarithmic && response.from_hz == 0.0)
     findings.report("response.from", "a logarithmic axis cannot start at 0 Hz");
   if (!findings.given("response.points")) return;
-  for (const auto& name : response.points)
-    findings.require_known("response.points", name, part_points(source), "point");
+  for (const auto& name : response.points) require_kept(source, "response.points", name, findings);
 }
 
-void check_parameter(const Case& source, const std::string& key, const UpdatingParameter& parameter,
-                     Findings& findings) {
+/// Part fits keep the mesh and stretch it; coupled fits keep the reduced part: other keys would change nothing.
+void require_effect(const std::string& on, const std::string& key, const UpdatingParameter& parameter,
+                    Findings& findings) {
+  const auto starts = [&](const char* prefix) { return parameter.key.starts_with(prefix); };
+  const bool on_part = parameter.key == "part.length" || parameter.key == "part.height" ||
+                       parameter.key == "part.thickness" || starts("part.material.");
+  const bool on_coupled = starts("robot.") || starts("damping.") || starts("contacts[");
+  if (on == "part" && !on_part) {
+    findings.report(key + ".key", parameter.key +
+                                      " does not move the modes of the part; with on = \"part\" fit part.length, "
+                                      "part.height, part.thickness or part.material.*");
+  }
+  if (on == "coupled" && !on_coupled) {
+    findings.report(key + ".key", parameter.key +
+                                      " does not change the reduced part; with on = \"coupled\" fit robot.*, "
+                                      "damping.* or contacts[].*");
+  }
+}
+
+void check_parameter(const Case& source, const std::string& on, const std::string& key,
+                     const UpdatingParameter& parameter, Findings& findings) {
   double start = 0.0;
   try {
     start = get_value(source, parameter.key);
@@ -173,6 +256,7 @@ void check_parameter(const Case& source, const std::string& key, const UpdatingP
     if (!parameter.key.empty()) findings.report(key + ".key", error.what());
     return;
   }
+  require_effect(on, key, parameter, findings);
   const Key* described = find_key(case_schema(), pattern_of(case_schema(), parameter.key));
   for (const auto* bound : {".lower", ".upper"}) {
     const CaseValue* written = find(source.values, key + bound);
@@ -191,11 +275,29 @@ void check_parameter(const Case& source, const std::string& key, const UpdatingP
   }
 }
 
+void check_coupled_target(const Case& source, const std::string& key, const UpdatingTarget& target,
+                          Findings& findings) {
+  if (target.quantity == "part_frequency") {
+    findings.report(key + ".quantity",
+                    "\"part_frequency\" is a result of the part alone; set on = \"part\", or fit coupled_frequency");
+  }
+  if (target.match == "mac")
+    findings.report(key + ".match", "\"mac\" compares shapes of the part alone; take participation or number");
+  const auto directions = directions_at(source, point_of(target.point));
+  const auto direction = direction_of(target.point);
+  if (direction && !directions.empty() && std::ranges::count(directions, *direction) == 0)
+    findings.report(key + ".point", "\"" + target.point + "\" is none of the point's directions; add it to the point");
+}
+
 void check_target(const Case& source, const std::string& on, const std::string& key, const UpdatingTarget& target,
                   Findings& findings) {
   const bool reduction = target.quantity == "reduction_at";
-  const auto points = part_points(source);
-  findings.require_known(key + ".point", point_of(target.point), points, "point");
+  if (on == "coupled") {
+    require_kept(source, key + ".point", point_of(target.point), findings);
+  } else {
+    findings.require_known(key + ".point", point_of(target.point), part_points(source), "point");
+  }
+  require_direction(key + ".point", target.point, findings);
   if (reduction && (target.value <= 0.0 || target.value >= 1.0))
     findings.report(key + ".value", "a reduction lies between 0 and 1");
   if (!reduction && target.value <= 0.0) findings.report(key + ".value", "a frequency lies above 0 Hz");
@@ -212,23 +314,35 @@ void check_target(const Case& source, const std::string& on, const std::string& 
     findings.report(key + ".quantity",
                     "\"" + target.quantity + "\" is a result of the coupled model; set on = \"coupled\"");
   }
+  if (on == "coupled") check_coupled_target(source, key, target, findings);
+}
+
+void check_coupled_fit(const Case& source, const std::string& key, Findings& findings) {
+  if (!source.robot || source.contacts.empty() || source.points.empty())
+    findings.report(key + ".on", "\"coupled\" needs [robot], [[contacts]] and [points]");
+  if (source.robot && source.robot->model == "measured")
+    findings.report(key + ".on", "\"coupled\" needs a robot of one mode, not a measured one; set robot.model");
+  if (source.part->supports.empty())
+    findings.report(key + ".on", "\"coupled\" needs a part that is held; add [[part.supports]]");
 }
 
 void check_updating(const Case& source, Findings& findings) {
   for (std::size_t i = 0; i < source.updating.size(); ++i) {
     const std::string key = indexed("updating", i);
     const Updating& updating = source.updating[i];
+    if (!source.part) {
+      findings.report(key, "there is no modelled part to fit; add part.length, part.height, part.thickness");
+      continue;
+    }
     if (updating.parameters.empty()) findings.report(key + ".parameters", "missing; name at least one number to fit");
     if (updating.targets.empty()) findings.report(key + ".targets", "missing; name at least one result to fit to");
     for (std::size_t j = 0; j < updating.parameters.size(); ++j) {
-      check_parameter(source, indexed(key + ".parameters", j), updating.parameters[j], findings);
+      check_parameter(source, updating.on, indexed(key + ".parameters", j), updating.parameters[j], findings);
     }
     for (std::size_t j = 0; j < updating.targets.size(); ++j) {
       check_target(source, updating.on, indexed(key + ".targets", j), updating.targets[j], findings);
     }
-    if (updating.on == "coupled" && (!source.robot || source.contacts.empty())) {
-      findings.report(key + ".on", "\"coupled\" needs [robot] and [[contacts]]");
-    }
+    if (updating.on == "coupled") check_coupled_fit(source, key, findings);
   }
 }
 
@@ -244,8 +358,12 @@ void check_cutting(const Case& source, Findings& findings) {
   if (std::abs(cutting.feed_direction.dot(cutting.tool_axis)) > 1e-9) {
     findings.report("cutting.feed_direction", "the feed must be perpendicular to cutting.tool_axis");
   }
-  const auto points = part_points(source);
-  if (!points.empty()) findings.require_known("cutting.at", cutting.at, points, "point");
+  if (source.part || !part_points(source).empty()) require_kept(source, "cutting.at", cutting.at, findings);
+  const auto here = directions_at(source, cutting.at);
+  if (source.part && !here.empty() && here.size() < 3) {
+    findings.report("cutting.at", "the cut loads point \"" + cutting.at + "\" in x, y and z; leave out points." +
+                                      cutting.at + ".directions, or give all three");
+  }
   for (int axis = 0; axis < 3; ++axis) {
     const std::string support = clamped_by(source, cutting.at, Eigen::Vector3d::Unit(axis));
     if (support.empty()) continue;
@@ -258,6 +376,11 @@ void check_cutting(const Case& source, Findings& findings) {
 void check_lobes(const Case& source, Findings& findings) {
   const LobesOptions& lobes = *source.lobes;
   if (!source.cutting) findings.report("lobes", "there is no cut; add [cutting]");
+  if (source.part ? source.part->supports.empty() : !source.measured_part.empty()) {
+    findings.report("lobes", "lobes need a part that is held and modelled; " +
+                                 std::string(source.part ? "add [[part.supports]]" : "describe it (part.length …)") +
+                                 ", or remove [lobes]");
+  }
   if (lobes.from_rpm >= lobes.to_rpm && lobes.count > 1)
     findings.report("lobes.from", "the lowest speed must lie below the highest (lobes.to)");
   if (source.tool && lobes.depth_limit > source.tool->length) {

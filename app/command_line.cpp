@@ -54,7 +54,7 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
   out << source.file.string() << ": no errors\n";
   if (!source.title.empty()) out << "  " << source.title << '\n';
   if (source.part) {
-    const SizeEstimate size = estimate_size(*source.part);
+    const SizeEstimate size = estimate_size(source);
     const auto rounded = [](double value) { return core::readable_text(value, core::kind::number); };
     out << "  elements  about " << rounded(size.elements) << " of order " << source.part->mesh.order << ", size "
         << core::readable_text(source.part->mesh.element_size, core::kind::length) << '\n'
@@ -92,7 +92,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   auto* run_command = app.add_subcommand("run", "compute a case");
   add_case_arguments(*run_command, arguments);
   run_command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
-  run_command->add_flag("--fresh", arguments.fresh, "ignore results of an earlier run");
+  run_command->add_flag("--fresh", arguments.fresh, "reserved: results are always computed anew");
   auto* quiet = run_command->add_flag("-q,--quiet", arguments.quiet, "log warnings only");
   run_command->add_flag("-v,--verbose", arguments.verbose, "log everything")->excludes(quiet);
   run_command->add_option("--threads", arguments.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));

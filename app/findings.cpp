@@ -8,6 +8,7 @@ namespace thinwall::app {
 
 void Findings::report(const std::string& key, const std::string& text) {
   const CaseValue* place = find(values, key);
+  if (place != nullptr && place->line == 0) place = nullptr;  // a default stands nowhere: point at its table
   for (std::string table = key; place == nullptr && !table.empty();) {
     const auto found = std::ranges::find_if(values, [&](const CaseValue& value) {
       return value.from_file && value.key.starts_with(table) && value.key.size() > table.size();

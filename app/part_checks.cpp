@@ -1,11 +1,15 @@
 #include "app/part_checks.hpp"
 
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/case_checks.hpp"
+#include "core/error.hpp"
 #include "core/units.hpp"
+#include "dynamics/dof.hpp"
 
 namespace thinwall::app {
 
@@ -16,6 +20,7 @@ const std::vector<std::string> face_names{"x_min", "x_max", "y_min", "y_max", "z
 /// A regular tetrahedron of edge a has a³/(6√2); meshers fill space with tetrahedra of about that size.
 constexpr double tets_per_cube = 8.485281374238570;
 constexpr double most_tets = 2e7;
+constexpr double most_dofs = 5e6;
 
 bool axes_differ(const Part& part) {
   const int sum = (1 << std::max(part.length_axis, 0)) + (1 << std::max(part.height_axis, 0)) +
@@ -52,18 +57,74 @@ void check_box(const Case& source, Findings& findings) {
   }
 }
 
-void check_mesh_size(const Part& part, Findings& findings) {
-  const SizeEstimate size = estimate_size(part);
-  if (!(size.elements > most_tets)) return;
-  const double volume = part.length * part.height * part.thickness;
-  const double finest = std::cbrt(tets_per_cube * volume / most_tets);
-  const bool near_points =
-      part.mesh.point_element_size && *part.mesh.point_element_size < part.mesh.element_size && !part.mesh.grading;
+/// Element size as the mesher is asked for it: `near` at the points, growing with the distance to them up to `far`.
+struct Grading {
+  std::vector<Eigen::Vector3d> points;
+  double near = 0.0, growth = 0.0, far = 0.0;
+
+  [[nodiscard]] double distance(const Eigen::Vector3d& x) const {
+    double nearest = std::numeric_limits<double>::max();
+    for (const auto& p : points) nearest = std::min(nearest, (x - p).norm());
+    return nearest;
+  }
+  [[nodiscard]] double size(double distance) const { return std::min(far, near + growth * std::max(0.0, distance)); }
+};
+
+Grading grading_of(const Case& source) {
+  const Part& part = *source.part;
+  const double thinnest = std::min({part.length, part.height, part.thickness});
+  // The quality bound lets a tetrahedron be about twice as wide as the wall is thick, however large it may be.
+  const double far = std::min(part.mesh.element_size, 2.0 * thinnest);
+  Grading grading{{}, far, 0.0, far};
+  if (!part.mesh.point_element_size) return grading;
+  for (const Point& p : source.points) {
+    if (p.at.has_value() != p.position.has_value()) grading.points.push_back(position(part, p));
+  }
+  if (grading.points.empty()) return grading;
+  grading.near = *part.mesh.point_element_size;
+  grading.growth = part.mesh.grading.value_or(1.5) - 1.0;
+  return grading;
+}
+
+/// ∫ 6√2 / size³ over the cell, halved until the size varies little in it or it is no larger than an element.
+double tets_in(const Eigen::AlignedBox3d& cell, const Grading& grading) {
+  const Eigen::Vector3d extent = cell.sizes();
+  const double distance = grading.distance(cell.center()), reach = 0.5 * extent.norm();
+  const double finest = grading.size(distance - reach), coarsest = grading.size(distance + reach);
+  if (!(coarsest > 1.5 * finest && extent.maxCoeff() > finest))
+    return tets_per_cube * cell.volume() / std::pow(grading.size(distance), 3);
+  Eigen::Index longest = 0;
+  extent.maxCoeff(&longest);
+  Eigen::AlignedBox3d lower = cell, upper = cell;
+  lower.max()[longest] = upper.min()[longest] = cell.center()[longest];
+  return tets_in(lower, grading) + tets_in(upper, grading);
+}
+
+/// What is too much, and the size or order that would do; a uniform mesh grows with the cube of its fineness.
+void check_mesh_size(const Case& source, Findings& findings) {
+  const MeshOptions& mesh = source.part->mesh;
+  if (mesh.grading && !findings.given("part.mesh.point_element_size"))
+    findings.report("part.mesh.grading", "there is nothing to grade; give point_element_size, or remove grading");
+  const SizeEstimate size = estimate_size(source);
+  const bool many_tets = size.elements > most_tets;
+  if (!many_tets && !(size.dofs > most_dofs)) return;
+  const double excess = many_tets ? size.elements / most_tets : size.dofs / most_dofs;
+  const Grading grading = grading_of(source);
+  const bool near_points = grading.near < grading.far;
+  const double asked = near_points ? grading.near : mesh.element_size;
+  const double enough = 1.05 * std::cbrt(excess) * std::min(asked, grading.far);
+  const auto length = [](double value) { return core::readable_text(value, core::kind::length); };
+  const auto number = [](double value) { return core::readable_text(value, core::kind::number); };
+  const std::string order = " of order " + std::to_string(mesh.order);
+  const std::string what = many_tets ? number(size.elements) + " tetrahedra, at most 2e+07 are made"
+                                     : number(size.dofs) + " degrees of freedom, at most 5e+06 are solved";
+  const double widest = 2.0 * std::min({source.part->length, source.part->height, source.part->thickness});
+  const std::string remedy = near_points        ? "larger elements at the points, or a larger part.mesh.grading"
+                             : enough <= widest ? length(enough) + " or more"
+                                                : "a smaller or thicker part";
   findings.report(near_points ? "part.mesh.point_element_size" : "part.mesh.element_size",
-                  core::readable_text(part.mesh.element_size, core::kind::length) + " would make about " +
-                      core::readable_text(size.elements, core::kind::number) +
-                      " tetrahedra, at most 2e+07 are made; take " +
-                      core::readable_text(finest * 1.05, core::kind::length) + " or more");
+                  length(asked) + (many_tets ? "" : order) + " would make about " + what + "; take " + remedy +
+                      (many_tets || mesh.order == 1 ? "" : ", or a lower part.mesh.order"));
 }
 
 void check_supports(const Case& source, Findings& findings) {
@@ -124,13 +185,10 @@ bool holds(const Case& source, const Support& support, const Eigen::Vector3d& p)
 
 }  // namespace
 
-SizeEstimate estimate_size(const Part& part) {
-  const double thinnest = std::min({part.length, part.height, part.thickness});
-  // The quality bound lets a tetrahedron be about twice as wide as the wall is thick, however large it may be.
-  double edge = std::min(part.mesh.element_size, 2.0 * thinnest);
-  if (part.mesh.point_element_size && !part.mesh.grading) edge = std::min(edge, *part.mesh.point_element_size);
+SizeEstimate estimate_size(const Case& source) {
+  const Part& part = *source.part;
   SizeEstimate size;
-  size.elements = std::max(6.0, tets_per_cube * part.length * part.height * part.thickness / (edge * edge * edge));
+  size.elements = std::max(6.0, tets_in({Eigen::Vector3d::Zero(), box_size(part)}, grading_of(source)));
   // A tetrahedral mesh of a thin wall has about 0.3 vertices, 1.6 edges and 2.3 faces an element.
   const double p = part.mesh.order;
   size.nodes = size.elements * (0.3 + 1.6 * (p - 1) + 2.3 * (p - 1) * (p - 2) / 2 + (p - 1) * (p - 2) * (p - 3) / 6);
@@ -152,7 +210,7 @@ bool independent(const std::vector<Eigen::Vector3d>& directions) {
 void check_part(const Case& source, Findings& findings) {
   if (source.part) {
     check_box(source, findings);
-    if (geometry_known(*source.part)) check_mesh_size(*source.part, findings);
+    if (geometry_known(*source.part)) check_mesh_size(source, findings);
     check_supports(source, findings);
   }
   for (const auto& selection : source.selections) check_selection(selection, findings);
@@ -172,6 +230,42 @@ std::vector<std::string> part_points(const Case& source) {
     }
   }
   return names;
+}
+
+std::optional<Eigen::Vector3d> direction_of(const std::string& dof) {
+  const auto dot = dof.rfind('.');
+  if (dot == std::string::npos || dot == 0) return std::nullopt;
+  try {
+    return dynamics::axis(dof.substr(dot + 1));
+  } catch (const core::InputError&) {
+    return std::nullopt;
+  }
+}
+
+std::vector<Eigen::Vector3d> directions_at(const Case& source, const std::string& name) {
+  const auto found = std::ranges::find(source.points, name, &Point::name);
+  if (source.part && found != source.points.end()) return found->directions;
+  std::vector<Eigen::Vector3d> directions;
+  for (const auto& frf : source.measured_part) {
+    for (const auto& dof : {frf.response, frf.force}) {
+      const auto direction = direction_of(dof);
+      if (direction && point_of(dof) == name) directions.push_back(*direction);
+    }
+  }
+  return directions;
+}
+
+bool spanned(const std::vector<Eigen::Vector3d>& directions, const Eigen::Vector3d& direction) {
+  std::vector<Eigen::Vector3d> basis;  // orthonormal, by Gram and Schmidt
+  const auto beyond_basis = [&](Eigen::Vector3d v) {
+    for (const auto& b : basis) v -= b.dot(v) * b;
+    return v;
+  };
+  for (const auto& d : directions) {
+    const Eigen::Vector3d rest = beyond_basis(d);
+    if (rest.norm() > 1e-6) basis.push_back(rest.normalized());
+  }
+  return !(beyond_basis(direction).norm() > 1e-6);
 }
 
 std::string clamped_by(const Case& source, const std::string& name, const Eigen::Vector3d& direction) {

@@ -17,6 +17,15 @@ void check_part(const Case& source, Findings& findings);
 /// True if at most three directions are given and none follows from the others.
 [[nodiscard]] bool independent(const std::vector<Eigen::Vector3d>& directions);
 
+/// Directions in which the point can be loaded and watched: those of [points], or those that measured FRFs name there.
+[[nodiscard]] std::vector<Eigen::Vector3d> directions_at(const Case& source, const std::string& point);
+
+/// True if `direction` is a combination of `directions`.
+[[nodiscard]] bool spanned(const std::vector<Eigen::Vector3d>& directions, const Eigen::Vector3d& direction);
+
+/// Direction of "P.x"; none if the name has none that can be read.
+[[nodiscard]] std::optional<Eigen::Vector3d> direction_of(const std::string& dof);
+
 /// "P.x" → "P".
 [[nodiscard]] std::string point_of(const std::string& dof);
 

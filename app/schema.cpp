@@ -72,7 +72,7 @@ constexpr std::array case_keys{
     Key{"part.mesh.element_size", Type::quantity, kind::length, "", positive, "", "Edge of a regular tetrahedron of the largest volume allowed.", required},
     Key{"part.mesh.order", Type::integer, kind::number, "2", {1, 6, false, false, false, ""}, "", "Polynomial order of the elements."},
     Key{"part.mesh.quality", Type::quantity, kind::number, "1.4", {1.1, 5, false, false, false, "TetGen may not end below 1.1"}, "", "Bound on circumradius over shortest edge."},
-    Key{"part.mesh.grading", Type::quantity, kind::number, "", {1.0, 10.0, false, false, false, "1 keeps the size at the points, 1.5 lets it grow"}, "", "Growth of the element size away from the named points; uniform if not given."},
+    Key{"part.mesh.grading", Type::quantity, kind::number, "", {1.0, 10.0, false, false, false, "1 keeps the size at the points, 1.5 lets it grow"}, "", "Growth of the element size away from the named points, with `point_element_size`; 1.5 if not given."},
     Key{"part.mesh.point_element_size", Type::quantity, kind::length, "", positive, "", "Element size near the named points."},
     Key{"part.mesh.time_limit", Type::quantity, kind::time, "\"120 s\"", positive, "", "Time after which the mesher is stopped."},
     Key{"part.mesh.memory_limit", Type::quantity, kind::memory, "\"4 GB\"", {1e7, infinity, false, false, false, "a memory needs its unit: \"4 GB\""}, "", "Memory at which the mesher is stopped."},
@@ -189,7 +189,7 @@ constexpr std::array case_keys{
     Key{"lobes.count", Type::integer, kind::number, "400", {1, 1e5, false, false, false, ""}, "", "Number of speeds."},
     Key{"lobes.depth_limit", Type::quantity, kind::length, "", positive, "", "Deepest cut that is asked; `tool.length` if not given."},
     Key{"lobes.tolerance", Type::quantity, kind::number, "0.01", {1e-6, 0.5, false, false, false, ""}, "", "Bound on the estimated relative error of the depth."},
-    Key{"lobes.modes_up_to", Type::quantity, kind::frequency, "", positive, "", "Only modes up to this frequency; the static share of the others is kept."},
+    Key{"lobes.modes_up_to", Type::quantity, kind::frequency, "", positive, "", "Only modes up to this frequency; those above are left out, and the static compliance that goes with them is reported as static_compliance_left_out."},
 };
 
 constexpr std::array expectation_sections{

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "app/case_checks.hpp"
@@ -132,6 +133,156 @@ TEST(BadCase, AMeshBeyondMemoryIsRefusedWithItsEstimate) {
   EXPECT_EQ(problem_of("element_size = \"12 mm\"", "element_size = \"0.3 mm\"").line, 11);
 }
 
+TEST(BadCase, MoreDegreesOfFreedomThanAreSolvedAreRefusedWithOrderAndSize) {
+  // 392 · 100 · 6 mm³ · 6√2 / (1 mm)³ = 1.996e6 tetrahedra of order 2, 5.7 DOFs each.
+  expect_problem("element_size = \"12 mm\"", "element_size = \"1 mm\"",
+                 "1 mm of order 2 would make about 1.138e+07 degrees of freedom, at most 5e+06 are solved");
+  expect_problem("element_size = \"12 mm\"", "element_size = \"1 mm\"", "or a lower part.mesh.order");
+}
+
+TEST(BadCase, AGradingWithoutASizeAtThePointsIsRefused) {
+  expect_problem("element_size = \"12 mm\"", "element_size = \"12 mm\"\ngrading = 1.2", "nothing to grade");
+  EXPECT_TRUE(problems_of(with(plate_case(), "element_size = \"12 mm\"",
+                               "element_size = \"12 mm\"\ngrading = 1.2\npoint_element_size = \"0.2 mm\""))
+                  .empty());
+  // Without growth the size at the points is that of the whole part.
+  expect_problem("element_size = \"12 mm\"", "element_size = \"12 mm\"\ngrading = 1.0\npoint_element_size = \"0.2 mm\"",
+                 "larger elements at the points");
+}
+
+std::string coupled_fit(const std::string& key, const std::string& bounds, const std::string& target) {
+  return with(plate_case(), "[tool]",
+              "[[updating]]\nname = \"coupled\"\non = \"coupled\"\nparameters = [{ key = \"" + key + "\", " + bounds +
+                  " }]\ntargets = [{ " + target + " }]\n[tool]");
+}
+
+const std::string stiffness_bounds = "lower = \"1e6 N/m\", upper = \"1e7 N/m\"";
+const std::string main_mode = "quantity = \"coupled_frequency\", value = \"38 Hz\", point = \"P.x\"";
+
+void expect_only(const std::string& text, const std::string& part) {
+  const auto problems = problems_of(text);
+  ASSERT_EQ(problems.size(), 1U) << part;
+  EXPECT_NE(problems[0].text.find(part), std::string::npos) << problems[0].text;
+  EXPECT_GT(problems[0].line, 0) << problems[0].text;
+  EXPECT_GT(problems[0].column, 0) << problems[0].text;
+}
+
+TEST(BadCase, AFitWhoseParametersOrTargetsBelongToTheOtherModelIsRefused) {
+  const std::string good = coupled_fit("robot.stiffness", stiffness_bounds, main_mode);
+  EXPECT_TRUE(problems_of(good).empty());
+  expect_only(coupled_fit("part.length", "lower = \"380 mm\", upper = \"410 mm\"", main_mode),
+              "updating[1].parameters[0].key: part.length does not change the reduced part");
+  expect_problem("key = \"part.length\", lower = \"380 mm\", upper = \"410 mm\"",
+                 "key = \"robot.stiffness\", " + stiffness_bounds, "does not move the modes of the part");
+  expect_only(with(good, "coupled_frequency", "part_frequency"), "a result of the part alone; set on = \"part\"");
+  expect_problem("\"part_frequency\"", "\"coupled_frequency\"", "a result of the coupled model");
+  expect_only(coupled_fit("robot.stiffness", stiffness_bounds, main_mode + ", match = \"mac\""),
+              "take participation or number");
+  expect_only(with(good, "value = \"38 Hz\", point = \"P.x\"", "value = \"38 Hz\", point = \"P\""),
+              "names no direction");
+}
+
+TEST(BadCase, AFitWithoutItsModelIsRefused) {
+  const std::string good = coupled_fit("robot.stiffness", stiffness_bounds, main_mode);
+  expect_only(with(good, "[[contacts]]\npart = \"P\"\n", ""), "needs [robot], [[contacts]] and [points]");
+  auto loose = with(good, "[[part.supports]]\non = \"y_min\"\n", "");
+  loose = with(loose, "[[part.supports]]\non = \"y_max\"\nfixed = [\"x\", \"y\", \"z\"]\n", "");
+  const auto problems = problems_of(loose);
+  ASSERT_EQ(problems.size(), 2U);
+  EXPECT_NE(problems[0].text.find("updating[1].on: \"coupled\" needs a part that is held"), std::string::npos);
+  EXPECT_NE(problems[1].text.find("lobes: lobes need a part that is held and modelled; add [[part.supports]]"),
+            std::string::npos);
+}
+
+TEST(BadCase, AContactJoinsOnlyWhatBothSidesKnow) {
+  expect_problem("[[contacts]]\npart = \"P\"", "[[contacts]]\npart = \"P\"\ndirections = [\"x\", \"y\"]",
+                 "the robot resists along robot.direction only");
+  expect_problem("stiffness = \"1.7e6 N/m\"", "stiffness = \"1.7e6 N/m\"\ndirection = \"y\"",
+                 "the robot resists along robot.direction only");
+  auto text = with(plate_case(), "[points.P2]\n", "[points.P2]\ndirections = [\"y\", \"z\"]\n");
+  EXPECT_TRUE(problems_of(text).empty());
+  expect_only(with(text, "[[contacts]]\npart = \"P\"", "[[contacts]]\npart = \"P2\""),
+              "point \"P2\" is not known in all of these directions");
+  expect_only(with(text, "[cutting]\nat = \"P\"", "[cutting]\nat = \"P2\""), "in x, y and z; leave out points.P2");
+  text = with(text, "stiffness = \"1.7e6 N/m\"", "stiffness = \"1.7e6 N/m\"\ndirection = [0, 3, 4]");
+  text = with(text, "[[contacts]]\npart = \"P\"", "[[contacts]]\npart = \"P2\"\ndirections = [[0, 3, 4]]");
+  EXPECT_TRUE(problems_of(text).empty());
+}
+
+TEST(BadCase, PointsThatTheReductionLeavesOutCannotBeAskedFor) {
+  const auto kept = with(plate_case(), "[damping]", "[reduction]\ninterface = [\"P\"]\n[damping]");
+  EXPECT_TRUE(problems_of(kept).empty());
+  const std::string remedy = "point \"P2\" is not kept by the reduction; add it to reduction.interface";
+  expect_only(with(kept, "[[contacts]]\npart = \"P\"", "[[contacts]]\npart = \"P2\""), remedy);
+  expect_only(with(kept, "[cutting]\nat = \"P\"", "[cutting]\nat = \"P2\""), remedy);
+  expect_only(with(kept, "[tool]", "[response]\npoints = [\"P2\"]\n[tool]"), remedy);
+  const auto fit = coupled_fit("robot.stiffness", stiffness_bounds,
+                               "quantity = \"coupled_frequency\", value = \"38 Hz\", point = \"P2.x\"");
+  expect_only(with(fit, "[damping]", "[reduction]\ninterface = [\"P\"]\n[damping]"), remedy);
+}
+
+std::string frf(const std::string& response, const std::string& force) {
+  return "response = \"" + response + "\"\nforce = \"" + force +
+         "\"\nfile = \"part_xx.csv\"\nquantity = \"receptance\"\nunit = \"m/N\"\n";
+}
+
+/// Problems of a case beside the files of barrios-2019-measured.
+void expect_only_measured(const std::string& text, const std::string& part) {
+  std::vector<Problem> problems;
+  try {
+    (void)parse_case(text, std::filesystem::path(THINWALL_SOURCE_DIR) / "cases" / "barrios-2019-measured");
+  } catch (const CaseError& error) {
+    problems = error.problems;
+  }
+  ASSERT_EQ(problems.size(), part.empty() ? 0U : 1U) << (problems.empty() ? part : problems.back().text);
+  if (part.empty()) return;
+  EXPECT_NE(problems[0].text.find(part), std::string::npos) << problems[0].text;
+  EXPECT_GT(problems[0].line, 0) << problems[0].text;
+}
+
+TEST(BadCase, AMeasuredRobotIsOneDrivingPointAlongItsDirection) {
+  const std::string robot = "[[part.measured]]\n" + frf("P.x", "P.x") + "[robot]\nmodel = \"measured\"\n";
+  const std::string measured = "[[robot.measured]]\n";
+  const std::string contact = "[[contacts]]\npart = \"P\"\n";
+  expect_only_measured(robot + measured + frf("R.x", "R.x") + contact, "");
+  expect_only_measured(robot + measured + frf("R.y", "R.y") + contact, "is not along robot.direction; give \"R.x\"");
+  expect_only_measured(robot + measured + frf("R.x", "R.y") + contact, "only a driving point");
+  expect_only_measured(robot + measured + frf("R.x", "R.x") + measured + frf("R.x", "R.x") + contact,
+                       "robot.measured[1]: one direct receptance");
+  expect_only_measured(
+      robot + "direction = \"y\"\n" + measured + frf("R.y", "R.y") + contact + "directions = [\"y\"]\n",
+      "point \"P\" is not known in all of these directions");
+  const std::string slanted = robot + "direction = [3, 4, 0]\n" + measured + frf("R.y", "R.y");
+  expect_only_measured(slanted, "");
+}
+
+TEST(BadCase, AFitOrAChartOfAMeasuredPartIsRefused) {
+  const std::string part = "[[part.measured]]\n" + frf("P.x", "P.x");
+  const std::string tool = "[tool]\nteeth = 2\ndiameter = \"16 mm\"\nlength = \"20 mm\"\n";
+  const std::string modes =
+      "[[tool.modes]]\nfrequency = \"500 Hz\"\ndamping_ratio = 0.02\nstiffness = \"1e7 N/m\"\ndirection = \"x\"\n";
+  const std::string cut = "[cutting]\nat = \"P\"\nradial_depth = \"1 mm\"\nKt = \"600 N/mm^2\"\n";
+  const std::string lobes = "[lobes]\nfrom = \"1000 rpm\"\nto = \"2000 rpm\"\n";
+  expect_only_measured(part + tool + cut + lobes, "lobes: lobes need a part that is held and modelled; describe it");
+  expect_only_measured(tool + modes + cut + lobes, "");
+  expect_only_measured(part + "[damping]\nratio = 0.01\n[[updating]]\nname = \"length\"\n" +
+                           "parameters = [{ key = \"response.to\", lower = \"1 Hz\", upper = \"2 kHz\" }]\n" +
+                           "targets = [{ quantity = \"part_frequency\", value = \"212 Hz\", point = \"P.x\" }]\n",
+                       "updating[0]: there is no modelled part to fit");
+}
+
+TEST(BadCase, DampingComesFromOneSourceAndFromADrivingPoint) {
+  const auto text = [](const std::string& response, const std::string& force) {
+    auto from_frf = with(plate_case(), "[robot]", "[damping.from_frf]\n" + frf(response, force) + "[robot]");
+    return with(from_frf, "ratios = [0.008, \"0.6 %\"]\n", "");
+  };
+  expect_only_measured(text("P.x", "P.x"), "");
+  expect_only_measured(text("P.x", "P2.x"), "damping.from_frf.force: \"P2.x\" is not the DOF that moves");
+  expect_only_measured(text("Q.x", "Q.x"), "there is no point \"Q\"");
+  expect_only_measured(with(plate_case(), "[robot]", "[damping.from_frf]\n" + frf("P.x", "P.x") + "[robot]"),
+                       "give either damping.ratios or damping.from_frf, not both");
+}
+
 TEST(BadCase, KeysThatExcludeEachOtherAreNamed) {
   expect_problem("[damping]", "[modes]\ncount = 10\nup_to = \"3 kHz\"\n[damping]", "not both");
   expect_problem("frequency = \"29 Hz\"", "frequency = \"29 Hz\"\nmass = \"50 kg\"", "either frequency or mass");
@@ -177,7 +328,7 @@ TEST(BadCase, EveryProblemIsPrintedWithFileLineAndColumn) {
 }
 
 TEST(Cases, EveryCaseOfTheProjectIsRight) {
-  for (const auto* name : {"barrios-2019", "cantilever-wall"}) {
+  for (const auto* name : {"barrios-2019", "barrios-2019-measured", "cantilever-wall"}) {
     const auto folder = std::filesystem::path(THINWALL_SOURCE_DIR) / "cases" / name;
     EXPECT_NO_THROW({
       const Case c = read_case(folder);
@@ -187,18 +338,38 @@ TEST(Cases, EveryCaseOfTheProjectIsRight) {
   }
 }
 
+TEST(SizeEstimate, IsTheIntegralOfTheGradedSizeAroundAPoint) {
+  Case c = parse_case(plate_case(), ".");
+  c.part->length = c.part->height = c.part->thickness = 1.0;
+  c.part->mesh.element_size = 0.1;
+  const double uniform = estimate_size(c).elements;
+  c.points.resize(1);
+  c.points[0].at = Eigen::Vector3d(0.5, 0.5, 0.5);
+  c.part->mesh.point_element_size = 0.01;
+  // ∫ 4πr² (1/s³ − 1/s_far³) dr to where s = a + r/2 reaches s_far (b = s_far/a): with u = s/a the first part is
+  // 4π·8 [ln u + 2/u − 1/(2u²)] from 1 to b, the second 4π/3 · (2(b − 1)/b)³.
+  const double b = 10.0, pi = 3.14159265358979;
+  const double near = 32.0 * pi * (std::log(b) + 2.0 / b - 0.5 / (b * b) - 1.5);
+  const double left_out = 4.0 * pi / 3.0 * std::pow(2.0 * (b - 1.0) / b, 3);
+  const double expected = uniform + 8.485281374 * (near - left_out);
+  // A cell's size varies by up to 1.5, so its share of the sum by up to 1.5³ at worst, and far less on average.
+  EXPECT_NEAR(estimate_size(c).elements / expected, 1.0, 0.2);
+  c.part->mesh.grading = 1.0;
+  EXPECT_NEAR(estimate_size(c).elements / (uniform * 1000.0), 1.0, 1e-12);
+}
+
 TEST(SizeEstimate, GrowsWithTheCubeOfTheFinenessAndWithTheNodesOfTheOrder) {
   Case c = parse_case(plate_case(), ".");
   c.part->mesh.element_size = 0.002;
   c.part->mesh.order = 1;
-  const SizeEstimate coarse = estimate_size(*c.part);
+  const SizeEstimate coarse = estimate_size(c);
   // V · 6√2 / a³ for regular tetrahedra of edge a.
   EXPECT_NEAR(coarse.elements, 0.392 * 0.1 * 0.006 * 8.485281374 / 8e-9, 1.0);
   c.part->mesh.element_size = 0.001;
-  EXPECT_NEAR(estimate_size(*c.part).elements / coarse.elements, 8.0, 1e-12);
+  EXPECT_NEAR(estimate_size(c).elements / coarse.elements, 8.0, 1e-12);
   c.part->mesh.order = 2;
   // A quadratic mesh has its vertices and its edges as nodes.
-  EXPECT_GT(estimate_size(*c.part).nodes, 8 * coarse.nodes * 4);
+  EXPECT_GT(estimate_size(c).nodes, 8 * coarse.nodes * 4);
 }
 
 }  // namespace

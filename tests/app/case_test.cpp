@@ -95,9 +95,10 @@ TEST(Case, SettingRefusesWhatTheSchemaRefuses) {
 }
 
 TEST(Case, OverridesGoOverTheFileBeforeValidation) {
-  const Case c = parse_case(plate_case(), ".", "case.toml",
-                            {"part.element_size=8 mm", "part.mesh.order=3", "robot.direction=[0, 3, 4]",
-                             "modes.count=12", "contacts[0].stiffness=\"1e8 N/m\"", "damping.ratios[1]=0.5 %"});
+  const Case c = parse_case(
+      plate_case(), ".", "case.toml",
+      {"part.element_size=8 mm", "part.mesh.order=3", "robot.direction=[0, 3, 4]", "contacts[0].directions=[[0, 3, 4]]",
+       "modes.count=12", "contacts[0].stiffness=\"1e8 N/m\"", "damping.ratios[1]=0.5 %"});
   EXPECT_DOUBLE_EQ(c.part->mesh.element_size, 0.008);
   EXPECT_EQ(c.part->mesh.order, 3);
   EXPECT_TRUE(c.robot->direction.isApprox(Eigen::Vector3d(0, 0.6, 0.8)));
@@ -120,7 +121,8 @@ void expect_same(const CaseValues& a, const CaseValues& b) {
 }
 
 TEST(ResolvedCase, ReadsBackToTheLastBitWithEveryDefaultWritten) {
-  const auto text = with(plate_case(), "stiffness = \"1.7e6 N/m\"", "stiffness = \"1.7e6 N/m\"\ndirection = [1, 2, 3]");
+  auto text = with(plate_case(), "stiffness = \"1.7e6 N/m\"", "stiffness = \"1.7e6 N/m\"\ndirection = [1, 2, 3]");
+  text = with(text, "[[contacts]]\npart = \"P\"", "[[contacts]]\npart = \"P\"\ndirections = [[1, 2, 3]]");
   const Case first = parse_case(text, ".");
   const Case second = parse_case(resolved_text(first), ".");
   expect_same(first.values, second.values);

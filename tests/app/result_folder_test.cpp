@@ -82,6 +82,7 @@ TEST(ResultFolder, TheSecondOfTwoRunsIntoOneFolderIsRefused) {
 TEST(ResultFolder, RemainsOfAKilledRunAreRemovedAndResultsKept) {
   const TemporaryFolder temporary;
   std::filesystem::create_directory(temporary.path / "modes");
+  core::write_file_atomically(temporary.path / "run.log", "");  // what marks the folder as a run's
   const pid_t child = fork();
   if (child == 0) {
     const core::PartialFile file(temporary.path / "modes" / "part_mode_01.vtu");
