@@ -72,6 +72,7 @@ TetMesh deserialise(const std::vector<char>& bytes) {
   int counts[2]{};
   std::memcpy(counts, bytes.data(), sizeof counts);
   TetMesh mesh;
+  if (counts[1] == 0) return mesh;  // an open surface: nothing to copy, and no arrays to copy to
   mesh.vertices.resize(static_cast<std::size_t>(counts[0]));
   mesh.tets.resize(static_cast<std::size_t>(counts[1]));
   const char* points = bytes.data() + sizeof counts;
