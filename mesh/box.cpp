@@ -1,7 +1,5 @@
 #include "mesh/box.hpp"
 
-#include <Eigen/Geometry>
-
 namespace thinwall::mesh {
 
 FacetedSurface surface(const Box& box) {
@@ -21,17 +19,6 @@ double volume(const Box& box) {
 const std::array<std::string, 6>& face_names() {
   static const std::array<std::string, 6> names{"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
   return names;
-}
-
-double volume(const FacetedSurface& surface) {
-  double sum = 0.0;
-  for (const auto& facet : surface.facets) {
-    const auto at = [&](std::size_t k) -> const Eigen::Vector3d& {
-      return surface.vertices[static_cast<std::size_t>(facet[k])];
-    };
-    for (std::size_t k = 1; k + 1 < facet.size(); ++k) sum += at(0).dot(at(k).cross(at(k + 1))) / 6.0;
-  }
-  return sum;
 }
 
 }  // namespace thinwall::mesh

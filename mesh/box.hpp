@@ -4,15 +4,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <string>
-#include <vector>
+
+#include "mesh/faceted_surface.hpp"
 
 namespace thinwall::mesh {
-
-/// A closed surface of flat facets; each facet a convex polygon of vertex indices, seen from outside counter-clockwise.
-struct FacetedSurface {
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<std::vector<int>> facets;
-};
 
 /// The block 0 ≤ x ≤ size.x, 0 ≤ y ≤ size.y, 0 ≤ z ≤ size.z, in m.
 struct Box {
@@ -27,8 +22,5 @@ struct Box {
 
 /// "x_min", "x_max", "y_min", "y_max", "z_min", "z_max".
 [[nodiscard]] const std::array<std::string, 6>& face_names();
-
-/// Enclosed volume of a faceted surface by the divergence theorem, m³.
-[[nodiscard]] double volume(const FacetedSurface& surface);
 
 }  // namespace thinwall::mesh

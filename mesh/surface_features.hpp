@@ -1,0 +1,29 @@
+#pragma once
+// Sharp edges of a surface, the smooth patches that they bound, and the lines that they form.
+
+#include <array>
+#include <vector>
+
+#include "mesh/faceted_surface.hpp"
+
+namespace thinwall::mesh {
+
+/// A sequence of sharp edges between the same two patches, from corner to corner, or closed (first vertex = last).
+struct FeatureLine {
+  std::vector<int> vertices;
+  std::array<int, 2> patches{};  ///< on its two sides; equal where a crease runs out into a smooth patch
+};
+
+struct SurfaceFeatures {
+  std::vector<int> patch_of_triangle;
+  int patches = 0;
+  std::vector<FeatureLine> lines;
+  std::vector<bool> is_corner;  ///< for each vertex: lines end or turn sharply here
+};
+
+/// An edge is sharp where the normals of its two triangles differ by more than `sharp_angle_rad`; patches are what
+/// sharp edges separate; a corner is a vertex where other than two sharp edges meet, or where two meet at more than
+/// this angle. The surface must be closed (mesh::require_closed). Cost O(n log n).
+[[nodiscard]] SurfaceFeatures surface_features(const TriangleSurface& surface, double sharp_angle_rad);
+
+}  // namespace thinwall::mesh
