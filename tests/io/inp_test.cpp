@@ -1,0 +1,232 @@
+// Input files of Abaqus and CalculiX: what is written comes back, and what is wrong is told with its line.
+
+#include "io/inp.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "scratch_folder.hpp"
+#include "tests/mesh/kuhn_box.hpp"
+
+namespace thinwall::io {
+namespace {
+
+using InpFile = test::ScratchFolder;
+
+/// A box whose corners lie at coordinates of full precision.
+mesh::TetMesh jittered_box() {
+  mesh::TetMesh box = mesh::kuhn_box({0.45, 0.1, 0.006}, {4, 3, 1});
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> shift(-1e-4, 1e-4);
+  for (auto& x : box.vertices) x += Eigen::Vector3d(shift(random), shift(random), shift(random));
+  return box;
+}
+
+void expect_same(const InpMesh& read, const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes) {
+  EXPECT_EQ(read.mesh.tets, mesh.tets);
+  EXPECT_EQ(read.nodes.order, nodes.order);
+  ASSERT_EQ(read.nodes.positions.rows(), nodes.positions.rows());
+  EXPECT_TRUE(read.nodes.elements == nodes.elements);
+  for (Eigen::Index i = 0; i < nodes.positions.rows(); ++i) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(read.nodes.positions(i, axis), nodes.positions(i, axis), 5e-14 * std::abs(nodes.positions(i, axis)));
+    }
+  }
+  ASSERT_EQ(read.mesh.vertices.size(), mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    EXPECT_EQ(read.mesh.vertices[i].transpose(), read.nodes.positions.row(static_cast<Eigen::Index>(i)));
+  }
+}
+
+class InpRoundTrip : public test::ScratchFolder, public ::testing::WithParamInterface<int> {};
+
+TEST_P(InpRoundTrip, GivesBackNodesElementsAndSets) {
+  const mesh::TetMesh box = jittered_box();
+  const auto nodes = mesh::lagrange_nodes(box, GetParam());
+  std::vector<int> many(20);
+  for (int i = 0; i < 20; ++i) many[static_cast<std::size_t>(i)] = 2 * i;
+  write_inp(path("box.inp"), nodes, {{"ONE", {3}}, {"TWENTY", many}});
+  const InpMesh read = read_inp(path("box.inp"), 1.0);
+  expect_same(read, box, nodes);
+  EXPECT_LT(read.midside_offset, 1e-10);
+  EXPECT_EQ(node_set(read, "one", "box.inp").nodes, std::vector<int>{3});
+  EXPECT_EQ(node_set(read, "Twenty", "box.inp").nodes, many);
+  EXPECT_EQ(node_set(read, "all_nodes", "box.inp").nodes.size(), read.node_labels.size());
+  EXPECT_EQ(read.node_labels.front(), 1);
+  EXPECT_EQ(read.element_labels.back(), static_cast<int>(box.tets.size()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Orders, InpRoundTrip, ::testing::Values(1, 2));
+
+/// The ten nodes of one element, the mid-edge ones put where the manual's figure has them: 5 on 1-2, 6 on 2-3, 7 on
+/// 3-1, 8 on 1-4, 9 on 2-4, 10 on 3-4.
+TEST_F(InpFile, PutsMidEdgeNodesWhereTheFormatHasThem) {
+  const InpMesh read = read_inp(write("tet.inp",
+                                      "*NODE\n1,0,0,0\n2,2,0,0\n3,0,2,0\n4,0,0,2\n5,1,0,0\n6,1,1,0\n7,0,1,0\n8,0,0,1\n"
+                                      "9,1,0,1\n10,0,1,1\n*ELEMENT,TYPE=C3D10\n1,1,2,3,4,5,6,7,8,9,10\n"),
+                                1.0);
+  EXPECT_EQ(read.midside_offset, 0.0);
+  const auto own = mesh::lagrange_nodes(read.mesh, 2);
+  for (Eigen::Index a = 0; a < 10; ++a) {
+    EXPECT_EQ(read.nodes.positions.row(read.nodes.elements(0, a)), own.positions.row(own.elements(0, a))) << a;
+  }
+}
+
+/// A wrong order of the mid-edge nodes shows as nodes off their edges.
+TEST_F(InpFile, TellsHowFarMidEdgeNodesLieOffTheirEdges) {
+  const std::string nodes =
+      "*NODE\n1,0,0,0\n2,2,0,0\n3,0,2,0\n4,0,0,2\n5,1,0.2,0\n6,1,1,0\n7,0,1,0\n8,0,0,1\n9,1,0,1\n10,0,1,1\n";
+  const InpMesh bent = read_inp(write("bent.inp", nodes + "*ELEMENT,TYPE=C3D10\n1,1,2,3,4,5,6,7,8,9,10\n"), 1.0);
+  EXPECT_NEAR(bent.midside_offset, 0.1, 1e-15);
+  const InpMesh swapped = read_inp(write("swapped.inp", nodes + "*ELEMENT,TYPE=C3D10\n1,1,2,3,4,5,6,7,8,10,9\n"), 1.0);
+  EXPECT_NEAR(swapped.midside_offset, std::sqrt(2.0) / std::sqrt(8.0), 1e-15);
+}
+
+constexpr const char* by_hand = R"(** a comment
+*Heading
+ any text, at all
+*NODE, nset=Every
+  1000,  0.0,   0.,  0
+  10,    +1.0,  0.0, 0.0
+** nodes need not be sorted
+  20,    0.0,   1.0D+0, 0.0
+  7,     0.0,   0.0, 1e0
+  500,   9, 9, 9
+  21,    -1.0,  0.0, 0.0
+*Element, type=C3D4,
+   elset=Body
+  5, 1000, 10, 20,
+     7
+  3, 1000, 20, 21, 7
+
+*Nset, nset="Some"
+  10, 20,
+  every
+*NSET, NSET=RANGE, GENERATE
+  7, 21, 7
+  1000, 2000
+*NSET, NSET=FEW
+  1000, 10
+*BOUNDARY
+  FEW, 1, 3
+)";
+
+TEST_F(InpFile, OfAnotherHandIsReadWithGapsRangesCommentsAndContinuedLines) {
+  const InpMesh read = read_inp(write("hand.inp", by_hand), 0.001);
+  EXPECT_EQ(read.node_labels, (std::vector<int>{7, 10, 20, 21, 1000})) << "node 500 belongs to no element";
+  EXPECT_EQ(read.element_labels, (std::vector<int>{5, 3}));
+  EXPECT_EQ(read.nodes.order, 1);
+  ASSERT_EQ(read.mesh.tets.size(), 2U);
+  EXPECT_EQ(read.mesh.tets[0], (std::array{4, 1, 2, 0}));
+  EXPECT_EQ(read.mesh.tets[1], (std::array{4, 2, 3, 0}));
+  EXPECT_NEAR(mesh::volume(read.mesh), 2.0 / 6.0 * 1e-9, 1e-24) << "in millimetres";
+  EXPECT_EQ(node_set(read, "every", "").nodes, (std::vector<int>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(node_set(read, "SOME", "").nodes, (std::vector<int>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(node_set(read, "range", "").nodes, (std::vector<int>{0, 3, 4})) << "7, 14 (absent), 21, and 1000";
+  EXPECT_EQ(node_set(read, "few", "").nodes, (std::vector<int>{1, 4}));
+  EXPECT_NE(test::message_of<core::DataError>([&] { (void)node_set(read, "rnge", "hand.inp"); }).find("RANGE"),
+            std::string::npos);
+}
+
+TEST_F(InpFile, WithWindowsLineEndsReadsTheSame) {
+  std::string text;
+  for (const char* c = by_hand; *c != '\0'; ++c) text += *c == '\n' ? std::string("\r\n") : std::string(1, *c);
+  const InpMesh read = read_inp(write("crlf.inp", text), 1.0);
+  EXPECT_EQ(read.node_labels, (std::vector<int>{7, 10, 20, 21, 1000}));
+  EXPECT_EQ(node_set(read, "range", "").nodes, (std::vector<int>{0, 3, 4}));
+}
+
+const std::string corners = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n";
+const std::string sound = corners + "*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n";
+
+struct BadFile {
+  const char* name;
+  std::string text;
+  std::vector<std::string> says;
+};
+
+class BadInp : public test::ScratchFolder, public ::testing::WithParamInterface<BadFile> {};
+
+TEST_P(BadInp, IsToldWithItsLine) {
+  const auto file = write("bad.inp", GetParam().text);
+  const std::string message = test::message_of<core::DataError>([&] { (void)read_inp(file, 1.0); });
+  for (const std::string& part : GetParam().says) EXPECT_NE(message.find(part), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BadInp,
+    ::testing::Values(
+        BadFile{"Empty", "", {"bad.inp", "no *ELEMENT"}}, BadFile{"NodesOnly", corners, {"no *ELEMENT"}},
+        BadFile{"Word", "*NODE\n1,0,zero,0\n", {"bad.inp:2:", "\"zero\""}},
+        BadFile{"NotANumber", "*NODE\n1,0,nan,0\n", {"bad.inp:2:", "finite"}},
+        BadFile{"Infinity", "*NODE\n1,0,1e999,0\n", {"bad.inp:2:", "finite"}},
+        BadFile{"DecimalComma", "*NODE\n1,0,5,0,0,0\n", {"bad.inp:2:", "beyond"}},
+        BadFile{"TwoCoordinates", "*NODE\n1,0,5\n", {"bad.inp:2:", "\"\""}},
+        BadFile{"NegativeLabel", "*NODE\n-1,0,0,0\n", {"bad.inp:2:", "\"-1\""}},
+        BadFile{"HugeLabel", "*NODE\n99999999999,0,0,0\n", {"bad.inp:2:", "2147483647"}},
+        BadFile{"NodeTwice", sound + "*NODE\n3,5,5,5\n", {"bad.inp:9:", "node 3", "line 4"}},
+        BadFile{"ElementTwice", sound + "1,1,2,3,4\n", {"bad.inp:8:", "element 1", "line 7"}},
+        BadFile{"AbsentNode", corners + "*ELEMENT, TYPE=C3D4\n1,1,2,3,5\n", {"bad.inp:7:", "node 5"}},
+        BadFile{"Inverted", corners + "*ELEMENT, TYPE=C3D4\n1,1,3,2,4\n", {"bad.inp:7:", "element 1", "volume"}},
+        BadFile{"Short", corners + "*ELEMENT, TYPE=C3D4\n1,1,2,3\n*NSET, NSET=A\n1\n", {"bad.inp:7:", "lacks 1"}},
+        BadFile{"ShortAtTheEnd", corners + "*ELEMENT, TYPE=C3D4\n1,1,2", {"bad.inp:7:", "lacks 2"}},
+        BadFile{"Long", corners + "*ELEMENT, TYPE=C3D4\n1,1,2,3,4,4\n", {"bad.inp:7:", "more than 4"}},
+        BadFile{"Brick", corners + "*ELEMENT, TYPE=C3D8\n1,1,2,3,4\n", {"bad.inp:6:", "C3D8"}},
+        BadFile{"BothOrders", sound + "*ELEMENT, TYPE=C3D10\n", {"bad.inp:8:", "one of them"}},
+        BadFile{"Include", sound + "*INCLUDE, INPUT=more.inp\n", {"bad.inp:8:", "*INCLUDE"}},
+        BadFile{"NodeGeneration", "*NODE\n1,0,0,0\n*ngen\n1,5,1\n", {"bad.inp:3:", "*NGEN"}},
+        BadFile{"NamelessSet", sound + "*NSET\n1\n", {"bad.inp:8:", "NSET=name"}},
+        BadFile{"SetOfAbsentNode", sound + "*NSET, NSET=A\n1, 9\n", {"bad.inp:9:", "node 9"}},
+        BadFile{"SetOfUnknownSet", sound + "*NSET, NSET=A\nB\n", {"bad.inp:9:", "\"B\""}},
+        BadFile{"RangeBackwards", sound + "*NSET, NSET=A, GENERATE\n5, 1, 1\n", {"bad.inp:9:", "from 5 down to 1"}},
+        BadFile{"RangeOfStepZero", sound + "*NSET, NSET=A, GENERATE\n1, 5, 0\n", {"bad.inp:9:", "\"0\""}}),
+    [](const auto& file) { return file.param.name; });
+
+TEST_F(InpFile, WhereACornerIsAMidEdgeNodeElsewhereDoesNotFitTogether) {
+  const auto file = write("bad.inp",
+                          "*NODE\n1,0,0,0\n2,2,0,0\n3,0,2,0\n4,0,0,2\n5,1,0,0\n6,1,1,0\n7,0,1,0\n8,0,0,1\n9,1,0,1\n"
+                          "10,0,1,1\n11,0,0,-2\n*ELEMENT, TYPE=C3D10\n1,1,2,3,4,5,6,7,8,9,10\n"
+                          "2,5,2,3,4,1,6,7,8,9,10\n");
+  const std::string message = test::message_of<core::DataError>([&] { (void)read_inp(file, 1.0); });
+  EXPECT_NE(message.find(":15: node 5"), std::string::npos) << message;
+}
+
+TEST_F(InpFile, IsNotWrittenFromWhatTheFormatCannotHold) {
+  const auto nodes = mesh::lagrange_nodes(jittered_box(), 2);
+  const auto cubic = mesh::lagrange_nodes(jittered_box(), 3);
+  EXPECT_THROW(write_inp(path("a.inp"), cubic, {}), core::InputError);
+  for (const char* name : {"", "two words", "a,b", "1st"}) {
+    EXPECT_THROW(write_inp(path("a.inp"), nodes, {{name, {0}}}), core::InputError) << name;
+  }
+  const InpFrequencyStep held_elsewhere{210e9, 0.3, 7850.0, {"B"}, 10};
+  EXPECT_THROW(write_inp(path("a.inp"), nodes, {{"A", {0}}}, held_elsewhere), core::InputError);
+  auto broken = nodes;
+  broken.positions(5, 1) = std::nan("");
+  EXPECT_THROW(write_inp(path("a.inp"), broken, {}), core::NumericalError);
+  EXPECT_THROW((void)read_inp(path("a.inp"), 1.0), core::DataError) << "nothing was left behind";
+  EXPECT_THROW((void)read_inp(write("b.inp", sound), 0.0), core::InputError);
+}
+
+/// CalculiX reads twenty characters of a number and drops the rest, exponent and all; 132 of a line.
+TEST_F(InpFile, KeepsItsNumbersWithinTwentyCharactersAndItsLinesWithin132) {
+  auto nodes = mesh::lagrange_nodes(jittered_box(), 2);
+  nodes.positions.row(0) << -1.2345678901234567e-105, 1.0 / 3.0, -2.0e22 / 3.0;
+  write_inp(path("wide.inp"), nodes, {});
+  const std::string text = core::read_file(path("wide.inp"));
+  std::size_t field = 0;
+  std::size_t line = 0;
+  for (const char c : text) {
+    line = c == '\n' ? 0 : line + 1;
+    field = c == '\n' || c == ',' ? 0 : field + (c == ' ' ? 0 : 1);
+    ASSERT_LE(line, 132U);
+    ASSERT_LE(field, 20U);
+  }
+}
+
+}  // namespace
+}  // namespace thinwall::io
