@@ -126,19 +126,12 @@ std::vector<char> run_tetgen(const FacetedSurface& surface, const TetgenOptions&
   return serialise(*mesh);
 }
 
-}  // namespace
-
-double regular_volume(double edge_m) {
-  return edge_m * edge_m * edge_m / (6.0 * std::sqrt(2.0));
-}
-
-TetMesh tetrahedralise(const FacetedSurface& surface, const TetgenOptions& options) {
-  const std::string remedy =
-      "; try another part.mesh.element_size, a larger part.mesh.quality (at most 5), or larger limits";
+/// Runs a mesher in its own process and checks what it gave back.
+TetMesh mesh_confined(const FacetedSurface& surface, const std::function<std::vector<char>()>& work,
+                      double time_limit_s, double memory_limit_bytes, const std::string& remedy) {
   std::vector<char> bytes;
   try {
-    bytes =
-        run_confined([&] { return run_tetgen(surface, options); }, options.time_limit_s, options.memory_limit_bytes);
+    bytes = run_confined(work, time_limit_s, memory_limit_bytes);
   } catch (const core::NumericalError& error) {
     throw core::NumericalError(std::string("TetGen failed on the part's surface: ") + error.what() + remedy);
   }
@@ -154,6 +147,32 @@ TetMesh tetrahedralise(const FacetedSurface& surface, const TetgenOptions& optio
                                std::to_string(expected * 1e9) + " mm³" + remedy);
   }
   return mesh;
+}
+
+}  // namespace
+
+double regular_volume(double edge_m) {
+  return edge_m * edge_m * edge_m / (6.0 * std::sqrt(2.0));
+}
+
+TetMesh tetrahedralise(const FacetedSurface& surface, const TetgenOptions& options) {
+  return mesh_confined(
+      surface, [&] { return run_tetgen(surface, options); }, options.time_limit_s, options.memory_limit_bytes,
+      "; try another part.mesh.element_size, a larger part.mesh.quality (at most 5), or larger limits");
+}
+
+TetMesh tetrahedralise_as_given(const FacetedSurface& surface, double time_limit_s, double memory_limit_bytes) {
+  return mesh_confined(
+      surface,
+      [&] {
+        tetgenio in;
+        tetgenio out;
+        fill(in, surface);
+        std::string switches = "pYQ";
+        tetrahedralize(switches.data(), &in, &out);
+        return serialise(out);
+      },
+      time_limit_s, memory_limit_bytes, "; try other sizes of the surface's triangles, or larger limits");
 }
 
 }  // namespace thinwall::mesh

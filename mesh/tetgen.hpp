@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 
-#include "mesh/box.hpp"
+#include "mesh/faceted_surface.hpp"
 #include "mesh/tet_mesh.hpp"
 
 namespace thinwall::mesh {
@@ -29,6 +29,12 @@ struct TetgenOptions {
 /// Throws NumericalError if that process fails in any way, if it returns no tetrahedra, or if the volume of the mesh
 /// differs from the surface's by more than 1e-9 relative; the message says what to try. Interruptible.
 [[nodiscard]] TetMesh tetrahedralise(const FacetedSurface& surface, const TetgenOptions& options);
+
+/// Constrained Delaunay tetrahedralisation of the inside of `surface` without refinement (switch p), each facet kept as
+/// it is (switch Y): the mesh is as coarse and as flat as the surface's triangles are. Give triangles: facets with
+/// isolated points on them make TetGen 1.5.0 throw. Process, checks and errors as tetrahedralise().
+[[nodiscard]] TetMesh tetrahedralise_as_given(const FacetedSurface& surface, double time_limit_s = 120.0,
+                                              double memory_limit_bytes = 4e9);
 
 /// The part of tetrahedralise() that watches over the process: runs `work` in a forked process under the limits and
 /// returns the bytes that it gave back. Throws NumericalError if it is killed, crashes, throws or exceeds a limit. For
