@@ -1,18 +1,23 @@
+#include "mesh/confined.hpp"
+
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
 #include <fstream>
 #include <new>
+#include <string>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
-#include "mesh/tetgen.hpp"
 
 namespace thinwall::mesh {
 
@@ -111,7 +116,72 @@ std::string cause(int status) {
   return "it gave up with an internal error, or for lack of memory";
 }
 
+template <class T>
+void append(std::vector<char>& bytes, const T* data, std::size_t count) {
+  const auto* begin = reinterpret_cast<const char*>(data);
+  bytes.insert(bytes.end(), begin, begin + count * sizeof(T));
+}
+
+std::vector<char> serialise(const TetMesh& mesh) {
+  std::vector<char> bytes;
+  const std::array<std::size_t, 2> counts{mesh.vertices.size(), mesh.tets.size()};
+  append(bytes, counts.data(), counts.size());
+  append(bytes, mesh.vertices.data(), mesh.vertices.size());
+  append(bytes, mesh.tets.data(), mesh.tets.size());
+  return bytes;
+}
+
+TetMesh deserialise(const std::vector<char>& bytes) {
+  TetMesh mesh;
+  std::array<std::size_t, 2> counts{};
+  if (bytes.size() < sizeof counts) return mesh;
+  std::memcpy(counts.data(), bytes.data(), sizeof counts);
+  if (counts[1] == 0) return mesh;  // an open surface: nothing to copy, and no arrays to copy to
+  mesh.vertices.resize(counts[0]);
+  mesh.tets.resize(counts[1]);
+  const char* points = bytes.data() + sizeof counts;
+  const std::size_t point_bytes = counts[0] * sizeof(Eigen::Vector3d);
+  std::memcpy(static_cast<void*>(mesh.vertices.data()), points, point_bytes);
+  std::memcpy(static_cast<void*>(mesh.tets.data()), points + point_bytes, counts[1] * sizeof(std::array<int, 4>));
+  return mesh;
+}
+
+void turn_positive(TetMesh& mesh) {
+  for (std::size_t tet = 0; tet < mesh.tets.size(); ++tet)
+    if (volume(mesh, static_cast<int>(tet)) < 0.0) std::swap(mesh.tets[tet][2], mesh.tets[tet][3]);
+}
+
+void drop_unused_vertices(TetMesh& mesh) {
+  std::vector<int> number(mesh.vertices.size(), -1);
+  std::vector<Eigen::Vector3d> used;
+  for (auto& tet : mesh.tets) {
+    for (int& v : tet) {
+      int& n = number[static_cast<std::size_t>(v)];
+      if (n < 0) {
+        n = static_cast<int>(used.size());
+        used.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
+      }
+      v = n;
+    }
+  }
+  mesh.vertices = std::move(used);
+}
+
 }  // namespace
+
+TetMesh mesh_confined(const char* name, const std::function<TetMesh()>& work, const ProcessLimits& limits) {
+  TetMesh mesh;
+  try {
+    mesh = deserialise(run_confined([&] { return serialise(work()); }, limits.time_s, limits.memory_bytes));
+  } catch (const core::NumericalError& error) {
+    throw core::NumericalError(std::string(name) + " failed on the part's surface: " + error.what());
+  }
+  if (mesh.tets.empty())
+    throw core::NumericalError(std::string(name) + " returned no tetrahedra: the surface is not closed");
+  turn_positive(mesh);
+  drop_unused_vertices(mesh);
+  return mesh;
+}
 
 std::vector<char> run_confined(const std::function<std::vector<char>()>& work, double time_limit_s,
                                double memory_limit_bytes) {

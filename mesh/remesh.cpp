@@ -270,20 +270,25 @@ void flip_edges(Work& work) {
   }
 }
 
-/// Quality of the worst triangle around v if v were at x; nothing if one of them would not be faithful.
-std::optional<double> worst_around(Work& work, Vertex v, const Eigen::Vector3d& x) {
+/// Quality of the worst triangle around v if v were at x; nothing if that does not exceed `to_beat` or a triangle would
+/// not be faithful.
+std::optional<double> worst_around(Work& work, Vertex v, const Eigen::Vector3d& x, double to_beat) {
   Mesh& mesh = work.mesh;
   std::vector<Place> moved;
+  std::vector<std::array<Place, 3>> triangles;
   double worst = 1.0;
   for (const Half h : mesh.halfedges_around_target(mesh.halfedge(v))) {
     const int patch = work.patch[mesh.face(h)];
     auto known = std::find_if(moved.begin(), moved.end(), [&](const Place& p) { return p.patch == patch; });
     if (known == moved.end()) known = moved.insert(moved.end(), make_place(work.space, patch, x));
-    const Place b = place_of(work, mesh.target(mesh.next(h)), patch);
-    const Place c = place_of(work, mesh.source(h), patch);
-    if (!is_faithful(work.space, *known, b, c)) return std::nullopt;
-    worst = std::min(worst, quality(work.space, *known, b, c));
+    triangles.push_back(
+        {*known, place_of(work, mesh.target(mesh.next(h)), patch), place_of(work, mesh.source(h), patch)});
+    const auto& [a, b, c] = triangles.back();
+    worst = std::min(worst, quality(work.space, a, b, c));
+    if (!(worst > to_beat)) return std::nullopt;
   }
+  for (const auto& [a, b, c] : triangles)
+    if (!is_faithful(work.space, a, b, c)) return std::nullopt;
   return worst;
 }
 
@@ -316,11 +321,11 @@ void move_vertices(Work& work) {
   for (const Vertex v : work.mesh.vertices()) {
     if (work.is_corner[v]) continue;
     const Eigen::Vector3d before = work.mesh.point(v);
-    double best = worst_around(work, v, before).value_or(0.0) + better;
+    double best = worst_around(work, v, before, -1.0).value_or(0.0) + better;
     Eigen::Vector3d where = before;
     for (const auto& candidate : candidates(work, v)) {
-      const auto worst = worst_around(work, v, candidate);
-      if (!worst || *worst <= best) continue;
+      const auto worst = worst_around(work, v, candidate, best);
+      if (!worst) continue;
       best = *worst;
       where = candidate;
     }

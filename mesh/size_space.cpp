@@ -89,6 +89,7 @@ void check(std::string& wrong, const char* name, double value, double low, doubl
 void validate(const SurfaceSize& size) {
   std::string wrong;
   check(wrong, "size_m", size.size_m, 0.0, 1e6);
+  check(wrong, "scale", size.scale, 0.05, 20.0);
   check(wrong, "layers", size.layers, 0, 4);
   check(wrong, "layer_width_m", size.layer_width_m, 0.0, 1e6);
   check(wrong, "layer_ratio", size.layer_ratio, 0.05, 0.8);
@@ -129,7 +130,7 @@ SizeSpace::Patch SizeSpace::make_patch(int patch, const SurfaceFeatures& feature
   }
   const double automatic =
       std::min(thicknesses_per_size * result.thickness, diagonal(surface_) / smallest_sizes_per_diagonal);
-  result.size = size.size_m > 0.0 ? size.size_m : automatic;
+  result.size = size.scale * (size.size_m > 0.0 ? size.size_m : automatic);
   const double width = size.layer_width_m > 0.0 ? size.layer_width_m : result.thickness;
   result.growth = -std::log(size.layer_ratio);
   result.first = size.layers == 0 ? std::numeric_limits<double>::infinity()

@@ -17,6 +17,7 @@ namespace thinwall::mesh {
 /// edges stay long (the error of a thin wall sits in boundary layers as wide as the wall is thick).
 struct SurfaceSize {
   double size_m = 0.0;         ///< m, > 0; 0: 12 wall thicknesses of the patch, at most a sixth of the part's diagonal
+  double scale = 1.0;          ///< factor on the wanted edge, 0.05 to 20
   int layers = 1;              ///< 0 to 4
   double layer_width_m = 0.0;  ///< m, > 0; 0: the wall thickness of the patch
   double layer_ratio = 0.15;   ///< 0.05 to 0.8

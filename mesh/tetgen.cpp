@@ -2,8 +2,8 @@
 
 #include <tetgen.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <sstream>
 #include <vector>
@@ -53,57 +53,17 @@ void refine(tetgenio& mesh, tetgenio& refined, const TetgenOptions& options, std
   tetrahedralize(switches.data(), &mesh, &refined);
 }
 
-template <class T>
-void append(std::vector<char>& bytes, const T* data, std::size_t count) {
-  const auto* begin = reinterpret_cast<const char*>(data);
-  bytes.insert(bytes.end(), begin, begin + count * sizeof(T));
-}
-
-std::vector<char> serialise(const tetgenio& mesh) {
-  std::vector<char> bytes;
-  append(bytes, &mesh.numberofpoints, 1);
-  append(bytes, &mesh.numberoftetrahedra, 1);
-  append(bytes, mesh.pointlist, 3 * static_cast<std::size_t>(mesh.numberofpoints));
-  append(bytes, mesh.tetrahedronlist, 4 * static_cast<std::size_t>(mesh.numberoftetrahedra));
-  return bytes;
-}
-
-TetMesh deserialise(const std::vector<char>& bytes) {
-  int counts[2]{};
-  std::memcpy(counts, bytes.data(), sizeof counts);
+TetMesh tet_mesh(const tetgenio& from) {
   TetMesh mesh;
-  if (counts[1] == 0) return mesh;  // an open surface: nothing to copy, and no arrays to copy to
-  mesh.vertices.resize(static_cast<std::size_t>(counts[0]));
-  mesh.tets.resize(static_cast<std::size_t>(counts[1]));
-  const char* points = bytes.data() + sizeof counts;
-  std::memcpy(static_cast<void*>(mesh.vertices.data()), points, mesh.vertices.size() * sizeof(Eigen::Vector3d));
-  std::memcpy(static_cast<void*>(mesh.tets.data()), points + mesh.vertices.size() * sizeof(Eigen::Vector3d),
-              mesh.tets.size() * sizeof(std::array<int, 4>));
-  for (int tet = 0; tet < counts[1]; ++tet) {
-    if (volume(mesh, tet) < 0.0)
-      std::swap(mesh.tets[static_cast<std::size_t>(tet)][2], mesh.tets[static_cast<std::size_t>(tet)][3]);
-  }
+  for (int v = 0; v < from.numberofpoints; ++v)
+    mesh.vertices.emplace_back(Eigen::Map<const Eigen::Vector3d>(from.pointlist + 3 * v));
+  mesh.tets.resize(static_cast<std::size_t>(from.numberoftetrahedra));
+  for (int t = 0; t < from.numberoftetrahedra; ++t)
+    std::copy_n(from.tetrahedronlist + 4 * t, 4, mesh.tets[static_cast<std::size_t>(t)].begin());
   return mesh;
 }
 
-/// Vertices that no tetrahedron uses would be motions without stiffness.
-void drop_unused_vertices(TetMesh& mesh) {
-  std::vector<int> number(mesh.vertices.size(), -1);
-  std::vector<Eigen::Vector3d> used;
-  for (auto& tet : mesh.tets) {
-    for (int& v : tet) {
-      int& n = number[static_cast<std::size_t>(v)];
-      if (n < 0) {
-        n = static_cast<int>(used.size());
-        used.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
-      }
-      v = n;
-    }
-  }
-  mesh.vertices = std::move(used);
-}
-
-std::vector<char> run_tetgen(const FacetedSurface& surface, const TetgenOptions& options) {
+TetMesh run_tetgen(const FacetedSurface& surface, const TetgenOptions& options) {
   tetgenio in;
   fill(in, surface);
   std::ostringstream first;
@@ -123,23 +83,18 @@ std::vector<char> run_tetgen(const FacetedSurface& surface, const TetgenOptions&
       mesh = std::move(refined);
     }
   }
-  return serialise(*mesh);
+  return tet_mesh(*mesh);
 }
 
-/// Runs a mesher in its own process and checks what it gave back.
-TetMesh mesh_confined(const FacetedSurface& surface, const std::function<std::vector<char>()>& work,
-                      double time_limit_s, double memory_limit_bytes, const std::string& remedy) {
-  std::vector<char> bytes;
+/// TetGen in its own process, and its volume beside the surface's. `remedy` follows what went wrong.
+TetMesh checked(const FacetedSurface& surface, const std::function<TetMesh()>& work, const ProcessLimits& limits,
+                const std::string& remedy) {
+  TetMesh mesh;
   try {
-    bytes = run_confined(work, time_limit_s, memory_limit_bytes);
+    mesh = mesh_confined("TetGen", work, limits);
   } catch (const core::NumericalError& error) {
-    throw core::NumericalError(std::string("TetGen failed on the part's surface: ") + error.what() + remedy);
+    throw core::NumericalError(error.what() + remedy);
   }
-  if (bytes.size() < 2 * sizeof(int)) throw core::NumericalError("TetGen returned nothing" + remedy);
-  TetMesh mesh = deserialise(bytes);
-  drop_unused_vertices(mesh);
-  if (mesh.tets.empty())
-    throw core::NumericalError("TetGen returned no tetrahedra: the surface is not closed" + remedy);
   const double expected = volume(surface);
   const double found = volume(mesh);
   if (!(std::abs(found - expected) <= 1e-9 * expected)) {
@@ -156,23 +111,21 @@ double regular_volume(double edge_m) {
 }
 
 TetMesh tetrahedralise(const FacetedSurface& surface, const TetgenOptions& options) {
-  return mesh_confined(
-      surface, [&] { return run_tetgen(surface, options); }, options.time_limit_s, options.memory_limit_bytes,
+  return checked(
+      surface, [&] { return run_tetgen(surface, options); }, {options.time_limit_s, options.memory_limit_bytes},
       "; try another part.mesh.element_size, a larger part.mesh.quality (at most 5), or larger limits");
 }
 
-TetMesh tetrahedralise_as_given(const FacetedSurface& surface, double time_limit_s, double memory_limit_bytes) {
-  return mesh_confined(
-      surface,
-      [&] {
-        tetgenio in;
-        tetgenio out;
-        fill(in, surface);
-        std::string switches = "pYQ";
-        tetrahedralize(switches.data(), &in, &out);
-        return serialise(out);
-      },
-      time_limit_s, memory_limit_bytes, "; try other sizes of the surface's triangles, or larger limits");
+TetMesh tetrahedralise_as_given(const FacetedSurface& surface, const ProcessLimits& limits) {
+  const auto work = [&] {
+    tetgenio in;
+    tetgenio out;
+    fill(in, surface);
+    std::string switches = "pYQ";
+    tetrahedralize(switches.data(), &in, &out);
+    return tet_mesh(out);
+  };
+  return checked(surface, work, limits, "; try other sizes of the surface's triangles, or larger limits");
 }
 
 }  // namespace thinwall::mesh

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 
+#include "mesh/confined.hpp"
 #include "mesh/faceted_surface.hpp"
 #include "mesh/tet_mesh.hpp"
 
@@ -33,13 +34,6 @@ struct TetgenOptions {
 /// Constrained Delaunay tetrahedralisation of the inside of `surface` without refinement (switch p), each facet kept as
 /// it is (switch Y): the mesh is as coarse and as flat as the surface's triangles are. Give triangles: facets with
 /// isolated points on them make TetGen 1.5.0 throw. Process, checks and errors as tetrahedralise().
-[[nodiscard]] TetMesh tetrahedralise_as_given(const FacetedSurface& surface, double time_limit_s = 120.0,
-                                              double memory_limit_bytes = 4e9);
-
-/// The part of tetrahedralise() that watches over the process: runs `work` in a forked process under the limits and
-/// returns the bytes that it gave back. Throws NumericalError if it is killed, crashes, throws or exceeds a limit. For
-/// tests.
-[[nodiscard]] std::vector<char> run_confined(const std::function<std::vector<char>()>& work, double time_limit_s,
-                                             double memory_limit_bytes);
+[[nodiscard]] TetMesh tetrahedralise_as_given(const FacetedSurface& surface, const ProcessLimits& limits = {});
 
 }  // namespace thinwall::mesh

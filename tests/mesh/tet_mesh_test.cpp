@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "mesh/box.hpp"
 #include "mesh/lagrange_nodes.hpp"
 #include "mesh/tetgen.hpp"
 #include "tests/mesh/kuhn_box.hpp"

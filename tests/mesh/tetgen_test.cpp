@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "mesh/box.hpp"
 
 namespace thinwall::mesh {
 namespace {

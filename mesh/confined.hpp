@@ -1,0 +1,29 @@
+#pragma once
+// Foreign meshers in a process of their own, under limits.
+
+#include <functional>
+#include <vector>
+
+#include "mesh/tet_mesh.hpp"
+
+namespace thinwall::mesh {
+
+/// What a mesher's process may use.
+struct ProcessLimits {
+  double time_s = 120.0;      ///< the process is killed after this
+  double memory_bytes = 4e9;  ///< address space that it may take beyond what it starts with
+};
+
+/// Runs `work` in a forked process under the limits and returns the bytes that it gave back: meshers abort, throw,
+/// crash or hang on some input. Throws NumericalError if it is killed, crashes, throws or exceeds a limit; Interrupted
+/// if the user stops the run.
+[[nodiscard]] std::vector<char> run_confined(const std::function<std::vector<char>()>& work, double time_limit_s,
+                                             double memory_limit_bytes);
+
+/// The same for work that makes a mesh. Tetrahedra are turned to positive volume, vertices that none of them uses are
+/// dropped (they would be motions without stiffness). Throws NumericalError, whose message begins with the mesher's
+/// `name`, as run_confined() and for a mesh without tetrahedra.
+[[nodiscard]] TetMesh mesh_confined(const char* name, const std::function<TetMesh()>& work,
+                                    const ProcessLimits& limits);
+
+}  // namespace thinwall::mesh

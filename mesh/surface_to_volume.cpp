@@ -1,0 +1,166 @@
+#include "mesh/surface_to_volume.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/interrupt.hpp"
+#include "mesh/closed_surface.hpp"
+#include "mesh/delaunay_volume.hpp"
+#include "mesh/remesh.hpp"
+#include "mesh/surface_distance.hpp"
+#include "mesh/tetgen.hpp"
+#include "mesh/wall_thickness.hpp"
+
+namespace thinwall::mesh {
+
+namespace {
+
+constexpr double walls_per_isotropic_element = 1.5;
+constexpr double walls_off_the_surface = 0.02;  // of isotropic facets; finer ones make 50 times as many elements
+constexpr double samples_per_diagonal = 100.0;
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+void validate(const SurfaceMeshOptions& options) {
+  validate(options.size);
+  if (!(options.volume_tolerance >= 1e-6 && options.volume_tolerance <= 0.1)) {
+    throw core::InputError("the volume tolerance of a surface mesh is " + number(options.volume_tolerance) +
+                           "; choose 1e-6 to 0.1");
+  }
+  if (!(options.smallest_shape >= 0.0 && options.smallest_shape <= 1e-3)) {
+    throw core::InputError("the smallest V/L³ of a surface mesh is " + number(options.smallest_shape) +
+                           "; choose 0 to 1e-3");
+  }
+}
+
+/// What all attempts at a surface share.
+struct Analysed {
+  SurfaceFeatures features;
+  std::vector<double> thickness;
+  double median = 0.0;  // wall thickness beneath half of the surface, m
+};
+
+Analysed analysed(const TriangleSurface& surface, const SurfaceSize& size) {
+  Analysed result;
+  result.features = surface_features(surface, size.sharp_angle_rad);
+  result.thickness = wall_thickness(surface, TriangleTree(surface));
+  std::vector<int> all(surface.triangles.size());
+  std::iota(all.begin(), all.end(), 0);
+  result.median = median_thickness(surface, result.thickness, all);
+  return result;
+}
+
+TetMesh fill_remeshed(const TriangleSurface& surface, const Analysed& part, const SurfaceSize& size,
+                      const ProcessLimits& limits) {
+  const SizeSpace space(surface, part.features, part.thickness, size);
+  const Remeshed remeshed = remesh(surface, part.features, space);
+  const auto crossings = self_intersections(remeshed.surface);
+  if (!crossings.empty()) {
+    const Eigen::Vector3d x = 1e3 * centroid(remeshed.surface, crossings[0][0]);
+    throw core::NumericalError("the coarse surface crosses itself near (" + number(x(0)) + ", " + number(x(1)) + ", " +
+                               number(x(2)) + ") mm");
+  }
+  return tetrahedralise_as_given(faceted(remeshed.surface), limits);
+}
+
+/// The mesh with its measures, or NumericalError if it is not what was asked for.
+SurfaceMeshed judged(TetMesh mesh, const TriangleSurface& surface, const SurfaceMeshOptions& options) {
+  SurfaceMeshed result;
+  result.volume_error_relative = volume(mesh) / volume(surface) - 1.0;
+  result.smallest_shape = smallest_shape(mesh);
+  result.mesh = std::move(mesh);
+  if (!(std::abs(result.volume_error_relative) <= options.volume_tolerance)) {
+    throw core::NumericalError("the mesh's volume is off by " + number(result.volume_error_relative) + ", more than " +
+                               number(options.volume_tolerance));
+  }
+  if (!(result.smallest_shape >= options.smallest_shape)) {
+    throw core::NumericalError("the mesh has a tetrahedron with V/L³ = " + number(result.smallest_shape) + ", below " +
+                               number(options.smallest_shape));
+  }
+  return result;
+}
+
+}  // namespace
+
+double smallest_shape(const TetMesh& mesh) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t tet = 0; tet < mesh.tets.size(); ++tet) {
+    double longest = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const auto& a = mesh.vertices[static_cast<std::size_t>(mesh.tets[tet][i])];
+        const auto& b = mesh.vertices[static_cast<std::size_t>(mesh.tets[tet][j])];
+        longest = std::max(longest, (a - b).norm());
+      }
+    }
+    smallest = std::min(smallest, volume(mesh, static_cast<int>(tet)) / std::pow(longest, 3));
+  }
+  return smallest;
+}
+
+std::vector<VolumeMesher> volume_meshers(const TriangleSurface& surface, const SurfaceMeshOptions& options) {
+  const auto part = std::make_shared<const Analysed>(analysed(surface, options.size));
+  std::vector<VolumeMesher> meshers;
+  double shorter = 1.0;
+  double straighter = 1.0;
+  for (int attempt = 0; attempt < 3; ++attempt, shorter *= 0.8, straighter *= 0.7) {
+    SurfaceSize size = options.size;
+    size.scale *= shorter;
+    size.turn_rad = std::max(0.01, size.turn_rad * straighter);
+    meshers.push_back({"TetGen", [part, size, limits = options.limits](const TriangleSurface& input) {
+                         return fill_remeshed(input, *part, size, limits);
+                       }});
+  }
+  DelaunayVolumeOptions delaunay;
+  delaunay.size_m = walls_per_isotropic_element * part->median;
+  delaunay.surface_distance_m = walls_off_the_surface * part->median;
+  delaunay.sharp_angle_rad = options.size.sharp_angle_rad;
+  delaunay.limits = options.limits;
+  meshers.push_back({"CGAL", [delaunay](const TriangleSurface& input) { return delaunay_volume(input, delaunay); }});
+  return meshers;
+}
+
+SurfaceMeshed mesh_closed_surface(const FacetedSurface& surface, const SurfaceMeshOptions& options) {
+  return mesh_closed_surface(triangulated(surface), options);
+}
+
+SurfaceMeshed mesh_closed_surface(const TriangleSurface& surface, const SurfaceMeshOptions& options) {
+  validate(options);
+  require_closed(surface);
+  return mesh_closed_surface(surface, options, volume_meshers(surface, options));
+}
+
+SurfaceMeshed mesh_closed_surface(const TriangleSurface& surface, const SurfaceMeshOptions& options,
+                                  const std::vector<VolumeMesher>& meshers) {
+  validate(options);
+  require_closed(surface);
+  std::vector<std::string> failures;
+  for (const auto& mesher : meshers) {
+    core::check_interrupt();
+    try {
+      SurfaceMeshed result = judged(mesher.run(surface), surface, options);
+      result.mesher = mesher.name;
+      result.failures = std::move(failures);
+      result.surface_distance_m =
+          surface_distance(boundary_surface(result.mesh), surface, diagonal(surface) / samples_per_diagonal);
+      return result;
+    } catch (const core::NumericalError& error) {
+      failures.push_back(mesher.name + ": " + error.what());
+    }
+  }
+  std::string all;
+  for (const auto& failure : failures) all += (all.empty() ? "" : "; ") + failure;
+  throw core::NumericalError("no mesher could fill the surface (" + all +
+                             "); try a smaller size, or mend the surface where it is nearly touching itself");
+}
+
+}  // namespace thinwall::mesh
