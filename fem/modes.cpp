@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "linalg/sparse_indefinite.hpp"
 
 namespace thinwall::fem {
 

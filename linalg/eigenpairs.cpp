@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "linalg/block_lanczos.hpp"
 
 namespace thinwall::linalg {
 
@@ -57,21 +58,6 @@ void fix_signs(Eigen::MatrixXd& Phi) {
   }
 }
 
-/// One step of inverse iteration on all vectors, then Rayleigh-Ritz in their span.
-void polish(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, Eigenpairs& pairs) {
-  const Eigen::MatrixXd Y = inverse.apply(M * pairs.Phi);
-  Eigen::MatrixXd Kr = Y.transpose() * (K * Y);
-  Eigen::MatrixXd Mr = Y.transpose() * (M * Y);
-  // The columns of Y differ in length by orders of magnitude; scaled to one, the small problem is well conditioned.
-  const Eigen::VectorXd s = Mr.diagonal().cwiseSqrt().cwiseInverse();
-  Kr = (s.asDiagonal() * (0.5 * (Kr + Kr.transpose())) * s.asDiagonal()).eval();
-  Mr = (s.asDiagonal() * (0.5 * (Mr + Mr.transpose())) * s.asDiagonal()).eval();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(Kr, Mr);
-  if (ritz.info() != Eigen::Success) return;  // the Lanczos pairs stay, with the residuals they have
-  pairs.lambda = ritz.eigenvalues();
-  pairs.Phi = Y * (s.asDiagonal() * ritz.eigenvectors());
-}
-
 void finish(const SparseMatrix& M, const ShiftedInverse& inverse, Eigenpairs& pairs) {
   for (auto phi : pairs.Phi.colwise()) phi /= std::sqrt(phi.dot(M * phi));
   fix_signs(pairs.Phi);
@@ -80,14 +66,28 @@ void finish(const SparseMatrix& M, const ShiftedInverse& inverse, Eigenpairs& pa
   pairs.inverse_residual = (R.cwiseProduct(M * R)).colwise().sum().cwiseMax(0.0).cwiseSqrt().transpose();
 }
 
+void require_count(int count, Eigen::Index rows) {
+  if (count >= 1 && count < rows) return;
+  throw core::InputError("asked for " + std::to_string(count) + " modes of a model with " + std::to_string(rows) +
+                         " degrees of freedom: ask for 1 to " + std::to_string(rows - 1));
+}
+
 }  // namespace
 
 Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, int count) {
+  require_count(count, K.rows());
+  return block_lanczos(M, inverse, {.count = count});
+}
+
+Eigenpairs eigenpairs_up_to(const SparseMatrix&, const SparseMatrix& M, const ShiftedInverse& inverse,
+                            double lambda_max) {
+  return block_lanczos(M, inverse, {.lambda_max = lambda_max});
+}
+
+Eigenpairs single_vector_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse,
+                                    int count) {
   const Eigen::Index n = K.rows();
-  if (count < 1 || count >= n) {
-    throw core::InputError("asked for " + std::to_string(count) + " modes of a model with " + std::to_string(n) +
-                           " degrees of freedom: ask for 1 to " + std::to_string(n - 1));
-  }
+  require_count(count, n);
   InverseOperator op(inverse, n);
   MassOperator mass(M);
   const Eigen::Index basis = std::min<Eigen::Index>(n, 2 * count + 20);
@@ -99,32 +99,8 @@ Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const
   if (lanczos.info() != Spectra::CompInfo::Successful) pairs.status = EigenStatus::not_converged;
   pairs.lambda = lanczos.eigenvalues();
   pairs.Phi = lanczos.eigenvectors();
-  if (pairs.lambda.size() == 0) return pairs;
-  polish(K, M, inverse, pairs);
-  finish(M, inverse, pairs);
+  if (pairs.lambda.size() > 0) finish(M, inverse, pairs);
   return pairs;
-}
-
-Eigenpairs eigenpairs_up_to(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse,
-                            double lambda_max) {
-  const int most = static_cast<int>(K.rows()) - 1;
-  for (int count = std::min(most, 16);;) {
-    Eigenpairs pairs = lowest_eigenpairs(K, M, inverse, count);
-    if (pairs.status != EigenStatus::converged) return pairs;
-    const double last = pairs.lambda(pairs.lambda.size() - 1);
-    if (last <= lambda_max && count < most) {
-      // The number of modes of a wall grows with the frequency, of a block with its cube: the next guess lies between.
-      const double octave = std::sqrt(lambda_max / std::max(last, 1e-6 * lambda_max));
-      count = std::min({most, 4 * count, static_cast<int>(1.1 * count * std::pow(octave, 1.3)) + 4});
-      continue;
-    }
-    const Eigen::Index kept =
-        std::upper_bound(pairs.lambda.begin(), pairs.lambda.end(), lambda_max) - pairs.lambda.begin();
-    pairs.lambda.conservativeResize(kept);
-    pairs.inverse_residual.conservativeResize(kept);
-    pairs.Phi.conservativeResize(Eigen::NoChange, kept);
-    return pairs;
-  }
 }
 
 Eigenpairs dense_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const Eigen::MatrixXd& W) {

@@ -29,16 +29,20 @@ struct [[nodiscard]] Eigenpairs {
   EigenStatus status = EigenStatus::converged;
 };
 
-/// The `count` eigenpairs next above σ, by shift-invert Lanczos with implicit restarts (Spectra; Lehoucq & Sorensen
-/// 1996) on the operator (K−σM)⁻¹M, followed by one step of inverse iteration on all vectors and a Rayleigh-Ritz
-/// projection, which takes the round-off of the high modes out of them. K, M: n × n; M positive definite on the range
-/// of the inverse; σ below the wanted eigenvalues; 1 ≤ count < n. Cost: about 2·count + 20 single solves and one of
-/// count right-hand sides. Pairs of an exactly multiple eigenvalue may be missed: count_eigenvalues_below() tells.
+/// The `count` eigenpairs next above σ, by block_lanczos(). K, M: n × n; M positive definite on the range of the inverse;
+/// σ below the wanted eigenvalues; 1 ≤ count < n. Throws InputError for another count. Cost: some eight solves of eight
+/// right-hand sides for ten pairs.
 Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, int count);
 
-/// All eigenpairs with λ ≤ lambda_max, by the same method with as many pairs as it takes.
+/// All eigenpairs with λ ≤ lambda_max, by the same method, which goes on until it has found one beyond.
 Eigenpairs eigenpairs_up_to(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse,
                             double lambda_max);
+
+/// The same as lowest_eigenpairs() by single-vector Lanczos with implicit restarts (Spectra; Lehoucq & Sorensen 1996):
+/// an independent check on block_lanczos(), some three times slower. Its inverse residuals are measured. Pairs of an
+/// exactly multiple eigenvalue may be missed: count_eigenvalues_below() tells.
+Eigenpairs single_vector_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse,
+                                    int count);
 
 /// All eigenpairs of the model restricted to Wᵀφ = 0 (W: n × constraints; empty: none), by dense algebra: for small
 /// models and as the independent check. Cost O(n³).

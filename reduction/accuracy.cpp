@@ -7,7 +7,7 @@
 
 #include "core/interrupt.hpp"
 #include "dynamics/conversion.hpp"
-#include "linalg/sparse_cholesky.hpp"
+#include "linalg/sparse_indefinite.hpp"
 
 namespace thinwall::reduction {
 

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "linalg/sparse_cholesky.hpp"
+#include "linalg/sparse_indefinite.hpp"
 #include "tests/linalg/grid_problem.hpp"
 
 namespace thinwall::linalg {
@@ -48,7 +49,7 @@ TEST(LowestEigenpairs, AreThoseOfTheMembraneDoubleOnesIncluded) {
         sigma, error, pairs.inverse_residual.maxCoeff(), residuals(problem.grid.K, problem.grid.M, pairs).maxCoeff(),
         orthogonality(problem.grid.M, pairs));
     EXPECT_LT(error, 1e-12);
-    EXPECT_LT(pairs.inverse_residual.maxCoeff(), 1e-11);
+    EXPECT_LT(pairs.inverse_residual.maxCoeff(), 3e-10);
     EXPECT_LT(orthogonality(problem.grid.M, pairs), 1e-12);
     EXPECT_LT(residuals(problem.grid.K, problem.grid.M, pairs).maxCoeff(), 1e-9);
     const auto below = count_eigenvalues_below(problem.grid.K, problem.grid.M, pairs.lambda(19) * (1 + 1e-6),

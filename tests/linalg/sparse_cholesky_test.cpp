@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "linalg/eigenpairs.hpp"
+#include "linalg/sparse_indefinite.hpp"
 #include "tests/linalg/grid_problem.hpp"
 
 namespace thinwall::linalg {

@@ -7,6 +7,7 @@
 
 #include "fem/modes.hpp"
 #include "fem/supports.hpp"
+#include "linalg/sparse_indefinite.hpp"
 #include "mesh/tetgen.hpp"
 
 namespace thinwall {

@@ -1,0 +1,222 @@
+#include "linalg/block_lanczos.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/interrupt.hpp"
+#include "linalg/tall.hpp"
+
+namespace thinwall::linalg {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Columns W Z with (WZ)ᵀM(WZ) = I and W = (WZ) B, from the Gram matrix G = WᵀMW = DUΛUᵀD; D scales to a unit
+/// diagonal. Z has fewer columns than W where those of W depend on each other or are no longer than `shortest`.
+struct Orthonormal {
+  MatrixXd Z;
+  MatrixXd B;
+  double smallest = 0.0;  // of Λ
+};
+
+Orthonormal orthonormal(const MatrixXd& G, double shortest) {
+  constexpr double dependent = 1e-24;  // a direction shorter than 1e-12 of the columns is their round-off
+  const VectorXd length = G.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const VectorXd scale = length.unaryExpr([&](double l) { return l > shortest ? 1.0 / l : 0.0; });
+  const MatrixXd scaled = scale.asDiagonal() * G * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(0.5 * (scaled + scaled.transpose()));
+  const VectorXd& squares = eigen.eigenvalues();  // ascending
+  const Index kept = (squares.array() > dependent).count();
+  const auto U = eigen.eigenvectors().rightCols(kept);
+  const VectorXd root = squares.tail(kept).cwiseSqrt();
+  return {scale.asDiagonal() * U * root.cwiseInverse().asDiagonal(),
+          root.asDiagonal() * U.transpose() * length.asDiagonal(), squares(0)};
+}
+
+/// M-orthonormal columns Q, M Q, and W = V VᵀMW + Q B for the block W that they came from.
+struct Block {
+  MatrixXd Q;
+  MatrixXd MQ;
+  MatrixXd B;
+};
+
+/// The basis, its images' projections, and what the last image has outside of it.
+struct Krylov {
+  const SparseMatrix& M;
+  const ShiftedInverse& inverse;
+  MatrixXd V{};  // n × capacity, the first `columns` in use
+  MatrixXd T{};  // VᵀMAV, upper triangle
+  Index columns = 0;
+  std::mt19937_64 random{20190801};
+
+  [[nodiscard]] auto basis() const { return V.leftCols(columns); }
+
+  MatrixXd random_columns(Index count) {
+    std::normal_distribution<double> normal;
+    return MatrixXd::NullaryExpr(M.rows(), count, [&] { return normal(random); });
+  }
+
+  /// Takes the basis out of W and makes the rest orthonormal, by classical Gram-Schmidt repeated on the normalised
+  /// columns until nothing of the basis is left in them; two passes as a rule. H receives VᵀMW.
+  Block outside(MatrixXd W, MatrixXd& H) const {
+    MatrixXd B = MatrixXd::Identity(W.cols(), W.cols());
+    bool normalised = false;
+    double shortest = 0.0;
+    for (int pass = 0; W.cols() > 0; ++pass) {
+      MatrixXd MW = symmetric_product(M, W);
+      const MatrixXd C = tall_gram(basis(), MW);
+      MatrixXd G = tall_gram(W, MW);
+      if (pass == 0) {
+        H = C;
+        shortest = 1e-14 * std::sqrt(G.diagonal().maxCoeff());  // what the basis explains to round-off is no direction
+      }
+      const VectorXd before = G.diagonal();
+      const bool clean = normalised && (C.size() == 0 || C.cwiseAbs().maxCoeff() < 1e-14 || pass > 4);
+      if (!clean) {
+        tall_subtract(W, basis(), C);
+        G -= C.transpose() * C;
+      }
+      const Orthonormal next = orthonormal(G, normalised ? 1e-3 : shortest);
+      // The first Gram matrix comes from a difference: good enough to normalise with, unless much cancelled.
+      if (pass == 0 && C.size() > 0 &&
+          (next.smallest < 1e-6 || (G.diagonal().array() < 1e-6 * before.array()).any())) {
+        continue;
+      }
+      W = tall_product(W, next.Z);
+      B = next.B * B;
+      normalised = true;
+      if (clean) return {std::move(W), tall_product(MW, next.Z), std::move(B)};
+    }
+    return {std::move(W), MatrixXd(M.rows(), 0), std::move(B)};
+  }
+
+  void append(const MatrixXd& Q) {
+    if (columns + Q.cols() > V.cols()) V.conservativeResize(Eigen::NoChange, std::max(2 * V.cols(), columns + Q.cols()));
+    V.middleCols(columns, Q.cols()) = Q;
+    columns += Q.cols();
+  }
+
+  /// One step: the block joins the basis, A is applied to it and projected; returns the next block.
+  Block step(const Block& block) {
+    core::check_interrupt();
+    append(block.Q);
+    MatrixXd H;
+    Block next = outside(inverse.apply(block.MQ), H);
+    T.conservativeResize(columns, columns);
+    T.rightCols(block.Q.cols()) = H;
+    return next;
+  }
+
+  /// A block of `count` random directions outside of the basis, in the range of A.
+  Block random_block(Index count) {
+    MatrixXd unused;
+    return outside(inverse.apply(symmetric_product(M, random_columns(count))), unused);
+  }
+};
+
+struct Ritz {
+  VectorXd theta;     // descending
+  MatrixXd S;
+  VectorXd residual;  // relative, of the inverse
+};
+
+Ritz ritz_pairs(const MatrixXd& T, const MatrixXd& B) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(T.selfadjointView<Eigen::Upper>()));
+  Ritz ritz{eigen.eigenvalues().reverse(), eigen.eigenvectors().rowwise().reverse(), {}};
+  const VectorXd outside = (B * ritz.S.bottomRows(B.cols())).colwise().norm().transpose();
+  ritz.residual = outside.cwiseQuotient(ritz.theta.cwiseAbs().cwiseMax(1e-300));
+  return ritz;
+}
+
+/// How many of the leading pairs are wanted; −1 while that cannot be told or they have not converged.
+Index finished(const Ritz& ritz, const BlockLanczosOptions& options, double sigma, bool exhausted) {
+  const Index have = ritz.theta.size();
+  Index converged = 0;
+  while (converged < have && ritz.theta(converged) > 0.0 && ritz.residual(converged) <= options.tolerance) ++converged;
+  if (options.lambda_max <= 0.0) return converged >= options.count ? options.count : -1;
+  for (Index k = 0; k < converged; ++k) {
+    if (sigma + 1.0 / ritz.theta(k) > options.lambda_max) return k;  // one beyond: none below is missed
+  }
+  return exhausted && converged == have ? converged : -1;
+}
+
+void fix_signs(MatrixXd& Phi) {
+  for (auto phi : Phi.colwise()) {
+    Index largest = 0;
+    phi.cwiseAbs().maxCoeff(&largest);
+    if (phi(largest) < 0.0) phi = -phi;
+  }
+}
+
+/// One inverse iteration Y = A Φ on the converged pairs measures their residual; Rayleigh-Ritz in span Y then gives
+/// better ones: with K Y = M Φ + σ M Y no product with K is needed.
+void polish(const SparseMatrix& M, const ShiftedInverse& inverse, Eigenpairs& pairs) {
+  const MatrixXd MPhi = symmetric_product(M, pairs.Phi);
+  const MatrixXd Y = inverse.apply(MPhi);
+  const VectorXd shifted = pairs.lambda.array() - inverse.sigma;
+  MatrixXd R = pairs.Phi;
+  tall_subtract(R, Y, shifted.asDiagonal());
+  const MatrixXd MY = symmetric_product(M, Y);
+  MatrixXd MR = MPhi;
+  tall_subtract(MR, MY, shifted.asDiagonal());
+  pairs.inverse_residual = R.cwiseProduct(MR).colwise().sum().cwiseMax(0.0).cwiseSqrt().transpose();
+  MatrixXd Kr = tall_gram(Y, MPhi);
+  MatrixXd Mr = tall_gram(Y, MY);
+  // The columns of Y differ in length by orders of magnitude; scaled to one, the small problem is well conditioned.
+  const VectorXd s = Mr.diagonal().cwiseSqrt().cwiseInverse();
+  Kr = (s.asDiagonal() * (0.5 * (Kr + Kr.transpose())) * s.asDiagonal()).eval();
+  Mr = (s.asDiagonal() * (0.5 * (Mr + Mr.transpose())) * s.asDiagonal()).eval();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(Kr, Mr);
+  if (ritz.info() == Eigen::Success && ritz.eigenvalues().allFinite()) {
+    pairs.lambda = ritz.eigenvalues().array() + inverse.sigma;
+    pairs.Phi = tall_product(Y, s.asDiagonal() * ritz.eigenvectors());
+  }
+  fix_signs(pairs.Phi);
+}
+
+int block_width(const BlockLanczosOptions& options, Index rows) {
+  const int wanted = options.block > 0 ? options.block : std::clamp(options.count / 4, 8, 16);
+  return static_cast<int>(std::min<Index>(wanted, rows));
+}
+
+}  // namespace
+
+Eigenpairs block_lanczos(const SparseMatrix& M, const ShiftedInverse& inverse, const BlockLanczosOptions& options) {
+  const Index n = M.rows();
+  const Index width = block_width(options, n);
+  Krylov krylov{.M = M, .inverse = inverse};
+  krylov.V.resize(n, std::min(n, options.lambda_max > 0.0 ? 8 * width : 2 * options.count + 3 * width));
+  Eigenpairs pairs;
+  pairs.status = EigenStatus::not_converged;
+  Index next_check = options.lambda_max > 0.0 ? 1 : options.count;
+  Block block = krylov.random_block(width);
+  while (pairs.status != EigenStatus::converged && block.Q.cols() > 0) {
+    block = krylov.step(block);
+    const MatrixXd B = block.B;
+    // Where the images bring no new direction, a random one: an eigenvalue may be more multiple than a block is wide.
+    if (block.Q.cols() == 0 && krylov.columns < n) block = krylov.random_block(1);
+    const bool exhausted = block.Q.cols() == 0;
+    if (krylov.columns < next_check && !exhausted) continue;
+    next_check = krylov.columns + krylov.columns / 12;
+    const Ritz ritz = ritz_pairs(krylov.T, B);
+    const Index wanted = finished(ritz, options, inverse.sigma, exhausted);
+    if (wanted < 0 && !exhausted) continue;
+    const Index kept = wanted >= 0 ? wanted : (ritz.residual.array() <= options.tolerance).count();
+    if (wanted >= 0) pairs.status = EigenStatus::converged;
+    pairs.lambda = inverse.sigma + ritz.theta.head(kept).array().inverse();
+    pairs.Phi = tall_product(krylov.basis(), ritz.S.leftCols(kept));
+    pairs.inverse_residual = ritz.residual.head(kept);
+  }
+  if (pairs.lambda.size() > 0) polish(M, inverse, pairs);
+  return pairs;
+}
+
+}  // namespace thinwall::linalg
