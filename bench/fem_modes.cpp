@@ -1,0 +1,117 @@
+// From a mesh file to natural modes, stage by stage, beside the peers (bench/run fem). Steel, SI.
+//   fem_modes FILE.inp [--fixed SET] [--modes N] [--threads N] [--write-petsc FOLDER]      prints one JSON object
+// With --write-petsc it writes the assembled K and M of the free DOFs for bench/slepc_modes and stops.
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "bench/petsc_binary.hpp"
+#include "bench/stages.hpp"
+#include "core/parallel.hpp"
+#include "fem/assembly.hpp"
+#include "io/inp.hpp"
+#include "linalg/eigenpairs.hpp"
+#include "linalg/sparse_cholesky.hpp"
+
+namespace {
+
+using namespace thinwall;
+
+const fem::Material steel{210e9, 0.3, 7850.0};
+
+struct Options {
+  std::string inp;
+  std::string fixed = "FIXED";
+  int modes = 10;
+  int threads = 2;
+  std::string petsc_folder;
+};
+
+/// K and M of the free DOFs, and for each of their rows its node.
+struct FreeMatrices {
+  linalg::SparseMatrix K;
+  linalg::SparseMatrix M;
+  std::vector<int> node_of_row;
+};
+
+FreeMatrices free_matrices(const io::InpMesh& part, const std::vector<int>& fixed_nodes) {
+  const fem::Assembled all = fem::assemble(part.mesh, part.nodes, steel);
+  std::vector<char> held(static_cast<std::size_t>(part.nodes.positions.rows()), 0);
+  for (const int node : fixed_nodes) held[static_cast<std::size_t>(node)] = 1;
+  FreeMatrices result;
+  std::vector<int> free_rows;
+  for (int row = 0; row < static_cast<int>(3 * held.size()); ++row) {
+    if (held[static_cast<std::size_t>(row / 3)] != 0) continue;
+    free_rows.push_back(row);
+    result.node_of_row.push_back(row / 3);
+  }
+  result.K = linalg::restrict_to(all.K, free_rows);
+  result.M = linalg::restrict_to(all.M, free_rows);
+  return result;
+}
+
+void solve(const FreeMatrices& matrices, int modes, nlohmann::ordered_json& report) {
+  bench::Stopwatch watch;
+  const linalg::SparseCholesky factor(matrices.K, matrices.node_of_row);
+  const double factorise_s = watch.lap();
+  const linalg::FactorStatistics& cost = factor.statistics();
+  const linalg::ShiftedInverse inverse{
+      [&factor](const Eigen::Ref<const Eigen::MatrixXd>& B) { return factor.solve(B); }, 0.0};
+  const linalg::Eigenpairs pairs = linalg::lowest_eigenpairs(matrices.K, matrices.M, inverse, modes);
+  report["ordering_s"] = cost.seconds_ordering;
+  report["factor_s"] = factorise_s - cost.seconds_ordering;
+  report["eigen_s"] = watch.lap();
+  report["factor_nonzeros"] = cost.nonzeros;
+  report["factor_flops"] = cost.flops;
+  report["converged"] = pairs.status == linalg::EigenStatus::converged;
+  report["worst_inverse_residual"] = pairs.inverse_residual.maxCoeff();
+  for (const double lambda : pairs.lambda) {
+    report["frequencies_hz"].push_back(std::sqrt(std::max(lambda, 0.0)) / (2.0 * std::numbers::pi));
+  }
+}
+
+nlohmann::ordered_json run(const Options& options) {
+  core::set_thread_count(options.threads);
+  nlohmann::ordered_json report{{"program", "thinwall"}, {"threads", options.threads}};
+  bench::Stopwatch total;
+  bench::Stopwatch watch;
+  const io::InpMesh part = io::read_inp(options.inp, 1.0);
+  const std::vector<int>& fixed = io::node_set(part, options.fixed, options.inp).nodes;
+  report["read_s"] = watch.lap();
+  const FreeMatrices matrices = free_matrices(part, fixed);
+  report["assembly_s"] = watch.lap();
+  report["dofs"] = matrices.K.rows();
+  report["nonzeros"] = matrices.K.nonZeros();
+  if (!options.petsc_folder.empty()) {
+    bench::write_petsc(std::filesystem::path(options.petsc_folder) / "K.petsc", matrices.K);
+    bench::write_petsc(std::filesystem::path(options.petsc_folder) / "M.petsc", matrices.M);
+    return report;
+  }
+  solve(matrices, options.modes, report);
+  report["total_s"] = total.lap();
+  report["peak_memory_bytes"] = bench::peak_memory_bytes();
+  return report;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("From a mesh file to natural modes, stage by stage");
+  app.add_option("file", options.inp, "mesh (.inp)")->required();
+  app.add_option("--fixed", options.fixed, "node set that cannot move");
+  app.add_option("--modes", options.modes, "how many")->check(CLI::Range(1, 10000));
+  app.add_option("--threads", options.threads, "threads")->check(CLI::Range(1, 1024));
+  app.add_option("--write-petsc", options.petsc_folder, "folder for K and M; nothing is solved");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    std::cout << run(options).dump() << '\n';
+  } catch (const std::exception& error) {
+    std::cerr << "fem_modes: " << error.what() << '\n';
+    return 1;
+  }
+}

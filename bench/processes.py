@@ -1,0 +1,73 @@
+"""Programs under the clock: wall and processor time, peak memory, a time limit, and when each line was printed."""
+
+import dataclasses
+import os
+import pathlib
+import signal
+import subprocess
+import threading
+import time
+
+
+@dataclasses.dataclass
+class Finished:
+    """A program that ran. `lines`: (seconds since its start, text) of its standard output."""
+
+    wall_s: float
+    cpu_s: float
+    peak_memory_bytes: float
+    failure: str  # empty if all went well
+    lines: list
+
+    @property
+    def last_line(self):
+        return self.lines[-1][1] if self.lines else ""
+
+
+def environment(**changes):
+    """The caller's environment without settings of threads, so that each program gets those that it is given here."""
+    kept = {k: v for k, v in os.environ.items() if not k.startswith(("OMP_", "OPENBLAS_", "CCX_", "PETSC_", "SLEPC_"))}
+    return {**kept, "LC_ALL": "C", **{k: str(v) for k, v in changes.items()}}
+
+
+def run(command, time_limit_s, folder, env):
+    """Runs to the end or to the limit; memory is the largest of any one process in it (getrusage of the child)."""
+    start = time.monotonic()
+    errors = pathlib.Path(folder) / "stderr.txt"
+    with errors.open("wb") as error_file:
+        child = subprocess.Popen([str(word) for word in command], cwd=folder, env=env, stdout=subprocess.PIPE,
+                                 stderr=error_file, text=True, errors="replace", start_new_session=True)
+        exceeded = threading.Event()
+
+        def stop():
+            exceeded.set()
+            os.killpg(child.pid, signal.SIGKILL)
+
+        timer = threading.Timer(time_limit_s, stop)
+        timer.start()
+        lines = [(time.monotonic() - start, line.rstrip("\n")) for line in child.stdout]
+        _, status, usage = os.wait4(child.pid, 0)
+        timer.cancel()
+    wall_s = time.monotonic() - start
+    child.returncode = os.waitstatus_to_exitcode(status)
+    child.stdout.close()
+    failure = ""
+    if exceeded.is_set():
+        failure = f"stopped at the limit of {time_limit_s:g} s"
+    elif child.returncode != 0:
+        said = [line for line in errors.read_text(errors="replace").splitlines() if line.strip()]
+        how = f"signal {-child.returncode}" if child.returncode < 0 else f"exit {child.returncode}"
+        failure = f"{how}: {said[0].strip() if said else 'no message'}"
+    return Finished(wall_s, usage.ru_utime + usage.ru_stime, 1024.0 * usage.ru_maxrss, failure, lines)
+
+
+def machine():
+    """What the figures were measured on."""
+    model = "unknown"
+    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            model = line.split(":", 1)[1].strip()
+            break
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    return {"processor": model, "cores": len(os.sched_getaffinity(0)), "memory_bytes": memory,
+            "load_at_start": os.getloadavg()[0]}
