@@ -104,10 +104,14 @@ SizeSpace::SizeSpace(const TriangleSurface& surface, const SurfaceFeatures& feat
                      const std::vector<double>& thickness, const SurfaceSize& size)
     : surface_(surface), normals_(corner_normals(surface, features)), refined_(size.refined), turn_(size.turn_rad) {
   validate(size);
-  const double tolerance = 1e-5 * diagonal(surface);
+  // The distance to a line may err by a thousandth of the layers' width.
+  const double thinnest = *std::min_element(thickness.begin(), thickness.end());
+  const double tolerance = 1e-3 * (size.layer_width_m > 0.0 ? size.layer_width_m : thinnest);
   for (const auto& line : features.lines) {
     lines_.push_back(positions(surface, line));
     straight_lines_.push_back(simplified(lines_.back(), tolerance));
+    line_blocks_.emplace_back();
+    for (const auto& x : lines_.back()) line_blocks_.back().extend(x);
   }
   for (int p = 0; p < features.patches; ++p) patches_.push_back(make_patch(p, features, thickness, size));
 }
@@ -146,9 +150,12 @@ Eigen::VectorXd SizeSpace::at(int patch, const Eigen::Vector3d& x, const Eigen::
   Eigen::VectorXd result(6 + lines + static_cast<Eigen::Index>(refined_.size()));
   result.head<3>() = x / p.size;
   result.segment<3>(3) = normal / turn_;
+  const double reach = std::max(0.0, (p.size - p.first) / p.growth);  // the layers have grown to H
   for (Eigen::Index k = 0; k < lines; ++k) {
-    const auto& line = straight_lines_[static_cast<std::size_t>(p.lines[static_cast<std::size_t>(k)])];
-    result(6 + k) = stretched((nearest_on(line, x) - x).norm(), p.first, p.growth, p.size);
+    const auto line = static_cast<std::size_t>(p.lines[static_cast<std::size_t>(k)]);
+    const bool far = line_blocks_[line].exteriorDistance(x) >= reach;
+    const double d = far ? reach : (nearest_on(straight_lines_[line], x) - x).norm();
+    result(6 + k) = stretched(d, p.first, p.growth, p.size);
   }
   for (std::size_t k = 0; k < refined_.size(); ++k) {
     const double d = signed_distance(refined_[k], x);

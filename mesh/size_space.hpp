@@ -1,7 +1,7 @@
 #pragma once
 // A space in which every wanted edge of a surface mesh has length one.
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "mesh/polyline.hpp"
@@ -70,6 +70,7 @@ class SizeSpace {
   std::vector<std::array<Eigen::Vector3d, 3>> normals_;  // of each triangle's corners, within its patch
   std::vector<Polyline> lines_;                          // the sharp lines
   std::vector<Polyline> straight_lines_;                 // the same without vertices that lie on the way
+  std::vector<Eigen::AlignedBox3d> line_blocks_;         // around each line
   std::vector<Region> refined_;
   double turn_ = 1.0;  // θ
   std::vector<Patch> patches_;
