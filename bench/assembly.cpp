@@ -24,8 +24,8 @@ mesh::TetMesh cube(int cells) {
   const int points = cells + 1;
   const std::array<int, 3> step{1, points, points * points};
   for (int i = 0; i < points * points * points; ++i) {
-    const Eigen::Vector3d x(i % points, i / points % points, i / (points * points));
-    mesh.vertices.emplace_back(x / cells);
+    const Eigen::Vector3i lattice(i % points, i / points % points, i / (points * points));
+    mesh.vertices.emplace_back(lattice.cast<double>() / cells);
   }
   std::array<std::size_t, 3> axes{0, 1, 2};
   do {

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -97,9 +98,7 @@ nlohmann::ordered_json run(const Options& options) {
   return report;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int parse_and_run(int argc, char** argv) {
   Options options;
   CLI::App app("From a mesh file to natural modes, stage by stage");
   app.add_option("file", options.inp, "mesh (.inp)")->required();
@@ -108,10 +107,17 @@ int main(int argc, char** argv) {
   app.add_option("--threads", options.threads, "threads")->check(CLI::Range(1, 1024));
   app.add_option("--write-petsc", options.petsc_folder, "folder for K and M; nothing is solved");
   CLI11_PARSE(app, argc, argv);
+  std::cout << run(options).dump() << '\n';
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    std::cout << run(options).dump() << '\n';
+    return parse_and_run(argc, argv);
   } catch (const std::exception& error) {
-    std::cerr << "fem_modes: " << error.what() << '\n';
+    std::fprintf(stderr, "fem_modes: %s\n", error.what());
     return 1;
   }
 }
