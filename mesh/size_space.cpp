@@ -14,8 +14,8 @@ namespace thinwall::mesh {
 
 namespace {
 
-constexpr double thicknesses_per_size = 12.0;
-constexpr double smallest_sizes_per_diagonal = 6.0;
+constexpr double thicknesses_per_size = 9.0;
+constexpr double smallest_sizes_per_diagonal = 8.0;
 constexpr double deviation_per_thickness = 0.05;
 constexpr double planar_rad = 1e-6;
 

@@ -16,7 +16,7 @@ namespace thinwall::mesh {
 /// the next one inwards, and beyond them the width grows by 1/layer_ratio until it reaches size_m; along the line the
 /// edges stay long (the error of a thin wall sits in boundary layers as wide as the wall is thick).
 struct SurfaceSize {
-  double size_m = 0.0;         ///< m, > 0; 0: 12 wall thicknesses of the patch, at most a sixth of the part's diagonal
+  double size_m = 0.0;         ///< m, > 0; 0: 9 wall thicknesses of the patch, at most an eighth of the part's diagonal
   double scale = 1.0;          ///< factor on the wanted edge, 0.05 to 20
   int layers = 1;              ///< 0 to 4
   double layer_width_m = 0.0;  ///< m, > 0; 0: the wall thickness of the patch

@@ -22,6 +22,7 @@ namespace {
 
 constexpr double walls_per_isotropic_element = 1.5;
 constexpr double walls_off_the_surface = 0.02;  // of isotropic facets; finer ones make 50 times as many elements
+constexpr double smallest_turn_rad = 0.01;
 constexpr double samples_per_diagonal = 100.0;
 
 std::string number(double value) {
@@ -59,17 +60,31 @@ Analysed analysed(const TriangleSurface& surface, const SurfaceSize& size) {
   return result;
 }
 
+/// Remeshes with smaller turns until the volume is kept. On a bent wall its error is turn²/6, both sides moving
+/// together. On a twisted one each side errs by itself, up or down with every diagonal: the sum falls with the turn on
+/// average only, so that the steps are small.
+Remeshed remesh_to_volume(const TriangleSurface& surface, const Analysed& part, SurfaceSize size, double tolerance) {
+  constexpr int repetitions = 5;
+  const double wanted = volume(surface);
+  for (int k = 0;; ++k) {
+    Remeshed result = remesh(surface, part.features, SizeSpace(surface, part.features, part.thickness, size));
+    const double error = std::abs(volume(result.surface) / wanted - 1.0);
+    if (error <= tolerance || k == repetitions || size.turn_rad <= smallest_turn_rad) return result;
+    const double factor = std::clamp(std::sqrt(tolerance / error), 0.5, 0.85);
+    size.turn_rad = std::max(smallest_turn_rad, factor * size.turn_rad);
+  }
+}
+
 TetMesh fill_remeshed(const TriangleSurface& surface, const Analysed& part, const SurfaceSize& size,
-                      const ProcessLimits& limits) {
-  const SizeSpace space(surface, part.features, part.thickness, size);
-  const Remeshed remeshed = remesh(surface, part.features, space);
+                      const SurfaceMeshOptions& options) {
+  const Remeshed remeshed = remesh_to_volume(surface, part, size, options.volume_tolerance);
   const auto crossings = self_intersections(remeshed.surface);
   if (!crossings.empty()) {
     const Eigen::Vector3d x = 1e3 * centroid(remeshed.surface, crossings[0][0]);
     throw core::NumericalError("the coarse surface crosses itself near (" + number(x(0)) + ", " + number(x(1)) + ", " +
                                number(x(2)) + ") mm");
   }
-  return tetrahedralise_as_given(faceted(remeshed.surface), limits);
+  return tetrahedralise_as_given(faceted(remeshed.surface), options.limits);
 }
 
 /// The mesh with its measures, or NumericalError if it is not what was asked for.
@@ -115,9 +130,9 @@ std::vector<VolumeMesher> volume_meshers(const TriangleSurface& surface, const S
   for (int attempt = 0; attempt < 3; ++attempt, shorter *= 0.8, straighter *= 0.7) {
     SurfaceSize size = options.size;
     size.scale *= shorter;
-    size.turn_rad = std::max(0.01, size.turn_rad * straighter);
-    meshers.push_back({"TetGen", [part, size, limits = options.limits](const TriangleSurface& input) {
-                         return fill_remeshed(input, *part, size, limits);
+    size.turn_rad = std::max(smallest_turn_rad, size.turn_rad * straighter);
+    meshers.push_back({"TetGen", [part, size, options](const TriangleSurface& input) {
+                         return fill_remeshed(input, *part, size, options);
                        }});
   }
   DelaunayVolumeOptions delaunay;

@@ -37,8 +37,9 @@ struct VolumeMesher {
   std::function<TetMesh(const TriangleSurface&)> run;
 };
 
-/// The surface remeshed (mesh::remesh) and filled by TetGen as it is, then, if that fails, with edges 0.8 and 0.64
-/// times as long that turn 0.7 and 0.5 times as far; at last isotropic elements by CGAL Mesh_3, 1.5 walls large.
+/// The surface remeshed (mesh::remesh; with a smaller turn until the volume is kept) and filled by TetGen as it is,
+/// then, if that fails, with edges 0.8 and 0.64 times as long that turn 0.7 and 0.5 times as far; at last isotropic
+/// elements by CGAL Mesh_3, 1.5 walls large.
 [[nodiscard]] std::vector<VolumeMesher> volume_meshers(const TriangleSurface& surface,
                                                        const SurfaceMeshOptions& options);
 

