@@ -1,5 +1,6 @@
 """Programs under the clock: wall and processor time, peak memory, a time limit, and when each line was printed."""
 
+import contextlib
 import dataclasses
 import os
 import pathlib
@@ -41,13 +42,19 @@ def run(command, time_limit_s, folder, env):
 
         def stop():
             exceeded.set()
-            os.killpg(child.pid, signal.SIGKILL)
+            with contextlib.suppress(ProcessLookupError):  # it may just have ended
+                os.killpg(child.pid, signal.SIGKILL)
 
         timer = threading.Timer(time_limit_s, stop)
         timer.start()
-        lines = [(time.monotonic() - start, line.rstrip("\n")) for line in child.stdout]
-        _, status, usage = os.wait4(child.pid, 0)
-        timer.cancel()
+        try:
+            lines = [(time.monotonic() - start, line.rstrip("\n")) for line in child.stdout]
+            _, status, usage = os.wait4(child.pid, 0)
+        except BaseException:  # interrupted: nothing goes on behind the user's back
+            stop()
+            raise
+        finally:
+            timer.cancel()
     wall_s = time.monotonic() - start
     child.returncode = os.waitstatus_to_exitcode(status)
     child.stdout.close()
