@@ -28,46 +28,38 @@ std::vector<Segment> all_edges(const Prism& prism) {
   return edges;
 }
 
-int add_point(Points& points, const Eigen::Vector2d& p, double tolerance) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if ((points[i] - p).norm() <= tolerance) return static_cast<int>(i);
-  }
-  points.push_back(p);
-  return static_cast<int>(points.size()) - 1;
+void add_point(Points& points, const Eigen::Vector2d& p, double tolerance) {
+  const bool known =
+      std::any_of(points.begin(), points.end(), [&](const auto& q) { return (q - p).norm() <= tolerance; });
+  if (!known) points.push_back(p);
 }
 
-/// For every edge the points that lie on it, its ends among them.
-std::vector<std::vector<int>> points_on_edges(const std::vector<Segment>& edges, Points& points, double tolerance) {
-  std::vector<std::vector<int>> on(edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    for (const auto& end : edges[i]) on[i].push_back(add_point(points, end, tolerance));
+/// Ends and crossings of all edges.
+Points graph_points(const std::vector<Segment>& edges, double tolerance) {
+  Points points;
+  for (const auto& line : edges) {
+    for (const auto& end : line) add_point(points, end, tolerance);
   }
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    for (std::size_t j = 0; j < edges.size(); ++j) {
-      for (const std::size_t k : {0U, 1U}) {
-        if (i != j && distance(edges[i], edges[j][k]) <= tolerance) on[i].push_back(on[j][k]);
-      }
-      if (j >= i) continue;
-      if (const auto p = crossing(edges[i], edges[j])) {
-        const int index = add_point(points, *p, tolerance);
-        on[i].push_back(index);
-        on[j].push_back(index);
-      }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (const auto p = crossing(edges[i], edges[j])) add_point(points, *p, tolerance);
     }
   }
-  return on;
+  return points;
 }
 
-Pairs split_edges(const std::vector<Segment>& edges, const std::vector<std::vector<int>>& on, const Points& points) {
+/// The edges cut at every point that lies on them: also where edges run on one line and cross by round-off.
+Pairs split_edges(const std::vector<Segment>& edges, const Points& points, double tolerance) {
   Pairs pairs;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const Eigen::Vector2d along = edges[i][1] - edges[i][0];
-    auto order = on[i];
+  for (const auto& line : edges) {
+    const Eigen::Vector2d along = line[1] - line[0];
+    std::vector<int> order;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (distance(line, points[i]) <= tolerance) order.push_back(static_cast<int>(i));
+    }
     std::sort(order.begin(), order.end(),
               [&](int a, int b) { return along.dot(at(points, a)) < along.dot(at(points, b)); });
-    for (std::size_t k = 0; k + 1 < order.size(); ++k) {
-      if (order[k] != order[k + 1]) pairs.insert(std::minmax(order[k], order[k + 1]));
-    }
+    for (std::size_t k = 0; k + 1 < order.size(); ++k) pairs.insert(std::minmax(order[k], order[k + 1]));
   }
   return pairs;
 }
@@ -144,9 +136,9 @@ Segment segment(const BorderGraph& graph, const Border& border) {
 
 BorderGraph border_graph(const Prism& prism) {
   const auto edges = all_edges(prism);
-  Points points;
-  const auto on = points_on_edges(edges, points, 1e-9 * diagonal(prism));
-  Pairs pairs = split_edges(edges, on, points);
+  const double tolerance = 1e-9 * diagonal(prism);
+  const Points points = graph_points(edges, tolerance);
+  Pairs pairs = split_edges(edges, points, tolerance);
   std::erase_if(pairs, [&](const auto& pair) {
     const Border border = border_between(prism, points, pair);
     return border.left == border.right;
@@ -179,7 +171,7 @@ BorderGraph divided(const BorderGraph& graph, const std::function<double(const E
   result.points = graph.points;
   for (const auto& border : graph.borders) {
     const auto [a, b] = segment(graph, border);
-    const auto point = [&, start = a, end = b](double t) { return Eigen::Vector2d((1.0 - t) * start + t * end); };
+    const auto point = [&, start = a, end = b](double t) { return Eigen::Vector2d(start + t * (end - start)); };
     const auto cuts = divide((b - a).norm(), [&](double t) { return size_at(point(t)); });
     int from = border.from;
     for (std::size_t k = 1; k < cuts.size(); ++k) {

@@ -175,6 +175,12 @@ void set_layer_widths(std::vector<BorderSide>& sides, const BorderGraph& graph, 
          << " mm (1e-6 of the part's diagonal): fewer layers, or a larger layer_factor or layer_width";
     throw core::InputError(text.str());
   }
+}
+
+void fit_corners(std::vector<BorderSide>& sides, const BorderGraph& graph, const PrismMeshOptions& options,
+                 double narrowest_m) {
+  const auto unit = layer_distances(options.layers, options.layer_factor);
+  if (unit.empty()) return;
   for (int pass = 0; pass < 3; ++pass) {
     for (auto& side : sides) fit_corner(sides, graph, side, unit.back());
   }

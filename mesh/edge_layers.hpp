@@ -40,6 +40,11 @@ struct BorderSide {
 void set_layer_widths(std::vector<BorderSide>& sides, const BorderGraph& graph, const PrismMeshOptions& options,
                       double narrowest_m);
 
+/// Narrows the layers where the feet of a corner would take more than 0.4 of either of its sides; layers that would
+/// lose nearly all (at a needle, a notch) or become narrower than `narrowest_m` are dropped.
+void fit_corners(std::vector<BorderSide>& sides, const BorderGraph& graph, const PrismMeshOptions& options,
+                 double narrowest_m);
+
 /// Distance along `side` from its end to the foot of the point that lies a away from `side` and b away from the next
 /// one, at a corner of angle θ: (b + a cos θ) / sin θ. Negative beyond the end.
 [[nodiscard]] double corner_foot(double angle, double a, double b);

@@ -206,7 +206,8 @@ int row_point(const Layout& layout, const BorderSide& side, const Station& stati
   const int known = find_point(sketch, p, layout.tolerance);
   if (known >= 0) return known;
   const double band = station.width * (layout.unit[row] - (row > 0 ? layout.unit[row - 1] : 0.0));
-  if (!keeps_away(layout, side, p, row, c) || point_distance(sketch, p) < 0.3 * band) return -1;
+  if (!keeps_away(layout, side, p, row, c)) return -1;
+  if (point_distance(sketch, p) < 0.3 * band || segment_distance(sketch, p) < 0.1 * band) return -1;
   sketch.points.push_back(p);
   return static_cast<int>(sketch.points.size()) - 1;
 }
@@ -257,6 +258,7 @@ Sketch layer_rows(const Prism& prism, const BorderGraph& graph, const PrismMeshO
   Layout layout{prism, pieces, border_sides(pieces), layer_distances(options.layers, options.layer_factor),
                 1e-9 * size};
   set_layer_widths(layout.sides, pieces, options, 1e-6 * size);
+  fit_corners(layout.sides, pieces, options, 1e-6 * size);
   const auto stations = border_stations(layout);
   Sketch sketch = border_sketch(layout, stations);
   for (const auto& side : layout.sides) {

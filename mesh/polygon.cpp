@@ -50,7 +50,14 @@ std::optional<Eigen::Vector2d> crossing(const Segment& a, const Segment& b) {
   const double a1 = cross(v, a[1] - b[0]);
   if (!((b0 < 0.0 && b1 > 0.0) || (b0 > 0.0 && b1 < 0.0))) return std::nullopt;
   if (!((a0 < 0.0 && a1 > 0.0) || (a0 > 0.0 && a1 < 0.0))) return std::nullopt;
-  return Eigen::Vector2d(b[0] + b0 / (b0 - b1) * v);
+  Eigen::Vector2d p = b[0] + b0 / (b0 - b1) * v;
+  for (int axis = 0; axis < 2; ++axis) {  // no round-off across a line along an axis
+    if (u[axis] == 0.0) p[axis] = a[0][axis];
+    if (v[axis] == 0.0) p[axis] = b[0][axis];
+  }
+  // Of two segments on one line the signs above are round-off: they may be far apart.
+  if (distance(a, p) > 1e-9 * (u.norm() + v.norm())) return std::nullopt;
+  return p;
 }
 
 }  // namespace thinwall::mesh

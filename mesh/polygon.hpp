@@ -31,7 +31,8 @@ using Segment = std::array<Eigen::Vector2d, 2>;
 /// Distance between two segments, m; 0 if they cross.
 [[nodiscard]] double distance(const Segment& a, const Segment& b);
 
-/// The point where two segments cross properly, that is each with its ends on either side of the other.
+/// The point where two segments cross properly, that is each with its ends on either side of the other; exactly on a
+/// segment that runs along an axis.
 [[nodiscard]] std::optional<Eigen::Vector2d> crossing(const Segment& a, const Segment& b);
 
 }  // namespace thinwall::mesh
