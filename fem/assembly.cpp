@@ -2,153 +2,287 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/parallel.hpp"
+#include "fem/curved_element.hpp"
+#include "fem/node_graph.hpp"
 #include "fem/reference_element.hpp"
 
 namespace thinwall::fem {
 
 namespace {
 
-/// For each node the nodes it shares an element with, itself included, ascending.
-struct NodeGraph {
-  std::vector<std::ptrdiff_t> start;
-  std::vector<int> neighbours;
+using linalg::SparseMatrix;
+using ElementNodes = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-  [[nodiscard]] std::ptrdiff_t degree(int node) const {
-    return start[static_cast<std::size_t>(node) + 1] - start[static_cast<std::size_t>(node)];
-  }
-  [[nodiscard]] const int* begin(int node) const { return neighbours.data() + start[static_cast<std::size_t>(node)]; }
-  /// Place of `other` among the neighbours of `node`.
-  [[nodiscard]] std::ptrdiff_t place(int node, int other) const {
-    return std::lower_bound(begin(node), begin(node) + degree(node), other) - begin(node);
-  }
-};
-
-NodeGraph node_graph(const mesh::LagrangeNodes& nodes) {
-  const auto count = static_cast<std::size_t>(nodes.positions.rows());
-  const auto& elements = nodes.elements;
-  std::vector<int> first(count + 1, 0);
-  for (const int node : elements.reshaped()) ++first[static_cast<std::size_t>(node) + 1];
-  for (std::size_t i = 0; i < count; ++i) first[i + 1] += first[i];
-  std::vector<int> element_of(static_cast<std::size_t>(elements.size()));
-  std::vector<int> next(first.begin(), first.end() - 1);
-  for (Eigen::Index e = 0; e < elements.rows(); ++e) {
-    for (Eigen::Index a = 0; a < elements.cols(); ++a) {
-      element_of[static_cast<std::size_t>(next[static_cast<std::size_t>(elements(e, a))]++)] = static_cast<int>(e);
-    }
-  }
-  NodeGraph graph;
-  graph.start.reserve(count + 1);
-  graph.start.push_back(0);
-  std::vector<int> seen(count, -1);
-  for (std::size_t node = 0; node < count; ++node) {
-    for (int k = first[node]; k < first[node + 1]; ++k) {
-      for (const int other : elements.row(element_of[static_cast<std::size_t>(k)])) {
-        if (seen[static_cast<std::size_t>(other)] == static_cast<int>(node)) continue;
-        seen[static_cast<std::size_t>(other)] = static_cast<int>(node);
-        graph.neighbours.push_back(other);
-      }
-    }
-    std::sort(graph.neighbours.begin() + graph.start.back(), graph.neighbours.end());
-    graph.start.push_back(static_cast<std::ptrdiff_t>(graph.neighbours.size()));
-  }
-  return graph;
-}
-
-/// Column pointers and row indices of a matrix of 3 × 3 blocks on the graph; `full` blocks or their diagonals only.
-linalg::SparseMatrix blocks_on(const NodeGraph& graph, bool full) {
-  const int nodes = static_cast<int>(graph.start.size()) - 1;
-  const std::ptrdiff_t per_block_column = full ? 3 : 1;
-  linalg::SparseMatrix A(3 * nodes, 3 * nodes);
-  const std::ptrdiff_t entries = 3 * per_block_column * graph.start.back();
-  A.resizeNonZeros(entries);
-  std::fill_n(A.valuePtr(), entries, 0.0);
-  int* row = A.innerIndexPtr();
-  int* column = A.outerIndexPtr();
-  int filled = 0;
-  for (int node = 0; node < nodes; ++node) {
-    for (int j = 0; j < 3; ++j) {
-      column[3 * node + j] = filled;
-      for (std::ptrdiff_t k = 0; k < graph.degree(node); ++k) {
-        for (int i = full ? 0 : j; i < (full ? 3 : j + 1); ++i) row[filled++] = 3 * graph.begin(node)[k] + i;
-      }
-    }
-  }
-  column[3 * nodes] = filled;
-  return A;
-}
-
-/// Gradients of λ₁, λ₂, λ₃ as columns, and the volume.
+/// Gradients of λ₁, λ₂, λ₃ as columns, and the volume; curved elements have none of it.
 struct Geometry {
   Eigen::Matrix3d gradients;
   double volume = 0.0;
+  bool curved = false;
 };
 
-Geometry geometry(const mesh::TetMesh& mesh, int tet) {
-  const auto& t = mesh.tets[static_cast<std::size_t>(tet)];
-  const auto at = [&](std::size_t k) -> const Eigen::Vector3d& {
-    return mesh.vertices[static_cast<std::size_t>(t[k])];
-  };
-  Eigen::Matrix3d edges;
-  edges << at(1) - at(0), at(2) - at(0), at(3) - at(0);
-  const double volume = edges.determinant() / 6.0;
-  if (!(volume > 0.0)) throw core::NumericalError("tetrahedron " + std::to_string(tet) + " has no positive volume");
-  return {edges.inverse().transpose(), volume};
+ElementNodes positions_of(const mesh::LagrangeNodes& nodes, Eigen::Index element) {
+  ElementNodes x(nodes.elements.cols(), 3);
+  for (Eigen::Index a = 0; a < x.rows(); ++a) x.row(a) = nodes.positions.row(nodes.elements(element, a));
+  return x;
 }
 
-/// All S^{ij}, column 3i + j, row a + nodes·b: nodes² × 9.
-void gradient_products(const Geometry& g, const ReferenceElement& reference, Eigen::MatrixXd& S) {
-  Eigen::Matrix<double, 9, 9> contraction;
+/// Straight if every node lies on the lattice between the vertices, to round-off of the positions.
+Geometry geometry(const mesh::LagrangeNodes& nodes, const Eigen::Matrix<double, Eigen::Dynamic, 4>& lattice,
+                  Eigen::Index element) {
+  const ElementNodes x = positions_of(nodes, element);
+  const Eigen::Matrix<double, 4, 3> vertices = x.topRows<4>();
+  const double size = (vertices.rowwise() - vertices.row(0)).cwiseAbs().maxCoeff();
+  const double far = vertices.cwiseAbs().maxCoeff();
+  Geometry g;
+  g.curved = (x - lattice * vertices).cwiseAbs().maxCoeff() > 1e-10 * size + 1e-14 * far;
+  const Eigen::Matrix3d edges = (vertices.bottomRows<3>().rowwise() - vertices.row(0)).transpose();
+  g.volume = edges.determinant() / 6.0;
+  if (!g.curved && !(g.volume > 0.0))
+    throw core::NumericalError("tetrahedron " + std::to_string(element) + " has no positive volume");
+  if (!g.curved) g.gradients = edges.inverse().transpose();
+  return g;
+}
+
+std::vector<Geometry> geometries(const mesh::LagrangeNodes& nodes) {
+  const auto alphas = mesh::lattice(nodes.order);
+  Eigen::Matrix<double, Eigen::Dynamic, 4> lattice(static_cast<Eigen::Index>(alphas.size()), 4);
+  for (std::size_t a = 0; a < alphas.size(); ++a) {
+    for (std::size_t k = 0; k < 4; ++k)
+      lattice(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(k)) = double(alphas[a][k]) / nodes.order;
+  }
+  std::vector<Geometry> all(static_cast<std::size_t>(nodes.elements.rows()));
+  constexpr std::size_t piece = 4096;
+  core::parallel_for((all.size() + piece - 1) / piece, [&](std::size_t p) {
+    for (std::size_t e = p * piece; e < std::min(all.size(), (p + 1) * piece); ++e)
+      all[e] = geometry(nodes, lattice, static_cast<Eigen::Index>(e));
+  });
+  return all;
+}
+
+/// Nine numbers in three packets of four.
+using Packed = Eigen::Matrix<double, 12, 1>;
+
+/// D̂_ab → K_ab, block (i, j) at 3j + i: K_ab = Σ_kl D̂^{kl}_ab T_kl.
+Eigen::Matrix<double, 12, 9> stiffness_map(const Geometry& g, const Lame& c) {
+  Eigen::Matrix<double, 12, 9> T = Eigen::Matrix<double, 12, 9>::Zero();
+  const Eigen::Matrix3d inner = g.volume * c.mu * g.gradients.transpose() * g.gradients;
+  const Eigen::Matrix3d lambda = g.volume * c.lambda * g.gradients;
+  const Eigen::Matrix3d mu = g.volume * c.mu * g.gradients;
   for (int k = 0; k < 3; ++k) {
     for (int l = 0; l < 3; ++l) {
-      for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j)
-          contraction(3 * k + l, 3 * i + j) = g.volume * g.gradients(i, k) * g.gradients(j, l);
+      for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 3; ++i)
+          T(3 * j + i, 3 * k + l) = lambda(i, k) * g.gradients(j, l) + mu(j, k) * g.gradients(i, l);
+        T(4 * j, 3 * k + l) += inner(k, l);
       }
     }
   }
-  S.noalias() = reference.stiffness * contraction;
+  return T;
 }
 
-}  // namespace
+/// Where the free DOFs stand.
+struct Numbering {
+  std::vector<int> free_rows;
+  std::vector<int> row_of;  // of 3·node + axis; −1 if fixed
 
-Assembled assemble(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes, const Material& material) {
-  const Lame c = lame(material);
-  const ReferenceElement& reference = reference_element(nodes.order);
-  const NodeGraph graph = node_graph(nodes);
+  Numbering(Eigen::Index nodes, const std::vector<int>& fixed) : row_of(3 * static_cast<std::size_t>(nodes), 0) {
+    for (const int row : fixed) row_of[static_cast<std::size_t>(row)] = -1;
+    for (std::size_t dof = 0; dof < row_of.size(); ++dof) {
+      if (row_of[dof] < 0) continue;
+      row_of[dof] = static_cast<int>(free_rows.size());
+      free_rows.push_back(static_cast<int>(dof));
+    }
+    if (free_rows.empty()) throw core::InputError("the supports hold every node of the part: nothing can move");
+  }
+  [[nodiscard]] const int* of_node(int node) const { return row_of.data() + 3 * static_cast<std::size_t>(node); }
+};
+
+/// Empty matrices with room for every pair of neighbours: full 3 × 3 blocks in K, their diagonals in M.
+void reserve(const Lists& graph, const Numbering& rows, Assembled& result) {
+  const int nodes = static_cast<int>(graph.start.size()) - 1;
+  const auto free = static_cast<Eigen::Index>(rows.free_rows.size());
   if (9 * graph.start.back() > std::numeric_limits<int>::max()) {
     throw core::NumericalError("the stiffness matrix would have " + std::to_string(9 * graph.start.back()) +
                                " entries, more than 32-bit indices hold: use larger elements or a lower order");
   }
-  Assembled result{blocks_on(graph, true), blocks_on(graph, false)};
-  Eigen::MatrixXd S(reference.stiffness.rows(), 9);
-  const int n = reference.nodes;
-  for (int e = 0; e < static_cast<int>(mesh.tets.size()); ++e) {
-    if (e % 1024 == 0) core::check_interrupt();
-    const Geometry g = geometry(mesh, e);
-    gradient_products(g, reference, S);
-    for (int b = 0; b < n; ++b) {
+  result.K.resize(free, free);
+  result.M.resize(free, free);
+  result.node_mass.resize(nodes, nodes);
+  int* k_column = result.K.outerIndexPtr();
+  int* m_column = result.M.outerIndexPtr();
+  int k_filled = 0;
+  int m_filled = 0;
+  int column = 0;
+  for (int node = 0; node < nodes; ++node) {
+    result.node_mass.outerIndexPtr()[node] = static_cast<int>(graph.start[static_cast<std::size_t>(node)]);
+    std::array<int, 3> free_axis{};
+    for (const int* other = graph.begin(node); other != graph.end(node); ++other) {
+      for (std::size_t axis = 0; axis < 3; ++axis) free_axis[axis] += rows.of_node(*other)[axis] >= 0 ? 1 : 0;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (rows.of_node(node)[axis] < 0) continue;
+      k_column[column] = k_filled;
+      m_column[column++] = m_filled;
+      k_filled += free_axis[0] + free_axis[1] + free_axis[2];
+      m_filled += free_axis[axis];
+    }
+  }
+  k_column[column] = k_filled;
+  m_column[column] = m_filled;
+  result.node_mass.outerIndexPtr()[nodes] = static_cast<int>(graph.start.back());
+  result.K.resizeNonZeros(k_filled);
+  result.M.resizeNonZeros(m_filled);
+  result.node_mass.resizeNonZeros(graph.start.back());
+}
+
+/// The columns of one node before constraints: for each neighbour the block (i, j) of K at 3j + i, and M.
+struct NodeColumns {
+  Eigen::Matrix<double, 12, Eigen::Dynamic> K;
+  Eigen::VectorXd M;
+};
+
+/// Copies the free rows of a node's columns to their places.
+void store(const Lists& graph, const Numbering& rows, int node, const NodeColumns& columns, Assembled& result) {
+  const int* others = graph.begin(node);
+  const std::ptrdiff_t degree = graph.length(node);
+  std::copy_n(others, degree, result.node_mass.innerIndexPtr() + graph.start[static_cast<std::size_t>(node)]);
+  std::copy_n(columns.M.data(), degree, result.node_mass.valuePtr() + graph.start[static_cast<std::size_t>(node)]);
+  for (int j = 0; j < 3; ++j) {
+    const int column = rows.of_node(node)[j];
+    if (column < 0) continue;
+    std::ptrdiff_t k_at = result.K.outerIndexPtr()[column];
+    std::ptrdiff_t m_at = result.M.outerIndexPtr()[column];
+    for (std::ptrdiff_t k = 0; k < degree; ++k) {
+      for (int i = 0; i < 3; ++i) {
+        const int row = rows.of_node(others[k])[i];
+        if (row < 0) continue;
+        result.K.innerIndexPtr()[k_at] = row;
+        result.K.valuePtr()[k_at++] = columns.K(3 * j + i, k);
+        if (i != j) continue;
+        result.M.innerIndexPtr()[m_at] = row;
+        result.M.valuePtr()[m_at++] = columns.M(k);
+      }
+    }
+  }
+}
+
+/// Sums the straight elements around the nodes first … last − 1.
+void assemble_nodes(const mesh::LagrangeNodes& nodes, const Material& material, const std::vector<Geometry>& geometry,
+                    const Lists& places, const Lists& graph, const Numbering& rows, int first, int last,
+                    Assembled& result) {
+  const Lame c = lame(material);
+  const ReferenceElement& reference = reference_element(nodes.order);
+  const Eigen::Index n = reference.nodes;
+  std::vector<int> place_of(static_cast<std::size_t>(nodes.positions.rows()), 0);
+  NodeColumns columns;
+  for (int node = first; node < last; ++node) {
+    const std::ptrdiff_t degree = graph.length(node);
+    for (std::ptrdiff_t k = 0; k < degree; ++k)
+      place_of[static_cast<std::size_t>(graph.begin(node)[k])] = static_cast<int>(k);
+    columns.K.setZero(12, degree);
+    columns.M.setZero(degree);
+    for (const int* place = places.begin(node); place != places.end(node); ++place) {
+      const Eigen::Index e = *place / n;
+      const Eigen::Index b = *place % n;
+      const Geometry& g = geometry[static_cast<std::size_t>(e)];
+      if (g.curved) continue;
+      const Eigen::Matrix<double, 12, 9> T = stiffness_map(g, c);
+      const double mass = material.density_kg_m3 * g.volume;
+      const int* element = nodes.elements.data() + e * n;
+      for (Eigen::Index a = 0; a < n; ++a) {
+        const auto at = place_of[static_cast<std::size_t>(element[a])];
+        const double* d = reference.stiffness.data() + 9 * (a + n * b);
+        Packed sum = columns.K.col(at);
+        for (int kl = 0; kl < 9; ++kl) sum += d[kl] * T.col(kl);
+        columns.K.col(at) = sum;
+        columns.M(at) += mass * reference.mass(a, b);
+      }
+    }
+    store(graph, rows, node, columns, result);
+  }
+}
+
+double& entry(SparseMatrix& A, int row, int column) {
+  const int* begin = A.innerIndexPtr() + A.outerIndexPtr()[column];
+  const int* end = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
+  return A.valuePtr()[std::lower_bound(begin, end, row) - A.innerIndexPtr()];
+}
+
+void add_curved(const mesh::LagrangeNodes& nodes, const Numbering& rows, Eigen::Index e, const CurvedElement& element,
+                Assembled& result) {
+  for (Eigen::Index b = 0; b < nodes.elements.cols(); ++b) {
+    for (Eigen::Index a = 0; a < nodes.elements.cols(); ++a) {
+      const int row_node = nodes.elements(e, a);
       const int column_node = nodes.elements(e, b);
-      const std::ptrdiff_t degree = graph.degree(column_node);
-      double* k_block = result.K.valuePtr() + 9 * graph.start[static_cast<std::size_t>(column_node)];
-      double* m_block = result.M.valuePtr() + 3 * graph.start[static_cast<std::size_t>(column_node)];
-      for (int a = 0; a < n; ++a) {
-        const Eigen::Index ab = a + static_cast<Eigen::Index>(n) * b;
-        const std::ptrdiff_t place = graph.place(column_node, nodes.elements(e, a));
-        const double trace = c.mu * (S(ab, 0) + S(ab, 4) + S(ab, 8));
-        for (int j = 0; j < 3; ++j) {
-          double* entry = k_block + 3 * (j * degree + place);
-          for (int i = 0; i < 3; ++i) entry[i] += c.lambda * S(ab, 3 * i + j) + c.mu * S(ab, 3 * j + i);
-          entry[j] += trace;
-          m_block[j * degree + place] += material.density_kg_m3 * g.volume * reference.mass(a, b);
+      entry(result.node_mass, row_node, column_node) += element.M(a, b);
+      for (int j = 0; j < 3; ++j) {
+        const int column = rows.of_node(column_node)[j];
+        if (column < 0) continue;
+        for (int i = 0; i < 3; ++i) {
+          const int row = rows.of_node(row_node)[i];
+          if (row < 0) continue;
+          entry(result.K, row, column) += element.K(3 * a + i, 3 * b + j);
+          if (i == j) entry(result.M, row, column) += element.M(a, b);
         }
       }
     }
   }
+}
+
+/// Curved elements: integrated in parallel, a batch at a time, and added in their order.
+void assemble_curved(const mesh::LagrangeNodes& nodes, const Material& material, const std::vector<Geometry>& geometry,
+                     const Numbering& rows, Assembled& result) {
+  std::vector<Eigen::Index> curved;
+  for (std::size_t e = 0; e < geometry.size(); ++e) {
+    if (geometry[e].curved) curved.push_back(static_cast<Eigen::Index>(e));
+  }
+  result.curved_elements = static_cast<int>(curved.size());
+  const Lame c = lame(material);
+  const CurvedReference& reference = curved_reference(nodes.order);
+  std::vector<CurvedElement> batch(64);
+  for (std::size_t first = 0; first < curved.size(); first += batch.size()) {
+    const std::size_t count = std::min(batch.size(), curved.size() - first);
+    core::parallel_for(count, [&](std::size_t k) {
+      batch[k] = curved_element(reference, positions_of(nodes, curved[first + k]), c, material.density_kg_m3);
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+      const double jacobian = batch[k].least_jacobian;
+      if (!(jacobian > 0.0)) {
+        throw core::NumericalError("curved tetrahedron " + std::to_string(curved[first + k]) +
+                                   " is turned inside out (det J falls to " + std::to_string(jacobian) +
+                                   " of its mean): use smaller elements or fewer layers along the curve");
+      }
+      result.least_jacobian = std::min(result.least_jacobian, jacobian);
+      add_curved(nodes, rows, curved[first + k], batch[k], result);
+    }
+  }
+}
+
+}  // namespace
+
+Assembled assemble(const mesh::LagrangeNodes& nodes, const Material& material, const std::vector<int>& fixed) {
+  Numbering rows(nodes.positions.rows(), fixed);
+  const std::vector<Geometry> geometry = geometries(nodes);
+  const Lists places = incidences(nodes);
+  const Lists graph = neighbours(nodes, places);
+  Assembled result;
+  reserve(graph, rows, result);
+  const auto count = static_cast<std::size_t>(nodes.positions.rows());
+  constexpr std::size_t pieces = 32;
+  core::parallel_for(pieces, [&](std::size_t p) {
+    assemble_nodes(nodes, material, geometry, places, graph, rows, static_cast<int>(p * count / pieces),
+                   static_cast<int>((p + 1) * count / pieces), result);
+  });
+  assemble_curved(nodes, material, geometry, rows, result);
+  result.free_rows = std::move(rows.free_rows);
   return result;
 }
 

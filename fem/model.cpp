@@ -4,24 +4,26 @@
 
 namespace thinwall::fem {
 
-Model build_model(mesh::TetMesh mesh, int order, const Material& material, const std::vector<int>& fixed) {
+Model build_model(mesh::TetMesh mesh, mesh::LagrangeNodes nodes, const Material& material,
+                  const std::vector<int>& fixed) {
   Model model;
   model.mesh = std::move(mesh);
-  model.nodes = mesh::lagrange_nodes(model.mesh, order);
-  const Assembled all = assemble(model.mesh, model.nodes, material);
-  model.mass = mass_properties(all.M, model.nodes);
+  model.nodes = std::move(nodes);
+  Assembled assembled = assemble(model.nodes, material, fixed);
+  model.mass = mass_properties(assembled.node_mass, model.nodes);
   model.rigid_motions = free_rigid_motions(model.nodes, fixed);
-  std::vector<char> held(static_cast<std::size_t>(all.K.rows()), 0);
-  for (const int row : fixed) held[static_cast<std::size_t>(row)] = 1;
-  for (int row = 0; row < static_cast<int>(held.size()); ++row) {
-    if (held[static_cast<std::size_t>(row)] != 0) continue;
-    model.free_rows.push_back(row);
-    model.node_of_row.push_back(row / 3);
-  }
-  if (model.free_rows.empty()) throw core::InputError("the supports hold every node of the part: nothing can move");
-  model.K = linalg::restrict_to(all.K, model.free_rows);
-  model.M = linalg::restrict_to(all.M, model.free_rows);
+  model.K = std::move(assembled.K);
+  model.M = std::move(assembled.M);
+  model.free_rows = std::move(assembled.free_rows);
+  for (const int row : model.free_rows) model.node_of_row.push_back(row / 3);
+  model.curved_elements = assembled.curved_elements;
+  model.least_jacobian = assembled.least_jacobian;
   return model;
+}
+
+Model build_model(mesh::TetMesh mesh, int order, const Material& material, const std::vector<int>& fixed) {
+  mesh::LagrangeNodes nodes = mesh::lagrange_nodes(mesh, order);
+  return build_model(std::move(mesh), std::move(nodes), material, fixed);
 }
 
 Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> displacements(const Model& model,

@@ -23,10 +23,18 @@ struct Model {
   std::vector<int> node_of_row;  ///< for each row of K its node
   int rigid_motions = 0;         ///< 0 for a held part, 6 for a free one
   MassProperties mass;           ///< from the unconstrained mass matrix
+  int curved_elements = 0;
+  double least_jacobian = 1.0;  ///< smallest det J over its mean in an element
 };
 
-/// Assembles and constrains. `fixed`: rows 3·node + axis with zero displacement, in any order, duplicates allowed.
+/// Assembles and constrains. `mesh`: where points and faces are looked up; `nodes`: the nodes of the elements on it,
+/// which may lie elsewhere than on the straight lattice (a bent part: the mesh is the flat one, in the part's own
+/// coordinates). `fixed`: rows 3·node + axis with zero displacement, in any order, duplicates allowed.
 /// Throws InputError if nothing is left free.
+[[nodiscard]] Model build_model(mesh::TetMesh mesh, mesh::LagrangeNodes nodes, const Material& material,
+                                const std::vector<int>& fixed);
+
+/// The same with straight elements of order 1…6.
 [[nodiscard]] Model build_model(mesh::TetMesh mesh, int order, const Material& material, const std::vector<int>& fixed);
 
 /// Displacements of all nodes (nodes × 3, fixed ones zero) from a vector over the free rows.

@@ -103,7 +103,7 @@ ReferenceElement make(int order) {
   element.order = order;
   element.nodes = static_cast<int>(alphas.size());
   element.mass.resize(element.nodes, element.nodes);
-  element.stiffness.resize(static_cast<Eigen::Index>(element.nodes) * element.nodes, 9);
+  element.stiffness.resize(9, static_cast<Eigen::Index>(element.nodes) * element.nodes);
   for (int b = 0; b < element.nodes; ++b) {
     for (int a = 0; a < element.nodes; ++a) {
       const auto& alpha = alphas[static_cast<std::size_t>(a)];
@@ -116,8 +116,8 @@ ReferenceElement make(int order) {
       }
       for (std::size_t k = 1; k < 4; ++k) {
         for (std::size_t l = 1; l < 4; ++l) {
-          element.stiffness(a + static_cast<Eigen::Index>(element.nodes) * b,
-                            static_cast<Eigen::Index>(3 * (k - 1) + l - 1)) =
+          element.stiffness(static_cast<Eigen::Index>(3 * (k - 1) + l - 1),
+                            a + static_cast<Eigen::Index>(element.nodes) * b) =
               static_cast<double>(d[k][l] - d[0][l] - d[k][0] + d[0][0]);
         }
       }
@@ -139,6 +139,32 @@ Eigen::VectorXd shape_functions(int order, const Eigen::Vector4d& lambda) {
     }
   }
   return N;
+}
+
+Eigen::MatrixX3d shape_slopes(int order, const Eigen::Vector4d& lambda) {
+  // P_m and P_m' at the four coordinates, by the recurrence of their factors.
+  Eigen::Matrix<double, Eigen::Dynamic, 4> P = Eigen::MatrixXd::Ones(order + 1, 4);
+  Eigen::Matrix<double, Eigen::Dynamic, 4> dP = Eigen::MatrixXd::Zero(order + 1, 4);
+  for (int k = 0; k < 4; ++k) {
+    for (int m = 0; m < order; ++m) {
+      const double factor = (order * lambda(k) - m) / (m + 1.0);
+      P(m + 1, k) = P(m, k) * factor;
+      dP(m + 1, k) = dP(m, k) * factor + P(m, k) * order / (m + 1.0);
+    }
+  }
+  const auto alphas = mesh::lattice(order);
+  Eigen::MatrixX3d slopes(static_cast<Eigen::Index>(alphas.size()), 3);
+  for (std::size_t a = 0; a < alphas.size(); ++a) {
+    Eigen::Vector4d d;  // by the four coordinates as if they were independent
+    for (int k = 0; k < 4; ++k) {
+      d(k) = dP(alphas[a][static_cast<std::size_t>(k)], k);
+      for (int other = 0; other < 4; ++other) {
+        if (other != k) d(k) *= P(alphas[a][static_cast<std::size_t>(other)], other);
+      }
+    }
+    slopes.row(static_cast<Eigen::Index>(a)) = d.tail<3>().transpose().array() - d(0);
+  }
+  return slopes;
 }
 
 const ReferenceElement& reference_element(int order) {

@@ -9,15 +9,18 @@ namespace thinwall::fem {
 /// N_a = Π_k P_{α_k}(λ_k), P_m(s) = Π_{i<m} (p s − i)/(i + 1)   (Silvester 1969). Shape (p+1)(p+2)(p+3)/6.
 [[nodiscard]] Eigen::VectorXd shape_functions(int order, const Eigen::Vector4d& lambda);
 
+/// Slopes ∂N_a/∂ξ_k with ξ_k = λ_{k+1}, k = 0…2, λ₀ = 1 − Σξ, at λ. Shape (p+1)(p+2)(p+3)/6 × 3.
+[[nodiscard]] Eigen::MatrixX3d shape_slopes(int order, const Eigen::Vector4d& lambda);
+
 /// Exact integrals over a tetrahedron of volume V, divided by V.
 struct ReferenceElement {
   int order = 0;
   int nodes = 0;
   /// M̂_ab = ∫ N_a N_b dV / V, nodes × nodes.
   Eigen::MatrixXd mass;
-  /// D̂^{kl}_ab = ∫ ∂N_a/∂ξ_k ∂N_b/∂ξ_l dV / V with ξ_k = λ_{k+1}, k, l = 0…2 and λ₀ = 1 − Σξ. Column 3k + l holds
-  /// D̂^{kl}, row a + nodes·b: nodes² × 9, so that the contraction with the gradients is one matrix product.
-  Eigen::MatrixXd stiffness;
+  /// D̂^{kl}_ab = ∫ ∂N_a/∂ξ_k ∂N_b/∂ξ_l dV / V with ξ_k = λ_{k+1}, k, l = 0…2 and λ₀ = 1 − Σξ. Row 3k + l, column a +
+  /// nodes·b: 9 × nodes².
+  Eigen::Matrix<double, 9, Eigen::Dynamic> stiffness;
 };
 
 /// The reference matrices of order 1…6, by ∫ λ^γ dV = 6V Π γ_k! / (|γ| + 3)! on the products of the one-dimensional

@@ -39,16 +39,17 @@ int free_rigid_motions(const mesh::LagrangeNodes& nodes, const std::vector<int>&
   return static_cast<int>((eigen.eigenvalues().array() < 1e-10 * largest).count());
 }
 
-MassProperties mass_properties(const linalg::SparseMatrix& M, const mesh::LagrangeNodes& nodes) {
-  const Eigen::MatrixXd R = rigid_body_motions(nodes);
-  const Eigen::Matrix<double, 6, 6> G = R.transpose() * (M * R);
+MassProperties mass_properties(const linalg::SparseMatrix& node_mass, const mesh::LagrangeNodes& nodes) {
+  Eigen::MatrixX4d P(nodes.positions.rows(), 4);
+  P << Eigen::VectorXd::Ones(P.rows()), nodes.positions;
+  const Eigen::Matrix4d moments = P.transpose() * (node_mass * P);
   MassProperties p;
-  p.mass_kg = G.topLeftCorner<3, 3>().trace() / 3.0;
-  // Column 3 + k of the upper right block is m e_k × c.
-  p.centre_m = Eigen::Vector3d(G(1, 5), G(2, 3), G(0, 4)) / p.mass_kg;
-  const Eigen::Vector3d& c = p.centre_m;
-  p.inertia_kg_m2 =
-      G.bottomRightCorner<3, 3>() - p.mass_kg * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+  p.mass_kg = moments(0, 0);
+  p.centre_m = moments.block<3, 1>(1, 0) / p.mass_kg;
+  // Second moments about the centre; the inertia is their trace on the diagonal less themselves.
+  const Eigen::Matrix3d about_centre =
+      moments.bottomRightCorner<3, 3>() - p.mass_kg * p.centre_m * p.centre_m.transpose();
+  p.inertia_kg_m2 = about_centre.trace() * Eigen::Matrix3d::Identity() - about_centre;
   return p;
 }
 

@@ -24,8 +24,9 @@ struct MassProperties {
   Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();
 };
 
-/// From the mass matrix alone: R = rigid_body_motions, Rᵀ M R = [m I, −m ĉ; m ĉ, J₀]. M: all nodes, unconstrained.
-[[nodiscard]] MassProperties mass_properties(const linalg::SparseMatrix& M, const mesh::LagrangeNodes& nodes);
+/// From the mass matrix alone: with P = [1 x y z] at the nodes, Pᵀ M P holds mass, first and second moments. node_mass:
+/// ∫ ρ N_a N_b dV over all nodes, unconstrained.
+[[nodiscard]] MassProperties mass_properties(const linalg::SparseMatrix& node_mass, const mesh::LagrangeNodes& nodes);
 
 /// Of a homogeneous block 0…size (m), in closed form.
 [[nodiscard]] MassProperties box_mass_properties(const Eigen::Vector3d& size, double density_kg_m3);

@@ -14,9 +14,12 @@ std::vector<int> fixed_rows(const mesh::TetMesh& mesh, const mesh::LagrangeNodes
   return fixed;
 }
 
-Model supported_model(mesh::TetMesh mesh, int order, const Material& material, const std::vector<Support>& supports) {
-  const auto fixed = fixed_rows(mesh, mesh::lagrange_nodes(mesh, order), supports);
-  return build_model(std::move(mesh), order, material, fixed);
+Model supported_model(mesh::TetMesh mesh, int order, const Material& material, const std::vector<Support>& supports,
+                      const Shaping& shape) {
+  mesh::LagrangeNodes nodes = mesh::lagrange_nodes(mesh, order);
+  const auto fixed = fixed_rows(mesh, nodes, supports);
+  if (shape) shape(nodes);
+  return build_model(std::move(mesh), std::move(nodes), material, fixed);
 }
 
 }  // namespace thinwall::fem

@@ -1,6 +1,7 @@
 #pragma once
 // Supports: faces of the part that cannot move.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,12 @@ struct Support {
 [[nodiscard]] std::vector<int> fixed_rows(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes,
                                           const std::vector<Support>& supports);
 
-/// Builds the constrained model of order 1…6 on a mesh.
+/// Moves the nodes of the straight mesh to where they belong, in place: onto the surface of a curved part.
+using Shaping = std::function<void(mesh::LagrangeNodes&)>;
+
+/// Builds the constrained model of order 1…6 on a mesh. Supports are looked up on the mesh, before `shape` (if there is
+/// one) moves its nodes.
 [[nodiscard]] Model supported_model(mesh::TetMesh mesh, int order, const Material& material,
-                                    const std::vector<Support>& supports);
+                                    const std::vector<Support>& supports, const Shaping& shape = {});
 
 }  // namespace thinwall::fem

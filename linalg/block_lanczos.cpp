@@ -86,8 +86,7 @@ struct Krylov {
       }
       const Orthonormal next = orthonormal(G, normalised ? 1e-3 : shortest);
       // The first Gram matrix comes from a difference: good enough to normalise with, unless much cancelled.
-      if (pass == 0 && C.size() > 0 &&
-          (next.smallest < 1e-6 || (G.diagonal().array() < 1e-6 * before.array()).any())) {
+      if (pass == 0 && C.size() > 0 && (next.smallest < 1e-6 || (G.diagonal().array() < 1e-6 * before.array()).any())) {
         continue;
       }
       W = tall_product(W, next.Z);
@@ -99,7 +98,8 @@ struct Krylov {
   }
 
   void append(const MatrixXd& Q) {
-    if (columns + Q.cols() > V.cols()) V.conservativeResize(Eigen::NoChange, std::max(2 * V.cols(), columns + Q.cols()));
+    if (columns + Q.cols() > V.cols())
+      V.conservativeResize(Eigen::NoChange, std::max(2 * V.cols(), columns + Q.cols()));
     V.middleCols(columns, Q.cols()) = Q;
     columns += Q.cols();
   }
@@ -123,7 +123,7 @@ struct Krylov {
 };
 
 struct Ritz {
-  VectorXd theta;     // descending
+  VectorXd theta;  // descending
   MatrixXd S;
   VectorXd residual;  // relative, of the inverse
 };

@@ -25,7 +25,8 @@ struct Cholmod {
   static constexpr auto factorize = wide ? &cholmod_l_factorize : &cholmod_factorize;
 };
 
-/// A symmetric matrix as CHOLMOD sees it, its lower triangle: values not copied, indices only where they must be widened.
+/// A symmetric matrix as CHOLMOD sees it, its lower triangle: values not copied, indices only where they must be
+/// widened.
 template <class Index>
 class CholmodView {
  public:

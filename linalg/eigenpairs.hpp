@@ -29,9 +29,9 @@ struct [[nodiscard]] Eigenpairs {
   EigenStatus status = EigenStatus::converged;
 };
 
-/// The `count` eigenpairs next above σ, by block_lanczos(). K, M: n × n; M positive definite on the range of the inverse;
-/// σ below the wanted eigenvalues; 1 ≤ count < n. Throws InputError for another count. Cost: some eight solves of eight
-/// right-hand sides for ten pairs.
+/// The `count` eigenpairs next above σ, by block_lanczos(). K, M: n × n; M positive definite on the range of the
+/// inverse; σ below the wanted eigenvalues; 1 ≤ count < n. Throws InputError for another count. Cost: some eight solves
+/// of eight right-hand sides for ten pairs.
 Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, int count);
 
 /// All eigenpairs with λ ≤ lambda_max, by the same method, which goes on until it has found one beyond.

@@ -63,8 +63,8 @@ std::vector<idx_t> dissected(NodeGraph& graph) {
   const int status = METIS_NodeND(&nodes, graph.start.data(), graph.neighbours.data(), graph.weights.data(), options,
                                   order.data(), position.data());
   if (status != METIS_OK) {
-    throw core::NumericalError("METIS could not order a graph of " + std::to_string(nodes) +
-                               " nodes (status " + std::to_string(status) + "): use larger elements");
+    throw core::NumericalError("METIS could not order a graph of " + std::to_string(nodes) + " nodes (status " +
+                               std::to_string(status) + "): use larger elements");
   }
   return order;
 }

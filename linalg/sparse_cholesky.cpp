@@ -23,8 +23,8 @@ double seconds_since(Clock::time_point start) {
 
 template <class Index>
 Supernodes<Index> supernodes(const cholmod_factor& L) {
-  return {static_cast<Index>(L.nsuper),         static_cast<const Index*>(L.super), static_cast<const Index*>(L.pi),
-          static_cast<const Index*>(L.px),      static_cast<const Index*>(L.s),     static_cast<const double*>(L.x)};
+  return {static_cast<Index>(L.nsuper),    static_cast<const Index*>(L.super), static_cast<const Index*>(L.pi),
+          static_cast<const Index*>(L.px), static_cast<const Index*>(L.s),     static_cast<const double*>(L.x)};
 }
 
 /// Columns first … first + width − 1 of X = A⁻¹ B (those that there are), permuted on the way in and out.

@@ -48,7 +48,8 @@ void multiply(const double* V, Index v_stride, const MatrixXd& C, Index count, d
               size(v_stride), C.data(), size(C.outerStride()), s, W, size(w_stride));
 }
 
-/// `width` columns of Y = A X at once: for every entry of A one row of X is gathered, so that row must lie in one place.
+/// `width` columns of Y = A X at once: for every entry of A one row of X is gathered, so that row must lie in one
+/// place.
 template <int width>
 void strip_product(const SparseMatrix& A, const Eigen::Ref<const MatrixXd>& X, Index column, MatrixXd& Y) {
   using Strip = Eigen::Matrix<double, width, 1>;

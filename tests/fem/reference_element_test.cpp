@@ -11,7 +11,8 @@ namespace thinwall::fem {
 namespace {
 
 Eigen::MatrixXd derivative_product(const ReferenceElement& element, int k, int l) {
-  return Eigen::Map<const Eigen::MatrixXd>(element.stiffness.col(3 * k + l).data(), element.nodes, element.nodes);
+  const Eigen::VectorXd entries = element.stiffness.row(3 * k + l);
+  return entries.reshaped(element.nodes, element.nodes);
 }
 
 TEST(ShapeFunctions, AreOneAtTheirNodeAndNoughtAtTheOthers) {

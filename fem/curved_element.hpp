@@ -1,0 +1,40 @@
+#pragma once
+// The Lagrange tetrahedron of order p whose nodes lie anywhere: geometry and displacement of the same order.
+
+#include <Eigen/Core>
+#include <array>
+
+#include "fem/material.hpp"
+
+namespace thinwall::fem {
+
+/// Shape functions and their gradients at the points of a quadrature, the same for every element of an order.
+struct CurvedReference {
+  int order = 0;
+  Eigen::VectorXd weight;                 ///< sums to one
+  Eigen::MatrixXd values;                 ///< nodes × points
+  std::array<Eigen::MatrixXd, 3> slopes;  ///< ∂N/∂ξ_k at the points, ξ_k = λ_{k+1}: nodes × points
+};
+
+/// For order 1…6, with order + 2 points a direction: exact to degree 2p + 3, which covers the 3p − 3 that a constant
+/// strain needs to be reproduced on any curved element up to order 6. Computed once an order; thread-safe.
+[[nodiscard]] const CurvedReference& curved_reference(int order);
+
+/// Stiffness and mass of one element.
+struct CurvedElement {
+  Eigen::MatrixXd K;            ///< 3n × 3n, row 3a + i
+  Eigen::MatrixXd M;            ///< n × n, of one axis
+  double least_jacobian = 0.0;  ///< smallest det J over its mean at the points; ≤ 0: turned inside out
+};
+
+/// With x(ξ) = Σ N_a x_a, J = ∂x/∂ξ, ∇N = J⁻ᵀ ∂N/∂ξ:
+///
+///     S^{ij}_ab = Σ_q w_q det J_q ∂_i N_a ∂_j N_b / 6,   M_ab = ρ Σ_q w_q det J_q N_a N_b / 6,
+///     K[ai, bj] = λ S^{ij}_ab + μ S^{ji}_ab + μ δ_ij Σ_m S^{mm}_ab
+///
+/// nodes: n × 3, m. Cost 12 n² · points flops.
+[[nodiscard]] CurvedElement curved_element(const CurvedReference& reference,
+                                           const Eigen::Matrix<double, Eigen::Dynamic, 3>& nodes, const Lame& lame,
+                                           double density_kg_m3);
+
+}  // namespace thinwall::fem

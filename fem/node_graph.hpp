@@ -1,0 +1,30 @@
+#pragma once
+// Which elements and which nodes meet at a node.
+
+#include <cstddef>
+#include <vector>
+
+#include "mesh/lagrange_nodes.hpp"
+
+namespace thinwall::fem {
+
+/// Lists of integers of different lengths, one after the other.
+struct Lists {
+  std::vector<std::ptrdiff_t> start;  ///< count + 1
+  std::vector<int> items;
+
+  [[nodiscard]] std::ptrdiff_t length(int list) const {
+    return start[static_cast<std::size_t>(list) + 1] - start[static_cast<std::size_t>(list)];
+  }
+  [[nodiscard]] const int* begin(int list) const { return items.data() + start[static_cast<std::size_t>(list)]; }
+  [[nodiscard]] const int* end(int list) const { return items.data() + start[static_cast<std::size_t>(list) + 1]; }
+};
+
+/// For each node its places in the elements, element · nodes-per-element + local node, ascending.
+[[nodiscard]] Lists incidences(const mesh::LagrangeNodes& nodes);
+
+/// For each node the nodes it shares an element with, itself included, ascending. On all threads. Cost O(tets ·
+/// nodes²).
+[[nodiscard]] Lists neighbours(const mesh::LagrangeNodes& nodes, const Lists& incidences);
+
+}  // namespace thinwall::fem

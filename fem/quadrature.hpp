@@ -1,0 +1,18 @@
+#pragma once
+// Quadrature on the tetrahedron.
+
+#include <Eigen/Core>
+
+namespace thinwall::fem {
+
+/// Points in barycentric coordinates and weights that sum to one: ∫ f dV ≈ V Σ w f(λ).
+struct TetQuadrature {
+  Eigen::Matrix<double, 4, Eigen::Dynamic> lambda;
+  Eigen::VectorXd weight;
+};
+
+/// Conical product of Gauss-Jacobi rules (Stroud 1971), `points` a direction, points³ in all: exact for polynomials of
+/// degree 2·points − 1; all weights positive, all points inside. 1 ≤ points ≤ 20.
+[[nodiscard]] TetQuadrature tet_quadrature(int points);
+
+}  // namespace thinwall::fem
