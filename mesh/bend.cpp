@@ -78,7 +78,7 @@ Eigen::Matrix3d rotation_at(const Bend& bend, const Eigen::Vector3d& x) {
   return rotation;
 }
 
-void bend_positions(const Bend& bend, Positions& positions) {
+void bend(const Bend& bend, Positions& positions) {
   std::string all;
   for (const auto& violation : violations(bend, positions)) all += (all.empty() ? "" : "; ") + violation;
   if (!all.empty()) throw core::InputError(all);

@@ -39,6 +39,6 @@ struct Bend {
 
 /// Moves all positions, such as LagrangeNodes::positions of a flat mesh: elements of order p then follow the cylinder
 /// at their nodes. Throws InputError with all violations in one line. Cost O(positions).
-void bend_positions(const Bend& bend, Positions& positions);
+void bend(const Bend& bend, Positions& positions);
 
 }  // namespace thinwall::mesh

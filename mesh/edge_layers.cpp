@@ -106,7 +106,7 @@ void fit_corner(std::vector<BorderSide>& sides, const BorderGraph& graph, Border
   }
   const double excess = std::max(foot / length(graph, side), next_foot / length(graph, next)) / 0.4;
   if (excess <= 1.0) return;
-  const double factor = excess > 20.0 ? 0.0 : 1.0 / excess;
+  const double factor = excess > 5.0 ? 0.0 : 1.0 / excess;
   side.width *= factor;
   next.width *= factor;
 }

@@ -35,12 +35,13 @@ struct Station {
   Eigen::Vector2d offset;  ///< to the row at distance one
 };
 
-/// Feet of the rows at one end of a side, measured from that end; negative past it. Empty at a smooth end.
+/// Feet of the rows at one end of a side, measured from that end; negative past it. Empty at a smooth end, and where
+/// the other border of the corner has no layers: there the rows end on that border.
 std::vector<double> feet(const Layout& layout, const BorderSide& side, bool at_end) {
   const BorderSide& corner = at_end ? side : side_at(layout, side.previous);
   const BorderSide& other = side_at(layout, at_end ? side.next : side.previous);
   std::vector<double> result;
-  if (smooth(corner) || (side.width == 0.0 && other.width == 0.0)) return result;
+  if (smooth(corner) || other.width == 0.0) return result;
   for (const double distance : layout.unit)
     result.push_back(corner_foot(corner.angle, distance * side.width, distance * other.width));
   return result;
@@ -109,6 +110,16 @@ double width_at(const Layout& layout, const BorderSide& side, double s) {
   return (1.0 - t) * end_width(false) + t * end_width(true);
 }
 
+/// The station at a corner: straight inwards, or along the other border where that has no layers.
+Station corner_station(const Layout& layout, const BorderSide& side, bool at_end) {
+  const double angle = (at_end ? side : side_at(layout, side.previous)).angle;
+  const BorderSide& other = side_at(layout, at_end ? side.next : side.previous);
+  Station station{at_end ? length(layout.graph, side) : 0.0, side.width, inward(layout.graph, side)};
+  if (other.width > 0.0 || angle > 0.95 * std::numbers::pi || angle < 0.05 * std::numbers::pi) return station;
+  station.offset = (at_end ? 1.0 : -1.0) * direction(layout.graph, other) / std::sin(angle);
+  return station;
+}
+
 std::vector<Station> row_stations(const Layout& layout, const BorderSide& side, std::vector<double> on_border) {
   const double span = length(layout.graph, side);
   const Eigen::Vector2d inside = inward(layout.graph, side);
@@ -117,7 +128,7 @@ std::vector<Station> row_stations(const Layout& layout, const BorderSide& side, 
     if (smooth(at_end ? side : side_at(layout, side.previous))) {
       stations.push_back(joint(layout, side, at_end));
     } else {
-      on_border.push_back(at_end ? span : 0.0);
+      stations.push_back(corner_station(layout, side, at_end));
       for (const double foot : feet(layout, side, at_end)) {
         if (foot < -layout.tolerance) on_border.push_back(at_end ? span - foot : foot);
       }
@@ -227,9 +238,9 @@ void add_rows(const Layout& layout, const BorderSide& side, const std::vector<do
 /// From each convex corner to its innermost mitre, so that no triangle has both borders of the corner.
 void add_mitres(const Layout& layout, Sketch& sketch) {
   for (const auto& side : layout.sides) {
-    if (side.angle >= std::numbers::pi || smooth(side) || side.width == 0.0) continue;
-    const double foot = feet(layout, side, true).front();
-    const Eigen::Vector2d p = point(layout, side.to) - foot * direction(layout.graph, side) +
+    const auto own = feet(layout, side, true);
+    if (side.angle >= std::numbers::pi || side.width == 0.0 || own.empty()) continue;
+    const Eigen::Vector2d p = point(layout, side.to) - own.front() * direction(layout.graph, side) +
                               side.width * layout.unit.front() * inward(layout.graph, side);
     add_segment(sketch, side.to, find_point(sketch, p, layout.tolerance), layout.tolerance);
   }

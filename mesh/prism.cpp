@@ -95,19 +95,18 @@ void check_holes(const Prism& prism, double gap, Findings& found) {
   const std::string remedy = "; leave more than " + in_mm(gap) + " of material";
   for (std::size_t i = 0; i < prism.holes.size(); ++i) {
     const Polygon& hole = prism.holes[i];
-    std::string name = named("hole", i);
-    name += " at " + in_mm(hole[0]);
+    const auto report = [&](const std::string& fault) {
+      found.push_back(named("hole", i) + " at " + in_mm(hole[0]) + fault);
+    };
     if (border_distance(hole, prism.outline) <= gap) {
-      found.push_back(name + " touches or crosses the outline" + remedy);
+      report(" touches or crosses the outline" + remedy);
     } else if (!contains(prism.outline, hole[0])) {
-      found.push_back(name + " lies outside the outline; move it inside or drop it");
+      report(" lies outside the outline; move it inside or drop it");
     }
     for (std::size_t j = 0; j < i; ++j) {
       const Polygon& other = prism.holes[j];
       if (border_distance(hole, other) > gap && !contains(hole, other[0]) && !contains(other, hole[0])) continue;
-      std::string text = name + " touches, crosses or contains ";
-      text += named("hole", j) + remedy + ", or join them to one hole";
-      found.push_back(std::move(text));
+      report(" touches, crosses or contains " + named("hole", j) + remedy + ", or join them to one hole");
     }
   }
 }

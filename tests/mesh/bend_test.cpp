@@ -24,7 +24,7 @@ TEST(Bend, FacesOfABentPlateLieOnTwoCylinders) {
     const Bend bend{radius, 0, 2, 0.1, 0.003};
     const Positions flat = flat_nodes();
     Positions curved = flat;
-    bend_positions(bend, curved);
+    mesh::bend(bend, curved);
     for (Eigen::Index i = 0; i < flat.rows(); ++i) {
       const double r = std::hypot(curved(i, 0) - 0.1, curved(i, 2) - (0.003 - radius));
       EXPECT_NEAR(r, std::abs(radius + flat(i, 2) - 0.003), 1e-15);
@@ -70,7 +70,7 @@ TEST(Bend, JacobianIsTheRotationTimesTheStretchOfTheArc) {
 TEST(Bend, LargeRadiusLeavesThePlateFlat) {
   Positions nodes = flat_nodes();
   const Positions flat = nodes;
-  bend_positions({1e9, 0, 2, 0.0, 0.003}, nodes);
+  bend({1e9, 0, 2, 0.0, 0.003}, nodes);
   // Sag s² / 2R = 1e-10, stretch s w / R = 1.4e-12.
   EXPECT_LT((nodes - flat).cwiseAbs().maxCoeff(), 1.1 * 0.45 * 0.45 / 2e9);
 }
@@ -79,7 +79,7 @@ TEST(Bend, ImpossibleBendsAreRefused) {
   const auto refused = [](const Bend& bend, const std::string& what) {
     Positions nodes = flat_nodes();
     try {
-      bend_positions(bend, nodes);
+      mesh::bend(bend, nodes);
       FAIL() << "accepted: " << what;
     } catch (const core::InputError& error) {
       EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();

@@ -200,6 +200,25 @@ TEST(PrismMesh, ElementsAreAsSmallAsASpotThereAndNotFurtherAway) {
   }
 }
 
+/// A wall along an arc, cut off square: the rows at its ends meet its faces at nearly a right angle, where feet beside
+/// the corners would make needles. A needle of an outline and a slit have no room for rows at their tips.
+TEST(PrismMesh, OddCornersMakeNoNeedles) {
+  Polygon arc;
+  for (int i = 0; i < 66; ++i) {
+    const double angle = std::numbers::pi / 96 * (i < 33 ? i : 65 - i);
+    arc.emplace_back((i < 33 ? 0.1 : 0.097) * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+  }
+  const Polygon wedge{{0, 0}, {0.3, 0}, {0.3, 0.02}};
+  const Polygon slit{{0, 0}, {0.1, 0}, {0.1, 0.06}, {0.051, 0.06}, {0.05, 0.02}, {0.049, 0.06}, {0, 0.06}};
+  // Flat elements, 20 to 40 mm long and 3 to 6 mm thick, have ratios up to 4 · 40 / 6.
+  for (const auto& [outline, top] : {std::pair{arc, 0.04}, std::pair{wedge, 0.006}, std::pair{slit, 0.003}}) {
+    const Prism prism{outline, {}, 0.0, top, {}};
+    const TetMesh mesh = mesh_prism(prism, sized(outline.size() == 66 ? 0.02 : 0.04));
+    EXPECT_LT(quality(mesh).aspect_ratio, 4.0 * 40.0 / 6.0);
+    expect_sound(mesh, std::abs(signed_area(outline)) * top);
+  }
+}
+
 TEST(PrismMesh, MeshIsTheSameEveryTime) {
   const Prism prism = turned(pocket_corner(), 0.3);
   const TetMesh a = mesh_prism(prism, sized(0.012));
