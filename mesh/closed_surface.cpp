@@ -136,6 +136,7 @@ std::vector<std::array<int, 2>> self_intersections(const TriangleSurface& surfac
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> found;
   CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(found));
   std::vector<std::array<int, 2>> result;
+  result.reserve(found.size());
   for (const auto& [a, b] : found) result.push_back({static_cast<int>(a.idx()), static_cast<int>(b.idx())});
   return result;
 }

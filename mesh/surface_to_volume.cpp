@@ -104,6 +104,28 @@ SurfaceMeshed judged(TetMesh mesh, const TriangleSurface& surface, const Surface
   return result;
 }
 
+SurfaceMeshed first_that_works(const TriangleSurface& surface, const SurfaceMeshOptions& options,
+                               const std::vector<VolumeMesher>& meshers) {
+  std::vector<std::string> failures;
+  for (const auto& mesher : meshers) {
+    core::check_interrupt();
+    try {
+      SurfaceMeshed result = judged(mesher.run(surface), surface, options);
+      result.mesher = mesher.name;
+      result.failures = std::move(failures);
+      result.surface_distance_m =
+          surface_distance(boundary_surface(result.mesh), surface, diagonal(surface) / samples_per_diagonal);
+      return result;
+    } catch (const core::NumericalError& error) {
+      failures.push_back(mesher.name + ": " + error.what());
+    }
+  }
+  std::string all;
+  for (const auto& failure : failures) all += (all.empty() ? "" : "; ") + failure;
+  throw core::NumericalError("no mesher could fill the surface (" + all +
+                             "); try a smaller size, or mend the surface where it is nearly touching itself");
+}
+
 }  // namespace
 
 double smallest_shape(const TetMesh& mesh) {
@@ -151,31 +173,14 @@ SurfaceMeshed mesh_closed_surface(const FacetedSurface& surface, const SurfaceMe
 SurfaceMeshed mesh_closed_surface(const TriangleSurface& surface, const SurfaceMeshOptions& options) {
   validate(options);
   require_closed(surface);
-  return mesh_closed_surface(surface, options, volume_meshers(surface, options));
+  return first_that_works(surface, options, volume_meshers(surface, options));
 }
 
 SurfaceMeshed mesh_closed_surface(const TriangleSurface& surface, const SurfaceMeshOptions& options,
                                   const std::vector<VolumeMesher>& meshers) {
   validate(options);
   require_closed(surface);
-  std::vector<std::string> failures;
-  for (const auto& mesher : meshers) {
-    core::check_interrupt();
-    try {
-      SurfaceMeshed result = judged(mesher.run(surface), surface, options);
-      result.mesher = mesher.name;
-      result.failures = std::move(failures);
-      result.surface_distance_m =
-          surface_distance(boundary_surface(result.mesh), surface, diagonal(surface) / samples_per_diagonal);
-      return result;
-    } catch (const core::NumericalError& error) {
-      failures.push_back(mesher.name + ": " + error.what());
-    }
-  }
-  std::string all;
-  for (const auto& failure : failures) all += (all.empty() ? "" : "; ") + failure;
-  throw core::NumericalError("no mesher could fill the surface (" + all +
-                             "); try a smaller size, or mend the surface where it is nearly touching itself");
+  return first_that_works(surface, options, meshers);
 }
 
 }  // namespace thinwall::mesh
