@@ -1,5 +1,8 @@
 #include "fem/model.hpp"
 
+#include <cmath>
+#include <string>
+
 #include "core/error.hpp"
 
 namespace thinwall::fem {
@@ -43,10 +46,30 @@ std::vector<int> rows_of(const std::vector<int>& nodes, const std::vector<int>& 
   return rows;
 }
 
-Factored factorise(const Model& model) {
-  if (model.rigid_motions == 0) return {linalg::SparseCholesky(model.K, model.node_of_row), 0.0};
-  const double sigma = -1e-8 * model.K.diagonal().sum() / model.M.diagonal().sum();
-  return {linalg::SparseCholesky(linalg::combine(1.0, model.K, -sigma, model.M), model.node_of_row), sigma};
+namespace {
+
+/// nnz(L) of a solid grows as n^{4/3} (George 1973), n as h^{-3}: the size that fits follows.
+[[noreturn]] void too_large(const Model& model, const linalg::MemoryLimitError& error) {
+  const double fitting = std::pow(error.limit_bytes / error.needed_bytes, 0.75);
+  const auto rounded = [](double x) { return std::to_string(static_cast<long>(std::lround(x))); };
+  throw linalg::MemoryLimitError(
+      std::string(error.what()) + ": about " + rounded(fitting * static_cast<double>(model.K.rows())) +
+          " of these " + std::to_string(model.K.rows()) + " degrees of freedom fit; make the elements " +
+          rounded(std::ceil(100.0 * (std::cbrt(1.0 / fitting) - 1.0))) + " % larger, or lower the order",
+      error.needed_bytes, error.limit_bytes);
+}
+
+}  // namespace
+
+Factored factorise(const Model& model, double memory_limit_bytes) {
+  const linalg::FactorOptions options{.memory_limit_bytes = memory_limit_bytes};
+  try {
+    if (model.rigid_motions == 0) return {linalg::SparseCholesky(model.K, model.node_of_row, options), 0.0};
+    const double sigma = -1e-8 * model.K.diagonal().sum() / model.M.diagonal().sum();
+    return {linalg::SparseCholesky(linalg::combine(1.0, model.K, -sigma, model.M), model.node_of_row, options), sigma};
+  } catch (const linalg::MemoryLimitError& error) {
+    too_large(model, error);
+  }
 }
 
 linalg::ShiftedInverse inverse_of(const Factored& factored) {

@@ -48,12 +48,13 @@ struct Model {
 /// negative shift σ = −1e-8 tr K / tr M, which scales with units, size and material. The round-off of a solve grows
 /// with λ_max/|σ|, so that a smaller shift costs accuracy, and a much larger one slows the iteration. On the free 450 ×
 /// 100 × 6 mm plate with 6 mm elements of order 2 it is 0.9 of the first elastic eigenvalue; the inverse residual is
-/// 2e-10.
+/// 2e-10. Throws MemoryLimitError before the factor is allocated if it would take more than the limit (bytes; 0: none),
+/// and says what mesh would fit.
 struct Factored {
   linalg::SparseCholesky factor;
   double sigma = 0.0;
 };
-[[nodiscard]] Factored factorise(const Model& model);
+[[nodiscard]] Factored factorise(const Model& model, double memory_limit_bytes = 0.0);
 
 /// The inverse of a factor as linalg's eigen-solver wants it. Keeps a reference.
 [[nodiscard]] linalg::ShiftedInverse inverse_of(const Factored& factored);

@@ -1,0 +1,128 @@
+#include "fem/to_tolerance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace thinwall::fem {
+
+namespace {
+
+/// One solution with what is compared between orders.
+struct Solution {
+  Model model;
+  Factored factored;
+  Modes modes;
+  Eigen::MatrixXd amplitudes;   // Wᵀ Φ
+  Eigen::MatrixXd flexibility;  // Wᵀ (K − σM)⁻¹ W
+};
+
+linalg::SparseMatrix point_loads(const Model& model, const std::vector<NamedPoint>& points) {
+  std::vector<Eigen::Triplet<double>> entries;
+  int columns = 0;
+  for (const NamedPoint& point : points) {
+    const linalg::SparseMatrix w = point_columns(model, point);
+    for (Eigen::Index j = 0; j < w.cols(); ++j, ++columns) {
+      for (linalg::SparseMatrix::InnerIterator it(w, j); it; ++it)
+        entries.emplace_back(static_cast<int>(it.row()), columns, it.value());
+    }
+  }
+  linalg::SparseMatrix W(model.K.rows(), columns);
+  W.setFromTriplets(entries.begin(), entries.end());
+  return W;
+}
+
+Solution solve(const SolidPart& part, const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
+  Model model = supported_model(mesh, order, part.material, part.supports, part.shape);
+  Factored factored = factorise(model, options.memory_limit_bytes);
+  Modes found = modes(model, factored, options.modes);
+  Solution s{std::move(model), std::move(factored), std::move(found), {}, {}};
+  if (options.points.empty()) return s;
+  const linalg::SparseMatrix W = point_loads(s.model, options.points);
+  s.amplitudes = W.transpose() * s.modes.pairs.Phi;
+  s.flexibility = W.transpose() * s.factored.factor.solve(Eigen::MatrixXd(W));
+  return s;
+}
+
+/// Largest relative change of the elastic frequencies that both have.
+double frequency_change(const Modes& a, const Modes& b) {
+  const Eigen::Index elastic = std::min(a.frequency_hz.size(), b.frequency_hz.size()) - b.rigid_motions;
+  if (elastic <= 0) return std::numeric_limits<double>::infinity();
+  const auto fa = a.frequency_hz.segment(a.rigid_motions, elastic).array();
+  const auto fb = b.frequency_hz.segment(b.rigid_motions, elastic).array();
+  return ((fa - fb) / fb).abs().maxCoeff();
+}
+
+/// H(ω²) = Σ a aᵀ / (λ − ω²), with what the other modes add taken at the shift.
+Eigen::MatrixXd receptance(const Solution& s, double omega_squared) {
+  const Eigen::ArrayXd lambda = s.modes.pairs.lambda.array();
+  const Eigen::VectorXd share = (lambda - omega_squared).inverse() - (lambda - s.factored.sigma).inverse();
+  return s.flexibility + s.amplitudes * share.asDiagonal() * s.amplitudes.transpose();
+}
+
+/// Values of ω² away from resonances, the shift first.
+std::vector<double> quiet_places(const Modes& modes, double sigma) {
+  std::vector<double> places{sigma};
+  for (Eigen::Index k = std::max(modes.rigid_motions, 0); k + 1 < modes.frequency_hz.size(); ++k) {
+    if (modes.frequency_hz(k) <= 0.0 || modes.frequency_hz(k + 1) < 1.25 * modes.frequency_hz(k)) continue;
+    const double middle = std::numbers::pi * (modes.frequency_hz(k) + modes.frequency_hz(k + 1));
+    places.push_back(middle * middle);
+    if (places.size() == 6) break;
+  }
+  return places;
+}
+
+double receptance_change(const Solution& a, const Solution& b) {
+  double worst = 0.0;
+  for (const double place : quiet_places(b.modes, b.factored.sigma)) {
+    // Each at its own shift: σ scales with the matrices, which differ a little between orders.
+    const Eigen::MatrixXd Ha = receptance(a, place == b.factored.sigma ? a.factored.sigma : place);
+    const Eigen::MatrixXd Hb = receptance(b, place);
+    worst = std::max(worst, (Ha - Hb).cwiseAbs().maxCoeff() / Hb.cwiseAbs().maxCoeff());
+  }
+  return worst;
+}
+
+void validate(const ToleranceOptions& o) {
+  if (!(o.tolerance >= 1e-6 && o.tolerance <= 0.1)) {
+    throw core::InputError("a tolerance of " + std::to_string(o.tolerance) +
+                           " is outside 1e-6 to 0.1: 0.001 is one part in a thousand of a frequency");
+  }
+  if (o.first_order < 1 || o.last_order <= o.first_order || o.last_order > 6 || o.levels < 1)
+    throw core::InputError("orders must rise within 1 to 6, on at least one level");
+}
+
+}  // namespace
+
+Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& options) {
+  validate(options);
+  std::vector<RefinementStep> steps;
+  for (int level = 0;; ++level) {
+    const mesh::TetMesh mesh = part.mesh(level);
+    const bool last_level = level + 1 == options.levels;
+    Solution below = solve(part, mesh, options.first_order, options);
+    steps.push_back({level, options.first_order, below.model.K.rows(), {}, {}});
+    for (int order = options.first_order + 1; order <= options.last_order; ++order) {
+      Solution now = solve(part, mesh, order, options);
+      const double frequency = frequency_change(below.modes, now.modes);
+      const double receptance = options.points.empty() ? 0.0 : receptance_change(below, now);
+      steps.push_back({level, order, now.model.K.rows(), frequency, {}});
+      if (!options.points.empty()) steps.back().receptance_change = receptance;
+      const double worst = std::max(frequency, receptance);
+      const bool met = worst <= options.tolerance;
+      if (met || (last_level && order == options.last_order)) {
+        return {std::move(now.model), std::move(now.factored), std::move(now.modes), frequency, receptance, met,
+                std::move(steps)};
+      }
+      // An order brings a factor of about ten; more than that needs smaller elements.
+      if (!last_level && worst > 30.0 * options.tolerance) break;
+      below = std::move(now);
+    }
+  }
+}
+
+}  // namespace thinwall::fem

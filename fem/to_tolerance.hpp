@@ -1,0 +1,62 @@
+#pragma once
+// Order and element size from a tolerance: an hp hierarchy that ends when its own estimate says so.
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "fem/modes.hpp"
+#include "fem/points.hpp"
+#include "fem/supports.hpp"
+
+namespace thinwall::fem {
+
+/// What is to be solved. `mesh(level)` makes meshes with more and smaller elements as the level rises from 0; `shape`
+/// moves their nodes onto a curved part, or is empty.
+struct SolidPart {
+  std::function<mesh::TetMesh(int level)> mesh;
+  Shaping shape;
+  Material material;
+  std::vector<Support> supports;
+};
+
+struct ToleranceOptions {
+  double tolerance = 1e-3;  ///< on frequencies and receptances, relative; 1e-6 to 0.1
+  ModeOptions modes;
+  std::vector<NamedPoint> points;  ///< where receptances count
+  int first_order = 4;             ///< of a level; 1 to 5
+  int last_order = 6;              ///< of a level; above first_order, to 6
+  int levels = 4;
+  double memory_limit_bytes = 0.0;  ///< of a factor; 0: none
+};
+
+/// One solution on the way: its size, and how far the one before it on the same mesh was from it.
+struct RefinementStep {
+  int level = 0;
+  int order = 0;
+  Eigen::Index dofs = 0;
+  std::optional<double> frequency_change;   ///< largest relative; none for the first order of a level
+  std::optional<double> receptance_change;  ///< likewise; none without points
+};
+
+/// The last solution, with the estimate of its error: its difference from the solution one order below on the same
+/// mesh. That is the error of the lower one, which the last is well below wherever raising the order helps.
+struct [[nodiscard]] Refined {
+  Model model;
+  Factored factored;
+  Modes modes;
+  double frequency_estimate = 0.0;
+  double receptance_estimate = 0.0;
+  bool tolerance_met = false;  ///< false: all levels were used, or the next step would exceed the memory limit
+  std::vector<RefinementStep> steps;
+};
+
+/// Raises the order on a mesh from first_order; where the estimate is still above the tolerance at last_order, or too far
+/// above for an order to help, goes to the next level (Babuska & Guo 1992: exponential convergence with elements graded
+/// to edges and rising order). Receptances between the points are compared at zero (or at the shift of a free part) and
+/// between resonances that lie more than a quarter apart; nearer to a resonance they magnify the error of its frequency.
+/// Throws InputError for options out of range, and what the steps throw. Cost: that of the last step, and about a half
+/// more for those before.
+Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& options);
+
+}  // namespace thinwall::fem
