@@ -46,7 +46,7 @@ void measure(int cells, int order) {
   bench::Stopwatch watch;
   const mesh::LagrangeNodes nodes = mesh::lagrange_nodes(mesh, order);
   const double nodes_s = watch.lap();
-  const fem::Assembled all = fem::assemble(mesh, nodes, {210e9, 0.3, 7850.0});
+  const fem::Assembled all = fem::assemble(nodes, {210e9, 0.3, 7850.0});
   const double assembly_s = watch.lap();
   std::printf("order %d: %8zu tets, %8td DOFs, nodes %6.2f s, assembly of K and M %6.2f s, K holds %td, peak %.2f GB\n",
               order, mesh.tets.size(), all.K.rows(), nodes_s, assembly_s, all.K.nonZeros(),

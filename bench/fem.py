@@ -42,7 +42,8 @@ def positive(kind):
 
 def add_command(commands):
     parser = commands.add_parser("fem", help="mesh to modes, beside CalculiX and SLEPc with MUMPS", description=__doc__)
-    parser.add_argument("--sizes", type=names_of(SIZES), default=list(SIZES), metavar="LIST", help="of 40k,170k,420k,1M")
+    parser.add_argument("--sizes", type=names_of(SIZES), default=list(SIZES), metavar="LIST",
+                        help="of 40k,170k,420k,1M")
     parser.add_argument("--peers", type=names_of(["ccx", "slepc"]), default=["ccx", "slepc"], metavar="LIST",
                         help="of ccx,slepc; '' for none")
     parser.add_argument("--out", type=pathlib.Path, metavar="FILE", help="write all figures as JSON")
@@ -50,7 +51,8 @@ def add_command(commands):
                         help="runs of each program, the median is shown (3, and 1 from 420k on)")
     parser.add_argument("--modes", type=positive(int), default=10, metavar="N")
     parser.add_argument("--threads", type=positive(int), default=2, metavar="N", help="of every program")
-    parser.add_argument("--time-limit", type=positive(float), default=600.0, metavar="S", help="of one run, seconds (600)")
+    parser.add_argument("--time-limit", type=positive(float), default=600.0, metavar="S",
+                        help="of one run, seconds (600)")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "bench", metavar="DIR")
     parser.add_argument("--work", type=pathlib.Path, metavar="DIR", help="keep meshes, matrices and outputs here")
     parser.set_defaults(run=run)
@@ -63,7 +65,8 @@ def build(folder):
     if not (folder / "CMakeCache.txt").exists():
         configure += ["-G", "Ninja"]
     for command in (configure, ["cmake", "--build", folder, "--target", "bench_fem"]):
-        done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True)
         if done.returncode != 0:
             print(done.stdout[-8000:], file=sys.stderr)
             raise SystemExit(f"bench/run: {' '.join(map(str, command))} failed")
@@ -71,8 +74,8 @@ def build(folder):
 
 
 def make_mesh(programs, folder, element_size_m, settings):
-    done = processes.run([programs / "plate_mesh", element_size_m, settings.modes, "plate.inp"], settings.time_limit, folder,
-                         processes.environment())
+    command = [programs / "plate_mesh", element_size_m, settings.modes, "plate.inp"]
+    done = processes.run(command, settings.time_limit, folder, processes.environment())
     if done.failure:
         raise SystemExit(f"bench/run: no mesh of {element_size_m} m: {done.failure}")
     return json.loads(done.last_line)
@@ -191,6 +194,9 @@ def write_json(path, content):
 
 def run(settings):
     machine = processes.machine()
+    if machine["load_at_start"] > 0.5:
+        print(f"the machine is busy (load {machine['load_at_start']:.1f}): peers on two threads or ranks wait for each "
+              "other and look slower than they are", file=sys.stderr)
     programs = build(settings.build.resolve())
     missing = peers.absent(programs, settings.peers)
     print("\n".join(missing.values()) or "all programs are there", file=sys.stderr)

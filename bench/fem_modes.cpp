@@ -32,32 +32,20 @@ struct Options {
   std::string petsc_folder;
 };
 
-/// K and M of the free DOFs, and for each of their rows its node.
-struct FreeMatrices {
-  linalg::SparseMatrix K;
-  linalg::SparseMatrix M;
-  std::vector<int> node_of_row;
-};
-
-FreeMatrices free_matrices(const io::InpMesh& part, const std::vector<int>& fixed_nodes) {
-  const fem::Assembled all = fem::assemble(part.mesh, part.nodes, steel);
-  std::vector<char> held(static_cast<std::size_t>(part.nodes.positions.rows()), 0);
-  for (const int node : fixed_nodes) held[static_cast<std::size_t>(node)] = 1;
-  FreeMatrices result;
-  std::vector<int> free_rows;
-  for (int row = 0; row < static_cast<int>(3 * held.size()); ++row) {
-    if (held[static_cast<std::size_t>(row / 3)] != 0) continue;
-    free_rows.push_back(row);
-    result.node_of_row.push_back(row / 3);
+/// K and M of the free DOFs.
+fem::Assembled free_matrices(const io::InpMesh& part, const std::vector<int>& fixed_nodes) {
+  std::vector<int> fixed;
+  for (const int node : fixed_nodes) {
+    for (int axis = 0; axis < 3; ++axis) fixed.push_back(3 * node + axis);
   }
-  result.K = linalg::restrict_to(all.K, free_rows);
-  result.M = linalg::restrict_to(all.M, free_rows);
-  return result;
+  return fem::assemble(part.nodes, steel, fixed);
 }
 
-void solve(const FreeMatrices& matrices, int modes, nlohmann::ordered_json& report) {
+void solve(const fem::Assembled& matrices, int modes, nlohmann::ordered_json& report) {
   bench::Stopwatch watch;
-  const linalg::SparseCholesky factor(matrices.K, matrices.node_of_row);
+  std::vector<int> node_of_row;
+  for (const int row : matrices.free_rows) node_of_row.push_back(row / 3);
+  const linalg::SparseCholesky factor(matrices.K, node_of_row);
   const double factorise_s = watch.lap();
   const linalg::FactorStatistics& cost = factor.statistics();
   const linalg::ShiftedInverse inverse{
@@ -83,7 +71,7 @@ nlohmann::ordered_json run(const Options& options) {
   const io::InpMesh part = io::read_inp(options.inp, 1.0);
   const std::vector<int>& fixed = io::node_set(part, options.fixed, options.inp).nodes;
   report["read_s"] = watch.lap();
-  const FreeMatrices matrices = free_matrices(part, fixed);
+  const fem::Assembled matrices = free_matrices(part, fixed);
   report["assembly_s"] = watch.lap();
   report["dofs"] = matrices.K.rows();
   report["nonzeros"] = matrices.K.nonZeros();

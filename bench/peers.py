@@ -77,7 +77,8 @@ def ccx_stages(done):
     def first(text):
         return next((seconds for seconds, line in done.lines if text in line), None)
 
-    marks = [0.0, first("STEP  "), first("Factoring the system"), first("Calculating the eigenvalues"), first("U^T*M*U")]
+    begins = ["STEP  ", "Factoring the system", "Calculating the eigenvalues", "U^T*M*U"]
+    marks = [0.0, *map(first, begins)]
     names = ["read_s", "assembly_s", "factor_s", "eigen_s"]
     return {name: after - before for name, before, after in zip(names, marks, marks[1:])
             if before is not None and after is not None}
