@@ -55,17 +55,31 @@ double* number_behind(CaseValues& values, const std::string& key) {
 
 }  // namespace
 
+Eigen::AlignedBox3d bounds(const Part& part) {
+  Eigen::AlignedBox3d box;
+  if (part.shape == "prism") {
+    for (const auto& corner : part.prism.outline) box.extend(Eigen::Vector3d(corner.x(), corner.y(), part.prism.bottom));
+    if (!box.isEmpty()) box.max().z() = part.prism.top;
+    for (const auto& zone : part.prism.zones) {
+      box.min().z() = std::min(box.min().z(), zone.bottom);
+      box.max().z() = std::max(box.max().z(), zone.top);
+    }
+    return box;
+  }
+  box.min().setZero();
+  box.max()[part.length_axis] = part.length;
+  box.max()[part.height_axis] = part.height;
+  box.max()[part.thickness_axis] = part.thickness;
+  return box;
+}
+
 Eigen::Vector3d box_size(const Part& part) {
-  Eigen::Vector3d size;
-  size[part.length_axis] = part.length;
-  size[part.height_axis] = part.height;
-  size[part.thickness_axis] = part.thickness;
-  return size;
+  return bounds(part).sizes();
 }
 
 Eigen::Vector3d position(const Part& part, const Point& point) {
   if (point.position) return *point.position + point.offset;
-  return point.at->cwiseProduct(box_size(part)) + point.offset;
+  return bounds(part).min() + point.at->cwiseProduct(box_size(part)) + point.offset;
 }
 
 const Point& point(const Case& source, const std::string& name) {

@@ -3,12 +3,14 @@
 // Every key is described in app/schema.cpp and docs/case-file.md. The pipeline does what the case holds.
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/case_values.hpp"
+#include "mesh/prism.hpp"
 
 namespace thinwall::app {
 
@@ -19,8 +21,9 @@ struct Material {
 };
 
 struct MeshOptions {
-  double element_size = 0.0;  ///< m; edge of a regular tetrahedron of the largest volume allowed
-  int order = 2;
+  std::optional<double> element_size;  ///< m; none: from the tolerance
+  double tolerance = 1e-3;             ///< on frequencies and receptances, where the size is not given
+  std::optional<int> order;            ///< none: from the tolerance; 2 with a given size
   double quality = 1.4;                      ///< TetGen's bound on circumradius over shortest edge
   std::optional<double> grading;             ///< growth of the size away from the named points
   std::optional<double> point_element_size;  ///< m, near the named points
@@ -52,10 +55,19 @@ struct Support {
   std::vector<int> fixed;  ///< 0, 1, 2 for x, y, z
 };
 
-/// A box with one corner at the origin.
+/// The part is bent about a cylinder; the middle of its extent along `along` stays where it is.
+struct Bend {
+  double radius = 0.0;       ///< m, of the mid-surface
+  std::optional<int> along;  ///< 0, 1, 2 for x, y, z
+};
+
+/// A box with one corner at the origin, or a prism.
 struct Part {
+  std::string shape = "box";  ///< box, prism
   double length = 0.0, height = 0.0, thickness = 0.0;        ///< m
   int length_axis = 1, height_axis = 2, thickness_axis = 0;  ///< 0, 1, 2 for x, y, z
+  mesh::Prism prism;  ///< of shape prism: outline in x, y; height along z
+  std::optional<Bend> bend;
   Material material;
   MeshOptions mesh;
   std::vector<Support> supports;  ///< none: a free part
@@ -211,7 +223,10 @@ struct Case {
   CaseValues values;  ///< what all of the above was bound from, defaults included
 };
 
-/// Extents of the part along x, y, z, m.
+/// The block around the part, before it is bent, m.
+[[nodiscard]] Eigen::AlignedBox3d bounds(const Part& part);
+
+/// Its extents along x, y, z, m.
 [[nodiscard]] Eigen::Vector3d box_size(const Part& part);
 
 /// Position of a point in the part's axes, m: fractions of the box (or the given position) plus the offset.

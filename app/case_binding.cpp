@@ -88,8 +88,33 @@ std::vector<MeasuredFrf> bind_all_measured(const std::vector<Table>& tables, con
   return list;
 }
 
+mesh::Polygon bind_polygon(const Table& table) {
+  const auto list = table.numbers("outline");
+  mesh::Polygon polygon;
+  for (std::size_t i = 0; i + 1 < list.size(); i += 2) polygon.emplace_back(list[i], list[i + 1]);
+  return polygon;
+}
+
+mesh::Prism bind_prism(const Table& table) {
+  mesh::Prism prism;
+  prism.outline = bind_polygon(table);
+  prism.top = table.number("thickness");
+  for (const auto& hole : table.tables("holes")) prism.holes.push_back(bind_polygon(hole));
+  for (const auto& zone : table.tables("zones")) {
+    const double bottom = zone.number("bottom");
+    prism.zones.push_back({bind_polygon(zone), bottom, bottom + zone.number("thickness")});
+  }
+  return prism;
+}
+
 Part bind_part(const Table& table) {
   Part part;
+  part.shape = table.text("shape") == "prism" ? "prism" : "box";
+  if (part.shape == "prism") part.prism = bind_prism(table);
+  if (const Table bend = table.table("bend"); bend.exists()) {
+    part.bend = Bend{bend.number("radius"), {}};
+    if (bend.has("along")) part.bend->along = axis_index(bend.text("along"));
+  }
   part.length = table.number("length");
   part.height = table.number("height");
   part.thickness = table.number("thickness");
@@ -98,8 +123,14 @@ Part bind_part(const Table& table) {
   part.thickness_axis = axis_index(table.text("axes.thickness"));
   const Table material = table.table("material"), mesh = table.table("mesh");
   part.material = {material.number("youngs_modulus"), material.number("poisson_ratio"), material.number("density")};
-  part.mesh = {mesh.number("element_size"),
-               mesh.integer("order"),
+  const auto number = [&](const char* key) {
+    const double value = mesh.number(key);  // NaN for "auto"
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  };
+  const auto order = number("order");
+  part.mesh = {number("element_size"),
+               mesh.number("tolerance"),
+               order ? std::optional(static_cast<int>(*order)) : std::nullopt,
                mesh.number("quality"),
                mesh.optional("grading"),
                mesh.optional("point_element_size"),
@@ -289,7 +320,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   Case bound;
   bound.folder = folder;
   bound.title = root.text("title");
-  if (root.has("part.length") || root.has("part.height") || root.has("part.thickness")) {
+  if (root.has("part.length") || root.has("part.height") || root.has("part.thickness") || root.has("part.outline")) {
     bound.part = bind_part(root.table("part"));
   }
   bound.measured_part = bind_all_measured(root.tables("part.measured"), folder);

@@ -92,6 +92,26 @@ std::vector<double> read_vector(const toml::node& node, const Key& key) {
   return read_list(node, [&](const toml::node& entry) { return read_quantity(entry, key); });
 }
 
+/// Corners one after the other: x₀, y₀, x₁, y₁ …
+std::vector<double> read_polygon(const toml::node& node, const Key& key) {
+  constexpr auto expected = "must be a list of at least three corners [x, y], such as [[\"0 mm\", \"0 mm\"], …]";
+  const auto* corners = node.as_array();
+  if (corners == nullptr || corners->size() < 3) throw InputError(expected);
+  std::vector<double> list;
+  for (const auto& corner : *corners) {
+    const auto* pair = corner.as_array();
+    if (pair == nullptr || pair->size() != 2) throw InputError(expected);
+    for (const auto& coordinate : *pair) list.push_back(read_quantity(coordinate, key));
+  }
+  return list;
+}
+
+/// A word that the key allows in place of a number.
+bool is_choice(const toml::node& node, const Key& key) {
+  const auto allowed = choices(key);
+  return node.is_string() && std::ranges::find(allowed, read_text(node)) != allowed.end();
+}
+
 Eigen::Vector3d read_direction(const toml::node& node) {
   if (node.is_string()) return dynamics::axis(read_text(node));
   const auto* array = node.as_array();
@@ -135,13 +155,17 @@ Value read_value(const toml::node& node, const Key& key) {
       if (!node.is_boolean()) wrong_type(node, "true or false");
       return *node.value<bool>();
     case Type::integer:
+      if (is_choice(node, key)) return read_text(node);
       return read_integer(node, key);
     case Type::quantity:
+      if (is_choice(node, key)) return read_text(node);
       return read_quantity(node, key);
     case Type::quantities:
       return read_list(node, [&](const toml::node& entry) { return read_quantity(entry, key); });
     case Type::vector:
       return read_vector(node, key);
+    case Type::polygon:
+      return read_polygon(node, key);
     case Type::direction:
       return std::vector<Eigen::Vector3d>{read_direction(node)};
     case Type::directions:
@@ -162,6 +186,7 @@ Value unread_value(const Key& key) {
     case Type::vector:
       return std::vector<double>(3, nan);
     case Type::quantities:
+    case Type::polygon:
       return std::vector<double>();
     case Type::boolean:
       return false;

@@ -69,7 +69,11 @@ struct ValueText {
                                          : value);
   }
   std::string operator()(const std::vector<double>& list) const {
-    return list_text(list, [this](double value) { return quantity_text(value, key.kind); });
+    const auto number = [this](double value) { return quantity_text(value, key.kind); };
+    if (key.type != Type::polygon) return list_text(list, number);
+    std::vector<std::vector<double>> corners;
+    for (std::size_t i = 0; i + 1 < list.size(); i += 2) corners.push_back({list[i], list[i + 1]});
+    return list_text(corners, [&](const std::vector<double>& corner) { return list_text(corner, number); });
   }
   std::string operator()(const std::vector<std::string>& list) const { return list_text(list, quoted); }
   std::string operator()(const std::vector<Eigen::Vector3d>& list) const {

@@ -7,9 +7,11 @@
 #include <limits>
 
 #include "app/case_checks.hpp"
+#include "app/discretisation.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "dynamics/dof.hpp"
+#include "mesh/bend.hpp"
 
 namespace thinwall::app {
 
@@ -30,18 +32,43 @@ bool axes_differ(const Part& part) {
 }
 
 bool geometry_known(const Part& part) {
+  if (part.shape == "prism") return mesh::violations(part.prism).empty();
   return axes_differ(part) && std::isfinite(part.length) && std::isfinite(part.height) && std::isfinite(part.thickness);
 }
 
 /// Coordinates equal to a face's up to this are on it.
 double tolerance(const Part& part) {
-  return 1e-9 * box_size(part).maxCoeff();
+  return 1e-9 * bounds(part).sizes().maxCoeff();
 }
 
 bool on_face(const Part& part, const std::string& face, const Eigen::Vector3d& p) {
   const int axis = face[0] - 'x';
-  const double coordinate = face.ends_with("max") ? box_size(part)[axis] : 0.0;
+  const double coordinate = face.ends_with("max") ? bounds(part).max()[axis] : bounds(part).min()[axis];
   return std::abs(p[axis] - coordinate) <= tolerance(part);
+}
+
+void check_prism(const Part& part, Findings& findings) {
+  for (const auto* key : {"part.length", "part.height", "part.axes.length"}) {
+    if (findings.given(key)) findings.report(key, "a prism has an outline and a thickness along z; remove this key");
+  }
+  for (const auto* key : {"part.outline", "part.thickness"}) {
+    if (!findings.given(key)) findings.report(key, "missing; a prism has an outline and a thickness along z");
+  }
+  if (!findings.given("part.outline") || !std::isfinite(part.prism.top)) return;
+  for (const std::string& violation : mesh::violations(part.prism)) findings.report("part.outline", violation);
+}
+
+void check_bend(const Part& part, Findings& findings) {
+  if (!part.bend || !geometry_known(part) || !std::isfinite(part.bend->radius)) return;
+  const int through = planar(part).axes[2];
+  const Eigen::AlignedBox3d box = bounds(part);
+  if (part.bend->along && *part.bend->along == through) {
+    findings.report("part.bend.along", "the part is bent along its wall, not through its thickness; name another axis");
+    return;
+  }
+  mesh::Positions corners(2, 3);
+  corners << box.min().transpose(), box.max().transpose();
+  for (const std::string& violation : mesh::violations(bend_of(part), corners)) findings.report("part.bend.radius", violation);
 }
 
 void check_box(const Case& source, Findings& findings) {
@@ -49,12 +76,24 @@ void check_box(const Case& source, Findings& findings) {
   if (!source.measured_part.empty()) {
     findings.report("part.measured", "a part is either modelled (part.length …) or measured; remove one of the two");
   }
+  if (part.shape == "prism") {
+    check_prism(part, findings);
+    return;
+  }
   for (const auto* extent : {"part.length", "part.height", "part.thickness"}) {
     if (!findings.given(extent)) findings.report(extent, "missing; a box has a length, a height and a thickness");
+  }
+  for (const auto* key : {"part.outline", "part.holes[0].outline", "part.zones[0].outline"}) {
+    if (findings.given(key)) findings.report(key, "belongs to a part of shape \"prism\"; set part.shape, or remove it");
   }
   if (findings.given("part.axes.length") && !axes_differ(part)) {
     findings.report("part.axes.length", "length, height and thickness must run along three different axes");
   }
+}
+
+/// Parts that TetGen meshes: boxes with a given element size.
+bool by_tetgen(const Part& part) {
+  return part.shape == "box" && !part.bend && part.mesh.element_size.has_value();
 }
 
 /// Element size as the mesher is asked for it: `near` at the points, growing with the distance to them up to `far`.
@@ -74,7 +113,7 @@ Grading grading_of(const Case& source) {
   const Part& part = *source.part;
   const double thinnest = std::min({part.length, part.height, part.thickness});
   // The quality bound lets a tetrahedron be about twice as wide as the wall is thick, however large it may be.
-  const double far = std::min(part.mesh.element_size, 2.0 * thinnest);
+  const double far = std::min(*part.mesh.element_size, 2.0 * thinnest);
   Grading grading{{}, far, 0.0, far};
   if (!part.mesh.point_element_size) return grading;
   for (const Point& p : source.points) {
@@ -105,17 +144,25 @@ void check_mesh_size(const Case& source, Findings& findings) {
   const MeshOptions& mesh = source.part->mesh;
   if (mesh.grading && !findings.given("part.mesh.point_element_size"))
     findings.report("part.mesh.grading", "there is nothing to grade; give point_element_size, or remove grading");
+  for (const auto* key : {"part.mesh.point_element_size", "part.mesh.quality"}) {
+    if (findings.given(key) && !by_tetgen(*source.part))
+      findings.report(key, "belongs to boxes with a given element_size; with \"auto\" the tolerance decides; remove it");
+  }
+  if (findings.given("part.mesh.tolerance") && mesh.element_size)
+    findings.report("part.mesh.tolerance", "nothing is estimated with a given element_size; remove one of the two");
+  if (!by_tetgen(*source.part)) return;
+  const int order_now = mesh.order.value_or(2);
   const SizeEstimate size = estimate_size(source);
   const bool many_tets = size.elements > most_tets;
   if (!many_tets && !(size.dofs > most_dofs)) return;
   const double excess = many_tets ? size.elements / most_tets : size.dofs / most_dofs;
   const Grading grading = grading_of(source);
   const bool near_points = grading.near < grading.far;
-  const double asked = near_points ? grading.near : mesh.element_size;
+  const double asked = near_points ? grading.near : *mesh.element_size;
   const double enough = 1.05 * std::cbrt(excess) * std::min(asked, grading.far);
   const auto length = [](double value) { return core::readable_text(value, core::kind::length); };
   const auto number = [](double value) { return core::readable_text(value, core::kind::number); };
-  const std::string order = " of order " + std::to_string(mesh.order);
+  const std::string order = " of order " + std::to_string(order_now);
   const std::string what = many_tets ? number(size.elements) + " tetrahedra, at most 2e+07 are made"
                                      : number(size.dofs) + " degrees of freedom, at most 5e+06 are solved";
   const double widest = 2.0 * std::min({source.part->length, source.part->height, source.part->thickness});
@@ -124,7 +171,7 @@ void check_mesh_size(const Case& source, Findings& findings) {
                                                 : "a smaller or thicker part";
   findings.report(near_points ? "part.mesh.point_element_size" : "part.mesh.element_size",
                   length(asked) + (many_tets ? "" : order) + " would make about " + what + "; take " + remedy +
-                      (many_tets || mesh.order == 1 ? "" : ", or a lower part.mesh.order"));
+                      (many_tets || order_now == 1 ? "" : ", or a lower part.mesh.order"));
 }
 
 void check_supports(const Case& source, Findings& findings) {
@@ -164,11 +211,14 @@ void check_point(const Case& source, const Point& point, Findings& findings) {
     return;
   }
   if (source.part && geometry_known(*source.part)) {
-    const Eigen::Vector3d p = position(*source.part, point), size = box_size(*source.part);
+    const Eigen::Vector3d p = position(*source.part, point);
+    const Eigen::AlignedBox3d box = bounds(*source.part);
     const double slack = tolerance(*source.part);
-    if ((p.array() < -slack).any() || ((p - size).array() > slack).any()) {
+    const bool box_from_origin = box.min().isZero();
+    if (((box.min() - p).array() > slack).any() || ((p - box.max()).array() > slack).any()) {
       findings.report(point.at ? key + ".at" : key + ".position",
-                      text(p) + " lies outside the part, which reaches from the origin to " + text(size));
+                      text(p) + " lies outside the part, which reaches from " +
+                          (box_from_origin ? "the origin" : text(box.min())) + " to " + text(box.max()));
     }
   }
   if (!independent(point.directions)) {
@@ -188,9 +238,11 @@ bool holds(const Case& source, const Support& support, const Eigen::Vector3d& p)
 SizeEstimate estimate_size(const Case& source) {
   const Part& part = *source.part;
   SizeEstimate size;
-  size.elements = std::max(6.0, tets_in({Eigen::Vector3d::Zero(), box_size(part)}, grading_of(source)));
+  size.order = part.mesh.order.value_or(part.mesh.element_size ? 2 : 5);
+  size.elements = by_tetgen(part) ? std::max(6.0, tets_in({Eigen::Vector3d::Zero(), box_size(part)}, grading_of(source)))
+                                  : static_cast<double>(graded_mesh(source, 0).tets.size());
   // A tetrahedral mesh of a thin wall has about 0.3 vertices, 1.6 edges and 2.3 faces an element.
-  const double p = part.mesh.order;
+  const double p = size.order;
   size.nodes = size.elements * (0.3 + 1.6 * (p - 1) + 2.3 * (p - 1) * (p - 2) / 2 + (p - 1) * (p - 2) * (p - 3) / 6);
   size.dofs = 3.0 * size.nodes;
   // 40 000 DOFs take some three seconds with factorisation, modes and reduction; the factor of a wall grows as n^1.3.
@@ -210,6 +262,7 @@ bool independent(const std::vector<Eigen::Vector3d>& directions) {
 void check_part(const Case& source, Findings& findings) {
   if (source.part) {
     check_box(source, findings);
+    check_bend(*source.part, findings);
     if (geometry_known(*source.part)) check_mesh_size(source, findings);
     check_supports(source, findings);
   }

@@ -9,9 +9,6 @@
 #include "app/measured.hpp"
 #include "core/error.hpp"
 #include "fem/points.hpp"
-#include "fem/supports.hpp"
-#include "mesh/selection.hpp"
-#include "mesh/tetgen.hpp"
 #include "reduction/accuracy.hpp"
 #include "reduction/damping.hpp"
 #include "reduction/full_response.hpp"
@@ -19,38 +16,6 @@
 namespace thinwall::app {
 
 namespace {
-
-fem::Material material_of(const Case& source) {
-  const Material& m = source.part->material;
-  return {m.youngs_modulus, m.poisson_ratio, m.density};
-}
-
-mesh::Region region_of(const Case& source, const std::string& name) {
-  const auto selection = std::find_if(source.selections.begin(), source.selections.end(),
-                                      [&](const Selection& s) { return s.name == name; });
-  if (selection == source.selections.end()) return mesh::face_of({box_size(*source.part)}, name);
-  if (selection->plane) return mesh::PlaneRegion{selection->plane->point, selection->plane->normal};
-  if (selection->box) return mesh::BoxRegion{selection->box->min, selection->box->max};
-  return mesh::SphereRegion{selection->sphere->centre, selection->sphere->radius};
-}
-
-/// Size near the named points, growing by `grading` (m of size per m of distance) away from them.
-std::function<double(const Eigen::Vector3d&)> graded_size(const Case& source) {
-  const MeshOptions& options = source.part->mesh;
-  if (!options.point_element_size) return {};
-  std::vector<Eigen::Vector3d> points;
-  for (const Point& p : source.points) points.push_back(position(*source.part, p));
-  const double growth = options.grading.value_or(1.5) - 1.0;
-  return [points, growth, near = *options.point_element_size, far = options.element_size](const Eigen::Vector3d& x) {
-    double nearest = std::numeric_limits<double>::max();
-    for (const auto& p : points) nearest = std::min(nearest, (x - p).norm());
-    return std::min(far, near + growth * nearest);
-  };
-}
-
-fem::ModeOptions mode_options(const Case& source) {
-  return {source.modes.range.count.value_or(10), source.modes.range.up_to_hz, source.modes.verify_count};
-}
 
 /// The part's rigid-body modes must all show at the interface: points on one line, say, do not see the turn about it.
 void require_held_by_interface(const PartResult& part) {
@@ -118,27 +83,15 @@ void check_reduction(const Case& source, PartResult& part, const fem::Factored& 
 
 }  // namespace
 
-mesh::TetMesh mesh_part(const Case& source) {
-  const MeshOptions& wanted = source.part->mesh;
-  mesh::TetgenOptions options;
-  options.element_size_m = wanted.element_size;
-  options.radius_edge_ratio = wanted.quality;
-  options.time_limit_s = wanted.time_limit;
-  options.memory_limit_bytes = wanted.memory_limit;
-  options.size_at = graded_size(source);
-  return mesh::tetrahedralise(mesh::surface({box_size(*source.part)}), options);
-}
-
 mesh::TetMesh stretched(mesh::TetMesh mesh, const Eigen::Vector3d& from_size, const Eigen::Vector3d& to_size) {
   const Eigen::Vector3d factor = to_size.cwiseQuotient(from_size);
   for (auto& v : mesh.vertices) v = v.cwiseProduct(factor).eval();
   return mesh;
 }
 
-fem::Model part_model(const Case& source, mesh::TetMesh mesh) {
-  std::vector<fem::Support> supports;
-  for (const Support& s : source.part->supports) supports.push_back({s.on, region_of(source, s.on), s.fixed});
-  return fem::supported_model(std::move(mesh), source.part->mesh.order, material_of(source), supports);
+fem::Model part_model(const Case& source, mesh::TetMesh mesh, int order) {
+  return fem::supported_model(std::move(mesh), order, material_of(*source.part), supports_of(source),
+                              shaping(*source.part));
 }
 
 reduction::Interface part_interface(const Case& source, const fem::Model& model) {
@@ -146,8 +99,7 @@ reduction::Interface part_interface(const Case& source, const fem::Model& model)
   std::vector<Eigen::Triplet<double>> entries;
   for (const std::string& name : source.reduction.interface) {
     const Point& p = point(source, name);
-    const linalg::SparseMatrix columns =
-        fem::point_columns(model, {p.name, position(*source.part, p), p.patch_radius, p.directions});
+    const linalg::SparseMatrix columns = fem::point_columns(model, named_point(source, name));
     for (Eigen::Index j = 0; j < columns.cols(); ++j) {
       for (linalg::SparseMatrix::InnerIterator it(columns, j); it; ++it) {
         entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(interface.dofs.size()), it.value());
@@ -171,23 +123,49 @@ dynamics::SpatialModel damped(const Case& source, const dynamics::SpatialModel& 
   return reduction::with_modal_damping(reduced, matched_ratios(reduced, identified, damping.ratio), damping.ratio);
 }
 
-PartResult compute_part(const Case& source, mesh::TetMesh mesh, Stages& stages) {
-  PartResult part;
+namespace {
+
+/// The matrix's mass against the geometry's: exact for straight elements, to the accuracy of the curve for bent ones.
+void check_mass(const Case& source, PartResult& part) {
+  const double expected = mass(*source.part, part.model.mesh);
+  part.mass_difference = std::abs(part.model.mass.mass_kg / expected - 1.0);
+  const double bound = part.model.curved_elements > 0 ? 1e-4 : 1e-8;
+  if (part.mass_difference < bound) return;
+  throw core::NumericalError("the mass of the mesh differs from the geometry's by " +
+                             std::to_string(part.mass_difference) + " relative, more than " + std::to_string(bound) +
+                             (part.model.curved_elements > 0 ? ": use smaller elements or a higher order" : ""));
+}
+
+/// Model, factor and modes: as the tolerance left them, or computed now.
+fem::Factored solve_part(const Case& source, Discretisation& discretisation, PartResult& part, Stages& stages) {
+  if (discretisation.solved) {
+    fem::Refined& solved = *discretisation.solved;
+    part.model = std::move(solved.model);
+    part.modes = std::move(solved.modes);
+    return std::move(solved.factored);
+  }
   stages.begin("assembly");
-  part.model = part_model(source, std::move(mesh));
+  part.model = part_model(source, std::move(discretisation.mesh), discretisation.order);
+  stages.begin("modes");
+  fem::Factored factored = fem::factorise(part.model);
+  part.modes = fem::modes(part.model, factored, mode_options(source));
+  return factored;
+}
+
+}  // namespace
+
+PartResult compute_part(const Case& source, Discretisation discretisation, Stages& stages) {
+  PartResult part;
+  part.estimate = discretisation.estimate;
+  const fem::Factored factored = solve_part(source, discretisation, part, stages);
+  check_mass(source, part);
   part.min_quality = 1.0;
   for (int tet = 0; tet < static_cast<int>(part.model.mesh.tets.size()); ++tet) {
     part.min_quality = std::min(part.min_quality, mesh::mean_ratio(part.model.mesh, tet));
   }
-  part.mass_difference = fem::relative_difference(
-      part.model.mass, fem::box_mass_properties(box_size(*source.part), source.part->material.density));
-  if (!(part.mass_difference < 1e-8)) {
-    throw core::NumericalError("mass, centre or inertia of the mesh differ from the geometry's by " +
-                               std::to_string(part.mass_difference) + " relative");
-  }
-  stages.begin("modes");
-  const fem::Factored factored = fem::factorise(part.model);
-  part.modes = fem::modes(part.model, factored, mode_options(source));
+  part.quality = mesh::quality(part.model.mesh);
+  if (source.modes.verify_count && !part.modes.count_verified)
+    part.modes.count_verified = fem::none_missed(part.model, part.modes.pairs);
   if (part.modes.count_verified && !*part.modes.count_verified) {
     throw core::NumericalError("the Sturm count shows that the eigen-solver missed a mode: ask for a few more modes");
   }

@@ -2,22 +2,20 @@
 // From the part of a case to its finite-element model, its modes and its reduced, damped model.
 
 #include "app/case.hpp"
+#include "app/discretisation.hpp"
 #include "app/results.hpp"
 #include "app/stages.hpp"
 #include "mesh/tet_mesh.hpp"
 
 namespace thinwall::app {
 
-/// TetGen's mesh of the part's box, graded towards the named points where the case asks for it.
-[[nodiscard]] mesh::TetMesh mesh_part(const Case& source);
-
 /// The same mesh stretched from one box to another: model updating changes the part without changing the mesh's
 /// topology, so that frequencies move smoothly with the parameters.
 [[nodiscard]] mesh::TetMesh stretched(mesh::TetMesh mesh, const Eigen::Vector3d& from_size,
                                       const Eigen::Vector3d& to_size);
 
-/// Assembles the constrained model on the mesh.
-[[nodiscard]] fem::Model part_model(const Case& source, mesh::TetMesh mesh);
+/// Assembles the constrained model of that order on the mesh.
+[[nodiscard]] fem::Model part_model(const Case& source, mesh::TetMesh mesh, int order);
 
 /// Interface of all points that the reduction keeps.
 [[nodiscard]] reduction::Interface part_interface(const Case& source, const fem::Model& model);
@@ -26,7 +24,7 @@ namespace thinwall::app {
 [[nodiscard]] dynamics::SpatialModel damped(const Case& source, const dynamics::SpatialModel& reduced,
                                             std::vector<reduction::IdentifiedMode>& identified);
 
-/// Factor, modes, reduction, damping, with their checks. `mesh` must fit the part of the case.
-[[nodiscard]] PartResult compute_part(const Case& source, mesh::TetMesh mesh, Stages& stages);
+/// Factor, modes, reduction, damping, with their checks. The discretisation must fit the part of the case.
+[[nodiscard]] PartResult compute_part(const Case& source, Discretisation discretisation, Stages& stages);
 
 }  // namespace thinwall::app

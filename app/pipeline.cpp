@@ -32,19 +32,23 @@ std::string now_utc() {
 
 /// Mesh, fits of the part, the part itself. Parameters that were fitted are written into `work`.
 void run_part(Case& work, Results& results, Stages& stages) {
-  stages.begin("mesh");
-  mesh::TetMesh mesh = mesh_part(work);
+  stages.begin(work.part->mesh.element_size ? "mesh" : "mesh, order and modes");
+  Discretisation discretisation = discretise(work);
+  const mesh::TetMesh& mesh = discretisation.mesh;
   const Eigen::Vector3d meshed_size = box_size(*work.part);
-  spdlog::info("{} tetrahedra, {} vertices", mesh.tets.size(), mesh.vertices.size());
+  spdlog::info("{} tetrahedra, {} vertices, order {}", mesh.tets.size(), mesh.vertices.size(), discretisation.order);
   const std::vector<Updating> fits = work.updating;  // a fit rewrites `work`
   for (const Updating& updating : fits) {
     if (updating.on != "part") continue;
     stages.begin("updating");
     const Eigen::Vector3d size_before = box_size(*work.part);
-    results.updating.push_back(update_part(work, updating, stretched(mesh, meshed_size, size_before)));
+    discretisation.solved.reset();  // the part changes: mesh and order stay, the solution does not
+    results.updating.push_back(
+        update_part(work, updating, stretched(mesh, meshed_size, size_before), discretisation.order));
     spdlog::info("{}: {} evaluations", updating.name, results.updating.back().evaluations);
   }
-  results.finite_elements = compute_part(work, stretched(std::move(mesh), meshed_size, box_size(*work.part)), stages);
+  discretisation.mesh = stretched(std::move(discretisation.mesh), meshed_size, box_size(*work.part));
+  results.finite_elements = compute_part(work, std::move(discretisation), stages);
 }
 
 /// Fits on the reduced part; damping may be among the parameters, so it is applied anew.

@@ -13,6 +13,8 @@
 #include "dynamics/response_model.hpp"
 #include "dynamics/spatial_model.hpp"
 #include "fem/modes.hpp"
+#include "fem/to_tolerance.hpp"
+#include "mesh/quality.hpp"
 #include "milling/lobes.hpp"
 #include "reduction/craig_bampton.hpp"
 #include "reduction/identification.hpp"
@@ -23,7 +25,9 @@ namespace thinwall::app {
 struct PartResult {
   fem::Model model;
   fem::Modes modes;
-  double min_quality = 0.0;
+  double min_quality = 0.0;  ///< mean ratio
+  mesh::Quality quality;
+  std::optional<fem::Estimate> estimate;  ///< of what the mesh costs in accuracy; none for a given size
   double mass_difference = 0.0;  ///< mass, centre, inertia: matrix against geometry, relative
   reduction::Interface interface;
   std::optional<reduction::CraigBampton> reduced;     ///< none without an interface

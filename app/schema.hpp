@@ -27,6 +27,7 @@ enum class Type {
   quantity,    ///< number with the key's dimension
   quantities,  ///< list of them, or one
   vector,      ///< three quantities along x, y, z
+  polygon,     ///< list of corners, each two quantities along x, y
   direction,   ///< "x", "-y" or three numbers, made a unit vector
   directions,  ///< list of directions, or one
   amount,      ///< quantity whose dimension follows from another key of the same table
@@ -48,7 +49,7 @@ struct Key {
   core::QuantityKind kind;
   std::string_view fallback;  ///< default as TOML text, "" for none
   Bounds bounds;
-  std::string_view choices;  ///< separated by '|'
+  std::string_view choices;  ///< separated by '|'; words that may stand in place of a number or quantity
   std::string_view meaning;
   bool required = false;  ///< wherever its table stands
 };

@@ -51,6 +51,8 @@ std::string_view type_text(const Key& key) {
       return "list";
     case Type::vector:
       return "x, y, z";
+    case Type::polygon:
+      return "list of corners";
     case Type::direction:
       return "direction";
     case Type::directions:
@@ -63,7 +65,7 @@ std::string_view type_text(const Key& key) {
 
 std::string type_cell(const Key& key) {
   std::string text(type_text(key));
-  if (key.type == Type::quantities || key.type == Type::vector) text += " (" + std::string(key.kind.name) + ")";
+  if (key.type == Type::quantities || key.type == Type::vector || key.type == Type::polygon) text += " (" + std::string(key.kind.name) + ")";
   for (const auto& choice : choices(key)) text += " `" + choice + "`";
   if (!key.kind.unit.empty()) text += ", " + std::string(key.kind.unit);
   return text;

@@ -21,12 +21,34 @@ json finite(double value) {
   return std::isfinite(value) ? json(value) : json(nullptr);
 }
 
+/// The error that the mesh costs, by its own estimate; null where size and order were given.
+json estimate_of(const PartResult& part) {
+  if (!part.estimate) return nullptr;
+  json steps = json::array();
+  for (const auto& step : part.estimate->steps) {
+    json entry = {{"level", step.level}, {"order", step.order}, {"dofs", step.dofs}};
+    entry["frequency_change_relative"] = step.frequency_change ? finite(*step.frequency_change) : json(nullptr);
+    entry["receptance_change_relative"] = step.receptance_change ? finite(*step.receptance_change) : json(nullptr);
+    steps.push_back(entry);
+  }
+  return {{"tolerance", part.estimate->tolerance},
+          {"met", part.estimate->met},
+          {"max_relative_frequency_error", part.estimate->frequency},
+          {"max_relative_receptance_error", part.estimate->receptance},
+          {"steps", steps}};
+}
+
 json mesh_of(const PartResult& part) {
   return {{"nodes", part.model.nodes.positions.rows()},
           {"elements", part.model.mesh.tets.size()},
           {"order", part.model.nodes.order},
           {"dofs", part.model.K.rows()},
-          {"min_quality", part.min_quality}};
+          {"min_quality", part.min_quality},
+          {"worst_aspect_ratio", part.quality.aspect_ratio},
+          {"smallest_dihedral_deg", part.quality.smallest_dihedral_deg},
+          {"curved_elements", part.model.curved_elements},
+          {"least_jacobian", part.model.least_jacobian},
+          {"error_estimate", estimate_of(part)}};
 }
 
 /// Damping ratio of each full-model mode: that of the reduced model's mode of the same number, if it has one.

@@ -55,11 +55,11 @@ double most_alike(const fem::Model& model, const fem::Modes& modes, const Eigen:
 /// What the targets are on the part as the case now describes it.
 class PartEvaluation {
  public:
-  PartEvaluation(const Case& start, const Updating& updating, const mesh::TetMesh& mesh)
-      : updating_(updating), mesh_(mesh), start_size_(box_size(*start.part)) {}
+  PartEvaluation(const Case& start, const Updating& updating, const mesh::TetMesh& mesh, int order)
+      : updating_(updating), mesh_(mesh), order_(order), start_size_(box_size(*start.part)) {}
 
   Eigen::VectorXd operator()(const Case& now) {
-    const fem::Model model = part_model(now, stretched(mesh_, start_size_, box_size(*now.part)));
+    const fem::Model model = part_model(now, stretched(mesh_, start_size_, box_size(*now.part)), order_);
     const fem::Factored factored = fem::factorise(model);
     fem::ModeOptions options;
     options.count = 8;
@@ -83,6 +83,7 @@ class PartEvaluation {
  private:
   const Updating& updating_;
   const mesh::TetMesh& mesh_;
+  int order_;
   Eigen::Vector3d start_size_;
   Eigen::MatrixXd reference_;  // shapes of the first evaluation, for MAC
 };
@@ -185,8 +186,8 @@ UpdatingResult fit(Case& source, const Updating& updating,
 
 }  // namespace
 
-UpdatingResult update_part(Case& source, const Updating& updating, const mesh::TetMesh& mesh) {
-  PartEvaluation evaluation(source, updating, mesh);
+UpdatingResult update_part(Case& source, const Updating& updating, const mesh::TetMesh& mesh, int order) {
+  PartEvaluation evaluation(source, updating, mesh, order);
   return fit(source, updating, [&](const Case& now) { return evaluation(now); });
 }
 

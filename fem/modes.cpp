@@ -22,7 +22,8 @@ linalg::Eigenpairs solve(const Model& model, const Factored& factored, const Mod
   return linalg::lowest_eigenpairs(model.K, model.M, inverse_of(factored), options.count + model.rigid_motions);
 }
 
-/// Counts the eigenvalues below a shift between the last mode found and the next one.
+}  // namespace
+
 bool none_missed(const Model& model, const linalg::Eigenpairs& pairs) {
   const double last = pairs.lambda(pairs.lambda.size() - 1);
   for (const double above : {1e-6, 1e-5, 1e-4}) {
@@ -31,8 +32,6 @@ bool none_missed(const Model& model, const linalg::Eigenpairs& pairs) {
   }
   return false;
 }
-
-}  // namespace
 
 Modes modes(const Model& model, const Factored& factored, const ModeOptions& options) {
   Modes result;

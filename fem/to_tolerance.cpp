@@ -115,8 +115,8 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
       const double worst = std::max(frequency, receptance);
       const bool met = worst <= options.tolerance;
       if (met || (last_level && order == options.last_order)) {
-        return {std::move(now.model), std::move(now.factored), std::move(now.modes), frequency, receptance, met,
-                std::move(steps)};
+        return {std::move(now.model), std::move(now.factored), std::move(now.modes),
+                {frequency, receptance, options.tolerance, met, std::move(steps)}};
       }
       // An order brings a factor of about ten; more than that needs smaller elements.
       if (!last_level && worst > 30.0 * options.tolerance) break;

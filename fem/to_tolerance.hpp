@@ -39,16 +39,22 @@ struct RefinementStep {
   std::optional<double> receptance_change;  ///< likewise; none without points
 };
 
-/// The last solution, with the estimate of its error: its difference from the solution one order below on the same
-/// mesh. That is the error of the lower one, which the last is well below wherever raising the order helps.
+/// How wrong the last solution may be: its difference from the solution one order below on the same mesh. That is the
+/// error of the lower one, which the last is well below wherever raising the order helps.
+struct Estimate {
+  double frequency = 0.0;   ///< largest relative error
+  double receptance = 0.0;  ///< largest error of an entry over the largest entry at its frequency; 0 without points
+  double tolerance = 0.0;
+  bool met = false;  ///< false: all levels were used
+  std::vector<RefinementStep> steps;
+};
+
+/// The last solution.
 struct [[nodiscard]] Refined {
   Model model;
   Factored factored;
   Modes modes;
-  double frequency_estimate = 0.0;
-  double receptance_estimate = 0.0;
-  bool tolerance_met = false;  ///< false: all levels were used, or the next step would exceed the memory limit
-  std::vector<RefinementStep> steps;
+  Estimate estimate;
 };
 
 /// Raises the order on a mesh from first_order; where the estimate is still above the tolerance at last_order, or too far

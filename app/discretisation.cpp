@@ -1,0 +1,217 @@
+#include "app/discretisation.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "mesh/bend.hpp"
+#include "mesh/prism_mesh.hpp"
+#include "mesh/selection.hpp"
+#include "mesh/tetgen.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+mesh::Region region_of(const Case& source, const std::string& name) {
+  const auto selection = std::find_if(source.selections.begin(), source.selections.end(),
+                                      [&](const Selection& s) { return s.name == name; });
+  if (selection == source.selections.end()) {
+    const Eigen::AlignedBox3d box = bounds(*source.part);
+    auto plane = std::get<mesh::PlaneRegion>(mesh::face_of({box.sizes()}, name));
+    plane.point += box.min();
+    return plane;
+  }
+  if (selection->plane) return mesh::PlaneRegion{selection->plane->point, selection->plane->normal};
+  if (selection->box) return mesh::BoxRegion{selection->box->min, selection->box->max};
+  return mesh::SphereRegion{selection->sphere->centre, selection->sphere->radius};
+}
+
+/// Size near the named points, growing by `grading` (m of size per m of distance) away from them.
+std::function<double(const Eigen::Vector3d&)> graded_size(const Case& source) {
+  const MeshOptions& options = source.part->mesh;
+  if (!options.point_element_size) return {};
+  std::vector<Eigen::Vector3d> points;
+  for (const Point& p : source.points) points.push_back(position(*source.part, p));
+  const double growth = options.grading.value_or(1.5) - 1.0;
+  return [points, growth, near = *options.point_element_size, far = *options.element_size](const Eigen::Vector3d& x) {
+    double nearest = std::numeric_limits<double>::max();
+    for (const auto& p : points) nearest = std::min(nearest, (x - p).norm());
+    return std::min(far, near + growth * nearest);
+  };
+}
+
+/// TetGen's mesh of the part's box, graded towards the named points where the case asks for it.
+mesh::TetMesh tetgen_mesh(const Case& source) {
+  const MeshOptions& wanted = source.part->mesh;
+  mesh::TetgenOptions options;
+  options.element_size_m = *wanted.element_size;
+  options.radius_edge_ratio = wanted.quality;
+  options.time_limit_s = wanted.time_limit;
+  options.memory_limit_bytes = wanted.memory_limit;
+  options.size_at = graded_size(source);
+  return mesh::tetrahedralise(mesh::surface({box_size(*source.part)}), options);
+}
+
+/// The mesher's x, y, z run along the part's axes; an odd exchange of axes turns every tetrahedron, and is turned back.
+mesh::TetMesh in_part_axes(mesh::TetMesh mesh, const std::array<int, 3>& axes) {
+  const bool odd = (axes[1] - axes[0] + 3) % 3 != 1;
+  for (auto& v : mesh.vertices) {
+    Eigen::Vector3d x;
+    for (int k = 0; k < 3; ++k) x[axes[static_cast<std::size_t>(k)]] = v[k];
+    v = x;
+  }
+  if (odd) {
+    for (auto& tet : mesh.tets) std::swap(tet[2], tet[3]);
+  }
+  return mesh;
+}
+
+double thinnest(const mesh::Prism& prism) {
+  double t = prism.top - prism.bottom;
+  for (const auto& zone : prism.zones) t = std::min(t, zone.top - zone.bottom);
+  return t;
+}
+
+/// About the frequency (Hz) of the highest mode wanted: of a plate N modes lie below N · 2 c_L t / (√12 A), less what
+/// free edges add to their number; c_L the speed of longitudinal waves in a plate (Cremer, Heckl & Petersson 2005).
+double highest_frequency(const Case& source, const mesh::Prism& prism) {
+  if (source.modes.range.up_to_hz) return *source.modes.range.up_to_hz;
+  const Material& m = source.part->material;
+  const double wave_speed = std::sqrt(m.youngs_modulus / (m.density * (1.0 - m.poisson_ratio * m.poisson_ratio)));
+  const double t = thinnest(prism);
+  const double area = mesh::volume(prism) / t;
+  return 0.6 * source.modes.range.count.value_or(10) * 2.0 * wave_speed * t / (std::sqrt(12.0) * area);
+}
+
+/// Length of a bending wave of a plate, 2π (E t² / (12 (1−ν²) ρ ω²))^¼, m.
+double bending_wavelength(const Material& m, double thickness, double hz) {
+  const double omega = 2.0 * std::numbers::pi * hz;
+  const double stiffness_over_mass = m.youngs_modulus * thickness * thickness /
+                                     (12.0 * (1.0 - m.poisson_ratio * m.poisson_ratio) * m.density * omega * omega);
+  return 2.0 * std::numbers::pi * std::pow(stiffness_over_mass, 0.25);
+}
+
+int along_axis(const Part& part, int through) {
+  if (part.bend->along) return *part.bend->along;
+  Eigen::Vector3d size = box_size(part);
+  size[through] = 0.0;
+  int longest = 0;
+  size.maxCoeff(&longest);
+  return longest;
+}
+
+Discretisation refined_to_tolerance(const Case& source) {
+  const MeshOptions& wanted = source.part->mesh;
+  fem::SolidPart part{[&](int level) { return graded_mesh(source, level); }, shaping(*source.part),
+                      material_of(*source.part), supports_of(source)};
+  fem::ToleranceOptions options;
+  options.tolerance = wanted.tolerance;
+  options.modes = mode_options(source);
+  options.modes.verify_count = false;
+  for (const std::string& name : source.reduction.interface) options.points.push_back(named_point(source, name));
+  if (wanted.order) {
+    options.last_order = std::max(2, *wanted.order);
+    options.first_order = options.last_order - 1;
+  }
+  fem::Refined refined = fem::refine_to_tolerance(part, options);
+  for (const auto& step : refined.estimate.steps) {
+    spdlog::info("level {}, order {}: {} degrees of freedom, frequencies changed by {:.2e}, receptances by {:.2e}",
+                 step.level, step.order, step.dofs, step.frequency_change.value_or(0.0),
+                 step.receptance_change.value_or(0.0));
+  }
+  if (!refined.estimate.met) {
+    spdlog::warn("the tolerance of {} was not met: frequencies are right to about {:.1e}, receptances to {:.1e}",
+                 wanted.tolerance, refined.estimate.frequency, refined.estimate.receptance);
+  }
+  Discretisation result{refined.model.mesh, refined.model.nodes.order, refined.estimate, {}};
+  result.solved = std::move(refined);
+  return result;
+}
+
+}  // namespace
+
+PlanarPart planar(const Part& part) {
+  if (part.shape == "prism") return {part.prism, {0, 1, 2}};
+  PlanarPart result;
+  result.axes = {part.length_axis, part.height_axis, part.thickness_axis};
+  result.prism.outline = {{0.0, 0.0}, {part.length, 0.0}, {part.length, part.height}, {0.0, part.height}};
+  result.prism.top = part.thickness;
+  return result;
+}
+
+mesh::TetMesh graded_mesh(const Case& source, int level) {
+  const PlanarPart part = planar(*source.part);
+  const Eigen::Vector3d size = box_size(*source.part);
+  const double wave = bending_wavelength(source.part->material, thinnest(part.prism), highest_frequency(source, part.prism));
+  const double widest = std::max(size[part.axes[0]], size[part.axes[1]]);
+  mesh::PrismMeshOptions options;
+  options.size_m = source.part->mesh.element_size.value_or(std::min(0.3 * wave, 0.5 * widest) / std::pow(1.5, level));
+  options.layers = 1 + level;
+  // A patch is small and its own flexibility a small part of a wall's: it is meshed for where the estimate asks for it.
+  for (const Point& p : source.points) {
+    if (level < 2 || p.patch_radius <= 0.0) continue;
+    const Eigen::Vector3d x = position(*source.part, p);
+    options.spots.push_back({{x[part.axes[0]], x[part.axes[1]]}, p.patch_radius});
+  }
+  return in_part_axes(mesh::mesh_prism(part.prism, options), part.axes);
+}
+
+mesh::Bend bend_of(const Part& part) {
+  const int through = planar(part).axes[2];
+  const int along = along_axis(part, through);
+  const Eigen::Vector3d middle = bounds(part).center();
+  return {part.bend->radius, along, through, middle[along], middle[through]};
+}
+
+fem::Shaping shaping(const Part& part) {
+  if (!part.bend) return {};
+  return [bend = bend_of(part)](mesh::LagrangeNodes& nodes) { mesh::bend(bend, nodes.positions); };
+}
+
+double mass(const Part& part, const mesh::TetMesh& flat) {
+  if (!part.bend) return part.material.density * mesh::volume(planar(part).prism);
+  const mesh::Bend bend = bend_of(part);
+  double volume = 0.0;
+  for (int tet = 0; tet < static_cast<int>(flat.tets.size()); ++tet) {
+    double w = -bend.middle_m;
+    for (const int v : flat.tets[static_cast<std::size_t>(tet)])
+      w += 0.25 * flat.vertices[static_cast<std::size_t>(v)][bend.through];
+    volume += mesh::volume(flat, tet) * (1.0 + w / bend.radius_m);
+  }
+  return part.material.density * volume;
+}
+
+fem::Material material_of(const Part& part) {
+  const Material& m = part.material;
+  return {m.youngs_modulus, m.poisson_ratio, m.density};
+}
+
+std::vector<fem::Support> supports_of(const Case& source) {
+  std::vector<fem::Support> supports;
+  for (const Support& s : source.part->supports) supports.push_back({s.on, region_of(source, s.on), s.fixed});
+  return supports;
+}
+
+fem::NamedPoint named_point(const Case& source, const std::string& name) {
+  const Point& p = point(source, name);
+  return {p.name, position(*source.part, p), p.patch_radius, p.directions};
+}
+
+fem::ModeOptions mode_options(const Case& source) {
+  return {source.modes.range.count.value_or(10), source.modes.range.up_to_hz, source.modes.verify_count};
+}
+
+Discretisation discretise(const Case& source) {
+  const Part& part = *source.part;
+  if (!part.mesh.element_size) return refined_to_tolerance(source);
+  const int order = part.mesh.order.value_or(2);
+  if (part.shape == "box" && !part.bend) return {tetgen_mesh(source), order, {}, {}};
+  return {graded_mesh(source, 0), order, {}, {}};
+}
+
+}  // namespace thinwall::app

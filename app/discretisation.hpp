@@ -1,0 +1,52 @@
+#pragma once
+// From the part of a case to its mesh, its order, and where the nodes lie.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/case.hpp"
+#include "fem/to_tolerance.hpp"
+#include "mesh/bend.hpp"
+#include "mesh/tet_mesh.hpp"
+
+namespace thinwall::app {
+
+/// How the part is cut into elements, in the part's own coordinates (before it is bent).
+struct Discretisation {
+  mesh::TetMesh mesh;
+  int order = 2;
+  std::optional<fem::Estimate> estimate;  ///< with a tolerance
+  std::optional<fem::Refined> solved;     ///< with a tolerance: the last solution, until the part is changed
+};
+
+/// The part's prism in its plane: of a box, length and height; x, y, z of the mesher run along `axes` of the part.
+struct PlanarPart {
+  mesh::Prism prism;
+  std::array<int, 3> axes{0, 1, 2};
+};
+[[nodiscard]] PlanarPart planar(const Part& part);
+
+/// A graded mesh of one layer of elements through the wall; the coarsest is level 0, whose elements are a third as long
+/// as a bending wave of the highest mode wanted.
+[[nodiscard]] mesh::TetMesh graded_mesh(const Case& source, int level);
+
+/// The part's bend in its own coordinates; the part must have one.
+[[nodiscard]] mesh::Bend bend_of(const Part& part);
+
+/// Moves the nodes of the flat mesh onto the bent part; empty for a part that is not bent.
+[[nodiscard]] fem::Shaping shaping(const Part& part);
+
+/// Mass of the part, kg, in closed form on the flat mesh: ρ ∫ (1 + w/R) dV, R infinite without a bend.
+[[nodiscard]] double mass(const Part& part, const mesh::TetMesh& flat);
+
+[[nodiscard]] fem::Material material_of(const Part& part);
+[[nodiscard]] std::vector<fem::Support> supports_of(const Case& source);
+[[nodiscard]] fem::NamedPoint named_point(const Case& source, const std::string& name);
+[[nodiscard]] fem::ModeOptions mode_options(const Case& source);
+
+/// Mesh and order: from the tolerance (fem::refine_to_tolerance), or as the case gives them.
+[[nodiscard]] Discretisation discretise(const Case& source);
+
+}  // namespace thinwall::app
