@@ -58,7 +58,8 @@ double* number_behind(CaseValues& values, const std::string& key) {
 Eigen::AlignedBox3d bounds(const Part& part) {
   Eigen::AlignedBox3d box;
   if (part.shape == "prism") {
-    for (const auto& corner : part.prism.outline) box.extend(Eigen::Vector3d(corner.x(), corner.y(), part.prism.bottom));
+    for (const auto& corner : part.prism.outline)
+      box.extend(Eigen::Vector3d(corner.x(), corner.y(), part.prism.bottom));
     if (!box.isEmpty()) box.max().z() = part.prism.top;
     for (const auto& zone : part.prism.zones) {
       box.min().z() = std::min(box.min().z(), zone.bottom);

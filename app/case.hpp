@@ -21,9 +21,9 @@ struct Material {
 };
 
 struct MeshOptions {
-  std::optional<double> element_size;  ///< m; none: from the tolerance
-  double tolerance = 1e-3;             ///< on frequencies and receptances, where the size is not given
-  std::optional<int> order;            ///< none: from the tolerance; 2 with a given size
+  std::optional<double> element_size;        ///< m; none: from the tolerance
+  double tolerance = 1e-3;                   ///< on frequencies and receptances, where the size is not given
+  std::optional<int> order;                  ///< none: from the tolerance; 2 with a given size
   double quality = 1.4;                      ///< TetGen's bound on circumradius over shortest edge
   std::optional<double> grading;             ///< growth of the size away from the named points
   std::optional<double> point_element_size;  ///< m, near the named points
@@ -63,10 +63,10 @@ struct Bend {
 
 /// A box with one corner at the origin, or a prism.
 struct Part {
-  std::string shape = "box";  ///< box, prism
+  std::string shape = "box";                                 ///< box, prism
   double length = 0.0, height = 0.0, thickness = 0.0;        ///< m
   int length_axis = 1, height_axis = 2, thickness_axis = 0;  ///< 0, 1, 2 for x, y, z
-  mesh::Prism prism;  ///< of shape prism: outline in x, y; height along z
+  mesh::Prism prism;                                         ///< of shape prism: outline in x, y; height along z
   std::optional<Bend> bend;
   Material material;
   MeshOptions mesh;

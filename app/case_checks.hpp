@@ -12,8 +12,8 @@ namespace thinwall::app {
 [[nodiscard]] std::vector<Problem> check_case(const Case& source);
 
 /// Sizes to expect of the mesh of the case's part, before it is made (within a factor of about two): elements are the
-/// integral of 6√2 / size³ over the box, the size graded around the points as the mesher will be asked for it; of graded
-/// meshes their exact number on the coarsest level, with the order that it usually takes.
+/// integral of 6√2 / size³ over the box, the size graded around the points as the mesher will be asked for it; of
+/// graded meshes their exact number on the coarsest level, with the order that it usually takes.
 struct SizeEstimate {
   int order = 2;
   double elements = 0.0;

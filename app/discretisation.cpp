@@ -147,14 +147,15 @@ PlanarPart planar(const Part& part) {
 mesh::TetMesh graded_mesh(const Case& source, int level) {
   const PlanarPart part = planar(*source.part);
   const Eigen::Vector3d size = box_size(*source.part);
-  const double wave = bending_wavelength(source.part->material, thinnest(part.prism), highest_frequency(source, part.prism));
+  const double wave =
+      bending_wavelength(source.part->material, thinnest(part.prism), highest_frequency(source, part.prism));
   const double widest = std::max(size[part.axes[0]], size[part.axes[1]]);
   mesh::PrismMeshOptions options;
   options.size_m = source.part->mesh.element_size.value_or(std::min(0.3 * wave, 0.5 * widest) / std::pow(1.5, level));
   options.layers = 1 + level;
-  // A patch is small and its own flexibility a small part of a wall's: it is meshed for where the estimate asks for it.
+  options.spot_growth = level == 0 ? 4.0 : 2.0;
   for (const Point& p : source.points) {
-    if (level < 2 || p.patch_radius <= 0.0) continue;
+    if (p.patch_radius <= 0.0) continue;
     const Eigen::Vector3d x = position(*source.part, p);
     options.spots.push_back({{x[part.axes[0]], x[part.axes[1]]}, p.patch_radius});
   }

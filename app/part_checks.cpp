@@ -48,7 +48,7 @@ bool on_face(const Part& part, const std::string& face, const Eigen::Vector3d& p
 }
 
 void check_prism(const Part& part, Findings& findings) {
-  for (const auto* key : {"part.length", "part.height", "part.axes.length"}) {
+  for (const auto* key : {"part.length", "part.height"}) {
     if (findings.given(key)) findings.report(key, "a prism has an outline and a thickness along z; remove this key");
   }
   for (const auto* key : {"part.outline", "part.thickness"}) {
@@ -68,7 +68,8 @@ void check_bend(const Part& part, Findings& findings) {
   }
   mesh::Positions corners(2, 3);
   corners << box.min().transpose(), box.max().transpose();
-  for (const std::string& violation : mesh::violations(bend_of(part), corners)) findings.report("part.bend.radius", violation);
+  for (const std::string& violation : mesh::violations(bend_of(part), corners))
+    findings.report("part.bend.radius", violation);
 }
 
 void check_box(const Case& source, Findings& findings) {
@@ -144,11 +145,13 @@ void check_mesh_size(const Case& source, Findings& findings) {
   const MeshOptions& mesh = source.part->mesh;
   if (mesh.grading && !findings.given("part.mesh.point_element_size"))
     findings.report("part.mesh.grading", "there is nothing to grade; give point_element_size, or remove grading");
-  for (const auto* key : {"part.mesh.point_element_size", "part.mesh.quality"}) {
-    if (findings.given(key) && !by_tetgen(*source.part))
-      findings.report(key, "belongs to boxes with a given element_size; with \"auto\" the tolerance decides; remove it");
+  // A resolved case writes defaults out: only another value shows that the user meant it.
+  const bool other_quality = mesh.quality != MeshOptions{}.quality;
+  if (!by_tetgen(*source.part) && (mesh.point_element_size || other_quality)) {
+    findings.report(other_quality ? "part.mesh.quality" : "part.mesh.point_element_size",
+                    "belongs to boxes with a given element_size; elsewhere meshes are graded by rule; remove it");
   }
-  if (findings.given("part.mesh.tolerance") && mesh.element_size)
+  if (mesh.element_size && mesh.tolerance != MeshOptions{}.tolerance)
     findings.report("part.mesh.tolerance", "nothing is estimated with a given element_size; remove one of the two");
   if (!by_tetgen(*source.part)) return;
   const int order_now = mesh.order.value_or(2);
@@ -239,8 +242,9 @@ SizeEstimate estimate_size(const Case& source) {
   const Part& part = *source.part;
   SizeEstimate size;
   size.order = part.mesh.order.value_or(part.mesh.element_size ? 2 : 5);
-  size.elements = by_tetgen(part) ? std::max(6.0, tets_in({Eigen::Vector3d::Zero(), box_size(part)}, grading_of(source)))
-                                  : static_cast<double>(graded_mesh(source, 0).tets.size());
+  size.elements = by_tetgen(part)
+                      ? std::max(6.0, tets_in({Eigen::Vector3d::Zero(), box_size(part)}, grading_of(source)))
+                      : static_cast<double>(graded_mesh(source, 0).tets.size());
   // A tetrahedral mesh of a thin wall has about 0.3 vertices, 1.6 edges and 2.3 faces an element.
   const double p = size.order;
   size.nodes = size.elements * (0.3 + 1.6 * (p - 1) + 2.3 * (p - 1) * (p - 2) / 2 + (p - 1) * (p - 2) * (p - 3) / 6);

@@ -28,7 +28,7 @@ struct PartResult {
   double min_quality = 0.0;  ///< mean ratio
   mesh::Quality quality;
   std::optional<fem::Estimate> estimate;  ///< of what the mesh costs in accuracy; none for a given size
-  double mass_difference = 0.0;  ///< mass, centre, inertia: matrix against geometry, relative
+  double mass_difference = 0.0;           ///< mass, centre, inertia: matrix against geometry, relative
   reduction::Interface interface;
   std::optional<reduction::CraigBampton> reduced;     ///< none without an interface
   double frequency_error = 0.0;                       ///< of the reduced model, largest relative

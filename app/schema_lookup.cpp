@@ -65,7 +65,8 @@ std::string_view type_text(const Key& key) {
 
 std::string type_cell(const Key& key) {
   std::string text(type_text(key));
-  if (key.type == Type::quantities || key.type == Type::vector || key.type == Type::polygon) text += " (" + std::string(key.kind.name) + ")";
+  if (key.type == Type::quantities || key.type == Type::vector || key.type == Type::polygon)
+    text += " (" + std::string(key.kind.name) + ")";
   for (const auto& choice : choices(key)) text += " `" + choice + "`";
   if (!key.kind.unit.empty()) text += ", " + std::string(key.kind.unit);
   return text;

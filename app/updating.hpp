@@ -11,8 +11,7 @@ namespace thinwall::app {
 /// part. Residuals are relative, (value − wanted)/wanted times weight. Throws InputError if a target names a mode that
 /// is not there, NumericalError if nothing can be evaluated. Cost: a modal solution an evaluation, about 5 for one
 /// parameter.
-[[nodiscard]] UpdatingResult update_part(Case& source, const Updating& updating, const mesh::TetMesh& mesh,
-                                         int order);
+[[nodiscard]] UpdatingResult update_part(Case& source, const Updating& updating, const mesh::TetMesh& mesh, int order);
 
 /// The same with on = "coupled", on the reduced part: microseconds an evaluation. A reduction is compared by the
 /// logarithm of what remains, log((1 − value)/(1 − wanted)).

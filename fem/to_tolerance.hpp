@@ -39,17 +39,17 @@ struct RefinementStep {
   std::optional<double> receptance_change;  ///< likewise; none without points
 };
 
-/// How wrong the last solution may be: its difference from the solution one order below on the same mesh. That is the
-/// error of the lower one, which the last is well below wherever raising the order helps.
+/// How wrong the solution may be. Two orders p and p + 1 on one mesh differ by d: the error of the lower is about 1.5 d
+/// (what the higher leaves is a third or less of it), that of the higher at most d.
 struct Estimate {
   double frequency = 0.0;   ///< largest relative error
-  double receptance = 0.0;  ///< largest error of an entry over the largest entry at its frequency; 0 without points
+  double receptance = 0.0;  ///< largest error over the sum of the modes' magnitudes at its frequency; 0 without points
   double tolerance = 0.0;
   bool met = false;  ///< false: all levels were used
   std::vector<RefinementStep> steps;
 };
 
-/// The last solution.
+/// The cheaper solution that meets the tolerance: the lower of the last two orders if 1.5 d does, else the higher.
 struct [[nodiscard]] Refined {
   Model model;
   Factored factored;
@@ -57,12 +57,12 @@ struct [[nodiscard]] Refined {
   Estimate estimate;
 };
 
-/// Raises the order on a mesh from first_order; where the estimate is still above the tolerance at last_order, or too far
-/// above for an order to help, goes to the next level (Babuska & Guo 1992: exponential convergence with elements graded
-/// to edges and rising order). Receptances between the points are compared at zero (or at the shift of a free part) and
-/// between resonances that lie more than a quarter apart; nearer to a resonance they magnify the error of its frequency.
-/// Throws InputError for options out of range, and what the steps throw. Cost: that of the last step, and about a half
-/// more for those before.
+/// Raises the order on a mesh from first_order; where the estimate is still above the tolerance at last_order, or too
+/// far above for an order to help, goes to the next level (Babuska & Guo 1992: exponential convergence with elements
+/// graded to edges and rising order). Receptances between the points are compared at zero (or at the shift of a free
+/// part) and between resonances that lie more than a quarter apart; nearer to a resonance they magnify the error of its
+/// frequency. Throws InputError for options out of range, and what the steps throw. Cost: that of the last step, and
+/// about a half more for those before.
 Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& options);
 
 }  // namespace thinwall::fem

@@ -84,13 +84,16 @@ std::vector<std::string> violations(const PrismMeshOptions& options, const Prism
         "give a length, or 0 for the wall's thickness");
   check(options.layer_factor >= 0.1 && options.layer_factor <= 0.5, "layer_factor", options.layer_factor,
         "give 0.1 to 0.5");
+  check(options.spot_growth >= 0.2 && options.spot_growth <= 10.0, "spot_growth", options.spot_growth,
+        "give 0.2 to 10");
   check_spots(options, prism, found);
   return found;
 }
 
 double wanted_size(const PrismMeshOptions& options, const Eigen::Vector2d& p) {
   double size = options.size_m;
-  for (const auto& spot : options.spots) size = std::min(size, std::max(spot.radius_m, (p - spot.at).norm()));
+  for (const auto& spot : options.spots)
+    size = std::min(size, std::max(spot.radius_m, options.spot_growth * (p - spot.at).norm()));
   return size;
 }
 

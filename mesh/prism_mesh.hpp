@@ -28,12 +28,13 @@ struct PrismMeshOptions {
   double layer_width_m = 0.0;
   double layer_factor = 0.2;  ///< width of a layer over that of the next one inwards, 0.1 to 0.5
   std::vector<Spot> spots;    ///< elements as small as the radius there, growing with the distance
+  double spot_growth = 1.0;   ///< size of an element over its distance from the spot, 0.2 to 10: high orders bear 4
 };
 
 /// What is out of range, one line each; `prism` tells the bounds on lengths.
 [[nodiscard]] std::vector<std::string> violations(const PrismMeshOptions& options, const Prism& prism);
 
-/// Wanted edge of an element at p: min(size_m, max(r, |p − c|)) over the spots, m.
+/// Wanted edge of an element at p: min(size_m, max(r, g |p − c|)) over the spots, g the growth, m.
 [[nodiscard]] double wanted_size(const PrismMeshOptions& options, const Eigen::Vector2d& p);
 
 /// Distances from a border to the lines between its layers, for an outermost layer of width one: the layer next to

@@ -61,7 +61,7 @@ void add_spots(const std::vector<Spot>& spots, int axis, std::vector<double>& li
 double wanted_size_across(const PrismMeshOptions& options, int axis, double coordinate) {
   double size = options.size_m;
   for (const auto& spot : options.spots)
-    size = std::min(size, std::max(spot.radius_m, std::abs(coordinate - spot.at[axis])));
+    size = std::min(size, std::max(spot.radius_m, options.spot_growth * std::abs(coordinate - spot.at[axis])));
   return size;
 }
 
