@@ -38,6 +38,10 @@ ElementNodes positions_of(const mesh::LagrangeNodes& nodes, Eigen::Index element
 Geometry geometry(const mesh::LagrangeNodes& nodes, const Eigen::Matrix<double, Eigen::Dynamic, 4>& lattice,
                   Eigen::Index element) {
   const ElementNodes x = positions_of(nodes, element);
+  if (!x.allFinite()) {
+    throw core::NumericalError("tetrahedron " + std::to_string(element) +
+                               " has a node whose position is not a number: look at what moved the nodes");
+  }
   const Eigen::Matrix<double, 4, 3> vertices = x.topRows<4>();
   const double size = (vertices.rowwise() - vertices.row(0)).cwiseAbs().maxCoeff();
   const double far = vertices.cwiseAbs().maxCoeff();

@@ -28,9 +28,9 @@ struct Assembled {
 /// with g_k = ∇λ_{k+1} constant in each element: exact, without quadrature (docs/theory/elements.md); a curved one by
 /// curved_element(). Column by column: each column of K is summed by one thread from the elements around its node, in
 /// their order, so that the result is the same for any number of threads. `fixed`: rows 3·node + axis left out, in any
-/// order, duplicates allowed. Throws NumericalError if an element has no positive volume or is turned inside out
-/// somewhere, or if K outgrows 32-bit indices; InputError if nothing is left free. Cost 162 flops an entry of a
-/// straight element.
+/// order, duplicates allowed. Throws NumericalError if an element has no positive volume, is turned inside out
+/// somewhere or has a node whose position is not finite, or if K outgrows 32-bit indices; InputError if nothing is left
+/// free. Cost 162 flops an entry of a straight element.
 [[nodiscard]] Assembled assemble(const mesh::LagrangeNodes& nodes, const Material& material,
                                  const std::vector<int>& fixed = {});
 

@@ -60,7 +60,8 @@ CurvedElement curved_element(const CurvedReference& reference, const Eigen::Matr
     const Eigen::Matrix3d inverse = root * J.inverse();
     for (std::size_t i = 0; i < 3; ++i) gradient[i].col(q) = slopes * inverse.col(static_cast<Eigen::Index>(i));
   }
-  element.least_jacobian = volume.minCoeff() / volume.mean();
+  // The mean's size, not its sign: an element turned inside out as a whole has both negative.
+  element.least_jacobian = volume.minCoeff() / std::abs(volume.mean());
   element.M = density_kg_m3 *
               (reference.values * reference.weight.cwiseProduct(volume).asDiagonal() * reference.values.transpose());
   element.K.resize(3 * n, 3 * n);

@@ -81,6 +81,10 @@ Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const
 
 Eigenpairs eigenpairs_up_to(const SparseMatrix&, const SparseMatrix& M, const ShiftedInverse& inverse,
                             double lambda_max) {
+  if (!(lambda_max > 0.0)) {
+    throw core::InputError("asked for the modes up to λ = " + std::to_string(lambda_max) +
+                           " rad²/s²: give a bound above 0");
+  }
   return block_lanczos(M, inverse, {.lambda_max = lambda_max});
 }
 

@@ -35,6 +35,7 @@ struct [[nodiscard]] Eigenpairs {
 Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, int count);
 
 /// All eigenpairs with λ ≤ lambda_max, by the same method, which goes on until it has found one beyond.
+/// Throws InputError unless lambda_max > 0.
 Eigenpairs eigenpairs_up_to(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse,
                             double lambda_max);
 

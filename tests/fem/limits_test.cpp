@@ -1,0 +1,162 @@
+// What cannot be solved is an error that says so: too large, too many modes, a tolerance or a shift that cannot be.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "core/error.hpp"
+#include "fem/modes.hpp"
+#include "fem/to_tolerance.hpp"
+#include "tests/mesh/kuhn_box.hpp"
+
+namespace thinwall::fem {
+namespace {
+
+const Material steel{210e9, 0.3, 7850.0};
+const mesh::Box box{{0.3, 0.2, 0.15}};
+
+Support face(const std::string& name, std::vector<int> axes = {0, 1, 2}) {
+  return {name, mesh::face_of(box, name), std::move(axes)};
+}
+
+Model cantilever(int cells, int order) {
+  return supported_model(mesh::kuhn_box(box.size, {cells, cells, cells}), order, steel, {face("x_min")});
+}
+
+constexpr ModeOptions modes_wanted(int count) {
+  return {.count = count, .up_to_hz = {}, .verify_count = false};
+}
+
+TEST(MemoryLimit, SaysHowManyDegreesOfFreedomFitAndTheyDo) {
+  const Model model = cantilever(6, 3);
+  const double needed = factorise(model).factor.statistics().bytes;
+  const double limit = needed / 4.0;
+  try {
+    (void)factorise(model, limit);
+    FAIL() << "accepted";
+  } catch (const linalg::MemoryLimitError& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(error.needed_bytes, needed);
+    EXPECT_EQ(error.limit_bytes, limit);
+    EXPECT_EQ(message.find('\n'), std::string::npos) << "one line";
+    const auto about = message.find("about ");
+    ASSERT_NE(about, std::string::npos) << message;
+    const int fitting = std::stoi(message.substr(about + 6));
+    EXPECT_NE(message.find("of these " + std::to_string(model.K.rows()) + " degrees of freedom fit"), std::string::npos)
+        << message;
+    EXPECT_LT(fitting, model.K.rows());
+    // The same part with at most that many degrees of freedom does fit, and is not far from filling the limit.
+    int cells = 6;
+    Model smaller = cantilever(cells, 3);
+    while (smaller.K.rows() > fitting) smaller = cantilever(--cells, 3);
+    const double taken = factorise(smaller, limit).factor.statistics().bytes;
+    std::printf("limit of a quarter: %s; %td rows take %.2f of the limit\n", message.c_str(), smaller.K.rows(),
+                taken / limit);
+    EXPECT_LE(taken, limit);
+  }
+}
+
+TEST(Modes, AsManyAsDegreesOfFreedomOrMoreAreRefusedWithTheBound) {
+  const Model model = cantilever(1, 1);
+  ASSERT_EQ(model.K.rows(), 12);
+  const Factored factored = factorise(model);
+  EXPECT_EQ(modes(model, factored, modes_wanted(11)).frequency_hz.size(), 11);
+  for (const int count : {12, 13, 1000, 0, -3}) {
+    try {
+      (void)modes(model, factored, modes_wanted(count));
+      FAIL() << count;
+    } catch (const core::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("12 degrees of freedom: ask for 1 to 11"), std::string::npos)
+          << error.what();
+    }
+  }
+  // A band that holds every mode is no error: all twelve come.
+  const Modes all = modes(model, factored, {.count = 1, .up_to_hz = 1e9, .verify_count = false});
+  EXPECT_EQ(all.frequency_hz.size(), 12);
+}
+
+TEST(Modes, ABandThatIsNoFrequencyIsRefused) {
+  const Model model = cantilever(1, 2);
+  const Factored factored = factorise(model);
+  for (const double bound : {0.0, std::nan("")}) {
+    EXPECT_THROW((void)modes(model, factored, {.count = 1, .up_to_hz = bound, .verify_count = false}), core::InputError)
+        << bound;
+  }
+}
+
+TEST(Modes, OfAPartThatSlidesInOneDirectionHaveOneRigidMode) {
+  const Model model =
+      supported_model(mesh::kuhn_box(box.size, {3, 2, 2}), 2, steel, {face("x_min", {0}), face("y_min", {1})});
+  ASSERT_EQ(model.rigid_motions, 1);
+  const Modes found = modes(model, factorise(model), modes_wanted(3));
+  ASSERT_EQ(found.frequency_hz.size(), 4);
+  EXPECT_EQ(found.frequency_hz(0), 0.0);
+  EXPECT_GT(found.frequency_hz(1), 100.0);
+  const auto u = displacements(model, found.pairs.Phi.col(0));
+  EXPECT_LT((u.col(2).array() - u(0, 2)).abs().maxCoeff(), 1e-8 * std::abs(u(0, 2))) << "it moves along z";
+}
+
+TEST(Modes, OfTwoBlocksThatHangTogetherAtACornerAreNotTakenForElastic) {
+  mesh::TetMesh two = mesh::kuhn_box({0.1, 0.1, 0.1}, {1, 1, 1});
+  const auto first = static_cast<int>(two.vertices.size());
+  const mesh::TetMesh other = two;
+  // The second block's vertex 0 is the first one's vertex 7.
+  for (std::size_t v = 1; v < other.vertices.size(); ++v)
+    two.vertices.emplace_back(other.vertices[v] + Eigen::Vector3d(0.1, 0.1, 0.1));
+  for (auto tet : other.tets) {
+    for (int& v : tet) v = v == 0 ? 7 : v + first - 1;
+    two.tets.push_back(tet);
+  }
+  const Model model = build_model(two, 2, steel, {});
+  const Factored factored = factorise(model);
+  EXPECT_THROW((void)modes(model, factored, modes_wanted(4)), core::NumericalError) << "a ball joint: nine motions";
+}
+
+TEST(ShiftOnAnEigenvalue, OfTheModelIsAnErrorAtTheFactorisation) {
+  const Model model = cantilever(2, 2);
+  const Modes found = modes(model, factorise(model), modes_wanted(4));
+  for (const Eigen::Index k : {1, 2, 3}) {
+    const double sigma = found.pairs.lambda(k);
+    EXPECT_THROW(linalg::SparseCholesky(linalg::combine(1.0, model.K, -sigma, model.M), model.node_of_row),
+                 core::NumericalError)
+        << "λ" << k + 1;
+  }
+}
+
+TEST(ToleranceOptions, OutOfRangeAreRefusedBeforeAnythingIsMeshed) {
+  SolidPart part;
+  part.mesh = [](int) -> mesh::TetMesh { throw std::logic_error("meshed"); };
+  part.material = steel;
+  const auto message = [&](const ToleranceOptions& options) -> std::string {
+    try {
+      (void)refine_to_tolerance(part, options);
+    } catch (const core::InputError& error) {
+      return error.what();
+    } catch (const std::logic_error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  for (const double tolerance : {0.0, -1e-3, 0.99e-6, 0.11, 1.0, std::nan(""), double(INFINITY)}) {
+    ToleranceOptions options;
+    options.tolerance = tolerance;
+    EXPECT_NE(message(options).find("outside 1e-6 to 0.1"), std::string::npos) << tolerance << ": " << message(options);
+  }
+  for (const double tolerance : {1e-6, 0.1}) {
+    ToleranceOptions options;
+    options.tolerance = tolerance;
+    EXPECT_EQ(message(options), "meshed") << "the bounds themselves are allowed";
+  }
+  for (const auto& [first, last, levels] : {std::array{0, 4, 1}, {4, 7, 1}, {4, 4, 1}, {5, 3, 1}, {4, 6, 0}}) {
+    ToleranceOptions options;
+    options.first_order = first;
+    options.last_order = last;
+    options.levels = levels;
+    EXPECT_NE(message(options).find("orders must rise within 1 to 6"), std::string::npos) << first << ' ' << last;
+  }
+}
+
+}  // namespace
+}  // namespace thinwall::fem
