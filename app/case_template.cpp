@@ -26,8 +26,7 @@ poisson_ratio = 0.3
 density = "7850 kg/m^3"
 
 [part.mesh]
-element_size = "12 mm"       # about twice the thickness is enough for order 2
-order = 2
+tolerance = 0.001            # of frequencies and receptances; size and order of the elements follow
 
 [[part.supports]]            # faces: x_min, x_max, y_min, y_max, z_min, z_max
 on = "y_min"
@@ -90,8 +89,7 @@ poisson_ratio = 0.33
 density = "2810 kg/m^3"
 
 [part.mesh]
-element_size = "5 mm"
-order = 2
+tolerance = 0.001            # of frequencies and receptances; size and order of the elements follow
 
 [[part.supports]]
 on = "z_min"

@@ -18,7 +18,9 @@
 #include "io/pvd.hpp"
 #include "io/response_csv.hpp"
 #include "io/uff.hpp"
+#include "io/vtp.hpp"
 #include "io/vtu.hpp"
+#include "mesh/tessellation.hpp"
 #include "milling/stability.hpp"
 
 namespace thinwall::app {
@@ -50,6 +52,18 @@ struct ShapeSeries {
   }
 };
 
+/// The surface with all shapes as fields "mode 01, 160.7 Hz": what a viewer that knows no high orders can show.
+void write_part_surface(const fs::path& file, const PartResult& part) {
+  std::vector<io::NodeVectors> shapes;
+  for (Eigen::Index k = 0; k < part.modes.frequency_hz.size(); ++k) {
+    char name[48];
+    std::snprintf(name, sizeof name, "mode %02d, %.1f Hz", static_cast<int>(k + 1), part.modes.frequency_hz(k));
+    shapes.push_back({name, fem::displacements(part.model, part.modes.pairs.Phi.col(k))});
+  }
+  const auto& model = part.model;
+  io::write_vtp(file, model.nodes, mesh::surface_triangles(model.nodes, mesh::boundary(model.mesh)), shapes);
+}
+
 void write_part_modes(const fs::path& folder, const Results& results) {
   const PartResult& part = *results.finite_elements;
   ShapeSeries series{folder, "part_mode", {}};
@@ -72,6 +86,7 @@ void write_part_modes(const fs::path& folder, const Results& results) {
     residual.push_back(part.modes.residual(k));
   }
   io::write_pvd(folder / "part.pvd", series.entries);
+  write_part_surface(folder / "part_surface.vtp", part);
   io::write_csv(
       folder / "modes.csv",
       {{"mode", number}, {"frequency_hz", frequency}, {"damping_ratio", damping}, {"relative_residual", residual}});

@@ -119,7 +119,8 @@ Refined finished(Solution&& s, Estimate&& estimate) {
 
 Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& options) {
   validate(options);
-  Estimate estimate{.tolerance = options.tolerance};
+  Estimate estimate;
+  estimate.tolerance = options.tolerance;
   for (int level = 0;; ++level) {
     const mesh::TetMesh mesh = part.mesh(level);
     const bool last_level = level + 1 == options.levels;

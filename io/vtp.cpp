@@ -1,0 +1,90 @@
+#include "io/vtp.hpp"
+
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+
+namespace thinwall::io {
+
+namespace {
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// The nodes that triangles use, in order of first use, and the number of each among them (−1: not used).
+struct UsedNodes {
+  std::vector<int> nodes;
+  std::vector<vtkIdType> number;
+};
+
+UsedNodes used_by(const std::vector<std::array<int, 3>>& triangles, Eigen::Index count) {
+  UsedNodes used{{}, std::vector<vtkIdType>(static_cast<std::size_t>(count), -1)};
+  for (const auto& triangle : triangles) {
+    for (const int node : triangle) {
+      vtkIdType& number = used.number[static_cast<std::size_t>(node)];
+      if (number >= 0) continue;
+      number = static_cast<vtkIdType>(used.nodes.size());
+      used.nodes.push_back(node);
+    }
+  }
+  return used;
+}
+
+vtkNew<vtkFloatArray> single_precision(const Rows& values, const UsedNodes& used, const char* name) {
+  vtkNew<vtkFloatArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(used.nodes.size()));
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) {
+    const auto row = values.row(used.nodes[static_cast<std::size_t>(i)]);
+    array->SetTuple3(i, row.x(), row.y(), row.z());
+  }
+  return array;
+}
+
+void require_sound(const NodeVectors& field, Eigen::Index nodes) {
+  if (field.values.rows() != nodes) {
+    throw core::InputError("the field \"" + field.name + "\" has " + std::to_string(field.values.rows()) +
+                           " rows for " + std::to_string(nodes) + " nodes");
+  }
+  if (!field.values.allFinite()) throw core::NumericalError("the field \"" + field.name + "\" holds NaN or infinity");
+}
+
+}  // namespace
+
+void write_vtp(const std::filesystem::path& path, const mesh::LagrangeNodes& nodes,
+               const std::vector<std::array<int, 3>>& triangles, const std::vector<NodeVectors>& vectors) {
+  const UsedNodes used = used_by(triangles, nodes.positions.rows());
+  vtkNew<vtkPolyData> surface;
+  vtkNew<vtkPoints> points;
+  points->SetData(single_precision(nodes.positions, used, "points").Get());
+  surface->SetPoints(points);
+  vtkNew<vtkCellArray> cells;
+  for (const auto& triangle : triangles) {
+    cells->InsertNextCell(3);
+    for (const int node : triangle) cells->InsertCellPoint(used.number[static_cast<std::size_t>(node)]);
+  }
+  surface->SetPolys(cells);
+  for (const NodeVectors& field : vectors) {
+    require_sound(field, nodes.positions.rows());
+    surface->GetPointData()->AddArray(single_precision(field.values, used, field.name.c_str()).Get());
+  }
+  if (!vectors.empty()) surface->GetPointData()->SetActiveVectors(vectors.front().name.c_str());
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(surface);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOn();
+  writer->SetHeaderTypeToUInt64();
+  writer->SetCompressorTypeToZLib();
+  writer->WriteToOutputStringOn();
+  if (writer->Write() == 0) throw core::DataError("VTK could not encode the surface");
+  core::write_file_atomically(path, writer->GetOutputString());
+}
+
+}  // namespace thinwall::io

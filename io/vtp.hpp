@@ -1,0 +1,20 @@
+#pragma once
+// The surface of a part with its mode shapes, light enough to mail: VTK's XML format for polygons.
+
+#include <array>
+#include <filesystem>
+#include <vector>
+
+#include "io/vtu.hpp"
+#include "mesh/lagrange_nodes.hpp"
+
+namespace thinwall::io {
+
+/// Writes flat triangles between nodes (mesh::surface_triangles) with vectors at the nodes that they use, in single
+/// precision, compressed; all vectors in one file, so that a viewer switches between modes without opening another. The
+/// whole nodes and vectors are passed (nodes × 3), what the triangles do not use is left out. Written in one step.
+/// Throws as write_vtu().
+void write_vtp(const std::filesystem::path& path, const mesh::LagrangeNodes& nodes,
+               const std::vector<std::array<int, 3>>& triangles, const std::vector<NodeVectors>& vectors);
+
+}  // namespace thinwall::io
