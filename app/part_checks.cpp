@@ -55,6 +55,10 @@ void check_prism(const Part& part, Findings& findings) {
     if (!findings.given(key)) findings.report(key, "missing; a prism has an outline and a thickness along z");
   }
   if (!findings.given("part.outline") || !std::isfinite(part.prism.top)) return;
+  bool unread = part.prism.outline.empty();  // and reported as such
+  for (const auto& hole : part.prism.holes) unread = unread || hole.empty();
+  for (const auto& zone : part.prism.zones) unread = unread || zone.outline.empty() || !std::isfinite(zone.top);
+  if (unread) return;
   for (const std::string& violation : mesh::violations(part.prism)) findings.report("part.outline", violation);
 }
 

@@ -18,14 +18,15 @@ int main(int argc, char** argv) {
   constexpr double level = 0.005;
   app::Case source = app::read_case(argv[1], {"response.from=1 Hz", "response.to=1000 Hz", "response.lines=1999"});
   app::Stages stages(false);
-  mesh::TetMesh mesh = app::mesh_part(source);
+  app::Discretisation discretisation = app::discretise(source);
+  discretisation.solved.reset();  // the fit changes the part
   const Eigen::Vector3d meshed = app::box_size(*source.part);
   const auto fits = source.updating;
   for (const auto& fit : fits) {
-    if (fit.on == "part") static_cast<void>(app::update_part(source, fit, mesh));
+    if (fit.on == "part") static_cast<void>(app::update_part(source, fit, discretisation.mesh, discretisation.order));
   }
-  const app::PartResult part =
-      app::compute_part(source, app::stretched(mesh, meshed, app::box_size(*source.part)), stages);
+  discretisation.mesh = app::stretched(std::move(discretisation.mesh), meshed, app::box_size(*source.part));
+  const app::PartResult part = app::compute_part(source, std::move(discretisation), stages);
   for (const auto& fit : fits) {
     if (fit.on == "coupled") static_cast<void>(app::update_coupled(source, fit, part.reduced->model));
   }

@@ -80,7 +80,7 @@ TEST_F(CommandLine, WrongUseEndsWithTwoAndOneLine) {
 TEST_F(CommandLine, RunHandsTheCaseAndThePreparedFolderToThePipeline) {
   const Outcome outcome = call({"run", plate(), "--out", out(), "--set", "part.element_size=8 mm", "--fresh", "-q"},
                                [&](const Case& source, const RunOptions& options) {
-                                 EXPECT_DOUBLE_EQ(source.part->mesh.element_size, 0.008);
+                                 EXPECT_DOUBLE_EQ(source.part->mesh.element_size.value_or(0.0), 0.008);
                                  EXPECT_EQ(options.out, out());
                                  EXPECT_TRUE(options.fresh);
                                  EXPECT_EQ(options.verbosity, -1);

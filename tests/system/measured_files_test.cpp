@@ -38,7 +38,7 @@ TEST(MeasuredCase, NoiseFreeFilesGiveTheModelsPredictionWithinAThousandthOfThePe
                                               "response.to=1000 Hz", "response.lines=1999", "reduction.modes=40"});
   model.updating.clear();
   app::Stages stages(false);
-  const app::PartResult part = app::compute_part(model, app::mesh_part(model), stages);
+  const app::PartResult part = app::compute_part(model, app::discretise(model), stages);
   const auto axis = app::frequency_axis(model);
   const app::Component part_component = app::component(*part.damped, axis);
   const app::Component robot = app::robot_component(model, axis);

@@ -116,6 +116,46 @@ TEST(Run, LeavesEveryFileOfAResultFolder) {
   EXPECT_NE(all.find("part alone"), std::string::npos) << "the answer comes first";
 }
 
+/// The plate of reference/structures.md: 3-D frequencies in Hz, right to 1e-4.
+TEST(Run, AToleranceAloneGivesThePlatesFrequenciesWithinItAndSaysSo) {
+  const fs::path out = scratch("run_tolerance");
+  const fs::path source = scratch("run_tolerance_case");
+  fs::create_directories(source);
+  std::ofstream(source / "case.toml") << R"([part]
+length = "450 mm"
+height = "100 mm"
+thickness = "6 mm"
+[part.material]
+youngs_modulus = "210 GPa"
+poisson_ratio = 0.3
+density = "7850 kg/m^3"
+[part.mesh]
+tolerance = 0.0005
+[[part.supports]]
+on = "y_min"
+[[part.supports]]
+on = "y_max"
+[modes]
+count = 7
+)";
+  ASSERT_EQ(run(words("run", source.string(), out, {"-q"})), 0);
+  const auto summary = summary_in(out);
+  const double reference[] = {160.73, 442.17, 475.67, 866.55, 989.0, 1431.95, 1571.11};
+  double worst = 0.0;
+  for (std::size_t k = 0; k < 7; ++k)
+    worst = std::max(worst, summary["part"]["modes"][k]["frequency_hz"].get<double>() / reference[k] - 1.0);
+  const auto estimate = summary["mesh"]["error_estimate"];
+  std::printf("tolerance 5e-4: seven modes within %.1e, estimate %.1e, %d degrees of freedom, %.2f s\n", worst,
+              estimate["max_relative_frequency_error"].get<double>(), summary["mesh"]["dofs"].get<int>(),
+              summary["timings_s"]["total"].get<double>());
+  EXPECT_LT(worst, 5e-4);
+  EXPECT_TRUE(estimate["met"].get<bool>());
+  EXPECT_LT(estimate["max_relative_frequency_error"].get<double>(), 5e-4);
+  // The reference itself is right to 1e-4.
+  EXPECT_LT(worst, estimate["max_relative_frequency_error"].get<double>() + 1e-4);
+  EXPECT_TRUE(fs::exists(out / "modes" / "part_surface.vtp"));
+}
+
 TEST(Run, TheResolvedCaseGivesTheSameNumbersAndAnotherRunDoesToo) {
   const fs::path a = scratch("run_same_a");
   const fs::path b = scratch("run_same_b");
