@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/error.hpp"
+#include "core/memory.hpp"
 #include "mesh/bend.hpp"
 #include "mesh/prism_mesh.hpp"
 #include "mesh/selection.hpp"
@@ -113,6 +113,7 @@ Discretisation refined_to_tolerance(const Case& source) {
   options.tolerance = wanted.tolerance;
   options.modes = mode_options(source);
   options.modes.verify_count = false;
+  options.memory_limit_bytes = core::available_memory_bytes();
   for (const std::string& name : source.reduction.interface) options.points.push_back(named_point(source, name));
   if (wanted.order) {
     options.last_order = std::max(2, *wanted.order);

@@ -8,6 +8,7 @@
 
 #include "app/measured.hpp"
 #include "core/error.hpp"
+#include "core/memory.hpp"
 #include "fem/points.hpp"
 #include "reduction/accuracy.hpp"
 #include "reduction/damping.hpp"
@@ -147,7 +148,7 @@ fem::Factored solve_part(const Case& source, Discretisation& discretisation, Par
   stages.begin("assembly");
   part.model = part_model(source, std::move(discretisation.mesh), discretisation.order);
   stages.begin("modes");
-  fem::Factored factored = fem::factorise(part.model);
+  fem::Factored factored = fem::factorise(part.model, core::available_memory_bytes());
   part.modes = fem::modes(part.model, factored, mode_options(source));
   return factored;
 }

@@ -1,0 +1,27 @@
+#include "core/memory.hpp"
+
+#include <malloc.h>
+
+#include <fstream>
+#include <string>
+
+namespace thinwall::core {
+
+double available_memory_bytes() {
+  std::ifstream file("/proc/meminfo");
+  std::string name;
+  double kilobytes = 0.0;
+  std::string unit;
+  while (file >> name >> kilobytes >> unit) {
+    if (name == "MemAvailable:") return 1024.0 * kilobytes;
+  }
+  return 0.0;
+}
+
+void keep_freed_memory() {
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, -1);
+  mallopt(M_TOP_PAD, 64 << 20);
+}
+
+}  // namespace thinwall::core
