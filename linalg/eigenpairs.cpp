@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "linalg/block_lanczos.hpp"
+#include "linalg/tall.hpp"
 
 namespace thinwall::linalg {
 
@@ -133,8 +134,8 @@ Eigenpairs dense_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const 
 }
 
 Eigen::VectorXd residuals(const SparseMatrix& K, const SparseMatrix& M, const Eigenpairs& pairs) {
-  const Eigen::MatrixXd MPhi = M * pairs.Phi;
-  const Eigen::MatrixXd R = K * pairs.Phi - MPhi * pairs.lambda.asDiagonal();
+  const Eigen::MatrixXd MPhi = symmetric_product(M, pairs.Phi);
+  const Eigen::MatrixXd R = symmetric_product(K, pairs.Phi) - MPhi * pairs.lambda.asDiagonal();
   return R.colwise().norm().transpose().cwiseQuotient(
       (pairs.lambda.transpose().cwiseAbs().cwiseProduct(MPhi.colwise().norm())).transpose());
 }
