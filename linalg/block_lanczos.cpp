@@ -55,70 +55,76 @@ struct Krylov {
   MatrixXd V{};  // n × capacity, the first `columns` in use
   MatrixXd T{};  // VᵀMAV, upper triangle
   Index columns = 0;
+  Index before = 0;  // columns of the last block but one
   std::mt19937_64 random{20190801};
 
   [[nodiscard]] auto basis() const { return V.leftCols(columns); }
 
-  MatrixXd random_columns(Index count) {
-    std::normal_distribution<double> normal;
-    return MatrixXd::NullaryExpr(M.rows(), count, [&] { return normal(random); });
+  void append(const Block& block) {
+    if (columns + block.Q.cols() > V.cols())
+      V.conservativeResize(Eigen::NoChange, std::max(2 * V.cols(), columns + block.Q.cols()));
+    V.middleCols(columns, block.Q.cols()) = block.Q;
+    columns += block.Q.cols();
   }
 
-  /// Takes the basis out of W and makes the rest orthonormal, by classical Gram-Schmidt repeated on the normalised
-  /// columns until nothing of the basis is left in them; two passes as a rule. H receives VᵀMW.
-  Block outside(MatrixXd W, MatrixXd& H) const {
+  MatrixXd random_columns(Index count) {
+    return MatrixXd::NullaryExpr(M.rows(), count, [&] { return std::ldexp(static_cast<double>(random()), -63) - 1.0; });
+  }
+
+  /// Takes the basis' columns from `first` on out of W. Returns their part of VᵀMW.
+  MatrixXd take_out(Index first, const MatrixXd& MW, MatrixXd& W) const {
+    const auto Q = V.middleCols(first, columns - first);
+    MatrixXd C = tall_gram(Q, MW);
+    tall_subtract(W, Q, C);
+    return C;
+  }
+
+  /// The part of W outside of the basis, orthonormal, by classical Gram-Schmidt. In exact arithmetic an image has parts
+  /// of the last two blocks only; they are taken out first, then of the whole basis what round-off has brought, as
+  /// often as there is some. H receives VᵀMW.
+  Block outside(MatrixXd W, Index first, MatrixXd& H) const {
     MatrixXd B = MatrixXd::Identity(W.cols(), W.cols());
-    bool normalised = false;
-    double shortest = 0.0;
-    for (int pass = 0; W.cols() > 0; ++pass) {
+    H = MatrixXd::Zero(columns, W.cols());
+    double shortest = -1.0;
+    for (int pass = 0; pass < 6 && W.cols() > 0; ++pass) {
       MatrixXd MW = symmetric_product(M, W);
-      const MatrixXd C = tall_gram(basis(), MW);
       MatrixXd G = tall_gram(W, MW);
-      if (pass == 0) {
-        H = C;
-        shortest = 1e-14 * std::sqrt(G.diagonal().maxCoeff());  // what the basis explains to round-off is no direction
-      }
       const VectorXd before = G.diagonal();
-      const bool clean = normalised && (C.size() == 0 || C.cwiseAbs().maxCoeff() < 1e-14 || pass > 4);
-      if (!clean) {
-        tall_subtract(W, basis(), C);
-        G -= C.transpose() * C;
-      }
-      const Orthonormal next = orthonormal(G, normalised ? 1e-3 : shortest);
-      // The first Gram matrix comes from a difference: good enough to normalise with, unless much cancelled.
-      if (pass == 0 && C.size() > 0 && (next.smallest < 1e-6 || (G.diagonal().array() < 1e-6 * before.array()).any())) {
-        continue;
-      }
+      // What the basis explains to round-off is no direction.
+      if (pass == 0) shortest = 1e-14 * std::sqrt(before.maxCoeff());
+      const Index from = pass == 0 ? first : 0;
+      const MatrixXd C = take_out(from, MW, W);
+      H.bottomRows(columns - from) += C * B;
+      G -= C.transpose() * C;
+      const Orthonormal next = orthonormal(G, shortest);
+      // A difference is good enough to normalise with, unless much cancelled.
+      if (pass == 0 && (next.smallest < 1e-6 || (G.diagonal().array() < 1e-6 * before.array()).any())) continue;
       W = tall_product(W, next.Z);
       B = next.B * B;
-      normalised = true;
+      shortest = 1e-3;
+      const bool clean = pass > 0 && (C.size() == 0 || C.cwiseAbs().maxCoeff() < 1e-10);
       if (clean) return {std::move(W), tall_product(MW, next.Z), std::move(B)};
     }
-    return {std::move(W), MatrixXd(M.rows(), 0), std::move(B)};
-  }
-
-  void append(const MatrixXd& Q) {
-    if (columns + Q.cols() > V.cols())
-      V.conservativeResize(Eigen::NoChange, std::max(2 * V.cols(), columns + Q.cols()));
-    V.middleCols(columns, Q.cols()) = Q;
-    columns += Q.cols();
+    return {W, symmetric_product(M, W), std::move(B)};
   }
 
   /// One step: the block joins the basis, A is applied to it and projected; returns the next block.
   Block step(const Block& block) {
     core::check_interrupt();
-    append(block.Q);
+    append(block);
+    const Index first = columns - block.Q.cols() - before;
+    before = block.Q.cols();
     MatrixXd H;
-    Block next = outside(inverse.apply(block.MQ), H);
+    Block next = outside(inverse.apply(block.MQ), std::max<Index>(first, 0), H);
     T.conservativeResize(columns, columns);
     T.rightCols(block.Q.cols()) = H;
     return next;
   }
 
-  /// A block of `count` random directions outside of the basis, in the range of A.
+  /// A block of `count` random directions outside of the basis.
   Block random_block(Index count) {
     MatrixXd unused;
-    return outside(inverse.apply(symmetric_product(M, random_columns(count))), unused);
+    return outside(random_columns(count), 0, unused);
   }
 };
 
@@ -193,7 +199,7 @@ Eigenpairs block_lanczos(const SparseMatrix& M, const ShiftedInverse& inverse, c
   const Index n = M.rows();
   const Index width = block_width(options, n);
   Krylov krylov{.M = M, .inverse = inverse};
-  krylov.V.resize(n, std::min(n, options.lambda_max > 0.0 ? 8 * width : 2 * options.count + 3 * width));
+  krylov.V.resize(n, std::min(n, options.lambda_max > 0.0 ? 8 * width : 2 * options.count + 4 * width));
   Eigenpairs pairs;
   pairs.status = EigenStatus::not_converged;
   Index next_check = options.lambda_max > 0.0 ? 1 : options.count;

@@ -3,6 +3,7 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 #include "core/error.hpp"
@@ -11,57 +12,51 @@ namespace thinwall::linalg {
 
 namespace {
 
-/// The graph of nodes in METIS' form, and the rows of each node.
-struct NodeGraph {
-  std::vector<std::vector<int>> rows;
-  std::vector<idx_t> start{0};
-  std::vector<idx_t> neighbours;
-  std::vector<idx_t> weights;  // rows of a node
-};
-
-NodeGraph node_graph(const SparseMatrix& A, const std::vector<int>& node_of_row) {
-  NodeGraph graph;
-  // Compact node numbers in order of first appearance.
-  std::vector<int> compact(static_cast<std::size_t>(*std::max_element(node_of_row.begin(), node_of_row.end())) + 1, -1);
-  std::vector<int> node_of(node_of_row.size());
-  for (std::size_t row = 0; row < node_of_row.size(); ++row) {
-    int& node = compact[static_cast<std::size_t>(node_of_row[row])];
-    if (node < 0) {
-      node = static_cast<int>(graph.rows.size());
-      graph.rows.emplace_back();
+/// For each node the nodes that dominate it: neighbours whose own neighbours include all of its. Only nodes that
+/// nothing dominates count as such; they have empty lists. In a mesh of order p these are the vertices of the elements,
+/// and the nodes on an edge, face or inside are dominated by the vertices of that edge, face or element.
+std::vector<std::vector<int>> dominators(const MatrixGraph& graph) {
+  std::vector<int> by_degree(graph.rows.size());
+  std::iota(by_degree.begin(), by_degree.end(), 0);
+  std::stable_sort(by_degree.begin(), by_degree.end(), [&](int a, int b) { return graph.degree(a) > graph.degree(b); });
+  std::vector<std::vector<int>> result(graph.rows.size());
+  std::vector<int> around(graph.rows.size(), -1);  // the node whose neighbours have been marked last
+  for (const int node : by_degree) {
+    if (!result[static_cast<std::size_t>(node)].empty()) continue;
+    around[static_cast<std::size_t>(node)] = node;
+    for (const int other : graph.around(node)) around[static_cast<std::size_t>(other)] = node;
+    for (const int other : graph.around(node)) {
+      if (graph.degree(other) > graph.degree(node)) continue;
+      const auto& theirs = graph.around(other);
+      if (std::all_of(theirs.begin(), theirs.end(), [&](int k) { return around[static_cast<std::size_t>(k)] == node; }))
+        result[static_cast<std::size_t>(other)].push_back(node);
     }
-    node_of[row] = node;
-    graph.rows[static_cast<std::size_t>(node)].push_back(static_cast<int>(row));
   }
-  std::vector<int> last_seen(graph.rows.size(), -1);
-  graph.neighbours.reserve(static_cast<std::size_t>(A.nonZeros()) / 9);
-  for (std::size_t node = 0; node < graph.rows.size(); ++node) {
-    last_seen[node] = static_cast<int>(node);
-    for (const int row : graph.rows[node]) {
-      for (SparseMatrix::InnerIterator it(A, row); it; ++it) {
-        const int other = node_of[static_cast<std::size_t>(it.row())];
-        if (last_seen[static_cast<std::size_t>(other)] == static_cast<int>(node)) continue;
-        last_seen[static_cast<std::size_t>(other)] = static_cast<int>(node);
-        graph.neighbours.push_back(other);
-      }
-    }
-    graph.start.push_back(static_cast<idx_t>(graph.neighbours.size()));
-    graph.weights.push_back(static_cast<idx_t>(graph.rows[node].size()));
-  }
-  return graph;
+  return result;
 }
 
-std::vector<idx_t> dissected(NodeGraph& graph) {
-  auto nodes = static_cast<idx_t>(graph.rows.size());
-  std::vector<idx_t> order(graph.rows.size());
-  for (idx_t i = 0; i < nodes; ++i) order[static_cast<std::size_t>(i)] = i;
-  if (nodes == 1 || graph.neighbours.empty()) return order;
-  std::vector<idx_t> position(graph.rows.size());
+/// METIS' order of some nodes of a graph among themselves, as positions in `kept`.
+std::vector<idx_t> dissected(const MatrixGraph& graph, const std::vector<int>& kept) {
+  std::vector<idx_t> number(graph.rows.size(), -1);
+  for (std::size_t i = 0; i < kept.size(); ++i) number[static_cast<std::size_t>(kept[i])] = static_cast<idx_t>(i);
+  std::vector<idx_t> start{0};
+  std::vector<idx_t> neighbours;
+  for (const int node : kept) {
+    for (const int other : graph.around(node)) {
+      if (number[static_cast<std::size_t>(other)] >= 0) neighbours.push_back(number[static_cast<std::size_t>(other)]);
+    }
+    start.push_back(static_cast<idx_t>(neighbours.size()));
+  }
+  auto nodes = static_cast<idx_t>(kept.size());
+  std::vector<idx_t> order(kept.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (nodes == 1 || neighbours.empty()) return order;
+  std::vector<idx_t> position(kept.size());
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;
-  const int status = METIS_NodeND(&nodes, graph.start.data(), graph.neighbours.data(), graph.weights.data(), options,
-                                  order.data(), position.data());
+  const int status =
+      METIS_NodeND(&nodes, start.data(), neighbours.data(), nullptr, options, order.data(), position.data());
   if (status != METIS_OK) {
     throw core::NumericalError("METIS could not order a graph of " + std::to_string(nodes) + " nodes (status " +
                                std::to_string(status) + "): use larger elements");
@@ -71,11 +66,37 @@ std::vector<idx_t> dissected(NodeGraph& graph) {
 
 }  // namespace
 
+std::vector<int> elimination_order(const MatrixGraph& graph) {
+  const std::vector<std::vector<int>> above = dominators(graph);
+  std::vector<int> kept;
+  for (int node = 0; node < graph.size(); ++node) {
+    if (above[static_cast<std::size_t>(node)].empty()) kept.push_back(node);
+  }
+  std::vector<std::size_t> position(graph.rows.size());  // of those that are kept
+  std::size_t next = 0;
+  for (const idx_t i : dissected(graph, kept))
+    position[static_cast<std::size_t>(kept[static_cast<std::size_t>(i)])] = next++;
+  std::vector<std::vector<int>> together(kept.size());  // by position
+  for (int node = 0; node < graph.size(); ++node) {
+    const auto& dominating = above[static_cast<std::size_t>(node)];
+    std::size_t first = dominating.empty() ? position[static_cast<std::size_t>(node)] : kept.size();
+    for (const int other : dominating) first = std::min(first, position[static_cast<std::size_t>(other)]);
+    together[first].push_back(node);
+  }
+  std::vector<int> order;
+  order.reserve(graph.rows.size());
+  for (auto& nodes : together) {
+    std::stable_sort(nodes.begin(), nodes.end(), [&](int a, int b) { return graph.degree(a) < graph.degree(b); });
+    order.insert(order.end(), nodes.begin(), nodes.end());
+  }
+  return order;
+}
+
 std::vector<int> nested_dissection(const SparseMatrix& A, const std::vector<int>& node_of_row) {
-  NodeGraph graph = node_graph(A, node_of_row);
+  const MatrixGraph graph = matrix_graph(A, node_of_row);
   std::vector<int> permutation;
   permutation.reserve(node_of_row.size());
-  for (const idx_t node : dissected(graph)) {
+  for (const int node : elimination_order(graph)) {
     const auto& rows = graph.rows[static_cast<std::size_t>(node)];
     permutation.insert(permutation.end(), rows.begin(), rows.end());
   }

@@ -13,13 +13,12 @@ namespace thinwall::linalg {
 /// What a factorisation may use.
 struct FactorOptions {
   double memory_limit_bytes = 0.0;  ///< 0: no limit. Compared with the symbolic factor before anything is allocated
-  bool wide_indices = false;        ///< 64-bit indices from the start; they are taken by themselves where 32 bits end
 };
 
 /// What a factorisation cost.
 struct FactorStatistics {
   double flops = 0.0;     ///< of the numeric factorisation
-  double nonzeros = 0.0;  ///< of the factor L
+  double nonzeros = 0.0;  ///< of the factor L, relaxed supernodes' zeros included
   double bytes = 0.0;     ///< of the factor with the zeros that supernodes store, its indices and its workspace
   double seconds_ordering = 0.0;
   double seconds_analysis = 0.0;
@@ -35,7 +34,7 @@ class MemoryLimitError : public core::NumericalError {
   double limit_bytes = 0.0;
 };
 
-/// P A Pᵀ = L Lᵀ by CHOLMOD's supernodal method (Chen et al. 2008) with METIS nested dissection on the nodes.
+/// P A Pᵀ = L Lᵀ: elimination_order() with METIS, symbolic_factor() with CHOLMOD, supernodal_factor().
 class SparseCholesky {
  public:
   /// A: n × n, symmetric positive definite, both triangles stored. node_of_row: for each row the node it belongs to,

@@ -27,7 +27,7 @@ cholmod_dense view(const Eigen::Ref<const Eigen::MatrixXd>& B) {
 }  // namespace
 
 struct SparseIndefinite::Impl {
-  CholmodFactor<int> factor{CHOLMOD_SIMPLICIAL};
+  CholmodFactor factor{CHOLMOD_SIMPLICIAL};
   SparseMatrix A;
 
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& B) const {
@@ -45,13 +45,10 @@ struct SparseIndefinite::Impl {
 SparseIndefinite::SparseIndefinite(const SparseMatrix& A, const std::vector<int>& node_of_row)
     : impl_(std::make_unique<Impl>()) {
   impl_->A = A;
-  CholmodView<int> view(impl_->A);
-  if (!impl_->factor.analyse(view, nested_dissection(A, node_of_row))) {
-    throw core::NumericalError("an indefinite factor of " + std::to_string(A.rows()) +
-                               " rows is beyond 32-bit indices: use larger elements or leave the check out");
-  }
+  cholmod_sparse view = cholmod_view(impl_->A);
+  impl_->factor.analyse(&view, nested_dissection(A, node_of_row));
   const LibraryThreads threads(1);
-  impl_->factor.factorise(view);
+  impl_->factor.factorise(&view);
 }
 
 SparseIndefinite::~SparseIndefinite() = default;

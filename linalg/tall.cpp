@@ -72,7 +72,7 @@ MatrixXd symmetric_product(const SparseMatrix& A, const Eigen::Ref<const MatrixX
   MatrixXd Y(A.rows(), X.cols());
   Index column = 0;
   for (; column + 8 <= X.cols(); column += 8) strip_product<8>(A, X, column, Y);
-  for (; column + 4 <= X.cols(); column += 4) strip_product<4>(A, X, column, Y);
+  for (; column + 2 <= X.cols(); column += 2) strip_product<2>(A, X, column, Y);
   for (; column < X.cols(); ++column) strip_product<1>(A, X, column, Y);
   return Y;
 }

@@ -1,0 +1,38 @@
+#pragma once
+// Large blocks of numbers that are written before they are read.
+
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+
+namespace thinwall::linalg {
+
+struct FreeLarge {
+  void operator()(void* memory) const noexcept;
+};
+
+/// Memory with undefined contents, on pages of 2 MB where the system gives them; throws NumericalError if there is
+/// none.
+[[nodiscard]] std::unique_ptr<void, FreeLarge> allocate_large(std::size_t bytes);
+
+/// An array of numbers without initial values. Why not std::vector: that writes zeros, on one thread; a factor's pages
+/// are better touched first by the threads that fill them, and few large pages cost less than many small ones (a third
+/// of a factorisation's time went into page faults).
+template <class T>
+class LargeArray {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  LargeArray() = default;
+  explicit LargeArray(std::ptrdiff_t size) : memory_(allocate_large(sizeof(T) * static_cast<std::size_t>(size))) {}
+
+  [[nodiscard]] T* data() { return static_cast<T*>(memory_.get()); }
+  [[nodiscard]] const T* data() const { return static_cast<const T*>(memory_.get()); }
+  [[nodiscard]] T& operator[](std::ptrdiff_t i) { return data()[i]; }
+  [[nodiscard]] const T& operator[](std::ptrdiff_t i) const { return data()[i]; }
+
+ private:
+  std::unique_ptr<void, FreeLarge> memory_;
+};
+
+}  // namespace thinwall::linalg

@@ -1,0 +1,57 @@
+#include "linalg/tree_cut.hpp"
+
+#include <algorithm>
+#include <queue>
+
+namespace thinwall::linalg {
+
+TreeCut tree_cut(const SymbolicFactor& L) {
+  const auto count = static_cast<std::size_t>(L.count());
+  const std::vector<int> parent = parents(L);
+  std::vector<double> weight(count);  // values in the subtree
+  std::vector<std::vector<int>> children(count + 1);
+  for (std::size_t s = 0; s < count; ++s) {
+    weight[s] += static_cast<double>(L.first_value[s + 1] - L.first_value[s]);
+    if (parent[s] >= 0) weight[static_cast<std::size_t>(parent[s])] += weight[s];
+    children[parent[s] >= 0 ? static_cast<std::size_t>(parent[s]) : count].push_back(static_cast<int>(s));
+  }
+  // The heaviest subtree is opened until all are light; what is opened is the top.
+  double total = 0.0;
+  std::priority_queue<std::pair<double, int>> open;
+  for (const int root : children[count]) {
+    open.emplace(weight[static_cast<std::size_t>(root)], root);
+    total += weight[static_cast<std::size_t>(root)];
+  }
+  TreeCut cut;
+  std::vector<char> in_top(count, 0);
+  while (!open.empty() && open.top().first > std::max(total / 24.0, 1e5)) {
+    const auto s = static_cast<std::size_t>(open.top().second);
+    open.pop();
+    in_top[s] = 1;
+    for (const int child : children[s]) open.emplace(weight[static_cast<std::size_t>(child)], child);
+  }
+  std::vector<int> group(count, -1);
+  cut.groups.resize(16);
+  std::vector<double> load(cut.groups.size(), 0.0);
+  for (; !open.empty(); open.pop()) {  // the heaviest first, to the group with the least
+    const auto lightest = std::min_element(load.begin(), load.end());
+    *lightest += open.top().first;
+    group[static_cast<std::size_t>(open.top().second)] = static_cast<int>(lightest - load.begin());
+  }
+  cut.place_in_top.assign(L.permutation.size(), -1);
+  for (std::size_t s = count; s-- > 0;) {  // a parent comes after its children
+    if (in_top[s] == 0 && group[s] < 0) group[s] = group[static_cast<std::size_t>(parent[s])];
+  }
+  for (std::size_t s = 0; s < count; ++s) {
+    if (in_top[s] == 0) {
+      cut.groups[static_cast<std::size_t>(group[s])].push_back(static_cast<int>(s));
+      continue;
+    }
+    cut.top.push_back(static_cast<int>(s));
+    for (int row = L.first_column[s]; row < L.first_column[s + 1]; ++row)
+      cut.place_in_top[static_cast<std::size_t>(row)] = cut.rows_in_top++;
+  }
+  return cut;
+}
+
+}  // namespace thinwall::linalg
