@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "fem/free_motions.hpp"
 #include "linalg/sparse_indefinite.hpp"
 
 namespace thinwall::fem {
@@ -47,8 +48,8 @@ Modes modes(const Model& model, const Factored& factored, const ModeOptions& opt
   }
   const int rigid = result.rigid_motions;
   if (rigid > 0 && lambda.head(rigid).cwiseAbs().maxCoeff() > 1e-6 * lambda(rigid)) {
-    throw core::NumericalError("a part with " + std::to_string(rigid) +
-                               " free rigid motions shows modes that are neither rigid nor " +
+    throw core::NumericalError("a part that is free in " + std::to_string(rigid) + " rigid motions (" +
+                               listed(model.free_motions) + ") shows modes that are neither rigid nor " +
                                "elastic: the mesh may have parts that hang together at a point or edge only");
   }
   result.residual = linalg::residuals(model.K, model.M, result.pairs);
