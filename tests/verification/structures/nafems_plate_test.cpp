@@ -44,7 +44,7 @@ Eigen::VectorXd with_plate_theory_as_limit(const char* name, const std::vector<f
   const auto f = [&](double h) { return scaled_frequencies(name, h, supports, static_cast<int>(kirchhoff.size())); };
   const Eigen::VectorXd at_200 = f(0.2);
   const Eigen::VectorXd at_100 = f(0.1);
-  const Eigen::VectorXd at_50 = f(0.05);
+  Eigen::VectorXd at_50 = f(0.05);
   const Eigen::VectorXd limit = (8.0 * at_50 - 6.0 * at_100 + at_200) / 3.0;
   std::printf("   off plate theory by %.1e at 200 mm, %.1e at 100 mm, %.1e at 50 mm, %.1e in the limit\n",
               worst_error(at_200, kirchhoff), worst_error(at_100, kirchhoff), worst_error(at_50, kirchhoff),

@@ -55,9 +55,9 @@ linalg::SparseMatrix mass_by_four_points(const fem::Model& model, double density
     const double mass = density * mesh::volume(model.mesh, static_cast<int>(e));
     for (Eigen::Index a = 0; a < 10; ++a) {
       for (Eigen::Index b = 0; b < 10; ++b) {
-        for (int axis = 0; axis < 3; ++axis) {
-          const int i = row_of[static_cast<std::size_t>(3 * model.nodes.elements(e, a) + axis)];
-          const int j = row_of[static_cast<std::size_t>(3 * model.nodes.elements(e, b) + axis)];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const int i = row_of[3 * static_cast<std::size_t>(model.nodes.elements(e, a)) + axis];
+          const int j = row_of[3 * static_cast<std::size_t>(model.nodes.elements(e, b)) + axis];
           if (i >= 0 && j >= 0) entries.emplace_back(i, j, mass * M_hat(a, b));
         }
       }
