@@ -23,8 +23,9 @@ namespace {
 std::vector<double> ccx_frequencies(const std::filesystem::path& input) {
   std::filesystem::path stem = input;
   stem.replace_extension();
-  const std::string command =
-      "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 ccx '" + stem.string() + "' > '" + stem.string() + ".log' 2>&1";
+  const std::string command = "cd '" + stem.parent_path().string() +
+                              "' && OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 ccx '" + stem.string() + "' > '" +
+                              stem.string() + ".log' 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
   std::ifstream file(stem.string() + ".dat");
   std::vector<double> frequencies;
