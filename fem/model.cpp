@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "fem/free_motions.hpp"
 
 namespace thinwall::fem {
 
@@ -14,7 +15,8 @@ Model build_model(mesh::TetMesh mesh, mesh::LagrangeNodes nodes, const Material&
   model.nodes = std::move(nodes);
   Assembled assembled = assemble(model.nodes, material, fixed);
   model.mass = mass_properties(assembled.node_mass, model.nodes);
-  model.rigid_motions = free_rigid_motions(model.nodes, fixed);
+  model.free_motions = free_motions(model.nodes, fixed);
+  model.rigid_motions = static_cast<int>(model.free_motions.size());
   model.K = std::move(assembled.K);
   model.M = std::move(assembled.M);
   model.free_rows = std::move(assembled.free_rows);
@@ -53,8 +55,8 @@ namespace {
   const double fitting = std::pow(error.limit_bytes / error.needed_bytes, 0.75);
   const auto rounded = [](double x) { return std::to_string(static_cast<long>(std::lround(x))); };
   throw linalg::MemoryLimitError(
-      std::string(error.what()) + ": about " + rounded(fitting * static_cast<double>(model.K.rows())) +
-          " of these " + std::to_string(model.K.rows()) + " degrees of freedom fit; make the elements " +
+      std::string(error.what()) + ": about " + rounded(fitting * static_cast<double>(model.K.rows())) + " of these " +
+          std::to_string(model.K.rows()) + " degrees of freedom fit; make the elements " +
           rounded(std::ceil(100.0 * (std::cbrt(1.0 / fitting) - 1.0))) + " % larger, or lower the order",
       error.needed_bytes, error.limit_bytes);
 }

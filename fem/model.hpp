@@ -1,6 +1,7 @@
 #pragma once
 // A part ready to be solved: mesh, nodes, matrices on the free DOFs.
 
+#include <string>
 #include <vector>
 
 #include "fem/assembly.hpp"
@@ -17,12 +18,13 @@ namespace thinwall::fem {
 struct Model {
   mesh::TetMesh mesh;
   mesh::LagrangeNodes nodes;
-  linalg::SparseMatrix K;        ///< free × free, N/m
-  linalg::SparseMatrix M;        ///< free × free, kg
-  std::vector<int> free_rows;    ///< for each row of K its 3·node + axis, ascending
-  std::vector<int> node_of_row;  ///< for each row of K its node
-  int rigid_motions = 0;         ///< 0 for a held part, 6 for a free one
-  MassProperties mass;           ///< from the unconstrained mass matrix
+  linalg::SparseMatrix K;                 ///< free × free, N/m
+  linalg::SparseMatrix M;                 ///< free × free, kg
+  std::vector<int> free_rows;             ///< for each row of K its 3·node + axis, ascending
+  std::vector<int> node_of_row;           ///< for each row of K its node
+  int rigid_motions = 0;                  ///< 0 for a held part, 6 for a free one, 6 for each free piece
+  std::vector<std::string> free_motions;  ///< these in words: free_motions.hpp
+  MassProperties mass;                    ///< from the unconstrained mass matrix
   int curved_elements = 0;
   double least_jacobian = 1.0;  ///< smallest det J over its mean in an element
 };

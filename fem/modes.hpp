@@ -24,12 +24,14 @@ struct [[nodiscard]] Modes {
   std::optional<bool> count_verified;  ///< set on request: true if the Sturm count agrees
 };
 
-/// Sturm count: no eigenvalue but the pairs' lies below the last of them. Counts at a shift between it and the next one.
+/// Sturm count: no eigenvalue but the pairs' lies below the last of them. Counts at a shift between it and the next
+/// one.
 [[nodiscard]] bool none_missed(const Model& model, const linalg::Eigenpairs& pairs);
 
 /// Cost: see linalg::lowest_eigenpairs; the Sturm count adds a simplicial factorisation.
-/// Throws NumericalError if the iteration does not converge, or if a free part does not show exactly its rigid-body
-/// modes, |λ| < 1e-6 of the first elastic eigenvalue.
+/// Throws NumericalError if the iteration does not converge, if a free part does not show exactly its rigid-body modes
+/// (|λ| < 1e-6 of the first elastic eigenvalue or of the size of K's round-off, 10 ε tr K / tr M), or if the first
+/// elastic eigenvalue, of a held part too, is no more than that round-off.
 Modes modes(const Model& model, const Factored& factored, const ModeOptions& options);
 
 }  // namespace thinwall::fem

@@ -1,6 +1,5 @@
 #include "fem/rigid_body.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 
@@ -23,20 +22,6 @@ Eigen::MatrixXd rigid_body_motions(const mesh::LagrangeNodes& nodes) {
     R.middleRows<3>(3 * node) = motion_at(nodes.positions.row(node).transpose());
   }
   return R;
-}
-
-int free_rigid_motions(const mesh::LagrangeNodes& nodes, const std::vector<int>& fixed) {
-  const Eigen::RowVector3d centre = nodes.positions.colwise().mean();
-  const double size = (nodes.positions.rowwise() - centre).rowwise().norm().maxCoeff();
-  Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();
-  for (const int row : fixed) {
-    const Eigen::Vector3d x = (nodes.positions.row(row / 3) - centre).transpose() / size;
-    const Eigen::Matrix<double, 1, 6> r = motion_at(x).row(row % 3);
-    gram += r.transpose() * r;
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(gram);
-  const double largest = std::max(eigen.eigenvalues().maxCoeff(), 1.0);
-  return static_cast<int>((eigen.eigenvalues().array() < 1e-10 * largest).count());
 }
 
 MassProperties mass_properties(const linalg::SparseMatrix& node_mass, const mesh::LagrangeNodes& nodes) {

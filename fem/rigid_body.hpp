@@ -2,7 +2,6 @@
 // Rigid-body motions: of the nodes, left free by the supports, and the mass properties that they measure.
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "linalg/sparse.hpp"
 #include "mesh/lagrange_nodes.hpp"
@@ -12,10 +11,6 @@ namespace thinwall::fem {
 /// The six rigid-body motions about the origin as columns (three translations in m, three rotations in rad): 3·nodes
 /// × 6.
 [[nodiscard]] Eigen::MatrixXd rigid_body_motions(const mesh::LagrangeNodes& nodes);
-
-/// Number of independent rigid-body motions (0…6) that vanish on all `fixed` rows (3·node + axis): 6 − rank. Rotations
-/// are scaled by the part's size first.
-[[nodiscard]] int free_rigid_motions(const mesh::LagrangeNodes& nodes, const std::vector<int>& fixed);
 
 /// Mass (kg), centre (m) and inertia about the centre (kg m², moments and products with the sign of the tensor).
 struct MassProperties {

@@ -107,6 +107,12 @@ TEST(RollerBox, CubicElementsConvergeWithOrderSix) {
 TEST(RollerBox, QuarticElementsConvergeWithOrderEight) {
   EXPECT_GE(slope(4, {2, 3, 4}), 7.3);
 }
+TEST(RollerBox, QuinticElementsConvergeWithOrderTen) {
+  EXPECT_GE(slope(5, {2, 3}), 9.3);
+}
+TEST(RollerBox, SexticElementsConvergeWithOrderTwelve) {
+  EXPECT_GE(slope(6, {2, 3}), 11.0);
+}
 
 }  // namespace
 }  // namespace thinwall

@@ -1,0 +1,107 @@
+// Order and size from a tolerance, on the clamped 450 × 100 × 6 mm plate: the estimate against the true error.
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "fem/to_tolerance.hpp"
+#include "tests/verification/structures/prism_part.hpp"
+
+namespace thinwall {
+namespace {
+
+const mesh::Prism plate = plate_prism(0.45, 0.1, 0.006);
+
+fem::SolidPart clamped_plate() {
+  fem::SolidPart part;
+  part.mesh = [](int level) { return graded_mesh(plate, 0.09 / (1 + level), 1 + level / 2); };
+  part.material = steel_part;
+  part.supports = {held_plane(0, 0.0), held_plane(0, 0.45)};
+  return part;
+}
+
+/// Of order 6 on a finer mesh with two layers: about a hundred-thousandth above the limit.
+Eigen::VectorXd reference() {
+  return elastic(solved(graded_mesh(plate, 0.075, 2), 6, steel_part, clamped_plate().supports, 7).modes);
+}
+
+void expect_consistent(const fem::Refined& refined) {
+  const auto& steps = refined.estimate.steps;
+  ASSERT_FALSE(steps.empty());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    std::printf("   level %d, order %d: %td DOFs%s\n", steps[i].level, steps[i].order, steps[i].dofs,
+                steps[i].frequency_change ? (", change " + std::to_string(*steps[i].frequency_change)).c_str() : "");
+    EXPECT_EQ(steps[i].frequency_change.has_value(), i > 0 && steps[i - 1].level == steps[i].level);
+    if (i == 0) continue;
+    if (steps[i - 1].level == steps[i].level) {
+      EXPECT_EQ(steps[i].order, steps[i - 1].order + 1);
+      if (steps[i - 1].frequency_change) {
+        EXPECT_LT(*steps[i].frequency_change, *steps[i - 1].frequency_change) << "estimates fall from order to order";
+      }
+    }
+  }
+  const double change = steps.back().frequency_change.value_or(-1.0);
+  if (refined.model.K.rows() == steps.back().dofs) {
+    EXPECT_EQ(refined.estimate.frequency, change);
+  } else {
+    ASSERT_GE(steps.size(), 2U);
+    EXPECT_EQ(refined.model.K.rows(), steps[steps.size() - 2].dofs) << "the lower of the last two orders";
+    EXPECT_EQ(refined.estimate.frequency, 1.5 * change);
+  }
+}
+
+TEST(RefineToTolerance, TrueErrorIsBelowTheEstimateAndTheEstimateBelowTheTolerance) {
+  const Eigen::VectorXd exact = reference();
+  Eigen::Index last_dofs = 0;
+  for (const double tolerance : {1e-2, 1e-3, 5e-4}) {
+    fem::ToleranceOptions options;
+    options.tolerance = tolerance;
+    options.modes.count = 7;
+    const fem::Refined refined = fem::refine_to_tolerance(clamped_plate(), options);
+    const double error = worst_error(elastic(refined.modes), exact);
+    std::printf("tolerance %.0e: %td DOFs, estimate %.1e, true error %.1e\n", tolerance, refined.model.K.rows(),
+                refined.estimate.frequency, error);
+    EXPECT_TRUE(refined.estimate.met) << tolerance;
+    EXPECT_LE(refined.estimate.frequency, tolerance);
+    EXPECT_LT(error, refined.estimate.frequency) << "tolerance " << tolerance;
+    EXPECT_GE(refined.model.K.rows(), last_dofs) << "a finer tolerance is no smaller model";
+    last_dofs = refined.model.K.rows();
+    expect_consistent(refined);
+  }
+}
+
+TEST(RefineToTolerance, CountsReceptancesWherePointsAreGiven) {
+  fem::ToleranceOptions options;
+  options.tolerance = 5e-3;
+  options.modes.count = 5;
+  options.points = {{"P", {0.225, 0.05, 0.006}, 0.005, {Eigen::Vector3d::UnitZ()}}};
+  const fem::Refined refined = fem::refine_to_tolerance(clamped_plate(), options);
+  std::printf("with a point: %td DOFs, frequencies to %.1e, receptances to %.1e\n", refined.model.K.rows(),
+              refined.estimate.frequency, refined.estimate.receptance);
+  EXPECT_TRUE(refined.estimate.met);
+  EXPECT_GT(refined.estimate.receptance, 0.0);
+  EXPECT_LE(refined.estimate.receptance, options.tolerance);
+  ASSERT_TRUE(refined.estimate.steps.back().receptance_change.has_value());
+}
+
+TEST(RefineToTolerance, SaysSoWhereItRanOutOfLevels) {
+  fem::ToleranceOptions options;
+  options.tolerance = 1e-6;
+  options.levels = 1;
+  options.first_order = 2;
+  options.last_order = 3;
+  options.modes.count = 3;
+  const fem::Refined refined = fem::refine_to_tolerance(clamped_plate(), options);
+  EXPECT_FALSE(refined.estimate.met);
+  EXPECT_GT(refined.estimate.frequency, 1e-6);
+  EXPECT_EQ(refined.estimate.steps.size(), 2U);
+}
+
+TEST(RefineToTolerance, HoldsTheMemoryLimit) {
+  fem::ToleranceOptions options;
+  options.memory_limit_bytes = 1e5;
+  EXPECT_THROW((void)fem::refine_to_tolerance(clamped_plate(), options), linalg::MemoryLimitError);
+}
+
+}  // namespace
+}  // namespace thinwall
