@@ -89,7 +89,7 @@ TEST(LowestEigenpairs, AModeThatIsMissingIsNoticedByTheSturmCount) {
                              0.0};
   const Eigenpairs found = lowest_eigenpairs(problem.grid.K, problem.grid.M, blind, 7);
   ASSERT_NEAR(found.lambda(6), all.lambda(7), 1e-9 * all.lambda(7));
-  EXPECT_LT(found.inverse_residual.maxCoeff(), 1e-10) << "residuals do not tell";
+  EXPECT_LT(found.inverse_residual.maxCoeff(), 3e-10) << "residuals do not tell";
   const auto below =
       count_eigenvalues_below(problem.grid.K, problem.grid.M, found.lambda(6) * (1 + 1e-6), problem.grid.node_of_row);
   EXPECT_EQ(below.value_or(-1), 8) << "one more than the seven found";

@@ -44,20 +44,18 @@ double peak_bytes() {
 TEST(MemoryLimit, IsReportedWithTheNeedBeforeTheFactorIsAllocated) {
   const SparseMatrix A = laplacian(40);
   const auto nodes = rows_as_nodes(A);
-  for (const bool wide : {false, true}) {
-    const double before = peak_bytes();
-    try {
-      const SparseCholesky factor(A, nodes, {.memory_limit_bytes = 5e7, .wide_indices = wide});
-      FAIL() << "a factor of " << factor.statistics().bytes << " bytes";
-    } catch (const MemoryLimitError& error) {
-      const double taken = peak_bytes() - before;
-      std::printf("memory limit 50 MB: needed %.0f MB, taken %.0f MB: %s\n", error.needed_bytes * 1e-6, taken * 1e-6,
-                  error.what());
-      EXPECT_EQ(error.limit_bytes, 5e7);
-      EXPECT_GT(error.needed_bytes, 1.2e8);
-      EXPECT_LT(taken, 0.5 * error.needed_bytes) << "the ordering and the symbolic factor only";
-      EXPECT_NE(std::string(error.what()).find("64000 rows"), std::string::npos) << error.what();
-    }
+  const double before = peak_bytes();
+  try {
+    const SparseCholesky factor(A, nodes, {.memory_limit_bytes = 5e7});
+    FAIL() << "a factor of " << factor.statistics().bytes << " bytes";
+  } catch (const MemoryLimitError& error) {
+    const double taken = peak_bytes() - before;
+    std::printf("memory limit 50 MB: needed %.0f MB, taken %.0f MB: %s\n", error.needed_bytes * 1e-6, taken * 1e-6,
+                error.what());
+    EXPECT_EQ(error.limit_bytes, 5e7);
+    EXPECT_GT(error.needed_bytes, 1.2e8);
+    EXPECT_LT(taken, 0.5 * error.needed_bytes) << "the ordering and the symbolic factor only";
+    EXPECT_NE(std::string(error.what()).find("64000 rows"), std::string::npos) << error.what();
   }
 }
 
@@ -66,8 +64,8 @@ TEST(MemoryLimit, NeedIsWhatTheFactorTakes) {
   const auto nodes = rows_as_nodes(A);
   const double bytes = SparseCholesky(A, nodes).statistics().bytes;
   EXPECT_GT(bytes, 8.0 * SparseCholesky(A, nodes).statistics().nonzeros);
-  EXPECT_NO_THROW(SparseCholesky(A, nodes, {.memory_limit_bytes = bytes, .wide_indices = false}));
-  EXPECT_THROW(SparseCholesky(A, nodes, {.memory_limit_bytes = bytes - 1.0, .wide_indices = false}), MemoryLimitError);
+  EXPECT_NO_THROW(SparseCholesky(A, nodes, {.memory_limit_bytes = bytes}));
+  EXPECT_THROW(SparseCholesky(A, nodes, {.memory_limit_bytes = bytes - 1.0}), MemoryLimitError);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/SparseCholesky>
-#include <cstdint>
 #include <random>
 
 #include "linalg/sparse_cholesky.hpp"
@@ -57,52 +56,38 @@ TEST(SupernodalSolve, IsTheSameBitByBitForAnyNumberOfThreads) {
   for (const int threads : {2, 3, 16, 40}) EXPECT_EQ(one, solved(threads)) << threads << " threads";
 }
 
-TEST(SupernodalSolve, WideIndicesGiveTheSameBits) {
-  const GridProblem grid = grid_problem(side);
-  const SparseCholesky narrow(grid.K, grid.node_of_row);
-  const SparseCholesky wide(grid.K, grid.node_of_row, {.memory_limit_bytes = 0.0, .wide_indices = true});
-  const MatrixXd B = MatrixXd::Random(grid.K.rows(), 11);
-  EXPECT_EQ(narrow.solve(B), wide.solve(B));
-  EXPECT_EQ(narrow.statistics().nonzeros, wide.statistics().nonzeros);
-  EXPECT_GT(wide.statistics().bytes, narrow.statistics().bytes);
-}
-
 /// Supernodes in order of column, each in one group or in the top; nobody in a group owns a row that another group's
 /// elimination touches.
-TEST(SolvePlan, PutsEverySupernodeInOnePlaceAndLetsGroupsTouchOnlyThemselvesAndTheTop) {
+TEST(TreeCut, PutsEverySupernodeInOnePlaceAndLetsGroupsTouchOnlyThemselvesAndTheTop) {
   // A chain of dense diagonal blocks of one column, each coupled to the next two: a path as elimination tree.
   constexpr int n = 2000;
-  std::vector<int> first_column(n + 1);
-  std::vector<int> first_row{0};
-  std::vector<int> first_value{0};
-  std::vector<int> rows;
+  SymbolicFactor L;
+  L.first_row.push_back(0);
   for (int s = 0; s < n; ++s) {
-    first_column[static_cast<std::size_t>(s)] = s;
-    const int count = std::min(200, n - s);
-    for (int k = 0; k < count; ++k) rows.push_back(s + k);
-    first_row.push_back(static_cast<int>(rows.size()));
-    first_value.push_back(static_cast<int>(rows.size()));
+    L.permutation.push_back(s);
+    L.first_column.push_back(s);
+    for (int row = s; row < std::min(s + 200, n); ++row) L.rows.push_back(row);
+    L.first_row.push_back(static_cast<std::ptrdiff_t>(L.rows.size()));
   }
-  first_column[n] = n;
-  const std::vector<double> values(rows.size(), 1.0);
-  const Supernodes<int> L{n, first_column.data(), first_row.data(), first_value.data(), rows.data(), values.data()};
-  const SolvePlan plan = solve_plan(L);
+  L.first_column.push_back(n);
+  L.first_value = L.first_row;  // one column each
+  const TreeCut cut = tree_cut(L);
   std::vector<int> group(n, -2);
-  for (std::size_t g = 0; g < plan.groups.size(); ++g) {
-    EXPECT_TRUE(std::is_sorted(plan.groups[g].begin(), plan.groups[g].end()));
-    for (const int s : plan.groups[g]) group[static_cast<std::size_t>(s)] = static_cast<int>(g);
+  for (std::size_t g = 0; g < cut.groups.size(); ++g) {
+    EXPECT_TRUE(std::is_sorted(cut.groups[g].begin(), cut.groups[g].end()));
+    for (const int s : cut.groups[g]) group[static_cast<std::size_t>(s)] = static_cast<int>(g);
   }
-  for (const int s : plan.top) {
+  for (const int s : cut.top) {
     EXPECT_EQ(group[static_cast<std::size_t>(s)], -2);
     group[static_cast<std::size_t>(s)] = -1;
   }
-  EXPECT_FALSE(plan.top.empty());
-  EXPECT_EQ(plan.rows_in_top, static_cast<int>(plan.top.size()));
+  EXPECT_FALSE(cut.top.empty());
+  EXPECT_EQ(cut.rows_in_top, static_cast<int>(cut.top.size()));
   for (std::size_t s = 0; s < group.size(); ++s) {
     ASSERT_GE(group[s], -1) << "supernode " << s << " is nowhere";
-    EXPECT_EQ(plan.place_in_top[s] >= 0, group[s] == -1);
-    for (int k = first_row[s]; k < first_row[s + 1]; ++k) {
-      const int above = group[static_cast<std::size_t>(rows[static_cast<std::size_t>(k)])];
+    EXPECT_EQ(cut.place_in_top[s] >= 0, group[s] == -1);
+    for (int k = 0; k < L.height(static_cast<int>(s)); ++k) {
+      const int above = group[static_cast<std::size_t>(L.rows_of(static_cast<int>(s))[k])];
       EXPECT_TRUE(above == -1 || above == group[s]) << s;
     }
   }
