@@ -12,6 +12,7 @@
 
 #include "bench/petsc_binary.hpp"
 #include "bench/stages.hpp"
+#include "core/memory.hpp"
 #include "core/parallel.hpp"
 #include "fem/assembly.hpp"
 #include "io/inp.hpp"
@@ -102,6 +103,7 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  core::keep_freed_memory();  // as the program does
   try {
     return parse_and_run(argc, argv);
   } catch (const std::exception& error) {

@@ -3,9 +3,11 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
@@ -55,69 +57,76 @@ struct Krylov {
   MatrixXd V{};  // n × capacity, the first `columns` in use
   MatrixXd T{};  // VᵀMAV, upper triangle
   Index columns = 0;
-  Index before = 0;  // columns of the last block but one
+  MatrixXd AV{};                     // the images of V's columns, as the inverse gave them
+  std::array<MatrixXd, 2> recent{};  // M times the last two blocks of V
   std::mt19937_64 random{20190801};
 
   [[nodiscard]] auto basis() const { return V.leftCols(columns); }
 
-  void append(const Block& block) {
-    if (columns + block.Q.cols() > V.cols())
-      V.conservativeResize(Eigen::NoChange, std::max(2 * V.cols(), columns + block.Q.cols()));
-    V.middleCols(columns, block.Q.cols()) = block.Q;
-    columns += block.Q.cols();
+  /// The block behind the columns that are in use.
+  void store(MatrixXd& all, const MatrixXd& block) const {
+    if (columns + block.cols() > all.cols())
+      all.conservativeResize(Eigen::NoChange, std::max(2 * all.cols(), columns + block.cols()));
+    all.middleCols(columns, block.cols()) = block;
   }
 
   MatrixXd random_columns(Index count) {
     return MatrixXd::NullaryExpr(M.rows(), count, [&] { return std::ldexp(static_cast<double>(random()), -63) - 1.0; });
   }
 
-  /// Takes the basis' columns from `first` on out of W. Returns their part of VᵀMW.
-  MatrixXd take_out(Index first, const MatrixXd& MW, MatrixXd& W) const {
-    const auto Q = V.middleCols(first, columns - first);
-    MatrixXd C = tall_gram(Q, MW);
-    tall_subtract(W, Q, C);
-    return C;
+  /// Takes the last two blocks of the basis out of W, the only ones that an image has parts of in exact arithmetic, and
+  /// M times them out of M W. H receives VᵀMW.
+  void take_out_recent(MatrixXd& W, MatrixXd& MW, MatrixXd& H) const {
+    Index end = columns;
+    for (const MatrixXd* MQ : {&recent[1], &recent[0]}) {
+      if (MQ->cols() == 0) continue;
+      const auto Q = V.middleCols(end - MQ->cols(), MQ->cols());
+      const MatrixXd C = tall_gram(Q, MW);
+      tall_subtract(W, Q, C);
+      tall_subtract(MW, *MQ, C);
+      end -= MQ->cols();
+      H.middleRows(end, MQ->cols()) += C;
+    }
   }
 
-  /// The part of W outside of the basis, orthonormal, by classical Gram-Schmidt. In exact arithmetic an image has parts
-  /// of the last two blocks only; they are taken out first, then of the whole basis what round-off has brought, as
-  /// often as there is some. H receives VᵀMW.
-  Block outside(MatrixXd W, Index first, MatrixXd& H) const {
-    MatrixXd B = MatrixXd::Identity(W.cols(), W.cols());
+  /// The part of W outside of the basis, orthonormal, by classical Gram-Schmidt: after the recent blocks, what
+  /// round-off has brought of the whole basis is taken out as often as there is some. H receives VᵀMW.
+  Block outside(MatrixXd W, MatrixXd& H) const {
+    MatrixXd MW = symmetric_product(M, W);
     H = MatrixXd::Zero(columns, W.cols());
-    bool normalised = false;
-    double shortest = 0.0;
-    for (int pass = 0; pass < 6 && W.cols() > 0; ++pass) {
-      MatrixXd MW = symmetric_product(M, W);
-      MatrixXd G = tall_gram(W, MW);
-      const VectorXd squares = G.diagonal();
-      // What the basis explains to round-off is no direction.
-      if (pass == 0) shortest = 1e-14 * std::sqrt(squares.maxCoeff());
-      const Index from = pass == 0 ? first : 0;
-      const MatrixXd C = take_out(from, MW, W);
-      H.bottomRows(columns - from) += C * B;
-      G -= C.transpose() * C;
-      const Orthonormal next = orthonormal(G, shortest);
-      // A difference is good enough to normalise with, unless much cancelled.
-      if (!normalised && pass < 4 && (next.smallest < 1e-6 || (G.diagonal().array() < 1e-6 * squares.array()).any()))
-        continue;
+    // What the basis explains to round-off is no direction.
+    double shortest = 1e-14 * std::sqrt(tall_gram(W, MW).diagonal().maxCoeff());
+    take_out_recent(W, MW, H);
+    MatrixXd B = MatrixXd::Identity(W.cols(), W.cols());
+    bool clean = false;
+    for (int pass = 0; pass < 6 && W.cols() > 0 && !clean; ++pass) {
+      const Orthonormal next = orthonormal(tall_gram(W, MW), shortest);
       W = tall_product(W, next.Z);
+      MW = tall_product(MW, next.Z);
       B = next.B * B;
+      const MatrixXd C = tall_gram(basis(), MW);
+      tall_subtract(W, basis(), C);
+      H += C * B;
+      clean = C.size() == 0 || C.cwiseAbs().maxCoeff() < 1e-10;
+      if (!clean) MW = symmetric_product(M, W);
       shortest = 1e-3;
-      if (normalised && (C.size() == 0 || C.cwiseAbs().maxCoeff() < 1e-10)) break;
-      normalised = true;
     }
-    return {W, symmetric_product(M, W), std::move(B)};
+    if (W.cols() == 0) return {W, MW, B};
+    MW = symmetric_product(M, W);
+    const Orthonormal last = orthonormal(tall_gram(W, MW), shortest);
+    return {tall_product(W, last.Z), tall_product(MW, last.Z), last.B * B};
   }
 
   /// One step: the block joins the basis, A is applied to it and projected; returns the next block.
   Block step(const Block& block) {
     core::check_interrupt();
-    append(block);
-    const Index first = columns - block.Q.cols() - before;
-    before = block.Q.cols();
+    MatrixXd W = inverse.apply(block.MQ);
+    store(V, block.Q);
+    store(AV, W);
+    columns += block.Q.cols();
+    recent[0] = std::exchange(recent[1], block.MQ);
     MatrixXd H;
-    Block next = outside(inverse.apply(block.MQ), std::max<Index>(first, 0), H);
+    Block next = outside(std::move(W), H);
     T.conservativeResize(columns, columns);
     T.rightCols(block.Q.cols()) = H;
     return next;
@@ -126,7 +135,7 @@ struct Krylov {
   /// A block of `count` random directions outside of the basis, in the range of A.
   Block random_block(Index count) {
     MatrixXd unused;
-    return outside(inverse.apply(symmetric_product(M, random_columns(count))), 0, unused);
+    return outside(inverse.apply(symmetric_product(M, random_columns(count))), unused);
   }
 };
 
@@ -164,12 +173,11 @@ void fix_signs(MatrixXd& Phi) {
   }
 }
 
-/// One inverse iteration Y = A Φ on the converged pairs measures their residual; Rayleigh-Ritz in span Y then gives
-/// better ones: with K Y = M Φ + σ M Y no product with K is needed.
-void polish(const SparseMatrix& M, const ShiftedInverse& inverse, Eigenpairs& pairs) {
+/// The images Y = A Φ of the converged pairs measure their residual; Rayleigh-Ritz in span Y then gives better ones:
+/// with K Y = M Φ + σ M Y no product with K is needed.
+void polish(const SparseMatrix& M, double sigma, const MatrixXd& Y, Eigenpairs& pairs) {
   const MatrixXd MPhi = symmetric_product(M, pairs.Phi);
-  const MatrixXd Y = inverse.apply(MPhi);
-  const VectorXd shifted = pairs.lambda.array() - inverse.sigma;
+  const VectorXd shifted = pairs.lambda.array() - sigma;
   MatrixXd R = pairs.Phi;
   tall_subtract(R, Y, shifted.asDiagonal());
   const MatrixXd MY = symmetric_product(M, Y);
@@ -184,7 +192,7 @@ void polish(const SparseMatrix& M, const ShiftedInverse& inverse, Eigenpairs& pa
   Mr = (s.asDiagonal() * (0.5 * (Mr + Mr.transpose())) * s.asDiagonal()).eval();
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(Kr, Mr);
   if (ritz.info() == Eigen::Success && ritz.eigenvalues().allFinite()) {
-    pairs.lambda = ritz.eigenvalues().array() + inverse.sigma;
+    pairs.lambda = ritz.eigenvalues().array() + sigma;
     pairs.Phi = tall_product(Y, s.asDiagonal() * ritz.eigenvectors());
   }
   fix_signs(pairs.Phi);
@@ -201,7 +209,9 @@ Eigenpairs block_lanczos(const SparseMatrix& M, const ShiftedInverse& inverse, c
   const Index n = M.rows();
   const Index width = block_width(options, n);
   Krylov krylov{.M = M, .inverse = inverse};
-  krylov.V.resize(n, std::min(n, options.lambda_max > 0.0 ? 8 * width : 2 * options.count + 4 * width));
+  const Index room = std::min(n, options.lambda_max > 0.0 ? 8 * width : 2 * options.count + 4 * width);
+  krylov.V.resize(n, room);
+  krylov.AV.resize(n, room);
   Eigenpairs pairs;
   pairs.status = EigenStatus::not_converged;
   Index next_check = options.lambda_max > 0.0 ? 1 : options.count;
@@ -221,9 +231,9 @@ Eigenpairs block_lanczos(const SparseMatrix& M, const ShiftedInverse& inverse, c
     if (wanted >= 0) pairs.status = EigenStatus::converged;
     pairs.lambda = inverse.sigma + ritz.theta.head(kept).array().inverse();
     pairs.Phi = tall_product(krylov.basis(), ritz.S.leftCols(kept));
-    pairs.inverse_residual = ritz.residual.head(kept);
+    if (kept > 0)
+      polish(M, inverse.sigma, tall_product(krylov.AV.leftCols(krylov.columns), ritz.S.leftCols(kept)), pairs);
   }
-  if (pairs.lambda.size() > 0) polish(M, inverse, pairs);
   // Beside a shift on an eigenvalue the other pairs drown in round-off, which only the measured residual tells.
   if (pairs.inverse_residual.size() > 0 && !(pairs.inverse_residual.maxCoeff() < 1e-6)) {
     pairs.status = EigenStatus::not_converged;

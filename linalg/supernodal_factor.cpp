@@ -283,7 +283,7 @@ struct Multifrontal {
     if (failed >= 0) return L.column(s) + failed;
     const std::size_t parity = tree.parity(s);
     const Block U{work.stack[parity].data() + work.used[parity], f.below()};
-    Threads::update(panel(s), f, U);
+    if (f.below() > 0) Threads::update(panel(s), f, U);
     // Rows of a front count from its first, those of U from the first below the columns.
     extend_add<Threads>(s, f.columns, f.rows, {U.values - f.columns, U.stride}, work);
     update[static_cast<std::size_t>(s)] = U.values;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
 
 #include "linalg/cholmod.hpp"
 #include "linalg/large_array.hpp"
@@ -90,7 +91,9 @@ TEST(SupernodalFactor, IsTheOneThatCholmodComputes) {
   ASSERT_FALSE(ours.cut.top.empty());
   CholmodFactor library(CHOLMOD_SUPERNODAL);
   library.common.postorder = 0;  // the same order of rows
+  library.common.final_asis = 0;
   library.common.final_super = 0;
+  library.common.final_monotonic = 1;
   cholmod_sparse view = cholmod_view(grid.A);
   library.analyse(&view, ours.L.permutation);
   library.factorise(&view);
@@ -146,7 +149,7 @@ TEST(SupernodalFactor, TellsThePivotThatIsNotPositiveInAGroupAndOnTop) {
   }
 }
 
-/// Sum over the nodes of a permutation's inverse.
+/// The inverse of a permutation; −1 for what it leaves out.
 std::vector<int> positions(const std::vector<int>& order) {
   std::vector<int> position(order.size(), -1);
   for (std::size_t i = 0; i < order.size(); ++i) position[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
@@ -161,14 +164,17 @@ TEST(EliminationOrder, TakesTheMiddleOfAnEdgeWithTheFirstOfItsEnds) {
   std::vector<char> vertex(order.size(), 0);
   for (const auto& [middle, a, b] : grid.middles)
     vertex[static_cast<std::size_t>(a)] = vertex[static_cast<std::size_t>(b)] = 1;
+  constexpr int last = 41 * 41 - 1;
+  const std::set<int> corners{0, 40, last - 40, last};  // of the square: other vertices dominate them
   for (const auto& [middle, a, b] : grid.middles) {
+    if (corners.contains(a) || corners.contains(b)) continue;
     const int first = std::min(position[static_cast<std::size_t>(a)], position[static_cast<std::size_t>(b)]);
     EXPECT_LT(position[static_cast<std::size_t>(middle)], first);
-    // Only other nodes of higher order, or corner vertices that one triangle alone has, come between.
+    // Only nodes of higher order come between, or a corner.
     int between = 0;
     for (int k = position[static_cast<std::size_t>(middle)]; k < first; ++k)
       between += vertex[static_cast<std::size_t>(order[static_cast<std::size_t>(k)])];
-    EXPECT_LE(between, 2);
+    EXPECT_LE(between, 1);
   }
 }
 
