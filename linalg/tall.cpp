@@ -48,20 +48,23 @@ void multiply(const double* V, Index v_stride, const MatrixXd& C, Index count, d
               size(v_stride), C.data(), size(C.outerStride()), s, W, size(w_stride));
 }
 
-/// `width` columns of Y = A X at once: for every entry of A one row of X is gathered, so that row must lie in one
+/// Up to `width` columns of Y = A X at once: for every entry of A one row of X is gathered, so that row must lie in one
 /// place.
 template <int width>
 void strip_product(const SparseMatrix& A, const Eigen::Ref<const MatrixXd>& X, Index column, MatrixXd& Y) {
   using Strip = Eigen::Matrix<double, width, 1>;
+  const Index columns = std::min<Index>(width, X.cols() - column);
   Eigen::Matrix<double, width, Eigen::Dynamic> rows(width, A.rows());
   over_pieces(A.rows(), [&](std::size_t, Index first, Index count) {
-    rows.middleCols(first, count) = X.block(first, column, count, width).transpose();
+    auto strip = rows.middleCols(first, count);
+    strip.topRows(columns) = X.block(first, column, count, columns).transpose();
+    strip.bottomRows(width - columns).setZero();
   });
   over_pieces(A.rows(), [&](std::size_t, Index first, Index count) {
     for (Index row = first; row < first + count; ++row) {
       Strip sum = Strip::Zero();
       for (SparseMatrix::InnerIterator it(A, row); it; ++it) sum += it.value() * rows.col(it.row());
-      Y.template block<1, width>(row, column) = sum.transpose();
+      Y.block(row, column, 1, columns) = sum.head(columns).transpose();
     }
   });
 }
@@ -71,8 +74,8 @@ void strip_product(const SparseMatrix& A, const Eigen::Ref<const MatrixXd>& X, I
 MatrixXd symmetric_product(const SparseMatrix& A, const Eigen::Ref<const MatrixXd>& X) {
   MatrixXd Y(A.rows(), X.cols());
   Index column = 0;
-  for (; column + 8 <= X.cols(); column += 8) strip_product<8>(A, X, column, Y);
-  for (; column + 2 <= X.cols(); column += 2) strip_product<2>(A, X, column, Y);
+  for (; column + 4 < X.cols(); column += 8) strip_product<8>(A, X, column, Y);
+  for (; column + 1 < X.cols(); column += 4) strip_product<4>(A, X, column, Y);
   for (; column < X.cols(); ++column) strip_product<1>(A, X, column, Y);
   return Y;
 }
