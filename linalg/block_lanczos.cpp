@@ -63,11 +63,12 @@ struct Krylov {
 
   [[nodiscard]] auto basis() const { return V.leftCols(columns); }
 
-  /// The block behind the columns that are in use.
-  void store(MatrixXd& all, const MatrixXd& block) const {
-    if (columns + block.cols() > all.cols())
-      all.conservativeResize(Eigen::NoChange, std::max(2 * all.cols(), columns + block.cols()));
-    all.middleCols(columns, block.cols()) = block;
+  void append(const Block& block) {
+    const Index after = columns + block.Q.cols();
+    if (after > V.cols()) V.conservativeResize(Eigen::NoChange, std::max(2 * V.cols(), after));
+    V.middleCols(columns, block.Q.cols()) = block.Q;
+    columns = after;
+    recent[0] = std::exchange(recent[1], block.MQ);
   }
 
   MatrixXd random_columns(Index count) {
@@ -120,13 +121,9 @@ struct Krylov {
   /// One step: the block joins the basis, A is applied to it and projected; returns the next block.
   Block step(const Block& block) {
     core::check_interrupt();
-    MatrixXd W = inverse.apply(block.MQ);
-    store(V, block.Q);
-    store(AV, W);
-    columns += block.Q.cols();
-    recent[0] = std::exchange(recent[1], block.MQ);
+    append(block);
     MatrixXd H;
-    Block next = outside(std::move(W), H);
+    Block next = outside(inverse.apply(block.MQ), H);
     T.conservativeResize(columns, columns);
     T.rightCols(block.Q.cols()) = H;
     return next;
@@ -173,11 +170,12 @@ void fix_signs(MatrixXd& Phi) {
   }
 }
 
-/// The images Y = A Φ of the converged pairs measure their residual; Rayleigh-Ritz in span Y then gives better ones:
-/// with K Y = M Φ + σ M Y no product with K is needed.
-void polish(const SparseMatrix& M, double sigma, const MatrixXd& Y, Eigenpairs& pairs) {
+/// One inverse iteration Y = A Φ on the converged pairs measures their residual; Rayleigh-Ritz in span Y then gives
+/// better ones: with K Y = M Φ + σ M Y no product with K is needed.
+void polish(const SparseMatrix& M, const ShiftedInverse& inverse, Eigenpairs& pairs) {
   const MatrixXd MPhi = symmetric_product(M, pairs.Phi);
-  const VectorXd shifted = pairs.lambda.array() - sigma;
+  const MatrixXd Y = inverse.apply(MPhi);
+  const VectorXd shifted = pairs.lambda.array() - inverse.sigma;
   MatrixXd R = pairs.Phi;
   tall_subtract(R, Y, shifted.asDiagonal());
   const MatrixXd MY = symmetric_product(M, Y);
@@ -192,7 +190,7 @@ void polish(const SparseMatrix& M, double sigma, const MatrixXd& Y, Eigenpairs& 
   Mr = (s.asDiagonal() * (0.5 * (Mr + Mr.transpose())) * s.asDiagonal()).eval();
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(Kr, Mr);
   if (ritz.info() == Eigen::Success && ritz.eigenvalues().allFinite()) {
-    pairs.lambda = ritz.eigenvalues().array() + sigma;
+    pairs.lambda = ritz.eigenvalues().array() + inverse.sigma;
     pairs.Phi = tall_product(Y, s.asDiagonal() * ritz.eigenvectors());
   }
   fix_signs(pairs.Phi);
@@ -209,9 +207,7 @@ Eigenpairs block_lanczos(const SparseMatrix& M, const ShiftedInverse& inverse, c
   const Index n = M.rows();
   const Index width = block_width(options, n);
   Krylov krylov{.M = M, .inverse = inverse};
-  const Index room = std::min(n, options.lambda_max > 0.0 ? 8 * width : 2 * options.count + 4 * width);
-  krylov.V.resize(n, room);
-  krylov.AV.resize(n, room);
+  krylov.V.resize(n, std::min(n, options.lambda_max > 0.0 ? 8 * width : 2 * options.count + 7 * width));
   Eigenpairs pairs;
   pairs.status = EigenStatus::not_converged;
   Index next_check = options.lambda_max > 0.0 ? 1 : options.count;
@@ -231,9 +227,8 @@ Eigenpairs block_lanczos(const SparseMatrix& M, const ShiftedInverse& inverse, c
     if (wanted >= 0) pairs.status = EigenStatus::converged;
     pairs.lambda = inverse.sigma + ritz.theta.head(kept).array().inverse();
     pairs.Phi = tall_product(krylov.basis(), ritz.S.leftCols(kept));
-    if (kept > 0)
-      polish(M, inverse.sigma, tall_product(krylov.AV.leftCols(krylov.columns), ritz.S.leftCols(kept)), pairs);
   }
+  if (pairs.lambda.size() > 0) polish(M, inverse, pairs);
   // Beside a shift on an eigenvalue the other pairs drown in round-off, which only the measured residual tells.
   if (pairs.inverse_residual.size() > 0 && !(pairs.inverse_residual.maxCoeff() < 1e-6)) {
     pairs.status = EigenStatus::not_converged;

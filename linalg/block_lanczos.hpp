@@ -19,15 +19,14 @@ struct BlockLanczosOptions {
 ///     A = (K−σM)⁻¹M,   A V = V T + Q Bᵀ E_lastᵀ,   VᵀMV = I,   T s = θ s,   φ = V s,   λ = σ + 1/θ,
 ///     ‖Aφ − θφ‖_M / θ = ‖B s_last‖ / θ    the inverse residual, known without forming φ
 ///
-/// then a Rayleigh-Ritz projection on the images Aφ of all wanted vectors, which are kept with the basis: one step of
-/// inverse iteration, which takes the round-off of the high modes out of them. Why blocks: the time of a solve goes
-/// into reading the factor, so that sixteen right-hand sides cost three single ones; and eigenvalues up to as multiple
-/// as a block is wide are found. The basis is never restarted: it ends at some twice the wanted pairs and as much as a
-/// block more, 16 n bytes a column.
+/// then one step of inverse iteration on all wanted vectors and a Rayleigh-Ritz projection, which takes the round-off
+/// of the high modes out of them. Why blocks: the time of a solve goes into reading the factor, so that sixteen
+/// right-hand sides cost three single ones; and eigenvalues up to as multiple as a block is wide are found. The basis
+/// is never restarted: it ends at some twice the wanted pairs and six blocks more, 8 n bytes a column.
 ///
 /// The first block is random with a fixed seed. inverse_residual in the result is measured before the last inverse
-/// iteration, which only lowers it. Status not_converged if the range of the inverse holds fewer pairs than wanted.
-/// Cost: some eight solves of `block` right-hand sides for ten pairs.
+/// iteration, which only lowers it. Status not_converged if the range of the inverse holds fewer pairs than wanted, or
+/// if the measured residual exceeds 1e-6. Cost: some eight solves of `block` right-hand sides for ten pairs.
 Eigenpairs block_lanczos(const SparseMatrix& M, const ShiftedInverse& inverse, const BlockLanczosOptions& options);
 
 }  // namespace thinwall::linalg
