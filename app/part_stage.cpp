@@ -9,6 +9,7 @@
 #include "app/measured.hpp"
 #include "core/error.hpp"
 #include "core/memory.hpp"
+#include "fem/free_motions.hpp"
 #include "fem/points.hpp"
 #include "reduction/accuracy.hpp"
 #include "reduction/damping.hpp"
@@ -26,8 +27,8 @@ void require_held_by_interface(const PartResult& part) {
   svd.setThreshold(1e-6);
   if (svd.rank() == rigid) return;
   throw core::InputError(
-      "the part can move rigidly in " + std::to_string(rigid) + " ways and its points see " +
-      std::to_string(svd.rank()) +
+      "the part can move rigidly in " + std::to_string(rigid) + " ways (" + fem::listed(part.model.free_motions) +
+      ") and its points see " + std::to_string(svd.rank()) +
       " of them: add a support, or a point off the line of the others; without points, modes alone are computed");
 }
 
@@ -160,6 +161,12 @@ PartResult compute_part(const Case& source, Discretisation discretisation, Stage
   part.estimate = discretisation.estimate;
   const fem::Factored factored = solve_part(source, discretisation, part, stages);
   check_mass(source, part);
+  if (part.modes.round_off > 1e-4) {
+    spdlog::warn(
+        "round-off may change the lowest frequency by {:.0e} of it, for the part is very thin: a lower order or "
+        "larger elements lose less",
+        part.modes.round_off);
+  }
   part.min_quality = 1.0;
   for (int tet = 0; tet < static_cast<int>(part.model.mesh.tets.size()); ++tet) {
     part.min_quality = std::min(part.min_quality, mesh::mean_ratio(part.model.mesh, tet));

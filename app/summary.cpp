@@ -48,6 +48,7 @@ json mesh_of(const PartResult& part) {
           {"smallest_dihedral_deg", part.quality.smallest_dihedral_deg},
           {"curved_elements", part.model.curved_elements},
           {"least_jacobian", part.model.least_jacobian},
+          {"frequency_round_off", part.modes.round_off},
           {"error_estimate", estimate_of(part)}};
 }
 

@@ -25,17 +25,17 @@ linalg::Eigenpairs solve(const Model& model, const Factored& factored, const Mod
   return linalg::lowest_eigenpairs(model.K, model.M, inverse_of(factored), options.count + model.rigid_motions);
 }
 
-/// K's entries are rounded at ε of those of the stiffest elements, and so are the Rayleigh quotients of motions without
-/// stiffness: on free plates 100 to 800 times as wide as thick, of orders 3 to 6, they come to 0.4 to 0.9 ε tr K / tr
-/// M. Ten times that is what tells them from elastic ones.
+/// ε tr K / tr M. K's entries are rounded at ε of those of the stiffest elements, and so are the Rayleigh quotients of
+/// motions without stiffness: on free plates 100 to 800 times as wide as thick, of orders 3 to 6, they come to 0.4 to
+/// 0.9 of this.
 double round_off(const Model& model) {
-  return 10.0 * std::numeric_limits<double>::epsilon() * model.K.diagonal().sum() / model.M.diagonal().sum();
+  return std::numeric_limits<double>::epsilon() * model.K.diagonal().sum() / model.M.diagonal().sum();
 }
 
 /// Throws unless as many modes without stiffness show as rigid motions are free, and no more.
 void require_rigid_modes(const Model& model, const Eigen::VectorXd& lambda) {
   const Eigen::Index rigid = model.rigid_motions;
-  const double noise = round_off(model);
+  const double noise = 10.0 * round_off(model);  // what tells motions without stiffness from elastic ones
   const double largest = rigid > 0 ? lambda.head(rigid).cwiseAbs().maxCoeff() : 0.0;
   if (largest <= std::max(1e-6 * lambda(rigid), noise) && lambda(rigid) > noise) return;
   throw core::NumericalError(
@@ -72,6 +72,7 @@ Modes modes(const Model& model, const Factored& factored, const ModeOptions& opt
   }
   const int rigid = result.rigid_motions;
   require_rigid_modes(model, lambda);
+  result.round_off = 0.5 * round_off(model) / lambda(rigid);
   result.residual = linalg::residuals(model.K, model.M, result.pairs);
   result.residual.head(rigid).setZero();
   result.frequency_hz = lambda.unaryExpr(&hertz);

@@ -21,6 +21,9 @@ struct [[nodiscard]] Modes {
   linalg::Eigenpairs pairs;      ///< λ in rad²/s², Φ over the free rows, M-normalised
   Eigen::VectorXd residual;      ///< ‖Kφ−λMφ‖/(λ‖Mφ‖), 0 for rigid-body modes
   int rigid_motions = 0;
+  /// What rounding K's entries may change of the lowest elastic frequency, relative: ε tr K / (2 λ tr M). No residual
+  /// shows it; it grows as (length / thickness)⁴ with the thinnest of parts.
+  double round_off = 0.0;
   std::optional<bool> count_verified;  ///< set on request: true if the Sturm count agrees
 };
 

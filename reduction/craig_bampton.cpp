@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "linalg/tall.hpp"
 
 namespace thinwall::reduction {
 
@@ -38,7 +39,7 @@ ConstraintModes constraint_modes(const linalg::ShiftedInverse& inverse, const In
                                 Psi = result.Psi](const Eigen::Ref<const Eigen::MatrixXd>& B) -> Eigen::MatrixXd {
     Eigen::MatrixXd X = inverse.apply(B);
     // Twice: the second pass takes out what round-off of the first left on the interface.
-    for (int pass = 0; pass < 2; ++pass) X -= (Psi * (interface.W.transpose() * X)).eval();
+    for (int pass = 0; pass < 2; ++pass) linalg::tall_subtract(X, Psi, interface.W.transpose() * X);
     return X;
   };
   return result;
@@ -88,10 +89,11 @@ CraigBampton craig_bampton(const linalg::SparseMatrix& K, const linalg::SparseMa
   result.T.leftCols(nb) = constraint.Psi;
   if (nm > 0) result.T.rightCols(nm) = inner.Phi;
   result.fixed_interface_hz = inner.lambda.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
-  result.model.M = symmetric_part(result.T.transpose() * (M * result.T));
+  result.model.M = symmetric_part(linalg::tall_gram(result.T, linalg::symmetric_product(M, result.T)));
   // Ψᵀ K Φ = 0 and Φᵀ K Φ = ω² hold exactly for exact modes; round-off in them would only disturb the low modes.
   result.model.K = Eigen::MatrixXd::Zero(nb + nm, nb + nm);
-  result.model.K.topLeftCorner(nb, nb) = symmetric_part(constraint.Psi.transpose() * (K * constraint.Psi));
+  result.model.K.topLeftCorner(nb, nb) =
+      symmetric_part(linalg::tall_gram(constraint.Psi, linalg::symmetric_product(K, constraint.Psi)));
   if (nm > 0) result.model.K.bottomRightCorner(nm, nm) = inner.lambda.asDiagonal();
   result.model.C = Eigen::MatrixXd::Zero(nb + nm, nb + nm);
   result.model.dofs = interface.dofs;

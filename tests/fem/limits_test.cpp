@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <random>
 #include <string>
 
 #include "core/error.hpp"
@@ -217,6 +219,35 @@ TEST(ToleranceOptions, OutOfRangeAreRefusedBeforeAnythingIsMeshed) {
     options.last_order = last;
     options.levels = levels;
     EXPECT_NE(message(options).find("orders must rise within 1 to 6"), std::string::npos) << first << ' ' << last;
+  }
+}
+
+// A thousand times the rounding of K's entries, made on purpose, moves the lowest eigenvalue by a thousand times what
+// is said of double precision, within the chance of random signs.
+TEST(RoundOff, OfTheLowestFrequencyIsWhatRoundingTheEntriesDoes) {
+  for (const double thickness : {0.01, 0.002}) {
+    const mesh::Box plate{{0.4, 0.4, thickness}};
+    const Model model = supported_model(mesh::kuhn_box(plate.size, {4, 4, 1}), 4, steel,
+                                        {{"x_min", mesh::face_of(plate, "x_min"), {0, 1, 2}}});
+    const Modes exact = modes(model, factorise(model), modes_wanted(2));
+    Model rounded = model;
+    constexpr double factor = 1000.0;
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> sign(-1.0, 1.0);
+    for (int column = 0; column < model.K.cols(); ++column) {
+      for (linalg::SparseMatrix::InnerIterator it(model.K, column); it; ++it) {
+        if (it.row() > column) continue;
+        const double value = it.value() * (1.0 + factor * std::numeric_limits<double>::epsilon() * sign(random));
+        rounded.K.coeffRef(it.row(), column) = value;
+        rounded.K.coeffRef(column, it.row()) = value;
+      }
+    }
+    const Modes moved = modes(rounded, factorise(rounded), modes_wanted(2));
+    const double change = std::abs(moved.frequency_hz(0) / exact.frequency_hz(0) - 1.0) / factor;
+    std::printf("%.0f times as long as thick: round-off %.1e said, %.1e done\n", 0.4 / thickness, exact.round_off,
+                change);
+    EXPECT_LT(change, exact.round_off);
+    EXPECT_GT(change, 0.02 * exact.round_off);
   }
 }
 
