@@ -182,6 +182,11 @@ PartResult compute_part(const Case& source, Discretisation discretisation, Stage
   part.interface = part_interface(source, part.model);
   part.reduced = reduce(source, part, factored);
   if (part.reduced->status != linalg::EigenStatus::converged) {
+    throw core::NumericalError("the fixed-interface modes of the reduction did not converge (" +
+                               std::to_string(part.reduced->fixed_interface_hz.size()) +
+                               " found): ask for fewer in reduction.modes, or mesh more evenly");
+  }
+  if (part.reduced->status != linalg::EigenStatus::converged) {
     throw core::NumericalError("the fixed-interface modes did not converge: ask for fewer (reduction.modes)");
   }
   part.damped = damped(source, part.reduced->model, part.identified);

@@ -57,7 +57,6 @@ struct Krylov {
   MatrixXd V{};  // n × capacity, the first `columns` in use
   MatrixXd T{};  // VᵀMAV, upper triangle
   Index columns = 0;
-  MatrixXd AV{};                     // the images of V's columns, as the inverse gave them
   std::array<MatrixXd, 2> recent{};  // M times the last two blocks of V
   std::mt19937_64 random{20190801};
 

@@ -11,21 +11,28 @@
 
 namespace thinwall::linalg {
 
-/// A symmetric matrix as CHOLMOD sees it, its lower triangle; nothing is copied.
-inline cholmod_sparse cholmod_view(const SparseMatrix& A) {
+/// A symmetric matrix as CHOLMOD sees it, its lower triangle, from the arrays of its compressed columns; nothing is
+/// copied. values: null for a pattern alone.
+inline cholmod_sparse cholmod_view(std::size_t rows, int* first, int* row, double* values) {
   cholmod_sparse view{};
-  view.nrow = static_cast<std::size_t>(A.rows());
-  view.ncol = static_cast<std::size_t>(A.cols());
-  view.nzmax = static_cast<std::size_t>(A.nonZeros());
-  view.p = const_cast<int*>(A.outerIndexPtr());
-  view.i = const_cast<int*>(A.innerIndexPtr());
-  view.x = const_cast<double*>(A.valuePtr());
+  view.nrow = rows;
+  view.ncol = rows;
+  view.nzmax = static_cast<std::size_t>(first[rows]);
+  view.p = first;
+  view.i = row;
+  view.x = values;
   view.stype = -1;
   view.itype = CHOLMOD_INT;
-  view.xtype = CHOLMOD_REAL;
+  view.xtype = values != nullptr ? CHOLMOD_REAL : CHOLMOD_PATTERN;
   view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = 1;
   view.packed = 1;
+  return view;
+}
+
+inline cholmod_sparse cholmod_view(const SparseMatrix& A) {
+  cholmod_sparse view = cholmod_view(static_cast<std::size_t>(A.rows()), const_cast<int*>(A.outerIndexPtr()),
+                                     const_cast<int*>(A.innerIndexPtr()), const_cast<double*>(A.valuePtr()));
+  view.sorted = 1;
   return view;
 }
 

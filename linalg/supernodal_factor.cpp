@@ -143,7 +143,7 @@ struct Shared {
 struct Tree {
   std::vector<std::vector<int>> children;
   std::vector<char> odd;     // depth of each
-  std::vector<char> shared;  // in the top of the plan
+  std::vector<char> shared;  // in the top of the cut
 
   [[nodiscard]] const std::vector<int>& of(int s) const { return children[static_cast<std::size_t>(s)]; }
   [[nodiscard]] std::size_t parity(int s) const { return static_cast<std::size_t>(odd[static_cast<std::size_t>(s)]); }

@@ -6,36 +6,23 @@ namespace thinwall::linalg {
 
 namespace {
 
-/// The lower triangle of the graph's pattern, diagonal included, in CHOLMOD's form.
-class Pattern {
- public:
-  explicit Pattern(const MatrixGraph& graph) {
-    for (int node = 0; node < graph.size(); ++node) {
-      rows_.push_back(node);
-      for (const int other : graph.around(node)) {
-        if (other > node) rows_.push_back(other);
-      }
-      start_.push_back(static_cast<int>(rows_.size()));
-    }
-    sparse_.nrow = sparse_.ncol = static_cast<std::size_t>(graph.size());
-    sparse_.nzmax = rows_.size();
-    sparse_.p = start_.data();
-    sparse_.i = rows_.data();
-    sparse_.stype = -1;
-    sparse_.itype = CHOLMOD_INT;
-    sparse_.xtype = CHOLMOD_PATTERN;
-    sparse_.dtype = CHOLMOD_DOUBLE;
-    sparse_.sorted = 0;
-    sparse_.packed = 1;
-  }
-
-  cholmod_sparse* get() { return &sparse_; }
-
- private:
-  std::vector<int> start_{0};
-  std::vector<int> rows_;
-  cholmod_sparse sparse_{};
+/// The lower triangle of the graph's pattern, diagonal included, in compressed columns.
+struct Pattern {
+  std::vector<int> first{0};
+  std::vector<int> rows;
 };
+
+Pattern pattern(const MatrixGraph& graph) {
+  Pattern lower;
+  for (int node = 0; node < graph.size(); ++node) {
+    lower.rows.push_back(node);
+    for (const int other : graph.around(node)) {
+      if (other > node) lower.rows.push_back(other);
+    }
+    lower.first.push_back(static_cast<int>(lower.rows.size()));
+  }
+  return lower;
+}
 
 /// The factor of the rows from that of their nodes.
 SymbolicFactor of_rows(const cholmod_factor& nodes, const MatrixGraph& graph) {
@@ -92,13 +79,14 @@ std::vector<int> parents(const SymbolicFactor& L) {
 }
 
 SymbolicFactor symbolic_factor(const MatrixGraph& graph, const std::vector<int>& order) {
-  Pattern pattern(graph);
+  Pattern lower = pattern(graph);
+  cholmod_sparse view = cholmod_view(graph.rows.size(), lower.first.data(), lower.rows.data(), nullptr);
   CholmodFactor factor(CHOLMOD_SUPERNODAL);
   // The library merges supernodes of up to 4, 16 and 48 columns; here a column stands for some three.
   factor.common.nrelax[0] = 2;
   factor.common.nrelax[1] = 6;
   factor.common.nrelax[2] = 16;
-  factor.analyse(pattern.get(), order);
+  factor.analyse(&view, order);
   return of_rows(*factor.L, graph);
 }
 
