@@ -18,6 +18,7 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "mesh/curve_order.hpp"
 
 namespace thinwall::mesh {
 
@@ -151,22 +152,6 @@ void turn_positive(TetMesh& mesh) {
     if (volume(mesh, static_cast<int>(tet)) < 0.0) std::swap(mesh.tets[tet][2], mesh.tets[tet][3]);
 }
 
-void drop_unused_vertices(TetMesh& mesh) {
-  std::vector<int> number(mesh.vertices.size(), -1);
-  std::vector<Eigen::Vector3d> used;
-  for (auto& tet : mesh.tets) {
-    for (int& v : tet) {
-      int& n = number[static_cast<std::size_t>(v)];
-      if (n < 0) {
-        n = static_cast<int>(used.size());
-        used.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
-      }
-      v = n;
-    }
-  }
-  mesh.vertices = std::move(used);
-}
-
 }  // namespace
 
 TetMesh mesh_confined(const char* name, const std::function<TetMesh()>& work, const ProcessLimits& limits) {
@@ -179,7 +164,7 @@ TetMesh mesh_confined(const char* name, const std::function<TetMesh()>& work, co
   if (mesh.tets.empty())
     throw core::NumericalError(std::string(name) + " returned no tetrahedra: the surface is not closed");
   turn_positive(mesh);
-  drop_unused_vertices(mesh);
+  order_along_curve(mesh);
   return mesh;
 }
 

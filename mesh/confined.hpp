@@ -20,9 +20,9 @@ struct ProcessLimits {
 [[nodiscard]] std::vector<char> run_confined(const std::function<std::vector<char>()>& work, double time_limit_s,
                                              double memory_limit_bytes);
 
-/// The same for work that makes a mesh. Tetrahedra are turned to positive volume, vertices that none of them uses are
-/// dropped (they would be motions without stiffness). Throws NumericalError, whose message begins with the mesher's
-/// `name`, as run_confined() and for a mesh without tetrahedra.
+/// The same for work that makes a mesh. Tetrahedra are turned to positive volume and order_along_curve() is applied.
+/// Throws NumericalError, whose message begins with the mesher's `name`, as run_confined() and for a mesh without
+/// tetrahedra.
 [[nodiscard]] TetMesh mesh_confined(const char* name, const std::function<TetMesh()>& work,
                                     const ProcessLimits& limits);
 
