@@ -19,7 +19,7 @@ double available_memory_bytes() {
 }
 
 void keep_freed_memory() {
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that the library takes; larger blocks go back to the system
+  mallopt(M_MMAP_MAX, 0);  // else blocks above 32 MB would go back to the system, whatever the threshold
   mallopt(M_TRIM_THRESHOLD, -1);
 }
 

@@ -7,9 +7,9 @@ namespace thinwall::core {
 /// does not say.
 [[nodiscard]] double available_memory_bytes();
 
-/// Lets the allocator keep blocks of up to 32 MB that are freed, for the whole process: a program for one run and then
-/// the end. Why: factors and bases are allocated and freed over and over, and half the time of a small factorisation
-/// can go into page faults. To be called once, first thing in main().
+/// Lets the allocator keep what is freed, for the whole process: a program for one run and then the end. Why: factors
+/// and bases are allocated and freed over and over, and half the time of a small factorisation can go into page faults.
+/// To be called once, first thing in main().
 void keep_freed_memory();
 
 }  // namespace thinwall::core

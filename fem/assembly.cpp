@@ -214,36 +214,88 @@ void assemble_nodes(const mesh::LagrangeNodes& nodes, const Material& material, 
   }
 }
 
-double& entry(SparseMatrix& A, int row, int column) {
-  const int* begin = A.innerIndexPtr() + A.outerIndexPtr()[column];
-  const int* end = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
-  return A.valuePtr()[std::lower_bound(begin, end, row) - A.innerIndexPtr()];
-}
+/// Where the entries of one node's columns stand: for each neighbour the values to add to.
+struct ColumnPlaces {
+  std::vector<std::ptrdiff_t> neighbour;             // of a node: its place among the neighbours
+  std::vector<std::ptrdiff_t> free_before;           // of a neighbour: free rows of those before it
+  std::array<std::vector<std::ptrdiff_t>, 3> along;  // the same along each axis
 
-void add_curved(const mesh::LagrangeNodes& nodes, const Numbering& rows, Eigen::Index e, const CurvedElement& element,
-                Assembled& result) {
-  for (Eigen::Index b = 0; b < nodes.elements.cols(); ++b) {
-    for (Eigen::Index a = 0; a < nodes.elements.cols(); ++a) {
-      const int row_node = nodes.elements(e, a);
-      const int column_node = nodes.elements(e, b);
-      entry(result.node_mass, row_node, column_node) += element.M(a, b);
-      for (int j = 0; j < 3; ++j) {
-        const int column = rows.of_node(column_node)[j];
-        if (column < 0) continue;
-        for (int i = 0; i < 3; ++i) {
-          const int row = rows.of_node(row_node)[i];
-          if (row < 0) continue;
-          entry(result.K, row, column) += element.K(3 * a + i, 3 * b + j);
-          if (i == j) entry(result.M, row, column) += element.M(a, b);
-        }
+  explicit ColumnPlaces(Eigen::Index nodes) : neighbour(static_cast<std::size_t>(nodes)) {}
+
+  void locate(const Lists& graph, const Numbering& rows, int node) {
+    free_before.assign(1, 0);
+    for (auto& axis : along) axis.assign(1, 0);
+    for (const int* other = graph.begin(node); other != graph.end(node); ++other) {
+      neighbour[static_cast<std::size_t>(*other)] = other - graph.begin(node);
+      std::ptrdiff_t free = free_before.back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const int is_free = rows.of_node(*other)[i] >= 0 ? 1 : 0;
+        along[i].push_back(along[i].back() + is_free);
+        free += is_free;
+      }
+      free_before.push_back(free);
+    }
+  }
+};
+
+/// Adds the columns of the element's node b, which `places` has located.
+void add_columns(const mesh::LagrangeNodes& nodes, const Lists& graph, const Numbering& rows,
+                 const ColumnPlaces& places, Eigen::Index e, Eigen::Index b, const CurvedElement& element,
+                 Assembled& result) {
+  const int node = nodes.elements(e, b);
+  for (Eigen::Index a = 0; a < nodes.elements.cols(); ++a) {
+    const int row_node = nodes.elements(e, a);
+    const auto k = static_cast<std::size_t>(places.neighbour[static_cast<std::size_t>(row_node)]);
+    result.node_mass.valuePtr()[graph.start[static_cast<std::size_t>(node)] + static_cast<std::ptrdiff_t>(k)] +=
+        element.M(a, b);
+    for (std::size_t j = 0; j < 3; ++j) {
+      const int column = rows.of_node(node)[j];
+      if (column < 0) continue;
+      double* stiffness = result.K.valuePtr() + result.K.outerIndexPtr()[column] + places.free_before[k];
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (rows.of_node(row_node)[i] < 0) continue;
+        *stiffness++ += element.K(3 * a + static_cast<Eigen::Index>(i), 3 * b + static_cast<Eigen::Index>(j));
+        if (i == j) result.M.valuePtr()[result.M.outerIndexPtr()[column] + places.along[j][k]] += element.M(a, b);
       }
     }
   }
 }
 
-/// Curved elements: integrated in parallel, a batch at a time, and added in their order.
+/// A column of a curved element of a batch.
+struct CurvedColumn {
+  int node = 0;
+  std::size_t element = 0;  // in the batch
+  Eigen::Index local = 0;
+};
+
+/// Adds a batch of curved elements: each node's columns by one thread, from its elements in their order.
+void add_batch(const mesh::LagrangeNodes& nodes, const Lists& graph, const Numbering& rows,
+               const std::vector<Eigen::Index>& elements, const std::vector<CurvedElement>& batch, Assembled& result) {
+  std::vector<CurvedColumn> columns;
+  for (std::size_t k = 0; k < elements.size(); ++k) {
+    for (Eigen::Index b = 0; b < nodes.elements.cols(); ++b) columns.push_back({nodes.elements(elements[k], b), k, b});
+  }
+  std::stable_sort(columns.begin(), columns.end(),
+                   [](const CurvedColumn& a, const CurvedColumn& b) { return a.node < b.node; });
+  constexpr std::size_t pieces = 8;
+  const auto start_of = [&](std::size_t piece) {
+    std::size_t at = piece * columns.size() / pieces;
+    while (at > 0 && at < columns.size() && columns[at].node == columns[at - 1].node) ++at;
+    return at;
+  };
+  core::parallel_for(pieces, [&](std::size_t piece) {
+    ColumnPlaces places(nodes.positions.rows());
+    for (std::size_t c = start_of(piece); c < start_of(piece + 1); ++c) {
+      const CurvedColumn& column = columns[c];
+      if (c == start_of(piece) || columns[c - 1].node != column.node) places.locate(graph, rows, column.node);
+      add_columns(nodes, graph, rows, places, elements[column.element], column.local, batch[column.element], result);
+    }
+  });
+}
+
+/// Curved elements: integrated in parallel, a batch at a time.
 void assemble_curved(const mesh::LagrangeNodes& nodes, const Material& material, const std::vector<Geometry>& geometry,
-                     const Numbering& rows, Assembled& result) {
+                     const Lists& graph, const Numbering& rows, Assembled& result) {
   std::vector<Eigen::Index> curved;
   for (std::size_t e = 0; e < geometry.size(); ++e) {
     if (geometry[e].curved) curved.push_back(static_cast<Eigen::Index>(e));
@@ -251,22 +303,25 @@ void assemble_curved(const mesh::LagrangeNodes& nodes, const Material& material,
   result.curved_elements = static_cast<int>(curved.size());
   const Lame c = lame(material);
   const CurvedReference& reference = curved_reference(nodes.order);
-  std::vector<CurvedElement> batch(64);
-  for (std::size_t first = 0; first < curved.size(); first += batch.size()) {
-    const std::size_t count = std::min(batch.size(), curved.size() - first);
-    core::parallel_for(count, [&](std::size_t k) {
-      batch[k] = curved_element(reference, positions_of(nodes, curved[first + k]), c, material.density_kg_m3);
+  constexpr std::size_t at_once = 128;
+  for (std::size_t first = 0; first < curved.size(); first += at_once) {
+    const std::vector<Eigen::Index> elements(
+        curved.begin() + static_cast<std::ptrdiff_t>(first),
+        curved.begin() + static_cast<std::ptrdiff_t>(std::min(first + at_once, curved.size())));
+    std::vector<CurvedElement> batch(elements.size());
+    core::parallel_for(elements.size(), [&](std::size_t k) {
+      batch[k] = curved_element(reference, positions_of(nodes, elements[k]), c, material.density_kg_m3);
     });
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < elements.size(); ++k) {
       const double jacobian = batch[k].least_jacobian;
       if (!(jacobian > 0.0)) {
-        throw core::NumericalError("curved tetrahedron " + std::to_string(curved[first + k]) +
+        throw core::NumericalError("curved tetrahedron " + std::to_string(elements[k]) +
                                    " is turned inside out (det J falls to " + std::to_string(jacobian) +
                                    " of its mean): use smaller elements or fewer layers along the curve");
       }
       result.least_jacobian = std::min(result.least_jacobian, jacobian);
-      add_curved(nodes, rows, curved[first + k], batch[k], result);
     }
+    add_batch(nodes, graph, rows, elements, batch, result);
   }
 }
 
@@ -285,7 +340,7 @@ Assembled assemble(const mesh::LagrangeNodes& nodes, const Material& material, c
     assemble_nodes(nodes, material, geometry, places, graph, rows, static_cast<int>(p * count / pieces),
                    static_cast<int>((p + 1) * count / pieces), result);
   });
-  assemble_curved(nodes, material, geometry, rows, result);
+  assemble_curved(nodes, material, geometry, graph, rows, result);
   result.free_rows = std::move(rows.free_rows);
   return result;
 }

@@ -15,8 +15,13 @@ namespace thinwall::fem {
 
 namespace {
 
+/// Points a direction: 2 n − 1 ≥ 3p − 3, and one more than p.
+int points_for(int order) {
+  return std::max(order + 1, (3 * order - 1) / 2);
+}
+
 CurvedReference make(int order) {
-  const TetQuadrature rule = tet_quadrature(order + 2);
+  const TetQuadrature rule = tet_quadrature(points_for(order));
   CurvedReference reference;
   reference.order = order;
   reference.weight = rule.weight;

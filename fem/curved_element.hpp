@@ -16,8 +16,9 @@ struct CurvedReference {
   std::array<Eigen::MatrixXd, 3> slopes;  ///< ∂N/∂ξ_k at the points, ξ_k = λ_{k+1}: nodes × points
 };
 
-/// For order 1…6, with order + 2 points a direction: exact to degree 2p + 3, which covers the 3p − 3 that a constant
-/// strain needs to be reproduced on any curved element up to order 6. Computed once an order; thread-safe.
+/// For order 1…6, with max(p + 1, (3p − 1)/2) points a direction: exact to degree 2p + 1, as the mass of a straight
+/// element needs, and to the 3p − 3 that a constant strain needs to be reproduced on any curved one. Computed once an
+/// order; thread-safe.
 [[nodiscard]] const CurvedReference& curved_reference(int order);
 
 /// Stiffness and mass of one element.
