@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
+#include <set>
+
+#include "mesh/pieces.hpp"
 
 namespace thinwall::fem {
 
@@ -14,32 +16,6 @@ namespace {
 
 /// Below this, relative to one, a component of a direction or of a motion is round-off.
 constexpr double negligible = 1e-6;
-
-/// For each node the lowest vertex of the piece that it belongs to; −1 for a node of no element.
-std::vector<int> pieces(const mesh::LagrangeNodes& nodes) {
-  std::vector<int> parent(static_cast<std::size_t>(nodes.positions.rows()));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v) {
-    while (parent[static_cast<std::size_t>(v)] != v) {
-      int& up = parent[static_cast<std::size_t>(v)];
-      up = parent[static_cast<std::size_t>(up)];
-      v = up;
-    }
-    return v;
-  };
-  for (Eigen::Index e = 0; e < nodes.elements.rows(); ++e) {
-    for (Eigen::Index k = 1; k < 4; ++k) {
-      const auto [low, high] = std::minmax({root(nodes.elements(e, 0)), root(nodes.elements(e, k))});
-      parent[static_cast<std::size_t>(high)] = low;
-    }
-  }
-  std::vector<int> piece(parent.size(), -1);
-  for (Eigen::Index e = 0; e < nodes.elements.rows(); ++e) {
-    const int first = root(nodes.elements(e, 0));
-    for (const int node : nodes.elements.row(e)) piece[static_cast<std::size_t>(node)] = first;
-  }
-  return piece;
-}
 
 /// The free motions of one piece, orthonormal columns: translation over the size, then rotation, about the centre.
 struct Kernel {
@@ -151,11 +127,10 @@ std::vector<std::string> in_words(const Kernel& k) {
 }  // namespace
 
 std::vector<std::string> free_motions(const mesh::LagrangeNodes& nodes, const std::vector<int>& fixed) {
-  const std::vector<int> piece = pieces(nodes);
-  std::vector<int> roots(piece);
-  std::sort(roots.begin(), roots.end());
-  roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
-  if (!roots.empty() && roots.front() < 0) roots.erase(roots.begin());
+  const std::vector<int> piece = mesh::pieces(static_cast<int>(nodes.positions.rows()), nodes.elements.rowwise());
+  std::set<int> roots;  // a node of no element is no piece
+  for (Eigen::Index e = 0; e < nodes.elements.rows(); ++e)
+    roots.insert(piece[static_cast<std::size_t>(nodes.elements(e, 0))]);
   std::vector<std::string> words;
   for (const int root : roots) {
     const Kernel k = kernel(nodes, fixed, piece, root);

@@ -9,10 +9,10 @@
 #include <cstdio>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <string>
 
 #include "core/error.hpp"
+#include "mesh/pieces.hpp"
 
 namespace thinwall::mesh {
 
@@ -69,31 +69,8 @@ void require_edges_paired(const TriangleSurface& surface) {
   }
 }
 
-/// The piece that each vertex belongs to, by its smallest vertex.
-std::vector<int> pieces(const TriangleSurface& surface) {
-  std::vector<int> parent(surface.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v) {
-    while (parent[static_cast<std::size_t>(v)] != v) {
-      auto& up = parent[static_cast<std::size_t>(v)];
-      up = parent[static_cast<std::size_t>(up)];
-      v = up;
-    }
-    return v;
-  };
-  for (const auto& t : surface.triangles) {
-    for (std::size_t k = 1; k < 3; ++k) {
-      const int a = root(t[0]);
-      const int b = root(t[k]);
-      parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    }
-  }
-  for (int v = 0; v < static_cast<int>(parent.size()); ++v) parent[static_cast<std::size_t>(v)] = root(v);
-  return parent;
-}
-
 void require_one_piece(const TriangleSurface& surface) {
-  const auto piece = pieces(surface);
+  const auto piece = pieces(static_cast<int>(surface.vertices.size()), surface.triangles);
   const int first = piece[static_cast<std::size_t>(surface.triangles[0][0])];
   for (const auto& t : surface.triangles) {
     if (piece[static_cast<std::size_t>(t[0])] == first) continue;

@@ -35,11 +35,14 @@ ConstraintModes constraint_modes(const linalg::ShiftedInverse& inverse, const In
   }
   ConstraintModes result;
   result.Psi = flexibility.llt().solve(SW.transpose()).transpose();
+  // Newton's step for Wᵀ Ψ = I takes out what the condition of the flexibility has brought in.
+  const Eigen::MatrixXd seen = interface.W.transpose() * result.Psi;
+  const auto nb = seen.rows();
+  result.Psi = linalg::tall_product(result.Psi, 2.0 * Eigen::MatrixXd::Identity(nb, nb) - seen);
   result.inner_inverse.apply = [&inverse, &interface,
                                 Psi = result.Psi](const Eigen::Ref<const Eigen::MatrixXd>& B) -> Eigen::MatrixXd {
     Eigen::MatrixXd X = inverse.apply(B);
-    // Twice: the second pass takes out what round-off of the first left on the interface.
-    for (int pass = 0; pass < 2; ++pass) linalg::tall_subtract(X, Psi, interface.W.transpose() * X);
+    linalg::tall_subtract(X, Psi, interface.W.transpose() * X);
     return X;
   };
   return result;
@@ -89,8 +92,13 @@ CraigBampton craig_bampton(const linalg::SparseMatrix& K, const linalg::SparseMa
   result.T.leftCols(nb) = constraint.Psi;
   if (nm > 0) result.T.rightCols(nm) = inner.Phi;
   result.fixed_interface_hz = inner.lambda.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
-  result.model.M = symmetric_part(linalg::tall_gram(result.T, linalg::symmetric_product(M, result.T)));
-  // Ψᵀ K Φ = 0 and Φᵀ K Φ = ω² hold exactly for exact modes; round-off in them would only disturb the low modes.
+  // Φᵀ M Φ = I, Ψᵀ K Φ = 0 and Φᵀ K Φ = ω² hold exactly for exact modes; round-off in them would only disturb the low
+  // modes.
+  const Eigen::MatrixXd with_interface = linalg::tall_gram(result.T, linalg::symmetric_product(M, constraint.Psi));
+  result.model.M = Eigen::MatrixXd::Identity(nb + nm, nb + nm);
+  result.model.M.leftCols(nb) = with_interface;
+  result.model.M.topRows(nb) = with_interface.transpose();
+  result.model.M.topLeftCorner(nb, nb) = symmetric_part(with_interface.topRows(nb));
   result.model.K = Eigen::MatrixXd::Zero(nb + nm, nb + nm);
   result.model.K.topLeftCorner(nb, nb) =
       symmetric_part(linalg::tall_gram(constraint.Psi, linalg::symmetric_product(K, constraint.Psi)));

@@ -28,10 +28,10 @@ struct [[nodiscard]] CraigBampton {
 /// Wᵀ (s = 0 serves for a held part; the added term does no work where Wᵀu = 0 and is constant where Wᵀu is given, so
 /// it changes neither kind of mode):
 ///
-///     F = (Wᵀ S W)⁻¹,  Ψ = S W F                     constraint modes: Wᵀ Ψ = I, K Ψ = W (…)      (Craig & Bampton
-///     1968, Eq. 8) S_0 = S − S W F Wᵀ S                           the inverse of K_ii, embedded: Wᵀ S_0 = 0 S_0 M φ =
-///     φ/ω²                                 fixed-interface modes                        (Eq. 10) M_r = Tᵀ M T,  K_r =
-///     Tᵀ K T,  T = [Ψ Φ];       K_r = diag(Ψᵀ K Ψ, ω²)
+///     F = (Wᵀ S W)⁻¹,   Ψ = S W F            constraint modes, Wᵀ Ψ = I (Craig & Bampton 1968, Eq. 8)
+///     S₀ = S − S W F Wᵀ S = S − Ψ Wᵀ S      the inverse of K_ii, embedded: Wᵀ S₀ = 0
+///     S₀ M φ = φ / ω²                        fixed-interface modes (Eq. 10)
+///     M_r = Tᵀ M T,   K_r = Tᵀ K T = diag(Ψᵀ K Ψ, ω²),   T = [Ψ Φ]
 ///
 /// For an interface of single nodes this is the textbook partition, K_ii being K with the interface struck out; the
 /// factor behind S serves both kinds of mode. K, M: free × free; `inverse` the action of S (its sigma must be 0).
