@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "linalg/sparse_cholesky.hpp"
 #include "linalg/sparse_indefinite.hpp"
-#include "tests/linalg/grid_problem.hpp"
+#include "tests/linalg/membrane.hpp"
 #include "tests/linalg/thread_count.hpp"
 
 namespace thinwall::linalg {
@@ -37,32 +36,6 @@ GridProblem copies_of(const GridProblem& one, int copies) {
   for (int row = 0; row < copies * n; ++row) all.node_of_row.push_back(row);
   for (const double lambda : one.lambda) all.lambda.insert(all.lambda.end(), static_cast<std::size_t>(copies), lambda);
   return all;
-}
-
-/// A membrane (or several) with the inverse of its stiffness, shifted by σ.
-struct Membrane {
-  GridProblem grid;
-  SparseCholesky factor;
-  ShiftedInverse inverse;
-
-  explicit Membrane(GridProblem problem, double sigma = 0.0)
-      : grid(std::move(problem)), factor(combine(1.0, grid.K, -sigma, grid.M), grid.node_of_row) {
-    inverse = {[this](const Eigen::Ref<const Eigen::MatrixXd>& B) { return factor.solve(B); }, sigma};
-  }
-};
-
-double worst_lambda(const Eigenpairs& pairs, const std::vector<double>& exact) {
-  double worst = 0.0;
-  for (Eigen::Index k = 0; k < pairs.lambda.size(); ++k) {
-    const double expected = exact[static_cast<std::size_t>(k)];
-    worst = std::max(worst, std::abs(pairs.lambda(k) - expected) / expected);
-  }
-  return worst;
-}
-
-double orthogonality(const SparseMatrix& M, const Eigenpairs& pairs) {
-  const Eigen::Index n = pairs.Phi.cols();
-  return (pairs.Phi.transpose() * (M * pairs.Phi) - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff();
 }
 
 void expect_sound(const Membrane& membrane, const Eigenpairs& pairs, const std::string& what) {

@@ -4,42 +4,15 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
-#include "linalg/sparse_cholesky.hpp"
 #include "linalg/sparse_indefinite.hpp"
-#include "tests/linalg/grid_problem.hpp"
+#include "tests/linalg/membrane.hpp"
 
 namespace thinwall::linalg {
 namespace {
 
-/// The membrane with the inverse of its shifted stiffness.
-struct Factored {
-  GridProblem grid;
-  SparseCholesky factor;
-  ShiftedInverse inverse;
-
-  explicit Factored(int n, double sigma = 0.0)
-      : grid(grid_problem(n)), factor(combine(1.0, grid.K, -sigma, grid.M), grid.node_of_row) {
-    inverse = {[this](const Eigen::Ref<const Eigen::MatrixXd>& B) { return factor.solve(B); }, sigma};
-  }
-};
-
-double worst_lambda(const Eigenpairs& pairs, const std::vector<double>& exact) {
-  double worst = 0.0;
-  for (Eigen::Index k = 0; k < pairs.lambda.size(); ++k) {
-    const double expected = exact[static_cast<std::size_t>(k)];
-    worst = std::max(worst, std::abs(pairs.lambda(k) - expected) / expected);
-  }
-  return worst;
-}
-
-double orthogonality(const SparseMatrix& M, const Eigenpairs& pairs) {
-  const Eigen::Index n = pairs.Phi.cols();
-  return (pairs.Phi.transpose() * (M * pairs.Phi) - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff();
-}
-
 TEST(LowestEigenpairs, AreThoseOfTheMembraneDoubleOnesIncluded) {
   for (const double sigma : {0.0, -30.0}) {
-    const Factored problem(40, sigma);
+    const Membrane problem(grid_problem(40), sigma);
     const Eigenpairs pairs = lowest_eigenpairs(problem.grid.K, problem.grid.M, problem.inverse, 20);
     ASSERT_EQ(pairs.status, EigenStatus::converged);
     ASSERT_EQ(pairs.lambda.size(), 20);
@@ -62,7 +35,7 @@ TEST(LowestEigenpairs, AreThoseOfTheMembraneDoubleOnesIncluded) {
 }
 
 TEST(LowestEigenpairs, EqualTheDenseOnes) {
-  const Factored problem(9);
+  const Membrane problem(grid_problem(9));
   const Eigenpairs dense = dense_eigenpairs(problem.grid.K, problem.grid.M, {});
   EXPECT_EQ(dense.lambda.size(), 81);
   EXPECT_LT(worst_lambda(dense, problem.grid.lambda), 1e-12);
@@ -78,7 +51,7 @@ TEST(LowestEigenpairs, EqualTheDenseOnes) {
 }
 
 TEST(LowestEigenpairs, AModeThatIsMissingIsNoticedByTheSturmCount) {
-  const Factored problem(20);
+  const Membrane problem(grid_problem(20));
   const Eigenpairs all = lowest_eigenpairs(problem.grid.K, problem.grid.M, problem.inverse, 8);
   // An inverse that does not know the fourth mode hides it from the iteration.
   const Eigen::VectorXd hidden = all.Phi.col(3);
@@ -96,7 +69,7 @@ TEST(LowestEigenpairs, AModeThatIsMissingIsNoticedByTheSturmCount) {
 }
 
 TEST(EigenpairsUpTo, AreAllBelowTheBoundHoweverMany) {
-  const Factored problem(24);
+  const Membrane problem(grid_problem(24));
   for (const std::size_t wanted : {1U, 6U, 12U, 13U, 60U}) {
     // Bounds between two different eigenvalues.
     std::size_t count = wanted;
@@ -111,7 +84,7 @@ TEST(EigenpairsUpTo, AreAllBelowTheBoundHoweverMany) {
 }
 
 TEST(DenseEigenpairs, OnASubspaceAreThoseOfTheReducedProblem) {
-  const Factored problem(6);
+  const Membrane problem(grid_problem(6));
   Eigen::MatrixXd W = Eigen::MatrixXd::Zero(36, 2);
   W(4, 0) = 3.0;
   W(20, 1) = -1.0;
@@ -136,13 +109,13 @@ TEST(DenseEigenpairs, RefuseAMassMatrixThatIsNotPositiveDefinite) {
 }
 
 TEST(LowestEigenpairs, RefusesCountsThatCannotBe) {
-  const Factored problem(3);
+  const Membrane problem(grid_problem(3));
   EXPECT_THROW((void)lowest_eigenpairs(problem.grid.K, problem.grid.M, problem.inverse, 0), core::InputError);
   EXPECT_THROW((void)lowest_eigenpairs(problem.grid.K, problem.grid.M, problem.inverse, 9), core::InputError);
 }
 
 TEST(LowestEigenpairs, CanBeInterrupted) {
-  const Factored problem(10);
+  const Membrane problem(grid_problem(10));
   core::request_interrupt();
   EXPECT_THROW((void)lowest_eigenpairs(problem.grid.K, problem.grid.M, problem.inverse, 5), core::Interrupted);
   core::clear_interrupt();
