@@ -153,7 +153,7 @@ mesh::TetMesh graded_mesh(const Case& source, int level) {
   const double widest = std::max(size[part.axes[0]], size[part.axes[1]]);
   mesh::PrismMeshOptions options;
   options.size_m = source.part->mesh.element_size.value_or(std::min(0.3 * wave, 0.5 * widest) / std::pow(1.5, level));
-  options.layers = 1 + level;
+  options.layers = (mesh::has_reentrant_edge(part.prism) ? 2 : 1) + level;
   options.spot_growth = level == 0 ? 4.0 : 2.0;
   for (const Point& p : source.points) {
     if (p.patch_radius <= 0.0) continue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <sstream>
 
@@ -288,6 +289,27 @@ void validate(const Prism& prism) {
   std::string all;
   for (const auto& violation : violations(prism)) all += (all.empty() ? "" : "; ") + violation;
   if (!all.empty()) throw core::InputError(all);
+}
+
+bool has_reentrant_edge(const Prism& prism) {
+  const Extent part{prism.bottom, prism.top};
+  const auto other_height = [&](const Zone& zone) { return Extent{zone.bottom, zone.top} != part; };
+  if (std::any_of(prism.zones.begin(), prism.zones.end(), other_height)) return true;
+  // `inside` 1: the material lies inside of the polygon; −1: outside.
+  const auto turns_inwards = [](const Polygon& polygon, double inside) {
+    const double side = signed_area(polygon) > 0.0 ? inside : -inside;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Segment in = edge(polygon, i);
+      const Segment out = edge(polygon, (i + 1) % polygon.size());
+      const Eigen::Vector2d a = in[1] - in[0];
+      const Eigen::Vector2d b = out[1] - out[0];
+      if (side * std::atan2(cross(a, b), a.dot(b)) < -std::numbers::pi / 6.0) return true;
+    }
+    return false;
+  };
+  if (turns_inwards(prism.outline, 1.0)) return true;
+  return std::any_of(prism.holes.begin(), prism.holes.end(),
+                     [&](const Polygon& hole) { return turns_inwards(hole, -1.0); });
 }
 
 double volume(const Prism& prism) {

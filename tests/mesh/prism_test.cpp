@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "core/error.hpp"
@@ -150,6 +151,28 @@ TEST(PrismBadInput, RegionsThatShareNoHeightFallApart) {
   expect_violation(prism, "falls apart");
   prism.zones.push_back({rectangle(0.3, 0.03, 0.31, 0.06), 0.0, 0.015});
   EXPECT_EQ(only_violation(prism), "");
+}
+
+TEST(Prism, KnowsWhetherAnEdgeTurnsInwards) {
+  const Prism plate{rectangle(0, 0, 0.4, 0.1), {}, 0.0, 0.006, {}};
+  EXPECT_FALSE(has_reentrant_edge(plate));
+  Prism part = plate;
+  std::reverse(part.outline.begin(), part.outline.end());
+  EXPECT_FALSE(has_reentrant_edge(part)) << "whatever the orientation";
+  part.holes = {regular({0.2, 0.05}, 0.02, 32)};
+  EXPECT_FALSE(has_reentrant_edge(part)) << "a round hole";
+  part.holes = {rectangle(0.2, 0.04, 0.22, 0.06)};
+  EXPECT_TRUE(has_reentrant_edge(part)) << "a square one";
+  std::reverse(part.holes[0].begin(), part.holes[0].end());
+  EXPECT_TRUE(has_reentrant_edge(part));
+  part = plate;
+  part.zones = {{rectangle(0, 0, 0.1, 0.1), 0.0, 0.006}};
+  EXPECT_FALSE(has_reentrant_edge(part)) << "a zone of the part's own height";
+  part.zones[0].top = 0.003;
+  EXPECT_TRUE(has_reentrant_edge(part)) << "a step";
+  part = plate;
+  part.outline = {{0, 0}, {0.4, 0}, {0.4, 0.05}, {0.2, 0.05}, {0.2, 0.1}, {0, 0.1}};
+  EXPECT_TRUE(has_reentrant_edge(part)) << "an L";
 }
 
 }  // namespace

@@ -50,6 +50,35 @@ void expect_consistent(const fem::Refined& refined) {
   }
 }
 
+/// A rib 3 mm thick on a foot, held below: singular where the rib rises.
+mesh::Prism rib_on_foot() {
+  mesh::Prism part = plate_prism(0.03, 0.012, 0.005);
+  part.zones = {{{{0, 0}, {0.003, 0}, {0.003, 0.012}, {0, 0.012}}, 0.0, 0.02}};
+  return part;
+}
+
+TEST(RefineToTolerance, TheEstimateHoldsBesideAReentrantEdge) {
+  const mesh::Prism rib = rib_on_foot();
+  fem::SolidPart part;
+  part.mesh = [&](int level) {
+    return graded_mesh(rib, 0.012 / (1 + level), (mesh::has_reentrant_edge(rib) ? 2 : 1) + level);
+  };
+  part.material = steel_part;
+  part.supports = {held_plane(2, 0.0)};
+  const Eigen::VectorXd exact = elastic(solved(graded_mesh(rib, 0.006, 4), 5, steel_part, part.supports, 5).modes);
+  for (const double tolerance : {5e-3, 1e-3}) {
+    fem::ToleranceOptions options;
+    options.tolerance = tolerance;
+    options.modes.count = 5;
+    const fem::Refined refined = fem::refine_to_tolerance(part, options);
+    const double error = worst_error(elastic(refined.modes), exact);
+    std::printf("rib on a foot, tolerance %.0e: %td DOFs, estimate %.1e, true error %.1e\n", tolerance,
+                refined.model.K.rows(), refined.estimate.frequency, error);
+    EXPECT_TRUE(refined.estimate.met) << tolerance;
+    EXPECT_LT(error, refined.estimate.frequency) << "tolerance " << tolerance;
+  }
+}
+
 TEST(RefineToTolerance, TrueErrorIsBelowTheEstimateAndTheEstimateBelowTheTolerance) {
   const Eigen::VectorXd exact = reference();
   Eigen::Index last_dofs = 0;
