@@ -35,8 +35,8 @@ def add_command(commands):
                         help="of " + ",".join(PARTS))
     parser.add_argument("--out", type=pathlib.Path, metavar="FILE", help="write all figures as JSON")
     parser.add_argument("--repeat", type=fem.positive(int), default=3, metavar="N",
-                        help="runs of thinwall with a tolerance, the median is shown (3); longer ones and all others run "
-                             "once")
+                        help="runs of thinwall with a tolerance, the median is shown (3); longer ones and all others "
+                             "run once")
     parser.add_argument("--threads", type=fem.positive(int), default=2, metavar="N", help="of every program")
     parser.add_argument("--time-limit", type=fem.positive(float), default=600.0, metavar="S",
                         help="of one run, seconds (600)")
