@@ -46,6 +46,8 @@ def add_command(commands):
                         help="of 40k,170k,420k,1M")
     parser.add_argument("--peers", type=names_of(["ccx", "slepc"]), default=["ccx", "slepc"], metavar="LIST",
                         help="of ccx,slepc; '' for none")
+    parser.add_argument("--craig-bampton", type=names_of(SIZES), default=[], metavar="LIST",
+                        help="sizes at which 30 modes are timed beside a reduction to 30 interface DOFs and 30 modes")
     parser.add_argument("--out", type=pathlib.Path, metavar="FILE", help="write all figures as JSON")
     parser.add_argument("--repeat", type=positive(int), metavar="N",
                         help="runs of each program, the median is shown (3, and 1 from 420k on)")
@@ -58,13 +60,13 @@ def add_command(commands):
     parser.set_defaults(run=run)
 
 
-def build(folder):
-    """Configures and builds the programs; the output is shown only if it fails."""
+def build(folder, target="bench_fem"):
+    """Configures and builds the programs of a command; the output is shown only if it fails."""
     print(f"building in {folder}", file=sys.stderr)
     configure = ["cmake", "-S", ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DTHINWALL_BENCH=ON"]
     if not (folder / "CMakeCache.txt").exists():
         configure += ["-G", "Ninja"]
-    for command in (configure, ["cmake", "--build", folder, "--target", "bench_fem"]):
+    for command in (configure, ["cmake", "--build", folder, "--target", target]):
         done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               text=True)
         if done.returncode != 0:
@@ -109,7 +111,11 @@ def measure(programs, folder, name, settings, wanted):
                 lambda chosen=variant: peers.slepc(programs, folder, settings, *chosen), repeat)
             rows.append(row)
             show(name, mesh, row, rows[0])
-    return {"size": name, "element_size_m": SIZES[name], "mesh": mesh, "runs": rows, "ratios": ratios(rows)}
+    result = {"size": name, "element_size_m": SIZES[name], "mesh": mesh, "runs": rows, "ratios": ratios(rows)}
+    if name in settings.craig_bampton:
+        result["craig_bampton"] = peers.craig_bampton(programs, folder, settings)
+        show_craig_bampton(name, result["craig_bampton"])
+    return result
 
 
 def largest_difference(row, reference):
@@ -156,6 +162,16 @@ def show(name, mesh, row, reference=None):
     line += f"{row['total_s']:>9.2f}{row['wall_s']:>9.2f}{row['cpu_s']:>9.2f}{row['peak_memory_bytes'] / 1e9:>7.2f}"
     difference = largest_difference(row, reference) if reference else None
     print(line + ("" if difference is None else f"  {difference:.1e}"), flush=True)
+
+
+def show_craig_bampton(name, row):
+    if "failure" in row:
+        print(f"{name:>5} Craig-Bampton: {row['failure']}", flush=True)
+        return
+    print(f"{name:>5} factor {row['factorise_s']:.2f} s, {row['modes']} modes alone {row['modes_s']:.2f} s, "
+          f"Craig-Bampton of {row['interface_dofs']} interface DOFs and {row['modes']} modes "
+          f"{row['craig_bampton_s']:.2f} s: {row['above_modes']:+.0%} above the modes, "
+          f"{row['above_factor_and_modes']:+.0%} with the factor that both need", flush=True)
 
 
 def show_ratios(results):

@@ -1,8 +1,11 @@
 // From a mesh file to natural modes, stage by stage, beside the peers (bench/run fem). Steel, SI.
-//   fem_modes FILE.inp [--fixed SET] [--modes N] [--threads N] [--write-petsc FOLDER]      prints one JSON object
-// With --write-petsc it writes the assembled K and M of the free DOFs for bench/slepc_modes and stops.
+//   fem_modes FILE.inp [--fixed SET] [--modes N] [--threads N] [--write-petsc FOLDER | --craig-bampton N]
+// prints one JSON object. With --write-petsc it writes the assembled K and M of the free DOFs for bench/slepc_modes and
+// stops; with --craig-bampton it times the reduction to N interface DOFs and as many modes as told beside the modes.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -18,6 +21,7 @@
 #include "io/inp.hpp"
 #include "linalg/eigenpairs.hpp"
 #include "linalg/sparse_cholesky.hpp"
+#include "reduction/craig_bampton.hpp"
 
 namespace {
 
@@ -31,6 +35,7 @@ struct Options {
   int modes = 10;
   int threads = 2;
   std::string petsc_folder;
+  int interface_dofs = 0;
 };
 
 /// K and M of the free DOFs.
@@ -42,15 +47,23 @@ fem::Assembled free_matrices(const io::InpMesh& part, const std::vector<int>& fi
   return fem::assemble(part.nodes, steel, fixed);
 }
 
-void solve(const fem::Assembled& matrices, int modes, nlohmann::ordered_json& report) {
-  bench::Stopwatch watch;
+linalg::SparseCholesky factorised(const fem::Assembled& matrices) {
   std::vector<int> node_of_row;
   for (const int row : matrices.free_rows) node_of_row.push_back(row / 3);
-  const linalg::SparseCholesky factor(matrices.K, node_of_row);
+  return linalg::SparseCholesky(matrices.K, node_of_row);
+}
+
+/// Keeps a reference.
+linalg::ShiftedInverse inverse_of(const linalg::SparseCholesky& factor) {
+  return {[&factor](const Eigen::Ref<const Eigen::MatrixXd>& B) { return factor.solve(B); }, 0.0};
+}
+
+void solve(const fem::Assembled& matrices, int modes, nlohmann::ordered_json& report) {
+  bench::Stopwatch watch;
+  const linalg::SparseCholesky factor = factorised(matrices);
   const double factorise_s = watch.lap();
   const linalg::FactorStatistics& cost = factor.statistics();
-  const linalg::ShiftedInverse inverse{
-      [&factor](const Eigen::Ref<const Eigen::MatrixXd>& B) { return factor.solve(B); }, 0.0};
+  const linalg::ShiftedInverse inverse = inverse_of(factor);
   const linalg::Eigenpairs pairs = linalg::lowest_eigenpairs(matrices.K, matrices.M, inverse, modes);
   report["ordering_s"] = cost.seconds_ordering;
   report["factor_s"] = factorise_s - cost.seconds_ordering;
@@ -62,6 +75,50 @@ void solve(const fem::Assembled& matrices, int modes, nlohmann::ordered_json& re
   for (const double lambda : pairs.lambda) {
     report["frequencies_hz"].push_back(std::sqrt(std::max(lambda, 0.0)) / (2.0 * std::numbers::pi));
   }
+}
+
+/// The three displacements of nodes that are spread evenly over the part's numbering. Nodes are fixed as a whole, so
+/// that rows come in threes.
+reduction::Interface spread_interface(Eigen::Index rows, int dofs) {
+  reduction::Interface interface;
+  std::vector<Eigen::Triplet<double>> entries;
+  const Eigen::Index points = (dofs + 2) / 3;
+  for (int k = 0; k < dofs; ++k) {
+    const Eigen::Index node = (k / 3 + 1) * (rows / 3) / (points + 1);
+    entries.emplace_back(static_cast<int>(3 * node + k % 3), k, 1.0);
+    interface.dofs.push_back(
+        {"P" + std::to_string(k / 3), Eigen::Vector3d::Unit(k % 3), dynamics::DofKind::translation});
+  }
+  interface.W.resize(rows, dofs);
+  interface.W.setFromTriplets(entries.begin(), entries.end());
+  return interface;
+}
+
+/// Seconds of the factor, of the modes alone and of the reduction, on the same matrices: medians of three.
+void reduce(const fem::Assembled& matrices, const Options& options, nlohmann::ordered_json& report) {
+  const reduction::Interface interface = spread_interface(matrices.K.rows(), options.interface_dofs);
+  std::array<std::vector<double>, 3> seconds;
+  bool converged = true;
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    bench::Stopwatch watch;
+    const linalg::SparseCholesky factor = factorised(matrices);
+    seconds[0].push_back(watch.lap());
+    const linalg::ShiftedInverse inverse = inverse_of(factor);
+    const auto pairs = linalg::lowest_eigenpairs(matrices.K, matrices.M, inverse, options.modes);
+    seconds[1].push_back(watch.lap());
+    const auto reduced =
+        reduction::craig_bampton(matrices.K, matrices.M, inverse, interface, {.modes = options.modes, .up_to_hz = {}});
+    seconds[2].push_back(watch.lap());
+    converged =
+        converged && pairs.status == linalg::EigenStatus::converged && reduced.status == linalg::EigenStatus::converged;
+  }
+  for (auto& repeats : seconds) std::sort(repeats.begin(), repeats.end());
+  report["factorise_s"] = seconds[0][1];
+  report["modes_s"] = seconds[1][1];
+  report["craig_bampton_s"] = seconds[2][1];
+  report["interface_dofs"] = options.interface_dofs;
+  report["modes"] = options.modes;
+  report["converged"] = converged;
 }
 
 nlohmann::ordered_json run(const Options& options) {
@@ -81,6 +138,10 @@ nlohmann::ordered_json run(const Options& options) {
     bench::write_petsc(std::filesystem::path(options.petsc_folder) / "M.petsc", matrices.M);
     return report;
   }
+  if (options.interface_dofs > 0) {
+    reduce(matrices, options, report);
+    return report;
+  }
   solve(matrices, options.modes, report);
   report["total_s"] = total.lap();
   report["peak_memory_bytes"] = bench::peak_memory_bytes();
@@ -95,6 +156,8 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--modes", options.modes, "how many")->check(CLI::Range(1, 10000));
   app.add_option("--threads", options.threads, "threads")->check(CLI::Range(1, 1024));
   app.add_option("--write-petsc", options.petsc_folder, "folder for K and M; nothing is solved");
+  app.add_option("--craig-bampton", options.interface_dofs, "time the reduction to so many interface DOFs")
+      ->check(CLI::Range(1, 1000));
   CLI11_PARSE(app, argc, argv);
   std::cout << run(options).dump() << '\n';
   return 0;

@@ -28,6 +28,21 @@ def thinwall(programs, folder, settings):
     return row
 
 
+def craig_bampton(programs, folder, settings, interface_dofs=30, modes=30):
+    """What the reduction costs above the modes alone, by the same factor."""
+    command = [programs / "fem_modes", "plate.inp", "--threads", settings.threads, "--modes", modes,
+               "--craig-bampton", interface_dofs]
+    done = processes.run(command, settings.time_limit, folder, processes.environment())
+    if done.failure:
+        return {"failure": done.failure}
+    row = json.loads(done.last_line)
+    check_converged(row)
+    both_s = row["factorise_s"] + row["modes_s"]
+    row.update(above_modes=row["craig_bampton_s"] / row["modes_s"] - 1.0,
+               above_factor_and_modes=(row["craig_bampton_s"] - row["modes_s"]) / both_s)
+    return row
+
+
 def write_matrices(programs, folder, settings):
     """K.petsc and M.petsc for SLEPc, not timed. Returns the failure or ''."""
     command = [programs / "fem_modes", "plate.inp", "--threads", settings.threads, "--write-petsc", folder]
@@ -51,23 +66,23 @@ def slepc(programs, folder, settings, ranks, ordering, icntl7):
     return row
 
 
-def ccx(folder, settings):
-    """CalculiX from plate.inp to modes; SPOOLES and ARPACK as Debian builds them."""
+def ccx(folder, settings, job="plate"):
+    """CalculiX from the job's .inp to modes; SPOOLES and ARPACK as Debian builds them."""
     # BLAS on one thread: on two, ARPACK's small products make the run two to four times slower.
     env = processes.environment(OMP_NUM_THREADS=settings.threads, CCX_NPROC_EQUATION_SOLVER=settings.threads,
                                 CCX_NPROC_STIFFNESS=settings.threads, CCX_NPROC_RESULTS=settings.threads,
                                 OPENBLAS_NUM_THREADS=1)
-    for old in folder.glob("plate.dat"):
-        old.unlink()
-    done = processes.run(["stdbuf", "-oL", "ccx", "plate"], settings.time_limit, folder, env)
+    table = folder / f"{job}.dat"
+    table.unlink(missing_ok=True)
+    done = processes.run(["stdbuf", "-oL", "ccx", job], settings.time_limit, folder, env)
     row = {"program": "ccx", **measured(done), "peak_memory_bytes": done.peak_memory_bytes}
     if done.failure:
         return row
     row.update(ccx_stages(done))
     row["total_s"] = done.wall_s
-    row["frequencies_hz"] = ccx_frequencies(folder / "plate.dat")
+    row["frequencies_hz"] = ccx_frequencies(table)
     if len(row["frequencies_hz"]) < settings.modes:
-        row["failure"] = f"{len(row['frequencies_hz'])} frequencies in plate.dat, not {settings.modes}"
+        row["failure"] = f"{len(row['frequencies_hz'])} frequencies in {table.name}, not {settings.modes}"
     return row
 
 
