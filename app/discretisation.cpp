@@ -114,6 +114,7 @@ Discretisation refined_to_tolerance(const Case& source) {
   options.modes = mode_options(source);
   options.modes.verify_count = false;
   options.memory_limit_bytes = core::available_memory_bytes();
+  if (mesh::has_reentrant_edge(planar(*source.part).prism)) options.left_by_an_order = 0.6;
   for (const std::string& name : source.reduction.interface) options.points.push_back(named_point(source, name));
   if (wanted.order) {
     options.last_order = std::max(2, *wanted.order);

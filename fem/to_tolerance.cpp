@@ -105,13 +105,16 @@ void validate(const ToleranceOptions& o) {
   }
   if (o.first_order < 1 || o.last_order <= o.first_order || o.last_order > 6 || o.levels < 1)
     throw core::InputError("orders must rise within 1 to 6, on at least one level");
+  if (!(o.left_by_an_order > 0.0 && o.left_by_an_order < 1.0))
+    throw core::InputError("what an order leaves of the error is " + std::to_string(o.left_by_an_order) +
+                           "; it must be above 0 and below 1");
 }
 
-/// The error of an order is its difference to the next one and what is left of that one's, in a geometric series: with
-/// a third or less left by each order, as in all parts tried (docs/theory/elements.md), 1.5 times the difference.
-constexpr double geometric_rest = 1.5;
-
-Refined finished(Solution&& s, Estimate&& estimate) {
+/// The solution with `share` of the changes as its error.
+Refined finished(Solution&& s, Estimate&& estimate, double share) {
+  estimate.frequency = share * estimate.steps.back().frequency_change.value_or(0.0);
+  estimate.receptance = share * estimate.steps.back().receptance_change.value_or(0.0);
+  estimate.met = std::max(estimate.frequency, estimate.receptance) <= estimate.tolerance;
   return {std::move(s.model), std::move(s.factored), std::move(s.modes), std::move(estimate)};
 }
 
@@ -121,6 +124,8 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
   validate(options);
   Estimate estimate;
   estimate.tolerance = options.tolerance;
+  const double of_lower = 1.0 / (1.0 - options.left_by_an_order);
+  const double of_higher = of_lower - 1.0;
   for (int level = 0;; ++level) {
     const mesh::TetMesh mesh = part.mesh(level);
     const bool last_level = level + 1 == options.levels;
@@ -128,19 +133,13 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
     estimate.steps.push_back({level, options.first_order, below.model.K.rows(), {}, {}});
     for (int order = options.first_order + 1; order <= options.last_order; ++order) {
       Solution now = solve(part, mesh, order, options);
-      estimate.frequency = frequency_change(below.modes, now.modes);
-      estimate.receptance = options.points.empty() ? 0.0 : receptance_change(below, now);
-      estimate.steps.push_back({level, order, now.model.K.rows(), estimate.frequency, {}});
-      if (!options.points.empty()) estimate.steps.back().receptance_change = estimate.receptance;
-      const double worst = std::max(estimate.frequency, estimate.receptance);
-      estimate.met = worst <= options.tolerance;
-      if (geometric_rest * worst <= options.tolerance) {
-        estimate.frequency *= geometric_rest;
-        estimate.receptance *= geometric_rest;
-        return finished(std::move(below), std::move(estimate));
-      }
-      if (estimate.met || (last_level && order == options.last_order))
-        return finished(std::move(now), std::move(estimate));
+      RefinementStep step{level, order, now.model.K.rows(), frequency_change(below.modes, now.modes), {}};
+      if (!options.points.empty()) step.receptance_change = receptance_change(below, now);
+      estimate.steps.push_back(step);
+      const double worst = std::max(*step.frequency_change, step.receptance_change.value_or(0.0));
+      if (of_lower * worst <= options.tolerance) return finished(std::move(below), std::move(estimate), of_lower);
+      if (of_higher * worst <= options.tolerance || (last_level && order == options.last_order))
+        return finished(std::move(now), std::move(estimate), of_higher);
       // An order brings a factor of about ten; more than that needs smaller elements.
       if (!last_level && worst > 30.0 * options.tolerance) break;
       below = std::move(now);
