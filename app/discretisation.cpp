@@ -114,7 +114,8 @@ Discretisation refined_to_tolerance(const Case& source) {
   options.modes = mode_options(source);
   options.modes.verify_count = false;
   options.memory_limit_bytes = core::available_memory_bytes();
-  if (mesh::has_reentrant_edge(planar(*source.part).prism)) options.left_by_an_order = 0.6;
+  options.reentrant_edges = mesh::has_reentrant_edge(planar(*source.part).prism);
+  if (options.reentrant_edges) options.levels = 2;  // more bring little: across a rib one element remains
   for (const std::string& name : source.reduction.interface) options.points.push_back(named_point(source, name));
   if (wanted.order) {
     options.last_order = std::max(2, *wanted.order);

@@ -105,9 +105,12 @@ void validate(const ToleranceOptions& o) {
   }
   if (o.first_order < 1 || o.last_order <= o.first_order || o.last_order > 6 || o.levels < 1)
     throw core::InputError("orders must rise within 1 to 6, on at least one level");
-  if (!(o.left_by_an_order > 0.0 && o.left_by_an_order < 1.0))
-    throw core::InputError("what an order leaves of the error is " + std::to_string(o.left_by_an_order) +
-                           "; it must be above 0 and below 1");
+}
+
+/// Of the error of the order below, what `order` leaves.
+double left_by(int order, const ToleranceOptions& options) {
+  constexpr double edge_exponent = 0.544;  // of a 270° edge
+  return options.reentrant_edges ? std::pow((order - 1.0) / order, 4.0 * edge_exponent) : 0.5;
 }
 
 /// The solution with `share` of the changes as its error.
@@ -124,8 +127,6 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
   validate(options);
   Estimate estimate;
   estimate.tolerance = options.tolerance;
-  const double of_lower = 1.0 / (1.0 - options.left_by_an_order);
-  const double of_higher = of_lower - 1.0;
   for (int level = 0;; ++level) {
     const mesh::TetMesh mesh = part.mesh(level);
     const bool last_level = level + 1 == options.levels;
@@ -136,6 +137,8 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
       RefinementStep step{level, order, now.model.K.rows(), frequency_change(below.modes, now.modes), {}};
       if (!options.points.empty()) step.receptance_change = receptance_change(below, now);
       estimate.steps.push_back(step);
+      const double of_lower = 1.0 / (1.0 - left_by(order, options));
+      const double of_higher = of_lower - 1.0;
       const double worst = std::max(*step.frequency_change, step.receptance_change.value_or(0.0));
       if (of_lower * worst <= options.tolerance) return finished(std::move(below), std::move(estimate), of_lower);
       if (of_higher * worst <= options.tolerance || (last_level && order == options.last_order))

@@ -80,7 +80,7 @@ mesh::TetMesh rib_graded_all_around() {
   return block;
 }
 
-TEST(RefineToTolerance, TheEstimateHoldsBesideAReentrantEdge) {
+TEST(RefineToTolerance, IsTheTrueErrorBesideAReentrantEdge) {
   const mesh::Prism rib = rib_on_foot();
   ASSERT_TRUE(mesh::has_reentrant_edge(rib));
   fem::SolidPart part;
@@ -92,13 +92,14 @@ TEST(RefineToTolerance, TheEstimateHoldsBesideAReentrantEdge) {
     fem::ToleranceOptions options;
     options.tolerance = tolerance;
     options.modes.count = 5;
-    options.left_by_an_order = 0.6;
+    options.reentrant_edges = true;
     const fem::Refined refined = fem::refine_to_tolerance(part, options);
     const double error = worst_error(elastic(refined.modes), exact);
     std::printf("rib on a foot, tolerance %.0e: %td DOFs, estimate %.1e, true error %.1e\n", tolerance,
                 refined.model.K.rows(), refined.estimate.frequency, error);
     EXPECT_TRUE(refined.estimate.met) << tolerance;
-    EXPECT_LT(error, refined.estimate.frequency) << "tolerance " << tolerance;
+    // The law of the edge is asymptotic: the estimate is the error itself, not a bound on it.
+    EXPECT_NEAR(refined.estimate.frequency / error, 1.0, 0.1) << "tolerance " << tolerance;
   }
 }
 
