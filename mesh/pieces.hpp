@@ -1,6 +1,8 @@
 #pragma once
 // Which vertices hang together.
 
+#include <cstddef>
+#include <numeric>
 #include <vector>
 
 namespace thinwall::mesh {
@@ -9,8 +11,8 @@ namespace thinwall::mesh {
 /// cells joins them. Cell: any range of vertex numbers. Itself, for a vertex of no cell. Cost nearly O(cells).
 template <class Cells>
 [[nodiscard]] std::vector<int> pieces(int vertices, const Cells& cells) {
-  std::vector<int> lower;  // a vertex of the same piece that is no higher
-  for (int v = 0; v < vertices; ++v) lower.push_back(v);
+  std::vector<int> lower(static_cast<std::size_t>(vertices));  // a vertex of the same piece that is no higher
+  std::iota(lower.begin(), lower.end(), 0);
   const auto lowest = [&](int v) {
     while (lower[static_cast<std::size_t>(v)] != v) {
       int& next = lower[static_cast<std::size_t>(v)];
