@@ -268,26 +268,30 @@ struct CurvedColumn {
   Eigen::Index local = 0;
 };
 
-/// Adds a batch of curved elements: each node's columns by one thread, from its elements in their order.
+/// Adds a batch of curved elements: each node's columns by one thread, from its elements in their order. `work`: a
+/// piece of the columns for each.
 void add_batch(const mesh::LagrangeNodes& nodes, const Lists& graph, const Numbering& rows,
-               const std::vector<Eigen::Index>& elements, const std::vector<CurvedElement>& batch, Assembled& result) {
+               const std::vector<Eigen::Index>& elements, const std::vector<CurvedElement>& batch,
+               std::vector<ColumnPlaces>& work, Assembled& result) {
   std::vector<CurvedColumn> columns;
   for (std::size_t k = 0; k < elements.size(); ++k) {
     for (Eigen::Index b = 0; b < nodes.elements.cols(); ++b) columns.push_back({nodes.elements(elements[k], b), k, b});
   }
   std::stable_sort(columns.begin(), columns.end(),
                    [](const CurvedColumn& a, const CurvedColumn& b) { return a.node < b.node; });
-  constexpr std::size_t pieces = 8;
   const auto start_of = [&](std::size_t piece) {
-    std::size_t at = piece * columns.size() / pieces;
+    std::size_t at = piece * columns.size() / work.size();
     while (at > 0 && at < columns.size() && columns[at].node == columns[at - 1].node) ++at;
     return at;
   };
-  core::parallel_for(pieces, [&](std::size_t piece) {
-    ColumnPlaces places(nodes.positions.rows());
-    for (std::size_t c = start_of(piece); c < start_of(piece + 1); ++c) {
+  core::parallel_for(work.size(), [&](std::size_t piece) {
+    ColumnPlaces& places = work[piece];
+    const std::size_t end = start_of(piece + 1);
+    int located = -1;
+    for (std::size_t c = start_of(piece); c < end; ++c) {
       const CurvedColumn& column = columns[c];
-      if (c == start_of(piece) || columns[c - 1].node != column.node) places.locate(graph, rows, column.node);
+      if (column.node != located) places.locate(graph, rows, column.node);
+      located = column.node;
       add_columns(nodes, graph, rows, places, elements[column.element], column.local, batch[column.element], result);
     }
   });
@@ -304,6 +308,7 @@ void assemble_curved(const mesh::LagrangeNodes& nodes, const Material& material,
   const Lame c = lame(material);
   const CurvedReference& reference = curved_reference(nodes.order);
   constexpr std::size_t at_once = 128;
+  std::vector<ColumnPlaces> work(curved.empty() ? 0 : 8, ColumnPlaces(nodes.positions.rows()));
   for (std::size_t first = 0; first < curved.size(); first += at_once) {
     const std::vector<Eigen::Index> elements(
         curved.begin() + static_cast<std::ptrdiff_t>(first),
@@ -321,7 +326,7 @@ void assemble_curved(const mesh::LagrangeNodes& nodes, const Material& material,
       }
       result.least_jacobian = std::min(result.least_jacobian, jacobian);
     }
-    add_batch(nodes, graph, rows, elements, batch, result);
+    add_batch(nodes, graph, rows, elements, batch, work, result);
   }
 }
 

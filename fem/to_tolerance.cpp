@@ -107,10 +107,11 @@ void validate(const ToleranceOptions& o) {
     throw core::InputError("orders must rise within 1 to 6, on at least one level");
 }
 
-/// Of the error of the order below, what `order` leaves.
+/// Of the error of the order below, what `order` leaves. The law of the edge is that of high orders: below 0.5 it says
+/// nothing.
 double left_by(int order, const ToleranceOptions& options) {
   constexpr double edge_exponent = 0.544;  // of a 270° edge
-  return options.reentrant_edges ? std::pow((order - 1.0) / order, 4.0 * edge_exponent) : 0.5;
+  return options.reentrant_edges ? std::max(0.5, std::pow((order - 1.0) / order, 4.0 * edge_exponent)) : 0.5;
 }
 
 /// The solution with `share` of the changes as its error.
@@ -143,8 +144,10 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
       if (of_lower * worst <= options.tolerance) return finished(std::move(below), std::move(estimate), of_lower);
       if (of_higher * worst <= options.tolerance || (last_level && order == options.last_order))
         return finished(std::move(now), std::move(estimate), of_higher);
-      // An order brings a factor of about ten; more than that needs smaller elements.
-      if (!last_level && worst > 30.0 * options.tolerance) break;
+      // Smaller elements, where the orders that are left will not do: away from inner edges each brings a factor of up
+      // to ten, beside them what the law says.
+      const double next = options.reentrant_edges ? of_higher * left_by(order + 1, options) : 1.0 / 30.0;
+      if (!last_level && next * worst > options.tolerance) break;
       below = std::move(now);
     }
   }

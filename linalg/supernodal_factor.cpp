@@ -348,9 +348,9 @@ class Pool {
 double update_bytes(const SymbolicFactor& L, const TreeCut& cut) {
   const Tree t = tree(L, cut);
   const auto at_once = std::min(cut.groups.size(), static_cast<std::size_t>(core::thread_count()));
-  // The groups' stacks are gone before the top's are there; what the groups leave is there with both.
-  Place values =
-      std::max(stack_use(L, t, cut.top).most.sum(), static_cast<Place>(at_once) * group_heights(L, t, cut).sum());
+  // The groups' stacks are gone before the top's is there, but an allocator need not find it room in their place.
+  Place values = stack_use(L, t, cut.top).most.sum();
+  values += static_cast<Place>(at_once) * group_heights(L, t, cut).sum();
   for (const auto& group : cut.groups) values += stack_use(L, t, group).end.sum();
   return 8.0 * static_cast<double>(values);
 }

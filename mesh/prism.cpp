@@ -291,7 +291,8 @@ void validate(const Prism& prism) {
   if (!all.empty()) throw core::InputError(all);
 }
 
-bool has_reentrant_edge(const Prism& prism) {
+bool has_reentrant_edge(const Prism& given) {
+  const Prism prism = cleaned(given);
   const Extent part{prism.bottom, prism.top};
   const auto other_height = [&](const Zone& zone) { return Extent{zone.bottom, zone.top} != part; };
   if (std::any_of(prism.zones.begin(), prism.zones.end(), other_height)) return true;
@@ -303,7 +304,7 @@ bool has_reentrant_edge(const Prism& prism) {
       const Segment out = edge(polygon, (i + 1) % polygon.size());
       const Eigen::Vector2d a = in[1] - in[0];
       const Eigen::Vector2d b = out[1] - out[0];
-      if (side * std::atan2(cross(a, b), a.dot(b)) < -std::numbers::pi / 6.0) return true;
+      if (side * std::atan2(cross(a, b), a.dot(b)) < -(1.0 + 1e-6) * std::numbers::pi / 6.0) return true;
     }
     return false;
   };

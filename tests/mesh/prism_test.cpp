@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "core/error.hpp"
@@ -168,6 +169,8 @@ TEST(Prism, KnowsWhetherAnEdgeTurnsInwards) {
   part = plate;
   part.zones = {{rectangle(0, 0, 0.1, 0.1), 0.0, 0.006}};
   EXPECT_FALSE(has_reentrant_edge(part)) << "a zone of the part's own height";
+  part.zones[0].top = std::nextafter(0.006, 1.0);
+  EXPECT_FALSE(has_reentrant_edge(part)) << "the same but for round-off";
   part.zones[0].top = 0.003;
   EXPECT_TRUE(has_reentrant_edge(part)) << "a step";
   part = plate;
