@@ -144,8 +144,8 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
       if (of_lower * worst <= options.tolerance) return finished(std::move(below), std::move(estimate), of_lower);
       if (of_higher * worst <= options.tolerance || (last_level && order == options.last_order))
         return finished(std::move(now), std::move(estimate), of_higher);
-      // Smaller elements, where the orders that are left will not do: away from inner edges each brings a factor of up
-      // to ten, beside them what the law says.
+      // Smaller elements, where the next order will not do: away from inner edges one brings a factor of ten, at most
+      // thirty; beside them what the law says.
       const double next = options.reentrant_edges ? of_higher * left_by(order + 1, options) : 1.0 / 30.0;
       if (!last_level && next * worst > options.tolerance) break;
       below = std::move(now);

@@ -44,7 +44,8 @@ struct RefinementStep {
 /// the lower's error, the lower is wrong by d / (1 − r) and the higher by r d / (1 − r). r = 1/2: with elements graded
 /// to all edges an order leaves less (docs/theory/elements.md). Beside an edge that turns inwards, where the elements
 /// across a rib are as wide as it is thick, the error falls as p^−4λ with λ = 0.544, the exponent of a 270° edge
-/// (Babuska & Suri 1994; Williams 1952): r = (p / (p + 1))^4λ, 0.61 from order 4 to 5.
+/// (Babuska & Suri 1994; Williams 1952): r = (p / (p + 1))^4λ, 0.61 from order 4 to 5,
+/// and no less than 1/2 at low orders, of which the law says nothing.
 struct Estimate {
   double frequency = 0.0;   ///< largest relative error
   double receptance = 0.0;  ///< largest error over the sum of the modes' magnitudes at its frequency; 0 without points
@@ -53,8 +54,8 @@ struct Estimate {
   std::vector<RefinementStep> steps;
 };
 
-/// The cheaper solution that meets the tolerance: the lower of the last two orders if its
-/// estimate does, else the higher.
+/// The cheaper solution that meets the tolerance: the lower of the last two orders if its estimate does, else the
+/// higher.
 struct [[nodiscard]] Refined {
   Model model;
   Factored factored;

@@ -77,7 +77,7 @@ std::string xml_text(vtkUnstructuredGrid& grid) {
   writer->EncodeAppendedDataOn();
   writer->SetHeaderTypeToUInt64();
   writer->SetCompressorTypeToZLib();
-  writer->SetCompressionLevel(1);  // half the time of the usual 5, a tenth more bytes
+  writer->SetCompressionLevel(1);  // speed before size
   // Through memory, so that the file on disk appears in one step and a full disk is our error with our message.
   writer->WriteToOutputStringOn();
   if (writer->Write() == 0) throw core::DataError("VTK could not encode the mesh");
