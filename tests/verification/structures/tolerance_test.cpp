@@ -104,6 +104,23 @@ TEST(RefineToTolerance, IsTheTrueErrorBesideAReentrantEdge) {
   }
 }
 
+TEST(RefineToTolerance, SaysSoWhereTheLawOfTheEdgeLeavesTooMuch) {
+  fem::SolidPart part;
+  part.mesh = [](int) { return graded_mesh(rib_on_foot(), 0.012, 2); };
+  part.material = steel_part;
+  part.supports = {held_plane(2, 0.0)};
+  fem::ToleranceOptions options;
+  options.tolerance = 3e-3;  // between the change from order 5 to 6 and what the law makes of it
+  options.modes.count = 5;
+  options.reentrant_edges = true;
+  options.levels = 1;
+  const fem::Refined refined = fem::refine_to_tolerance(part, options);
+  const double change = refined.estimate.steps.back().frequency_change.value_or(0.0);
+  EXPECT_LT(change, options.tolerance);
+  EXPECT_FALSE(refined.estimate.met);
+  EXPECT_NEAR(refined.estimate.frequency / change, 2.05, 0.01) << "(5/6)^2.176 / (1 − (5/6)^2.176)";
+}
+
 TEST(RefineToTolerance, TrueErrorIsBelowTheEstimateAndTheEstimateBelowTheTolerance) {
   const Eigen::VectorXd exact = reference();
   Eigen::Index last_dofs = 0;
