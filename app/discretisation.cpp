@@ -212,6 +212,10 @@ fem::ModeOptions mode_options(const Case& source) {
 
 Discretisation discretise(const Case& source) {
   const Part& part = *source.part;
+  if (part.shape == "box" && part.thickness > std::max(part.length, part.height)) {
+    spdlog::warn("the part is {:g} m thick, more than it is long or high; a number without a unit is in metres",
+                 part.thickness);
+  }
   if (!part.mesh.element_size) return refined_to_tolerance(source);
   const int order = part.mesh.order.value_or(2);
   if (part.shape == "box" && !part.bend) return {tetgen_mesh(source), order, {}, {}};

@@ -186,9 +186,6 @@ PartResult compute_part(const Case& source, Discretisation discretisation, Stage
                                std::to_string(part.reduced->fixed_interface_hz.size()) +
                                " found): ask for fewer in reduction.modes, or mesh more evenly");
   }
-  if (part.reduced->status != linalg::EigenStatus::converged) {
-    throw core::NumericalError("the fixed-interface modes did not converge: ask for fewer (reduction.modes)");
-  }
   part.damped = damped(source, part.reduced->model, part.identified);
   stages.begin("reduction check");
   check_reduction(source, part, factored);

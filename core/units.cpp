@@ -179,7 +179,8 @@ Quantity parse_quantity(std::string_view text) {
   std::string_view rest = trimmed(text);
   const auto value = take_number(rest);
   if (!value) {
-    throw InputError("\"" + std::string(text) + "\" does not start with a number; write a number and a unit, \"6 mm\"");
+    throw InputError("\"" + std::string(text) +
+                     "\" does not start with a number; write a number and its unit, if it has one: \"6 mm\"");
   }
   if (!std::isfinite(*value)) throw InputError("\"" + std::string(text) + "\" is not a finite number");
   if (rest.starts_with(',')) {

@@ -76,9 +76,11 @@ struct SparseCholesky::Impl {
     statistics.seconds_numeric = seconds_since(start);
     if (!failed) return;
     const auto row = static_cast<std::size_t>(L.permutation[static_cast<std::size_t>(*failed)]);
-    throw core::NumericalError("the matrix is not positive definite at row " + std::to_string(row) + " (node " +
-                               std::to_string(node_of_row[row]) +
-                               "): a motion without stiffness, or an element turned inside out");
+    throw core::NumericalError(
+        "the matrix is not positive definite at row " + std::to_string(row) + " (node " +
+        std::to_string(node_of_row[row]) +
+        "): a motion without stiffness, an element turned inside out, or a wall too thin for double "
+        "precision");
   }
 
   /// Columns first … first + width − 1 of X = A⁻¹ B (those that there are), permuted on the way in and out.
