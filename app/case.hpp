@@ -196,7 +196,7 @@ struct LobesOptions {
   double from_rpm = 0.0, to_rpm = 0.0;
   int count = 400;
   double depth_limit = 0.0;  ///< m
-  double tolerance = 0.01;   ///< bound on the estimated relative error of the limiting depth
+  double tolerance = 1e-4;   ///< bound on the estimated relative error of the limiting depth
   std::optional<double> modes_up_to_hz;
 };
 

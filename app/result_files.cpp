@@ -148,6 +148,31 @@ dynamics::ResponseModel at_points(const dynamics::ResponseModel& all, const std:
   return chosen;
 }
 
+/// Every crossing of every speed, so that islands and gaps above the limiting depth are there, too.
+void write_crossings(const fs::path& folder, const NamedLobes& named) {
+  std::vector<double> speed, depth, chatter, change, error;
+  std::vector<std::string> kind;
+  for (const milling::LobeRow& row : named.lobes.rows) {
+    for (const milling::LobePoint& point : row.crossings) {
+      speed.push_back(row.spindle_speed_rpm);
+      depth.push_back(point.depth_m);
+      chatter.push_back(point.chatter_frequency_hz);
+      kind.push_back(milling::name(point.kind));
+      change.push_back(point.unstable_change);
+      error.push_back(point.error_estimate);
+    }
+  }
+  io::write_csv(folder / (named.name + "_crossings.csv"),
+                {{"spindle_speed_rpm", speed},
+                 {"depth_m", depth},
+                 {"chatter_frequency_hz", chatter},
+                 {"bifurcation", kind},
+                 {"unstable_change", change},
+                 {"error_estimate_relative", error}},
+                {"unstable_change: Floquet multipliers that leave the unit circle there as the depth rises; negative: "
+                 "that return. A cut is stable where the sum of those below its depth is 0"});
+}
+
 void write_lobes(const fs::path& folder, const NamedLobes& named) {
   std::vector<double> speed;
   std::vector<double> depth;
@@ -172,6 +197,7 @@ void write_lobes(const fs::path& folder, const NamedLobes& named) {
                  {"status", status}},
                 {"method: " + named.lobes.method,
                  "rows with status stable_to_depth_limit are stable up to the depth given, the limit of the chart"});
+  write_crossings(folder, named);
 }
 
 nlohmann::json records(const std::vector<io::FileRecord>& files) {

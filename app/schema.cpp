@@ -200,8 +200,8 @@ constexpr std::array case_keys{
     Key{"lobes.to", Type::quantity, kind::spindle_speed, "", positive, "", "Highest speed.", required},
     Key{"lobes.count", Type::integer, kind::number, "400", {1, 1e5, false, false, false, ""}, "", "Number of speeds."},
     Key{"lobes.depth_limit", Type::quantity, kind::length, "", positive, "", "Deepest cut that is asked; `tool.length` if not given."},
-    Key{"lobes.tolerance", Type::quantity, kind::number, "0.01", {1e-6, 0.5, false, false, false, ""}, "", "Bound on the estimated relative error of the depth."},
-    Key{"lobes.modes_up_to", Type::quantity, kind::frequency, "", positive, "", "Only modes up to this frequency; those above are left out, and the static compliance that goes with them is reported as static_compliance_left_out."},
+    Key{"lobes.tolerance", Type::quantity, kind::number, "1e-4", {1e-9, 0.5, false, false, false, ""}, "", "Bound on the estimated relative error of the depth."},
+    Key{"lobes.modes_up_to", Type::quantity, kind::frequency, "", positive, "", "Only modes up to this frequency; those above act by their static compliance alone, whose share is reported as static_share."},
 };
 
 constexpr std::array expectation_sections{

@@ -152,6 +152,14 @@ json row_of(const milling::LobeRow& row) {
           {"error_estimate_relative", finite(row.error_estimate)}};
 }
 
+json crossing_of(const milling::LobePoint& point) {
+  return {{"depth_m", point.depth_m},
+          {"chatter_frequency_hz", finite(point.chatter_frequency_hz)},
+          {"bifurcation", milling::name(point.kind)},
+          {"unstable_change", point.unstable_change},
+          {"error_estimate_relative", finite(point.error_estimate)}};
+}
+
 json lobes_of(const NamedLobes& named) {
   const milling::Lobes& lobes = named.lobes;
   const auto deepest = std::max_element(lobes.rows.begin(), lobes.rows.end(), [](const auto& a, const auto& b) {
@@ -163,11 +171,15 @@ json lobes_of(const NamedLobes& named) {
                  {"at_spindle_speed_rpm", lobes.at_spindle_speed_rpm},
                  {"maximum", row_of(*deepest)},
                  {"error_estimate_relative", finite(lobes.worst_error_estimate)},
-                 {"static_compliance_left_out", finite(lobes.residual_share)},
+                 {"static_share", finite(lobes.residual_share)},
                  {"speeds", lobes.rows.size()},
                  {"speeds_stable_to_depth_limit", lobes.rows_at_limit},
                  {"speeds_not_converged", lobes.rows_not_converged}};
-  if (named.at_spindle_speed) result["at_case_speed"] = row_of(*named.at_spindle_speed);
+  if (named.at_spindle_speed) {
+    json row = row_of(*named.at_spindle_speed);
+    for (const auto& point : named.at_spindle_speed->crossings) row["crossings"].push_back(crossing_of(point));
+    result["at_case_speed"] = std::move(row);
+  }
   return result;
 }
 

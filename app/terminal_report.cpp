@@ -83,11 +83,11 @@ void charts(std::string& out, const json& summary) {
     const std::string estimate = error.is_null() ? "unknown" : fmt::format("{:.2f} %", error.get<double>() * 100.0);
     out += fmt::format("  {:<22} {:<38} {:<25} {}\n", title_of(lobes["name"]), minimum(lobes),
                        fmt::format("{} at {:.0f} rpm", depth(best), best["spindle_speed_rpm"].get<double>()), estimate);
-    if (const json& left_out = lobes["static_compliance_left_out"];
-        !left_out.is_null() && left_out.get<double>() > 0.01) {
+    if (const json& static_share = lobes["static_share"];
+        !static_share.is_null() && static_share.get<double>() > 0.01) {
       out += fmt::format(
-          "    {:.1f} % of the static compliance lies in modes that the chart leaves out (lobes.modes_up_to)\n",
-          left_out.get<double>() * 100.0);
+          "    {:.1f} % of the static compliance lies in modes above lobes.modes_up_to, taken without their dynamics\n",
+          static_share.get<double>() * 100.0);
     }
     if (lobes["speeds_not_converged"].get<int>() > 0) {
       out += fmt::format("    {} of {} speeds did not reach the tolerance: see the status column of lobes/{}.csv\n",

@@ -42,9 +42,9 @@ void chart(const char* name, const RelativeStructure& structure) {
   const Lobes lobes = stability_lobes(structure, process, spindle_speeds(1000.0, 3000.0, 400), {});
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   double steps = 0.0;
-  for (const LobeRow& row : lobes.rows) steps += row.steps / 400.0;
+  for (const LobeRow& row : lobes.rows) steps += row.nodes / 400.0;
   std::printf(
-      "%-8s %6.2f s  minimum %.4f mm at %.0f rpm, worst estimate %.2e, %d at limit, %d not converged, mean steps "
+      "%-8s %6.2f s  minimum %.4f mm at %.0f rpm, worst estimate %.2e, %d at limit, %d not converged, mean nodes "
       "%.0f\n",
       name, time.count(), lobes.minimum_depth_m * 1e3, lobes.at_spindle_speed_rpm, lobes.worst_error_estimate,
       lobes.rows_at_limit, lobes.rows_not_converged, steps);

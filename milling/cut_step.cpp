@@ -1,35 +1,13 @@
 #include "milling/cut_step.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "milling/product_rule.hpp"
 
 namespace thinwall::milling {
 
 namespace {
-
-struct GaussRule {
-  Eigen::VectorXd node;    ///< in (0, 1)
-  Eigen::VectorXd weight;  ///< sum 1
-};
-
-// Golub & Welsch 1969: nodes and weights from the Jacobi matrix of Legendre's recurrence.
-GaussRule gauss_legendre(int count) {
-  Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(count, count);
-  for (int k = 1; k < count; ++k) jacobi(k, k - 1) = jacobi(k - 1, k) = k / std::sqrt(4.0 * k * k - 1.0);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobi);
-  return {(0.5 * (eigen.eigenvalues().array() + 1.0)).matrix(), eigen.eigenvectors().row(0).transpose().cwiseAbs2()};
-}
-
-Eigen::VectorXd lagrange_polynomials(const Eigen::VectorXd& node, double at) {
-  Eigen::VectorXd value = Eigen::VectorXd::Ones(node.size());
-  for (Eigen::Index j = 0; j < node.size(); ++j) {
-    for (Eigen::Index k = 0; k < node.size(); ++k) {
-      if (k != j) value(j) *= (at - node(k)) / (node(j) - node(k));
-    }
-  }
-  return value;
-}
 
 // ∫₀^t e^{Λ(t−s)} B ℓ_j(s) ds for all j, states × 3 n; the integrand is entire, so Gauss's rule converges to round-off.
 Eigen::MatrixXd force_to_state(const ContactState& state, const Eigen::VectorXd& node, double step_s, double end,

@@ -45,7 +45,7 @@ Lobes stability_lobes(const RelativeStructure& structure, const MillingProcess& 
   if (spindle_speeds_rpm.empty())
     throw core::InputError("stability lobes: no spindle speeds, at least 1 is needed; give a range");
   Lobes lobes;
-  lobes.method = "semi-discretization, first order (Insperger & Stepan 2004)";
+  lobes.method = "contact-phase collocation, critical depths directly";
   lobes.residual_share = residual_share(structure);
   lobes.rows.resize(spindle_speeds_rpm.size());
   core::parallel_for(spindle_speeds_rpm.size(), [&](std::size_t i) {

@@ -1,5 +1,6 @@
 #include "milling/relative_structure.hpp"
 
+#include <Eigen/SVD>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -91,12 +92,37 @@ Eigen::Matrix3cd receptance(const RelativeStructure& structure, double omega_rad
     G += residue / (i_omega - pole);
     if (pole.imag() != 0.0) G += residue.conjugate() / (i_omega - std::conj(pole));
   }
-  return G;
+  return G + structure.R;
 }
 
 double residual_share(const RelativeStructure& structure) {
   const double residual = structure.R.norm();
-  return residual == 0.0 ? 0.0 : residual / (receptance(structure, 0.0).real() + structure.R).norm();
+  return residual == 0.0 ? 0.0 : residual / receptance(structure, 0.0).norm();
+}
+
+RelativeStructure in_tool_axes(const RelativeStructure& structure, const ToolFrame& frame) {
+  const Eigen::Matrix3d R = frame.rotation().transpose();
+  return {structure.poles, R * structure.phi, R * structure.b, R * structure.R * R.transpose()};
+}
+
+Eigen::Matrix3Xd yielding_directions(const RelativeStructure& structure) {
+  const Eigen::Index poles = structure.poles.size();
+  Eigen::Matrix3Xd motion(3, 2 * poles + 3);
+  for (Eigen::Index k = 0; k < poles; ++k) {
+    const double compliance = structure.b.col(k).norm() / std::abs(structure.poles(k));
+    motion.col(2 * k) = structure.phi.col(k).real() * compliance;
+    motion.col(2 * k + 1) = structure.phi.col(k).imag() * compliance;
+  }
+  motion.rightCols<3>() = structure.R;
+  const double largest = motion.norm();
+  if (!(motion.topRows<2>().norm() > 1e-12 * largest)) {
+    throw core::InputError(
+        "structure at the cut: no mode moves in the plane of the cut, at least one must; check the feed and the tool "
+        "axis");
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(motion, Eigen::ComputeFullU);
+  const auto directions = (svd.singularValues().array() > 1e-12 * largest).count();
+  return svd.matrixU().leftCols(directions);
 }
 
 }  // namespace thinwall::milling

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "dynamics/modal_model.hpp"
+#include "milling/tool.hpp"
 
 namespace thinwall::milling {
 
@@ -14,8 +15,7 @@ namespace thinwall::milling {
 ///
 ///     G(ω) = Σ_k φ_k b_kᵀ / (iω − λ_k) + conjugates + R,     b = ψ / a
 ///
-/// One column for each conjugate pair (Im λ > 0) or real pole. R, the modes that are not listed, is quasi-static;
-/// stability is computed without it, and `residual_share` says how much that leaves out.
+/// One column for each conjugate pair (Im λ > 0) or real pole. R, the modes that are not listed, is quasi-static.
 struct RelativeStructure {
   Eigen::VectorXcd poles;  ///< rad/s, Re < 0, Im ≥ 0
   Eigen::Matrix3Xcd phi;   ///< response shapes
@@ -32,10 +32,19 @@ struct RelativeStructure {
 /// Sum of two receptances: part and tool, in any order.
 [[nodiscard]] RelativeStructure sum(const RelativeStructure& a, const RelativeStructure& b);
 
-/// G(ω) without the residual, 3 × 3, m/N.
+/// The same structure in the tool's axes.
+[[nodiscard]] RelativeStructure in_tool_axes(const RelativeStructure& structure, const ToolFrame& frame);
+
+/// G(ω), 3 × 3, m/N.
 [[nodiscard]] Eigen::Matrix3cd receptance(const RelativeStructure& structure, double omega_rad_s);
 
-/// ‖R‖ / ‖G(0)‖ (Frobenius, G with R): the part of the static compliance that the stability analysis leaves out.
+/// ‖R‖ / ‖G(0)‖ (Frobenius): the part of the static compliance that has no dynamics of its own here. The collocation
+/// takes it as it is; semi-discretization leaves it out.
 [[nodiscard]] double residual_share(const RelativeStructure& structure);
+
+/// Directions (orthonormal columns, 3 × p) in which the structure moves more than by round-off, modes weighed by their
+/// compliance. Throws InputError if there is none in the first two rows: tool axes are meant, and the chip of a
+/// cylindrical cutter sees the plane of the cut only.
+[[nodiscard]] Eigen::Matrix3Xd yielding_directions(const RelativeStructure& structure);
 
 }  // namespace thinwall::milling

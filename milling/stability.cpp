@@ -1,211 +1,306 @@
 #include "milling/stability.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
-#include <optional>
 #include <sstream>
+#include <utility>
 
 #include "core/error.hpp"
-#include "milling/regeneration.hpp"
+#include "milling/critical_depths.hpp"
+#include "milling/product_rule.hpp"
+#include "milling/regenerative_loop.hpp"
 
 namespace thinwall::milling {
 
 namespace {
 
-// Roache's (1994) factor on a Richardson estimate whose order is known.
-constexpr double safety = 1.25;
+using Eigen::Index;
+using std::complex;
 
-Bifurcation kind_of(std::complex<double> mu) {
-  if (std::abs(mu.imag()) > 1e-6 * std::abs(mu)) return Bifurcation::hopf;
-  return mu.real() < 0.0 ? Bifurcation::flip : Bifurcation::fold;
+/// Error of the value on the finest grid from the last two changes, relative. A change alone may be small by chance,
+/// where the error of two neighbours is the same: the one before stands in with a tenth. 1e-11 is the round-off of an
+/// eigenvalue.
+double estimate_from(double change, double change_before) {
+  return 1e-11 + std::max(change, 0.1 * change_before);
 }
 
-// What the searches below share: one speed, its options, and whether an eigenvalue was lost on the way.
-class Search {
- public:
-  Search(Regeneration& at_speed, const StabilityOptions& with) : cut(at_speed), options(with) {}
+/// One cut at one speed: what does not change with resolution and depth.
+struct CutAtSpeed {
+  RelativeStructure structure;  // tool axes
+  const MillingProcess& process;
+  Eigen::Matrix3Xd yielding;
+  double spindle_speed_rpm;
+};
 
-  Regeneration& cut;
-  const StabilityOptions& options;
-  bool eigenvalue_lost = false;
+CutAtSpeed cut_at_speed(const RelativeStructure& structure, const MillingProcess& process, double spindle_speed_rpm) {
+  (void)tooth_period_s(process.cutter, spindle_speed_rpm);  // refuses a bad speed
+  CutAtSpeed cut{in_tool_axes(structure, process.frame), process, {}, spindle_speed_rpm};
+  cut.yielding = yielding_directions(cut.structure);
+  return cut;
+}
 
-  // Relative accuracy of a root at one step count: small beside the tolerance, and part of the estimate.
-  [[nodiscard]] double root_tolerance() const { return 0.01 * options.error_tolerance; }
+/// The loop on one grid.
+struct Discrete {
+  ContactGrid grid;
+  RegenerativeLoop loop;
+};
 
-  // ln |μ|: negative if stable, and nearly linear in the depth where |μ| itself is not.
-  double growth(double depth_m, StepCount steps) { return growth_of(cut.multiplier(depth_m, steps)); }
+Discrete discrete(const CutAtSpeed& cut, Resolution resolution) {
+  Discrete d{contact_grid(cut.process, cut.yielding, resolution), {}};
+  d.loop = regenerative_loop(cut.structure, d.grid, cut.spindle_speed_rpm);
+  return d;
+}
 
-  // The same to two digits, which is enough for the sign, unless |μ| is near one.
-  double rough_growth(double depth_m, StepCount steps) {
-    const DominantEigenvalue eigen = cut.multiplier(depth_m, steps, 1e-4);
-    const bool clear = eigen.converged && std::abs(std::abs(eigen.value) - 1.0) > 0.02;
-    return clear ? growth_of(eigen) : growth(depth_m, steps);
+GainOnCircle gain_of(const Discrete& d) {
+  return {[&d](double theta) { return loop_gain(d.loop, theta == std::numbers::pi ? -1.0 : std::polar(1.0, theta)); },
+          stops_between(d.loop.flow)};
+}
+
+/// Longest stretch between entries and exits, s.
+double longest_stretch_s(const CutAtSpeed& cut) {
+  double longest = 0.0;
+  for (const CutSegment& s : cut_segments(cut.process.engagement, cut.process.cutter))
+    longest = std::max(longest, s.to_rad - s.from_rad);
+  return longest * 30.0 / (std::numbers::pi * cut.spindle_speed_rpm);
+}
+
+/// ‖mean directional matrix‖ over the period, N/m².
+double mean_stiffness(const MillingProcess& process) {
+  DirectionalMatrix mean = DirectionalMatrix::Zero();
+  for (const CutSegment& s : cut_segments(process.engagement, process.cutter)) {
+    mean += mean_directional_matrix(process.coefficients, process.cutter, process.engagement, s.teeth, s.from_rad,
+                                    s.to_rad) *
+            ((s.to_rad - s.from_rad) / process.cutter.pitch_rad());
   }
+  return mean.norm();
+}
+
+/// Elements of at most 14 rad, and nodes for the phase, of the fastest mode that matters: every mode that could
+/// regenerate at this depth, with loop gain 2 w ‖D̄‖ ‖φ‖ ‖b‖ / |Re λ| of at least a half, and any with a twentieth of
+/// the highest resonance. A grid that does not see a mode would call it stable.
+Resolution resolving(const CutAtSpeed& cut, double depth_m) {
+  const RelativeStructure& s = cut.structure;
+  const Eigen::ArrayXd peak =
+      s.phi.colwise().norm().array() * s.b.colwise().norm().array() / s.poles.real().cwiseAbs().transpose().array();
+  const double regenerates = 0.25 / (depth_m * mean_stiffness(cut.process));
+  double fastest = 0.0;
+  for (Index i = 0; i < s.poles.size(); ++i) {
+    if (peak(i) >= std::min(0.05 * peak.maxCoeff(), regenerates)) fastest = std::max(fastest, std::abs(s.poles(i)));
+  }
+  const double phase = fastest * longest_stretch_s(cut);
+  const int elements = std::max(1, static_cast<int>(std::ceil(phase / 14.0)));
+  return {elements, static_cast<int>(std::ceil(4.0 + 0.5 * phase / elements))};
+}
+
+Resolution finer(Resolution r) {
+  return r.nodes < 14 ? Resolution{r.elements, r.nodes + 3} : Resolution{2 * r.elements, r.nodes - 3};
+}
+
+/// The frequency, of (θ + 2πk)/T for all k, at which the motion |G(ω) F(ω)| is largest, F the harmonic of the force of
+/// the modulations c.
+double chatter_frequency_hz(const CutAtSpeed& cut, const Discrete& d, double theta, const Eigen::VectorXcd& c) {
+  const double period = d.loop.period_s;
+  const double seconds_per_rad = period / d.grid.period_rad;
+  double fastest = 0.0;
+  for (const complex<double> pole : cut.structure.poles) fastest = std::max(fastest, std::abs(pole));
+  const double spacing = 2.0 * std::numbers::pi / period;
+  const int reach = 1 + static_cast<int>(std::ceil(1.5 * fastest / spacing));
+  Eigen::Matrix3Xcd force = Eigen::Matrix3Xcd::Zero(3, d.grid.node_rad.size());
+  for (std::size_t k = 0; k < d.grid.contacts.size(); ++k)
+    force.col(d.grid.contacts[k].node) += d.grid.contacts[k].force * c(static_cast<Index>(k));
+  for (const CutElement& e : d.grid.elements) {
+    const Eigen::VectorXd weight = gauss_legendre(e.nodes).weight * (e.to_rad - e.from_rad);
+    force.middleCols(e.first_node, e.nodes) *= weight.asDiagonal();
+  }
+  double largest = -1.0;
+  double chatter = 0.0;
+  for (int k = -reach; k <= reach; ++k) {
+    const double omega = theta / period + k * spacing;
+    const Eigen::VectorXcd turn = (complex<double>(0.0, -omega * seconds_per_rad) * d.grid.node_rad).array().exp();
+    const double motion = (receptance(cut.structure, omega) * (force * turn)).norm();
+    if (motion <= largest) continue;
+    largest = motion;
+    chatter = omega;
+  }
+  return std::abs(chatter) / (2.0 * std::numbers::pi);
+}
+
+Bifurcation kind_of(double theta) {
+  if (theta == std::numbers::pi) return Bifurcation::flip;
+  return theta == 0.0 ? Bifurcation::fold : Bifurcation::hopf;
+}
+
+/// Dominant eigenvalue of the map, Im ≥ 0.
+complex<double> dominant(const Eigen::VectorXcd& eigenvalues) {
+  Index at = 0;
+  eigenvalues.cwiseAbs().maxCoeff(&at);
+  return {eigenvalues(at).real(), std::abs(eigenvalues(at).imag())};
+}
+
+Eigen::VectorXcd multipliers(const Discrete& d, double depth_m) {
+  return Eigen::EigenSolver<Eigen::MatrixXd>(period_map(d.loop, depth_m), false).eigenvalues();
+}
+
+/// The modulation that belongs to a multiplier: the null vector of I + w Z(μ).
+Eigen::VectorXcd modulation(const Discrete& d, double depth_m, complex<double> mu) {
+  Eigen::MatrixXcd loop = depth_m * loop_gain(d.loop, mu);
+  loop.diagonal().array() += 1.0 + 1e-10;
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(loop);
+  Eigen::VectorXcd c = Eigen::VectorXcd::Ones(loop.rows());
+  for (int i = 0; i < 3; ++i) c = lu.solve(c).normalized().eval();
+  return c;
+}
+
+/// Grids from coarse to fine, made when they are asked for.
+class Grids {
+ public:
+  Grids(const CutAtSpeed& cut, Resolution first, int most_nodes) : cut_(cut), next_(first), most_nodes_(most_nodes) {}
+
+  const Discrete& operator[](std::size_t level) {
+    while (grids_.size() <= level) {
+      grids_.push_back(std::make_unique<Discrete>(discrete(cut_, next_)));
+      next_ = finer(next_);
+    }
+    return *grids_[level];
+  }
+  /// Whether a level beyond this one may be made.
+  [[nodiscard]] bool more_after(std::size_t level) { return 3 * (*this)[level].grid.node_rad.size() < 2 * most_nodes_; }
 
  private:
-  double growth_of(const DominantEigenvalue& eigen) {
-    eigenvalue_lost = eigenvalue_lost || !eigen.converged;
-    return std::log(std::max(std::abs(eigen.value), 1e-300));
-  }
+  const CutAtSpeed& cut_;
+  Resolution next_;
+  int most_nodes_;
+  std::vector<std::unique_ptr<Discrete>> grids_;
 };
 
-struct Bracket {
-  double stable_m = 0.0;
-  double stable_growth = 0.0;
-  double unstable_m = 0.0;
-  double unstable_growth = 0.0;
+Multiplier multiplier_of(const CutAtSpeed& cut, double depth_m, const StabilityOptions& options) {
+  Grids grids(cut, resolving(cut, depth_m), options.most_nodes);
+  double before = std::abs(dominant(multipliers(grids[0], depth_m)));
+  double change = 1.0;
+  for (std::size_t level = 1;; ++level) {
+    const Discrete& fine = grids[level];
+    Multiplier result;
+    result.value = dominant(multipliers(fine, depth_m));
+    result.modulus = std::abs(result.value);
+    const double change_before = std::exchange(change, std::abs(before / result.modulus - 1.0));
+    before = result.modulus;
+    result.error_estimate = estimate_from(change, change_before);
+    result.nodes = static_cast<int>(fine.grid.node_rad.size());
+    const bool enough = level > 1 && result.error_estimate <= options.error_tolerance;
+    if (!enough && grids.more_after(level)) continue;
+    result.status = enough ? StabilityStatus::converged : StabilityStatus::node_limit_reached;
+    const bool real = result.value.imag() == 0.0;
+    result.kind = !real ? Bifurcation::hopf : result.value.real() < 0.0 ? Bifurcation::flip : Bifurcation::fold;
+    result.chatter_frequency_hz =
+        chatter_frequency_hz(cut, fine, std::arg(result.value), modulation(fine, depth_m, result.value * (1.0 + 1e-9)));
+    return result;
+  }
+}
+
+LobePoint point_of(const CutAtSpeed& cut, const Discrete& d, const Crossing& c, double error_estimate) {
+  return {c.depth_m, chatter_frequency_hz(cut, d, c.theta_rad, c.mode), kind_of(c.theta_rad), c.unstable_change,
+          error_estimate};
+}
+
+int unstable(const Discrete& d, double depth_m) {
+  return static_cast<int>((multipliers(d, depth_m).cwiseAbs().array() > 1.0).count());
+}
+
+/// A crossing on the finest grid so far. `kept`: it has not been lost on the way.
+struct Polished {
+  Crossing crossing;
+  double change = 1.0;  // of its depth by the last grid, relative
+  double error_estimate = 1.0;
+  std::size_t level = 0;
+  bool kept = true;
 };
 
-struct StableDepth {
-  double depth_m = 0.0;
-  double growth = 0.0;
-  int base = 0;
-};
-
-struct Scan {
-  std::optional<Bracket> bracket;
-  int base = 0;       ///< steps at the last depth
-  StableDepth worst;  ///< least stable of the stable depths
-};
-
-// The theorem is about the exact cut. Should the discretised one be unstable there, a depth below is looked for.
-StableDepth stable_start(Search& search, int least_base) {
-  StableDepth start{std::min(search.cut.small_gain_depth_m(), search.options.depth_limit_m), 0.0, 0};
-  for (int halvings = 0; halvings < 30; ++halvings, start.depth_m *= 0.5) {
-    start.base = std::max(least_base, search.cut.resolving_steps(start.depth_m));
-    start.growth = search.rough_growth(start.depth_m, {start.base, 1});
-    if (start.growth < 0.0) return start;
+/// On finer and finer grids, at least `levels` of them, until the tolerance is met.
+void polish(Grids& grids, std::size_t levels, double tolerance, Polished& p) {
+  while (p.kept && (p.level < levels || p.error_estimate > tolerance)) {
+    if (p.level > 0 && !grids.more_after(p.level)) return;
+    const double before = p.crossing.depth_m;
+    p.kept = refine(gain_of(grids[++p.level]), p.crossing);
+    const double change_before = std::exchange(p.change, std::abs(before / p.crossing.depth_m - 1.0));
+    p.error_estimate = p.kept ? estimate_from(p.change, p.level > 1 ? change_before : 0.0) : 1.0;
   }
-  std::ostringstream text;
-  text << "stability: unstable at any depth, down to " << start.depth_m
-       << " m, so the structure's damping is lost in round-off; give its modes more damping";
-  throw core::NumericalError(text.str());
 }
 
-Scan scan_depths(Search& search, int least_base) {
-  const double limit = search.options.depth_limit_m;
-  StableDepth stable = stable_start(search, least_base);
-  Scan scan{std::nullopt, stable.base, stable};
-  while (stable.depth_m < limit) {
-    const double depth = std::min(stable.depth_m * search.options.scan_ratio, limit);
-    scan.base = std::max(least_base, search.cut.resolving_steps(depth));
-    const double growth = search.rough_growth(depth, {scan.base, 1});
-    if (growth >= 0.0) {
-      scan.bracket = Bracket{stable.depth_m, stable.growth, depth, growth};
-      return scan;
-    }
-    stable = {depth, growth, scan.base};
-    if (growth > scan.worst.growth) scan.worst = stable;
+/// All crossings in ascending depth; those that bound a stable range to the tolerance.
+std::vector<Polished> polished(Grids& grids, const StabilityOptions& options, StabilityStatus& status) {
+  std::vector<Polished> all;
+  for (Crossing& crossing : critical_depths(gain_of(grids[0]), options.depth_limit_m)) {
+    all.push_back({std::move(crossing)});
+    polish(grids, 1, 1.0, all.back());
   }
-  return scan;
-}
-
-struct Root {
-  double depth_m = 0.0;
-  double slope = 0.0;  ///< d ln|μ| / dw, 1/m
-};
-
-// Illinois method: regula falsi that halves the value at an end which stays.
-Root root(Search& search, StepCount steps, Bracket b) {
-  const double tolerance = search.root_tolerance();
-  double slope = (b.unstable_growth - b.stable_growth) / (b.unstable_m - b.stable_m);
-  double before_m = b.unstable_m;
-  double before_growth = b.unstable_growth;
-  int kept = 0;
-  for (int i = 0; i < 60 && b.unstable_m - b.stable_m > tolerance * b.unstable_m; ++i) {
-    double depth =
-        (b.stable_m * b.unstable_growth - b.unstable_m * b.stable_growth) / (b.unstable_growth - b.stable_growth);
-    // Clear of the ends, so that the bracket shrinks from both sides.
-    const double margin = 0.25 * tolerance * b.unstable_m;
-    depth = std::clamp(depth, b.stable_m + margin, b.unstable_m - margin);
-    if (i % 8 == 7) depth = 0.5 * (b.stable_m + b.unstable_m);
-    const double growth = search.growth(depth, steps);
-    slope = (growth - before_growth) / (depth - before_m);
-    before_m = depth;
-    before_growth = growth;
-    if (growth < 0.0) {
-      b.stable_m = depth;
-      b.stable_growth = growth;
-      if (kept == 1) b.unstable_growth *= 0.5;
-      kept = 1;
-    } else {
-      b.unstable_m = depth;
-      b.unstable_growth = growth;
-      if (kept == -1) b.stable_growth *= 0.5;
-      kept = -1;
-    }
-    if (slope > 0.0 && std::abs(growth / slope) <= tolerance * depth) return {depth - growth / slope, slope};
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Polished& a, const Polished& b) { return a.crossing.depth_m < b.crossing.depth_m; });
+  int count = 0;  // of unstable multipliers above the crossings so far
+  for (Polished& p : all) {
+    const bool bounds = count == 0 || count + p.crossing.unstable_change == 0;
+    count += p.crossing.unstable_change;
+    if (!bounds || p.crossing.depth_m > options.depth_limit_m) continue;
+    polish(grids, 2, options.error_tolerance, p);
+    if (!p.kept) status = StabilityStatus::crossing_missed;
+    else if (p.error_estimate > options.error_tolerance) status = StabilityStatus::node_limit_reached;
   }
-  return {0.5 * (b.stable_m + b.unstable_m), slope};
+  if (unstable(grids[0], options.depth_limit_m) != count) status = StabilityStatus::crossing_missed;
+  return all;
 }
 
-// The crossing of another step count near `guess`, by secants that start from a known slope d ln|μ| / dw; nothing if
-// they do not settle within a third of the guess, as when another branch takes over.
-std::optional<double> root_near(Search& search, StepCount steps, double guess, double& slope) {
-  const double tolerance = search.root_tolerance();
-  double depth = guess;
-  double growth = search.growth(depth, steps);
-  for (int i = 0; i < 8; ++i) {
-    const double next = depth - growth / slope;
-    if (!(slope > 0.0) || !(std::abs(next - guess) <= guess / 3.0)) return std::nullopt;
-    if (std::abs(next - depth) <= tolerance * depth) return next;
-    const double next_growth = search.growth(next, steps);
-    slope = (next_growth - growth) / (next - depth);
-    depth = next;
-    growth = next_growth;
+/// The row from one starting resolution; its status says whether another is needed.
+LobeRow row_from(const CutAtSpeed& cut, Resolution first, const StabilityOptions& options) {
+  Grids grids(cut, first, options.most_nodes);
+  LobeRow row;
+  row.spindle_speed_rpm = cut.spindle_speed_rpm;
+  std::size_t finest = 1;
+  for (const Polished& p : polished(grids, options, row.status)) {
+    if (p.crossing.depth_m > options.depth_limit_m) continue;
+    finest = std::max(finest, p.level);
+    row.crossings.push_back(point_of(cut, grids[p.level], p.crossing, p.error_estimate));
   }
-  return std::nullopt;
+  row.nodes = static_cast<int>(grids[finest].grid.node_rad.size());
+  const double below = row.crossings.empty() ? options.depth_limit_m : 0.999 * row.crossings.front().depth_m;
+  if (unstable(grids[finest], below) != 0) row.status = StabilityStatus::crossing_missed;
+  return row;
 }
 
-// The next m from an estimate that is too large: second order says by what factor; half of the tolerance is aimed at.
-int refined(int base, double estimate, double tolerance) {
-  const double factor = std::sqrt(estimate / (0.5 * tolerance));
-  return static_cast<int>(std::ceil(base * std::clamp(factor, 1.4, 4.0)));
+void describe_limit(LobeRow& row, const CutAtSpeed& cut, const StabilityOptions& options) {
+  if (!row.crossings.empty()) {
+    const LobePoint& first = row.crossings.front();
+    row.limiting_depth_m = first.depth_m;
+    row.chatter_frequency_hz = first.chatter_frequency_hz;
+    row.kind = first.kind;
+    row.error_estimate = first.error_estimate;
+    return;
+  }
+  const Multiplier mu = multiplier_of(cut, options.depth_limit_m, options);
+  row.limiting_depth_m = options.depth_limit_m;
+  row.at_limit = true;
+  row.chatter_frequency_hz = mu.chatter_frequency_hz;
+  row.kind = mu.kind;
+  row.error_estimate = mu.error_estimate;
+  if (row.status == StabilityStatus::converged) {
+    row.status = mu.status == StabilityStatus::converged ? StabilityStatus::stable_to_depth_limit : mu.status;
+  }
 }
 
-// What extrapolation leaves is of fourth order in the phase ω_c Δ of a step. Where the second-order term happens to
-// vanish this is the estimate; the factor is from a thousand random structures and cuts (docs/theory/lobes.md).
-double fourth_order(const Regeneration& cut, StepCount steps, double frequency_hz) {
-  return 0.1 * std::pow(2.0 * std::numbers::pi * frequency_hz * cut.longest_step_s(steps), 4);
-}
-
-bool resolves(const Regeneration& cut, StepCount steps, double frequency_hz) {
-  return 16.0 * frequency_hz * cut.longest_step_s(steps) <= 1.0;
-}
-
-StabilityStatus status_of(const Search& search, bool converged) {
-  if (search.eigenvalue_lost) return StabilityStatus::eigenvalue_not_converged;
-  return converged ? StabilityStatus::converged : StabilityStatus::step_limit_reached;
-}
-
-Multiplier multiplier_of(Search& search, double depth_m, int base) {
-  const double tolerance = search.options.error_tolerance;
-  Multiplier result;
+LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
+  const auto fewer = [](Resolution a, Resolution b) { return a.elements * a.nodes < b.elements * b.nodes; };
+  Resolution first = resolving(cut, 1e-3 * options.depth_limit_m);
   while (true) {
-    const DominantEigenvalue coarse = search.cut.multiplier(depth_m, {base, 1});
-    const DominantEigenvalue fine = search.cut.multiplier(depth_m, {base, 2});
-    search.eigenvalue_lost = !coarse.converged || !fine.converged;
-    const double third = (std::abs(fine.value) - std::abs(coarse.value)) / 3.0;
-    result.value = fine.value;
-    result.modulus = std::abs(fine.value) + third;
-    result.error_estimate = safety * std::abs(third) / result.modulus;
-    result.kind = kind_of(fine.value);
-    result.steps = search.cut.steps({base, 2});
-    if (fine.converged) result.chatter_frequency_hz = search.cut.chatter_frequency_hz(fine, {base, 2});
-    result.error_estimate += fourth_order(search.cut, {base, 2}, result.chatter_frequency_hz);
-    bool converged = result.error_estimate <= tolerance && resolves(search.cut, {base, 2}, result.chatter_frequency_hz);
-    if (converged) {
-      const double witness = std::exp(search.growth(depth_m, {base, 4}));
-      result.error_estimate = std::max(result.error_estimate, std::abs(witness / result.modulus - 1.0));
-      converged = result.error_estimate <= tolerance;
-    }
-    const int next = refined(base, result.error_estimate, tolerance);
-    if (converged || 2 * next > search.options.most_steps || search.eigenvalue_lost) {
-      result.status = status_of(search, converged);
-      return result;
-    }
-    base = next;
+    LobeRow row = row_from(cut, first, options);
+    describe_limit(row, cut, options);
+    // What is stable up to a depth must be so with every mode that could regenerate there.
+    const Resolution needed = resolving(cut, row.limiting_depth_m);
+    const bool sound = row.status == StabilityStatus::converged || row.status == StabilityStatus::stable_to_depth_limit;
+    if (fewer(first, needed)) first = needed;
+    else if (!sound && 3 * row.nodes < options.most_nodes) first = finer(first);
+    else return row;
   }
 }
 
@@ -214,117 +309,6 @@ void require_usable(const MillingProcess& process, const StabilityOptions& optio
   const auto more = validate(options);
   violations.insert(violations.end(), more.begin(), more.end());
   require_valid(violations);
-}
-
-// A point that stays stable up to the limit, described by its multiplier there.
-LobeRow row_at_limit(Search& search, int base) {
-  const Multiplier mu = multiplier_of(search, search.options.depth_limit_m, base);
-  LobeRow row;
-  row.limiting_depth_m = search.options.depth_limit_m;
-  row.at_limit = true;
-  row.chatter_frequency_hz = mu.chatter_frequency_hz;
-  row.kind = mu.kind;
-  row.error_estimate = mu.error_estimate;
-  row.steps = mu.steps;
-  row.status = mu.status == StabilityStatus::converged ? StabilityStatus::stable_to_depth_limit : mu.status;
-  return row;
-}
-
-// A flip island may hide between the last two depths of the scan: a finer look from the stable end narrows the bracket
-// to the first crossing that it sees, and shortens the root finding.
-Bracket narrowed(Search& search, StepCount steps, Bracket b) {
-  constexpr int parts = 4;
-  const double width = (b.unstable_m - b.stable_m) / parts;
-  for (int i = 1; i < parts; ++i) {
-    const double depth = b.stable_m + width;
-    const double growth = search.rough_growth(depth, steps);
-    if (growth >= 0.0) return {b.stable_m, b.stable_growth, depth, growth};
-    b.stable_m = depth;
-    b.stable_growth = growth;
-  }
-  return b;
-}
-
-// A scan that found nothing is believed if its least stable depth is stable at twice the steps and extrapolated too.
-bool stable_throughout(Search& search, const Scan& scan) {
-  const double growth = search.growth(scan.worst.depth_m, {scan.worst.base, 2});
-  return growth < 0.0 && growth + std::abs(growth - scan.worst.growth) / 3.0 < 0.0;
-}
-
-// One pair of step counts.
-struct Pair {
-  double depth_m = 0.0;         ///< extrapolated
-  double error_estimate = 0.0;  ///< relative
-};
-
-std::optional<Pair> crossing_pair(Search& search, int base, double coarse_m, double& slope) {
-  const std::optional<double> fine_m = root_near(search, {base, 2}, coarse_m, slope);
-  if (!fine_m) return std::nullopt;
-  const double third = (*fine_m - coarse_m) / 3.0;
-  const double depth = *fine_m + third;
-  return Pair{depth, safety * std::abs(third) / std::abs(depth) + 2.0 * search.root_tolerance()};
-}
-
-// Refines a crossing that the scan has bracketed.
-std::optional<LobeRow> refined_crossing(Search& search, int base, const Root& start) {
-  const StabilityOptions& options = search.options;
-  LobeRow row;
-  double coarse_m = start.depth_m;
-  double slope = start.slope;
-  while (true) {
-    const std::optional<Pair> pair = crossing_pair(search, base, coarse_m, slope);
-    if (!pair) return std::nullopt;
-    const DominantEigenvalue eigen = search.cut.multiplier(pair->depth_m, {base, 2});
-    row.limiting_depth_m = pair->depth_m;
-    row.error_estimate = pair->error_estimate;
-    row.kind = kind_of(eigen.value);
-    row.steps = search.cut.steps({base, 2});
-    if (eigen.converged) row.chatter_frequency_hz = search.cut.chatter_frequency_hz(eigen, {base, 2});
-    row.error_estimate += fourth_order(search.cut, {base, 2}, row.chatter_frequency_hz);
-    bool converged =
-        row.error_estimate <= options.error_tolerance && resolves(search.cut, {base, 2}, row.chatter_frequency_hz);
-    if (converged) {
-      const double growth = search.growth(pair->depth_m, {base, 4});
-      row.error_estimate = std::max(row.error_estimate, std::abs(growth / slope) / pair->depth_m);
-      converged = row.error_estimate <= options.error_tolerance;
-    }
-    const int next = refined(base, row.error_estimate, options.error_tolerance);
-    if (converged || 2 * next > options.most_steps || search.eigenvalue_lost) {
-      row.status = status_of(search, converged);
-      return row;
-    }
-    base = next;
-    const std::optional<double> again = root_near(search, {base, 1}, pair->depth_m, slope);
-    if (!again) return std::nullopt;
-    coarse_m = *again;
-  }
-}
-
-LobeRow lowest_crossing(Search& search) {
-  int least_base = 0;
-  while (true) {
-    const Scan scan = scan_depths(search, least_base);
-    const bool last = 4 * scan.base > search.options.most_steps;
-    if (scan.bracket) {
-      const Root coarse = root(search, {scan.base, 1}, narrowed(search, {scan.base, 1}, *scan.bracket));
-      const std::optional<LobeRow> row = refined_crossing(search, scan.base, coarse);
-      if (row && row->limiting_depth_m <= search.options.depth_limit_m) return *row;
-      if (row) return row_at_limit(search, scan.base);
-    } else if (last || stable_throughout(search, scan)) {
-      return row_at_limit(search, scan.base);
-    }
-    if (last) {
-      // Two step counts do not even see the same crossing at the largest count: report the coarse one, with no error to
-      // trust.
-      LobeRow row;
-      row.limiting_depth_m = scan.bracket->stable_m;
-      row.error_estimate = 1.0;
-      row.steps = scan.base;
-      row.status = StabilityStatus::step_limit_reached;
-      return row;
-    }
-    least_base = 2 * scan.base;
-  }
 }
 
 }  // namespace
@@ -345,14 +329,14 @@ std::string name(StabilityStatus status) {
   switch (status) {
     case StabilityStatus::converged:
       return "converged";
-    case StabilityStatus::step_limit_reached:
-      return "step_limit_reached";
+    case StabilityStatus::node_limit_reached:
+      return "node_limit_reached";
     case StabilityStatus::stable_to_depth_limit:
       return "stable_to_depth_limit";
-    case StabilityStatus::eigenvalue_not_converged:
+    case StabilityStatus::crossing_missed:
       break;
   }
-  return "eigenvalue_not_converged";
+  return "crossing_missed";
 }
 
 std::vector<std::string> validate(const StabilityOptions& options) {
@@ -366,10 +350,8 @@ std::vector<std::string> validate(const StabilityOptions& options) {
   require(options.depth_limit_m > 0.0 && std::isfinite(options.depth_limit_m), "depth limit", options.depth_limit_m,
           "a positive depth in m; give the tool's cutting length");
   require(options.error_tolerance > 0.0 && options.error_tolerance < 1.0, "error tolerance", options.error_tolerance,
-          "between 0 and 1; 0.01 is usual");
-  require(options.most_steps >= 32, "largest step count", options.most_steps, "at least 32; 4096 is usual");
-  require(options.scan_ratio > 1.0 && options.scan_ratio <= 2.0, "ratio of scanned depths", options.scan_ratio,
-          "above 1 and at most 2; 1.25 is usual");
+          "between 0 and 1; 0.0001 is usual");
+  require(options.most_nodes >= 8, "largest number of nodes", options.most_nodes, "at least 8; 240 is usual");
   return violations;
 }
 
@@ -381,21 +363,13 @@ Multiplier multiplier_at(const RelativeStructure& structure, const MillingProces
     text << "stability: depth of cut " << depth_m << " m, must be positive; correct the operating point";
     throw core::InputError(text.str());
   }
-  const ContactState state = contact_state(structure, process.frame);
-  Regeneration cut(structure, state, process, spindle_speed_rpm, depth_m);
-  Search search(cut, options);
-  return multiplier_of(search, depth_m, cut.resolving_steps(depth_m));
+  return multiplier_of(cut_at_speed(structure, process, spindle_speed_rpm), depth_m, options);
 }
 
 LobeRow limiting_depth(const RelativeStructure& structure, const MillingProcess& process, double spindle_speed_rpm,
                        const StabilityOptions& options) {
   require_usable(process, options);
-  const ContactState state = contact_state(structure, process.frame);
-  Regeneration cut(structure, state, process, spindle_speed_rpm, options.depth_limit_m);
-  Search search(cut, options);
-  LobeRow row = lowest_crossing(search);
-  row.spindle_speed_rpm = spindle_speed_rpm;
-  return row;
+  return row_of(cut_at_speed(structure, process, spindle_speed_rpm), options);
 }
 
 }  // namespace thinwall::milling

@@ -1,0 +1,58 @@
+#pragma once
+// Where and how the teeth touch within a period of the cut, sampled at nodes: what is known before speed and structure.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "milling/process.hpp"
+
+namespace thinwall::milling {
+
+/// A smooth stretch of the cut: no tooth enters or leaves within it.
+struct CutElement {
+  double from_rad = 0.0;  ///< rotation since the start of the period
+  double to_rad = 0.0;
+  int first_node = 0;
+  int nodes = 0;
+};
+
+/// A share of the displacement of another time: `weight` of what node `node` saw in this period or the one before.
+struct Past {
+  int node = 0;
+  bool previous_period = true;
+  double weight = 1.0;
+};
+
+/// One way in which the force at a node depends on the displacement: with f the force on the tool and q the
+/// displacement of tool minus part, both in tool axes, and w the depth,
+///
+///     f(t_node) = −w Σ force · c,      c = chipᵀ [q(t_node) − Σ weight q(past)]                 over the node's
+///     contacts
+struct Contact {
+  int node = 0;
+  Eigen::Vector3d force;  ///< N/m²
+  Eigen::Vector3d chip;   ///< unit vector
+  std::vector<Past> past;
+};
+
+struct ContactGrid {
+  double period_rad = 0.0;  ///< after which the cut repeats itself
+  std::vector<CutElement> elements;
+  Eigen::VectorXd node_rad;
+  std::vector<Contact> contacts;
+  bool one_delay = true;  ///< every past is the same node, one period ago
+};
+
+/// How finely a cut is sampled.
+struct Resolution {
+  int elements = 1;  ///< of the longest stretch between entries and exits; others in proportion
+  int nodes = 8;     ///< of an element
+};
+
+/// Nodes are Gauss's, so that the end of an element is superconvergent. The directional matrix of a node is cut into
+/// contacts by its singular values: one tooth at a time gives one a node. `yielding`: 3 × p, orthonormal columns in
+/// tool axes, the directions in which the structure moves at all. Cost O(nodes).
+[[nodiscard]] ContactGrid contact_grid(const MillingProcess& process, const Eigen::Matrix3Xd& yielding,
+                                       Resolution resolution);
+
+}  // namespace thinwall::milling

@@ -1,0 +1,55 @@
+#include "milling/product_rule.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace thinwall::milling {
+
+GaussRule gauss_legendre(int count) {
+  Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(count, count);
+  for (int k = 1; k < count; ++k) jacobi(k, k - 1) = jacobi(k - 1, k) = k / std::sqrt(4.0 * k * k - 1.0);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobi);
+  return {(0.5 * (eigen.eigenvalues().array() + 1.0)).matrix(), eigen.eigenvectors().row(0).transpose().cwiseAbs2()};
+}
+
+Eigen::VectorXd lagrange_polynomials(const Eigen::VectorXd& node, double at) {
+  Eigen::VectorXd value = Eigen::VectorXd::Ones(node.size());
+  for (Eigen::Index j = 0; j < node.size(); ++j) {
+    for (Eigen::Index k = 0; k < node.size(); ++k) {
+      if (k != j) value(j) *= (at - node(k)) / (node(j) - node(k));
+    }
+  }
+  return value;
+}
+
+ProductRule::ProductRule(int nodes, double largest_exponent) : node_(gauss_legendre(nodes).node) {
+  // Degree of the polynomial, and points for the exponential: its Legendre series ends at about |z|/2.
+  const GaussRule rule = gauss_legendre((nodes + 1) / 2 + 8 + static_cast<int>(std::ceil(0.6 * largest_exponent)));
+  distance_ = 1.0 - rule.node.array();
+  for (int i = 0; i <= nodes; ++i) {
+    const double c = i < nodes ? node_(i) : 1.0;
+    Eigen::MatrixXd table(rule.node.size(), nodes);
+    for (Eigen::Index q = 0; q < rule.node.size(); ++q)
+      table.row(q) = c * rule.weight(q) * lagrange_polynomials(node_, c * rule.node(q)).transpose();
+    table_.push_back(std::move(table));
+  }
+}
+
+ModeMoments ProductRule::moments(std::complex<double> z) const {
+  const Eigen::Index n = node_.size();
+  ModeMoments result{Eigen::MatrixXcd(n, n), {}};
+  for (Eigen::Index i = 0; i <= n; ++i) {
+    const double c = i < n ? node_(i) : 1.0;
+    const Eigen::ArrayXd size = (z.real() * c * distance_.array()).exp();
+    const Eigen::ArrayXd phase = z.imag() * c * distance_.array();
+    const Eigen::MatrixXd& table = table_[static_cast<std::size_t>(i)];
+    Eigen::RowVectorXcd row(n);
+    row.real() = (size * phase.cos()).matrix().transpose() * table;
+    row.imag() = (size * phase.sin()).matrix().transpose() * table;
+    if (i < n) result.inside.row(i) = row;
+    else result.end = row;
+  }
+  return result;
+}
+
+}  // namespace thinwall::milling
