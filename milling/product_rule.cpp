@@ -35,20 +35,21 @@ ProductRule::ProductRule(int nodes, double largest_exponent) : node_(gauss_legen
   }
 }
 
+Eigen::RowVectorXcd ProductRule::row(Eigen::Index i, std::complex<double> z) const {
+  const double c = i < node_.size() ? node_(i) : 1.0;
+  const Eigen::ArrayXd size = (z.real() * c * distance_.array()).exp();
+  const Eigen::ArrayXd phase = z.imag() * c * distance_.array();
+  const Eigen::MatrixXd& table = table_[static_cast<std::size_t>(i)];
+  Eigen::RowVectorXcd result(node_.size());
+  result.real() = (size * phase.cos()).matrix().transpose() * table;
+  result.imag() = (size * phase.sin()).matrix().transpose() * table;
+  return result;
+}
+
 ModeMoments ProductRule::moments(std::complex<double> z) const {
   const Eigen::Index n = node_.size();
-  ModeMoments result{Eigen::MatrixXcd(n, n), {}};
-  for (Eigen::Index i = 0; i <= n; ++i) {
-    const double c = i < n ? node_(i) : 1.0;
-    const Eigen::ArrayXd size = (z.real() * c * distance_.array()).exp();
-    const Eigen::ArrayXd phase = z.imag() * c * distance_.array();
-    const Eigen::MatrixXd& table = table_[static_cast<std::size_t>(i)];
-    Eigen::RowVectorXcd row(n);
-    row.real() = (size * phase.cos()).matrix().transpose() * table;
-    row.imag() = (size * phase.sin()).matrix().transpose() * table;
-    if (i < n) result.inside.row(i) = row;
-    else result.end = row;
-  }
+  ModeMoments result{Eigen::MatrixXcd(n, n), end(z)};
+  for (Eigen::Index i = 0; i < n; ++i) result.inside.row(i) = row(i, z);
   return result;
 }
 

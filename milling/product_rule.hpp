@@ -40,7 +40,12 @@ class ProductRule {
   /// Re z ≤ 0, |z| within what the rule serves. Cost O(nodes² points).
   [[nodiscard]] ModeMoments moments(std::complex<double> z) const;
 
+  /// Its `end` alone. Cost O(nodes points).
+  [[nodiscard]] Eigen::RowVectorXcd end(std::complex<double> z) const { return row(node_.size(), z); }
+
  private:
+  [[nodiscard]] Eigen::RowVectorXcd row(Eigen::Index i, std::complex<double> z) const;
+
   Eigen::VectorXd node_;
   Eigen::VectorXd distance_;            ///< 1 − x of the points, decreasing
   std::vector<Eigen::MatrixXd> table_;  ///< for each c_i, last for 1: c_i weight_q ℓ_j(c_i x_q), points × nodes

@@ -7,7 +7,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/error.hpp"
 #include "milling/lobes.hpp"
+#include "milling/sampled_receptance.hpp"
 #include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling {
@@ -119,6 +121,41 @@ TEST(Benchmark, DirectDepthsAreThoseOfTheMultipliers) {
     EXPECT_GT(slope, 0.0);
     EXPECT_NEAR(growth(0.0) / slope, 0.0, 1e-8);
   }
+}
+
+TEST(Benchmark, DepthsFromSamplesOfTheReceptanceAlone) {
+  // Lines of 2 Hz up to 12 kHz, as an analyser gives them, in place of the pole.
+  SampledReceptance sampled;
+  sampled.frequency_hz = Eigen::VectorXd::LinSpaced(6001, 0.0, 12000.0);
+  for (const double hz : sampled.frequency_hz)
+    sampled.H.push_back(receptance(benchmark_structure(), 2.0 * std::numbers::pi * hz));
+  for (const Reference& row : references("wcrit_mm")) {
+    SCOPED_TRACE(row.where());
+    const ContactGrid grid = contact_grid(benchmark_process(row.immersion), Eigen::Vector3d::UnitX(),
+                                          row.immersion == 1.0 ? Resolution{4, 10} : Resolution{1, 10});
+    const GainOnCircle gain = harmonic_gain(sampled, grid, row.rpm);
+    const std::vector<Crossing> crossings = critical_depths(gain, 1.2 * row.depth_m);
+    ASSERT_FALSE(crossings.empty());
+    EXPECT_NEAR(crossings.front().depth_m / row.depth_m, 1.0, 1e-4);
+    EXPECT_EQ(std::abs(crossings.front().unstable_change), row.kind == "Hopf" ? 2 : 1);
+  }
+}
+
+TEST(SampledReceptance, RefusesWhatCannotBeUsed) {
+  const ContactGrid grid = contact_grid(benchmark_process(0.1), Eigen::Vector3d::UnitX(), {1, 6});
+  const SampledReceptance good{Eigen::VectorXd::LinSpaced(7, 1.0, 7.0),
+                               std::vector<Eigen::Matrix3cd>(7, Eigen::Matrix3cd::Identity())};
+  SampledReceptance bad = good;
+  bad.H[3](1, 2) = std::nan("");
+  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
+  bad = good;
+  bad.frequency_hz(2) = 1.5;
+  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
+  bad = good;
+  bad.H.pop_back();
+  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
+  bad = {Eigen::VectorXd::LinSpaced(5, 1.0, 5.0), std::vector<Eigen::Matrix3cd>(5, Eigen::Matrix3cd::Identity())};
+  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
 }
 
 }  // namespace

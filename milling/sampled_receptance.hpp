@@ -1,0 +1,38 @@
+#pragma once
+// The structure as a measured or coupled receptance, without poles.
+
+#include <Eigen/Core>
+#include <complex>
+#include <vector>
+
+#include "milling/contact_grid.hpp"
+#include "milling/critical_depths.hpp"
+
+namespace thinwall::milling {
+
+/// Receptance of tool minus part on a frequency axis, 3 × 3, m/N, tool axes. Lines ascend, at least six.
+struct SampledReceptance {
+  Eigen::VectorXd frequency_hz;
+  std::vector<Eigen::Matrix3cd> H;
+};
+
+/// Throws InputError unless there are six lines or more in ascending order, from above or at 0 Hz, with one matrix a
+/// line, all finite.
+void require_usable(const SampledReceptance& receptance);
+
+/// H(ω) at any frequency: between lines the polynomial through the six nearest; below the first line its real part as a
+/// static compliance; beyond the last an inertia line, H ~ 1/ω²; conjugate for ω < 0.
+[[nodiscard]] Eigen::Matrix3cd interpolated(const SampledReceptance& receptance, double omega_rad_s);
+
+/// The loop's gain from the receptance alone (regenerative_loop.hpp has it from poles): with ω_k = (θ + 2πk)/T,
+///
+///     Z_ij = (1 − e^{−iθ}) (1/T) Σ_k e^{iω_k t_i} v_iᵀ H(ω_k) g_j ∫ e^{−iω_k s} ℓ_j(s) ds
+///
+/// The integrals are those of the polynomials (plain quadrature of the impulse response loses up to 1 %, its kernel has
+/// a kink). Harmonics up to `reach` times the last line; what is left beyond falls as its square. Stops lie at the
+/// aliases of the peaks of |H|. Equal delays only. Both arguments must outlive the result. Cost of a value: harmonics ×
+/// contacts².
+[[nodiscard]] GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGrid& grid,
+                                         double spindle_speed_rpm, double reach = 6.0);
+
+}  // namespace thinwall::milling
