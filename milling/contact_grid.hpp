@@ -26,6 +26,8 @@ struct Past {
 /// One way in which the force at a node depends on the displacement: with f the force on the tool and q the
 /// displacement of tool minus part, both in tool axes, and w the depth,
 ///
+/// (with a helix the heights of an edge are in the cut at different times; `force` is then the mean over the depth)
+///
 ///     f(t_node) = −w Σ force · c,      c = chipᵀ [q(t_node) − Σ weight q(past)]                 over the node's
 ///     contacts
 struct Contact {
@@ -49,10 +51,17 @@ struct Resolution {
   int nodes = 8;     ///< of an element
 };
 
-/// Nodes are Gauss's, so that the end of an element is superconvergent. The directional matrix of a node is cut into
-/// contacts by its singular values: one tooth at a time gives one a node. `yielding`: 3 × p, orthonormal columns in
-/// tool axes, the directions in which the structure moves at all. Cost O(nodes).
+/// The period is a pitch where all teeth are alike, else a turn. Elements end where a tip or the edge at the depth
+/// enters or leaves; with unequal pitches also where such a moment is felt again a pitch later. Nodes are Gauss's, so
+/// that the end of an element is superconvergent. Heights of one edge with one delay are integrated exactly; where the
+/// helices of two teeth differ the delay changes along the edge, which is cut into six Gauss slices. The directional
+/// matrix of a node and delay is cut into contacts by its singular values: one tooth at a time gives one a node. A past
+/// moment between nodes is the polynomial of its element. `yielding`: 3 × p, orthonormal columns in tool axes, the
+/// directions in which the structure moves at all. `depth_m` matters with a helix only. Cost O(nodes teeth).
 [[nodiscard]] ContactGrid contact_grid(const MillingProcess& process, const Eigen::Matrix3Xd& yielding,
-                                       Resolution resolution);
+                                       Resolution resolution, double depth_m = 0.0);
+
+/// The longest stretch without an entry or exit, rad.
+[[nodiscard]] double longest_stretch_rad(const MillingProcess& process, double depth_m = 0.0);
 
 }  // namespace thinwall::milling

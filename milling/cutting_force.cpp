@@ -50,18 +50,23 @@ DirectionalMatrix directional_matrix(const CuttingCoefficients& coefficients, do
   return D;
 }
 
+DirectionalMatrix mean_directional_matrix(const CuttingCoefficients& coefficients, double from_rad, double to_rad) {
+  const double half = 0.5 * (to_rad - from_rad);
+  const double middle = 0.5 * (from_rad + to_rad);
+  const double cos_double = std::cos(2.0 * middle) * sinc(2.0 * half);
+  const double sin_double = std::sin(2.0 * middle) * sinc(2.0 * half);
+  DirectionalMatrix D =
+      from_products(coefficients, 0.5 * (1.0 - cos_double), 0.5 * sin_double, 0.5 * (1.0 + cos_double));
+  add_axial_row(coefficients, std::sin(middle) * sinc(half), std::cos(middle) * sinc(half), D);
+  return D;
+}
+
 DirectionalMatrix mean_directional_matrix(const CuttingCoefficients& coefficients, const Cutter& cutter,
                                           const Engagement& engagement, int teeth, double from_rad, double to_rad) {
-  const double half = 0.5 * (to_rad - from_rad);
   DirectionalMatrix sum = DirectionalMatrix::Zero();
   for (int j = 0; j < teeth; ++j) {
-    const double middle = engagement.entry_rad + 0.5 * (from_rad + to_rad) + j * cutter.pitch_rad();
-    const double cos_double = std::cos(2.0 * middle) * sinc(2.0 * half);
-    const double sin_double = std::sin(2.0 * middle) * sinc(2.0 * half);
-    DirectionalMatrix D =
-        from_products(coefficients, 0.5 * (1.0 - cos_double), 0.5 * sin_double, 0.5 * (1.0 + cos_double));
-    add_axial_row(coefficients, std::sin(middle) * sinc(half), std::cos(middle) * sinc(half), D);
-    sum += D;
+    const double ahead = engagement.entry_rad + j * cutter.pitch_rad();
+    sum += mean_directional_matrix(coefficients, ahead + from_rad, ahead + to_rad);
   }
   return sum;
 }

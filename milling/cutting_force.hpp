@@ -36,6 +36,10 @@ using DirectionalMatrix = Eigen::Matrix<double, 3, 2>;
 /// so that the regenerative force on the tool is −w D [q(t) − q(t−T)] (Altintas & Budak 1995, with a row for z).
 [[nodiscard]] DirectionalMatrix directional_matrix(const CuttingCoefficients& coefficients, double phi_rad);
 
+/// The exact mean of one tooth's D(φ) over from < φ < to.
+[[nodiscard]] DirectionalMatrix mean_directional_matrix(const CuttingCoefficients& coefficients, double from_rad,
+                                                        double to_rad);
+
 /// The exact mean of Σ_j D(entry + θ + j p) over from < θ < to, j = 0 … teeth − 1, within one segment of the tooth
 /// period.
 [[nodiscard]] DirectionalMatrix mean_directional_matrix(const CuttingCoefficients& coefficients, const Cutter& cutter,

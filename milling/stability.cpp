@@ -1,7 +1,5 @@
 #include "milling/stability.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -10,9 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "milling/critical_depths.hpp"
-#include "milling/product_rule.hpp"
-#include "milling/regenerative_loop.hpp"
+#include "milling/cut_at_speed.hpp"
 
 namespace thinwall::milling {
 
@@ -28,107 +24,6 @@ double estimate_from(double change, double change_before) {
   return 1e-11 + std::max(change, 0.1 * change_before);
 }
 
-/// One cut at one speed: what does not change with resolution and depth.
-struct CutAtSpeed {
-  RelativeStructure structure;  // tool axes
-  const MillingProcess& process;
-  Eigen::Matrix3Xd yielding;
-  double spindle_speed_rpm;
-};
-
-CutAtSpeed cut_at_speed(const RelativeStructure& structure, const MillingProcess& process, double spindle_speed_rpm) {
-  (void)tooth_period_s(process.cutter, spindle_speed_rpm);  // refuses a bad speed
-  CutAtSpeed cut{in_tool_axes(structure, process.frame), process, {}, spindle_speed_rpm};
-  cut.yielding = yielding_directions(cut.structure);
-  return cut;
-}
-
-/// The loop on one grid.
-struct Discrete {
-  ContactGrid grid;
-  RegenerativeLoop loop;
-};
-
-Discrete discrete(const CutAtSpeed& cut, Resolution resolution) {
-  Discrete d{contact_grid(cut.process, cut.yielding, resolution), {}};
-  d.loop = regenerative_loop(cut.structure, d.grid, cut.spindle_speed_rpm);
-  return d;
-}
-
-GainOnCircle gain_of(const Discrete& d) {
-  return {[&d](double theta) { return loop_gain(d.loop, theta == std::numbers::pi ? -1.0 : std::polar(1.0, theta)); },
-          stops_between(d.loop.flow)};
-}
-
-/// Longest stretch between entries and exits, s.
-double longest_stretch_s(const CutAtSpeed& cut) {
-  double longest = 0.0;
-  for (const CutSegment& s : cut_segments(cut.process.engagement, cut.process.cutter))
-    longest = std::max(longest, s.to_rad - s.from_rad);
-  return longest * 30.0 / (std::numbers::pi * cut.spindle_speed_rpm);
-}
-
-/// ‖mean directional matrix‖ over the period, N/m².
-double mean_stiffness(const MillingProcess& process) {
-  DirectionalMatrix mean = DirectionalMatrix::Zero();
-  for (const CutSegment& s : cut_segments(process.engagement, process.cutter)) {
-    mean += mean_directional_matrix(process.coefficients, process.cutter, process.engagement, s.teeth, s.from_rad,
-                                    s.to_rad) *
-            ((s.to_rad - s.from_rad) / process.cutter.pitch_rad());
-  }
-  return mean.norm();
-}
-
-/// Elements of at most 14 rad, and nodes for the phase, of the fastest mode that matters: every mode that could
-/// regenerate at this depth, with loop gain 2 w ‖D̄‖ ‖φ‖ ‖b‖ / |Re λ| of at least a half, and any with a twentieth of
-/// the highest resonance. A grid that does not see a mode would call it stable.
-Resolution resolving(const CutAtSpeed& cut, double depth_m) {
-  const RelativeStructure& s = cut.structure;
-  const Eigen::ArrayXd peak =
-      s.phi.colwise().norm().array() * s.b.colwise().norm().array() / s.poles.real().cwiseAbs().transpose().array();
-  const double regenerates = 0.25 / (depth_m * mean_stiffness(cut.process));
-  double fastest = 0.0;
-  for (Index i = 0; i < s.poles.size(); ++i) {
-    if (peak(i) >= std::min(0.05 * peak.maxCoeff(), regenerates)) fastest = std::max(fastest, std::abs(s.poles(i)));
-  }
-  const double phase = fastest * longest_stretch_s(cut);
-  const int elements = std::max(1, static_cast<int>(std::ceil(phase / 14.0)));
-  return {elements, static_cast<int>(std::ceil(4.0 + 0.5 * phase / elements))};
-}
-
-Resolution finer(Resolution r) {
-  return r.nodes < 14 ? Resolution{r.elements, r.nodes + 3} : Resolution{2 * r.elements, r.nodes - 3};
-}
-
-/// The frequency, of (θ + 2πk)/T for all k, at which the motion |G(ω) F(ω)| is largest, F the harmonic of the force of
-/// the modulations c.
-double chatter_frequency_hz(const CutAtSpeed& cut, const Discrete& d, double theta, const Eigen::VectorXcd& c) {
-  const double period = d.loop.period_s;
-  const double seconds_per_rad = period / d.grid.period_rad;
-  double fastest = 0.0;
-  for (const complex<double> pole : cut.structure.poles) fastest = std::max(fastest, std::abs(pole));
-  const double spacing = 2.0 * std::numbers::pi / period;
-  const int reach = 1 + static_cast<int>(std::ceil(1.5 * fastest / spacing));
-  Eigen::Matrix3Xcd force = Eigen::Matrix3Xcd::Zero(3, d.grid.node_rad.size());
-  for (std::size_t k = 0; k < d.grid.contacts.size(); ++k)
-    force.col(d.grid.contacts[k].node) += d.grid.contacts[k].force * c(static_cast<Index>(k));
-  for (const CutElement& e : d.grid.elements) {
-    const Eigen::VectorXd weight = gauss_legendre(e.nodes).weight * (e.to_rad - e.from_rad);
-    force.middleCols(e.first_node, e.nodes) *= weight.asDiagonal();
-  }
-  double largest = -1.0;
-  double chatter = 0.0;
-  for (int k = -reach; k <= reach; ++k) {
-    const double omega = theta / period + k * spacing;
-    const Eigen::VectorXcd turn = (complex<double>(0.0, -omega * seconds_per_rad) * d.grid.node_rad).array().exp();
-    const double motion = (receptance(cut.structure, omega) * (force * turn)).norm();
-    if (motion <= largest) continue;
-    largest = motion;
-    chatter = omega;
-  }
-  return std::abs(chatter) / (2.0 * std::numbers::pi);
-}
-
 Bifurcation kind_of(double theta) {
   if (theta == std::numbers::pi) return Bifurcation::flip;
   return theta == 0.0 ? Bifurcation::fold : Bifurcation::hopf;
@@ -141,28 +36,15 @@ complex<double> dominant(const Eigen::VectorXcd& eigenvalues) {
   return {eigenvalues(at).real(), std::abs(eigenvalues(at).imag())};
 }
 
-Eigen::VectorXcd multipliers(const Discrete& d, double depth_m) {
-  return Eigen::EigenSolver<Eigen::MatrixXd>(period_map(d.loop, depth_m), false).eigenvalues();
-}
-
-/// The modulation that belongs to a multiplier: the null vector of I + w Z(μ).
-Eigen::VectorXcd modulation(const Discrete& d, double depth_m, complex<double> mu) {
-  Eigen::MatrixXcd loop = depth_m * loop_gain(d.loop, mu);
-  loop.diagonal().array() += 1.0 + 1e-10;
-  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(loop);
-  Eigen::VectorXcd c = Eigen::VectorXcd::Ones(loop.rows());
-  for (int i = 0; i < 3; ++i) c = lu.solve(c).normalized().eval();
-  return c;
-}
-
 /// Grids from coarse to fine, made when they are asked for.
 class Grids {
  public:
-  Grids(const CutAtSpeed& cut, Resolution first, int most_nodes) : cut_(cut), next_(first), most_nodes_(most_nodes) {}
+  Grids(const CutAtSpeed& cut, Resolution first, double depth_m, int most_nodes)
+      : cut_(cut), next_(first), depth_m_(depth_m), most_nodes_(most_nodes) {}
 
-  const Discrete& operator[](std::size_t level) {
+  const DiscreteCut& operator[](std::size_t level) {
     while (grids_.size() <= level) {
-      grids_.push_back(std::make_unique<Discrete>(discrete(cut_, next_)));
+      grids_.push_back(std::make_unique<DiscreteCut>(discrete(cut_, next_, depth_m_)));
       next_ = finer(next_);
     }
     return *grids_[level];
@@ -173,16 +55,17 @@ class Grids {
  private:
   const CutAtSpeed& cut_;
   Resolution next_;
+  double depth_m_;
   int most_nodes_;
-  std::vector<std::unique_ptr<Discrete>> grids_;
+  std::vector<std::unique_ptr<DiscreteCut>> grids_;
 };
 
 Multiplier multiplier_of(const CutAtSpeed& cut, double depth_m, const StabilityOptions& options) {
-  Grids grids(cut, resolving(cut, depth_m), options.most_nodes);
+  Grids grids(cut, resolving(cut, depth_m), depth_m, options.most_nodes);
   double before = std::abs(dominant(multipliers(grids[0], depth_m)));
   double change = 1.0;
   for (std::size_t level = 1;; ++level) {
-    const Discrete& fine = grids[level];
+    const DiscreteCut& fine = grids[level];
     Multiplier result;
     result.value = dominant(multipliers(fine, depth_m));
     result.modulus = std::abs(result.value);
@@ -201,13 +84,9 @@ Multiplier multiplier_of(const CutAtSpeed& cut, double depth_m, const StabilityO
   }
 }
 
-LobePoint point_of(const CutAtSpeed& cut, const Discrete& d, const Crossing& c, double error_estimate) {
+LobePoint point_of(const CutAtSpeed& cut, const DiscreteCut& d, const Crossing& c, double error_estimate) {
   return {c.depth_m, chatter_frequency_hz(cut, d, c.theta_rad, c.mode), kind_of(c.theta_rad), c.unstable_change,
           error_estimate};
-}
-
-int unstable(const Discrete& d, double depth_m) {
-  return static_cast<int>((multipliers(d, depth_m).cwiseAbs().array() > 1.0).count());
 }
 
 /// A crossing on the finest grid so far. `kept`: it has not been lost on the way.
@@ -254,7 +133,7 @@ std::vector<Polished> polished(Grids& grids, const StabilityOptions& options, St
 
 /// The row from one starting resolution; its status says whether another is needed.
 LobeRow row_from(const CutAtSpeed& cut, Resolution first, const StabilityOptions& options) {
-  Grids grids(cut, first, options.most_nodes);
+  Grids grids(cut, first, 0.0, options.most_nodes);
   LobeRow row;
   row.spindle_speed_rpm = cut.spindle_speed_rpm;
   std::size_t finest = 1;
@@ -289,7 +168,108 @@ void describe_limit(LobeRow& row, const CutAtSpeed& cut, const StabilityOptions&
   }
 }
 
+/// A crossing of a helical cut on grids of one resolution: the depth of the grid is moved to the depth of the crossing
+/// by the secant rule.
+bool settle(const CutAtSpeed& cut, Resolution resolution, Crossing& c) {
+  double grid_depth = c.depth_m;
+  double grid_before = 0.0;
+  double error_before = 0.0;
+  for (int i = 0; i < 25; ++i) {
+    const DiscreteCut d = discrete(cut, resolution, grid_depth);
+    if (!refine(gain_of(d), c)) return false;
+    const double error = c.depth_m - grid_depth;
+    if (std::abs(error) <= 1e-11 * grid_depth) return true;
+    const double slope = i > 0 ? (error - error_before) / (grid_depth - grid_before) : -1.0;
+    grid_before =
+        std::exchange(grid_depth, std::clamp(grid_depth - error / slope, 0.8 * grid_depth, 1.25 * grid_depth));
+    error_before = error;
+  }
+  return false;
+}
+
+/// A helical crossing to the tolerance, as polish() does for others.
+bool settle_finer(const CutAtSpeed& cut, Resolution r, const StabilityOptions& options, Polished& p) {
+  if (!settle(cut, r, p.crossing)) return false;
+  while (p.level < 2 || p.error_estimate > options.error_tolerance) {
+    r = finer(r);
+    if (p.level > 1 && r.elements * r.nodes > options.most_nodes) return true;
+    const double before = p.crossing.depth_m;
+    if (!settle(cut, r, p.crossing)) return false;
+    const double change_before = std::exchange(p.change, std::abs(before / p.crossing.depth_m - 1.0));
+    p.error_estimate = estimate_from(p.change, p.level > 0 ? change_before : 0.0);
+    ++p.level;
+  }
+  return true;
+}
+
+/// A depth of a helical cut and the number of multipliers outside of the circle there.
+struct Count {
+  double depth_m = 0.0;
+  int unstable = 0;
+};
+
+/// The crossings of a helical cut between two depths whose counts differ, halved until what is found explains the
+/// difference.
+void helical_crossings(const CutAtSpeed& cut, const StabilityOptions& options, const Count& low, const Count& high,
+                       int halvings, LobeRow& row) {
+  const Resolution r = resolving(cut, high.depth_m);
+  const DiscreteCut frozen = discrete(cut, r, high.depth_m);
+  std::vector<LobePoint> points;
+  int change = 0;
+  for (Crossing& c : critical_depths(gain_of(frozen), 1.5 * high.depth_m)) {
+    if (c.depth_m < 0.6 * low.depth_m) continue;
+    Polished p{std::move(c)};
+    if (!settle_finer(cut, r, options, p)) continue;
+    const double depth = p.crossing.depth_m;
+    const bool known = std::any_of(points.begin(), points.end(), [&](const LobePoint& q) {
+      return std::abs(q.depth_m / depth - 1.0) < 1e-6 && q.unstable_change == p.crossing.unstable_change;
+    });
+    if (known || depth <= low.depth_m || depth > high.depth_m) continue;
+    change += p.crossing.unstable_change;
+    points.push_back(point_of(cut, discrete(cut, r, depth), p.crossing, p.error_estimate));
+    row.nodes = std::max(row.nodes, r.elements * r.nodes);
+  }
+  if (change != high.unstable - low.unstable && halvings > 0) {
+    const double middle_m = std::sqrt(low.depth_m * high.depth_m);
+    const Count middle{middle_m, unstable(discrete(cut, resolving(cut, middle_m), middle_m), middle_m)};
+    if (middle.unstable != low.unstable) helical_crossings(cut, options, low, middle, halvings - 1, row);
+    if (middle.unstable != high.unstable) helical_crossings(cut, options, middle, high, halvings - 1, row);
+    return;
+  }
+  if (change != high.unstable - low.unstable) row.status = StabilityStatus::crossing_missed;
+  for (LobePoint& point : points) {
+    if (point.error_estimate > options.error_tolerance) row.status = StabilityStatus::node_limit_reached;
+    row.crossings.push_back(point);
+  }
+}
+
+/// With a helix the directional matrix changes with the depth: multipliers are counted at depths in steps of 12 %, and
+/// where the count changes the crossings are found on grids of their own depth.
+LobeRow helical_row(const CutAtSpeed& cut, const StabilityOptions& options) {
+  constexpr double ratio = 1.12;
+  LobeRow row;
+  row.spindle_speed_rpm = cut.spindle_speed_rpm;
+  const auto count_at = [&](double depth) {
+    return Count{depth, unstable(discrete(cut, finer(resolving(cut, depth)), depth), depth)};
+  };
+  Count low = count_at(std::min(surely_stable_depth_m(cut), options.depth_limit_m));
+  while (low.unstable > 0) low = count_at(0.5 * low.depth_m);
+  while (low.depth_m < options.depth_limit_m) {
+    const Count high = count_at(std::min(ratio * low.depth_m, options.depth_limit_m));
+    if (high.unstable != low.unstable) helical_crossings(cut, options, low, high, 8, row);
+    low = high;
+  }
+  std::stable_sort(row.crossings.begin(), row.crossings.end(),
+                   [](const LobePoint& a, const LobePoint& b) { return a.depth_m < b.depth_m; });
+  return row;
+}
+
 LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
+  if (cut.process.cutter.has_helix()) {
+    LobeRow row = helical_row(cut, options);
+    describe_limit(row, cut, options);
+    return row;
+  }
   const auto fewer = [](Resolution a, Resolution b) { return a.elements * a.nodes < b.elements * b.nodes; };
   Resolution first = resolving(cut, 1e-3 * options.depth_limit_m);
   while (true) {

@@ -1,7 +1,10 @@
 #include "milling/tool.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 #include <sstream>
 
 namespace thinwall::milling {
@@ -16,7 +19,52 @@ void require_unit(const Eigen::Vector3d& v, const char* what, std::vector<std::s
   violations.push_back(text.str());
 }
 
+void require_one_a_tooth(const std::vector<double>& values, int teeth, const char* what,
+                         std::vector<std::string>& violations) {
+  if (values.empty() || values.size() == static_cast<std::size_t>(std::max(0, teeth))) return;
+  violations.push_back("cutter: " + std::to_string(values.size()) + " " + what + " for " + std::to_string(teeth) +
+                       " teeth, must be one a tooth; give as many, or none");
+}
+
+void add_pitch_violations(const Cutter& cutter, std::vector<std::string>& violations) {
+  if (cutter.pitches_rad.empty()) return;
+  require_one_a_tooth(cutter.pitches_rad, cutter.teeth, "pitches", violations);
+  const double sum = std::accumulate(cutter.pitches_rad.begin(), cutter.pitches_rad.end(), 0.0);
+  const bool positive =
+      std::all_of(cutter.pitches_rad.begin(), cutter.pitches_rad.end(), [](double p) { return p > 0.0; });
+  if (positive && std::abs(sum - 2.0 * std::numbers::pi) <= 1e-6) return;
+  std::ostringstream text;
+  text << "cutter: pitches of together " << sum * 180.0 / std::numbers::pi
+       << "°, each must be above 0 and their sum 360°; correct the pitches";
+  violations.push_back(text.str());
+}
+
+void add_helix_violations(const Cutter& cutter, std::vector<std::string>& violations) {
+  require_one_a_tooth(cutter.helices_rad, cutter.teeth, "helix angles", violations);
+  constexpr double steepest = 80.0 * std::numbers::pi / 180.0;
+  for (const double helix : cutter.helices_rad) {
+    if (helix >= 0.0 && helix <= steepest) continue;
+    std::ostringstream text;
+    text << "cutter: helix of " << helix * 180.0 / std::numbers::pi << "°, must be 0 to 80°; correct the helix";
+    violations.push_back(text.str());
+  }
+}
+
 }  // namespace
+
+double Cutter::lag_rad_per_m(int tooth) const {
+  return helices_rad.empty() ? 0.0 : 2.0 * std::tan(helices_rad[static_cast<std::size_t>(tooth)]) / diameter_m;
+}
+
+bool Cutter::has_helix() const {
+  return std::any_of(helices_rad.begin(), helices_rad.end(), [](double h) { return h != 0.0; });
+}
+
+bool Cutter::equal_teeth() const {
+  const auto differs = [](double a, double b) { return std::abs(a - b) > 1e-12; };
+  return std::adjacent_find(pitches_rad.begin(), pitches_rad.end(), differs) == pitches_rad.end() &&
+         std::adjacent_find(helices_rad.begin(), helices_rad.end(), differs) == helices_rad.end();
+}
 
 Eigen::Matrix3d ToolFrame::rotation() const {
   Eigen::Matrix3d R;
@@ -30,6 +78,8 @@ std::vector<std::string> validate(const Cutter& cutter) {
     violations.push_back("cutter: " + std::to_string(cutter.teeth) +
                          " teeth, must be at least 1; give the number of teeth");
   }
+  add_pitch_violations(cutter, violations);
+  add_helix_violations(cutter, violations);
   if (!(cutter.diameter_m > 0.0) || !std::isfinite(cutter.diameter_m)) {
     std::ostringstream text;
     text << "cutter: diameter " << cutter.diameter_m << " m, must be positive; give the diameter";

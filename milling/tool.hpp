@@ -8,13 +8,23 @@
 
 namespace thinwall::milling {
 
-/// A cylindrical cutter with equally spaced teeth of zero helix.
+/// A cylindrical cutter.
 struct Cutter {
-  int teeth = 0;            ///< z ≥ 1
-  double diameter_m = 0.0;  ///< D > 0
+  int teeth = 0;                         ///< z ≥ 1
+  double diameter_m = 0.0;               ///< D > 0
+  std::vector<double> pitches_rad = {};  ///< at the tip, from each tooth to the one ahead of it; empty: equal
+  std::vector<double> helices_rad = {};  ///< of each tooth; positive: its upper parts follow its tip; empty: 0
 
-  /// Angle between neighbouring teeth, rad.
+  /// Mean angle between neighbouring teeth, rad.
   [[nodiscard]] double pitch_rad() const { return 2.0 * std::numbers::pi / teeth; }
+  [[nodiscard]] double pitch_rad(int tooth) const {
+    return pitches_rad.empty() ? pitch_rad() : pitches_rad[static_cast<std::size_t>(tooth)];
+  }
+  /// Rotation by which a tooth's edge lags behind its tip per metre of height, 2 tan β / D.
+  [[nodiscard]] double lag_rad_per_m(int tooth) const;
+  [[nodiscard]] bool has_helix() const;
+  /// Whether the cut repeats itself with every tooth: equal pitches and equal helices.
+  [[nodiscard]] bool equal_teeth() const;
 };
 
 /// The frame of the cut, in the part's axes. `feed` (x_T) is the direction in which the tool moves relative to the
@@ -31,7 +41,8 @@ struct ToolFrame {
   [[nodiscard]] Eigen::Matrix3d rotation() const;
 };
 
-/// Every violation, empty if there is none: teeth ≥ 1, diameter > 0.
+/// Every violation, empty if there is none: teeth ≥ 1, diameter > 0; pitches, if given, one a tooth, above 0 and a full
+/// turn together; helices likewise one a tooth, from 0 to 80°.
 [[nodiscard]] std::vector<std::string> validate(const Cutter& cutter);
 
 /// Every violation, empty if there is none: unit length and right angle, both to 1e-9.

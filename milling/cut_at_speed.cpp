@@ -1,0 +1,117 @@
+#include "milling/cut_at_speed.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "milling/product_rule.hpp"
+
+namespace thinwall::milling {
+
+namespace {
+
+using Eigen::Index;
+using std::complex;
+
+/// ‖mean directional matrix‖ over a turn, N/m².
+double mean_stiffness(const MillingProcess& process) {
+  const Engagement& e = process.engagement;
+  const DirectionalMatrix mean = mean_directional_matrix(process.coefficients, e.entry_rad, e.exit_rad);
+  return process.cutter.teeth * e.arc_rad() / (2.0 * std::numbers::pi) * mean.norm();
+}
+
+/// ‖φ‖ ‖b‖ / |Re λ| of each mode, m/N.
+Eigen::ArrayXd peaks(const RelativeStructure& s) {
+  return s.phi.colwise().norm().transpose().array() * s.b.colwise().norm().transpose().array() /
+         s.poles.real().cwiseAbs().array();
+}
+
+}  // namespace
+
+CutAtSpeed cut_at_speed(const RelativeStructure& structure, const MillingProcess& process, double spindle_speed_rpm) {
+  (void)tooth_period_s(process.cutter, spindle_speed_rpm);  // refuses a bad speed
+  CutAtSpeed cut{in_tool_axes(structure, process.frame), process, {}, spindle_speed_rpm};
+  cut.yielding = yielding_directions(cut.structure);
+  return cut;
+}
+
+DiscreteCut discrete(const CutAtSpeed& cut, Resolution resolution, double depth_m) {
+  DiscreteCut d{contact_grid(cut.process, cut.yielding, resolution, depth_m), {}};
+  d.loop = regenerative_loop(cut.structure, d.grid, cut.spindle_speed_rpm);
+  return d;
+}
+
+GainOnCircle gain_of(const DiscreteCut& d) {
+  return {[&d](double theta) { return loop_gain(d.loop, theta == std::numbers::pi ? -1.0 : std::polar(1.0, theta)); },
+          stops_between(d.loop.flow)};
+}
+
+Resolution resolving(const CutAtSpeed& cut, double depth_m) {
+  const RelativeStructure& s = cut.structure;
+  const Eigen::ArrayXd peak = peaks(s);
+  const double regenerates = 0.25 / (depth_m * mean_stiffness(cut.process));
+  double fastest = 0.0;
+  for (Index i = 0; i < s.poles.size(); ++i) {
+    if (peak(i) >= std::min(0.05 * peak.maxCoeff(), regenerates)) fastest = std::max(fastest, std::abs(s.poles(i)));
+  }
+  const double phase =
+      fastest * longest_stretch_rad(cut.process, depth_m) * 30.0 / (std::numbers::pi * cut.spindle_speed_rpm);
+  const int elements = std::max(1, static_cast<int>(std::ceil(phase / 14.0)));
+  return {elements, static_cast<int>(std::ceil(4.0 + 0.5 * phase / elements))};
+}
+
+Resolution finer(Resolution r) {
+  return r.nodes < 14 ? Resolution{r.elements, r.nodes + 3} : Resolution{2 * r.elements, r.nodes - 3};
+}
+
+double surely_stable_depth_m(const CutAtSpeed& cut) {
+  return 0.05 / (mean_stiffness(cut.process) * peaks(cut.structure).sum());
+}
+
+Eigen::VectorXcd multipliers(const DiscreteCut& d, double depth_m) {
+  return Eigen::EigenSolver<Eigen::MatrixXd>(period_map(d.loop, depth_m), false).eigenvalues();
+}
+
+int unstable(const DiscreteCut& d, double depth_m) {
+  return static_cast<int>((multipliers(d, depth_m).cwiseAbs().array() > 1.0).count());
+}
+
+double chatter_frequency_hz(const CutAtSpeed& cut, const DiscreteCut& d, double theta, const Eigen::VectorXcd& c) {
+  const double period = d.loop.period_s;
+  const double seconds_per_rad = period / d.grid.period_rad;
+  double fastest = 0.0;
+  for (const complex<double> pole : cut.structure.poles) fastest = std::max(fastest, std::abs(pole));
+  const double spacing = 2.0 * std::numbers::pi / period;
+  const int reach = 1 + static_cast<int>(std::ceil(1.5 * fastest / spacing));
+  Eigen::Matrix3Xcd force = Eigen::Matrix3Xcd::Zero(3, d.grid.node_rad.size());
+  for (std::size_t k = 0; k < d.grid.contacts.size(); ++k)
+    force.col(d.grid.contacts[k].node) += d.grid.contacts[k].force * c(static_cast<Index>(k));
+  for (const CutElement& e : d.grid.elements) {
+    const Eigen::VectorXd weight = gauss_legendre(e.nodes).weight * (e.to_rad - e.from_rad);
+    force.middleCols(e.first_node, e.nodes) *= weight.asDiagonal();
+  }
+  double largest = -1.0;
+  double chatter = 0.0;
+  for (int k = -reach; k <= reach; ++k) {
+    const double omega = theta / period + k * spacing;
+    const Eigen::VectorXcd turn = (complex<double>(0.0, -omega * seconds_per_rad) * d.grid.node_rad).array().exp();
+    const double motion = (receptance(cut.structure, omega) * (force * turn)).norm();
+    if (motion <= largest) continue;
+    largest = motion;
+    chatter = omega;
+  }
+  return std::abs(chatter) / (2.0 * std::numbers::pi);
+}
+
+Eigen::VectorXcd modulation(const DiscreteCut& d, double depth_m, complex<double> mu) {
+  Eigen::MatrixXcd loop = depth_m * loop_gain(d.loop, mu);
+  loop.diagonal().array() += 1.0 + 1e-10;
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(loop);
+  Eigen::VectorXcd c = Eigen::VectorXcd::Ones(loop.rows());
+  for (int i = 0; i < 3; ++i) c = lu.solve(c).normalized().eval();
+  return c;
+}
+
+}  // namespace thinwall::milling
