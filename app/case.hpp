@@ -175,8 +175,10 @@ struct ToolMode {
 
 struct Tool {
   int teeth = 0;
-  double diameter = 0.0;  ///< m
-  double length = 0.0;    ///< m
+  double diameter = 0.0;        ///< m
+  double length = 0.0;          ///< m
+  std::vector<double> pitches;  ///< rad; empty: equal
+  std::vector<double> helices;  ///< rad, one a tooth; empty: none
   std::vector<ToolMode> modes;
 };
 

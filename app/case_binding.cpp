@@ -273,7 +273,9 @@ std::vector<Updating> bind_updating(const std::vector<Table>& tables) {
 }
 
 Tool bind_tool(const Table& table) {
-  Tool tool{table.integer("teeth"), table.number("diameter"), table.number("length"), {}};
+  Tool tool{table.integer("teeth"),   table.number("diameter"), table.number("length"),
+            table.numbers("pitches"), table.numbers("helices"), {}};
+  if (tool.helices.size() == 1) tool.helices.resize(static_cast<std::size_t>(tool.teeth), tool.helices.front());
   for (const auto& mode : table.tables("modes")) {
     tool.modes.push_back({mode.number("frequency"), mode.number("damping_ratio"), mode.number("stiffness"),
                           mode.direction("direction")});

@@ -1,8 +1,12 @@
 #include "app/case_checks.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 
 #include "app/findings.hpp"
 #include "app/part_checks.hpp"
@@ -346,6 +350,23 @@ void check_updating(const Case& source, Findings& findings) {
   }
 }
 
+void check_tool(const Tool& tool, Findings& findings) {
+  const auto teeth = static_cast<std::size_t>(tool.teeth);
+  const auto as_many = [&](const char* key, const std::vector<double>& values) {
+    if (values.empty() || values.size() == teeth) return true;
+    findings.report(
+        key, std::to_string(values.size()) + " values for " + std::to_string(tool.teeth) + " teeth; give one a tooth");
+    return false;
+  };
+  (void)as_many("tool.helices", tool.helices);
+  if (!as_many("tool.pitches", tool.pitches) || tool.pitches.empty()) return;
+  const double sum = std::accumulate(tool.pitches.begin(), tool.pitches.end(), 0.0) * 180.0 / std::numbers::pi;
+  if (std::abs(sum - 360.0) > 1e-4) {
+    findings.report("tool.pitches", "the pitches come to " + fmt::format("{:g}", sum) +
+                                        " deg together; they must make a full turn of 360 deg");
+  }
+}
+
 void check_cutting(const Case& source, Findings& findings) {
   const Cutting& cutting = *source.cutting;
   if (!source.tool) {
@@ -403,6 +424,7 @@ std::vector<Problem> check_case(const Case& source) {
   check_contacts(source, findings);
   check_response(source, findings);
   check_updating(source, findings);
+  if (source.tool) check_tool(*source.tool, findings);
   if (source.cutting) check_cutting(source, findings);
   if (source.lobes) check_lobes(source, findings);
   return std::move(findings.problems);

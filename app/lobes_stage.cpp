@@ -16,7 +16,7 @@ namespace {
 milling::MillingProcess process_of(const Case& source) {
   const Cutting& c = *source.cutting;
   milling::MillingProcess process;
-  process.cutter = {source.tool->teeth, source.tool->diameter};
+  process.cutter = {source.tool->teeth, source.tool->diameter, source.tool->pitches, source.tool->helices};
   process.coefficients = {c.Kt, c.Kr, c.Ka, c.Kte, c.Kre, c.Kae};
   process.engagement = milling::engagement_of(
       process.cutter, c.radial_depth, c.down_milling ? milling::MillingDirection::down : milling::MillingDirection::up);

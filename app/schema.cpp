@@ -177,6 +177,8 @@ constexpr std::array case_keys{
     Key{"tool.teeth", Type::integer, kind::number, "", {1, 100, false, false, false, ""}, "", "Number of teeth.", required},
     Key{"tool.diameter", Type::quantity, kind::length, "", positive, "", "Diameter.", required},
     Key{"tool.length", Type::quantity, kind::length, "", positive, "", "Length of the cutting edges: no deeper cut is possible.", required},
+    Key{"tool.pitches", Type::quantities, kind::angle, "", {0.0, 6.2831853072, true, false, false, "a full turn is 360 deg"}, "", "Angle from each tooth to the one ahead of it, at the tip; equal if not given. One a tooth, 360 deg together."},
+    Key{"tool.helices", Type::quantities, kind::angle, "", {0.0, 1.3962634016, false, false, false, "end mills have 30 to 45 deg"}, "", "Helix angle of each tooth, or one for all; none if not given."},
     Key{"tool.modes[].frequency", Type::quantity, kind::frequency, "", positive, "", "Natural frequency.", required},
     Key{"tool.modes[].damping_ratio", Type::quantity, kind::number, "", damping_ratio, "", "Damping ratio.", required},
     Key{"tool.modes[].stiffness", Type::quantity, kind::stiffness, "", positive, "", "Modal stiffness at the tip.", required},

@@ -198,18 +198,20 @@ void between(Search& search, const Stop& a, const Stop& b, int halvings) {
   between(search, middle, b, halvings - 1);
 }
 
+/// Of a real eigenvalue at an end of the half circle: one multiplier leaves or returns.
+int change_at_end(const GainOnCircle& gain, double theta, double nu) {
+  constexpr double inward = 1e-5;
+  const double imaginary = nearest_eigenpair(gain.Z(theta == 0.0 ? inward : theta - inward), nu).nu.imag();
+  const double slope = theta == 0.0 ? imaginary : -imaginary;
+  return slope < 0.0 ? 1 : -1;
+}
+
 /// Real eigenvalues at the ends of the half circle, where a multiplier is −1 or 1.
 void at_end(Search& search, const Stop& stop) {
-  constexpr double inward = 1e-5;
   for (const complex<double> nu : stop.nu) {
     if (nu.imag() != 0.0 || nu.real() * search.depth_limit_m < 1.0) continue;
-    Crossing crossing{1.0 / nu.real(), stop.theta, 0, {}};
-    crossing.mode = nearest_eigenpair(search.gain.Z(stop.theta), nu).right;
-    const double side = stop.theta == 0.0 ? inward : stop.theta - inward;
-    const complex<double> beside = nearest_eigenpair(search.gain.Z(side), nu).nu;
-    const double slope = stop.theta == 0.0 ? beside.imag() : -beside.imag();
-    crossing.unstable_change = slope < 0.0 ? 1 : -1;
-    search.found.push_back(std::move(crossing));
+    search.found.push_back({1.0 / nu.real(), stop.theta, change_at_end(search.gain, stop.theta, nu.real()),
+                            nearest_eigenpair(search.gain.Z(stop.theta), nu).right});
   }
 }
 
@@ -238,6 +240,7 @@ bool refine(const GainOnCircle& gain, Crossing& crossing) {
   if (crossing.theta_rad == 0.0 || crossing.theta_rad == pi) {
     crossing.depth_m = 1.0 / at.nu.real();
     crossing.mode = at.right;
+    if (crossing.unstable_change == 0) crossing.unstable_change = change_at_end(gain, crossing.theta_rad, at.nu.real());
   } else {
     const double beside = crossing.theta_rad + (crossing.theta_rad > 0.5 * pi ? -1e-5 : 1e-5);
     const complex<double> nu = nearest_eigenpair(gain.Z(beside), at.nu).nu;

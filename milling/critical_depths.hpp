@@ -34,8 +34,8 @@ struct Crossing {
 /// Depths from 0 to depth_limit_m (> 0), ascending. Cost: some thirty eigenvalue problems of the size of Z.
 [[nodiscard]] std::vector<Crossing> critical_depths(const GainOnCircle& gain, double depth_limit_m);
 
-/// The same crossing on another gain (finer nodes): secant rule from where it was. False if it does not settle within a
-/// tenth of the depth.
+/// The same crossing on another gain (finer nodes), or the one that a guess with unstable_change 0 leads to: secant
+/// rule from where it was. False if it does not settle within a tenth of the depth.
 [[nodiscard]] bool refine(const GainOnCircle& gain, Crossing& crossing);
 
 /// Stops that Z needs with poles whose flow over a period is `flow` (e^{λT}): steps of at most 0.35 rad, and of 0.6 of

@@ -67,7 +67,7 @@ Resolution finer(Resolution r) {
 }
 
 double surely_stable_depth_m(const CutAtSpeed& cut) {
-  return 0.05 / (mean_stiffness(cut.process) * peaks(cut.structure).sum());
+  return 0.25 / (mean_stiffness(cut.process) * peaks(cut.structure).sum());
 }
 
 Eigen::VectorXcd multipliers(const DiscreteCut& d, double depth_m) {

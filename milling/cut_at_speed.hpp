@@ -40,7 +40,7 @@ struct DiscreteCut {
 /// Half as fine again, or about.
 [[nodiscard]] Resolution finer(Resolution r);
 
-/// A depth, m, at which the loop gain of all modes together, each at its own resonance, is a tenth.
+/// A depth, m, at which the loop gain 2 w ‖D̄‖ Σ ‖φ‖ ‖b‖ / |Re λ|, each mode at its own resonance, is a half.
 [[nodiscard]] double surely_stable_depth_m(const CutAtSpeed& cut);
 
 /// All Floquet multipliers of the period at a depth (that of the grid, with a helix).

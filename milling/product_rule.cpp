@@ -1,15 +1,30 @@
 #include "milling/product_rule.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace thinwall::milling {
 
 GaussRule gauss_legendre(int count) {
-  Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(count, count);
-  for (int k = 1; k < count; ++k) jacobi(k, k - 1) = jacobi(k - 1, k) = k / std::sqrt(4.0 * k * k - 1.0);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobi);
-  return {(0.5 * (eigen.eigenvalues().array() + 1.0)).matrix(), eigen.eigenvectors().row(0).transpose().cwiseAbs2()};
+  GaussRule rule{Eigen::VectorXd(count), Eigen::VectorXd(count)};
+  for (int i = 0; i < count; ++i) {
+    double x = -std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5));  // within Newton's reach of the root
+    double slope = 0.0;
+    for (int iteration = 0; iteration < 20; ++iteration) {
+      double before = 1.0;
+      double value = x;
+      for (int k = 2; k <= count; ++k)
+        before = std::exchange(value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
+      slope = count * (x * value - before) / (x * x - 1.0);
+      const double step = value / slope;
+      x -= step;
+      if (std::abs(step) < 1e-15) break;
+    }
+    rule.node(i) = 0.5 * (1.0 + x);
+    rule.weight(i) = 1.0 / ((1.0 - x * x) * slope * slope);
+  }
+  return rule;
 }
 
 Eigen::VectorXd lagrange_polynomials(const Eigen::VectorXd& node, double at) {

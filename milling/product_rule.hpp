@@ -13,7 +13,8 @@ struct GaussRule {
   Eigen::VectorXd weight;
 };
 
-/// Gauss-Legendre on (0, 1) from the Jacobi matrix of Legendre's recurrence (Golub & Welsch 1969). `count` ≥ 1.
+/// Gauss-Legendre on (0, 1): Newton's method on P_n by its recurrence, weights 2/((1 − x²) P_n'²) (Abramowitz & Stegun
+/// 25.4.29). `count` ≥ 1. Cost O(count²).
 [[nodiscard]] GaussRule gauss_legendre(int count);
 
 /// ℓ_j(at) of the Lagrange polynomials of `node`.

@@ -16,12 +16,12 @@ namespace {
 using Eigen::Index;
 using std::complex;
 
-/// Rules by node count and exponent (rounded up), made once a loop.
+/// Rules by node count and exponent, which is rounded up to a power of √2, at least 4: made once a thread.
 class Rules {
  public:
   const ProductRule& of(int nodes, double exponent) {
-    const int bound = 8 * static_cast<int>(std::ceil(exponent / 8.0));
-    return rules_.try_emplace({nodes, bound}, nodes, bound).first->second;
+    const int half_powers = std::max(4, static_cast<int>(std::ceil(2.0 * std::log2(std::max(exponent, 1.0)))));
+    return rules_.try_emplace({nodes, half_powers}, nodes, std::exp2(0.5 * half_powers)).first->second;
   }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <memory>
 #include <numbers>
 #include <sstream>
@@ -109,10 +110,28 @@ void polish(Grids& grids, std::size_t levels, double tolerance, Polished& p) {
   }
 }
 
+/// The crossings on one grid, from small depths on until one is found, then on to `follow` times its depth;
+/// `searched_m` receives where the search ended.
+std::vector<Crossing> followed(const CutAtSpeed& cut, const DiscreteCut& d, const StabilityOptions& options,
+                               double& searched_m) {
+  const GainOnCircle gain = gain_of(d);
+  searched_m = std::min(options.depth_limit_m, 4.0 * surely_stable_depth_m(cut));
+  std::vector<Crossing> found = critical_depths(gain, searched_m);
+  while (found.empty() && searched_m < options.depth_limit_m) {
+    searched_m = std::min(options.depth_limit_m, 4.0 * searched_m);
+    found = critical_depths(gain, searched_m);
+  }
+  if (found.empty()) return found;
+  const double reach = std::min(options.depth_limit_m, options.follow * found.front().depth_m);
+  if (reach <= searched_m) return found;
+  searched_m = reach;
+  return critical_depths(gain, reach);
+}
+
 /// All crossings in ascending depth; those that bound a stable range to the tolerance.
-std::vector<Polished> polished(Grids& grids, const StabilityOptions& options, StabilityStatus& status) {
+std::vector<Polished> polished(const CutAtSpeed& cut, Grids& grids, const StabilityOptions& options, LobeRow& row) {
   std::vector<Polished> all;
-  for (Crossing& crossing : critical_depths(gain_of(grids[0]), options.depth_limit_m)) {
+  for (Crossing& crossing : followed(cut, grids[0], options, row.searched_m)) {
     all.push_back({std::move(crossing)});
     polish(grids, 1, 1.0, all.back());
   }
@@ -124,10 +143,10 @@ std::vector<Polished> polished(Grids& grids, const StabilityOptions& options, St
     count += p.crossing.unstable_change;
     if (!bounds || p.crossing.depth_m > options.depth_limit_m) continue;
     polish(grids, 2, options.error_tolerance, p);
-    if (!p.kept) status = StabilityStatus::crossing_missed;
-    else if (p.error_estimate > options.error_tolerance) status = StabilityStatus::node_limit_reached;
+    if (!p.kept) row.status = StabilityStatus::crossing_missed;
+    else if (p.error_estimate > options.error_tolerance) row.status = StabilityStatus::node_limit_reached;
   }
-  if (unstable(grids[0], options.depth_limit_m) != count) status = StabilityStatus::crossing_missed;
+  if (unstable(grids[0], row.searched_m) != count) row.status = StabilityStatus::crossing_missed;
   return all;
 }
 
@@ -137,13 +156,13 @@ LobeRow row_from(const CutAtSpeed& cut, Resolution first, const StabilityOptions
   LobeRow row;
   row.spindle_speed_rpm = cut.spindle_speed_rpm;
   std::size_t finest = 1;
-  for (const Polished& p : polished(grids, options, row.status)) {
+  for (const Polished& p : polished(cut, grids, options, row)) {
     if (p.crossing.depth_m > options.depth_limit_m) continue;
     finest = std::max(finest, p.level);
     row.crossings.push_back(point_of(cut, grids[p.level], p.crossing, p.error_estimate));
   }
   row.nodes = static_cast<int>(grids[finest].grid.node_rad.size());
-  const double below = row.crossings.empty() ? options.depth_limit_m : 0.999 * row.crossings.front().depth_m;
+  const double below = row.crossings.empty() ? row.searched_m : 0.999 * row.crossings.front().depth_m;
   if (unstable(grids[finest], below) != 0) row.status = StabilityStatus::crossing_missed;
   return row;
 }
@@ -187,9 +206,8 @@ bool settle(const CutAtSpeed& cut, Resolution resolution, Crossing& c) {
   return false;
 }
 
-/// A helical crossing to the tolerance, as polish() does for others.
+/// A helical crossing that has settled, to the tolerance, as polish() does for others.
 bool settle_finer(const CutAtSpeed& cut, Resolution r, const StabilityOptions& options, Polished& p) {
-  if (!settle(cut, r, p.crossing)) return false;
   while (p.level < 2 || p.error_estimate > options.error_tolerance) {
     r = finer(r);
     if (p.level > 1 && r.elements * r.nodes > options.most_nodes) return true;
@@ -208,25 +226,47 @@ struct Count {
   int unstable = 0;
 };
 
+/// Where multipliers near the unit circle at this depth would cross it, the nearest first: guesses.
+std::vector<Crossing> near_crossings(const DiscreteCut& d, double depth_m) {
+  constexpr std::size_t most = 6;
+  const Eigen::VectorXcd all = multipliers(d, depth_m);
+  std::vector<complex<double>> upper;
+  for (const complex<double> mu : all) {
+    if (mu.imag() >= 0.0 && std::abs(mu) > 0.2) upper.push_back(mu);
+  }
+  std::sort(upper.begin(), upper.end(), [](complex<double> a, complex<double> b) {
+    return std::abs(std::log(std::abs(a))) < std::abs(std::log(std::abs(b)));
+  });
+  upper.resize(std::min(upper.size(), most));
+  std::vector<Crossing> guesses;
+  for (const complex<double> mu : upper) {
+    const double theta = mu.imag() > 0.0 ? std::arg(mu) : mu.real() > 0.0 ? 0.0 : std::numbers::pi;
+    guesses.push_back({depth_m, theta, 0, {}});
+  }
+  return guesses;
+}
+
 /// The crossings of a helical cut between two depths whose counts differ, halved until what is found explains the
 /// difference.
 void helical_crossings(const CutAtSpeed& cut, const StabilityOptions& options, const Count& low, const Count& high,
                        int halvings, LobeRow& row) {
   const Resolution r = resolving(cut, high.depth_m);
-  const DiscreteCut frozen = discrete(cut, r, high.depth_m);
   std::vector<LobePoint> points;
   int change = 0;
-  for (Crossing& c : critical_depths(gain_of(frozen), 1.5 * high.depth_m)) {
-    if (c.depth_m < 0.6 * low.depth_m) continue;
+  for (Crossing& c : near_crossings(discrete(cut, r, high.depth_m), high.depth_m)) {
+    if (change == high.unstable - low.unstable) break;
+    const auto beyond = [&](double depth, double slack) {
+      return depth * slack <= low.depth_m || depth > slack * high.depth_m;
+    };
     Polished p{std::move(c)};
-    if (!settle_finer(cut, r, options, p)) continue;
-    const double depth = p.crossing.depth_m;
+    if (!settle(cut, r, p.crossing) || beyond(p.crossing.depth_m, 1.01)) continue;
+    if (!settle_finer(cut, r, options, p) || beyond(p.crossing.depth_m, 1.0)) continue;
     const bool known = std::any_of(points.begin(), points.end(), [&](const LobePoint& q) {
-      return std::abs(q.depth_m / depth - 1.0) < 1e-6 && q.unstable_change == p.crossing.unstable_change;
+      return std::abs(q.depth_m / p.crossing.depth_m - 1.0) < 1e-6 && q.unstable_change == p.crossing.unstable_change;
     });
-    if (known || depth <= low.depth_m || depth > high.depth_m) continue;
+    if (known) continue;
     change += p.crossing.unstable_change;
-    points.push_back(point_of(cut, discrete(cut, r, depth), p.crossing, p.error_estimate));
+    points.push_back(point_of(cut, discrete(cut, r, p.crossing.depth_m), p.crossing, p.error_estimate));
     row.nodes = std::max(row.nodes, r.elements * r.nodes);
   }
   if (change != high.unstable - low.unstable && halvings > 0) {
@@ -254,11 +294,16 @@ LobeRow helical_row(const CutAtSpeed& cut, const StabilityOptions& options) {
   };
   Count low = count_at(std::min(surely_stable_depth_m(cut), options.depth_limit_m));
   while (low.unstable > 0) low = count_at(0.5 * low.depth_m);
-  while (low.depth_m < options.depth_limit_m) {
-    const Count high = count_at(std::min(ratio * low.depth_m, options.depth_limit_m));
+  const auto reach = [&] {
+    if (row.crossings.empty()) return options.depth_limit_m;
+    return std::min(options.depth_limit_m, options.follow * row.crossings.front().depth_m);
+  };
+  while (low.depth_m < reach()) {
+    const Count high = count_at(std::min(ratio * low.depth_m, reach()));
     if (high.unstable != low.unstable) helical_crossings(cut, options, low, high, 8, row);
     low = high;
   }
+  row.searched_m = low.depth_m;
   std::stable_sort(row.crossings.begin(), row.crossings.end(),
                    [](const LobePoint& a, const LobePoint& b) { return a.depth_m < b.depth_m; });
   return row;
@@ -331,6 +376,8 @@ std::vector<std::string> validate(const StabilityOptions& options) {
           "a positive depth in m; give the tool's cutting length");
   require(options.error_tolerance > 0.0 && options.error_tolerance < 1.0, "error tolerance", options.error_tolerance,
           "between 0 and 1; 0.0001 is usual");
+  require(options.follow >= 1.0, "depth to follow crossings to, over the first one's,", options.follow,
+          "at least 1; 20 is usual");
   require(options.most_nodes >= 8, "largest number of nodes", options.most_nodes, "at least 8; 240 is usual");
   return violations;
 }

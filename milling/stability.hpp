@@ -23,7 +23,7 @@ enum class StabilityStatus {
   converged,              ///< the error estimate meets the tolerance
   node_limit_reached,     ///< it does not, at the largest number of nodes; the estimate says by how much
   stable_to_depth_limit,  ///< no crossing up to the depth limit
-  crossing_missed,        ///< the count of unstable multipliers at the depth limit is not that of the crossings found
+  crossing_missed,        ///< the count of unstable multipliers at the end of the search is not that of the crossings
 };
 
 [[nodiscard]] std::string name(Bifurcation kind);
@@ -32,6 +32,7 @@ enum class StabilityStatus {
 struct StabilityOptions {
   double depth_limit_m = 0.02;    ///< > 0: the deepest cut of interest, for instance the tool's cutting length
   double error_tolerance = 1e-4;  ///< relative, in (0, 1): of the depth, or of |μ| at a point
+  double follow = 20.0;           ///< ≥ 1: crossings are followed up to this many times the first one
   int most_nodes = 240;           ///< ≥ 8: nodes in the cut at which refinement gives up
 };
 
@@ -66,7 +67,8 @@ struct LobeRow {
   double chatter_frequency_hz = 0.0;  ///< at the crossing, or of the least damped motion at the limit
   Bifurcation kind = Bifurcation::hopf;
   double error_estimate = 0.0;       ///< relative, of the depth; at the limit of |μ|
-  std::vector<LobePoint> crossings;  ///< all up to the depth limit, ascending: islands and gaps too. Those that bound a
+  double searched_m = 0.0;           ///< the depth up to which crossings were looked for
+  std::vector<LobePoint> crossings;  ///< all up to there, ascending: islands and gaps too. Those that bound a
                                      ///< stable range meet the tolerance; deep in an unstable range, beyond one whose
                                      ///< estimate exceeds 1e-3, others may be missing
   int nodes = 0;                     ///< in the cut
@@ -79,11 +81,11 @@ struct LobeRow {
 [[nodiscard]] Multiplier multiplier_at(const RelativeStructure& structure, const MillingProcess& process,
                                        double spindle_speed_rpm, double depth_m, const StabilityOptions& options);
 
-/// All crossings in (0, depth_limit] by critical_depths() on a coarse grid, each brought to finer ones with an estimate
-/// as above; those that bound a stable range until the estimate meets the tolerance. Two counts of multipliers outside
-/// of the circle check the search: at the depth limit as many as the crossings say, just below the first crossing, on
-/// the finest grid, none. If one fails the search is repeated on a finer grid. Throws InputError as above. Cost: some
-/// thirty eigenvalue problems of the size of the nodes.
+/// All crossings up to `follow` times the first, or the depth limit, by critical_depths() on a coarse grid, each
+/// brought to finer ones with an estimate as above; those that bound a stable range until the estimate meets the
+/// tolerance. Two counts of multipliers outside of the circle check the search: at the end of the search as many as the
+/// crossings say, just below the first crossing, on the finest grid, none. If one fails the search is repeated on a
+/// finer grid. Throws InputError as above. Cost: some thirty eigenvalue problems of the size of the nodes.
 [[nodiscard]] LobeRow limiting_depth(const RelativeStructure& structure, const MillingProcess& process,
                                      double spindle_speed_rpm, const StabilityOptions& options);
 

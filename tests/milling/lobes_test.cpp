@@ -151,7 +151,7 @@ TEST(Lobes, CrossingsTellTheCountOfUnstableMultipliersAtEveryDepth) {
     ASSERT_TRUE(row.status == StabilityStatus::converged || row.status == StabilityStatus::stable_to_depth_limit);
     const RegenerativeLoop loop = regenerative_loop(in_tool, grid, rpm);
     for (const LobePoint& point : row.crossings) gaps += point.unstable_change < 0 ? 1 : 0;
-    for (double depth = 0.9e-3; depth < 0.02; depth *= 1.23) {
+    for (double depth = 0.9e-3; depth < row.searched_m; depth *= 1.23) {
       int by_crossings = 0;
       bool beside = false;
       bool unresolved = false;  // deep in the unstable range, where the coarse grid that is searched may differ
@@ -167,7 +167,7 @@ TEST(Lobes, CrossingsTellTheCountOfUnstableMultipliersAtEveryDepth) {
     }
   }
   EXPECT_GT(gaps, 0) << "the test should see multipliers return";
-  EXPECT_GT(compared, 500);
+  EXPECT_GT(compared, 300);
 }
 
 TEST(Lobes, StaticResidualActsAsAStiffModeDoes) {
