@@ -8,6 +8,8 @@
 #include <numbers>
 #include <optional>
 
+#include "core/error.hpp"
+
 namespace thinwall::milling {
 
 namespace {
@@ -23,6 +25,12 @@ struct Stop {
   std::vector<complex<double>> nu;
 };
 
+void require_found(Eigen::ComputationInfo info) {
+  if (info == Eigen::Success) return;
+  throw core::NumericalError(
+      "stability: eigenvalues of the loop's gain were not found; check the structure at the cut");
+}
+
 struct Search {
   const GainOnCircle& gain;
   double depth_limit_m;
@@ -31,15 +39,18 @@ struct Search {
 
   Stop stop_at(double theta) const {
     const Eigen::MatrixXcd Z = gain.Z(theta);
+    if (!Z.allFinite()) require_found(Eigen::NumericalIssue);
     Stop stop{theta, {}};
     const auto keep = [&](complex<double> z) {
       if (std::abs(z) > smallest) stop.nu.push_back(-z);
     };
     if (theta == 0.0 || theta == pi) {
       const Eigen::EigenSolver<Eigen::MatrixXd> eigen(Z.real(), false);
+      require_found(eigen.info());
       for (const complex<double> z : eigen.eigenvalues()) keep(z);
     } else {
       const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> eigen(Z, false);
+      require_found(eigen.info());
       for (const complex<double> z : eigen.eigenvalues()) keep(z);
     }
     return stop;

@@ -31,7 +31,8 @@ struct Crossing {
 ///
 ///     d|μ|/dw = −(1/w²) Im(dν/dθ) / |dν/dθ|²
 ///
-/// Depths from 0 to depth_limit_m (> 0), ascending. Cost: some thirty eigenvalue problems of the size of Z.
+/// Depths from 0 to depth_limit_m (> 0), ascending. Throws NumericalError if an eigen-solution fails. Cost: some thirty
+/// eigenvalue problems of the size of Z.
 [[nodiscard]] std::vector<Crossing> critical_depths(const GainOnCircle& gain, double depth_limit_m);
 
 /// The same crossing on another gain (finer nodes), or the one that a guess with unstable_change 0 leads to: secant

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
+#include "core/error.hpp"
 #include "milling/product_rule.hpp"
 
 namespace thinwall::milling {
@@ -71,7 +73,14 @@ double surely_stable_depth_m(const CutAtSpeed& cut) {
 }
 
 Eigen::VectorXcd multipliers(const DiscreteCut& d, double depth_m) {
-  return Eigen::EigenSolver<Eigen::MatrixXd>(period_map(d.loop, depth_m), false).eigenvalues();
+  // A count over NaN would call the cut stable.
+  const Eigen::MatrixXd map = period_map(d.loop, depth_m);
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(map.allFinite() ? map : Eigen::MatrixXd::Zero(1, 1), false);
+  if (!map.allFinite() || eigen.info() != Eigen::Success) {
+    throw core::NumericalError("stability: the multipliers at a depth of " + std::to_string(depth_m) +
+                               " m were not found; check the structure at the cut, or ask for smaller depths");
+  }
+  return eigen.eigenvalues();
 }
 
 int unstable(const DiscreteCut& d, double depth_m) {

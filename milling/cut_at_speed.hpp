@@ -43,7 +43,8 @@ struct DiscreteCut {
 /// A depth, m, at which the loop gain 2 w ‖D̄‖ Σ ‖φ‖ ‖b‖ / |Re λ|, each mode at its own resonance, is a half.
 [[nodiscard]] double surely_stable_depth_m(const CutAtSpeed& cut);
 
-/// All Floquet multipliers of the period at a depth (that of the grid, with a helix).
+/// All Floquet multipliers of the period at a depth (that of the grid, with a helix). Throws NumericalError if the
+/// eigen-solution fails.
 [[nodiscard]] Eigen::VectorXcd multipliers(const DiscreteCut& d, double depth_m);
 
 /// How many of them lie outside of the unit circle.

@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include "core/error.hpp"
@@ -293,7 +294,13 @@ LobeRow helical_row(const CutAtSpeed& cut, const StabilityOptions& options) {
     return Count{depth, unstable(discrete(cut, finer(resolving(cut, depth)), depth), depth)};
   };
   Count low = count_at(std::min(surely_stable_depth_m(cut), options.depth_limit_m));
-  while (low.unstable > 0) low = count_at(0.5 * low.depth_m);
+  for (int halvings = 0; low.unstable > 0; ++halvings) {
+    if (halvings == 30) {
+      throw core::NumericalError("stability: unstable at any depth, down to " + std::to_string(low.depth_m * 1e9) +
+                                 " nm, so the structure's damping is lost in round-off; give its modes more damping");
+    }
+    low = count_at(0.5 * low.depth_m);
+  }
   const auto reach = [&] {
     if (row.crossings.empty()) return options.depth_limit_m;
     return std::min(options.depth_limit_m, options.follow * row.crossings.front().depth_m);
