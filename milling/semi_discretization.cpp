@@ -6,6 +6,8 @@
 #include <complex>
 #include <numbers>
 
+#include "core/error.hpp"
+
 namespace thinwall::milling {
 
 namespace {
@@ -20,6 +22,10 @@ int share_of(const CutSegment& segment, double cut_rad, StepCount steps) {
 ToothPeriodMap::ToothPeriodMap(const ContactState& state, const MillingProcess& process, double spindle_speed_rpm,
                                StepCount steps, double rate_rad_s)
     : state_(state), period_s_(tooth_period_s(process.cutter, spindle_speed_rpm)) {
+  if (!process.cutter.equal_teeth() || process.cutter.has_helix()) {
+    throw core::InputError(
+        "semi-discretization: equal teeth without helix only; take the collocation for unequal pitches or a helix");
+  }
   const double seconds_per_rad = period_s_ / process.cutter.pitch_rad();
   const std::vector<CutSegment> cut = cut_segments(process.engagement, process.cutter);
   const double cut_rad = cut.back().to_rad;

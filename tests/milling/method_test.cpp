@@ -155,6 +155,16 @@ TEST(ToothPeriodMap, WithoutDepthTheMultiplierIsTheSlowestFreeDecay) {
   EXPECT_NEAR(std::abs(eigen.value), std::exp(-slowest * tooth_period_s(process.cutter, 1900.0)), 1e-10);
 }
 
+TEST(ToothPeriodMap, RefusesTeethThatItWouldTakeForEqualOnes) {
+  const ContactState state = contact_state(relative_structure(modal_model(three_modes), "P"), {});
+  MillingProcess process = wall_cut();
+  process.cutter.helices_rad.assign(6, 0.5);
+  EXPECT_THROW(ToothPeriodMap(state, process, 1900.0, {10, 1}, 2e4), core::InputError);
+  process.cutter.helices_rad.clear();
+  process.cutter.pitches_rad = {1.0, 1.0, 1.0, 1.0, 1.0, 2.0 * std::numbers::pi - 5.0};
+  EXPECT_THROW(ToothPeriodMap(state, process, 1900.0, {10, 1}, 2e4), core::InputError);
+}
+
 TEST(ToothPeriodMap, ConvergesWithTheSecondOrderOfTheMethod) {
   const ContactState state = contact_state(relative_structure(modal_model(three_modes), "P"), {});
   MillingProcess process = wall_cut();
