@@ -197,17 +197,40 @@ Eigen::MatrixXcd loop_gain(const RegenerativeLoop& loop, complex<double> mu) {
   const complex<double> past = 1.0 / mu;
   const Eigen::VectorXcd gain = loop.share.array() / (mu - loop.flow.array());
   const Eigen::VectorXcd conjugate_gain = loop.share.array() / (mu - loop.flow.conjugate().array());
-  const bool one_delay = loop.K_previous.size() == 0;
-  const Eigen::MatrixXcd E = one_delay ? loop.E : Eigen::MatrixXcd(loop.E - past * loop.E_previous);
-  const Eigen::MatrixXcd E_conjugate = one_delay
-                                           ? Eigen::MatrixXcd(loop.E.conjugate())
-                                           : Eigen::MatrixXcd(loop.E.conjugate() - past * loop.E_previous.conjugate());
-  Eigen::MatrixXcd Z = one_delay ? Eigen::MatrixXcd(loop.K.cast<complex<double>>())
-                                 : Eigen::MatrixXcd(loop.K.cast<complex<double>>() - past * loop.K_previous);
-  Z.noalias() += E * (gain.asDiagonal() * loop.L);
-  Z.noalias() += E_conjugate * (conjugate_gain.asDiagonal() * loop.L.conjugate());
-  if (one_delay) Z *= 1.0 - past;
+  Eigen::MatrixXcd Z;
+  if (loop.K_previous.size() == 0) {
+    Z = loop.K.cast<complex<double>>();
+    Z.noalias() += loop.E * (gain.asDiagonal() * loop.L);
+    Z.noalias() += loop.E.conjugate() * (conjugate_gain.asDiagonal() * loop.L.conjugate());
+    Z *= 1.0 - past;
+  } else {
+    Z = loop.K.cast<complex<double>>() - past * loop.K_previous;
+    Z.noalias() += (loop.E - past * loop.E_previous) * (gain.asDiagonal() * loop.L);
+    Z.noalias() +=
+        (loop.E.conjugate() - past * loop.E_previous.conjugate()) * (conjugate_gain.asDiagonal() * loop.L.conjugate());
+  }
   return Z;
+}
+
+Eigen::MatrixXcd loop_gain_slope(const RegenerativeLoop& loop, complex<double> mu) {
+  // dZ/dμ = K⁻/μ² + Σ (E − E⁻/μ) g' L + Σ E⁻ (g/μ²) L + the same of the conjugates, g = share/(μ − Φ)
+  const complex<double> past = 1.0 / mu;
+  const Eigen::MatrixXcd& E_before = before(loop.E, loop.E_previous);
+  Eigen::MatrixXcd slope = past * past * before(loop.K, loop.K_previous).cast<complex<double>>();
+  const auto add = [&](const auto& flow, const auto& E, const auto& E_past, const auto& L) {
+    const Eigen::ArrayXcd resonance = 1.0 / (mu - flow.array());
+    const Eigen::ArrayXcd g = loop.share.array() * resonance;
+    const Eigen::ArrayXcd g_slope = -g * resonance;
+    if (loop.E_previous.size() == 0) {
+      slope.noalias() += E * (((1.0 - past) * g_slope + past * past * g).matrix().asDiagonal() * L);
+    } else {
+      slope.noalias() += E * (g_slope.matrix().asDiagonal() * L);
+      slope.noalias() += E_past * ((past * past * g - past * g_slope).matrix().asDiagonal() * L);
+    }
+  };
+  add(loop.flow, loop.E, E_before, loop.L);
+  add(loop.flow.conjugate(), loop.E.conjugate(), E_before.conjugate(), loop.L.conjugate());
+  return complex<double>(0.0, 1.0) * mu * slope;
 }
 
 }  // namespace thinwall::milling

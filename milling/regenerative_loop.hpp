@@ -46,4 +46,7 @@ struct RegenerativeLoop {
 /// Cost O(contacts² poles).
 [[nodiscard]] Eigen::MatrixXcd loop_gain(const RegenerativeLoop& loop, std::complex<double> mu);
 
+/// Along the circle μ = e^{iθ}: dZ/dθ = iμ dZ/dμ. Cost as above.
+[[nodiscard]] Eigen::MatrixXcd loop_gain_slope(const RegenerativeLoop& loop, std::complex<double> mu);
+
 }  // namespace thinwall::milling

@@ -125,7 +125,11 @@ GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGri
     const complex<double> past = theta == pi ? complex<double>(-1.0) : std::polar(1.0, -theta);
     return Eigen::MatrixXcd((1.0 - past) / period * Z);
   };
-  return {gain, stops_at_peaks(receptance, period)};
+  const auto slope = [gain](double theta) {
+    constexpr double h = 1e-5;  // rad; the slope steers Newton's rule and need not be exact
+    return Eigen::MatrixXcd((gain(theta + h) - gain(theta - h)) / (2.0 * h));
+  };
+  return {contacts, gain, slope, stops_at_peaks(receptance, period)};
 }
 
 }  // namespace thinwall::milling

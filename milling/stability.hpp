@@ -2,78 +2,11 @@
 // Is the cut stable at a speed and depth, and where does it lose and regain stability at a speed? Answers with their
 // error.
 
-#include <Eigen/Core>
-#include <complex>
-#include <string>
-#include <vector>
-
+#include "milling/lobe_row.hpp"
 #include "milling/process.hpp"
 #include "milling/relative_structure.hpp"
 
 namespace thinwall::milling {
-
-/// How stability is lost.
-enum class Bifurcation {
-  hopf,  ///< complex multiplier: quasi-periodic chatter
-  flip,  ///< μ = −1: period doubling
-  fold,  ///< μ = +1
-};
-
-enum class StabilityStatus {
-  converged,              ///< the error estimate meets the tolerance
-  node_limit_reached,     ///< it does not, at the largest number of nodes; the estimate says by how much
-  stable_to_depth_limit,  ///< no crossing up to the depth limit
-  crossing_missed,        ///< the count of unstable multipliers at the end of the search is not that of the crossings
-};
-
-[[nodiscard]] std::string name(Bifurcation kind);
-[[nodiscard]] std::string name(StabilityStatus status);
-
-struct StabilityOptions {
-  double depth_limit_m = 0.02;    ///< > 0: the deepest cut of interest, for instance the tool's cutting length
-  double error_tolerance = 1e-4;  ///< relative, in (0, 1): of the depth, or of |μ| at a point
-  double follow = 20.0;           ///< ≥ 1: crossings are followed up to this many times the first one
-  int most_nodes = 240;           ///< ≥ 8: nodes in the cut at which refinement gives up
-};
-
-/// Every violation, empty if there is none.
-[[nodiscard]] std::vector<std::string> validate(const StabilityOptions& options);
-
-/// The dominant Floquet multiplier at one speed and depth.
-struct Multiplier {
-  std::complex<double> value;         ///< Im ≥ 0
-  double modulus = 0.0;               ///< stable below 1
-  double error_estimate = 0.0;        ///< of `modulus`, relative
-  double chatter_frequency_hz = 0.0;  ///< of the motion that belongs to μ, decaying or growing
-  Bifurcation kind = Bifurcation::hopf;
-  int nodes = 0;  ///< in the cut
-  StabilityStatus status = StabilityStatus::converged;
-};
-
-/// A depth at which multipliers cross the unit circle.
-struct LobePoint {
-  double depth_m = 0.0;
-  double chatter_frequency_hz = 0.0;
-  Bifurcation kind = Bifurcation::hopf;
-  int unstable_change = 0;      ///< multipliers that leave the circle there as the depth rises; negative: that return
-  double error_estimate = 0.0;  ///< relative, of the depth
-};
-
-/// All that is known of one speed.
-struct LobeRow {
-  double spindle_speed_rpm = 0.0;
-  double limiting_depth_m = 0.0;      ///< the depth limit itself if `at_limit`
-  bool at_limit = false;              ///< stable up to the depth limit
-  double chatter_frequency_hz = 0.0;  ///< at the crossing, or of the least damped motion at the limit
-  Bifurcation kind = Bifurcation::hopf;
-  double error_estimate = 0.0;       ///< relative, of the depth; at the limit of |μ|
-  double searched_m = 0.0;           ///< the depth up to which crossings were looked for
-  std::vector<LobePoint> crossings;  ///< all up to there, ascending: islands and gaps too. Those that bound a
-                                     ///< stable range meet the tolerance; deep in an unstable range, beyond one whose
-                                     ///< estimate exceeds 1e-3, others may be missing
-  int nodes = 0;                     ///< in the cut
-  StabilityStatus status = StabilityStatus::converged;
-};
 
 /// |μ| at a point, by contact-phase collocation (regenerative_loop.hpp) on finer and finer grids: the result is that of
 /// the last, the estimate its distance from the one before, which is the error of that one. Throws InputError for a bad
@@ -81,11 +14,13 @@ struct LobeRow {
 [[nodiscard]] Multiplier multiplier_at(const RelativeStructure& structure, const MillingProcess& process,
                                        double spindle_speed_rpm, double depth_m, const StabilityOptions& options);
 
-/// All crossings up to `follow` times the first, or the depth limit, by critical_depths() on a coarse grid, each
+/// All crossings up to `follow` times the first, or the depth limit, by CriticalDepths on a coarse grid, each
 /// brought to finer ones with an estimate as above; those that bound a stable range until the estimate meets the
 /// tolerance. Two counts of multipliers outside of the circle check the search: at the end of the search as many as the
 /// crossings say, just below the first crossing, on the finest grid, none. If one fails the search is repeated on a
-/// finer grid. Throws InputError as above. Cost: some thirty eigenvalue problems of the size of the nodes.
+/// finer grid. With `follow` = 1 only the first crossing is looked for. With a helix see helical_row(). Throws
+/// InputError as above, NumericalError if an eigen-solution fails. Cost: some sixty eigenvalue problems of the size of
+/// the nodes.
 [[nodiscard]] LobeRow limiting_depth(const RelativeStructure& structure, const MillingProcess& process,
                                      double spindle_speed_rpm, const StabilityOptions& options);
 

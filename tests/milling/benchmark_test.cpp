@@ -133,8 +133,8 @@ TEST(Benchmark, DepthsFromSamplesOfTheReceptanceAlone) {
     SCOPED_TRACE(row.where());
     const ContactGrid grid = contact_grid(benchmark_process(row.immersion), Eigen::Vector3d::UnitX(),
                                           row.immersion == 1.0 ? Resolution{4, 10} : Resolution{1, 10});
-    const GainOnCircle gain = harmonic_gain(sampled, grid, row.rpm);
-    const std::vector<Crossing> crossings = critical_depths(gain, 1.2 * row.depth_m);
+    CriticalDepths search(harmonic_gain(sampled, grid, row.rpm));
+    const std::vector<Crossing> crossings = search.up_to(1.2 * row.depth_m);
     ASSERT_FALSE(crossings.empty());
     EXPECT_NEAR(crossings.front().depth_m / row.depth_m, 1.0, 1e-4);
     EXPECT_EQ(std::abs(crossings.front().unstable_change), row.kind == "Hopf" ? 2 : 1);

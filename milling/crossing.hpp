@@ -1,0 +1,46 @@
+#pragma once
+// One crossing of the unit circle, brought to its depth and angle by Newton's rule.
+
+#include <Eigen/Core>
+#include <complex>
+#include <functional>
+#include <vector>
+
+namespace thinwall::milling {
+
+/// The loop's gain Z(e^{iθ}) at one speed, 0 ≤ θ ≤ π, however it was come by: from modes (loop_gain) or from a
+/// receptance.
+struct GainOnCircle {
+  Eigen::Index size = 0;                                    ///< contacts
+  std::function<Eigen::MatrixXcd(double theta_rad)> Z;      ///< contacts × contacts, real at 0 and π
+  std::function<Eigen::MatrixXcd(double theta_rad)> slope;  ///< dZ/dθ
+  std::vector<double> stops;  ///< angles in ascending order, 0 to π, between which Z changes moderately
+};
+
+/// A multiplier e^{iθ} that leaves or enters the unit circle as the depth rises.
+struct Crossing {
+  double depth_m = 0.0;
+  double theta_rad = 0.0;   ///< arg μ, 0 to π
+  int unstable_change = 0;  ///< multipliers that leave the circle: +2, −2 (Hopf), +1, −1 (flip, fold)
+  Eigen::VectorXcd mode;    ///< c, the contacts' modulation of the motion, up to a factor
+};
+
+/// Brings a crossing to the axis: on the boundary det(I + w Z(e^{iθ})) = 0, so that 1/w is a real positive eigenvalue
+/// ν(θ) of −Z. With its vectors l and r on both sides, from inverse iterations,
+///
+///     ν = −lᵀ Z r / lᵀ r,      dν/dθ = −lᵀ (dZ/dθ) r / lᵀ r
+///
+/// and Newton's rule leads to Im ν = 0, cubically with the vectors. A multiplier leaves the circle as the depth rises
+/// where Im dν/dθ < 0, for with μ = e^{iθ}, ν(μ) = 1/w,
+///
+///     d|μ|/dw = −(1/w²) Im(dν/dθ) / |dν/dθ|²
+///
+/// `nu` is the guess of the eigenvalue at crossing.theta_rad. At θ = π (and 0) the angle stays: ν is real there. False
+/// if it does not settle at a positive depth. Cost: some four factorisations of the size of Z.
+[[nodiscard]] bool to_axis(const GainOnCircle& gain, std::complex<double> nu, Crossing& crossing);
+
+/// The same crossing on another gain (finer nodes), or the one that a guess with any unstable_change leads to. False if
+/// it does not settle within a tenth of the depth.
+[[nodiscard]] bool refine(const GainOnCircle& gain, Crossing& crossing);
+
+}  // namespace thinwall::milling

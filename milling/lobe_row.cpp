@@ -1,0 +1,52 @@
+#include "milling/lobe_row.hpp"
+
+#include <cmath>
+#include <sstream>
+
+namespace thinwall::milling {
+
+std::string name(Bifurcation kind) {
+  switch (kind) {
+    case Bifurcation::hopf:
+      return "hopf";
+    case Bifurcation::flip:
+      return "flip";
+    case Bifurcation::fold:
+      break;
+  }
+  return "fold";
+}
+
+std::string name(StabilityStatus status) {
+  switch (status) {
+    case StabilityStatus::converged:
+      return "converged";
+    case StabilityStatus::node_limit_reached:
+      return "node_limit_reached";
+    case StabilityStatus::stable_to_depth_limit:
+      return "stable_to_depth_limit";
+    case StabilityStatus::crossing_missed:
+      break;
+  }
+  return "crossing_missed";
+}
+
+std::vector<std::string> validate(const StabilityOptions& options) {
+  std::vector<std::string> violations;
+  const auto require = [&](bool holds, const char* what, double value, const char* bound) {
+    if (holds) return;
+    std::ostringstream text;
+    text << "stability: " << what << " is " << value << ", must be " << bound;
+    violations.push_back(text.str());
+  };
+  require(options.depth_limit_m > 0.0 && std::isfinite(options.depth_limit_m), "depth limit", options.depth_limit_m,
+          "a positive depth in m; give the tool's cutting length");
+  require(options.error_tolerance > 0.0 && options.error_tolerance < 1.0, "error tolerance", options.error_tolerance,
+          "between 0 and 1; 0.0001 is usual");
+  require(options.follow >= 1.0, "depth to follow crossings to, over the first one's,", options.follow,
+          "at least 1; 20 is usual");
+  require(options.most_nodes >= 8, "largest number of nodes", options.most_nodes, "at least 8; 240 is usual");
+  return violations;
+}
+
+}  // namespace thinwall::milling

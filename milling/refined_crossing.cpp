@@ -1,0 +1,40 @@
+#include "milling/refined_crossing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace thinwall::milling {
+
+namespace {
+
+Bifurcation kind_of(double theta) {
+  if (theta == std::numbers::pi) return Bifurcation::flip;
+  return theta == 0.0 ? Bifurcation::fold : Bifurcation::hopf;
+}
+
+}  // namespace
+
+double estimate_from(double change, double change_before) {
+  return 1e-11 + std::max(change, 0.1 * change_before);
+}
+
+void refine_until(std::size_t levels, double tolerance, const ToLevel& to_level, RefinedCrossing& c) {
+  while (c.kept && (c.level < levels || c.error_estimate > tolerance)) {
+    const double before = c.crossing.depth_m;
+    const OnFinerGrid outcome = to_level(c.level + 1, c.crossing);
+    if (outcome == OnFinerGrid::none_finer) return;
+    ++c.level;
+    c.kept = outcome == OnFinerGrid::kept;
+    const double change_before = std::exchange(c.change, std::abs(before / c.crossing.depth_m - 1.0));
+    c.error_estimate = c.kept ? estimate_from(c.change, c.level > 1 ? change_before : 0.0) : 1.0;
+  }
+}
+
+LobePoint lobe_point(const CutAtSpeed& cut, const DiscreteCut& d, const RefinedCrossing& c) {
+  return {c.crossing.depth_m, chatter_frequency_hz(cut, d, c.crossing.theta_rad, c.crossing.mode),
+          kind_of(c.crossing.theta_rad), c.crossing.unstable_change, c.error_estimate};
+}
+
+}  // namespace thinwall::milling
