@@ -26,18 +26,22 @@ void require_found(Eigen::ComputationInfo info) {
 }
 
 /// Eigenvalues of −Z.
-Eigen::VectorXcd eigenvalues_at(const GainOnCircle& gain, double theta) {
-  const Eigen::MatrixXcd Z = gain.Z(theta);
-  if (!Z.allFinite()) require_found(Eigen::NumericalIssue);
+Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXcd& Z, double theta) {
   if (theta == 0.0 || theta == pi) {
     const Eigen::EigenSolver<Eigen::MatrixXd> eigen(Z.real(), false);
     require_found(eigen.info());
     return -eigen.eigenvalues();
   }
-  thread_local Eigen::ComplexEigenSolver<Eigen::MatrixXcd> eigen;  // keeps its memory
-  eigen.compute(Z, false);
-  require_found(eigen.info());
-  return -eigen.eigenvalues();
+  thread_local Eigen::ComplexSchur<Eigen::MatrixXcd> schur(Z.rows());  // keeps its memory
+  schur.compute(Z, false);
+  require_found(schur.info());
+  return -schur.matrixT().diagonal();
+}
+
+/// No eigenvalue exceeds ‖Z⁴‖^¼ (Frobenius), and it is rarely more than a fifth above the largest.
+double radius_bound(const Eigen::MatrixXcd& Z) {
+  const Eigen::MatrixXcd square = Z * Z;
+  return std::sqrt(std::sqrt((square * square).norm()));
 }
 
 /// Pairs of eigenvalues that follow each other from one stop to the next, nearest first; those without partner came
@@ -89,10 +93,11 @@ bool unclear(const Step& s, double smallest) {
   const double jump = std::abs(s.to - s.from);
   const double size = std::max(std::abs(s.from), std::abs(s.to));
   if (std::max(s.from.real(), s.to.real()) <= 0.0) return false;
-  if (size < 3.0 * smallest) return false;
-  if (jump > 0.5 * s.next_nearest && jump > 0.1 * size) return true;
+  if (size < 1.5 * smallest) return false;
   const bool crosses = s.from.imag() * s.to.imag() < 0.0;
   const double off_axis = std::min(std::abs(s.from.imag()), std::abs(s.to.imag()));
+  if (!crosses && jump <= off_axis) return false;  // any other partner as near lies on the same side of the axis
+  if (jump > 0.5 * s.next_nearest && jump > 0.1 * size) return true;
   if (crosses) return jump > 0.8 * size;
   return jump > 1.5 * off_axis && jump > 0.02 * size;
 }
@@ -128,28 +133,38 @@ void add_at_end(const GainOnCircle& gain, double theta, const std::vector<comple
 }  // namespace
 
 CriticalDepths::CriticalDepths(GainOnCircle gain) : gain_(std::move(gain)) {
-  for (const double theta : gain_.stops) {
-    const auto& at = eigenvalues_.emplace(theta, eigenvalues_at(gain_, theta)).first->second;
-    largest_ = std::max(largest_, at.cwiseAbs().maxCoeff());
+  for (const double theta : gain_.stops) largest_ = std::max(largest_, at(theta).bound);
+}
+
+CriticalDepths::Stop& CriticalDepths::at(double theta_rad) {
+  const auto [place, is_new] = stops_.try_emplace(theta_rad);
+  Stop& stop = place->second;
+  if (is_new) {
+    stop.Z = gain_.Z(theta_rad);
+    if (!stop.Z.allFinite()) require_found(Eigen::NumericalIssue);
+    stop.bound = radius_bound(stop.Z);
   }
+  return stop;
 }
 
 CriticalDepths::Values CriticalDepths::reached_at(double theta_rad, double depth_limit_m) {
-  auto at = eigenvalues_.find(theta_rad);
-  if (at == eigenvalues_.end()) at = eigenvalues_.emplace(theta_rad, eigenvalues_at(gain_, theta_rad)).first;
+  const double smallest = 0.5 / depth_limit_m;
+  Stop& stop = at(theta_rad);
   Values reached;
-  for (const complex<double> nu : at->second) {
-    if (std::abs(nu) > 0.25 / depth_limit_m) reached.push_back(nu);
+  if (stop.bound <= smallest) return reached;
+  if (stop.nu.size() == 0) stop.nu = eigenvalues_of(stop.Z, theta_rad);
+  for (const complex<double> nu : stop.nu) {
+    if (std::abs(nu) > smallest) reached.push_back(nu);
   }
   return reached;
 }
 
 void CriticalDepths::between(double from_rad, const Values& from, double to_rad, const Values& to, int halvings,
                              double depth_limit_m) {
-  const double smallest = 0.25 / depth_limit_m;
+  const double smallest = 0.5 / depth_limit_m;
   const auto [steps, largest_alone] = matched(from, to);
   const bool clear =
-      halvings == 0 || (largest_alone < 3.0 * smallest &&
+      halvings == 0 || (largest_alone < 1.5 * smallest &&
                         std::none_of(steps.begin(), steps.end(), [&](const Step& s) { return unclear(s, smallest); }));
   if (clear) {
     auto crossings = crossings_of(gain_, from_rad, to_rad, steps, depth_limit_m);

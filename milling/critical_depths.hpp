@@ -13,30 +13,38 @@ namespace thinwall::milling {
 /// On the boundary det(I + w Z(e^{iθ})) = 0: the depths are the reciprocals of real positive eigenvalues ν of
 /// −Z(e^{iθ}) as θ runs over the half circle. The eigenvalues are followed between stops; where the nearest match is
 /// not clear or the path comes near the real axis the stop is halved. A path that crosses the axis is brought to it by
-/// to_axis(). At θ = π (and 0) real eigenvalues count as they are. Eigenvalues once found are kept, so that a search to
-/// a greater depth costs little more.
+/// to_axis(). At θ = π (and 0) real eigenvalues count as they are. Eigenvalues are found only where a bound of them
+/// says that the depth can reach one, and kept, so that a search to a greater depth costs little more.
 class CriticalDepths {
  public:
-  /// What `gain` refers to must outlive the search. Throws NumericalError if an eigen-solution fails. Cost: an
-  /// eigenvalue problem of the size of Z at every stop.
+  /// What `gain` refers to must outlive the search. Throws NumericalError if an eigen-solution fails. Cost: Z at
+  /// every stop and two products.
   explicit CriticalDepths(GainOnCircle gain);
 
-  /// Below this depth, m, there is no crossing: 1/max |ν| over the stops, less a quarter for what lies between.
+  /// Below this depth, m, there is no crossing: 1/max |ν| over the stops, less a quarter for what lies between them.
   [[nodiscard]] double none_below_m() const { return 0.75 / largest_; }
 
-  /// Depths from 0 to depth_limit_m (> 0), ascending. Throws NumericalError as above.
+  /// Depths from 0 to depth_limit_m (> 0), ascending. Throws NumericalError as above. Cost: an eigenvalue problem of
+  /// the size of Z at every stop that matters.
   [[nodiscard]] std::vector<Crossing> up_to(double depth_limit_m);
 
  private:
   using Values = std::vector<std::complex<double>>;
 
-  /// Eigenvalues of −Z that a depth within four times the limit can reach.
+  struct Stop {
+    Eigen::MatrixXcd Z;
+    double bound = 0.0;   ///< of the eigenvalues' moduli
+    Eigen::VectorXcd nu;  ///< of −Z; empty as long as no depth asked for them
+  };
+
+  Stop& at(double theta_rad);
+  /// Eigenvalues of −Z that a depth within twice the limit can reach.
   Values reached_at(double theta_rad, double depth_limit_m);
   void between(double from_rad, const Values& from, double to_rad, const Values& to, int halvings,
                double depth_limit_m);
 
   GainOnCircle gain_;
-  std::map<double, Eigen::VectorXcd> eigenvalues_;  ///< of −Z, by angle
+  std::map<double, Stop> stops_;  ///< by angle
   double largest_ = 0.0;
   std::vector<Crossing> found_;
 };

@@ -1,5 +1,6 @@
 #include "milling/product_rule.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -37,34 +38,68 @@ Eigen::VectorXd lagrange_polynomials(const Eigen::VectorXd& node, double at) {
   return value;
 }
 
-ProductRule::ProductRule(int nodes, double largest_exponent) : node_(gauss_legendre(nodes).node) {
-  // Degree of the polynomial, and points for the exponential: its Legendre series ends at about |z|/2.
-  const GaussRule rule = gauss_legendre((nodes + 1) / 2 + 8 + static_cast<int>(std::ceil(0.6 * largest_exponent)));
-  distance_ = 1.0 - rule.node.array();
-  for (int i = 0; i <= nodes; ++i) {
-    const double c = i < nodes ? node_(i) : 1.0;
-    Eigen::MatrixXd table(rule.node.size(), nodes);
-    for (Eigen::Index q = 0; q < rule.node.size(); ++q)
-      table.row(q) = c * rule.weight(q) * lagrange_polynomials(node_, c * rule.node(q)).transpose();
-    table_.push_back(std::move(table));
-  }
+namespace {
+
+/// Gauss points that integrate a polynomial of the degree of `nodes` times e^{z s}, |z| up to `largest_exponent`, whose
+/// Legendre series ends at about |z|/2.
+GaussRule points_for(int nodes, double largest_exponent) {
+  return gauss_legendre((nodes + 1) / 2 + 8 + static_cast<int>(std::ceil(0.6 * largest_exponent)));
 }
 
-Eigen::RowVectorXcd ProductRule::row(Eigen::Index i, std::complex<double> z) const {
-  const double c = i < node_.size() ? node_(i) : 1.0;
-  const Eigen::ArrayXd size = (z.real() * c * distance_.array()).exp();
-  const Eigen::ArrayXd phase = z.imag() * c * distance_.array();
-  const Eigen::MatrixXd& table = table_[static_cast<std::size_t>(i)];
-  Eigen::RowVectorXcd result(node_.size());
-  result.real() = (size * phase.cos()).matrix().transpose() * table;
-  result.imag() = (size * phase.sin()).matrix().transpose() * table;
+/// length weight_q ℓ_j(from + length x_q), points × nodes.
+Eigen::MatrixXd weighted_polynomials(const Eigen::VectorXd& node, const GaussRule& points, double from, double length) {
+  Eigen::MatrixXd table(points.node.size(), node.size());
+  for (Eigen::Index q = 0; q < points.node.size(); ++q)
+    table.row(q) = length * points.weight(q) * lagrange_polynomials(node, from + length * points.node(q)).transpose();
+  return table;
+}
+
+/// e^{z d} for all distances d.
+Eigen::RowVectorXcd exponentials(std::complex<double> z, const Eigen::ArrayXd& distance) {
+  const Eigen::ArrayXd size = (z.real() * distance).exp();
+  const Eigen::ArrayXd phase = z.imag() * distance;
+  Eigen::RowVectorXcd result(distance.size());
+  result.real() = (size * phase.cos()).matrix().transpose();
+  result.imag() = (size * phase.sin()).matrix().transpose();
   return result;
+}
+
+Eigen::RowVectorXcd product(const Eigen::RowVectorXcd& a, const Eigen::MatrixXd& b) {
+  Eigen::RowVectorXcd result(b.cols());
+  result.real() = a.real() * b;
+  result.imag() = a.imag() * b;
+  return result;
+}
+
+}  // namespace
+
+ProductRule::ProductRule(int nodes, double largest_exponent) : node_(gauss_legendre(nodes).node) {
+  const GaussRule whole = points_for(nodes, largest_exponent);
+  distance_ = 1.0 - whole.node.array();
+  whole_ = weighted_polynomials(node_, whole, 0.0, 1.0);
+  Eigen::VectorXd ends(nodes + 2);
+  ends << 0.0, node_, 1.0;
+  gap_ = ends.tail(nodes + 1) - ends.head(nodes + 1);
+  const GaussRule points = points_for(nodes, gap_.maxCoeff() * largest_exponent);
+  gap_distance_ = 1.0 - points.node.array();
+  for (int i = 0; i <= nodes; ++i) gap_table_.push_back(weighted_polynomials(node_, points, ends(i), gap_(i)));
+}
+
+Eigen::RowVectorXcd ProductRule::end(std::complex<double> z) const {
+  return product(exponentials(z, distance_), whole_);
 }
 
 ModeMoments ProductRule::moments(std::complex<double> z) const {
   const Eigen::Index n = node_.size();
-  ModeMoments result{Eigen::MatrixXcd(n, n), end(z)};
-  for (Eigen::Index i = 0; i < n; ++i) result.inside.row(i) = row(i, z);
+  ModeMoments result{Eigen::MatrixXcd(n, n), Eigen::RowVectorXcd::Zero(n)};
+  std::vector<Eigen::RowVectorXcd> decay(static_cast<std::size_t>(n / 2 + 1));
+  for (Eigen::Index i = 0; i <= n; ++i) {
+    const Eigen::Index same = std::min(i, n - i);  // the gaps are symmetric
+    auto& in_gap = decay[static_cast<std::size_t>(same)];
+    if (i == same) in_gap = exponentials(z * gap_(i), gap_distance_);
+    result.end = (std::exp(z * gap_(i)) * result.end + product(in_gap, gap_table_[static_cast<std::size_t>(i)])).eval();
+    if (i < n) result.inside.row(i) = result.end;
+  }
   return result;
 }
 

@@ -30,7 +30,8 @@ struct ModeMoments {
 
 /// Product integration at n Gauss nodes c_i: the exponential of each mode is integrated against the polynomials as it
 /// is, so that stiff modes need no more nodes than their share of the force asks for. The integrals themselves are
-/// Gauss sums with as many points as |z| needs; their integrands are entire, so that they converge to round-off.
+/// Gauss sums with as many points as |z| needs; their integrands are entire, so that they converge to round-off. From
+/// node to node they are carried on: I(c_i) = e^{z (c_i − c_{i−1})} I(c_{i−1}) + ∫ between the two.
 class ProductRule {
  public:
   /// `nodes` ≥ 1; serves |z| ≤ `largest_exponent`.
@@ -42,14 +43,15 @@ class ProductRule {
   [[nodiscard]] ModeMoments moments(std::complex<double> z) const;
 
   /// Its `end` alone. Cost O(nodes points).
-  [[nodiscard]] Eigen::RowVectorXcd end(std::complex<double> z) const { return row(node_.size(), z); }
+  [[nodiscard]] Eigen::RowVectorXcd end(std::complex<double> z) const;
 
  private:
-  [[nodiscard]] Eigen::RowVectorXcd row(Eigen::Index i, std::complex<double> z) const;
-
   Eigen::VectorXd node_;
-  Eigen::VectorXd distance_;            ///< 1 − x of the points, decreasing
-  std::vector<Eigen::MatrixXd> table_;  ///< for each c_i, last for 1: c_i weight_q ℓ_j(c_i x_q), points × nodes
+  Eigen::ArrayXd distance_;                 ///< 1 − x of the points of the whole, decreasing
+  Eigen::MatrixXd whole_;                   ///< weight_q ℓ_j(x_q), points × nodes
+  Eigen::VectorXd gap_;                     ///< from 0 to the first node, between nodes, from the last to 1
+  Eigen::ArrayXd gap_distance_;             ///< 1 − x of the points of a gap
+  std::vector<Eigen::MatrixXd> gap_table_;  ///< as whole_, for each gap
 };
 
 }  // namespace thinwall::milling

@@ -102,7 +102,7 @@ FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& o
   FirstCrossing first{CriticalDepths(gain), {}, 0.0};
   first.searched_m = 0.5 * first.search.none_below_m();
   do {
-    first.searched_m = std::min(options.depth_limit_m, 4.0 * first.searched_m);
+    first.searched_m = std::min(options.depth_limit_m, 1.5 * first.searched_m);
     first.found = first.search.up_to(first.searched_m);
   } while (first.found.empty() && first.searched_m < options.depth_limit_m);
   return first;
