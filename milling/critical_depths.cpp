@@ -44,11 +44,16 @@ double radius_bound(const Eigen::MatrixXcd& Z) {
   return std::sqrt(std::sqrt((square * square).norm()));
 }
 
-/// Pairs of eigenvalues that follow each other from one stop to the next, nearest first; those without partner came
-/// from, or went to, values too small to matter.
+using Path = CriticalDepths::Path;
+
+/// Pairs of eigenvalues that follow each other from one stop to the next, nearest to where the path leads first; those
+/// without partner came from, or went to, values too small to matter.
 struct Step {
   complex<double> from, to;
-  double next_nearest = 0.0;  ///< distance of `from` to the second choice
+  complex<double> change;     ///< of the path's slope, rad⁻¹
+  double miss = 0.0;          ///< distance of `to` from where the path stood or led to
+  double next_nearest = 0.0;  ///< the same of the second choice
+  bool slope_known = false;
 };
 
 struct Matching {
@@ -56,14 +61,18 @@ struct Matching {
   double largest_alone = 0.0;  ///< |ν| of those without partner
 };
 
-Matching matched(const std::vector<complex<double>>& a, const std::vector<complex<double>>& b) {
+/// `b` receives the slopes of the paths that lead to it over `length_rad`.
+Matching matched(const std::vector<Path>& a, std::vector<Path>& b, double length_rad) {
   struct Candidate {
     double distance;
     std::size_t i, j;
   };
   std::vector<Candidate> candidates;
+  const auto distance = [&](const Path& x, const Path& y) {
+    return std::min(std::abs(x.nu - y.nu), std::abs(x.nu + x.slope * length_rad - y.nu));
+  };
   for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t j = 0; j < b.size(); ++j) candidates.push_back({std::abs(a[i] - b[j]), i, j});
+    for (std::size_t j = 0; j < b.size(); ++j) candidates.push_back({distance(a[i], b[j]), i, j});
   }
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& x, const Candidate& y) { return x.distance < y.distance; });
@@ -74,22 +83,27 @@ Matching matched(const std::vector<complex<double>>& a, const std::vector<comple
     used_a[c.i] = used_b[c.j] = 1;
     double second = INFINITY;
     for (std::size_t j = 0; j < b.size(); ++j) {
-      if (j != c.j) second = std::min(second, std::abs(a[c.i] - b[j]));
+      if (j != c.j) second = std::min(second, distance(a[c.i], b[j]));
     }
-    result.steps.push_back({a[c.i], b[c.j], second});
+    const Path& from = a[c.i];
+    Path& to = b[c.j];
+    to.slope = (to.nu - from.nu) / length_rad;
+    to.slope_known = true;
+    result.steps.push_back({from.nu, to.nu, to.slope - from.slope, c.distance, second, from.slope_known});
   }
   for (std::size_t i = 0; i < a.size(); ++i) {
-    if (used_a[i] == 0) result.largest_alone = std::max(result.largest_alone, std::abs(a[i]));
+    if (used_a[i] == 0) result.largest_alone = std::max(result.largest_alone, std::abs(a[i].nu));
   }
   for (std::size_t j = 0; j < b.size(); ++j) {
-    if (used_b[j] == 0) result.largest_alone = std::max(result.largest_alone, std::abs(b[j]));
+    if (used_b[j] == 0) result.largest_alone = std::max(result.largest_alone, std::abs(b[j].nu));
   }
   return result;
 }
 
 /// Whether a step between stops may hide something: a match that is not clear, or a path near the positive real axis
-/// that could cross it twice.
-bool unclear(const Step& s, double smallest) {
+/// that could cross it twice. A path bends away from its chord by about an eighth of the change of its slope over the
+/// step; four times as much is allowed for.
+bool unclear(const Step& s, double length_rad, double smallest) {
   const double jump = std::abs(s.to - s.from);
   const double size = std::max(std::abs(s.from), std::abs(s.to));
   if (std::max(s.from.real(), s.to.real()) <= 0.0) return false;
@@ -97,9 +111,10 @@ bool unclear(const Step& s, double smallest) {
   const bool crosses = s.from.imag() * s.to.imag() < 0.0;
   const double off_axis = std::min(std::abs(s.from.imag()), std::abs(s.to.imag()));
   if (!crosses && jump <= off_axis) return false;  // any other partner as near lies on the same side of the axis
-  if (jump > 0.5 * s.next_nearest && jump > 0.1 * size) return true;
+  if (s.miss > 0.5 * s.next_nearest && s.miss > 0.1 * size) return true;
   if (crosses) return jump > 0.8 * size;
-  return jump > 1.5 * off_axis && jump > 0.02 * size;
+  if (jump <= 1.5 * off_axis || jump <= 0.02 * size) return false;
+  return !s.slope_known || 0.5 * std::abs(s.change.imag()) * length_rad > off_axis;
 }
 
 /// The crossings of steps between two stops; nothing if one could not be brought to the axis between them.
@@ -121,9 +136,9 @@ std::optional<std::vector<Crossing>> crossings_of(const GainOnCircle& gain, doub
 }
 
 /// Real eigenvalues at the ends of the half circle, where a multiplier is −1 or 1.
-void add_at_end(const GainOnCircle& gain, double theta, const std::vector<complex<double>>& values,
-                double depth_limit_m, std::vector<Crossing>& found) {
-  for (const complex<double> nu : values) {
+void add_at_end(const GainOnCircle& gain, double theta, const std::vector<Path>& values, double depth_limit_m,
+                std::vector<Crossing>& found) {
+  for (const auto& [nu, slope, slope_known] : values) {
     if (nu.imag() != 0.0 || nu.real() * depth_limit_m < 1.0) continue;
     Crossing crossing{0.0, theta, 0, {}};
     if (to_axis(gain, nu, crossing)) found.push_back(std::move(crossing));
@@ -147,25 +162,27 @@ CriticalDepths::Stop& CriticalDepths::at(double theta_rad) {
   return stop;
 }
 
-CriticalDepths::Values CriticalDepths::reached_at(double theta_rad, double depth_limit_m) {
+std::vector<Path> CriticalDepths::reached_at(double theta_rad, double depth_limit_m) {
   const double smallest = 0.5 / depth_limit_m;
   Stop& stop = at(theta_rad);
-  Values reached;
+  std::vector<Path> reached;
   if (stop.bound <= smallest) return reached;
   if (stop.nu.size() == 0) stop.nu = eigenvalues_of(stop.Z, theta_rad);
   for (const complex<double> nu : stop.nu) {
-    if (std::abs(nu) > smallest) reached.push_back(nu);
+    if (std::abs(nu) > smallest) reached.push_back({nu});
   }
   return reached;
 }
 
-void CriticalDepths::between(double from_rad, const Values& from, double to_rad, const Values& to, int halvings,
-                             double depth_limit_m) {
+void CriticalDepths::between(double from_rad, const std::vector<Path>& from, double to_rad, std::vector<Path>& to,
+                             int halvings, double depth_limit_m) {
   const double smallest = 0.5 / depth_limit_m;
-  const auto [steps, largest_alone] = matched(from, to);
+  const double length = to_rad - from_rad;
+  const auto [steps, largest_alone] = matched(from, to, length);
   const bool clear =
-      halvings == 0 || (largest_alone < 1.5 * smallest &&
-                        std::none_of(steps.begin(), steps.end(), [&](const Step& s) { return unclear(s, smallest); }));
+      halvings == 0 || (largest_alone < 1.5 * smallest && std::none_of(steps.begin(), steps.end(), [&](const Step& s) {
+                          return unclear(s, length, smallest);
+                        }));
   if (clear) {
     auto crossings = crossings_of(gain_, from_rad, to_rad, steps, depth_limit_m);
     if (crossings || halvings == 0) {
@@ -174,7 +191,7 @@ void CriticalDepths::between(double from_rad, const Values& from, double to_rad,
     }
   }
   const double middle_rad = 0.5 * (from_rad + to_rad);
-  const Values middle = reached_at(middle_rad, depth_limit_m);
+  std::vector<Path> middle = reached_at(middle_rad, depth_limit_m);
   between(from_rad, from, middle_rad, middle, halvings - 1, depth_limit_m);
   between(middle_rad, middle, to_rad, to, halvings - 1, depth_limit_m);
 }
@@ -182,11 +199,11 @@ void CriticalDepths::between(double from_rad, const Values& from, double to_rad,
 std::vector<Crossing> CriticalDepths::up_to(double depth_limit_m) {
   found_.clear();
   double last_rad = gain_.stops.front();
-  Values last = reached_at(last_rad, depth_limit_m);
+  std::vector<Path> last = reached_at(last_rad, depth_limit_m);
   add_at_end(gain_, last_rad, last, depth_limit_m, found_);
   for (std::size_t i = 1; i < gain_.stops.size(); ++i) {
     const double next_rad = gain_.stops[i];
-    Values next = reached_at(next_rad, depth_limit_m);
+    std::vector<Path> next = reached_at(next_rad, depth_limit_m);
     between(last_rad, last, next_rad, next, 10, depth_limit_m);
     last_rad = next_rad;
     last = std::move(next);

@@ -12,14 +12,21 @@ namespace thinwall::milling {
 
 /// On the boundary det(I + w Z(e^{iθ})) = 0: the depths are the reciprocals of real positive eigenvalues ν of
 /// −Z(e^{iθ}) as θ runs over the half circle. The eigenvalues are followed between stops; where the nearest match is
-/// not clear or the path comes near the real axis the stop is halved. A path that crosses the axis is brought to it by
-/// to_axis(). At θ = π (and 0) real eigenvalues count as they are. Eigenvalues are found only where a bound of them
-/// says that the depth can reach one, and kept, so that a search to a greater depth costs little more.
+/// not clear or a path so near to the real axis that it could touch it the step is halved. A path that crosses the axis
+/// is brought to it by to_axis(). At θ = π (and 0) real eigenvalues count as they are. Eigenvalues are found only where
+/// a bound of them says that the depth can reach one, and kept, so that a search to a greater depth costs little more.
 class CriticalDepths {
  public:
   /// What `gain` refers to must outlive the search. Throws NumericalError if an eigen-solution fails. Cost: Z at
   /// every stop and two products.
   explicit CriticalDepths(GainOnCircle gain);
+
+  /// An eigenvalue ν(θ) of −Z, and how it came there.
+  struct Path {
+    std::complex<double> nu;
+    std::complex<double> slope = 0.0;  ///< over the last step, rad⁻¹
+    bool slope_known = false;
+  };
 
   /// Below this depth, m, there is no crossing: 1/max |ν| over the stops, less a quarter for what lies between them.
   [[nodiscard]] double none_below_m() const { return 0.75 / largest_; }
@@ -29,8 +36,6 @@ class CriticalDepths {
   [[nodiscard]] std::vector<Crossing> up_to(double depth_limit_m);
 
  private:
-  using Values = std::vector<std::complex<double>>;
-
   struct Stop {
     Eigen::MatrixXcd Z;
     double bound = 0.0;   ///< of the eigenvalues' moduli
@@ -39,8 +44,8 @@ class CriticalDepths {
 
   Stop& at(double theta_rad);
   /// Eigenvalues of −Z that a depth within twice the limit can reach.
-  Values reached_at(double theta_rad, double depth_limit_m);
-  void between(double from_rad, const Values& from, double to_rad, const Values& to, int halvings,
+  std::vector<Path> reached_at(double theta_rad, double depth_limit_m);
+  void between(double from_rad, const std::vector<Path>& from, double to_rad, std::vector<Path>& to, int halvings,
                double depth_limit_m);
 
   GainOnCircle gain_;
