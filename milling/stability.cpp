@@ -202,14 +202,14 @@ LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
   }
 }
 
+}  // namespace
+
 void require_usable(const MillingProcess& process, const StabilityOptions& options) {
   std::vector<std::string> violations = validate(process);
   const auto more = validate(options);
   violations.insert(violations.end(), more.begin(), more.end());
   require_valid(violations);
 }
-
-}  // namespace
 
 Multiplier multiplier_at(const RelativeStructure& structure, const MillingProcess& process, double spindle_speed_rpm,
                          double depth_m, const StabilityOptions& options) {

@@ -8,6 +8,9 @@
 
 namespace thinwall::milling {
 
+/// Throws InputError with every violation of process and options in one line, if there is any.
+void require_usable(const MillingProcess& process, const StabilityOptions& options);
+
 /// |μ| at a point, by contact-phase collocation (regenerative_loop.hpp) on finer and finer grids: the result is that of
 /// the last, the estimate its distance from the one before, which is the error of that one. Throws InputError for a bad
 /// process, option, speed or depth (≤ 0). Cost: two eigenvalue problems of the size of the map.
