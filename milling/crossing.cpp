@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/error.hpp"
+
 namespace thinwall::milling {
 
 namespace {
@@ -14,13 +16,6 @@ using Eigen::Index;
 using std::complex;
 
 constexpr double pi = std::numbers::pi;
-
-/// An eigenvalue ν of −Z(e^{iθ}), its vectors on both sides and its change along the circle.
-struct Eigenpair {
-  complex<double> nu;
-  complex<double> slope;  // dν/dθ
-  Eigen::VectorXcd right, left;
-};
 
 /// Vectors that no structure is likely to be orthogonal to.
 Eigenpair started_at(Index n, complex<double> nu) {
@@ -50,6 +45,18 @@ bool improve(const GainOnCircle& gain, double theta, int solves, Eigenpair& pair
 }
 
 }  // namespace
+
+Eigenpair eigenpair_near(const GainOnCircle& gain, double theta, complex<double> guess) {
+  Eigenpair pair = started_at(gain.size, guess);
+  for (int i = 0; i < 12; ++i) {
+    const complex<double> before = pair.nu;
+    if (!improve(gain, theta, i == 0 ? 3 : 1, pair)) break;
+    if (i > 0 && std::abs(pair.nu - before) <= 1e-12 * std::abs(pair.nu)) return pair;
+  }
+  throw core::NumericalError(
+      "stability: an eigenvalue of the loop's gain was not found from where it should be near; "
+      "check the structure at the cut");
+}
 
 bool to_axis(const GainOnCircle& gain, complex<double> nu, Crossing& crossing) {
   double& theta = crossing.theta_rad;

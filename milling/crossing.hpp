@@ -25,6 +25,17 @@ struct Crossing {
   Eigen::VectorXcd mode;    ///< c, the contacts' modulation of the motion, up to a factor
 };
 
+/// An eigenvalue ν of −Z(e^{iθ}), its vectors on both sides and its change along the circle.
+struct Eigenpair {
+  std::complex<double> nu;
+  std::complex<double> slope;  ///< dν/dθ = −lᵀ (dZ/dθ) r / lᵀ r
+  Eigen::VectorXcd right, left;
+};
+
+/// The eigenvalue nearest to a guess at a fixed angle, by inverse iterations on both sides. Throws NumericalError if
+/// they do not converge. Cost: some four factorisations of the size of Z.
+[[nodiscard]] Eigenpair eigenpair_near(const GainOnCircle& gain, double theta_rad, std::complex<double> guess);
+
 /// Brings a crossing to the axis: on the boundary det(I + w Z(e^{iθ})) = 0, so that 1/w is a real positive eigenvalue
 /// ν(θ) of −Z. With its vectors l and r on both sides, from inverse iterations,
 ///

@@ -1,0 +1,188 @@
+#include "milling/sensitivity.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <numbers>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "milling/cut_at_speed.hpp"
+#include "milling/stability.hpp"
+
+namespace thinwall::milling {
+
+namespace {
+
+using Eigen::Index;
+using std::complex;
+
+constexpr double pi = std::numbers::pi;
+
+complex<double> on_circle(double theta) {
+  return theta == pi ? -1.0 : std::polar(1.0, theta);
+}
+
+/// Mode k alone, without residual.
+RelativeStructure alone(const RelativeStructure& s, Index k) {
+  return {s.poles.segment(k, 1), s.phi.col(k), s.b.col(k)};
+}
+
+/// The same mode with another pole at the same modal mass: its constant goes with 1/ω_d (1/λ of a real pole).
+RelativeStructure with_pole(RelativeStructure mode, complex<double> pole) {
+  const complex<double> before = mode.poles(0);
+  mode.b *= before.imag() != 0.0 ? before.imag() / pole.imag() : before.real() / pole.real();
+  mode.poles(0) = pole;
+  return mode;
+}
+
+complex<double> pole_of(double omega, double zeta) {
+  return omega * complex<double>(-zeta, std::sqrt(1.0 - zeta * zeta));
+}
+
+/// The grid of a cut, with the force that coefficients of one unit would bring to the same contacts.
+ContactGrid with_force_of(const CutAtSpeed& cut, const ContactGrid& grid, const CuttingCoefficients& unit,
+                          Resolution resolution, double depth_m) {
+  MillingProcess process = cut.process;
+  process.coefficients = unit;
+  const ContactGrid other = contact_grid(process, cut.yielding, resolution, depth_m);
+  const auto same_past = [](const Contact& a, const Contact& b) {
+    return a.node == b.node &&
+           std::equal(a.past.begin(), a.past.end(), b.past.begin(), b.past.end(), [](const Past& x, const Past& y) {
+             return x.node == y.node && x.previous_period == y.previous_period && x.weight == y.weight;
+           });
+  };
+  ContactGrid result = grid;
+  for (Contact& c : result.contacts) {
+    c.force.setZero();
+    for (const Contact& from : other.contacts) {
+      if (same_past(c, from)) c.force += from.force * from.chip.dot(c.chip);
+    }
+  }
+  return result;
+}
+
+/// Angle of the multiplier that a chatter frequency belongs to, 0 to π.
+double angle_of(const LobePoint& point, double period_s) {
+  if (point.kind == Bifurcation::flip) return pi;
+  if (point.kind == Bifurcation::fold) return 0.0;
+  return std::abs(std::remainder(2.0 * pi * point.chatter_frequency_hz * period_s, 2.0 * pi));
+}
+
+/// The crossing on a grid whose depth agrees with it to the estimate, with its eigenpair.
+struct Found {
+  Resolution resolution;
+  DiscreteCut d;
+  Crossing crossing;
+  Eigenpair pair;
+};
+
+Found found_again(const CutAtSpeed& cut, const LobePoint& point, const StabilityOptions& options) {
+  Resolution r = finer(resolving(cut, point.depth_m));
+  while (true) {
+    Found f{r, discrete(cut, r, point.depth_m), {}, {}};
+    const GainOnCircle gain = gain_of(f.d);
+    f.crossing = {point.depth_m, angle_of(point, f.d.loop.period_s), 0, {}};
+    const bool kept = refine(gain, f.crossing);
+    const double error = std::abs(f.crossing.depth_m / point.depth_m - 1.0);
+    if (kept && error <= 10.0 * std::max(point.error_estimate, options.error_tolerance)) {
+      f.pair = eigenpair_near(gain, f.crossing.theta_rad, 1.0 / f.crossing.depth_m);
+      return f;
+    }
+    r = finer(r);
+    if (r.elements * r.nodes > options.most_nodes) break;
+  }
+  std::ostringstream text;
+  text << "sensitivity: no crossing at " << point.depth_m * 1e3 << " mm and " << cut.spindle_speed_rpm
+       << " rpm; give a crossing of the same structure and process";
+  throw core::NumericalError(text.str());
+}
+
+/// ∂ν/∂w of the grid itself, of a helix.
+complex<double> own_change(const CutAtSpeed& cut, const Found& f) {
+  if (!cut.process.cutter.has_helix()) return 0.0;
+  const double step = 1e-5 * f.crossing.depth_m;
+  const auto nu_at = [&](double depth) {
+    const DiscreteCut d = discrete(cut, f.resolution, depth);
+    return eigenpair_near(gain_of(d), f.crossing.theta_rad, f.pair.nu).nu;
+  };
+  return (nu_at(f.crossing.depth_m + step) - nu_at(f.crossing.depth_m - step)) / (2.0 * step);
+}
+
+}  // namespace
+
+DepthSensitivity depth_sensitivity(const RelativeStructure& structure, const MillingProcess& process,
+                                   double spindle_speed_rpm, const LobePoint& point, const StabilityOptions& options) {
+  require_usable(process, options);
+  const CutAtSpeed cut = cut_at_speed(structure, process, spindle_speed_rpm);
+  const Found f = found_again(cut, point, options);
+  const double w = f.crossing.depth_m;
+  const bool at_end = f.crossing.theta_rad == 0.0 || f.crossing.theta_rad == pi;
+  const complex<double> by_depth = own_change(cut, f) + 1.0 / (w * w);
+  // d ln w of a relative change dZ of the gain.
+  const auto relative_change = [&](const Eigen::MatrixXcd& dZ) {
+    const complex<double> nu_p =
+        -(f.pair.left.transpose() * dZ * f.pair.right).value() / (f.pair.left.transpose() * f.pair.right).value();
+    if (at_end) return -nu_p.real() / by_depth.real() / w;
+    Eigen::Matrix2d rows;
+    rows << f.pair.slope.real(), by_depth.real(), f.pair.slope.imag(), by_depth.imag();
+    const double determinant = rows.determinant();
+    return (rows(1, 0) * nu_p.real() - rows(0, 0) * nu_p.imag()) / determinant / w;
+  };
+  const auto gain_of_structure = [&](const RelativeStructure& s) {
+    return loop_gain(regenerative_loop(s, f.d.grid, spindle_speed_rpm), on_circle(f.crossing.theta_rad));
+  };
+  const auto gain_of_unit = [&](const CuttingCoefficients& unit) {
+    const ContactGrid grid = with_force_of(cut, f.d.grid, unit, f.resolution, point.depth_m);
+    return loop_gain(regenerative_loop(cut.structure, grid, spindle_speed_rpm), on_circle(f.crossing.theta_rad));
+  };
+  const Index poles = cut.structure.poles.size();
+  DepthSensitivity result{Eigen::VectorXd(poles), Eigen::VectorXd::Zero(poles), Eigen::VectorXd(poles)};
+  for (Index k = 0; k < poles; ++k) {
+    constexpr double h = 1e-5;
+    const RelativeStructure mode = alone(cut.structure, k);
+    const complex<double> pole = mode.poles(0);
+    result.to_mass(k) = relative_change(-gain_of_structure(mode));
+    const auto by = [&](complex<double> up, complex<double> down) {
+      return relative_change((gain_of_structure(with_pole(mode, up)) - gain_of_structure(with_pole(mode, down))) /
+                             (2.0 * h));
+    };
+    result.to_frequency(k) = by(pole * (1.0 + h), pole * (1.0 - h));
+    if (pole.imag() == 0.0) continue;
+    const double omega = std::abs(pole);
+    const double zeta = -pole.real() / omega;
+    result.to_damping_ratio(k) = by(pole_of(omega, zeta * (1.0 + h)), pole_of(omega, zeta * (1.0 - h)));
+  }
+  const CuttingCoefficients& K = process.coefficients;
+  if (K.K_t != 0.0) result.to_K_t = relative_change(K.K_t * gain_of_unit({1.0, 0.0, 0.0}));
+  if (K.K_r != 0.0) result.to_K_r = relative_change(K.K_r * gain_of_unit({0.0, 1.0, 0.0}));
+  if (K.K_a != 0.0) result.to_K_a = relative_change(K.K_a * gain_of_unit({0.0, 0.0, 1.0}));
+  return result;
+}
+
+std::vector<std::string> validate(const Uncertainty& u) {
+  std::vector<std::string> violations;
+  const auto require = [&](double value, const char* what) {
+    if (value >= 0.0 && value <= 1.0) return;
+    std::ostringstream text;
+    text << "uncertainty of " << what << " is " << value << ", must be from 0 to 1; 0.05 is 5 %";
+    violations.push_back(text.str());
+  };
+  require(u.frequency, "frequencies");
+  require(u.damping_ratio, "damping ratios");
+  require(u.mass, "modal masses");
+  require(u.coefficients, "coefficients");
+  return violations;
+}
+
+double relative_uncertainty(const DepthSensitivity& s, const Uncertainty& u) {
+  const double modes = (s.to_frequency * u.frequency).squaredNorm() +
+                       (s.to_damping_ratio * u.damping_ratio).squaredNorm() + (s.to_mass * u.mass).squaredNorm();
+  const double cutting =
+      (s.to_K_t * s.to_K_t + s.to_K_r * s.to_K_r + s.to_K_a * s.to_K_a) * u.coefficients * u.coefficients;
+  return std::sqrt(modes + cutting);
+}
+
+}  // namespace thinwall::milling
