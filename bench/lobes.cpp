@@ -1,58 +1,145 @@
-// Time of two stability charts, a thin plate alone and backed by a robot: 400 speeds each, 15 modes, 3 × 3 receptance.
+// Times of stability charts: the two-DOF benchmark, a plate backed by a robot with 20 modes, a map of |mu|; beside a
+// dense semi-discretization as the literature writes it.
 
 #include "milling/lobes.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
+#include "bench/dense_semi_discretization.hpp"
+#include "milling/stability_map.hpp"
+
 namespace {
 
-using thinwall::milling::RelativeStructure;
+using namespace thinwall::milling;
+using Eigen::Index;
 
-// Made-up modes in the manner of a clamped plate: 212 Hz to 5 kHz, motion through the thickness (x) with a little along
-// the edge, 1 % damping.
-RelativeStructure plate(double backing_stiffness_scale) {
-  constexpr int modes = 15;
-  RelativeStructure s;
-  s.poles.resize(modes);
-  s.phi.resize(3, modes);
-  s.b.resize(3, modes);
-  for (int k = 0; k < modes; ++k) {
-    const double hz = 212.0 * std::pow(5000.0 / 212.0, k / (modes - 1.0)) * (k == 0 ? backing_stiffness_scale : 1.0);
-    const double omega = 2.0 * std::numbers::pi * hz;
-    const double zeta = backing_stiffness_scale > 1.0 ? 0.05 : 0.01;
-    s.poles(k) = {-zeta * omega, omega * std::sqrt(1.0 - zeta * zeta)};
-    const Eigen::Vector3d shape(1.5 + 0.5 * std::sin(3.0 * k), 0.1 * std::cos(2.0 * k), 0.05 * std::sin(5.0 * k));
-    s.phi.col(k) = shape.cast<std::complex<double>>();
-    s.b.col(k) = shape / std::complex<double>(0.0, 2.0 * s.poles(k).imag());
+constexpr thinwall::bench::TwoDofMill two_dof{2.0 * std::numbers::pi * 922.0, 0.011, 0.03993, 6e8, 2e8, 2, 0.1};
+
+/// Median seconds of three calls.
+template <class Work>
+double seconds(const Work& work) {
+  std::array<double, 3> all{};
+  for (double& s : all) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
+  std::sort(all.begin(), all.end());
+  return all[1];
+}
+
+void add_mode(RelativeStructure& s, double hz, double zeta, double mass, const Eigen::Vector3d& shape) {
+  const double omega = 2.0 * std::numbers::pi * hz;
+  const Index k = s.poles.size();
+  s.poles.conservativeResize(k + 1);
+  s.phi.conservativeResize(3, k + 1);
+  s.b.conservativeResize(3, k + 1);
+  s.poles(k) = {-zeta * omega, omega * std::sqrt(1.0 - zeta * zeta)};
+  s.phi.col(k) = shape.cast<std::complex<double>>();
+  s.b.col(k) = shape / std::complex<double>(0.0, 2.0 * s.poles(k).imag() * mass);
+}
+
+RelativeStructure two_modes() {
+  RelativeStructure s;
+  add_mode(s, 922.0, two_dof.zeta, two_dof.mass, Eigen::Vector3d::UnitX());
+  add_mode(s, 922.0, two_dof.zeta, two_dof.mass, Eigen::Vector3d::UnitY());
   return s;
 }
 
-void chart(const char* name, const RelativeStructure& structure) {
-  using namespace thinwall::milling;
+MillingProcess two_teeth() {
+  MillingProcess process;
+  process.cutter = {two_dof.teeth, 0.01};
+  process.coefficients = {two_dof.K_t, two_dof.K_r, 0.0, 0.0, 0.0, 0.0};
+  process.engagement = engagement_of(process.cutter, two_dof.immersion * 0.01, MillingDirection::down);
+  return process;
+}
+
+/// Made-up modes in the manner of a clamped plate with a robot behind it: 17 of the plate from 275 Hz to 5 kHz, motion
+/// through the thickness (x) with a little along the edge, one of the robot, two of the tool.
+RelativeStructure plate_robot_tool() {
+  RelativeStructure s;
+  for (int k = 0; k < 17; ++k) {
+    const double hz = 275.0 * std::pow(5000.0 / 275.0, k / 16.0);
+    add_mode(s, hz, k < 2 ? 0.05 : 0.01, 1.0,
+             {1.5 + 0.5 * std::sin(3.0 * k), 0.1 * std::cos(2.0 * k), 0.05 * std::sin(5.0 * k)});
+  }
+  add_mode(s, 38.0, 0.02, 40.0, Eigen::Vector3d::UnitX());
+  add_mode(s, 1650.0, 0.02, 0.5, Eigen::Vector3d::UnitX());
+  add_mode(s, 1710.0, 0.02, 0.5, Eigen::Vector3d::UnitY());
+  return s;
+}
+
+MillingProcess six_teeth() {
   MillingProcess process;
   process.cutter = {6, 0.016};
   process.coefficients = {2.0e9, 0.8e9, 0.3e9, 0.0, 0.0, 0.0};
   process.engagement = engagement_of(process.cutter, 0.2e-3, MillingDirection::down);
   process.frame = {Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
-  const auto start = std::chrono::steady_clock::now();
-  const Lobes lobes = stability_lobes(structure, process, spindle_speeds(1000.0, 3000.0, 400), {});
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  double steps = 0.0;
-  for (const LobeRow& row : lobes.rows) steps += row.nodes / 400.0;
+  return process;
+}
+
+void boundary_of_two_dof() {
+  const std::vector<double> rpm = spindle_speeds(5000.0, 25000.0, 400);
+  StabilityOptions options;
+  options.depth_limit_m = 0.01;
+  Lobes lobes;
+  const double time = seconds([&] { lobes = stability_lobes(two_modes(), two_teeth(), rpm, options); });
+  options.error_tolerance = 1e-9;
+  const Lobes exact = stability_lobes(two_modes(), two_teeth(), rpm, options);
+  double error = 0.0;
+  for (std::size_t i = 0; i < rpm.size(); ++i)
+    error = std::max(error, std::abs(lobes.rows[i].limiting_depth_m / exact.rows[i].limiting_depth_m - 1.0));
+  std::printf("two DOFs, a/D 0.1, all branches at 400 speeds      %8.3f s   depth error %.1e, worst estimate %.1e\n",
+              time, error, lobes.worst_error_estimate);
+}
+
+void plate(const char* what, double follow) {
+  StabilityOptions options;
+  options.follow = follow;
+  Lobes lobes;
+  const double time = seconds(
+      [&] { lobes = stability_lobes(plate_robot_tool(), six_teeth(), spindle_speeds(1000.0, 3000.0, 400), options); });
+  std::size_t crossings = 0;
+  for (const LobeRow& row : lobes.rows) crossings += row.crossings.size();
+  std::printf("%-50s %8.3f s   %zu crossings, worst estimate %.1e, %d not converged\n", what, time, crossings,
+              lobes.worst_error_estimate, lobes.rows_not_converged);
+}
+
+void map_of_two_dof() {
+  const std::vector<double> rpm = spindle_speeds(5000.0, 25000.0, 400);
+  std::vector<double> depths;
+  for (int i = 1; i <= 200; ++i) depths.push_back(4e-3 * i / 200);
+  StabilityMap map;
+  const double time = seconds([&] { map = stability_map(two_modes(), two_teeth(), rpm, depths, {}); });
+  std::printf("|mu| map 400 x 200, two DOFs                       %8.3f s   worst estimate %.1e\n", time,
+              map.worst_error_estimate);
+  constexpr int m = 40;
+  const std::vector<double> some = spindle_speeds(5000.0, 25000.0, 20);
+  double worst = 0.0;
+  const double dense = seconds([&] {
+    for (const double speed : some) (void)dense_semi_discretization(two_dof, speed, 2e-3, m);
+  });
+  for (const double speed : some) {
+    const double exact = multiplier_at(two_modes(), two_teeth(), speed, 2e-3, {}).modulus;
+    worst = std::max(worst, std::abs(dense_semi_discretization(two_dof, speed, 2e-3, m) - exact));
+  }
   std::printf(
-      "%-8s %6.2f s  minimum %.4f mm at %.0f rpm, worst estimate %.2e, %d at limit, %d not converged, mean nodes "
-      "%.0f\n",
-      name, time.count(), lobes.minimum_depth_m * 1e3, lobes.at_spindle_speed_rpm, lobes.worst_error_estimate,
-      lobes.rows_at_limit, lobes.rows_not_converged, steps);
+      "dense semi-discretization, m = %d                  %8.0f s   one thread, 80000 points from %zu; |mu| wrong by "
+      "up "
+      "to %.1e; %.0f times the map's\n",
+      m, dense / static_cast<double>(some.size()) * 80000.0, some.size(), worst,
+      dense / static_cast<double>(some.size()) * 80000.0 / time);
 }
 
 }  // namespace
 
 int main() {
-  chart("plate", plate(1.0));
-  chart("backed", plate(1.3));
+  boundary_of_two_dof();
+  plate("plate, robot, tool, 20 modes, limit at 400 speeds", 1.0);
+  plate("the same, all branches to 20 times the limit", 20.0);
+  map_of_two_dof();
 }

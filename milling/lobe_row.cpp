@@ -1,6 +1,7 @@
 #include "milling/lobe_row.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 namespace thinwall::milling {
@@ -29,6 +30,13 @@ std::string name(StabilityStatus status) {
       break;
   }
   return "crossing_missed";
+}
+
+double multiplier_angle_rad(const LobePoint& point, double period_s) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  if (point.kind == Bifurcation::flip) return 0.5 * turn;
+  if (point.kind == Bifurcation::fold) return 0.0;
+  return std::abs(std::remainder(turn * point.chatter_frequency_hz * period_s, turn));
 }
 
 std::vector<std::string> validate(const StabilityOptions& options) {

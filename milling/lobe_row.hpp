@@ -2,6 +2,7 @@
 // What is known of the stability of one speed, or of one point, with its error.
 
 #include <complex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct StabilityOptions {
   double error_tolerance = 1e-4;  ///< relative, in (0, 1): of the depth, or of |μ| at a point
   double follow = 20.0;           ///< ≥ 1: crossings are followed up to this many times the first one
   int most_nodes = 240;           ///< ≥ 8: nodes in the cut at which refinement gives up
+  std::optional<double> expected_depth_m = {};  ///< of the first crossing, a neighbour's for instance: where the search
+                                                ///< begins; a bad one costs time and no more
 };
 
 /// Every violation, empty if there is none.
@@ -53,6 +56,9 @@ struct LobePoint {
   int unstable_change = 0;      ///< multipliers that leave the circle there as the depth rises; negative: that return
   double error_estimate = 0.0;  ///< relative, of the depth
 };
+
+/// arg μ of a crossing, 0 to π, where the cut repeats itself after period_s.
+[[nodiscard]] double multiplier_angle_rad(const LobePoint& point, double period_s);
 
 /// All that is known of one speed.
 struct LobeRow {

@@ -48,8 +48,13 @@ Lobes stability_lobes(const RelativeStructure& structure, const MillingProcess& 
   lobes.method = "contact-phase collocation, critical depths directly";
   lobes.residual_share = residual_share(structure);
   lobes.rows.resize(spindle_speeds_rpm.size());
-  core::parallel_for(spindle_speeds_rpm.size(), [&](std::size_t i) {
-    lobes.rows[i] = limiting_depth(structure, process, spindle_speeds_rpm[i], options);
+  constexpr std::size_t block = 8;  // of speeds, whose searches begin at their neighbour's limit
+  core::parallel_for((lobes.rows.size() + block - 1) / block, [&](std::size_t b) {
+    StabilityOptions from_neighbour = options;
+    for (std::size_t i = block * b; i < std::min(lobes.rows.size(), block * (b + 1)); ++i) {
+      lobes.rows[i] = limiting_depth(structure, process, spindle_speeds_rpm[i], from_neighbour);
+      from_neighbour.expected_depth_m = lobes.rows[i].limiting_depth_m;
+    }
   });
   summarise(lobes);
   return lobes;

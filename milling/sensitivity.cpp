@@ -64,13 +64,6 @@ ContactGrid with_force_of(const CutAtSpeed& cut, const ContactGrid& grid, const 
   return result;
 }
 
-/// Angle of the multiplier that a chatter frequency belongs to, 0 to π.
-double angle_of(const LobePoint& point, double period_s) {
-  if (point.kind == Bifurcation::flip) return pi;
-  if (point.kind == Bifurcation::fold) return 0.0;
-  return std::abs(std::remainder(2.0 * pi * point.chatter_frequency_hz * period_s, 2.0 * pi));
-}
-
 /// The crossing on a grid whose depth agrees with it to the estimate, with its eigenpair.
 struct Found {
   Resolution resolution;
@@ -84,7 +77,7 @@ Found found_again(const CutAtSpeed& cut, const LobePoint& point, const Stability
   while (true) {
     Found f{r, discrete(cut, r, point.depth_m), {}, {}};
     const GainOnCircle gain = gain_of(f.d);
-    f.crossing = {point.depth_m, angle_of(point, f.d.loop.period_s), 0, {}};
+    f.crossing = {point.depth_m, multiplier_angle_rad(point, f.d.loop.period_s), 0, {}};
     const bool kept = refine(gain, f.crossing);
     const double error = std::abs(f.crossing.depth_m / point.depth_m - 1.0);
     if (kept && error <= 10.0 * std::max(point.error_estimate, options.error_tolerance)) {

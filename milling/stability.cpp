@@ -99,10 +99,12 @@ struct FirstCrossing {
 };
 
 FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& options) {
+  constexpr double step = 1.5;
   FirstCrossing first{CriticalDepths(gain), {}, 0.0};
-  first.searched_m = 0.5 * first.search.none_below_m();
+  const double expected = 1.1 * options.expected_depth_m.value_or(0.75 * first.search.none_below_m());
+  first.searched_m = std::max(expected, first.search.none_below_m()) / step;
   do {
-    first.searched_m = std::min(options.depth_limit_m, 1.5 * first.searched_m);
+    first.searched_m = std::min(options.depth_limit_m, step * first.searched_m);
     first.found = first.search.up_to(first.searched_m);
   } while (first.found.empty() && first.searched_m < options.depth_limit_m);
   return first;
@@ -184,7 +186,8 @@ LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
     return row;
   }
   const auto fewer = [](Resolution a, Resolution b) { return a.elements * a.nodes < b.elements * b.nodes; };
-  Resolution resolution = resolving(cut, std::min(options.depth_limit_m, 8.0 * surely_stable_depth_m(cut)));
+  const double likely = options.expected_depth_m.value_or(8.0 * surely_stable_depth_m(cut));
+  Resolution resolution = resolving(cut, std::min(options.depth_limit_m, likely));
   while (true) {
     Grids grids(cut, resolution, 0.0, options.most_nodes);
     FirstCrossing first = first_crossing(grids[0].gain, options);
