@@ -40,19 +40,22 @@ std::vector<double> spindle_speeds(double from_rpm, double to_rpm, int count) {
   return speeds;
 }
 
-Lobes stability_lobes(const RelativeStructure& structure, const MillingProcess& process,
-                      const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options) {
+Lobes stability_lobes(const LobeMethod& method, const std::vector<double>& spindle_speeds_rpm) {
   if (spindle_speeds_rpm.empty())
     throw core::InputError("stability lobes: no spindle speeds, at least 1 is needed; give a range");
   Lobes lobes;
-  lobes.method = "contact-phase collocation, critical depths directly";
-  lobes.residual_share = residual_share(structure);
+  lobes.method = method.name();
+  lobes.residual_share = method.residual_share();
   lobes.rows.resize(spindle_speeds_rpm.size());
-  core::parallel_for(spindle_speeds_rpm.size(), [&](std::size_t i) {
-    lobes.rows[i] = limiting_depth(structure, process, spindle_speeds_rpm[i], options);
-  });
+  core::parallel_for(spindle_speeds_rpm.size(),
+                     [&](std::size_t i) { lobes.rows[i] = method.limiting_depth(spindle_speeds_rpm[i]); });
   summarise(lobes);
   return lobes;
+}
+
+Lobes stability_lobes(const RelativeStructure& structure, const MillingProcess& process,
+                      const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options) {
+  return stability_lobes(*lobe_method(Method::direct, structure, process, {options}), spindle_speeds_rpm);
 }
 
 }  // namespace thinwall::milling
