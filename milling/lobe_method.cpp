@@ -62,7 +62,7 @@ Multiplier averaged_multiplier(const CutAtSpeed& cut, int harmonics, int others,
                                const StabilityOptions& options) {
   Multiplier mu = harmonic_multiplier(cut, directional_harmonics(cut.process, harmonics), depth_m, options);
   const Multiplier other = harmonic_multiplier(cut, directional_harmonics(cut.process, others), depth_m, options);
-  mu.error_estimate += std::abs(other.modulus / mu.modulus - 1.0);
+  mu.error_estimate += 2.0 * std::abs(other.modulus / mu.modulus - 1.0);
   return mu;
 }
 
@@ -185,7 +185,7 @@ std::vector<std::string> validate(const MethodOptions& options) {
     violations.push_back(text.str());
   };
   require_least("number of steps a tooth period", options.steps_per_period, 3, "40");
-  require_least("number of harmonics", options.harmonics, 0, "8");
+  require_least("number of harmonics", options.harmonics, 0, "16");
   return violations;
 }
 

@@ -31,7 +31,7 @@ enum class Method {
 struct MethodOptions {
   StabilityOptions stability;
   int steps_per_period = 40;  ///< ≥ 3: semi- and full-discretization; 40 is customary and not always enough
-  int harmonics = 8;          ///< ≥ 0: of the directional matrix, in the multi-frequency solution
+  int harmonics = 16;         ///< ≥ 0: of the directional matrix, in the multi-frequency solution
 };
 
 /// Every violation, empty if there is none.

@@ -248,7 +248,7 @@ FoundCrossings multi_frequency_crossings(const CutAtSpeed& cut, int harmonics, c
   for (const Crossing& crossing : followed(gain_of(loop), options, found.searched_m)) {
     Crossing coarse = crossing;
     const bool kept = to_axis(other, 1.0 / crossing.depth_m, coarse);
-    const double estimate = kept ? std::min(1.0, 1e-11 + std::abs(coarse.depth_m / crossing.depth_m - 1.0)) : 1.0;
+    const double estimate = kept ? std::min(1.0, 1e-11 + 2.0 * std::abs(coarse.depth_m / crossing.depth_m - 1.0)) : 1.0;
     const Bifurcation kind = crossing.theta_rad == pi ? Bifurcation::flip : Bifurcation::hopf;
     found.points.push_back(
         {crossing.depth_m, chatter_frequency(*loop, crossing), kind, crossing.unstable_change, estimate});

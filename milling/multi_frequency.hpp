@@ -37,8 +37,9 @@ namespace thinwall::milling {
 [[nodiscard]] Multiplier harmonic_multiplier(const CutAtSpeed& cut, const std::vector<Eigen::Matrix3cd>& harmonics,
                                              double depth_m, const StabilityOptions& options);
 
-/// All crossings with h harmonics, by CriticalDepths; a crossing's estimate is its distance from the one with h/2 of
-/// them (1 harmonic for h = 0) that Newton's rule leads to, 1 if it leads nowhere. Throws as above.
+/// All crossings with h harmonics, by CriticalDepths; a crossing's estimate is twice its distance from the one with h/2
+/// of them (1 harmonic for h = 0) that Newton's rule leads to, 1 if it leads nowhere. It is a bound once h spans twice
+/// the mode's frequency in tooth passings; the error then falls as 1/h³. Throws as above.
 [[nodiscard]] FoundCrossings multi_frequency_crossings(const CutAtSpeed& cut, int harmonics,
                                                        const StabilityOptions& options);
 

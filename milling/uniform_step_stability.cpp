@@ -59,9 +59,15 @@ double stable_start(const CutAtSpeed& cut, UniformStepMap& map, double depth_lim
                              " steps a period no depth is stable; take more steps");
 }
 
-/// Twice the distance, relative, to the crossing of a map of twice the steps, which the secant rule finds from here; 1
-/// if it leads elsewhere.
-double estimate_at(UniformStepMap& finer, double depth_m) {
+/// Twice the error that the distance of a value to that of twice the steps stands for, by the method's order.
+double estimate_from_distance(StepRule rule, double distance) {
+  const bool first_order = !rule.full && rule.delayed_order == 0;
+  return 1e-11 + (first_order ? 4.0 : 8.0 / 3.0) * std::abs(distance);
+}
+
+/// The estimate of a crossing from that of a map of twice the steps, which the secant rule finds from here; 1 if it
+/// leads elsewhere.
+double estimate_at(UniformStepMap& finer, StepRule rule, double depth_m) {
   double last = depth_m;
   double at = 1.002 * depth_m;
   double last_growth = growth(finer, last);
@@ -73,11 +79,11 @@ double estimate_at(UniformStepMap& finer, double depth_m) {
     last_growth = at_growth;
     at = next;
   }
-  return std::min(1.0, 1e-11 + 2.0 * std::abs(at / depth_m - 1.0));
+  return std::min(1.0, estimate_from_distance(rule, at / depth_m - 1.0));
 }
 
-LobePoint crossing_between(const CutAtSpeed& cut, UniformStepMap& map, UniformStepMap& finer, double low, double g_low,
-                           double high, double g_high) {
+LobePoint crossing_between(const CutAtSpeed& cut, StepRule rule, UniformStepMap& map, UniformStepMap& finer, double low,
+                           double g_low, double high, double g_high) {
   LobePoint point;
   point.depth_m = bracketed_root([&](double depth) { return growth(map, depth); }, low, g_low, high, g_high, 1e-11);
   map.set_depth(point.depth_m);
@@ -85,7 +91,7 @@ LobePoint crossing_between(const CutAtSpeed& cut, UniformStepMap& map, UniformSt
   point.kind = kind_of(mu.value);
   point.unstable_change = (g_high > g_low ? 1 : -1) * (point.kind == Bifurcation::hopf ? 2 : 1);
   point.chatter_frequency_hz = chatter_frequency(cut, map, mu);
-  point.error_estimate = estimate_at(finer, point.depth_m);
+  point.error_estimate = estimate_at(finer, rule, point.depth_m);
   return point;
 }
 
@@ -99,7 +105,7 @@ Multiplier uniform_step_multiplier(const CutAtSpeed& cut, StepRule rule, int ste
   Multiplier result;
   result.value = mu.value;
   result.modulus = std::abs(mu.value);
-  result.error_estimate = 1e-11 + 2.0 * std::abs(std::expm1(growth(finer, depth_m) - std::log(result.modulus)));
+  result.error_estimate = estimate_from_distance(rule, std::expm1(growth(finer, depth_m) - std::log(result.modulus)));
   result.kind = kind_of(mu.value);
   result.chatter_frequency_hz = chatter_frequency(cut, map, mu);
   result.nodes = steps;
@@ -120,7 +126,7 @@ FoundCrossings uniform_step_crossings(const CutAtSpeed& cut, StepRule rule, int 
     const double high = std::min(ratio * low, reach);
     const double g_high = growth(map, high);
     if ((g_low < 0.0) != (g_high < 0.0)) {
-      found.points.push_back(crossing_between(cut, map, finer, low, g_low, high, g_high));
+      found.points.push_back(crossing_between(cut, rule, map, finer, low, g_low, high, g_high));
       reach = std::min(reach, options.follow * found.points.front().depth_m);
     }
     low = high;

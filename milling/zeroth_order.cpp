@@ -87,8 +87,10 @@ struct ZerothOrderCrossing {
   int unstable_change = 0;
 };
 
-/// Crossings of the paths of ν = −(1 − e^{−iωT}) λ over the positive real axis between two near frequencies.
-void add_between(const MeanCut& cut, double period, double from, double to, std::vector<ZerothOrderCrossing>& found) {
+/// Crossings of the paths of ν = −(1 − e^{−iωT}) λ over the positive real axis between two near frequencies, down to
+/// the depth limit.
+void add_between(const MeanCut& cut, double period, double depth_limit_m, double from, double to,
+                 std::vector<ZerothOrderCrossing>& found) {
   const auto nu = [&](double omega) {
     std::vector<complex<double>> values = cut.eigenvalues(omega);
     for (complex<double>& v : values) v *= std::polar(1.0, -omega * period) - 1.0;
@@ -97,14 +99,16 @@ void add_between(const MeanCut& cut, double period, double from, double to, std:
   const auto ends = nu(to);
   for (const complex<double> start : nu(from)) {
     const complex<double> end = nearest(ends, start);
-    if (start.imag() * end.imag() >= 0.0 || std::max(start.real(), end.real()) <= 0.0) continue;
+    const bool crosses = (start.imag() > 0.0) != (end.imag() > 0.0);
+    if (!crosses || std::max(start.real(), end.real()) * depth_limit_m < 0.5) continue;
     const auto on_path = [&](double omega) {
       return nearest(nu(omega), start + (omega - from) / (to - from) * (end - start));
     };
     const auto phase = [&](double omega) { return std::arg(on_path(omega)); };
     if (std::abs(std::arg(start) - std::arg(end)) > pi) continue;  // over the negative axis
     const double omega = bracketed_root(phase, from, std::arg(start), to, std::arg(end), 1e-14);
-    found.push_back({omega, 1.0 / on_path(omega).real(), start.imag() > 0.0 ? 2 : -2});
+    const double depth = 1.0 / on_path(omega).real();
+    if (depth > 0.0 && depth <= depth_limit_m) found.push_back({omega, depth, start.imag() > 0.0 ? 2 : -2});
   }
 }
 
@@ -158,14 +162,14 @@ FoundCrossings zeroth_order_crossings(const CutAtSpeed& cut, int harmonics, cons
   std::vector<ZerothOrderCrossing> crossings;
   const std::vector<double> omega =
       frequencies(cut.structure, highest_frequency(mean, options.depth_limit_m), 0.2 / period);
-  for (std::size_t i = 1; i < omega.size(); ++i) add_between(mean, period, omega[i - 1], omega[i], crossings);
+  for (std::size_t i = 1; i < omega.size(); ++i)
+    add_between(mean, period, options.depth_limit_m, omega[i - 1], omega[i], crossings);
   std::sort(crossings.begin(), crossings.end(),
             [](const ZerothOrderCrossing& a, const ZerothOrderCrossing& b) { return a.depth_m < b.depth_m; });
   FoundCrossings found;
   found.searched_m = options.depth_limit_m;
-  if (!crossings.empty())
-    found.searched_m = std::min(options.depth_limit_m, options.follow * crossings.front().depth_m);
-  if (crossings.empty() || crossings.front().depth_m > found.searched_m) return found;
+  if (crossings.empty()) return found;
+  found.searched_m = std::min(options.depth_limit_m, options.follow * crossings.front().depth_m);
   const GainOnCircle gain = multi_frequency_gain(cut, directional_harmonics(cut.process, harmonics),
                                                  std::min(options.depth_limit_m, 8.0 * surely_stable_depth_m(cut)));
   for (const ZerothOrderCrossing& c : crossings) {

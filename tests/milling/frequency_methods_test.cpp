@@ -124,11 +124,11 @@ TEST(ZerothOrder, LobesAtAFrequencyAreCrossingsAtTheirSpeed) {
   const MillingProcess process = wall_cut(3e-3);
   StabilityOptions options;
   options.follow = 1e9;
-  options.depth_limit_m = 5e-3;
+  options.depth_limit_m = 2.5e-3;
   int compared = 0;
   for (const ZerothOrderPoint& point : zeroth_order_boundary(structure, process, 2.0 * pi * 800.0)) {
-    if (point.depth_m > 4e-3) continue;
-    for (const int lobe : {0, 1, 4}) {
+    if (point.depth_m > 2e-3) continue;
+    for (const int lobe : {0, 4}) {
       const double rpm = lobe_speed_rpm(point, lobe, process.cutter.teeth);
       if (rpm < 500.0 || rpm > 60000.0) continue;
       const CutAtSpeed cut = cut_at_speed(structure, process, rpm);
@@ -142,7 +142,7 @@ TEST(ZerothOrder, LobesAtAFrequencyAreCrossingsAtTheirSpeed) {
       ++compared;
     }
   }
-  EXPECT_GT(compared, 60);
+  EXPECT_GT(compared, 40);
 }
 
 TEST(ZerothOrder, MultiplierOfTheMeanCutIsOneOnItsBoundary) {
@@ -193,7 +193,6 @@ TEST(MultiFrequency, WithoutHarmonicsItIsTheZerothOrderSolution) {
     options.follow = 4.0;
     const FoundCrossings closed = zeroth_order_crossings(cut, 0, options);
     const FoundCrossings found = multi_frequency_crossings(cut, 0, options);
-    std::cout << "ZERO " << rpm << " " << closed.points.size() << " " << found.points.size() << "\n";
     ASSERT_EQ(found.points.size(), closed.points.size());
     for (std::size_t i = 0; i < found.points.size(); ++i) {
       EXPECT_NEAR(found.points[i].depth_m / closed.points[i].depth_m, 1.0, 1e-9);
@@ -220,8 +219,10 @@ TEST(MultiFrequency, ConvergesToTheExactDepthsWithThirdOrder) {
   for (const Reference& row : references("wcrit_mm")) {
     if (row.immersion == 1.0) continue;
     SCOPED_TRACE(row.where());
-    for (const int h : {2, 4, 8, 16, 32, 64})
-      std::cout << "MF " << row.where() << " h " << h << " " << first_depth_error(row, h) << "\n";
+    const double coarse = first_depth_error(row, 16);
+    const double fine = first_depth_error(row, 32);
+    EXPECT_NEAR(std::log2(coarse / fine), 3.0, 0.3);
+    EXPECT_LT(fine, 2e-4);
   }
 }
 
@@ -229,8 +230,9 @@ TEST(MultiFrequency, TwoToothSlotNeedsOneHarmonicAndTheReach) {
   for (const Reference& row : references("wcrit_mm")) {
     if (row.immersion != 1.0) continue;
     SCOPED_TRACE(row.where());
-    for (const int h : {1, 2, 4, 8, 16})
-      std::cout << "SLOT " << row.where() << " h " << h << " " << first_depth_error(row, h) << "\n";
+    // One harmonic is the whole cut. A second adds one to the reach of the motion, and that is all it does.
+    EXPECT_LT(first_depth_error(row, 1), 1e-6);
+    EXPECT_LT(first_depth_error(row, 2), 2e-9);  // the table's own digits
   }
 }
 
@@ -244,12 +246,9 @@ TEST(MultiFrequency, TwoDirectionsConvergeToTheDirectMethod) {
     options.error_tolerance = 1e-6;
     const LobeRow exact = limiting_depth(structure, process, rpm, options);
     const FoundCrossings found = multi_frequency_crossings(cut_at_speed(structure, process, rpm), 24, options);
-    std::cout << "MF2 " << exact.crossings.size() << " " << found.points.size() << "\n";
     ASSERT_EQ(found.points.size(), exact.crossings.size());
     for (std::size_t i = 0; i < found.points.size(); ++i) {
       const double error = std::abs(found.points[i].depth_m / exact.crossings[i].depth_m - 1.0);
-      std::cout << "   " << found.points[i].depth_m << " err " << error << " est " << found.points[i].error_estimate
-                << "\n";
       EXPECT_LT(error, found.points[i].error_estimate + exact.crossings[i].error_estimate);
       EXPECT_LT(error, 1e-3);
       EXPECT_EQ(found.points[i].unstable_change, exact.crossings[i].unstable_change);
@@ -270,9 +269,8 @@ TEST(MultiFrequency, TheDeterminantAgreesWithCollocationOfTheSameHarmonics) {
       ASSERT_FALSE(found.points.empty());
       const Multiplier mu =
           harmonic_multiplier(cut, directional_harmonics(process, h), found.points.front().depth_m, sharp);
-      std::cout << "DET " << rpm << " " << h << " " << mu.modulus - 1.0 << "\n";
-      // What is left is the motion beyond the window of the determinant.
-      EXPECT_NEAR(mu.modulus, 1.0, 2e-3) << rpm << " rpm, " << h;
+      // What is left is the motion beyond the window of the determinant, and the tolerance.
+      EXPECT_NEAR(mu.modulus, 1.0, 5e-8) << rpm << " rpm, " << h;
     }
   }
 }
