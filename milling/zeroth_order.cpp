@@ -135,6 +135,7 @@ ZerothOrderPoint zeroth_order_minimum(const RelativeStructure& structure, const 
   const std::vector<double> omega =
       frequencies(cut.structure, 2.0 * cut.structure.poles.cwiseAbs().maxCoeff(), INFINITY);
   std::vector<double> depth;
+  depth.reserve(omega.size());
   for (const double w : omega) depth.push_back(least_depth(cut, w));
   const auto least = static_cast<std::size_t>(std::min_element(depth.begin(), depth.end()) - depth.begin());
   if (!std::isfinite(depth[least])) {

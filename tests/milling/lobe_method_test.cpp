@@ -55,6 +55,32 @@ TEST(LobeMethod, EveryMethodsMultiplierIsWithinItsEstimate) {
   }
 }
 
+TEST(LobeMethod, StableRangesAboveAFlipLobeAreFound) {
+  // Beside a flip lobe the cut is stable again at greater depths, until the Hopf lobe above: +1, −1, +2.
+  for (const auto& [immersion, rpm] : {std::pair{0.1, 7500.0}, std::pair{0.1, 10700.0}, std::pair{0.05, 18200.0}}) {
+    const MillingProcess process = benchmark_process(immersion);
+    const LobeRow exact = limiting_depth(benchmark_structure(), process, rpm, {});
+    ASSERT_GE(exact.crossings.size(), 3u);
+    ASSERT_EQ(exact.crossings[0].unstable_change + exact.crossings[1].unstable_change, 0);
+    MethodOptions options;
+    options.steps_per_period = 300;
+    options.harmonics = 24;
+    for (const Method method :
+         {Method::multi_frequency, Method::semi_discretization_1, Method::full_discretization_2}) {
+      SCOPED_TRACE(name(method) + " at " + std::to_string(rpm));
+      const LobeRow found = lobe_method(method, benchmark_structure(), process, options)->limiting_depth(rpm);
+      ASSERT_GE(found.crossings.size(), 3u);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double estimate = found.crossings[i].error_estimate + exact.crossings[i].error_estimate;
+        EXPECT_NEAR(exact.crossings[i].depth_m / found.crossings[i].depth_m, 1.0, estimate);
+        EXPECT_LT(estimate, 0.2);
+        EXPECT_EQ(found.crossings[i].unstable_change, exact.crossings[i].unstable_change);
+        EXPECT_EQ(found.crossings[i].kind, exact.crossings[i].kind);
+      }
+    }
+  }
+}
+
 TEST(LobeMethod, ChartOfAnyMethodSaysWhichAndTheDirectOneIsTheDefault) {
   const std::vector<double> speeds = spindle_speeds(6000.0, 12000.0, 5);
   const MillingProcess process = benchmark_process(0.1);

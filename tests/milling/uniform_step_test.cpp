@@ -245,28 +245,6 @@ TEST(UniformSteps, CriticalDepthsAreWithinTheirEstimateOfTheExactOnes) {
   }
 }
 
-TEST(UniformSteps, StableRangesBeyondTheFirstCrossingAreTheExactOnes) {
-  // Beside a flip lobe the cut is stable again at greater depths: the crossings that bound stable ranges are those of
-  // the direct method where its count of unstable multipliers leaves or meets 0.
-  const RelativeStructure structure = relative_structure(modal_model(three_modes), "P");
-  for (const double rpm : {4200.0, 5000.0, 6200.0}) {
-    SCOPED_TRACE(rpm);
-    const MillingProcess process = wall_cut();
-    const LobeRow exact = limiting_depth(structure, process, rpm, {});
-    const FoundCrossings found =
-        uniform_step_crossings(cut_at_speed(structure, process, rpm), semi_discretization(1), 200, {});
-    std::vector<double> bounds;
-    int unstable = 0;
-    for (const LobePoint& point : exact.crossings) {
-      const int after = unstable + point.unstable_change;
-      if (unstable == 0 || after == 0) bounds.push_back(point.depth_m);
-      unstable = after;
-    }
-    ASSERT_EQ(found.points.size(), bounds.size());
-    for (std::size_t i = 0; i < bounds.size(); ++i) EXPECT_NEAR(found.points[i].depth_m / bounds[i], 1.0, 5e-3);
-  }
-}
-
 TEST(DominantEigenvalue, KrylovAndDenseAgreeOnTheSameMap) {
   const RelativeStructure structure = relative_structure(modal_model(three_modes), "P");
   UniformStepMap map = map_of(structure, wall_cut(), 1500.0, 80, semi_discretization(1));
