@@ -24,7 +24,7 @@ VectorXd places(int order) {
   return VectorXd::LinSpaced(order + 1, 1.0, 1.0 - order);
 }
 
-/// A in tool axes of a turn φ of the tooth that stands at φ = 0 at the start of the period: rotation since an entry.
+/// Rotation since the last tooth entry when the tooth that began the period at φ = 0 stands at φ.
 double since_entry(const MillingProcess& process, double phi) {
   const double pitch = process.cutter.pitch_rad();
   const double theta = std::fmod(phi - process.engagement.entry_rad, pitch);
