@@ -68,6 +68,15 @@ ContactState contact_state(const RelativeStructure& structure, const ToolFrame& 
   return state;
 }
 
+Eigen::MatrixXd state_matrix(const ContactState& state) {
+  const Eigen::Index n = state.decay.size();
+  Eigen::MatrixXd Lambda = Eigen::MatrixXd::Zero(state.size(), state.size());
+  Lambda.diagonal() << state.decay.matrix(), state.decay.matrix(), state.real_pole.matrix();
+  Lambda.block(0, n, n, n).diagonal() = -state.frequency.matrix();
+  Lambda.block(n, 0, n, n).diagonal() = state.frequency.matrix();
+  return Lambda;
+}
+
 FreeFlight free_flight(const ContactState& state, double time_s) {
   const Eigen::ArrayXd size = (state.decay * time_s).exp();
   return {size * (state.frequency * time_s).cos(), size * (state.frequency * time_s).sin(),

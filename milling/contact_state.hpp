@@ -29,6 +29,9 @@ struct ContactState {
 /// Throws InputError if the structure does not move in the plane of the cut. Cost O(poles).
 [[nodiscard]] ContactState contact_state(const RelativeStructure& structure, const ToolFrame& frame);
 
+/// Λ, states × states.
+[[nodiscard]] Eigen::MatrixXd state_matrix(const ContactState& state);
+
 /// e^{Λ t} in O(states).
 struct FreeFlight {
   Eigen::ArrayXd cosine;  ///< e^{Re λ t} cos(Im λ t)

@@ -13,7 +13,7 @@ namespace {
 
 using std::complex;
 
-constexpr Eigen::Index largest_dense = 32;
+constexpr Eigen::Index largest_dense = 60;
 constexpr Eigen::Index largest_basis = 200;
 
 // Eigenvalues of an upper Hessenberg matrix with Im ≥ 0, largest modulus first.

@@ -19,7 +19,7 @@ struct [[nodiscard]] DominantEigenvalue {
   Eigen::Index basis = 0;  ///< vectors that Arnoldi's method took; 0 if dense
 };
 
-/// Up to 32 unknowns: the matrix column by column and all its eigenvalues. Above: Arnoldi's method (Arnoldi 1951) from
+/// Up to 60 unknowns: the matrix column by column and all its eigenvalues. Above: Arnoldi's method (Arnoldi 1951) from
 /// a fixed start, with full reorthogonalisation and no restart; the basis grows until the residual of the largest Ritz
 /// value is below `tolerance` and that of the next one, in modulus, below 1e-3, so that a value still on its way up is
 /// not overlooked. The maps of this folder are compact up to the few structural modes, and 20 to 50 vectors suffice. If

@@ -1,6 +1,7 @@
 #include "milling/lobes.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -40,24 +41,28 @@ std::vector<double> spindle_speeds(double from_rpm, double to_rpm, int count) {
   return speeds;
 }
 
-Lobes stability_lobes(const RelativeStructure& structure, const MillingProcess& process,
-                      const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options) {
+Lobes stability_lobes(const LobeMethod& method, const std::vector<double>& spindle_speeds_rpm) {
   if (spindle_speeds_rpm.empty())
     throw core::InputError("stability lobes: no spindle speeds, at least 1 is needed; give a range");
   Lobes lobes;
-  lobes.method = "contact-phase collocation, critical depths directly";
-  lobes.residual_share = residual_share(structure);
+  lobes.method = method.name();
+  lobes.residual_share = method.residual_share();
   lobes.rows.resize(spindle_speeds_rpm.size());
   constexpr std::size_t block = 8;  // of speeds, whose searches begin at their neighbour's limit
   core::parallel_for((lobes.rows.size() + block - 1) / block, [&](std::size_t b) {
-    StabilityOptions from_neighbour = options;
+    std::optional<double> expected;
     for (std::size_t i = block * b; i < std::min(lobes.rows.size(), block * (b + 1)); ++i) {
-      lobes.rows[i] = limiting_depth(structure, process, spindle_speeds_rpm[i], from_neighbour);
-      from_neighbour.expected_depth_m = lobes.rows[i].limiting_depth_m;
+      lobes.rows[i] = method.limiting_depth(spindle_speeds_rpm[i], expected);
+      expected = lobes.rows[i].limiting_depth_m;
     }
   });
   summarise(lobes);
   return lobes;
+}
+
+Lobes stability_lobes(const RelativeStructure& structure, const MillingProcess& process,
+                      const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options) {
+  return stability_lobes(*lobe_method(Method::direct, structure, process, {options}), spindle_speeds_rpm);
 }
 
 }  // namespace thinwall::milling

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "milling/lobe_method.hpp"
 #include "milling/stability.hpp"
 
 namespace thinwall::milling {
@@ -22,8 +23,11 @@ struct Lobes {
 /// `count` speeds, evenly spaced from `from_rpm` to `to_rpm`. Throws InputError unless 0 < from < to and count ≥ 2.
 [[nodiscard]] std::vector<double> spindle_speeds(double from_rpm, double to_rpm, int count);
 
-/// limiting_depth() at every speed, the speeds shared out among core::thread_count() threads; the rows do not depend on
-/// the number of threads. Throws InputError for a bad process, option or speed, or if there are no speeds; Interrupted.
+/// The method's limiting_depth() at every speed, the speeds shared out among core::thread_count() threads; the rows do
+/// not depend on the number of threads. Throws InputError for a bad speed or if there are no speeds; Interrupted.
+[[nodiscard]] Lobes stability_lobes(const LobeMethod& method, const std::vector<double>& spindle_speeds_rpm);
+
+/// The same by the direct method. Throws InputError for a bad process or option too.
 [[nodiscard]] Lobes stability_lobes(const RelativeStructure& structure, const MillingProcess& process,
                                     const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options);
 

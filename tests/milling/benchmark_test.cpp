@@ -2,62 +2,21 @@
 // (data/lobes_1dof.csv: Chebyshev collocation, three discretisations agreeing to 1e-9; critical depths confirmed by a
 // Hill determinant).
 
-#include <gtest/gtest.h>
+#include "tests/milling/benchmark.hpp"
 
-#include <fstream>
-#include <sstream>
+#include <gtest/gtest.h>
 
 #include "core/error.hpp"
 #include "milling/lobes.hpp"
 #include "milling/sampled_receptance.hpp"
-#include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling {
 namespace {
 
-struct Reference {
-  std::string quantity;
-  double immersion, rpm, depth_m, modulus;
-  std::string kind;
-  double base_hz;
-
-  [[nodiscard]] std::string where() const {
-    std::ostringstream text;
-    text << quantity << " at a/D = " << immersion << ", " << rpm << " rpm, " << depth_m * 1e3 << " mm";
-    return text.str();
-  }
-};
-
-std::vector<Reference> references(const std::string& quantity) {
-  std::ifstream file(THINWALL_SOURCE_DIR "/tests/milling/data/lobes_1dof.csv");
-  std::vector<Reference> rows;
-  std::string line;
-  while (std::getline(file, line)) {
-    std::stringstream cells(line);
-    std::vector<std::string> cell;
-    for (std::string text; std::getline(cells, text, ',');) cell.push_back(text);
-    if (cell.empty() || cell[0] != quantity) continue;
-    rows.push_back({cell[0], std::stod(cell[2]), std::stod(cell[3]), std::stod(cell[4]) * 1e-3, std::stod(cell[5]),
-                    cell[8], std::stod(cell[11])});
-  }
-  return rows;
-}
-
-RelativeStructure benchmark_structure() {
-  return relative_structure(testing::modal_model({{922.0, 0.011, 0.03993, Eigen::Vector3d::UnitX()}}), "P");
-}
-
-MillingProcess benchmark_process(double immersion) {
-  MillingProcess process;
-  process.cutter = {2, 0.01};
-  process.coefficients = {6e8, 2e8, 0.0, 0.0, 0.0, 0.0};
-  process.engagement = engagement_of(process.cutter, immersion * 0.01, MillingDirection::down);
-  return process;
-}
-
-Bifurcation kind_of(const std::string& text) {
-  return text == "Hopf" ? Bifurcation::hopf : Bifurcation::flip;
-}
+using testing::benchmark_process;
+using testing::benchmark_structure;
+using testing::Reference;
+using testing::references;
 
 // The chatter frequency is one of (±arg μ + 2πk)/T, so its distance from a multiple of 1/T is the base frequency.
 double base_frequency(double chatter_hz, double rpm) {
@@ -83,7 +42,7 @@ TEST(Benchmark, CriticalDepthsToOneInAMillionAndWithinTheirEstimate) {
       EXPECT_LE(found.error_estimate, options.error_tolerance);
       const double reference_digits = 2e-9;  // the table's own
       EXPECT_NEAR(found.limiting_depth_m / row.depth_m, 1.0, found.error_estimate + reference_digits);
-      EXPECT_EQ(found.kind, kind_of(row.kind));
+      EXPECT_EQ(found.kind, row.bifurcation());
       EXPECT_NEAR(base_frequency(found.chatter_frequency_hz, row.rpm), row.base_hz, 1e-3 * row.rpm / 30.0);
     }
   }
@@ -100,7 +59,7 @@ TEST(Benchmark, MultipliersToOneInAMillionAndWithinTheirEstimate) {
       EXPECT_EQ(mu.status, StabilityStatus::converged);
       EXPECT_LE(mu.error_estimate, options.error_tolerance);
       EXPECT_NEAR(mu.modulus / row.modulus, 1.0, mu.error_estimate + 2e-10);
-      EXPECT_EQ(mu.kind, kind_of(row.kind));
+      EXPECT_EQ(mu.kind, row.bifurcation());
     }
   }
 }
