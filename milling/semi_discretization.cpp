@@ -22,9 +22,10 @@ int share_of(const CutSegment& segment, double cut_rad, StepCount steps) {
 ToothPeriodMap::ToothPeriodMap(const ContactState& state, const MillingProcess& process, double spindle_speed_rpm,
                                StepCount steps, double rate_rad_s)
     : state_(state), period_s_(tooth_period_s(process.cutter, spindle_speed_rpm)) {
-  if (!process.cutter.equal_teeth() || process.cutter.has_helix()) {
+  if (!elementary(process)) {
     throw core::InputError(
-        "semi-discretization: equal teeth without helix only; take the collocation for unequal pitches or a helix");
+        "semi-discretization: equal teeth without helix on a cylinder, one arc and no process damping only; take the "
+        "collocation for anything else");
   }
   const double seconds_per_rad = period_s_ / process.cutter.pitch_rad();
   const std::vector<CutSegment> cut = cut_segments(process.engagement, process.cutter);
