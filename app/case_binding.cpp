@@ -314,8 +314,8 @@ Cutting bind_cutting(const Table& table) {
   cutting.exponents = spread(table.numbers("exponents"), 3);
   cutting.chip_scale = table.optional("chip_scale");
   cutting.stiffness_ratio = table.optional("stiffness_ratio");
-  cutting.orthogonal = {table.optional("shear_stress"), table.optional("shear_angle"),
-                        table.optional("friction_angle"), table.optional("rake_angle")};
+  cutting.orthogonal = {table.optional("shear_stress"), table.optional("shear_angle"), table.optional("friction_angle"),
+                        table.optional("rake_angle")};
   cutting.process_damping = table.number("process_damping");
   cutting.process_damping_friction = table.number("process_damping_friction");
   cutting.spindle_speed_rpm = table.optional("spindle_speed");

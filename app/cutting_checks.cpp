@@ -54,22 +54,26 @@ void check_angles(const Cutting& cutting, Findings& findings) {
                                                       cutting.exit_angles.size(), cutting.entry_angles.size()));
     return;
   }
+  std::vector<milling::Engagement> arcs;
   for (std::size_t i = 0; i < cutting.entry_angles.size(); ++i) {
-    const double arc = cutting.exit_angles[i] - cutting.entry_angles[i];
+    arcs.push_back({cutting.entry_angles[i], cutting.exit_angles[i]});
+    const double arc = arcs.back().arc_rad();
     if (arc > 0.0 && arc <= 360.0 * degree + 1e-9) continue;
-    findings.report("cutting.exit_angle", fmt::format("exit at {:g} deg, entry at {:g} deg: the exit must follow "
-                                                      "within a turn; add 360 deg where the arc passes 0",
-                                                      cutting.exit_angles[i] / degree,
-                                                      cutting.entry_angles[i] / degree));
+    findings.report("cutting.exit_angle",
+                    fmt::format("exit at {:g} deg, entry at {:g} deg: the exit must follow "
+                                "within a turn; add 360 deg where the arc passes 0",
+                                cutting.exit_angles[i] / degree, cutting.entry_angles[i] / degree));
     return;
   }
+  for (const auto& violation : milling::validate(arcs)) findings.report("cutting.entry_angle", violation);
 }
 
 void require_feed(const Case& source, const std::string& key, const std::string& why, Findings& findings) {
   const Cutting& c = *source.cutting;
   if (c.feed_per_tooth || (c.feed_rate && c.spindle_speed_rpm)) return;
-  findings.report(key, why + " depends on the feed; give cutting.feed_per_tooth, or cutting.feed_rate and "
-                             "cutting.spindle_speed");
+  findings.report(key, why +
+                           " depends on the feed; give cutting.feed_per_tooth, or cutting.feed_rate and "
+                           "cutting.spindle_speed");
 }
 
 void check_law_keys(const Cutting& c, Findings& findings) {
@@ -77,7 +81,8 @@ void check_law_keys(const Cutting& c, Findings& findings) {
   law.allow("cutting.exponents", {"power"}, findings);
   law.allow("cutting.chip_scale", {"fractional"}, findings);
   law.allow("cutting.stiffness_ratio", {"fractional"}, findings);
-  for (const char* key : {"cutting.shear_stress", "cutting.shear_angle", "cutting.friction_angle", "cutting.rake_angle"})
+  for (const char* key :
+       {"cutting.shear_stress", "cutting.shear_angle", "cutting.friction_angle", "cutting.rake_angle"})
     law.allow(key, {"oblique"}, findings);
   if (c.law == "oblique" && findings.given("cutting.Kt"))
     findings.report("cutting.Kt", "follows from the orthogonal data; leave it out, or set cutting.law = \"linear\"");
@@ -144,8 +149,9 @@ void check_force_law(const Case& source, Findings& findings) {
   if (!source.tool) return;
   if (!source.tool->runout.empty()) require_feed(source, "tool.runout", "what runout does", findings);
   if (curved && source.tool->end != "flat") {
-    findings.report("cutting.law", "only the linear law serves a tool whose chip thins towards the tip; give Kt, Kr "
-                                   "and Ka for its mean chip");
+    findings.report("cutting.law",
+                    "only the linear law serves a tool whose chip thins towards the tip; give Kt, Kr "
+                    "and Ka for its mean chip");
   }
   if (c.process_damping > 0.0 && source.tool->end != "flat")
     findings.report("cutting.process_damping", "is known for flat ends only; leave it out");

@@ -23,7 +23,9 @@ struct Surface {
 
 std::vector<Surface> surfaces_before(const Cutter& cutter, int tooth, double feed_m) {
   std::vector<Surface> surfaces;
-  const auto runout = [&](int j) { return cutter.runout_m.empty() ? 0.0 : cutter.runout_m[static_cast<std::size_t>(j)]; };
+  const auto runout = [&](int j) {
+    return cutter.runout_m.empty() ? 0.0 : cutter.runout_m[static_cast<std::size_t>(j)];
+  };
   double turned = 0.0;
   for (int k = 1; k <= cutter.teeth; ++k) {
     turned += cutter.pitch_rad((tooth - k + 1 + cutter.teeth) % cutter.teeth);
@@ -67,7 +69,8 @@ std::vector<ChipLoad> chip_loads(const Cutter& cutter, const std::vector<Engagem
   for (int j = 0; j < cutter.teeth; ++j) loads.push_back(load_of(surfaces_before(cutter, j, feed_m), arcs));
   if (std::none_of(loads.begin(), loads.end(), [](const ChipLoad& l) { return l.mean_thickness_m > 0.0; })) {
     throw core::InputError(
-        "chip thickness: no tooth cuts a chip between entry and exit, at least one must; the feed makes chips from 0 to "
+        "chip thickness: no tooth cuts a chip between entry and exit, at least one must; the feed makes chips from 0 "
+        "to "
         "180°, correct the angles");
   }
   return loads;

@@ -161,8 +161,7 @@ ContactGrid contact_grid(const MillingProcess& process, const Eigen::Matrix3Xd& 
       continue;
     }
     for (const Sweep& sweep : cycle.sweeps) {
-      each_pass(cycle, sweep, grid.node_rad(node),
-                [&](double s) { add_edge(sweep, shape, s, node, onto, grid); });
+      each_pass(cycle, sweep, grid.node_rad(node), [&](double s) { add_edge(sweep, shape, s, node, onto, grid); });
     }
   }
   if (process.damping.C > 0.0) add_process_damping(process, cycle, shape, onto, grid);

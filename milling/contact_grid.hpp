@@ -56,10 +56,11 @@ struct Resolution {
 /// later. Nodes are Gauss's, so that the end of an element is superconvergent. Heights of one edge with one delay are
 /// integrated exactly (edge.hpp); where the helices of two teeth differ the delay changes along the edge, which is cut
 /// into six Gauss slices a piece. Process damping adds contacts that see the slope dq/dφ of the polynomial of the
-/// element (spectrally accurate, as the rest). The directional matrix of a node and delay is cut into contacts by its singular values: one tooth at a time gives one a node. A past
-/// moment between nodes is the polynomial of its element. `yielding`: 3 × p, orthonormal columns in tool axes, the
-/// directions in which the structure moves at all. `depth_m` matters where Cutter::depends_on_depth. Throws InputError if
-/// it exceeds the height of the edges. Cost O(nodes teeth).
+/// element (spectrally accurate, as the rest). The directional matrix of a node and delay is cut into contacts by its
+/// singular values: one tooth at a time gives one a node. A past moment between nodes is the polynomial of its element.
+/// `yielding`: 3 × p, orthonormal columns in tool axes, the directions in which the structure moves at all. `depth_m`
+/// matters where Cutter::depends_on_depth. Throws InputError if it exceeds the height of the edges. Cost O(nodes
+/// teeth).
 [[nodiscard]] ContactGrid contact_grid(const MillingProcess& process, const Eigen::Matrix3Xd& yielding,
                                        Resolution resolution, double depth_m = 0.0);
 

@@ -62,9 +62,9 @@ CutCycle cut_cycle(const MillingProcess& process, double depth_m) {
     if (j > 0) tip += cutter.pitch_rad(j);
     for (const Engagement& arc : arcs(process)) {
       const double later = arc.entry_rad - process.engagement.entry_rad;
-      cycle.sweeps.push_back({wrapped(tip + later, cycle.period_rad), arc.entry_rad, arc.arc_rad(),
-                              cutter.pitch_rad(j), depth_m * cutter.lag_rad_per_m(j),
-                              depth_m * cutter.lag_rad_per_m(ahead), coefficients(process, j)});
+      cycle.sweeps.push_back({wrapped(tip + later, cycle.period_rad), arc.entry_rad, arc.arc_rad(), cutter.pitch_rad(j),
+                              depth_m * cutter.lag_rad_per_m(j), depth_m * cutter.lag_rad_per_m(ahead),
+                              coefficients(process, j)});
     }
   }
   return cycle;

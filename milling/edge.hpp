@@ -39,8 +39,8 @@ struct EdgeWeight {
 [[nodiscard]] std::vector<EdgeWeight> edge_weights(const EdgeShape& shape, double most_turn_rad, double low,
                                                    double high);
 
-/// The mean of an edge's ∫ D db/w over an arc and over the teeth, N/m²: z arc/2π times it, summed over the arcs, is the A_0 of the
-/// zeroth-order solution, with any helix.
+/// The mean of an edge's ∫ D db/w over an arc and over the teeth, N/m²: z arc/2π times it, summed over the arcs, is the
+/// A_0 of the zeroth-order solution, with any helix.
 [[nodiscard]] Eigen::Matrix3d arc_mean(const MillingProcess& process, const Engagement& arc, double depth_m);
 
 }  // namespace thinwall::milling

@@ -44,8 +44,8 @@ std::optional<Joint> cone_joint(const Envelope& e) {
   const double R = e.corner_radius_m;
   const double from_axis = e.corner_radial_m;
   const double from_tip = e.corner_axial_m;
-  const auto r = roots((from_axis + from_tip * slope) / square,
-                       (from_axis * from_axis + from_tip * from_tip - R * R) / square, R);
+  const auto r =
+      roots((from_axis + from_tip * slope) / square, (from_axis * from_axis + from_tip * from_tip - R * R) / square, R);
   if (!r) return std::nullopt;
   return Joint{r->upper, r->upper * slope};
 }

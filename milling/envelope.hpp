@@ -11,11 +11,11 @@ namespace thinwall::milling {
 /// seventh is the diameter D of the cutter, where tip cone and side would meet. From the tip: a cone at `tip_angle`
 /// to the plane across the axis, an arc, a side at `taper` to the axis. All zero: a cylinder.
 struct Envelope {
-  double corner_radius_m = 0.0;  ///< R ≥ 0
-  double corner_radial_m = 0.0;  ///< R_r: centre of the arc from the axis
-  double corner_axial_m = 0.0;   ///< R_z: centre of the arc above the tip
-  double tip_angle_rad = 0.0;    ///< α, 0 to below π/2
-  double taper_rad = 0.0;        ///< β, −π/2 to π/2, positive: wider above
+  double corner_radius_m = 0.0;                               ///< R ≥ 0
+  double corner_radial_m = 0.0;                               ///< R_r: centre of the arc from the axis
+  double corner_axial_m = 0.0;                                ///< R_z: centre of the arc above the tip
+  double tip_angle_rad = 0.0;                                 ///< α, 0 to below π/2
+  double taper_rad = 0.0;                                     ///< β, −π/2 to π/2, positive: wider above
   double height_m = std::numeric_limits<double>::infinity();  ///< h > 0 of the edges; no deeper cut is possible
 
   /// One angle κ all along the edge, however long it is: a cylinder or a taper.

@@ -37,8 +37,7 @@ Tangent tangent(const FractionalLaw& law, double h) {
   const double x = h / law.h_s_m;
   const Eigen::Vector3d K = stiffnesses(law);
   // d/dx (x + r x²)/(1 + x) = (1 + 2 r x + r x²)/(1 + x)²
-  return {K * h * (1.0 + law.r * x) / (1.0 + x),
-          K * (1.0 + 2.0 * law.r * x + law.r * x * x) / ((1.0 + x) * (1.0 + x))};
+  return {K * h * (1.0 + law.r * x) / (1.0 + x), K * (1.0 + 2.0 * law.r * x + law.r * x * x) / ((1.0 + x) * (1.0 + x))};
 }
 
 std::vector<std::string> violations_of(const CuttingCoefficients& law) {
@@ -72,10 +71,6 @@ std::vector<std::string> violations_of(const FractionalLaw& law) {
 PowerLaw exponential_law(double k_F, double mu, double k_r) {
   const double K_t = k_F * std::pow(kienzle_chip_m, mu - 1.0);
   return {K_t, k_r * K_t, 0.0, 1.0 - mu, 1.0 - mu, 0.0};
-}
-
-FractionalLaw fractional_law(double k_0, double h_s_m, double r, double k_r) {
-  return {k_0 / h_s_m, k_r * k_0 / h_s_m, 0.0, h_s_m, r};
 }
 
 Eigen::Vector3d force_per_width(const ForceLaw& law, double h_m) {

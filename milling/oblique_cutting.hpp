@@ -24,8 +24,8 @@ struct OrthogonalCutting {
 ///     K_rc = τ/(sin φ_n cos i) sin(β_n − α_n)/c
 ///     K_ac = τ/sin φ_n [cos(β_n − α_n) tan i − tan η sin β_n]/c,       c² = cos²(φ_n + β_n − α_n) + tan² η sin² β_n
 ///
-/// (Budak, Altintas & Armarego 1996; Altintas 2012, ch. 2). A right-hand helix draws the tool out of its holder, so that
-/// here K_t = K_tc, K_r = K_rc, K_a = −K_ac. Throws InputError for bad data or |i| > 80°.
+/// (Budak, Altintas & Armarego 1996; Altintas 2012, ch. 2). A right-hand helix draws the tool out of its holder, so
+/// that here K_t = K_tc, K_r = K_rc, K_a = −K_ac. Throws InputError for bad data or |i| > 80°.
 [[nodiscard]] CuttingCoefficients oblique_coefficients(const OrthogonalCutting& data, double oblique_rad);
 
 /// Every violation, empty if there is none; φ_c + β_a − α_n must stay below π/2, where the shear plane would carry no

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -13,32 +12,7 @@ namespace thinwall::milling {
 namespace {
 
 bool same(const CuttingCoefficients& a, const CuttingCoefficients& b) {
-  return a.K_t == b.K_t && a.K_r == b.K_r && a.K_a == b.K_a && a.K_te == b.K_te && a.K_re == b.K_re &&
-         a.K_ae == b.K_ae;
-}
-
-bool overlap(const Engagement& a, const Engagement& b) {
-  constexpr double turn = 2.0 * std::numbers::pi;
-  constexpr double touch = 1e-9;
-  const auto after = [](double angle) { return angle - turn * std::floor(angle / turn); };
-  return after(b.entry_rad - a.entry_rad + touch) < a.arc_rad() || after(a.entry_rad - b.entry_rad + touch) < b.arc_rad();
-}
-
-std::vector<std::string> engagement_violations(const MillingProcess& process) {
-  const std::vector<Engagement> all = arcs(process);
-  std::vector<std::string> violations;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto own = validate(all[i]);
-    violations.insert(violations.end(), own.begin(), own.end());
-    for (std::size_t j = 0; own.empty() && j < i; ++j) {
-      if (!overlap(all[i], all[j])) continue;
-      std::ostringstream text;
-      text << "engagement: the arc that enters at " << all[i].entry_rad << " rad overlaps the one that enters at "
-           << all[j].entry_rad << " rad; join them, or correct the angles";
-      violations.push_back(text.str());
-    }
-  }
-  return violations;
+  return a.K_t == b.K_t && a.K_r == b.K_r && a.K_a == b.K_a && a.K_te == b.K_te && a.K_re == b.K_re && a.K_ae == b.K_ae;
 }
 
 std::vector<std::string> coefficient_violations(const MillingProcess& process) {
@@ -104,7 +78,7 @@ void set_force_law(MillingProcess& process, const ForceLaw& law, double feed_per
 
 std::vector<std::string> validate(const MillingProcess& process) {
   std::vector<std::string> all = validate(process.cutter);
-  for (const auto& part : {coefficient_violations(process), engagement_violations(process), validate(process.frame),
+  for (const auto& part : {coefficient_violations(process), validate(arcs(process)), validate(process.frame),
                            validate(process.damping, process.cutter)}) {
     all.insert(all.end(), part.begin(), part.end());
   }

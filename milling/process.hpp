@@ -17,7 +17,7 @@ struct MillingProcess {
   CuttingCoefficients coefficients;
   Engagement engagement;
   ToolFrame frame;
-  std::vector<Engagement> further_engagements = {};         ///< arcs of the turn besides `engagement`
+  std::vector<Engagement> further_engagements = {};          ///< arcs of the turn besides `engagement`
   std::vector<CuttingCoefficients> tooth_coefficients = {};  ///< one a tooth, in place of `coefficients`; empty: alike
   ProcessDamping damping = {};
 };
