@@ -19,12 +19,11 @@ constexpr double degree = pi / 180.0;
 const CuttingCoefficients steel{1.8e9, 0.7e9, -0.3e9, 0.0, 0.0, 0.0};
 
 /// A tapered ball: the arc about (0, R) touches the side at taper β, whose line lies R from the centre.
-Envelope tapered_ball(double diameter, double radius, double taper) {
+Envelope tapered_ball(double radius, double taper) {
   Envelope e;
   e.corner_radius_m = radius;
   e.corner_axial_m = radius;
   e.taper_rad = taper;
-  (void)diameter;
   return e;
 }
 
@@ -70,7 +69,7 @@ TEST(Envelope, TaperedBallMeetsItsSideWithoutAKink) {
   const double R = 0.003;
   const double taper = 7.0 * degree;
   const double D = diameter_of_tapered_ball(R, taper);
-  const Envelope e = tapered_ball(D, R, taper);
+  const Envelope e = tapered_ball(R, taper);
   ASSERT_TRUE(validate(e, D).empty());
   const auto pieces = meridian(e, D);
   ASSERT_EQ(pieces.size(), 2u);
@@ -199,7 +198,9 @@ TEST(Edge, CornerThatVanishesLeavesTheCylinder) {
     Cutter bull = flat;
     bull.envelope = bull_nose(0.01, R);
     const double off = (edge_matrix(edge_shape(bull, depth), steel, 0.9, 0.2, 0.0, 1.0) - limit).norm();
-    if (before > 0.0) EXPECT_NEAR(before / off, 2.0, 0.02) << R;
+    if (before > 0.0) {
+      EXPECT_NEAR(before / off, 2.0, 0.02) << R;
+    }
     before = off;
   }
   EXPECT_LT(before / limit.norm(), 0.02);

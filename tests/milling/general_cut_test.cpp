@@ -120,7 +120,9 @@ TEST(BullNose, CornerThatVanishesLeavesTheCylindersMultiplier) {
     MillingProcess bull = flat;
     bull.cutter.envelope = bull_nose(0.012, R);
     const double off = std::abs(multiplier_at(structure(), bull, 8000.0, 1e-3, to(1e-9)).modulus - limit);
-    if (before > 0.0) EXPECT_NEAR(before / off, 2.0, 0.05) << R;
+    if (before > 0.0) {
+      EXPECT_NEAR(before / off, 2.0, 0.05) << R;
+    }
     before = off;
   }
 }
