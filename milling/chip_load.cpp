@@ -42,19 +42,19 @@ double thickness(const std::vector<Surface>& surfaces, double phi) {
 }
 
 ChipLoad load_of(const std::vector<Surface>& surfaces, const std::vector<Engagement>& arcs) {
-  double volume = 0.0;
-  double cut = 0.0;
+  double area = 0.0;
+  double missed = 0.0;
   double all = 0.0;
   for (const Engagement& arc : arcs) {
     const double step = arc.arc_rad() / samples;
     for (int i = 0; i < samples; ++i) {
       const double h = thickness(surfaces, arc.entry_rad + (i + 0.5) * step);
-      volume += step * h;
-      if (h > 0.0) cut += step;
+      area += step * h;
+      if (h == 0.0) missed += step;
     }
     all += arc.arc_rad();
   }
-  return {cut > 0.0 ? volume / cut : 0.0, cut / all};
+  return {area > 0.0 ? area / (all - missed) : 0.0, area > 0.0 ? 1.0 - missed / all : 0.0};
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ void add_edge(const Sweep& sweep, const EdgeShape& shape, double s, int node, co
     return;
   }
   const Heights h = in_cut(sweep, s);
-  for (const EdgeWeight& w : edge_weights(shape, 0.0, h.low, h.high)) {
+  for (const EdgeWeight& w : edge_weights(shape, 6, h.low, h.high)) {
     const double delay = sweep.pitch_rad + w.height * (sweep.lag_rad - sweep.ahead_lag_rad);
     const Eigen::Matrix3d D =
         directional_matrix_on(sweep.coefficients, w.kappa_rad, sweep.entry_phi_rad + s - w.height * sweep.lag_rad);

@@ -59,7 +59,8 @@ Eigen::Matrix3d edge_matrix(const EdgeShape& shape, const CuttingCoefficients& c
                                         tip_rad - from * lag_per_m);
       return;
     }
-    for (const EdgeSlice& slice : edge_slices(piece, from, to, lag_per_m)) {
+    const int points = exact_points(piece, from, to, lag_per_m * (to - from));
+    for (const EdgeSlice& slice : edge_slices(piece, from, to, points)) {
       sum += slice.width_m / shape.depth_m *
              directional_matrix_on(coefficients, slice.kappa_rad, tip_rad - slice.height_m * lag_per_m);
     }
@@ -67,19 +68,20 @@ Eigen::Matrix3d edge_matrix(const EdgeShape& shape, const CuttingCoefficients& c
   return sum;
 }
 
-std::vector<EdgeWeight> edge_weights(const EdgeShape& shape, double most_turn_rad, double low, double high) {
+std::vector<EdgeWeight> edge_weights(const EdgeShape& shape, int points, double low, double high) {
   std::vector<EdgeWeight> weights;
   each_piece(shape, low, high, [&](const MeridianPiece& piece, double from, double to) {
-    for (const EdgeSlice& slice : edge_slices(piece, from, to, most_turn_rad / shape.depth_m))
+    for (const EdgeSlice& slice : edge_slices(piece, from, to, points))
       weights.push_back({slice.height_m / shape.depth_m, slice.kappa_rad, slice.width_m / shape.depth_m});
   });
   return weights;
 }
 
 Eigen::Matrix3d arc_mean(const MillingProcess& process, const Engagement& arc, double depth_m) {
+  constexpr int points = 9;  // exact_points() of a quarter of a circle
   const EdgeShape shape = edge_shape(process.cutter, depth_m);
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (const EdgeWeight& w : edge_weights(shape, 0.0, 0.0, 1.0)) {
+  for (const EdgeWeight& w : edge_weights(shape, points, 0.0, 1.0)) {
     for (int j = 0; j < process.cutter.teeth; ++j) {
       sum += w.weight / process.cutter.teeth *
              mean_directional_matrix_on(coefficients(process, j), w.kappa_rad, arc.entry_rad, arc.exit_rad);

@@ -34,10 +34,8 @@ struct EdgeWeight {
 [[nodiscard]] Eigen::Matrix3d edge_matrix(const EdgeShape& shape, const CuttingCoefficients& coefficients,
                                           double tip_rad, double lag_rad, double low, double high);
 
-/// Points for a sum in place of that integral, where more than D changes along the edge; `most_turn_rad`: how far the
-/// angles of what is summed turn from 0 to the depth.
-[[nodiscard]] std::vector<EdgeWeight> edge_weights(const EdgeShape& shape, double most_turn_rad, double low,
-                                                   double high);
+/// Points for a sum in place of that integral, where more than D changes along the edge: `points` of Gauss's a piece.
+[[nodiscard]] std::vector<EdgeWeight> edge_weights(const EdgeShape& shape, int points, double low, double high);
 
 /// The mean of an edge's ∫ D db/w over an arc and over the teeth, N/m²: z arc/2π times it, summed over the arcs, is the
 /// A_0 of the zeroth-order solution, with any helix.

@@ -114,11 +114,10 @@ MeridianPoint at_height(const Envelope& envelope, double diameter_m, double heig
   return (above == pieces.end() ? pieces.back() : *above).at(height_m);
 }
 
-std::vector<EdgeSlice> edge_slices(const MeridianPiece& piece, double low_m, double high_m, double lag_rad_per_m) {
-  const double turn = std::abs(lag_rad_per_m) * (high_m - low_m);
+std::vector<EdgeSlice> edge_slices(const MeridianPiece& piece, double low_m, double high_m, int points) {
   const double from = piece.straight() ? 0.0 : kappa_on_arc(piece, low_m);
   const double to = piece.straight() ? 0.0 : kappa_on_arc(piece, high_m);
-  const GaussRule rule = gauss_legendre(6 + static_cast<int>(std::ceil(turn + 1.5 * (to - from))));
+  const GaussRule rule = gauss_legendre(points);
   std::vector<EdgeSlice> slices;
   for (Eigen::Index i = 0; i < rule.node.size(); ++i) {
     if (piece.straight()) {
@@ -131,6 +130,11 @@ std::vector<EdgeSlice> edge_slices(const MeridianPiece& piece, double low_m, dou
     }
   }
   return slices;
+}
+
+int exact_points(const MeridianPiece& piece, double low_m, double high_m, double turn_rad) {
+  const double kappa = piece.straight() ? 0.0 : kappa_on_arc(piece, high_m) - kappa_on_arc(piece, low_m);
+  return 6 + static_cast<int>(std::ceil(std::abs(turn_rad) + 1.5 * kappa));
 }
 
 std::vector<std::string> validate(const Envelope& e, double diameter_m) {

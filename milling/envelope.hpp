@@ -63,11 +63,13 @@ struct EdgeSlice {
   double width_m = 0.0;
 };
 
-/// Slices of a piece between two of its heights, in equal steps of the meridian, so that the tip of a ball, where dz/db
-/// vanishes, is smooth. `lag_rad_per_m` is the turn of the edge, which sets their number: products of two sines of φ
-/// and three of κ come out to 1e-10.
-[[nodiscard]] std::vector<EdgeSlice> edge_slices(const MeridianPiece& piece, double low_m, double high_m,
-                                                 double lag_rad_per_m);
+/// Slices of a piece between two of its heights, in steps of the meridian, so that the tip of a ball, where dz/db
+/// vanishes, is smooth. `points` ≥ 1 of them.
+[[nodiscard]] std::vector<EdgeSlice> edge_slices(const MeridianPiece& piece, double low_m, double high_m, int points);
+
+/// Points that give products of two sines of φ and three of κ to 1e-10 on an edge that turns by `turn_rad` between
+/// heights of the piece: half the change of their phase, and six.
+[[nodiscard]] int exact_points(const MeridianPiece& piece, double low_m, double high_m, double turn_rad);
 
 /// Every violation, empty if there is none: numbers in their ranges, an arc that meets cone and side in this order, a
 /// radius that is nowhere negative.

@@ -62,7 +62,7 @@ TEST(Envelope, SevenParametersOfACylinderAreOnePiece) {
   ASSERT_EQ(pieces.size(), 1u);
   EXPECT_TRUE(cylinder.straight());
   EXPECT_EQ(pieces[0].kappa_rad, 0.5 * pi);
-  EXPECT_EQ(pieces[0].at(0.3).radius_m, 0.005);
+  EXPECT_DOUBLE_EQ(pieces[0].at(0.3).radius_m, 0.005);
 }
 
 TEST(Envelope, TaperedBallMeetsItsSideWithoutAKink) {
@@ -85,7 +85,7 @@ TEST(Envelope, ConeArcAndSideFollowEachOther) {
   // A cone tip of 20°, a corner and a side at 4°: points of the pieces lie on cone, circle and line, radii rise.
   const double D = 0.012;
   Envelope e{0.002, 0.0, 0.0, 20.0 * degree, 4.0 * degree};
-  e.corner_radial_m = 0.0035;
+  e.corner_radial_m = 0.0042;
   e.corner_axial_m = 0.0032;
   ASSERT_TRUE(validate(e, D).empty()) << validate(e, D).front();
   const auto pieces = meridian(e, D);
@@ -110,7 +110,7 @@ TEST(Envelope, WidthsOfSlicesAreTheLengthOfTheMeridian) {
   const double R = 0.006;
   const auto pieces = meridian(ball_end(2.0 * R), 2.0 * R);
   double width = 0.0;
-  for (const EdgeSlice& s : edge_slices(pieces[0], 0.0, 2e-3, 0.0)) width += s.width_m;
+  for (const EdgeSlice& s : edge_slices(pieces[0], 0.0, 2e-3, 3)) width += s.width_m;
   EXPECT_NEAR(width, R * std::acos(1.0 - 2e-3 / R), 1e-15);
 }
 
@@ -159,7 +159,7 @@ Eigen::Matrix3d brute_force(const Cutter& cutter, double depth, double tip, doub
 TEST(Edge, AgainstManySlicesAsCuttersOfTheirOwn) {
   const std::vector<double> helix(2, 38.0 * degree);
   const double D = 0.012;
-  Envelope general{0.002, 0.0035, 0.0032, 20.0 * degree, 4.0 * degree};
+  Envelope general{0.002, 0.0042, 0.0032, 20.0 * degree, 4.0 * degree};
   const std::vector<Envelope> envelopes{{}, ball_end(D), bull_nose(D, 0.0015), general};
   for (std::size_t e = 0; e < envelopes.size(); ++e) {
     const Cutter cutter{2, D, {}, helix, envelopes[e]};
@@ -168,9 +168,9 @@ TEST(Edge, AgainstManySlicesAsCuttersOfTheirOwn) {
       for (const auto& [low, high] : {std::pair{0.0, 1.0}, std::pair{0.07, 0.8}}) {
         const Eigen::Matrix3d sum = brute_force(cutter, depth, 1.1, low, high);
         const Eigen::Matrix3d exact = edge_matrix(shape, steel, 1.1, depth * cutter.lag_rad_per_m(0), low, high);
-        // Midpoints err by (Δ)²/24 of the second derivative: 1e-9 of smooth parts; slices across a kink of κ by a
-        // share of 1/20000 of a jump.
-        EXPECT_LT((exact - sum).norm() / sum.norm(), e == 3 ? 2e-5 : 1e-7) << e << " " << depth << " " << low;
+        // Midpoints err by (Δ)²/24 of the second derivative: 1e-9 of smooth parts; a slice across a kink of κ, up to
+        // 2/20000 of the depth, by all it has.
+        EXPECT_LT((exact - sum).norm() / sum.norm(), e == 3 ? 1e-4 : 1e-7) << e << " " << depth << " " << low;
       }
     }
   }
@@ -183,7 +183,7 @@ TEST(Edge, OnACylinderTheMatrixIsThatOfTheClosedForm) {
   EXPECT_LT((A.leftCols<2>() - 0.5 * mean_directional_matrix(steel, 1.0, 1.2)).norm(), 1e-6);
   EXPECT_EQ(A.col(2).norm(), 0.0);
   Eigen::Matrix3d slices = Eigen::Matrix3d::Zero();
-  for (const EdgeWeight& w : edge_weights(shape, 0.4, 0.25, 0.75))
+  for (const EdgeWeight& w : edge_weights(shape, 8, 0.25, 0.75))
     slices += w.weight * directional_matrix_on(steel, w.kappa_rad, 1.3 - 0.4 * w.height);
   EXPECT_LT((A - slices).norm() / A.norm(), 1e-13);
 }
