@@ -22,7 +22,7 @@ struct Belongings {
   std::string chosen;
 
   void allow(const std::string& key, std::initializer_list<const char*> choices, Findings& findings) const {
-    if (!findings.given(key)) return;
+    if (chosen.empty() || !findings.given(key)) return;  // an unreadable choice was reported
     for (const char* choice : choices) {
       if (chosen == choice) return;
     }
@@ -58,6 +58,7 @@ void check_angles(const Cutting& cutting, Findings& findings) {
   for (std::size_t i = 0; i < cutting.entry_angles.size(); ++i) {
     arcs.push_back({cutting.entry_angles[i], cutting.exit_angles[i]});
     const double arc = arcs.back().arc_rad();
+    if (std::isnan(arc)) return;  // unreadable, reported
     if (arc > 0.0 && arc <= 360.0 * degree + 1e-9) continue;
     findings.report("cutting.exit_angle",
                     fmt::format("exit at {:g} deg, entry at {:g} deg: the exit must follow "
@@ -126,7 +127,7 @@ void check_engagement(const Case& source, Findings& findings) {
   if (angles) check_angles(cutting, findings);
   if (cutting.radial_depth && source.tool) {
     const Tool& tool = *source.tool;
-    const bool round_end = tool.end != "flat";
+    const bool round_end = !tool.end.empty() && tool.end != "flat";
     if (*cutting.radial_depth > tool.diameter) {
       findings.report("cutting.radial_depth", core::readable_text(*cutting.radial_depth, core::kind::length) +
                                                   " is more than the tool's diameter of " +

@@ -62,7 +62,7 @@ TEST(Envelope, SevenParametersOfACylinderAreOnePiece) {
   ASSERT_EQ(pieces.size(), 1u);
   EXPECT_TRUE(cylinder.straight());
   EXPECT_EQ(pieces[0].kappa_rad, 0.5 * pi);
-  EXPECT_DOUBLE_EQ(pieces[0].at(0.3).radius_m, 0.005);
+  EXPECT_NEAR(pieces[0].at(0.3).radius_m, 0.005, 1e-15);
 }
 
 TEST(Envelope, TaperedBallMeetsItsSideWithoutAKink) {
