@@ -89,7 +89,8 @@ void check_law_keys(const Cutting& c, Findings& findings) {
     findings.report("cutting.Kt", "follows from the orthogonal data; leave it out, or set cutting.law = \"linear\"");
   if (c.law != "oblique" && !findings.given("cutting.Kt"))
     findings.report("cutting.Kt", "missing; for example \"1800 N/mm^2\"");
-  if (c.law == "power" && c.exponents.size() != 3)
+  const bool unreadable = findings.given("cutting.exponents") && c.exponents.empty();  // reported
+  if (c.law == "power" && c.exponents.size() != 3 && !unreadable)
     findings.report("cutting.exponents", "the power law needs one exponent, or three for Kt, Kr, Ka");
   if (c.law == "fractional" && !(c.chip_scale && c.stiffness_ratio))
     findings.report("cutting.law", "fractional needs cutting.chip_scale and cutting.stiffness_ratio");

@@ -124,7 +124,7 @@ TEST(CuttingCase, WrongToolsAreRefused) {
   expect_problem(cut_case("end = \"ball\"\n", depth), "give cutting.entry_angle and cutting.exit_angle");
   expect_problem(cut_case("end = \"round\"\n", depth), "is none of");
   expect_problem(cut_case("runout = \"1 um\"\n", depth), "give one a tooth");
-  expect_problem(cut_case("helices = \"90 deg\"\n", depth), "80 deg");
+  expect_problem(cut_case("helices = \"90 deg\"\n", depth), "end mills have 30 to 45 deg");
 }
 
 TEST(CuttingCase, WrongEngagementsAreRefused) {
