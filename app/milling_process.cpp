@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 #include "milling/chip_load.hpp"
 #include "milling/oblique_cutting.hpp"
 
