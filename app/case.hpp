@@ -175,23 +175,42 @@ struct ToolMode {
 
 struct Tool {
   int teeth = 0;
-  double diameter = 0.0;        ///< m
-  double length = 0.0;          ///< m
-  std::vector<double> pitches;  ///< rad; empty: equal
-  std::vector<double> helices;  ///< rad, one a tooth; empty: none
+  double diameter = 0.0;                           ///< m
+  double length = 0.0;                             ///< m
+  std::vector<double> pitches;                     ///< rad; empty: equal
+  std::vector<double> helices;                     ///< rad, one a tooth; empty: none
+  std::vector<double> runout;                      ///< m, one a tooth; empty: none
+  std::string end = "flat";                        ///< flat, ball, bull_nose, general
+  double corner_radius = 0.0;                      ///< m; of bull_nose and general, the next four of general alone
+  double corner_radial = 0.0, corner_axial = 0.0;  ///< m
+  double tip_angle = 0.0, taper = 0.0;             ///< rad
   std::vector<ToolMode> modes;
 };
 
+/// What turning tells of a material: coefficients follow by the tool's helix.
+struct OrthogonalData {
+  std::optional<double> shear_stress;                             ///< Pa
+  std::optional<double> shear_angle, friction_angle, rake_angle;  ///< rad
+};
+
 struct Cutting {
-  double radial_depth = 0.0;  ///< m
+  std::optional<double> radial_depth;             ///< m; none: the angles are given
+  std::vector<double> entry_angles, exit_angles;  ///< rad, one an arc
   bool down_milling = true;
+  double lead_angle = 0.0;  ///< rad
   Eigen::Vector3d feed_direction = Eigen::Vector3d::UnitY();
   Eigen::Vector3d tool_axis = Eigen::Vector3d::UnitZ();
-  std::string at;                          ///< name of the point that is cut
-  double Kt = 0.0, Kr = 0.0, Ka = 0.0;     ///< N/m²
-  double Kte = 0.0, Kre = 0.0, Kae = 0.0;  ///< N/m
+  std::string at;                                                ///< name of the point that is cut
+  double Kt = 0.0, Kr = 0.0, Ka = 0.0;                           ///< N/m²
+  double Kte = 0.0, Kre = 0.0, Kae = 0.0;                        ///< N/m
+  std::string law = "linear";                                    ///< linear, power, fractional, oblique
+  std::vector<double> exponents;                                 ///< of power: for Kt, Kr, Ka
+  std::optional<double> chip_scale, stiffness_ratio;             ///< of fractional: m, 1
+  OrthogonalData orthogonal;                                     ///< of oblique
+  double process_damping = 0.0, process_damping_friction = 0.3;  ///< N/m, 1
   std::optional<double> spindle_speed_rpm;
-  std::optional<double> feed_rate;  ///< m/s
+  std::optional<double> feed_rate;       ///< m/s
+  std::optional<double> feed_per_tooth;  ///< m
 };
 
 struct LobesOptions {

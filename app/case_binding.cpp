@@ -273,8 +273,19 @@ std::vector<Updating> bind_updating(const std::vector<Table>& tables) {
 }
 
 Tool bind_tool(const Table& table) {
-  Tool tool{table.integer("teeth"),   table.number("diameter"), table.number("length"),
-            table.numbers("pitches"), table.numbers("helices"), {}};
+  Tool tool;
+  tool.teeth = table.integer("teeth");
+  tool.diameter = table.number("diameter");
+  tool.length = table.number("length");
+  tool.pitches = table.numbers("pitches");
+  tool.helices = table.numbers("helices");
+  tool.runout = table.numbers("runout");
+  tool.end = table.text("end");
+  tool.corner_radius = table.optional("corner_radius").value_or(0.0);
+  tool.corner_radial = table.optional("corner_radial").value_or(0.0);
+  tool.corner_axial = table.optional("corner_axial").value_or(0.0);
+  tool.tip_angle = table.optional("tip_angle").value_or(0.0);
+  tool.taper = table.optional("taper").value_or(0.0);
   if (tool.helices.size() == 1) tool.helices.resize(static_cast<std::size_t>(tool.teeth), tool.helices.front());
   for (const auto& mode : table.tables("modes")) {
     tool.modes.push_back({mode.number("frequency"), mode.number("damping_ratio"), mode.number("stiffness"),
@@ -285,7 +296,10 @@ Tool bind_tool(const Table& table) {
 
 Cutting bind_cutting(const Table& table) {
   Cutting cutting;
-  cutting.radial_depth = table.number("radial_depth");
+  cutting.radial_depth = table.optional("radial_depth");
+  cutting.entry_angles = table.numbers("entry_angle");
+  cutting.exit_angles = table.numbers("exit_angle");
+  cutting.lead_angle = table.number("lead_angle");
   cutting.down_milling = table.text("mode") != "up";
   cutting.feed_direction = table.direction("feed_direction");
   cutting.tool_axis = table.direction("tool_axis");
@@ -296,8 +310,17 @@ Cutting bind_cutting(const Table& table) {
   cutting.Kte = table.number("Kte");
   cutting.Kre = table.number("Kre");
   cutting.Kae = table.number("Kae");
+  cutting.law = table.text("law");
+  cutting.exponents = spread(table.numbers("exponents"), 3);
+  cutting.chip_scale = table.optional("chip_scale");
+  cutting.stiffness_ratio = table.optional("stiffness_ratio");
+  cutting.orthogonal = {table.optional("shear_stress"), table.optional("shear_angle"), table.optional("friction_angle"),
+                        table.optional("rake_angle")};
+  cutting.process_damping = table.number("process_damping");
+  cutting.process_damping_friction = table.number("process_damping_friction");
   cutting.spindle_speed_rpm = table.optional("spindle_speed");
   cutting.feed_rate = table.optional("feed_rate");
+  cutting.feed_per_tooth = table.optional("feed_per_tooth");
   return cutting;
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "app/cutting_checks.hpp"
 #include "app/findings.hpp"
 #include "app/part_checks.hpp"
 #include "app/schema.hpp"
@@ -350,35 +351,11 @@ void check_updating(const Case& source, Findings& findings) {
   }
 }
 
-void check_tool(const Tool& tool, Findings& findings) {
-  const auto teeth = static_cast<std::size_t>(tool.teeth);
-  const auto as_many = [&](const char* key, const std::vector<double>& values) {
-    if (values.empty() || values.size() == teeth) return true;
-    findings.report(
-        key, std::to_string(values.size()) + " values for " + std::to_string(tool.teeth) + " teeth; give one a tooth");
-    return false;
-  };
-  (void)as_many("tool.helices", tool.helices);
-  if (!as_many("tool.pitches", tool.pitches) || tool.pitches.empty()) return;
-  const double sum = std::accumulate(tool.pitches.begin(), tool.pitches.end(), 0.0) * 180.0 / std::numbers::pi;
-  if (std::abs(sum - 360.0) > 1e-4) {
-    findings.report("tool.pitches", "the pitches come to " + fmt::format("{:g}", sum) +
-                                        " deg together; they must make a full turn of 360 deg");
-  }
-}
-
 void check_cutting(const Case& source, Findings& findings) {
   const Cutting& cutting = *source.cutting;
-  if (!source.tool) {
-    findings.report("cutting", "there is no cutter; add [tool]");
-  } else if (cutting.radial_depth > source.tool->diameter) {
-    findings.report("cutting.radial_depth", core::readable_text(cutting.radial_depth, core::kind::length) +
-                                                " is more than the tool's diameter of " +
-                                                core::readable_text(source.tool->diameter, core::kind::length));
-  }
-  if (std::abs(cutting.feed_direction.dot(cutting.tool_axis)) > 1e-9) {
-    findings.report("cutting.feed_direction", "the feed must be perpendicular to cutting.tool_axis");
-  }
+  if (!source.tool) findings.report("cutting", "there is no cutter; add [tool]");
+  check_engagement(source, findings);
+  check_force_law(source, findings);
   if (source.part || !part_points(source).empty()) require_kept(source, "cutting.at", cutting.at, findings);
   const auto here = directions_at(source, cutting.at);
   if (source.part && !here.empty() && here.size() < 3) {

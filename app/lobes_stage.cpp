@@ -3,26 +3,15 @@
 #include <numbers>
 #include <optional>
 
+#include "app/milling_process.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
-#include "milling/process.hpp"
 #include "milling/stability.hpp"
 #include "robot/one_mode.hpp"
 
 namespace thinwall::app {
 
 namespace {
-
-milling::MillingProcess process_of(const Case& source) {
-  const Cutting& c = *source.cutting;
-  milling::MillingProcess process;
-  process.cutter = {source.tool->teeth, source.tool->diameter, source.tool->pitches, source.tool->helices};
-  process.coefficients = {c.Kt, c.Kr, c.Ka, c.Kte, c.Kre, c.Kae};
-  process.engagement = milling::engagement_of(
-      process.cutter, c.radial_depth, c.down_milling ? milling::MillingDirection::down : milling::MillingDirection::up);
-  process.frame = {c.feed_direction, c.tool_axis};
-  return process;
-}
 
 std::optional<milling::RelativeStructure> tool_structure(const Case& source) {
   if (source.tool->modes.empty()) return std::nullopt;
@@ -51,7 +40,7 @@ milling::RelativeStructure relative_structure(const Case& source, const dynamics
 NamedLobes compute_lobes(const Case& source, const std::string& name, const dynamics::ModalModel* structure) {
   const LobesOptions& wanted = *source.lobes;
   const auto relative = relative_structure(source, structure);
-  const auto process = process_of(source);
+  const auto process = milling_process(source);
   milling::StabilityOptions options;
   options.depth_limit_m = wanted.depth_limit;
   options.error_tolerance = wanted.tolerance;

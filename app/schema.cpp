@@ -21,6 +21,11 @@ constexpr Bounds poisson_bounds{0.0,  0.5,   false,
                                 true, false, "isotropic solids lie at 0.2 to 0.45; 0.5 would be incompressible"};
 constexpr Bounds stiffness_or_infinite{0.0, infinity, true, false, true, "\"inf\" for a rigid contact"};
 constexpr Bounds coefficient_bounds{1e6, 1e11, false, false, false, "for N/mm^2 write the unit: \"1800 N/mm^2\""};
+constexpr Bounds axial_bounds{-1e12, 1e12, false, false, false, "for N/mm^2 write the unit: \"-200 N/mm^2\""};
+constexpr Bounds exponent_bounds{0.0, 1.0, false, true, false, "0.2 to 0.3 is usual for steel"};
+constexpr Bounds right_angle{0.0, 1.5707963268, false, true, false, "below 90 deg"};
+constexpr Bounds tilt{-1.3962634016, 1.3962634016, false, false, false, "within 80 deg"};
+constexpr Bounds turn{-6.2831853072, 12.5663706144, false, false, false, "a full turn is 360 deg"};
 constexpr Bounds radial_bounds{0.0, 1e12, false, false, false, "for N/mm^2 write the unit: \"600 N/mm^2\""};
 
 constexpr bool required = true;
@@ -179,24 +184,45 @@ constexpr std::array case_keys{
     Key{"tool.length", Type::quantity, kind::length, "", positive, "", "Length of the cutting edges: no deeper cut is possible.", required},
     Key{"tool.pitches", Type::quantities, kind::angle, "", {0.0, 6.2831853072, true, false, false, "a full turn is 360 deg"}, "", "Angle from each tooth to the one ahead of it, at the tip; equal if not given. One a tooth, 360 deg together."},
     Key{"tool.helices", Type::quantities, kind::angle, "", {0.0, 1.3962634016, false, false, false, "end mills have 30 to 45 deg"}, "", "Helix angle of each tooth, or one for all; none if not given."},
+    Key{"tool.runout", Type::quantities, kind::length, "", any, "", "Radial offset of each tooth, outwards positive; changes the mean chip of a law that is not linear."},
+    Key{"tool.end", Type::choice, kind::number, "\"flat\"", any, "flat|ball|bull_nose|general", "Shape of the tip; `general` is the envelope of seven parameters of Engin & Altintas 2001, with `diameter` and `length` its D and h."},
+    Key{"tool.corner_radius", Type::quantity, kind::length, "", not_negative, "", "Of `bull_nose` and `general`: R."},
+    Key{"tool.corner_radial", Type::quantity, kind::length, "", any, "", "Of `general`: centre of the corner's arc from the axis, R_r; 0 if not given."},
+    Key{"tool.corner_axial", Type::quantity, kind::length, "", any, "", "Of `general`: centre of the corner's arc above the tip, R_z; 0 if not given."},
+    Key{"tool.tip_angle", Type::quantity, kind::angle, "", right_angle, "", "Of `general`: cone at the tip, from the plane across the axis; 0 if not given."},
+    Key{"tool.taper", Type::quantity, kind::angle, "", tilt, "", "Of `general`: of the side from the axis, positive where it widens upwards; 0 if not given."},
     Key{"tool.modes[].frequency", Type::quantity, kind::frequency, "", positive, "", "Natural frequency.", required},
     Key{"tool.modes[].damping_ratio", Type::quantity, kind::number, "", damping_ratio, "", "Damping ratio.", required},
     Key{"tool.modes[].stiffness", Type::quantity, kind::stiffness, "", positive, "", "Modal stiffness at the tip.", required},
     Key{"tool.modes[].direction", Type::direction, kind::number, "", any, "", "Direction, in the part's axes.", required},
 
     Key{"cutting.at", Type::name, kind::number, "", any, "", "Point of the part that is cut.", required},
-    Key{"cutting.radial_depth", Type::quantity, kind::length, "", positive, "", "Radial depth of cut.", required},
+    Key{"cutting.radial_depth", Type::quantity, kind::length, "", positive, "", "Radial depth of cut; or give `entry_angle` and `exit_angle`."},
+    Key{"cutting.entry_angle", Type::quantities, kind::angle, "", turn, "", "Where teeth enter, one an arc: 0 on the normal side (tool_axis x feed_direction), 90 deg ahead, 180 deg opposite; in place of `radial_depth`."},
+    Key{"cutting.exit_angle", Type::quantities, kind::angle, "", turn, "", "Where they leave, one an arc, each after its entry."},
+    Key{"cutting.lead_angle", Type::quantity, kind::angle, "0", tilt, "", "The tool leans forwards by this angle, from `tool_axis` towards `feed_direction`; depth and engagement are meant in its own axes."},
     Key{"cutting.mode", Type::choice, kind::number, "\"down\"", any, "down|up", "Down (climb) or up (conventional) milling."},
     Key{"cutting.feed_direction", Type::direction, kind::number, "\"y\"", any, "", "Feed of the tool, in the part's axes."},
     Key{"cutting.tool_axis", Type::direction, kind::number, "\"z\"", any, "", "Axis of the tool, in the part's axes."},
-    Key{"cutting.Kt", Type::quantity, kind::stress, "", coefficient_bounds, "", "Tangential cutting coefficient.", required},
+    Key{"cutting.Kt", Type::quantity, kind::stress, "", coefficient_bounds, "", "Tangential cutting coefficient: K_t of the linear law, k1.1 (at a chip of 1 mm) of the power law, stiffness at thin chips of the fractional one; none of `oblique`."},
     Key{"cutting.Kr", Type::quantity, kind::stress, "0", radial_bounds, "", "Radial cutting coefficient."},
-    Key{"cutting.Ka", Type::quantity, kind::stress, "0", radial_bounds, "", "Axial cutting coefficient."},
+    Key{"cutting.Ka", Type::quantity, kind::stress, "0", axial_bounds, "", "Axial cutting coefficient, positive towards the spindle."},
     Key{"cutting.Kte", Type::quantity, kind::stiffness, "0", not_negative, "", "Tangential edge coefficient."},
     Key{"cutting.Kre", Type::quantity, kind::stiffness, "0", not_negative, "", "Radial edge coefficient."},
     Key{"cutting.Kae", Type::quantity, kind::stiffness, "0", not_negative, "", "Axial edge coefficient."},
     Key{"cutting.spindle_speed", Type::quantity, kind::spindle_speed, "", positive, "", "The speed at which the depth is reported besides the chart."},
-    Key{"cutting.feed_rate", Type::quantity, kind::velocity, "", positive, "", "Feed rate; for information, the stability does not depend on it."},
+    Key{"cutting.feed_rate", Type::quantity, kind::velocity, "", positive, "", "Feed rate. With `spindle_speed` it gives the feed per tooth, on which stability depends where `law` is not linear."},
+    Key{"cutting.feed_per_tooth", Type::quantity, kind::length, "", positive, "", "In place of `feed_rate`; the same at every speed of the chart."},
+    Key{"cutting.law", Type::choice, kind::number, "\"linear\"", any, "linear|power|fractional|oblique", "Force over chip thickness: linear; power (Kienzle, K h (h/1 mm)^-m); fractional (Bondarenko 2012), both linearised at the mean chip; or linear by the orthogonal-to-oblique transformation."},
+    Key{"cutting.exponents", Type::quantities, kind::number, "", exponent_bounds, "", "m of the power law: one, or three for Kt, Kr, Ka."},
+    Key{"cutting.chip_scale", Type::quantity, kind::length, "", positive, "", "h_s of the fractional law: the chip at which it bends."},
+    Key{"cutting.stiffness_ratio", Type::quantity, kind::number, "", {0.0, 1.0, false, false, false, ""}, "", "r of the fractional law: stiffness at thick chips over that at thin ones."},
+    Key{"cutting.shear_stress", Type::quantity, kind::stress, "", coefficient_bounds, "", "Of orthogonal cutting, for `oblique`; the oblique angle is the tool's helix."},
+    Key{"cutting.friction_angle", Type::quantity, kind::angle, "", right_angle, "", "Of orthogonal cutting, on the rake face."},
+    Key{"cutting.rake_angle", Type::quantity, kind::angle, "", tilt, "", "Normal rake of the tool; 0 if not given."},
+    Key{"cutting.shear_angle", Type::quantity, kind::angle, "", right_angle, "", "Of orthogonal cutting; Merchant's 45 deg - (friction - rake)/2 if not given."},
+    Key{"cutting.process_damping", Type::quantity, kind::stiffness, "0", not_negative, "", "C of the flank's force per width, C/v times the normal velocity, v the cutting speed; flat ends only."},
+    Key{"cutting.process_damping_friction", Type::quantity, kind::number, "0.3", not_negative, "", "Tangential share of that force."},
 
     Key{"lobes.from", Type::quantity, kind::spindle_speed, "", positive, "", "Lowest speed.", required},
     Key{"lobes.to", Type::quantity, kind::spindle_speed, "", positive, "", "Highest speed.", required},

@@ -3,108 +3,27 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "milling/cut_cycle.hpp"
+#include "milling/edge.hpp"
 #include "milling/product_rule.hpp"
 
 namespace thinwall::milling {
 
 namespace {
 
-/// A tooth, or all of them where they are alike: the tip enters the cut at `entry_rad` of the period.
-struct Edge {
-  double entry_rad = 0.0;
-  double pitch_rad = 0.0;      ///< at the tip, to the edge ahead
-  double lag_rad = 0.0;        ///< of the edge at the depth behind its tip
-  double ahead_lag_rad = 0.0;  ///< of the edge ahead
-};
-
-/// The process over its period.
-struct Cycle {
-  double period_rad = 0.0;
-  double arc_rad = 0.0;
-  std::vector<Edge> edges;
-};
-
-Cycle cycle_of(const MillingProcess& process, double depth_m) {
-  const Cutter& cutter = process.cutter;
-  Cycle cycle{cutter.equal_teeth() ? cutter.pitch_rad() : 2.0 * std::numbers::pi, process.engagement.arc_rad(), {}};
-  double entry = 0.0;
-  const int edges = cutter.equal_teeth() ? 1 : cutter.teeth;
-  for (int j = 0; j < edges; ++j) {
-    const int ahead = (j + cutter.teeth - 1) % cutter.teeth;
-    if (j > 0) entry += cutter.pitch_rad(j);
-    cycle.edges.push_back(
-        {entry, cutter.pitch_rad(j), depth_m * cutter.lag_rad_per_m(j), depth_m * cutter.lag_rad_per_m(ahead)});
-  }
-  return cycle;
-}
-
-/// body(s) for every rotation s since the edge's tip entered, of this and earlier periods, while any of it may cut.
-template <class Body>
-void each_pass(const Cycle& cycle, const Edge& edge, double theta, const Body& body) {
-  double s = std::fmod(theta - edge.entry_rad + cycle.period_rad, cycle.period_rad);
-  for (; s < cycle.arc_rad + edge.lag_rad; s += cycle.period_rad) body(s);
-}
-
-bool cuts(const Cycle& cycle, const Edge& edge, double theta) {
-  bool in_cut = false;
-  each_pass(cycle, edge, theta, [&](double) { in_cut = true; });
-  return in_cut;
-}
-
-/// Where the cut is not smooth, from 0 to the period, ascending.
-std::vector<double> breaks_of(const Cycle& cycle) {
-  constexpr double same = 1e-9;
-  const auto within = [&](double theta) { return std::fmod(theta + 2.0 * cycle.period_rad, cycle.period_rad); };
-  std::vector<double> breaks;
-  for (const Edge& e : cycle.edges) {
-    for (const double s : {0.0, cycle.arc_rad, e.lag_rad, cycle.arc_rad + e.lag_rad})
-      breaks.push_back(std::fmod(e.entry_rad + s, cycle.period_rad));
-  }
-  if (cycle.edges.size() > 1) {
-    const std::vector<double> first = breaks;
-    for (const Edge& e : cycle.edges) {
-      for (const double b : first) {
-        const double again = within(b + e.pitch_rad);
-        if (e.lag_rad == e.ahead_lag_rad && cuts(cycle, e, again)) breaks.push_back(again);
-      }
-    }
-  }
-  breaks.push_back(0.0);
-  breaks.push_back(cycle.period_rad);
-  std::sort(breaks.begin(), breaks.end());
-  breaks.erase(std::unique(breaks.begin(), breaks.end(), [](double a, double b) { return b - a < same; }),
-               breaks.end());
-  breaks.back() = cycle.period_rad;
-  return breaks;
-}
-
-/// Stretches between breaks in which some edge cuts.
-std::vector<CutElement> stretches_of(const Cycle& cycle) {
-  const std::vector<double> breaks = breaks_of(cycle);
-  std::vector<CutElement> stretches;
-  for (std::size_t i = 1; i < breaks.size(); ++i) {
-    const double middle = 0.5 * (breaks[i - 1] + breaks[i]);
-    const bool in_cut =
-        std::any_of(cycle.edges.begin(), cycle.edges.end(), [&](const Edge& e) { return cuts(cycle, e, middle); });
-    if (in_cut) stretches.push_back({breaks[i - 1], breaks[i], 0, 0});
-  }
-  return stretches;
-}
-
-double longest_of(const std::vector<CutElement>& stretches) {
+double longest_of(const std::vector<CutStretch>& stretches) {
   double longest = 0.0;
-  for (const CutElement& s : stretches) longest = std::max(longest, s.to_rad - s.from_rad);
+  for (const CutStretch& s : stretches) longest = std::max(longest, s.to_rad - s.from_rad);
   return longest;
 }
 
-void add_elements(const Cycle& cycle, Resolution resolution, ContactGrid& grid) {
-  const std::vector<CutElement> stretches = stretches_of(cycle);
+void add_elements(const CutCycle& cycle, Resolution resolution, ContactGrid& grid) {
+  const std::vector<CutStretch> stretches = cut_stretches(cycle);
   const double longest = longest_of(stretches);
   const GaussRule rule = gauss_legendre(resolution.nodes);
   std::vector<double> nodes;
-  for (const CutElement& s : stretches) {
+  for (const CutStretch& s : stretches) {
     const double share = (s.to_rad - s.from_rad) / longest;
     const int count = std::max(1, static_cast<int>(std::ceil(share * resolution.elements - 1e-9)));
     const double length = (s.to_rad - s.from_rad) / count;
@@ -144,68 +63,108 @@ void add_contacts(const Eigen::Matrix3d& A, int node, const std::vector<Past>& p
     contacts.push_back({node, size(k) * svd.matrixU().col(k), svd.matrixV().col(k), past});
 }
 
-/// The mean over the depth of one edge's directional matrix, s rad after its tip entered: heights from `low` to `high`,
-/// shares of the depth, are in the cut.
+/// Heights of an edge in the cut s rad after its tip entered, as shares of the depth.
 struct Heights {
   double low = 0.0, high = 1.0;
 };
 
-Heights in_cut(const Cycle& cycle, const Edge& edge, double s) {
-  if (edge.lag_rad == 0.0) return {};
-  return {std::clamp((s - cycle.arc_rad) / edge.lag_rad, 0.0, 1.0), std::clamp(s / edge.lag_rad, 0.0, 1.0)};
+Heights in_cut(const Sweep& sweep, double s) {
+  if (sweep.lag_rad == 0.0) return {};
+  return {std::clamp((s - sweep.arc_rad) / sweep.lag_rad, 0.0, 1.0), std::clamp(s / sweep.lag_rad, 0.0, 1.0)};
 }
 
-Eigen::Matrix3d whole_edge(const MillingProcess& process, const Cycle& cycle, const Edge& edge, double s) {
-  const Heights h = in_cut(cycle, edge, s);
-  const double entry = process.engagement.entry_rad;
-  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-  A.leftCols<2>() = (h.high - h.low) * mean_directional_matrix(process.coefficients, entry + s - h.high * edge.lag_rad,
-                                                               entry + s - h.low * edge.lag_rad);
-  return A;
+Eigen::Matrix3d mean_over_depth(const EdgeShape& shape, const CuttingCoefficients& k, const Sweep& sweep, double s) {
+  const Heights h = in_cut(sweep, s);
+  return edge_matrix(shape, k, sweep.entry_phi_rad + s, sweep.lag_rad, h.low, h.high);
+}
+
+/// All edges that cut at a node and have one delay, the period.
+Eigen::Matrix3d sum_of_edges(const CutCycle& cycle, const EdgeShape& shape, double theta) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Sweep& sweep : cycle.sweeps) {
+    each_pass(cycle, sweep, theta, [&](double s) { sum += mean_over_depth(shape, sweep.coefficients, sweep, s); });
+  }
+  return sum;
+}
+
+/// One edge at a node, s rad after its tip entered: its own delay, or one for each of its heights.
+void add_edge(const Sweep& sweep, const EdgeShape& shape, double s, int node, const Eigen::Matrix3d& onto,
+              ContactGrid& grid) {
+  const double theta = grid.node_rad(node);
+  if (sweep.one_delay()) {
+    add_contacts(mean_over_depth(shape, sweep.coefficients, sweep, s) * onto, node,
+                 past_at(grid, theta - sweep.pitch_rad), grid.contacts);
+    return;
+  }
+  const Heights h = in_cut(sweep, s);
+  for (const EdgeWeight& w : edge_weights(shape, 6, h.low, h.high)) {
+    const double delay = sweep.pitch_rad + w.height * (sweep.lag_rad - sweep.ahead_lag_rad);
+    const Eigen::Matrix3d D =
+        directional_matrix_on(sweep.coefficients, w.kappa_rad, sweep.entry_phi_rad + s - w.height * sweep.lag_rad);
+    add_contacts(w.weight * D * onto, node, past_at(grid, theta - delay), grid.contacts);
+  }
+}
+
+/// The pasts with which a contact sees dq/dφ instead of q: the polynomial of the element has the slope
+/// Σ d_j q(φ_j) at the node, and q − Σ weight q(past) is that slope, in m a rad, with weight = [own node] − d_j.
+std::vector<Past> slope_at(const ContactGrid& grid, const CutElement& element, int node) {
+  const auto x = [&](int i) { return grid.node_rad(element.first_node + i); };
+  const int own = node - element.first_node;
+  std::vector<Past> past;
+  double own_slope = 0.0;
+  for (int j = 0; j < element.nodes; ++j) {
+    if (j == own) continue;
+    double slope = 1.0 / (x(j) - x(own));
+    for (int k = 0; k < element.nodes; ++k) {
+      if (k != j && k != own) slope *= (x(own) - x(k)) / (x(j) - x(k));
+    }
+    own_slope += 1.0 / (x(own) - x(j));
+    past.push_back({element.first_node + j, false, -slope});
+  }
+  past.push_back({node, false, 1.0 - own_slope});
+  return past;
+}
+
+void add_process_damping(const MillingProcess& process, const CutCycle& cycle, const EdgeShape& shape,
+                         const Eigen::Matrix3d& onto, ContactGrid& grid) {
+  const CuttingCoefficients k = per_slope(process.damping, process.cutter);
+  for (const CutElement& element : grid.elements) {
+    for (int node = element.first_node; node < element.first_node + element.nodes; ++node) {
+      Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+      for (const Sweep& sweep : cycle.sweeps) {
+        each_pass(cycle, sweep, grid.node_rad(node), [&](double s) { sum += mean_over_depth(shape, k, sweep, s); });
+      }
+      add_contacts(sum * onto, node, slope_at(grid, element, node), grid.contacts);
+    }
+  }
+  grid.one_delay = false;
 }
 
 }  // namespace
 
 double longest_stretch_rad(const MillingProcess& process, double depth_m) {
-  return longest_of(stretches_of(cycle_of(process, depth_m)));
+  return longest_of(cut_stretches(cut_cycle(process, depth_m)));
 }
 
 ContactGrid contact_grid(const MillingProcess& process, const Eigen::Matrix3Xd& yielding, Resolution resolution,
                          double depth_m) {
-  constexpr int slices = 6;
-  const Cycle cycle = cycle_of(process, depth_m);
+  const CutCycle cycle = cut_cycle(process, depth_m);
+  const EdgeShape shape = edge_shape(process.cutter, depth_m);
   const Eigen::Matrix3d onto = yielding * yielding.transpose();
-  const GaussRule slice = gauss_legendre(slices);
   ContactGrid grid;
   grid.period_rad = cycle.period_rad;
-  grid.one_delay = cycle.edges.size() == 1;
+  grid.one_delay = cycle.equal_teeth;
   add_elements(cycle, resolution, grid);
   for (int node = 0; node < static_cast<int>(grid.node_rad.size()); ++node) {
-    const double theta = grid.node_rad(node);
-    Eigen::Matrix3d all = Eigen::Matrix3d::Zero();
-    for (const Edge& edge : cycle.edges) {
-      each_pass(cycle, edge, theta, [&](double s) {
-        if (grid.one_delay) {
-          all += whole_edge(process, cycle, edge, s);
-        } else if (edge.lag_rad == edge.ahead_lag_rad) {
-          add_contacts(whole_edge(process, cycle, edge, s) * onto, node, past_at(grid, theta - edge.pitch_rad),
-                       grid.contacts);
-        } else {
-          const Heights h = in_cut(cycle, edge, s);
-          for (int k = 0; k < slices; ++k) {
-            const double height = h.low + (h.high - h.low) * slice.node(k);
-            const double delay = edge.pitch_rad + height * (edge.lag_rad - edge.ahead_lag_rad);
-            Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-            A.leftCols<2>() =
-                slice.weight(k) * (h.high - h.low) *
-                directional_matrix(process.coefficients, process.engagement.entry_rad + s - height * edge.lag_rad);
-            add_contacts(A * onto, node, past_at(grid, theta - delay), grid.contacts);
-          }
-        }
-      });
+    if (cycle.equal_teeth) {
+      add_contacts(sum_of_edges(cycle, shape, grid.node_rad(node)) * onto, node, {{node, true, 1.0}}, grid.contacts);
+      continue;
     }
-    if (grid.one_delay) add_contacts(all * onto, node, {{node, true, 1.0}}, grid.contacts);
+    for (const Sweep& sweep : cycle.sweeps) {
+      each_pass(cycle, sweep, grid.node_rad(node), [&](double s) { add_edge(sweep, shape, s, node, onto, grid); });
+    }
   }
+  if (process.damping.C > 0.0) add_process_damping(process, cycle, shape, onto, grid);
   return grid;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "milling/edge.hpp"
 #include "milling/product_rule.hpp"
 
 namespace thinwall::milling {
@@ -17,11 +18,12 @@ namespace {
 using Eigen::Index;
 using std::complex;
 
-/// ‖mean directional matrix‖ over a turn, N/m².
-double mean_stiffness(const MillingProcess& process) {
-  const Engagement& e = process.engagement;
-  const DirectionalMatrix mean = mean_directional_matrix(process.coefficients, e.entry_rad, e.exit_rad);
-  return process.cutter.teeth * e.arc_rad() / (2.0 * std::numbers::pi) * mean.norm();
+/// ‖mean directional matrix‖ over a turn at a depth, the arcs' added up, N/m².
+double mean_stiffness(const MillingProcess& process, double depth_m) {
+  double sum = 0.0;
+  for (const Engagement& arc : arcs(process))
+    sum += process.cutter.teeth * arc.arc_rad() / (2.0 * std::numbers::pi) * arc_mean(process, arc, depth_m).norm();
+  return sum;
 }
 
 /// ‖φ‖ ‖b‖ / |Re λ| of each mode, m/N.
@@ -35,7 +37,8 @@ Eigen::ArrayXd peaks(const RelativeStructure& s) {
 CutAtSpeed cut_at_speed(const RelativeStructure& structure, const MillingProcess& process, double spindle_speed_rpm) {
   (void)tooth_period_s(process.cutter, spindle_speed_rpm);  // refuses a bad speed
   CutAtSpeed cut{in_tool_axes(structure, process.frame), process, {}, spindle_speed_rpm};
-  cut.yielding = yielding_directions(cut.structure);
+  const Envelope& envelope = process.cutter.envelope;
+  cut.yielding = yielding_directions(cut.structure, !envelope.straight() || envelope.taper_rad != 0.0);
   return cut;
 }
 
@@ -55,7 +58,7 @@ GainOnCircle gain_of(const DiscreteCut& d) {
 Resolution resolving(const CutAtSpeed& cut, double depth_m) {
   const RelativeStructure& s = cut.structure;
   const Eigen::ArrayXd peak = peaks(s);
-  const double regenerates = 0.25 / (depth_m * mean_stiffness(cut.process));
+  const double regenerates = 0.25 / (depth_m * mean_stiffness(cut.process, depth_m));
   double fastest = 0.0;
   for (Index i = 0; i < s.poles.size(); ++i) {
     if (peak(i) >= std::min(0.05 * peak.maxCoeff(), regenerates)) fastest = std::max(fastest, std::abs(s.poles(i)));
@@ -71,7 +74,14 @@ Resolution finer(Resolution r) {
 }
 
 double surely_stable_depth_m(const CutAtSpeed& cut) {
-  return 0.25 / (mean_stiffness(cut.process) * peaks(cut.structure).sum());
+  const double peak = peaks(cut.structure).sum();
+  double depth = std::min(cut.process.cutter.envelope.height_m, 1e-3);
+  if (!cut.process.cutter.envelope.straight()) {
+    // Towards the tip of a ball the mean grows as 1/√depth, so that these steps halve the error's logarithm.
+    for (int i = 0; i < 12; ++i)
+      depth = std::min(cut.process.cutter.envelope.height_m, 0.25 / (mean_stiffness(cut.process, depth) * peak));
+  }
+  return 0.25 / (mean_stiffness(cut.process, depth) * peak);
 }
 
 Eigen::VectorXcd multipliers(const DiscreteCut& d, double depth_m) {

@@ -1,6 +1,7 @@
 #include "milling/cutting_force.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace thinwall::milling {
 
@@ -25,6 +26,44 @@ double sinc(double x) {
   return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x;
 }
 
+/// Products of sine and cosine of φ, at an angle or their means over an arc.
+struct Products {
+  double sin_sin, sin_cos, cos_cos, sine, cosine;
+};
+
+Products at_angle(double phi) {
+  const double s = std::sin(phi);
+  const double c = std::cos(phi);
+  return {s * s, s * c, c * c, s, c};
+}
+
+Products over_arc(double from, double to) {
+  const double half = 0.5 * (to - from);
+  const double middle = 0.5 * (from + to);
+  const double cos_double = std::cos(2.0 * middle) * sinc(2.0 * half);
+  const double sin_double = std::sin(2.0 * middle) * sinc(2.0 * half);
+  return {0.5 * (1.0 - cos_double), 0.5 * sin_double, 0.5 * (1.0 + cos_double), std::sin(middle) * sinc(half),
+          std::cos(middle) * sinc(half)};
+}
+
+DirectionalMatrix in_plane(const CuttingCoefficients& k, const Products& p) {
+  DirectionalMatrix D = from_products(k, p.sin_sin, p.sin_cos, p.cos_cos);
+  add_axial_row(k, p.sine, p.cosine, D);
+  return D;
+}
+
+/// The force per chip is K_t t + K_r n − K_a a = K_t t + P r − Q z_T; chips see sin κ r − cos κ z_T.
+Eigen::Matrix3d with_kappa(const CuttingCoefficients& k, double kappa, const Products& p) {
+  const double s = std::sin(kappa);
+  const double c = kappa == 0.5 * std::numbers::pi ? 0.0 : std::cos(kappa);
+  const CuttingCoefficients turned{k.K_t, k.K_r * s - k.K_a * c, k.K_r * c + k.K_a * s, 0.0, 0.0, 0.0};
+  Eigen::Matrix3d D;
+  D.leftCols<2>() = s * in_plane(turned, p);
+  D.col(2) = -c * Eigen::Vector3d(turned.K_t * p.cosine + turned.K_r * p.sine,
+                                  -turned.K_t * p.sine + turned.K_r * p.cosine, -turned.K_a);
+  return D;
+}
+
 }  // namespace
 
 std::vector<std::string> validate(const CuttingCoefficients& k) {
@@ -43,22 +82,20 @@ std::vector<std::string> validate(const CuttingCoefficients& k) {
 }
 
 DirectionalMatrix directional_matrix(const CuttingCoefficients& coefficients, double phi_rad) {
-  const double s = std::sin(phi_rad);
-  const double c = std::cos(phi_rad);
-  DirectionalMatrix D = from_products(coefficients, s * s, s * c, c * c);
-  add_axial_row(coefficients, s, c, D);
-  return D;
+  return in_plane(coefficients, at_angle(phi_rad));
 }
 
 DirectionalMatrix mean_directional_matrix(const CuttingCoefficients& coefficients, double from_rad, double to_rad) {
-  const double half = 0.5 * (to_rad - from_rad);
-  const double middle = 0.5 * (from_rad + to_rad);
-  const double cos_double = std::cos(2.0 * middle) * sinc(2.0 * half);
-  const double sin_double = std::sin(2.0 * middle) * sinc(2.0 * half);
-  DirectionalMatrix D =
-      from_products(coefficients, 0.5 * (1.0 - cos_double), 0.5 * sin_double, 0.5 * (1.0 + cos_double));
-  add_axial_row(coefficients, std::sin(middle) * sinc(half), std::cos(middle) * sinc(half), D);
-  return D;
+  return in_plane(coefficients, over_arc(from_rad, to_rad));
+}
+
+Eigen::Matrix3d directional_matrix_on(const CuttingCoefficients& coefficients, double kappa_rad, double phi_rad) {
+  return with_kappa(coefficients, kappa_rad, at_angle(phi_rad));
+}
+
+Eigen::Matrix3d mean_directional_matrix_on(const CuttingCoefficients& coefficients, double kappa_rad, double from_rad,
+                                           double to_rad) {
+  return with_kappa(coefficients, kappa_rad, over_arc(from_rad, to_rad));
 }
 
 DirectionalMatrix mean_directional_matrix(const CuttingCoefficients& coefficients, const Cutter& cutter,

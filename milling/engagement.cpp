@@ -8,6 +8,18 @@
 
 namespace thinwall::milling {
 
+namespace {
+
+bool overlap(const Engagement& a, const Engagement& b) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  constexpr double touch = 1e-9;
+  const auto into_turn = [](double angle) { return angle - turn * std::floor(angle / turn); };
+  return into_turn(b.entry_rad - a.entry_rad + touch) < a.arc_rad() ||
+         into_turn(a.entry_rad - b.entry_rad + touch) < b.arc_rad();
+}
+
+}  // namespace
+
 Engagement engagement_of(const Cutter& cutter, double radial_depth_m, MillingDirection direction) {
   if (!(radial_depth_m > 0.0) || !(radial_depth_m <= cutter.diameter_m)) {
     std::ostringstream text;
@@ -28,6 +40,22 @@ std::vector<std::string> validate(const Engagement& engagement) {
   text << "engagement: from " << engagement.entry_rad << " to " << engagement.exit_rad
        << " rad, the arc must be above 0 and at most 2π; correct the entry or the exit angle";
   return {text.str()};
+}
+
+std::vector<std::string> validate(const std::vector<Engagement>& arcs) {
+  std::vector<std::string> violations;
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    const auto own = validate(arcs[i]);
+    violations.insert(violations.end(), own.begin(), own.end());
+    for (std::size_t j = 0; own.empty() && j < i; ++j) {
+      if (!overlap(arcs[i], arcs[j])) continue;
+      std::ostringstream text;
+      text << "engagement: the arc that enters at " << arcs[i].entry_rad << " rad overlaps the one that enters at "
+           << arcs[j].entry_rad << " rad; join them, or correct the angles";
+      violations.push_back(text.str());
+    }
+  }
+  return violations;
 }
 
 std::vector<CutSegment> cut_segments(const Engagement& engagement, const Cutter& cutter) {

@@ -31,6 +31,9 @@ struct Engagement {
 /// Every violation, empty if there is none: finite, entry < exit ≤ entry + 2π.
 [[nodiscard]] std::vector<std::string> validate(const Engagement& engagement);
 
+/// The same for the arcs of one turn, which must not overlap either.
+[[nodiscard]] std::vector<std::string> validate(const std::vector<Engagement>& arcs);
+
 /// A stretch of the tooth period during which the same number of teeth cuts.
 struct CutSegment {
   double from_rad = 0.0;  ///< rotation since the last tooth entry

@@ -131,12 +131,12 @@ class UniformSteps : public LobeMethod {
 
 void require_suited(Method method, const MillingProcess& process) {
   if (method == Method::direct) return;
-  const bool unequal = !process.cutter.equal_teeth();
-  if (!unequal && (!process.cutter.has_helix() || method == Method::zeroth_order)) return;
-  throw core::InputError(name(method) + ": the cutter has " + (unequal ? "unequal teeth" : "a helix") +
-                         ", this method takes " +
-                         (method == Method::zeroth_order ? "equal teeth only" : "equal teeth without helix only") +
-                         "; take the direct method");
+  MillingProcess taken = process;
+  if (method == Method::zeroth_order && process.cutter.equal_teeth()) taken.cutter.helices_rad.clear();
+  if (elementary(taken)) return;
+  const std::string helix = method == Method::zeroth_order ? ", with any helix, " : " without helix ";
+  throw core::InputError(name(method) + ": takes equal teeth" + helix +
+                         "on a cylinder, one arc, no process damping; this cut has more; take the direct method");
 }
 
 }  // namespace

@@ -179,10 +179,12 @@ double chatter_frequency(const HarmonicLoop& loop, const Crossing& crossing) {
 }  // namespace
 
 std::vector<Eigen::Matrix3cd> directional_harmonics(const MillingProcess& process, int highest) {
-  if (!process.cutter.equal_teeth()) {
+  MillingProcess straight = process;
+  straight.cutter.helices_rad.clear();
+  if (!equal_teeth(process) || !elementary(straight)) {
     throw core::InputError(
-        "zeroth-order and multi-frequency solution: equal teeth only, each with the same delay; take the direct method "
-        "for unequal pitches or helices");
+        "zeroth-order and multi-frequency solution: equal teeth on a cylinder, one arc, no process damping; take the "
+        "direct method for this cut");
   }
   // Gauss's rule of 16 nodes is exact to round-off for the product of A and a harmonic over 8 rad of phase.
   const double fastest = 2.0 + highest * process.cutter.teeth;

@@ -6,6 +6,8 @@
 
 #include "milling/cutting_force.hpp"
 #include "milling/engagement.hpp"
+#include "milling/force_law.hpp"
+#include "milling/process_damping.hpp"
 #include "milling/tool.hpp"
 
 namespace thinwall::milling {
@@ -15,9 +17,30 @@ struct MillingProcess {
   CuttingCoefficients coefficients;
   Engagement engagement;
   ToolFrame frame;
+  std::vector<Engagement> further_engagements = {};          ///< arcs of the turn besides `engagement`
+  std::vector<CuttingCoefficients> tooth_coefficients = {};  ///< one a tooth, in place of `coefficients`; empty: alike
+  ProcessDamping damping = {};
 };
 
-/// Every violation of every member, empty if there is none.
+/// All arcs, `engagement` first.
+[[nodiscard]] std::vector<Engagement> arcs(const MillingProcess& process);
+
+/// Of one tooth.
+[[nodiscard]] const CuttingCoefficients& coefficients(const MillingProcess& process, int tooth);
+
+/// Whether the cut repeats itself with every tooth: equal pitches, helices and coefficients.
+[[nodiscard]] bool equal_teeth(const MillingProcess& process);
+
+/// Whether A(t) of cutting_force.hpp says it all: equal teeth without helix on a cylinder, one arc, no process damping.
+/// Methods that know nothing else refuse what is not.
+[[nodiscard]] bool elementary(const MillingProcess& process);
+
+/// The law's tangent at the mean chip of each tooth (chip_load.hpp) for `coefficients`, and for `tooth_coefficients`
+/// where unequal pitches or runout give teeth chips of their own. Throws InputError if a tooth never cuts (its pitch
+/// then belongs to the next one), or where the chip changes along the edge: on a ball, a bull nose, a cone.
+void set_force_law(MillingProcess& process, const ForceLaw& law, double feed_per_tooth_m);
+
+/// Every violation of every member, empty if there is none; arcs that overlap are one.
 [[nodiscard]] std::vector<std::string> validate(const MillingProcess& process);
 
 /// Throws InputError with all violations in one line, if there are any.

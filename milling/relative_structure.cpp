@@ -105,7 +105,7 @@ RelativeStructure in_tool_axes(const RelativeStructure& structure, const ToolFra
   return {structure.poles, R * structure.phi, R * structure.b, R * structure.R * R.transpose()};
 }
 
-Eigen::Matrix3Xd yielding_directions(const RelativeStructure& structure) {
+Eigen::Matrix3Xd yielding_directions(const RelativeStructure& structure, bool chip_sees_axis) {
   const Eigen::Index poles = structure.poles.size();
   Eigen::Matrix3Xd motion(3, 2 * poles + 3);
   for (Eigen::Index k = 0; k < poles; ++k) {
@@ -115,7 +115,7 @@ Eigen::Matrix3Xd yielding_directions(const RelativeStructure& structure) {
   }
   motion.rightCols<3>() = structure.R;
   const double largest = motion.norm();
-  if (!(motion.topRows<2>().norm() > 1e-12 * largest)) {
+  if (!((chip_sees_axis ? largest : motion.topRows<2>().norm()) > 1e-12 * largest)) {
     throw core::InputError(
         "structure at the cut: no mode moves in the plane of the cut, at least one must; check the feed and the tool "
         "axis");

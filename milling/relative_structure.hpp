@@ -43,8 +43,8 @@ struct RelativeStructure {
 [[nodiscard]] double residual_share(const RelativeStructure& structure);
 
 /// Directions (orthonormal columns, 3 × p) in which the structure moves more than by round-off, modes weighed by their
-/// compliance. Throws InputError if there is none in the first two rows: tool axes are meant, and the chip of a
-/// cylindrical cutter sees the plane of the cut only.
-[[nodiscard]] Eigen::Matrix3Xd yielding_directions(const RelativeStructure& structure);
+/// compliance. Throws InputError if there is none that the chip sees: tool axes are meant, and the chip of a
+/// cylindrical cutter sees the first two only, that of other envelopes the axis as well (`chip_sees_axis`).
+[[nodiscard]] Eigen::Matrix3Xd yielding_directions(const RelativeStructure& structure, bool chip_sees_axis = false);
 
 }  // namespace thinwall::milling

@@ -98,6 +98,10 @@ Eigen::Matrix3cd interpolated(const SampledReceptance& r, double omega_rad_s) {
 GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGrid& grid, double spindle_speed_rpm,
                            double reach) {
   require_usable(receptance);
+  if (!grid.one_delay) {
+    throw core::InputError(
+        "receptance at the cut: unequal teeth or process damping, all delays must be one period; take a modal model");
+  }
   const double seconds_per_rad = 30.0 / (pi * spindle_speed_rpm);
   const double period = grid.period_rad * seconds_per_rad;
   const double highest = reach * 2.0 * pi * receptance.frequency_hz(receptance.frequency_hz.size() - 1);

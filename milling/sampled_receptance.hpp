@@ -30,8 +30,8 @@ void require_usable(const SampledReceptance& receptance);
 ///
 /// The integrals are those of the polynomials (plain quadrature of the impulse response loses up to 1 %, its kernel has
 /// a kink). Harmonics up to `reach` times the last line; what is left beyond falls as its square. Stops lie at the
-/// aliases of the peaks of |H|. Equal delays only. Both arguments must outlive the result. Cost of a value: harmonics ×
-/// contacts².
+/// aliases of the peaks of |H|. Equal delays only: throws InputError for other grids. Both arguments must outlive the
+/// result. Cost of a value: harmonics × contacts².
 [[nodiscard]] GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGrid& grid,
                                          double spindle_speed_rpm, double reach = 6.0);
 

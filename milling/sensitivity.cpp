@@ -42,11 +42,25 @@ complex<double> pole_of(double omega, double zeta) {
   return omega * complex<double>(-zeta, std::sqrt(1.0 - zeta * zeta));
 }
 
-/// The grid of a cut, with the force that coefficients of one unit would bring to the same contacts.
-ContactGrid with_force_of(const CutAtSpeed& cut, const ContactGrid& grid, const CuttingCoefficients& unit,
-                          Resolution resolution, double depth_m) {
-  MillingProcess process = cut.process;
-  process.coefficients = unit;
+using Coefficient = double CuttingCoefficients::*;
+
+/// One coefficient alone, of every tooth.
+MillingProcess with_only(MillingProcess process, Coefficient which) {
+  const auto only = [&](const CuttingCoefficients& all) {
+    CuttingCoefficients one;
+    one.*which = all.*which;
+    return one;
+  };
+  process.coefficients = only(process.coefficients);
+  for (CuttingCoefficients& of_tooth : process.tooth_coefficients) of_tooth = only(of_tooth);
+  process.damping = {};
+  return process;
+}
+
+/// The grid of a cut, with the force that one coefficient brings to the same contacts.
+ContactGrid with_force_of(const CutAtSpeed& cut, const ContactGrid& grid, Coefficient which, Resolution resolution,
+                          double depth_m) {
+  const MillingProcess process = with_only(cut.process, which);
   const ContactGrid other = contact_grid(process, cut.yielding, resolution, depth_m);
   const auto same_past = [](const Contact& a, const Contact& b) {
     return a.node == b.node &&
@@ -95,7 +109,7 @@ Found found_again(const CutAtSpeed& cut, const LobePoint& point, const Stability
 
 /// ∂ν/∂w of the grid itself, of a helix.
 complex<double> own_change(const CutAtSpeed& cut, const Found& f) {
-  if (!cut.process.cutter.has_helix()) return 0.0;
+  if (!cut.process.cutter.depends_on_depth()) return 0.0;
   const double step = 1e-5 * f.crossing.depth_m;
   const auto nu_at = [&](double depth) {
     const DiscreteCut d = discrete(cut, f.resolution, depth);
@@ -127,9 +141,10 @@ DepthSensitivity depth_sensitivity(const RelativeStructure& structure, const Mil
   const auto gain_of_structure = [&](const RelativeStructure& s) {
     return loop_gain(regenerative_loop(s, f.d.grid, spindle_speed_rpm), on_circle(f.crossing.theta_rad));
   };
-  const auto gain_of_unit = [&](const CuttingCoefficients& unit) {
-    const ContactGrid grid = with_force_of(cut, f.d.grid, unit, f.resolution, point.depth_m);
-    return loop_gain(regenerative_loop(cut.structure, grid, spindle_speed_rpm), on_circle(f.crossing.theta_rad));
+  const auto to = [&](Coefficient which) {
+    const ContactGrid grid = with_force_of(cut, f.d.grid, which, f.resolution, point.depth_m);
+    return relative_change(
+        loop_gain(regenerative_loop(cut.structure, grid, spindle_speed_rpm), on_circle(f.crossing.theta_rad)));
   };
   const Index poles = cut.structure.poles.size();
   DepthSensitivity result{Eigen::VectorXd(poles), Eigen::VectorXd::Zero(poles), Eigen::VectorXd(poles)};
@@ -148,10 +163,9 @@ DepthSensitivity depth_sensitivity(const RelativeStructure& structure, const Mil
     const double zeta = -pole.real() / omega;
     result.to_damping_ratio(k) = by(pole_of(omega, zeta * (1.0 + h)), pole_of(omega, zeta * (1.0 - h)));
   }
-  const CuttingCoefficients& K = process.coefficients;
-  if (K.K_t != 0.0) result.to_K_t = relative_change(K.K_t * gain_of_unit({1.0, 0.0, 0.0}));
-  if (K.K_r != 0.0) result.to_K_r = relative_change(K.K_r * gain_of_unit({0.0, 1.0, 0.0}));
-  if (K.K_a != 0.0) result.to_K_a = relative_change(K.K_a * gain_of_unit({0.0, 0.0, 1.0}));
+  result.to_K_t = to(&CuttingCoefficients::K_t);
+  result.to_K_r = to(&CuttingCoefficients::K_r);
+  result.to_K_a = to(&CuttingCoefficients::K_a);
   return result;
 }
 

@@ -180,7 +180,7 @@ void describe_limit(LobeRow& row, const CutAtSpeed& cut, const StabilityOptions&
 }
 
 LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
-  if (cut.process.cutter.has_helix()) {
+  if (cut.process.cutter.depends_on_depth()) {
     LobeRow row = helical_row(cut, options);
     describe_limit(row, cut, options);
     return row;

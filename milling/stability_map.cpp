@@ -52,8 +52,8 @@ Column column(const CutAtSpeed& cut, const std::vector<double>& depths_m, const 
   return result;
 }
 
-Column helical_column(const RelativeStructure& structure, const MillingProcess& process, double rpm,
-                      const std::vector<double>& depths_m, const StabilityOptions& options) {
+Column column_of_own_grids(const RelativeStructure& structure, const MillingProcess& process, double rpm,
+                           const std::vector<double>& depths_m, const StabilityOptions& options) {
   Column result{Eigen::VectorXd(static_cast<Eigen::Index>(depths_m.size()))};
   for (std::size_t i = 0; i < depths_m.size(); ++i) {
     const Multiplier mu = multiplier_at(structure, process, rpm, depths_m[i], options);
@@ -81,8 +81,8 @@ StabilityMap stability_map(const RelativeStructure& structure, const MillingProc
   std::vector<Column> columns(spindle_speeds_rpm.size());
   core::parallel_for(columns.size(), [&](std::size_t i) {
     const double rpm = spindle_speeds_rpm[i];
-    columns[i] = process.cutter.has_helix() ? helical_column(structure, process, rpm, depths_m, options)
-                                            : column(cut_at_speed(structure, process, rpm), depths_m, options);
+    columns[i] = process.cutter.depends_on_depth() ? column_of_own_grids(structure, process, rpm, depths_m, options)
+                                                   : column(cut_at_speed(structure, process, rpm), depths_m, options);
   });
   for (std::size_t i = 0; i < columns.size(); ++i) {
     map.modulus.col(static_cast<Eigen::Index>(i)) = columns[i].modulus;

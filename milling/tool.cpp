@@ -50,6 +50,16 @@ void add_helix_violations(const Cutter& cutter, std::vector<std::string>& violat
   }
 }
 
+void add_runout_violations(const Cutter& cutter, std::vector<std::string>& violations) {
+  require_one_a_tooth(cutter.runout_m, cutter.teeth, "runouts", violations);
+  for (const double runout : cutter.runout_m) {
+    if (std::abs(runout) < 0.5 * cutter.diameter_m) continue;
+    std::ostringstream text;
+    text << "cutter: runout " << runout << " m, must be smaller than half the diameter; give the radial offset";
+    violations.push_back(text.str());
+  }
+}
+
 }  // namespace
 
 double Cutter::lag_rad_per_m(int tooth) const {
@@ -66,6 +76,18 @@ bool Cutter::equal_teeth() const {
          std::adjacent_find(helices_rad.begin(), helices_rad.end(), differs) == helices_rad.end();
 }
 
+double edge_length_per_height(const Cutter& cutter, int tooth, double height_m) {
+  const MeridianPoint point = at_height(cutter.envelope, cutter.diameter_m, height_m);
+  const double slope = 1.0 / std::sin(point.kappa_rad);  // √(r'² + 1)
+  return std::hypot(slope, point.radius_m * cutter.lag_rad_per_m(tooth));
+}
+
+ToolFrame leaning(const ToolFrame& frame, double lead_rad) {
+  const double c = std::cos(lead_rad);
+  const double s = std::sin(lead_rad);
+  return {c * frame.feed - s * frame.axis, c * frame.axis + s * frame.feed};
+}
+
 Eigen::Matrix3d ToolFrame::rotation() const {
   Eigen::Matrix3d R;
   R << feed, axis.cross(feed), axis;
@@ -80,6 +102,9 @@ std::vector<std::string> validate(const Cutter& cutter) {
   }
   add_pitch_violations(cutter, violations);
   add_helix_violations(cutter, violations);
+  add_runout_violations(cutter, violations);
+  const auto envelope = validate(cutter.envelope, cutter.diameter_m);
+  violations.insert(violations.end(), envelope.begin(), envelope.end());
   if (!(cutter.diameter_m > 0.0) || !std::isfinite(cutter.diameter_m)) {
     std::ostringstream text;
     text << "cutter: diameter " << cutter.diameter_m << " m, must be positive; give the diameter";

@@ -6,23 +6,30 @@
 #include <string>
 #include <vector>
 
+#include "milling/envelope.hpp"
+
 namespace thinwall::milling {
 
-/// A cylindrical cutter.
+/// Edges on an envelope, a cylinder by default.
 struct Cutter {
   int teeth = 0;                         ///< z ≥ 1
   double diameter_m = 0.0;               ///< D > 0
   std::vector<double> pitches_rad = {};  ///< at the tip, from each tooth to the one ahead of it; empty: equal
   std::vector<double> helices_rad = {};  ///< of each tooth; positive: its upper parts follow its tip; empty: 0
+  Envelope envelope = {};
+  std::vector<double> runout_m = {};  ///< radial offset of each tooth, outwards positive; empty: none
 
   /// Mean angle between neighbouring teeth, rad.
   [[nodiscard]] double pitch_rad() const { return 2.0 * std::numbers::pi / teeth; }
   [[nodiscard]] double pitch_rad(int tooth) const {
     return pitches_rad.empty() ? pitch_rad() : pitches_rad[static_cast<std::size_t>(tooth)];
   }
-  /// Rotation by which a tooth's edge lags behind its tip per metre of height, 2 tan β / D.
+  /// Rotation by which a tooth's edge lags behind its tip per metre of height, 2 tan β / D: of constant lead, whatever
+  /// the envelope, so that β is the helix angle where the radius is D/2 and the local one is atan(r lag).
   [[nodiscard]] double lag_rad_per_m(int tooth) const;
   [[nodiscard]] bool has_helix() const;
+  /// Whether the mean of the force over the depth changes with the depth: a helix, or an envelope that is not straight.
+  [[nodiscard]] bool depends_on_depth() const { return has_helix() || !envelope.straight(); }
   /// Whether the cut repeats itself with every tooth: equal pitches and equal helices.
   [[nodiscard]] bool equal_teeth() const;
 };
@@ -41,8 +48,16 @@ struct ToolFrame {
   [[nodiscard]] Eigen::Matrix3d rotation() const;
 };
 
+/// Length of a tooth's edge per height, dS/dz = √(r'² + (r ψ')² + 1) with the lag ψ (Engin & Altintas 2001, Eq. 14):
+/// edge forces act per length of edge, K_te dS, while chips are cut per width, K_t h db, db = dz/sin κ.
+[[nodiscard]] double edge_length_per_height(const Cutter& cutter, int tooth, double height_m);
+
+/// The frame of a tool whose axis leans forwards, into the feed, by the lead angle (rad): the tool turns about y_T.
+/// Engagement, depth and feed of the cut are then meant in the axes of the leaning tool, the depth along its axis.
+[[nodiscard]] ToolFrame leaning(const ToolFrame& frame, double lead_rad);
+
 /// Every violation, empty if there is none: teeth ≥ 1, diameter > 0; pitches, if given, one a tooth, above 0 and a full
-/// turn together; helices likewise one a tooth, from 0 to 80°.
+/// turn together; helices likewise one a tooth, from 0 to 80°; runout one a tooth, finite, below D/2; the envelope's.
 [[nodiscard]] std::vector<std::string> validate(const Cutter& cutter);
 
 /// Every violation, empty if there is none: unit length and right angle, both to 1e-9.

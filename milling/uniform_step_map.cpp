@@ -70,10 +70,10 @@ StepRule full_discretization(int order) {
 
 StepCoefficients step_coefficients(const MillingProcess& process, const Eigen::Matrix2Xd& in_plane, int steps,
                                    StepRule rule) {
-  if (!process.cutter.equal_teeth() || process.cutter.has_helix()) {
+  if (!elementary(process)) {
     throw core::InputError(
-        "semi- and full-discretization: equal teeth without helix only; take the direct method for unequal pitches or "
-        "a helix");
+        "semi- and full-discretization: equal teeth without helix on a cylinder, one arc, no process damping; take the "
+        "direct method for this cut");
   }
   const double step = process.cutter.pitch_rad() / steps;
   StepCoefficients c;

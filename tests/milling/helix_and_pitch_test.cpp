@@ -2,13 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
 #include "core/error.hpp"
-#include "milling/product_rule.hpp"
 #include "milling/stability.hpp"
+#include "tests/milling/marching.hpp"
 #include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling {
@@ -37,122 +36,6 @@ StabilityOptions sharp() {
   return options;
 }
 
-/// The linear equation M q'' + C q' + K q = −w Σ_j ∫ D(φ_j − k_j ζ) [q(t) − q(t − τ_j(ζ))] dζ / w marched by
-/// Runge-Kutta's fourth-order method with the delayed displacement from cubic Hermite polynomials, heights by
-/// Gauss's rule: independent of every matrix of the program but D(φ). Entries, exits and pitches are multiples of
-/// the step, so that no step crosses a jump. |μ| of a turn from the recurrence s_{n+1} = a s_n + b s_{n−1} of two
-/// conjugate multipliers, |μ|² = −b, or from one real multiplier.
-class Marching {
- public:
-  Marching(const MillingProcess& process, double rpm, double depth_m, int steps_a_turn)
-      : process_(process),
-        depth_m_(depth_m),
-        steps_(steps_a_turn),
-        dt_(60.0 / rpm / steps_a_turn),
-        rule_(gauss_legendre(process.cutter.has_helix() ? 6 : 1)) {
-    for (int j = 1; j < process.cutter.teeth; ++j) entry_.push_back(entry_.back() + process.cutter.pitch_rad(j));
-    for (int i = 0; i <= steps_; ++i) history_.push_back({Eigen::Vector2d(1e-6, 0.3e-6), Eigen::Vector2d::Zero()});
-  }
-
-  double modulus_of_turn(int turns) {
-    std::vector<Eigen::Vector2d> seen;
-    for (int turn = 0; turn < turns; ++turn) {
-      for (int i = 0; i < steps_; ++i) step(i);
-      seen.push_back(history_.back().q);
-    }
-    // Least squares over the last turns, each weighed by its own size.
-    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d right = Eigen::Vector2d::Zero();
-    for (std::size_t n = seen.size() - 12; n + 1 < seen.size(); ++n) {
-      for (int k = 0; k < 2; ++k) {
-        const Eigen::Vector2d row(seen[n][k], seen[n - 1][k]);
-        normal += row * row.transpose() / seen[n].squaredNorm();
-        right += row * seen[n + 1][k] / seen[n].squaredNorm();
-      }
-    }
-    const Eigen::Vector2d ab = normal.fullPivLu().solve(right);
-    return std::sqrt(-ab(1));
-  }
-
- private:
-  struct State {
-    Eigen::Vector2d q, v;
-  };
-
-  [[nodiscard]] Eigen::Vector2d delayed(double steps_ago, double part) const {
-    // history_.back() is the state at the start of the step, `part` the share of the step at which we are.
-    const double at = static_cast<double>(history_.size()) - 1.0 + part - steps_ago;
-    const auto first = static_cast<std::size_t>(std::floor(at + 1e-9));
-    const double x = at - static_cast<double>(first);
-    const State& a = history_[first];
-    const State& b = history_[std::min(first + 1, history_.size() - 1)];
-    if (std::abs(x) < 1e-9) return a.q;
-    const double x2 = x * x;
-    const double x3 = x2 * x;
-    return (2 * x3 - 3 * x2 + 1) * a.q + (x3 - 2 * x2 + x) * dt_ * a.v + (3 * x2 - 2 * x3) * b.q +
-           (x3 - x2) * dt_ * b.v;
-  }
-
-  [[nodiscard]] Eigen::Vector2d force(const Eigen::Vector2d& q, double theta, double part) const {
-    const Cutter& cutter = process_.cutter;
-    constexpr double turn = 2.0 * std::numbers::pi;
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-    for (int j = 0; j < cutter.teeth; ++j) {
-      const int ahead = (j + cutter.teeth - 1) % cutter.teeth;
-      const double lag = cutter.lag_rad_per_m(j);
-      // Heights z with 0 < s − lag z < arc, s since the tip entered, in this turn or the one before.
-      double s = std::fmod(theta - entry_[static_cast<std::size_t>(j)] + 2.0 * turn, turn);
-      for (; s < process_.engagement.arc_rad() + lag * depth_m_; s += turn) {
-        const double low = lag > 0.0 ? std::clamp((s - process_.engagement.arc_rad()) / lag, 0.0, depth_m_) : 0.0;
-        const double high = lag > 0.0 ? std::clamp(s / lag, 0.0, depth_m_) : depth_m_;
-        for (Eigen::Index h = 0; h < rule_.node.size(); ++h) {
-          const double z = low + (high - low) * rule_.node(h);
-          const double delay = cutter.pitch_rad(j) + z * (lag - cutter.lag_rad_per_m(ahead));
-          const DirectionalMatrix D =
-              directional_matrix(process_.coefficients, process_.engagement.entry_rad + s - lag * z);
-          sum -= (high - low) * rule_.weight(h) * (D.topRows<2>() * (q - delayed(delay / turn * steps_, part)));
-        }
-      }
-    }
-    return sum;
-  }
-
-  [[nodiscard]] State slope(const State& x, double theta, double part) const {
-    const Eigen::Vector2d f = force(x.q, theta, part);
-    State result{x.v, {}};
-    for (int k = 0; k < 2; ++k) {
-      const testing::Mode& m = modes[static_cast<std::size_t>(k)];
-      const double omega = 2.0 * std::numbers::pi * m.frequency_hz;
-      result.v[k] = f[k] / m.mass_kg - 2.0 * m.damping_ratio * omega * x.v[k] - omega * omega * x.q[k];
-    }
-    return result;
-  }
-
-  void step(int i) {
-    // Just inside of the step at both ends: jumps lie on its ends.
-    const double d = 2.0 * std::numbers::pi / steps_;
-    const double inside = 1e-9;
-    const auto moved = [&](const State& x, const State& k, double share) {
-      return State{x.q + share * dt_ * k.q, x.v + share * dt_ * k.v};
-    };
-    const State x = history_.back();
-    const State k1 = slope(x, (i + inside) * d, 0.0);
-    const State k2 = slope(moved(x, k1, 0.5), (i + 0.5) * d, 0.5);
-    const State k3 = slope(moved(x, k2, 0.5), (i + 0.5) * d, 0.5);
-    const State k4 = slope(moved(x, k3, 1.0), (i + 1.0 - inside) * d, 1.0);
-    history_.push_back({x.q + dt_ / 6.0 * (k1.q + 2.0 * k2.q + 2.0 * k3.q + k4.q),
-                        x.v + dt_ / 6.0 * (k1.v + 2.0 * k2.v + 2.0 * k3.v + k4.v)});
-  }
-
-  const MillingProcess& process_;
-  double depth_m_;
-  int steps_;
-  double dt_;
-  GaussRule rule_;  // over the heights in the cut
-  std::vector<double> entry_{0.0};
-  std::vector<State> history_;
-};
-
 TEST(Pitch, NearlyEqualTeethOverATurnAreEqualTeethOverAPitch) {
   // Pitches that differ by a ten-millionth go the way of unequal ones: a turn's multiplier is the product of the
   // pitches'. A short cut, and one with two and three teeth at a time.
@@ -178,7 +61,8 @@ TEST(Pitch, UnequalPitchesAgainstMarchingInTime) {
     const Multiplier exact = multiplier_at(structure(), process, rpm, depth, sharp());
     EXPECT_EQ(exact.status, StabilityStatus::converged);
     EXPECT_EQ(exact.kind, Bifurcation::hopf);
-    EXPECT_NEAR(Marching(process, rpm, depth, 1800).modulus_of_turn(30) / exact.modulus, 1.0, 1e-4) << rpm;
+    EXPECT_NEAR(testing::Marching(process, modes, rpm, depth, 1800).modulus_of_turn(30) / exact.modulus, 1.0, 1e-4)
+        << rpm;
   }
 }
 
@@ -189,7 +73,8 @@ TEST(Helix, AgainstMarchingInTime) {
   const double depth = 2e-3;
   const Multiplier exact = multiplier_at(structure(), process, rpm, depth, sharp());
   EXPECT_EQ(exact.status, StabilityStatus::converged);
-  EXPECT_NEAR(Marching(process, rpm, depth, 1440).modulus_of_turn(24) / std::pow(exact.modulus, 3), 1.0, 1e-4);
+  EXPECT_NEAR(testing::Marching(process, modes, rpm, depth, 1440).modulus_of_turn(24) / std::pow(exact.modulus, 3), 1.0,
+              1e-4);
 }
 
 TEST(Helix, UnequalHelicesAgainstMarchingInTime) {
@@ -202,7 +87,7 @@ TEST(Helix, UnequalHelicesAgainstMarchingInTime) {
   options.error_tolerance = 1e-5;
   const Multiplier exact = multiplier_at(structure(), process, rpm, depth, options);
   EXPECT_EQ(exact.status, StabilityStatus::converged);
-  EXPECT_NEAR(Marching(process, rpm, depth, 1440).modulus_of_turn(30) / exact.modulus, 1.0, 1e-4);
+  EXPECT_NEAR(testing::Marching(process, modes, rpm, depth, 1440).modulus_of_turn(30) / exact.modulus, 1.0, 1e-4);
 }
 
 TEST(Helix, WholePitchOfEdgeInTheDepthMakesTheForceConstant) {
