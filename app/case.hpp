@@ -180,6 +180,7 @@ struct Tool {
   std::vector<double> pitches;  ///< rad; empty: equal
   std::vector<double> helices;  ///< rad, one a tooth; empty: none
   std::vector<ToolMode> modes;
+  std::vector<MeasuredFrf> measured;  ///< DOFs "tool.x", "tool.y", "tool.z"
 };
 
 struct Cutting {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "app/lobes_report.hpp"
+
 namespace thinwall::app {
 
 namespace {
@@ -18,7 +20,7 @@ std::string depth(const json& row) {
 }
 
 std::string title_of(const std::string& name) {
-  return name == "part" ? "part alone" : "with the robot";
+  return name == "part" ? "part alone" : name == "tool" ? "tool" : "with the robot";
 }
 
 std::string minimum(const json& lobes) {
@@ -170,6 +172,7 @@ std::string terminal_report(const json& summary, const std::string& result_folde
   }
   charts(out, summary);
   out += '\n';
+  if (const std::string points = operating_points_text(summary); !points.empty()) out += points + '\n';
   updating(out, summary);
   trust(out, summary);
   checks(out, summary);

@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
 namespace thinwall::milling {
 
-namespace {
-
-void summarise(Lobes& lobes) {
+Lobes lobes_of(std::vector<LobeRow> rows, std::string method) {
+  if (rows.empty()) throw core::InputError("stability lobes: no spindle speeds, at least 1 is needed; give a range");
+  Lobes lobes;
+  lobes.method = std::move(method);
+  lobes.rows = std::move(rows);
   const auto least = std::min_element(lobes.rows.begin(), lobes.rows.end(), [](const LobeRow& a, const LobeRow& b) {
     return a.limiting_depth_m < b.limiting_depth_m;
   });
@@ -22,9 +25,8 @@ void summarise(Lobes& lobes) {
     const bool sound = row.status == StabilityStatus::converged || row.status == StabilityStatus::stable_to_depth_limit;
     if (!sound) ++lobes.rows_not_converged;
   }
+  return lobes;
 }
-
-}  // namespace
 
 std::vector<double> spindle_speeds(double from_rpm, double to_rpm, int count) {
   if (!(from_rpm > 0.0) || !(to_rpm > from_rpm) || count < 2) {
@@ -42,16 +44,12 @@ std::vector<double> spindle_speeds(double from_rpm, double to_rpm, int count) {
 
 Lobes stability_lobes(const RelativeStructure& structure, const MillingProcess& process,
                       const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options) {
-  if (spindle_speeds_rpm.empty())
-    throw core::InputError("stability lobes: no spindle speeds, at least 1 is needed; give a range");
-  Lobes lobes;
-  lobes.method = "contact-phase collocation, critical depths directly";
-  lobes.residual_share = residual_share(structure);
-  lobes.rows.resize(spindle_speeds_rpm.size());
-  core::parallel_for(spindle_speeds_rpm.size(), [&](std::size_t i) {
-    lobes.rows[i] = limiting_depth(structure, process, spindle_speeds_rpm[i], options);
+  std::vector<LobeRow> rows(spindle_speeds_rpm.size());
+  core::parallel_for(rows.size(), [&](std::size_t i) {
+    rows[i] = limiting_depth(structure, process, spindle_speeds_rpm[i], options);
   });
-  summarise(lobes);
+  Lobes lobes = lobes_of(std::move(rows), "contact-phase collocation, critical depths directly");
+  lobes.residual_share = residual_share(structure);
   return lobes;
 }
 

@@ -30,31 +30,29 @@ Eigen::VectorXcd node_moments(const ContactGrid& grid, const std::vector<Product
   return moments;
 }
 
-/// Angles where e^{iωT} of a frequency and its neighbours within the half-power width lie on the half circle.
-void add_aliases(double hz, double width_hz, double period_s, std::vector<double>& stops) {
+/// Angles where e^{iωT} of a resonance and its neighbours within the half-power width lie on the half circle.
+void add_aliases(const Resonance& r, double period_s, std::vector<double>& stops) {
   for (const double off : {-3.0, -1.5, -0.75, -0.35, 0.0, 0.35, 0.75, 1.5, 3.0}) {
-    const double turns = (hz + off * width_hz) * period_s;
+    const double turns = (r.frequency_hz + off * r.half_width_hz) * period_s;
     const double theta = 2.0 * pi * std::abs(turns - std::round(turns));
     if (theta > 0.0 && theta < pi) stops.push_back(theta);
   }
 }
 
-std::vector<double> stops_at_peaks(const SampledReceptance& r, double period_s) {
+std::vector<double> stops_at_resonances(const SampledReceptance& receptance, double period_s) {
   std::vector<double> stops{0.0, pi};
   for (double theta = 0.2; theta < pi; theta += 0.2) stops.push_back(theta);
-  const auto size = [&](Index line) { return r.H[static_cast<std::size_t>(line)].norm(); };
-  for (Index i = 1; i + 1 < r.frequency_hz.size(); ++i) {
-    if (size(i) < size(i - 1) || size(i) <= size(i + 1)) continue;
-    Index low = i;
-    Index high = i;
-    while (low > 0 && size(low) > 0.707 * size(i)) --low;
-    while (high + 1 < r.frequency_hz.size() && size(high) > 0.707 * size(i)) ++high;
-    add_aliases(r.frequency_hz(i), 0.5 * (r.frequency_hz(high) - r.frequency_hz(low)), period_s, stops);
-  }
+  for (const Resonance& r : resonances(receptance)) add_aliases(r, period_s, stops);
   std::sort(stops.begin(), stops.end());
   stops.erase(std::unique(stops.begin(), stops.end(), [](double a, double b) { return b - a < 1e-4; }), stops.end());
   stops.back() = pi;
   return stops;
+}
+
+/// Harmonics fade out over the upper half of those that are taken, so that the sum changes smoothly with θ.
+double share_of(double omega, double highest) {
+  const double beyond = 2.0 * std::abs(omega) / highest - 1.0;
+  return beyond <= 0.0 ? 1.0 : beyond >= 1.0 ? 0.0 : std::pow(std::cos(0.5 * pi * beyond), 2);
 }
 
 }  // namespace
@@ -95,6 +93,25 @@ Eigen::Matrix3cd interpolated(const SampledReceptance& r, double omega_rad_s) {
   return omega_rad_s < 0.0 ? Eigen::Matrix3cd(H.conjugate()) : H;
 }
 
+std::vector<Resonance> resonances(const SampledReceptance& r) {
+  const Index lines = r.frequency_hz.size();
+  const auto size = [&](Index line) { return r.H[static_cast<std::size_t>(line)].norm(); };
+  std::vector<Resonance> found;
+  for (Index i = 1; i + 1 < lines; ++i) {
+    const double top = size(i);
+    if (top < size(i - 1) || top <= size(i + 1)) continue;
+    const double half_power = top / std::numbers::sqrt2;
+    const auto outside = [&](Index line) { return size(line) <= half_power || size(line) > top; };
+    Index low = i;
+    Index high = i;
+    while (low > 0 && !outside(low)) --low;
+    while (high + 1 < lines && !outside(high)) ++high;
+    if (size(low) > half_power || size(high) > half_power) continue;
+    found.push_back({r.frequency_hz(i), 0.5 * (r.frequency_hz(high) - r.frequency_hz(low)), top});
+  }
+  return found;
+}
+
 GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGrid& grid, double spindle_speed_rpm,
                            double reach) {
   require_usable(receptance);
@@ -114,7 +131,7 @@ GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGri
     const int first = static_cast<int>(std::ceil((-highest * period - theta) / (2.0 * pi)));
     for (int k = first; k <= last; ++k) {
       const double omega = (theta + 2.0 * pi * k) / period;
-      const Eigen::VectorXcd moments = node_moments(grid, rules, seconds_per_rad, omega);
+      const Eigen::VectorXcd moments = share_of(omega, highest) * node_moments(grid, rules, seconds_per_rad, omega);
       for (Index j = 0; j < contacts; ++j) {
         const Contact& c = grid.contacts[static_cast<std::size_t>(j)];
         force.col(j) = moments(c.node) * c.force;
@@ -129,7 +146,7 @@ GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGri
     constexpr double h = 1e-5;  // rad; the slope steers Newton's rule and need not be exact
     return Eigen::MatrixXcd((gain(theta + h) - gain(theta - h)) / (2.0 * h));
   };
-  return {contacts, gain, slope, stops_at_peaks(receptance, period)};
+  return {contacts, gain, slope, stops_at_resonances(receptance, period)};
 }
 
 }  // namespace thinwall::milling

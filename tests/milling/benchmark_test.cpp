@@ -1,68 +1,22 @@
-// The one-DOF benchmark of Insperger & Stepan (2004) against values computed independently of this project's method
-// (data/lobes_1dof.csv: Chebyshev collocation, three discretisations agreeing to 1e-9; critical depths confirmed by a
-// Hill determinant).
+// The one-DOF benchmark against its independent values (benchmark.hpp).
+
+#include "tests/milling/benchmark.hpp"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-
-#include "core/error.hpp"
 #include "milling/lobes.hpp"
-#include "milling/sampled_receptance.hpp"
-#include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling {
 namespace {
 
-struct Reference {
-  std::string quantity;
-  double immersion, rpm, depth_m, modulus;
-  std::string kind;
-  double base_hz;
-
-  [[nodiscard]] std::string where() const {
-    std::ostringstream text;
-    text << quantity << " at a/D = " << immersion << ", " << rpm << " rpm, " << depth_m * 1e3 << " mm";
-    return text.str();
-  }
-};
-
-std::vector<Reference> references(const std::string& quantity) {
-  std::ifstream file(THINWALL_SOURCE_DIR "/tests/milling/data/lobes_1dof.csv");
-  std::vector<Reference> rows;
-  std::string line;
-  while (std::getline(file, line)) {
-    std::stringstream cells(line);
-    std::vector<std::string> cell;
-    for (std::string text; std::getline(cells, text, ',');) cell.push_back(text);
-    if (cell.empty() || cell[0] != quantity) continue;
-    rows.push_back({cell[0], std::stod(cell[2]), std::stod(cell[3]), std::stod(cell[4]) * 1e-3, std::stod(cell[5]),
-                    cell[8], std::stod(cell[11])});
-  }
-  return rows;
-}
-
-RelativeStructure benchmark_structure() {
-  return relative_structure(testing::modal_model({{922.0, 0.011, 0.03993, Eigen::Vector3d::UnitX()}}), "P");
-}
-
-MillingProcess benchmark_process(double immersion) {
-  MillingProcess process;
-  process.cutter = {2, 0.01};
-  process.coefficients = {6e8, 2e8, 0.0, 0.0, 0.0, 0.0};
-  process.engagement = engagement_of(process.cutter, immersion * 0.01, MillingDirection::down);
-  return process;
-}
+using testing::base_frequency;
+using testing::benchmark_process;
+using testing::benchmark_structure;
+using testing::Reference;
+using testing::references;
 
 Bifurcation kind_of(const std::string& text) {
   return text == "Hopf" ? Bifurcation::hopf : Bifurcation::flip;
-}
-
-// The chatter frequency is one of (±arg μ + 2πk)/T, so its distance from a multiple of 1/T is the base frequency.
-double base_frequency(double chatter_hz, double rpm) {
-  const double tooth_hz = rpm * 2.0 / 60.0;
-  return std::abs(chatter_hz - tooth_hz * std::round(chatter_hz / tooth_hz));
 }
 
 StabilityOptions sharp() {
@@ -121,41 +75,6 @@ TEST(Benchmark, DirectDepthsAreThoseOfTheMultipliers) {
     EXPECT_GT(slope, 0.0);
     EXPECT_NEAR(growth(0.0) / slope, 0.0, 1e-8);
   }
-}
-
-TEST(Benchmark, DepthsFromSamplesOfTheReceptanceAlone) {
-  // Lines of 2 Hz up to 12 kHz, as an analyser gives them, in place of the pole.
-  SampledReceptance sampled;
-  sampled.frequency_hz = Eigen::VectorXd::LinSpaced(6001, 0.0, 12000.0);
-  for (const double hz : sampled.frequency_hz)
-    sampled.H.push_back(receptance(benchmark_structure(), 2.0 * std::numbers::pi * hz));
-  for (const Reference& row : references("wcrit_mm")) {
-    SCOPED_TRACE(row.where());
-    const ContactGrid grid = contact_grid(benchmark_process(row.immersion), Eigen::Vector3d::UnitX(),
-                                          row.immersion == 1.0 ? Resolution{4, 10} : Resolution{1, 10});
-    CriticalDepths search(harmonic_gain(sampled, grid, row.rpm));
-    const std::vector<Crossing> crossings = search.up_to(1.2 * row.depth_m);
-    ASSERT_FALSE(crossings.empty());
-    EXPECT_NEAR(crossings.front().depth_m / row.depth_m, 1.0, 1e-4);
-    EXPECT_EQ(std::abs(crossings.front().unstable_change), row.kind == "Hopf" ? 2 : 1);
-  }
-}
-
-TEST(SampledReceptance, RefusesWhatCannotBeUsed) {
-  const ContactGrid grid = contact_grid(benchmark_process(0.1), Eigen::Vector3d::UnitX(), {1, 6});
-  const SampledReceptance good{Eigen::VectorXd::LinSpaced(7, 1.0, 7.0),
-                               std::vector<Eigen::Matrix3cd>(7, Eigen::Matrix3cd::Identity())};
-  SampledReceptance bad = good;
-  bad.H[3](1, 2) = std::nan("");
-  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
-  bad = good;
-  bad.frequency_hz(2) = 1.5;
-  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
-  bad = good;
-  bad.H.pop_back();
-  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
-  bad = {Eigen::VectorXd::LinSpaced(5, 1.0, 5.0), std::vector<Eigen::Matrix3cd>(5, Eigen::Matrix3cd::Identity())};
-  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
 }
 
 }  // namespace
