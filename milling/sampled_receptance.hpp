@@ -20,9 +20,14 @@ struct SampledReceptance {
 /// line, all finite.
 void require_usable(const SampledReceptance& receptance);
 
-/// H(ω) at any frequency: between lines the polynomial through the six nearest; below the first line its real part as a
-/// static compliance; beyond the last an inertia line, H ~ 1/ω²; conjugate for ω < 0.
-[[nodiscard]] Eigen::Matrix3cd interpolated(const SampledReceptance& receptance, double omega_rad_s);
+/// H(ω) at any frequency: between lines the polynomial through the six nearest; below the first line (its real part)
+/// and beyond the last, f_end, that of an oscillator of frequency f₀ = `oscillator_hz`,
+///
+///     H(f) = H(f_end) (f₀² − f_end²) / (f₀² − f²),
+///
+/// without f₀ (0) a static line below and an inertia line, H ~ 1/f², beyond; conjugate for ω < 0.
+[[nodiscard]] Eigen::Matrix3cd interpolated(const SampledReceptance& receptance, double omega_rad_s,
+                                            double oscillator_hz = 0.0);
 
 /// A peak of ‖H‖ (Frobenius) that falls to half its power on both sides before anything higher is met: noise on a flank
 /// has none.
@@ -42,9 +47,9 @@ struct Resonance {
 /// The integrals are those of the polynomials (plain quadrature of the impulse response loses up to 1 %, its kernel has
 /// a kink). Harmonics up to `reach` times the last line, the upper half of them fading out as a squared cosine so that
 /// Z changes smoothly with θ; what is left beyond falls at least as its square. Stops lie at the aliases of the
-/// resonances. Equal delays only. Both arguments must outlive the result. Cost of a value: harmonics ×
-/// contacts².
+/// resonances. Beyond its lines H is that of interpolated(). Equal delays only. Both arguments must outlive the result.
+/// Cost of a value: harmonics × contacts².
 [[nodiscard]] GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGrid& grid,
-                                         double spindle_speed_rpm, double reach = 6.0);
+                                         double spindle_speed_rpm, double reach = 6.0, double oscillator_hz = 0.0);
 
 }  // namespace thinwall::milling

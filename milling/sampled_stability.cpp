@@ -32,6 +32,7 @@ struct SampledCut {
   const MillingProcess& process;
   Eigen::Matrix3Xd yielding;
   double mean_stiffness = 0.0;  ///< ‖mean directional matrix‖ over a period, N/m²
+  double resonance_hz = 0.0;    ///< the highest
   double spindle_speed_rpm = 0.0;
 };
 
@@ -47,6 +48,15 @@ Eigen::Matrix3Xd yielding_directions(const SampledReceptance& r) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(motion);
   const auto count = (eigen.eigenvalues().array() > 1e-14 * eigen.eigenvalues()(2)).count();
   return eigen.eigenvectors().rightCols(count);
+}
+
+/// 0 if there is none.
+double highest_resonance_hz(const SampledReceptance& r) {
+  Resonance highest;
+  for (const Resonance& found : resonances(r)) {
+    if (found.size > highest.size) highest = found;
+  }
+  return highest.frequency_hz;
 }
 
 /// Mean over the period of force · chipᵀ.
@@ -74,7 +84,8 @@ void require_usable(const MillingProcess& process, const StabilityOptions& optio
 }
 
 SampledCut sampled_cut(const SampledReceptance& receptance, const MillingProcess& process, double spindle_speed_rpm) {
-  SampledCut cut{receptance, process, yielding_directions(receptance), 0.0, spindle_speed_rpm};
+  SampledCut cut{receptance,       process, yielding_directions(receptance), 0.0, highest_resonance_hz(receptance),
+                 spindle_speed_rpm};
   cut.mean_stiffness = mean_stiffness(contact_grid(process, cut.yielding, {1, 8}));
   return cut;
 }
@@ -113,6 +124,7 @@ class SampledGrids {
  public:
   struct Level {
     ContactGrid grid;
+    double reach = 0.0;  ///< harmonics, over the last line
     GainOnCircle gain;
   };
 
@@ -120,13 +132,12 @@ class SampledGrids {
       : cut_(cut), next_(first), most_nodes_(most_nodes) {}
 
   const Level& operator[](std::size_t level) {
-    const auto& r = cut_.receptance;
+    const auto& hz = cut_.receptance.frequency_hz;
     while (levels_.size() <= level) {
-      levels_.push_back(
-          std::make_unique<Level>(Level{contact_grid(cut_.process, cut_.yielding, next_.resolution), {}}));
+      levels_.push_back(std::make_unique<Level>(Level{
+          contact_grid(cut_.process, cut_.yielding, next_.resolution), next_.harmonics_to_hz / hz(hz.size() - 1), {}}));
       Level& made = *levels_.back();
-      const double reach = next_.harmonics_to_hz / r.frequency_hz(r.frequency_hz.size() - 1);
-      made.gain = remembering(harmonic_gain(r, made.grid, cut_.spindle_speed_rpm, reach));
+      made.gain = remembering(gain_of(made, cut_.resonance_hz));
       next_ = finer(next_);
     }
     return *levels_[level];
@@ -141,7 +152,18 @@ class SampledGrids {
     };
   }
 
+  /// How far a crossing of a level moves, relative, with plain lines beyond the range of the receptance.
+  [[nodiscard]] double change_by_range(std::size_t level, Crossing crossing) {
+    const double depth = crossing.depth_m;
+    const bool kept = refine(gain_of((*this)[level], 0.0), crossing);
+    return kept ? std::abs(crossing.depth_m / depth - 1.0) : 1.0;
+  }
+
  private:
+  [[nodiscard]] GainOnCircle gain_of(const Level& level, double oscillator_hz) const {
+    return harmonic_gain(cut_.receptance, level.grid, cut_.spindle_speed_rpm, level.reach, oscillator_hz);
+  }
+
   const SampledCut& cut_;
   Fineness next_;
   int most_nodes_;
@@ -150,7 +172,7 @@ class SampledGrids {
 
 double chatter_hz(const SampledCut& cut, const ContactGrid& grid, double theta, const Eigen::VectorXcd& c) {
   const auto& hz = cut.receptance.frequency_hz;
-  const auto at = [&](double omega) { return interpolated(cut.receptance, omega); };
+  const auto at = [&](double omega) { return interpolated(cut.receptance, omega, cut.resonance_hz); };
   return chatter_frequency_hz(grid, tooth_period_s(cut.process.cutter, cut.spindle_speed_rpm), at,
                               2.0 * pi * hz(hz.size() - 1), theta, c);
 }
@@ -198,8 +220,11 @@ std::vector<RefinedCrossing> refined(SampledGrids& grids, std::vector<Crossing> 
     count += c.crossing.unstable_change;
     if (!bounds || c.crossing.depth_m > options.depth_limit_m) continue;
     refine_until(2, options.error_tolerance, grids.to_level(), c);
+    const double by_range = c.kept ? grids.change_by_range(c.level, c.crossing) : 0.0;
     if (!c.kept) row.status = StabilityStatus::crossing_missed;
     else if (c.error_estimate > options.error_tolerance) row.status = StabilityStatus::node_limit_reached;
+    else if (by_range > options.error_tolerance) row.status = StabilityStatus::range_limited;
+    c.error_estimate += by_range;
   }
   const bool counted = options.follow == 1.0 || unstable_count(grids[0].gain, row.searched_m) == count;
   if (!counted) row.status = StabilityStatus::crossing_missed;
@@ -265,7 +290,8 @@ LobeRow row_of(const SampledCut& cut, const StabilityOptions& options) {
       continue;
     }
     LobeRow row = row_from(cut, grids, std::move(found), searched_m, options);
-    const bool sound = row.status == StabilityStatus::converged || row.status == StabilityStatus::stable_to_depth_limit;
+    const bool sound = row.status == StabilityStatus::converged || row.status == StabilityStatus::range_limited ||
+                       row.status == StabilityStatus::stable_to_depth_limit;
     if (sound || 3 * row.nodes >= options.most_nodes) return row;
     fineness = finer(fineness);
   }
@@ -277,16 +303,13 @@ void require_range(const SampledReceptance& receptance, const MillingProcess& pr
   require_usable(receptance);
   const double first = receptance.frequency_hz(0);
   const double last = receptance.frequency_hz(receptance.frequency_hz.size() - 1);
-  const auto all = resonances(receptance);
+  const double resonance = highest_resonance_hz(receptance);
   std::ostringstream text;
   text << "receptance at the cut: lines from " << first << " to " << last << " Hz ";
-  if (all.empty()) {
+  if (resonance == 0.0) {
     text << "hold no resonance, the one that chatters must lie among them; measure a wider range";
     throw core::InputError(text.str());
   }
-  const double resonance = std::max_element(all.begin(), all.end(), [](const Resonance& a, const Resonance& b) {
-                             return a.size < b.size;
-                           })->frequency_hz;
   const double passing = 1.0 / tooth_period_s(process.cutter, spindle_speed_rpm);
   const double above = resonance + passing;
   const double below = std::abs(resonance - passing);

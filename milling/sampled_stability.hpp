@@ -16,7 +16,9 @@ namespace thinwall::milling {
 /// Each finer grid has more nodes and twice the harmonics, so that the change of a depth from grid to grid, which makes
 /// its estimate, is that of both. Nodes start with the highest line that matters: |H| of a twentieth of the largest, or
 /// enough to regenerate at the depth that is called stable (2 w ‖D̄‖ |H| ≥ ½); harmonics with four times its frequency.
-/// What the receptance is beyond its lines is an assumption (interpolated()) that the estimate does not cover.
+/// Beyond its lines the receptance is continued as that of an oscillator of its highest resonance; how far the depth
+/// moves with plain static and inertia lines instead is added to the estimate, and a row that misses the tolerance for
+/// it is `range_limited`.
 ///
 /// The counts that check the search are Nyquist's (unstable_count.hpp), at its end on the grid of the search and just
 /// below the first crossing on the next finer one. Without poles there is no |μ|: a row that is stable up to the limit
@@ -34,9 +36,9 @@ namespace thinwall::milling {
                                     const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options);
 
 /// What must be measured: the highest resonance f with its neighbours at the distance of a tooth passing, f + z n/60
-/// and |f − z n/60|, the harmonics that chatter at f has beside it. Above the last line an inertia line is assumed,
-/// below the first a static one, which is good only well below the resonance: a first line of up to f/2 may stand for
-/// what is below it. Throws InputError that names the harmonic that is missing and the range that would do.
+/// and |f − z n/60|, the harmonics that chatter at f has beside it; a first line of up to f/2 may stand for what is
+/// below it. This is the least: the estimate tells what a range costs. Throws InputError that names the harmonic that
+/// is missing and the range that would do.
 void require_range(const SampledReceptance& receptance, const MillingProcess& process, double spindle_speed_rpm);
 
 }  // namespace thinwall::milling

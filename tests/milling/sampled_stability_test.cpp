@@ -126,6 +126,27 @@ TEST(SampledStability, AgreesWithThePolesForThreeByThreeReceptances) {
   EXPECT_GE(compared, 6);
 }
 
+TEST(SampledStability, TheEstimateHoldsForRangesThatEndEarly) {
+  const RelativeStructure structure = relative_structure(testing::modal_model(skewed), "P");
+  const MillingProcess process = skewed_cut();
+  StabilityOptions options;
+  options.follow = 1.0;
+  int limited = 0;
+  for (const double from_hz : {1.0, 150.0}) {
+    for (const double to_hz : {1000.0, 1400.0, 2500.0, 6000.0}) {
+      const SampledReceptance lines = sampled(structure, process.frame, from_hz, to_hz, 1.0);
+      for (const double rpm : {2300.0, 4100.0, 5600.0}) {
+        const LobeRow by_lines = limiting_depth(lines, process, rpm, options);
+        const LobeRow by_poles = limiting_depth(structure, process, rpm, options);
+        EXPECT_NEAR(by_lines.limiting_depth_m / by_poles.limiting_depth_m, 1.0, by_lines.error_estimate + 1e-5)
+            << from_hz << " to " << to_hz << " Hz, " << rpm << " rpm";
+        limited += by_lines.status == StabilityStatus::range_limited ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(limited, 0);
+}
+
 TEST(SampledStability, NyquistsCountIsThatOfTheMultipliers) {
   const RelativeStructure structure = relative_structure(testing::modal_model(skewed), "P");
   const MillingProcess process = skewed_cut();
