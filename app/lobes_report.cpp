@@ -10,10 +10,6 @@ namespace {
 
 using nlohmann::json;
 
-std::string title_of(const std::string& chart) {
-  return chart == "part" ? "part alone" : chart == "tool" ? "tool" : "with the robot";
-}
-
 /// "below 0.01 %" or "0.35 %".
 std::string estimate_text(const json& relative) {
   if (relative.is_null()) return "unknown";
@@ -27,11 +23,11 @@ std::string depth_text(double depth_m, bool at_limit) {
 
 std::string chart_text(const json& chart) {
   const bool all = chart["speeds_stable_to_depth_limit"] == chart["speeds"];
-  std::string text =
-      fmt::format("  {}\n    least depth   {} {}\n    error         {} (estimate)\n",
-                  title_of(chart["name"].get<std::string>()), depth_text(chart["minimum_depth_m"].get<double>(), all),
-                  all ? "at every speed" : fmt::format("at {:.0f} rpm", chart["at_spindle_speed_rpm"].get<double>()),
-                  estimate_text(chart["error_estimate_relative"]));
+  std::string text = fmt::format(
+      "  {}\n    least depth   {} {}\n    error         {} (estimate)\n", chart_title(chart["name"].get<std::string>()),
+      depth_text(chart["minimum_depth_m"].get<double>(), all),
+      all ? "at every speed" : fmt::format("at {:.0f} rpm", chart["at_spindle_speed_rpm"].get<double>()),
+      estimate_text(chart["error_estimate_relative"]));
   std::string label = "best pockets";
   for (const json& pocket : chart["best_pockets"]) {
     text += fmt::format("    {:<13} {} at {:.0f} rpm\n", label,
@@ -65,7 +61,7 @@ std::string point_text(const json& p) {
   const double rpm = p["spindle_speed_rpm"].get<double>();
   std::string text =
       fmt::format("  {:.0f} rpm, {:.3f} mm, {}: {}", rpm, p["depth_m"].get<double>() * 1e3,
-                  title_of(p["chart"].get<std::string>()), p["stable"].get<bool>() ? "stable" : "UNSTABLE");
+                  chart_title(p["chart"].get<std::string>()), p["stable"].get<bool>() ? "stable" : "UNSTABLE");
   if (!p["multiplier_modulus"].is_null()) text += fmt::format(", |mu| {:.6f}", p["multiplier_modulus"].get<double>());
   if (!p["chatter_frequency_hz"].is_null())
     text +=
@@ -79,6 +75,10 @@ std::string point_text(const json& p) {
 }
 
 }  // namespace
+
+std::string chart_title(const std::string& chart) {
+  return chart == "part" ? "part alone" : chart == "tool" ? "tool" : "with the robot";
+}
 
 std::string operating_points_text(const json& summary) {
   std::string text;

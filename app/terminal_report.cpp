@@ -19,10 +19,6 @@ std::string depth(const json& row) {
   return row["at_depth_limit"].get<bool>() ? fmt::format("over {:.1f} mm", mm) : fmt::format("{:.2f} mm", mm);
 }
 
-std::string title_of(const std::string& name) {
-  return name == "part" ? "part alone" : name == "tool" ? "tool" : "with the robot";
-}
-
 std::string minimum(const json& lobes) {
   const double mm = lobes["minimum_depth_m"].get<double>() * 1e3;
   if (lobes["speeds_stable_to_depth_limit"] == lobes["speeds"])
@@ -34,7 +30,7 @@ void answer(std::string& out, const json& summary) {
   for (const json& lobes : summary["lobes"]) {
     if (!lobes.contains("at_case_speed")) continue;
     const json& row = lobes["at_case_speed"];
-    out += fmt::format("  {:<15} stable up to {} at {:.0f} rpm", title_of(lobes["name"]), depth(row),
+    out += fmt::format("  {:<15} stable up to {} at {:.0f} rpm", chart_title(lobes["name"]), depth(row),
                        row["spindle_speed_rpm"].get<double>());
     if (!row["at_depth_limit"].get<bool>())
       out += fmt::format(", chatter at {:.1f} Hz ({})", row["chatter_frequency_hz"].get<double>(),
@@ -83,7 +79,7 @@ void charts(std::string& out, const json& summary) {
     const json& best = lobes["maximum"];
     const json& error = lobes["error_estimate_relative"];
     const std::string estimate = error.is_null() ? "unknown" : fmt::format("{:.2f} %", error.get<double>() * 100.0);
-    out += fmt::format("  {:<22} {:<38} {:<25} {}\n", title_of(lobes["name"]), minimum(lobes),
+    out += fmt::format("  {:<22} {:<38} {:<25} {}\n", chart_title(lobes["name"]), minimum(lobes),
                        fmt::format("{} at {:.0f} rpm", depth(best), best["spindle_speed_rpm"].get<double>()), estimate);
     if (const json& static_share = lobes["static_share"];
         !static_share.is_null() && static_share.get<double>() > 0.01) {

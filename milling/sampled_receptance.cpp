@@ -72,19 +72,22 @@ void require_usable(const SampledReceptance& r) {
   }
 }
 
-Eigen::Matrix3cd interpolated(const SampledReceptance& r, double omega_rad_s, double oscillator_hz) {
+Eigen::Matrix3cd interpolated(const SampledReceptance& r, double omega_rad_s, const Continuation& beyond) {
   const double hz = std::abs(omega_rad_s) / (2.0 * pi);
   const Index lines = r.frequency_hz.size();
   const double first_hz = r.frequency_hz(0);
   const double last_hz = r.frequency_hz(lines - 1);
   const auto line = [&](Index i) -> const Eigen::Matrix3cd& { return r.H[static_cast<std::size_t>(i)]; };
-  const auto off = [&](double f) { return oscillator_hz * oscillator_hz - f * f; };
+  const auto ratio = [hz](double oscillator_hz, double end_hz) {
+    const double square = oscillator_hz * oscillator_hz;
+    return (square - end_hz * end_hz) / (square - hz * hz);
+  };
   Eigen::Matrix3cd H;
   if (hz < first_hz) {
     H = line(0).real().cast<complex<double>>();
-    if (oscillator_hz > 0.0) H *= off(first_hz) / off(hz);
+    if (beyond.below_hz > 0.0) H *= ratio(beyond.below_hz, first_hz);
   } else if (hz >= last_hz) {
-    H = line(lines - 1) * (off(last_hz) / off(hz));
+    H = line(lines - 1) * ratio(beyond.above_hz, last_hz);
   } else {
     const auto* begin = r.frequency_hz.data();
     const Index above = std::upper_bound(begin, begin + lines, hz) - begin;
@@ -116,7 +119,7 @@ std::vector<Resonance> resonances(const SampledReceptance& r) {
 }
 
 GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGrid& grid, double spindle_speed_rpm,
-                           double reach, double oscillator_hz) {
+                           double reach, const Continuation& beyond) {
   require_usable(receptance);
   const double seconds_per_rad = 30.0 / (pi * spindle_speed_rpm);
   const double period = grid.period_rad * seconds_per_rad;
@@ -125,8 +128,7 @@ GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGri
   for (const CutElement& e : grid.elements)
     rules.emplace_back(e.nodes, highest * (e.to_rad - e.from_rad) * seconds_per_rad);
   const auto contacts = static_cast<Index>(grid.contacts.size());
-  const auto gain = [&receptance, &grid, rules, seconds_per_rad, period, highest, contacts,
-                     oscillator_hz](double theta) {
+  const auto gain = [&receptance, &grid, rules, seconds_per_rad, period, highest, contacts, beyond](double theta) {
     Eigen::MatrixXcd Z = Eigen::MatrixXcd::Zero(contacts, contacts);
     Eigen::Matrix3Xcd force(3, contacts);
     Eigen::MatrixX3cd seen(contacts, 3);
@@ -141,7 +143,7 @@ GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGri
         force.col(j) = moments(c.node) * c.force;
         seen.row(j) = std::polar(1.0, omega * grid.node_rad(c.node) * seconds_per_rad) * c.chip.transpose();
       }
-      Z.noalias() += (seen * interpolated(receptance, omega, oscillator_hz)) * force;
+      Z.noalias() += (seen * interpolated(receptance, omega, beyond)) * force;
     }
     const complex<double> past = theta == pi ? complex<double>(-1.0) : std::polar(1.0, -theta);
     return Eigen::MatrixXcd((1.0 - past) / period * Z);

@@ -20,14 +20,21 @@ struct SampledReceptance {
 /// line, all finite.
 void require_usable(const SampledReceptance& receptance);
 
+/// Frequencies of the oscillators that continue a receptance beyond its lines; 0: a static line below the first, an
+/// inertia line, H ~ 1/f², above the last.
+struct Continuation {
+  double below_hz = 0.0;
+  double above_hz = 0.0;
+};
+
 /// H(ω) at any frequency: between lines the polynomial through the six nearest; below the first line (its real part)
-/// and beyond the last, f_end, that of an oscillator of frequency f₀ = `oscillator_hz`,
+/// and beyond the last, f_end, that of an oscillator of frequency f₀,
 ///
 ///     H(f) = H(f_end) (f₀² − f_end²) / (f₀² − f²),
 ///
-/// without f₀ (0) a static line below and an inertia line, H ~ 1/f², beyond; conjugate for ω < 0.
+/// conjugate for ω < 0.
 [[nodiscard]] Eigen::Matrix3cd interpolated(const SampledReceptance& receptance, double omega_rad_s,
-                                            double oscillator_hz = 0.0);
+                                            const Continuation& beyond = {});
 
 /// A peak of ‖H‖ (Frobenius) that falls to half its power on both sides before anything higher is met: noise on a flank
 /// has none.
@@ -50,6 +57,6 @@ struct Resonance {
 /// resonances. Beyond its lines H is that of interpolated(). Equal delays only. Both arguments must outlive the result.
 /// Cost of a value: harmonics × contacts².
 [[nodiscard]] GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGrid& grid,
-                                         double spindle_speed_rpm, double reach = 6.0, double oscillator_hz = 0.0);
+                                         double spindle_speed_rpm, double reach = 6.0, const Continuation& beyond = {});
 
 }  // namespace thinwall::milling

@@ -137,7 +137,7 @@ class SampledGrids {
       levels_.push_back(std::make_unique<Level>(Level{
           contact_grid(cut_.process, cut_.yielding, next_.resolution), next_.harmonics_to_hz / hz(hz.size() - 1), {}}));
       Level& made = *levels_.back();
-      made.gain = remembering(gain_of(made, cut_.resonance_hz));
+      made.gain = remembering(gain_of(made, {cut_.resonance_hz, cut_.resonance_hz}));
       next_ = finer(next_);
     }
     return *levels_[level];
@@ -152,16 +152,22 @@ class SampledGrids {
     };
   }
 
-  /// How far a crossing of a level moves, relative, with plain lines beyond the range of the receptance.
-  [[nodiscard]] double change_by_range(std::size_t level, Crossing crossing) {
-    const double depth = crossing.depth_m;
-    const bool kept = refine(gain_of((*this)[level], 0.0), crossing);
-    return kept ? std::abs(crossing.depth_m / depth - 1.0) : 1.0;
+  /// Error of a crossing's depth, relative, for what lies beyond the range of the receptance: twice what it moves by
+  /// with a plain line at either end, since the oscillator that matters there may be another than the one that is
+  /// taken.
+  [[nodiscard]] double error_by_range(std::size_t level, const Crossing& crossing) {
+    double error = 0.0;
+    for (const Continuation& plain : {Continuation{0.0, cut_.resonance_hz}, Continuation{cut_.resonance_hz, 0.0}}) {
+      Crossing moved = crossing;
+      const bool kept = refine(gain_of((*this)[level], plain), moved);
+      error += kept ? 2.0 * std::abs(moved.depth_m / crossing.depth_m - 1.0) : 1.0;
+    }
+    return error;
   }
 
  private:
-  [[nodiscard]] GainOnCircle gain_of(const Level& level, double oscillator_hz) const {
-    return harmonic_gain(cut_.receptance, level.grid, cut_.spindle_speed_rpm, level.reach, oscillator_hz);
+  [[nodiscard]] GainOnCircle gain_of(const Level& level, const Continuation& beyond) const {
+    return harmonic_gain(cut_.receptance, level.grid, cut_.spindle_speed_rpm, level.reach, beyond);
   }
 
   const SampledCut& cut_;
@@ -172,7 +178,9 @@ class SampledGrids {
 
 double chatter_hz(const SampledCut& cut, const ContactGrid& grid, double theta, const Eigen::VectorXcd& c) {
   const auto& hz = cut.receptance.frequency_hz;
-  const auto at = [&](double omega) { return interpolated(cut.receptance, omega, cut.resonance_hz); };
+  const auto at = [&](double omega) {
+    return interpolated(cut.receptance, omega, {cut.resonance_hz, cut.resonance_hz});
+  };
   return chatter_frequency_hz(grid, tooth_period_s(cut.process.cutter, cut.spindle_speed_rpm), at,
                               2.0 * pi * hz(hz.size() - 1), theta, c);
 }
@@ -220,7 +228,7 @@ std::vector<RefinedCrossing> refined(SampledGrids& grids, std::vector<Crossing> 
     count += c.crossing.unstable_change;
     if (!bounds || c.crossing.depth_m > options.depth_limit_m) continue;
     refine_until(2, options.error_tolerance, grids.to_level(), c);
-    const double by_range = c.kept ? grids.change_by_range(c.level, c.crossing) : 0.0;
+    const double by_range = c.kept ? grids.error_by_range(c.level, c.crossing) : 0.0;
     if (!c.kept) row.status = StabilityStatus::crossing_missed;
     else if (c.error_estimate > options.error_tolerance) row.status = StabilityStatus::node_limit_reached;
     else if (by_range > options.error_tolerance) row.status = StabilityStatus::range_limited;
@@ -279,7 +287,8 @@ LobeRow row_from(const SampledCut& cut, SampledGrids& grids, std::vector<Crossin
 LobeRow row_of(const SampledCut& cut, const StabilityOptions& options) {
   const auto nodes = [](const Fineness& f) { return f.resolution.elements * f.resolution.nodes; };
   Fineness fineness = resolving(cut, 0.0);
-  while (true) {
+  // Noise may let the search and the count of any grid disagree: a second try, but no endless ones.
+  for (int tries = 0; true;) {
     SampledGrids grids(cut, fineness, options.most_nodes);
     double searched_m = 0.0;
     std::vector<Crossing> found = search(grids[0].gain, options, searched_m);
@@ -292,7 +301,7 @@ LobeRow row_of(const SampledCut& cut, const StabilityOptions& options) {
     LobeRow row = row_from(cut, grids, std::move(found), searched_m, options);
     const bool sound = row.status == StabilityStatus::converged || row.status == StabilityStatus::range_limited ||
                        row.status == StabilityStatus::stable_to_depth_limit;
-    if (sound || 3 * row.nodes >= options.most_nodes) return row;
+    if (sound || ++tries == 2 || 3 * row.nodes >= options.most_nodes) return row;
     fineness = finer(fineness);
   }
 }

@@ -16,9 +16,9 @@ namespace thinwall::milling {
 /// Each finer grid has more nodes and twice the harmonics, so that the change of a depth from grid to grid, which makes
 /// its estimate, is that of both. Nodes start with the highest line that matters: |H| of a twentieth of the largest, or
 /// enough to regenerate at the depth that is called stable (2 w ‖D̄‖ |H| ≥ ½); harmonics with four times its frequency.
-/// Beyond its lines the receptance is continued as that of an oscillator of its highest resonance; how far the depth
-/// moves with plain static and inertia lines instead is added to the estimate, and a row that misses the tolerance for
-/// it is `range_limited`.
+/// Beyond its lines the receptance is continued as that of an oscillator of its highest resonance; twice what
+/// the depth moves by with a plain static or inertia line instead is added to the estimate, and a row that misses the
+/// tolerance for it is `range_limited`.
 ///
 /// The counts that check the search are Nyquist's (unstable_count.hpp), at its end on the grid of the search and just
 /// below the first crossing on the next finer one. Without poles there is no |μ|: a row that is stable up to the limit
