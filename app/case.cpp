@@ -106,6 +106,9 @@ std::vector<std::filesystem::path> input_files(const Case& source) {
   if (source.robot) {
     for (const auto& frf : source.robot->measured) files.push_back(frf.file);
   }
+  if (source.tool) {
+    for (const auto& frf : source.tool->measured) files.push_back(frf.file);
+  }
   if (source.damping.from_frf) files.push_back(source.damping.from_frf->file);
   return files;
 }

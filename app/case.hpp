@@ -185,6 +185,7 @@ struct Tool {
   double corner_radial = 0.0, corner_axial = 0.0;  ///< m
   double tip_angle = 0.0, taper = 0.0;             ///< rad
   std::vector<ToolMode> modes;
+  std::vector<MeasuredFrf> measured;  ///< DOFs "tool.x", "tool.y", "tool.z"
 };
 
 /// What turning tells of a material: coefficients follow by the tool's helix.

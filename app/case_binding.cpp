@@ -272,7 +272,7 @@ std::vector<Updating> bind_updating(const std::vector<Table>& tables) {
   return list;
 }
 
-Tool bind_tool(const Table& table) {
+Tool bind_tool(const Table& table, const std::filesystem::path& folder) {
   Tool tool;
   tool.teeth = table.integer("teeth");
   tool.diameter = table.number("diameter");
@@ -290,6 +290,12 @@ Tool bind_tool(const Table& table) {
   for (const auto& mode : table.tables("modes")) {
     tool.modes.push_back({mode.number("frequency"), mode.number("damping_ratio"), mode.number("stiffness"),
                           mode.direction("direction")});
+  }
+  tool.measured = bind_all_measured(table.tables("measured"), folder);
+  for (MeasuredFrf& frf : tool.measured) {
+    for (std::string* dof : {&frf.response, &frf.force}) {
+      if (!dof->empty()) *dof = "tool." + *dof;
+    }
   }
   return tool;
 }
@@ -363,7 +369,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   bound.response = bind_response(root.table("response"));
   if (bound.response.points.empty()) bound.response.points = bound.reduction.interface;
   bound.updating = bind_updating(root.tables("updating"));
-  if (root.table("tool").exists()) bound.tool = bind_tool(root.table("tool"));
+  if (root.table("tool").exists()) bound.tool = bind_tool(root.table("tool"), folder);
   if (root.table("cutting").exists()) bound.cutting = bind_cutting(root.table("cutting"));
   if (root.table("lobes").exists()) bound.lobes = bind_lobes(root.table("lobes"), bound.tool);
   bound.values = std::move(values);

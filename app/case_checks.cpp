@@ -12,6 +12,7 @@
 #include "app/findings.hpp"
 #include "app/part_checks.hpp"
 #include "app/schema.hpp"
+#include "app/tool_checks.hpp"
 #include "core/units.hpp"
 
 namespace thinwall::app {
@@ -23,10 +24,12 @@ std::string indexed(const std::string& table, std::size_t index) {
 }
 
 void check_something_to_do(const Case& source, Findings& findings) {
-  const bool tool_alone = source.tool && !source.tool->modes.empty() && source.lobes;
+  const bool moves = source.tool && (!source.tool->modes.empty() || !source.tool->measured.empty());
+  const bool tool_alone = moves && source.lobes;
   if (source.part || !source.measured_part.empty() || tool_alone || has_table(source.values, "part")) return;
-  findings.report("part",
-                  "missing; a case holds a part ([part] or [[part.measured]]), or a tool with modes and [lobes]");
+  findings.report(
+      "part",
+      "missing; a case holds a part ([part] or [[part.measured]]), or a tool with modes or measured FRFs and [lobes]");
 }
 
 void check_ranges(const Case& source, Findings& findings) {
@@ -112,6 +115,10 @@ void check_all_measured(const Case& source, Findings& findings) {
     check_measured("damping.from_frf", *frf, findings);
     findings.require_known("damping.from_frf.response", point_of(frf->response), part_points(source), "point");
     require_driving_point("damping.from_frf", *frf, findings);
+  }
+  if (source.tool) {
+    for (std::size_t i = 0; i < source.tool->measured.size(); ++i)
+      check_measured(indexed("tool.measured", i), source.tool->measured[i], findings);
   }
   if (!source.robot) return;
   for (std::size_t i = 0; i < source.robot->measured.size(); ++i) {
@@ -356,7 +363,10 @@ void check_cutting(const Case& source, Findings& findings) {
   if (!source.tool) findings.report("cutting", "there is no cutter; add [tool]");
   check_engagement(source, findings);
   check_force_law(source, findings);
-  if (source.part || !part_points(source).empty()) require_kept(source, "cutting.at", cutting.at, findings);
+  if (source.part || !part_points(source).empty()) {
+    if (!findings.given("cutting.at")) findings.report("cutting.at", "missing; name the point of the part that is cut");
+    require_kept(source, "cutting.at", cutting.at, findings);
+  }
   const auto here = directions_at(source, cutting.at);
   if (source.part && !here.empty() && here.size() < 3) {
     findings.report("cutting.at", "the cut loads point \"" + cutting.at + "\" in x, y and z; leave out points." +
@@ -373,13 +383,14 @@ void check_cutting(const Case& source, Findings& findings) {
 
 void check_lobes(const Case& source, Findings& findings) {
   const LobesOptions& lobes = *source.lobes;
+  if (source.tool && !source.tool->measured.empty()) check_measured_tool(*source.tool, findings);
   if (!source.cutting) findings.report("lobes", "there is no cut; add [cutting]");
   if (source.part ? source.part->supports.empty() : !source.measured_part.empty()) {
     findings.report("lobes", "lobes need a part that is held and modelled; " +
                                  std::string(source.part ? "add [[part.supports]]" : "describe it (part.length …)") +
                                  ", or remove [lobes]");
   }
-  if (lobes.from_rpm >= lobes.to_rpm && lobes.count > 1)
+  if (lobes.from_rpm >= lobes.to_rpm)
     findings.report("lobes.from", "the lowest speed must lie below the highest (lobes.to)");
   if (source.tool && lobes.depth_limit > source.tool->length) {
     findings.report("lobes.depth_limit", core::readable_text(lobes.depth_limit, core::kind::length) +

@@ -12,6 +12,8 @@
 #include "app/case_template.hpp"
 #include "app/compare.hpp"
 #include "app/doctor.hpp"
+#include "app/lobes_input.hpp"
+#include "app/lobes_report.hpp"
 #include "app/log.hpp"
 #include "app/result_folder.hpp"
 #include "app/terminal_report.hpp"
@@ -28,24 +30,44 @@ using core::ExitCode;
 /// Everything that the words of the command line can carry.
 struct Arguments {
   std::string case_path, out, template_name = "plate", folder, left, right;
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides, points;
+  LobesInput lobes;
   bool fresh = false, quiet = false, verbose = false;
   int threads = 0;
   double tolerance = 1e-9;
 };
 
-ExitCode run(const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
+std::vector<milling::OperatingPoint> operating_points(const Arguments& arguments) {
+  std::vector<milling::OperatingPoint> points;
+  for (const auto& text : arguments.points) points.push_back(operating_point(text));
+  return points;
+}
+
+/// Computes a case into its result folder; `report` makes the text for the terminal.
+template <typename Report>
+ExitCode compute(const Arguments& arguments, const Case& source, const RunCase& run_case, std::ostream& out,
+                 const Report& report) {
   const int verbosity = arguments.quiet ? -1 : arguments.verbose ? 1 : 0;
   log_to_terminal(verbosity);
   if (arguments.threads > 0) core::set_thread_count(arguments.threads);
-  const Case source = read_case(arguments.case_path, arguments.overrides);
+  const std::vector<milling::OperatingPoint> points = operating_points(arguments);
   const ResultFolder folder(arguments.out.empty() ? default_result_folder(source)
                                                   : std::filesystem::path(arguments.out));
   log_to_file(folder.path() / "run.log");
   const bool progress = !arguments.quiet && ::isatty(STDERR_FILENO) != 0;
-  const RunResult result = run_case(source, {folder.path(), arguments.fresh, verbosity, progress});
-  out << terminal_report(result.summary, folder.path().string());
+  const RunResult result = run_case(source, {folder.path(), arguments.fresh, verbosity, progress, points});
+  out << report(result.summary, folder.path().string());
   return result.expectations_hold ? ExitCode::done : ExitCode::expectation;
+}
+
+ExitCode run(const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
+  return compute(arguments, read_case(arguments.case_path, arguments.overrides), run_case, out, terminal_report);
+}
+
+ExitCode lobes(const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
+  LobesInput input = arguments.lobes;
+  input.overrides = arguments.overrides;
+  return compute(arguments, lobes_case(input), run_case, out, lobes_report);
 }
 
 ExitCode check(const Arguments& arguments, std::ostream& out) {
@@ -82,11 +104,48 @@ ExitCode compare(const Arguments& arguments, std::ostream& out) {
   return comparison.differences.empty() ? ExitCode::done : ExitCode::expectation;
 }
 
-void add_case_arguments(CLI::App& command, Arguments& arguments) {
-  command.add_option("CASE", arguments.case_path, "a folder with a case.toml, or the file")->required();
+void add_overrides(CLI::App& command, Arguments& arguments) {
   command.add_option("--set", arguments.overrides, "a value put over the case: --set part.element_size=\"8 mm\"")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+}
+
+void add_case_arguments(CLI::App& command, Arguments& arguments) {
+  command.add_option("CASE", arguments.case_path, "a folder with a case.toml, or the file")->required();
+  add_overrides(command, arguments);
+}
+
+/// What `run` and `lobes` have in common.
+void add_run_arguments(CLI::App& command, Arguments& arguments) {
+  command.add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
+  command
+      .add_option("--at", arguments.points,
+                  "an operating point, several times: --at \"5000 rpm, 0.5 mm\"; stable or not, and the margins")
+      ->type_name("\"SPEED, DEPTH\"")
+      ->allow_extra_args(false);
+  auto* quiet = command.add_flag("-q,--quiet", arguments.quiet, "log warnings only");
+  command.add_flag("-v,--verbose", arguments.verbose, "log everything")->excludes(quiet);
+  command.add_option("--threads", arguments.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
+}
+
+void describe_lobes(CLI::App& app, Arguments& arguments) {
+  auto* command = app.add_subcommand("lobes", "stability lobes of a case, of measured tool-tip FRFs or of modes");
+  command
+      ->add_option("INPUT", arguments.lobes.sources,
+                   "a case; or CSV files and --tool: a table of modes (frequency_hz, damping_ratio, stiffness or mass, "
+                   "direction), or FRFs of the tool tip (frequency, real, imaginary), each FILE or ENTRY=FILE: x=FILE "
+                   "y=FILE xy=FILE for response and force in the part's axes. FILE alone is x: "
+                   "entries that are not given are zero, so that one file moves along x only")
+      ->required();
+  command->add_option("--tool", arguments.lobes.tool, "TOML with the tables [tool], [cutting], [lobes] of a case")
+      ->type_name("FILE");
+  command->add_option("--quantity", arguments.lobes.quantity, "of FRFs: receptance, mobility or accelerance")
+      ->type_name("WORD");
+  command->add_option("--unit", arguments.lobes.unit, "of FRFs: m/N, um/N, m/s/N, m/s^2/N …")->type_name("UNIT");
+  command->add_option("--frequency-unit", arguments.lobes.frequency_unit, "of FRFs: Hz (default) or rad/s")
+      ->type_name("UNIT");
+  add_overrides(*command, arguments);
+  add_run_arguments(*command, arguments);
 }
 
 void describe(CLI::App& app, Arguments& arguments) {
@@ -94,11 +153,9 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.set_version_flag("--version", "thinwall " + program_version());
   auto* run_command = app.add_subcommand("run", "compute a case");
   add_case_arguments(*run_command, arguments);
-  run_command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
   run_command->add_flag("--fresh", arguments.fresh, "reserved: results are always computed anew");
-  auto* quiet = run_command->add_flag("-q,--quiet", arguments.quiet, "log warnings only");
-  run_command->add_flag("-v,--verbose", arguments.verbose, "log everything")->excludes(quiet);
-  run_command->add_option("--threads", arguments.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
+  add_run_arguments(*run_command, arguments);
+  describe_lobes(app, arguments);
   add_case_arguments(*app.add_subcommand("check", "report every error of a case, and sizes to expect"), arguments);
   auto* init = app.add_subcommand("init", "write a commented case to start from");
   init->add_option("--template", arguments.template_name, "plate or wall")->type_name("NAME");
@@ -112,6 +169,7 @@ void describe(CLI::App& app, Arguments& arguments) {
 
 ExitCode execute(const CLI::App& app, const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
   if (app.got_subcommand("run")) return run(arguments, run_case, out);
+  if (app.got_subcommand("lobes")) return lobes(arguments, run_case, out);
   if (app.got_subcommand("check")) return check(arguments, out);
   if (app.got_subcommand("compare")) return compare(arguments, out);
   if (app.got_subcommand("init")) {

@@ -1,5 +1,5 @@
 #pragma once
-// The words of the command line (design: run, check, init, compare, doctor).
+// The words of the command line (design: run, lobes, check, init, compare, doctor).
 
 #include <functional>
 #include <ostream>
@@ -8,7 +8,7 @@
 
 namespace thinwall::app {
 
-/// What `run` hands the case to; in the program this is run_case().
+/// What `run` and `lobes` hand the case to; in the program this is run_case().
 using RunCase = std::function<RunResult(const Case&, const RunOptions&)>;
 
 /// Runs one command. Results go to `out`, the log and every error to `err`, a line each. Returns the exit code: 0 done,

@@ -1,57 +1,82 @@
 #include "app/lobes_stage.hpp"
 
-#include <numbers>
-#include <optional>
+#include <cmath>
+#include <variant>
 
+#include "app/cut_structure.hpp"
 #include "app/milling_process.hpp"
 #include "core/error.hpp"
-#include "dynamics/conversion.hpp"
+#include "core/units.hpp"
+#include "milling/sampled_stability.hpp"
 #include "milling/stability.hpp"
-#include "robot/one_mode.hpp"
 
 namespace thinwall::app {
 
 namespace {
 
-std::optional<milling::RelativeStructure> tool_structure(const Case& source) {
-  if (source.tool->modes.empty()) return std::nullopt;
-  std::vector<robot::OneMode> modes;
-  for (const ToolMode& m : source.tool->modes) {
-    modes.push_back(robot::one_mode(m.frequency_hz, m.damping_ratio, m.stiffness, m.direction));
-  }
-  return milling::relative_structure(dynamics::to_modal(robot::spatial_model(modes, "tool")), "tool");
+milling::StabilityOptions options_of(const LobesOptions& wanted) {
+  milling::StabilityOptions options;
+  options.depth_limit_m = wanted.depth_limit;
+  options.error_tolerance = wanted.tolerance;
+  return options;
 }
 
-/// Part and tool as the cut feels them.
-milling::RelativeStructure relative_structure(const Case& source, const dynamics::ModalModel* part) {
-  const auto tool = tool_structure(source);
-  if (part == nullptr) {
-    if (!tool) throw core::InputError("lobes need something that moves: a part, or tool.modes");
-    return *tool;
+/// |μ| where there are poles, and the margins to the boundary.
+PointStability stability_of(const milling::OperatingPoint& point, const CutStructure& structure,
+                            const milling::MillingProcess& process, const milling::RowAt& row_at,
+                            const milling::Lobes& chart, const milling::StabilityOptions& options) {
+  PointStability result;
+  result.point = point;
+  const milling::LobeRow row = milling::row_to(row_at, point, options);
+  result.stable = milling::stable_at(row, point.depth_m);
+  result.depth = milling::depth_margin(row, point.depth_m);
+  result.speed = milling::speed_margin(row_at, chart.rows, point, options);
+  result.status = row.status;
+  const auto* poles = std::get_if<milling::RelativeStructure>(&structure);
+  if (poles == nullptr) return result;
+  result.multiplier = milling::multiplier_at(*poles, process, point.spindle_speed_rpm, point.depth_m, options);
+  if ((result.multiplier->modulus < 1.0) != result.stable) {
+    // The two disagree on the boundary itself only, unless a crossing was missed.
+    const bool on_boundary = std::abs(result.depth.margin_m) <= 1e-3 * point.depth_m;
+    if (!on_boundary) result.status = milling::StabilityStatus::crossing_missed;
+    result.stable = result.multiplier->modulus < 1.0;
   }
-  const auto& limit = source.lobes->modes_up_to_hz;
-  const auto kept = limit ? dynamics::truncate(*part, 2.0 * std::numbers::pi * *limit, true) : *part;
-  const auto structure = milling::relative_structure(kept, source.cutting->at);
-  return tool ? milling::sum(structure, *tool) : structure;
+  return result;
 }
 
 }  // namespace
 
-NamedLobes compute_lobes(const Case& source, const std::string& name, const dynamics::ModalModel* structure) {
+NamedLobes compute_lobes(const Case& source, const std::string& name, const dynamics::ModalModel* part,
+                         const std::vector<milling::OperatingPoint>& points) {
   const LobesOptions& wanted = *source.lobes;
-  const auto relative = relative_structure(source, structure);
-  const auto process = milling_process(source);
-  milling::StabilityOptions options;
-  options.depth_limit_m = wanted.depth_limit;
-  options.error_tolerance = wanted.tolerance;
+  const milling::MillingProcess process = milling_process(source);
+  const CutStructure structure = cut_structure(source, process.frame, part);
+  const milling::StabilityOptions options = options_of(wanted);
+  const milling::RowAt row_at = [&](double rpm, const milling::StabilityOptions& with) {
+    return std::visit([&](const auto& s) { return milling::limiting_depth(s, process, rpm, with); }, structure);
+  };
+  const auto speeds = milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count);
   NamedLobes result;
   result.name = name;
-  result.lobes = milling::stability_lobes(
-      relative, process, milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count), options);
-  if (source.cutting->spindle_speed_rpm) {
-    result.at_spindle_speed = milling::limiting_depth(relative, process, *source.cutting->spindle_speed_rpm, options);
-  }
+  result.lobes =
+      std::visit([&](const auto& s) { return milling::stability_lobes(s, process, speeds, options); }, structure);
+  if (source.cutting->spindle_speed_rpm) result.at_spindle_speed = row_at(*source.cutting->spindle_speed_rpm, options);
+  for (const auto& point : points)
+    result.points.push_back(stability_of(point, structure, process, row_at, result.lobes, options));
   return result;
+}
+
+void require_chart_of(const Case& source, const std::vector<milling::OperatingPoint>& points) {
+  if (points.empty()) return;
+  if (!source.lobes || !source.cutting || !source.tool)
+    throw core::InputError("an operating point needs a chart; add [tool], [cutting] and [lobes] to the case");
+  for (const auto& point : points) {
+    if (point.depth_m <= source.lobes->depth_limit) continue;
+    throw core::InputError("operating point at " + core::readable_text(point.depth_m, core::kind::length) +
+                           ": deeper than the chart goes, " +
+                           core::readable_text(source.lobes->depth_limit, core::kind::length) +
+                           " (lobes.depth_limit, else tool.length); give a smaller depth or raise the limit");
+  }
 }
 
 }  // namespace thinwall::app

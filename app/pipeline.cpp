@@ -81,11 +81,11 @@ void run_responses(const Case& work, Results& results, Stages& stages) {
   }
 }
 
-void run_lobes(const Case& work, Results& results, Stages& stages) {
+void run_lobes(const Case& work, const std::vector<milling::OperatingPoint>& points, Results& results, Stages& stages) {
   if (!work.lobes || !work.cutting || !work.tool) return;
   if (!work.part && work.measured_part.empty()) {
     stages.begin("lobes");
-    results.lobes.push_back(compute_lobes(work, "tool", nullptr));
+    results.lobes.push_back(compute_lobes(work, "tool", nullptr, points));
     return;
   }
   if (!results.part || !results.part->modal) {
@@ -94,9 +94,9 @@ void run_lobes(const Case& work, Results& results, Stages& stages) {
         "receptances alone");
   }
   stages.begin("lobes");
-  results.lobes.push_back(compute_lobes(work, "part", &*results.part->modal));
+  results.lobes.push_back(compute_lobes(work, "part", &*results.part->modal, points));
   if (results.coupled && results.coupled->modal) {
-    results.lobes.push_back(compute_lobes(work, "supported", &*results.coupled->modal));
+    results.lobes.push_back(compute_lobes(work, "supported", &*results.coupled->modal, points));
   } else if (results.coupled) {
     spdlog::warn("no chart of the supported part: the robot is known by its receptance only, which has no poles");
   }
@@ -107,13 +107,14 @@ void run_lobes(const Case& work, Results& results, Stages& stages) {
 RunResult run_case(const Case& source, const RunOptions& options) {
   const std::string started = now_utc();
   const auto expectations = read_expectations(source.file);
+  require_chart_of(source, options.points);
   Stages stages(options.progress);
   Results results;
   Case work = source;
   if (work.part) run_part(work, results, stages);
   if (results.finite_elements && results.finite_elements->reduced) run_coupled_updating(work, results, stages);
   run_responses(work, results, stages);
-  run_lobes(work, results, stages);
+  run_lobes(work, options.points, results, stages);
   stages.begin("output");
   const auto staging = core::partial_path(options.out / "results");
   write_results(staging, source, results);

@@ -3,16 +3,19 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "app/case.hpp"
+#include "milling/operating_point.hpp"
 
 namespace thinwall::app {
 
 struct RunOptions {
-  std::filesystem::path out;  ///< the result folder, already prepared (app/result_folder.hpp)
-  bool fresh = false;         ///< ignore results of an earlier run
-  int verbosity = 0;          ///< −1 quiet, 0 normal, 1 verbose
-  bool progress = false;      ///< stage, count and time left on stderr
+  std::filesystem::path out;                         ///< the result folder, already prepared (app/result_folder.hpp)
+  bool fresh = false;                                ///< ignore results of an earlier run
+  int verbosity = 0;                                 ///< −1 quiet, 0 normal, 1 verbose
+  bool progress = false;                             ///< stage, count and time left on stderr
+  std::vector<milling::OperatingPoint> points = {};  ///< of which the charts are asked
 };
 
 struct RunResult {

@@ -16,6 +16,7 @@
 #include "fem/to_tolerance.hpp"
 #include "mesh/quality.hpp"
 #include "milling/lobes.hpp"
+#include "milling/operating_point.hpp"
 #include "reduction/craig_bampton.hpp"
 #include "reduction/identification.hpp"
 
@@ -62,10 +63,21 @@ struct AmplitudeReduction {
   double supported = 0.0;  ///< |G|, m/N
 };
 
+/// What a chart says of one operating point.
+struct PointStability {
+  milling::OperatingPoint point;
+  bool stable = false;
+  std::optional<milling::Multiplier> multiplier;  ///< none from samples: there are no poles
+  milling::DepthMargin depth;
+  milling::SpeedMargin speed;
+  milling::StabilityStatus status = milling::StabilityStatus::converged;
+};
+
 struct NamedLobes {
-  std::string name;  ///< "part", "supported"
+  std::string name;  ///< "part", "supported", "tool"
   milling::Lobes lobes;
   std::optional<milling::LobeRow> at_spindle_speed;  ///< at the case's own speed
+  std::vector<PointStability> points;                ///< that were asked for
 };
 
 /// One fit of model updating.

@@ -60,6 +60,8 @@ constexpr std::array case_sections{
     Section{"updating[].targets[]", "A result that is known.", ""},
     Section{"tool", "The cutter.", ""},
     Section{"tool.modes[]", "Modes of the tool tip; none makes the tool rigid.", ""},
+    Section{"tool.measured[]", "Measured FRFs of the tool tip, in place of modes; entries that no file gives are zero.",
+            ""},
     Section{"cutting", "How the cutter meets the part.", ""},
     Section{"lobes", "The stability chart.", ""},
 };
@@ -196,7 +198,14 @@ constexpr std::array case_keys{
     Key{"tool.modes[].stiffness", Type::quantity, kind::stiffness, "", positive, "", "Modal stiffness at the tip.", required},
     Key{"tool.modes[].direction", Type::direction, kind::number, "", any, "", "Direction, in the part's axes.", required},
 
-    Key{"cutting.at", Type::name, kind::number, "", any, "", "Point of the part that is cut.", required},
+    Key{"tool.measured[].response", Type::choice, kind::number, "", any, "x|y|z", "Direction that moves, in the part's axes.", required},
+    Key{"tool.measured[].force", Type::choice, kind::number, "", any, "x|y|z", "Direction that is excited. A cross FRF serves its reverse, too, unless that is given.", required},
+    Key{"tool.measured[].file", Type::file, kind::number, "", any, "", "CSV: frequency, real part, imaginary part. Lines are those of the first file.", required},
+    Key{"tool.measured[].quantity", Type::choice, kind::number, "", any, "receptance|mobility|accelerance", "What was measured.", required},
+    Key{"tool.measured[].unit", Type::text, kind::number, "", any, "", "Unit of the FRF: `m/N`, `um/N`, `m/s/N`, `m/s^2/N` …", required},
+    Key{"tool.measured[].frequency_unit", Type::choice, kind::number, "\"Hz\"", any, "Hz|rad/s", "Unit of the first column."},
+
+    Key{"cutting.at", Type::name, kind::number, "", any, "", "Point of the part that is cut; not needed without a part."},
     Key{"cutting.radial_depth", Type::quantity, kind::length, "", positive, "", "Radial depth of cut; or give `entry_angle` and `exit_angle`."},
     Key{"cutting.entry_angle", Type::quantities, kind::angle, "", turn, "", "Where teeth enter, one an arc: 0 on the normal side (tool_axis x feed_direction), 90 deg ahead, 180 deg opposite; in place of `radial_depth`."},
     Key{"cutting.exit_angle", Type::quantities, kind::angle, "", turn, "", "Where they leave, one an arc, each after its entry."},
@@ -226,7 +235,7 @@ constexpr std::array case_keys{
 
     Key{"lobes.from", Type::quantity, kind::spindle_speed, "", positive, "", "Lowest speed.", required},
     Key{"lobes.to", Type::quantity, kind::spindle_speed, "", positive, "", "Highest speed.", required},
-    Key{"lobes.count", Type::integer, kind::number, "400", {1, 1e5, false, false, false, ""}, "", "Number of speeds."},
+    Key{"lobes.count", Type::integer, kind::number, "400", {2, 1e5, false, false, false, ""}, "", "Number of speeds."},
     Key{"lobes.depth_limit", Type::quantity, kind::length, "", positive, "", "Deepest cut that is asked; `tool.length` if not given."},
     Key{"lobes.tolerance", Type::quantity, kind::number, "1e-4", {1e-9, 0.5, false, false, false, ""}, "", "Bound on the estimated relative error of the depth."},
     Key{"lobes.modes_up_to", Type::quantity, kind::frequency, "", positive, "", "Only modes up to this frequency; those above act by their static compliance alone, whose share is reported as static_share."},

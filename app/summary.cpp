@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/support_stage.hpp"
+#include "milling/pockets.hpp"
 #include "milling/stability.hpp"
 
 namespace thinwall::app {
@@ -175,11 +176,44 @@ json lobes_of(const NamedLobes& named) {
                  {"speeds", lobes.rows.size()},
                  {"speeds_stable_to_depth_limit", lobes.rows_at_limit},
                  {"speeds_not_converged", lobes.rows_not_converged}};
+  result["best_pockets"] = json::array();
+  for (const auto& pocket : milling::best_pockets(lobes.rows, 5)) {
+    result["best_pockets"].push_back({{"spindle_speed_rpm", pocket.spindle_speed_rpm},
+                                      {"depth_m", pocket.depth_m},
+                                      {"at_depth_limit", pocket.at_limit}});
+  }
   if (named.at_spindle_speed) {
     json row = row_of(*named.at_spindle_speed);
     for (const auto& point : named.at_spindle_speed->crossings) row["crossings"].push_back(crossing_of(point));
     result["at_case_speed"] = std::move(row);
   }
+  return result;
+}
+
+json point_of(const std::string& chart, const PointStability& found) {
+  const double depth = found.point.depth_m;
+  const bool by_poles = found.multiplier.has_value();
+  const auto& boundary = found.depth.boundary;
+  const auto known = [](const auto& value) { return value ? json(*value) : json(nullptr); };
+  json result = {{"chart", chart},
+                 {"spindle_speed_rpm", found.point.spindle_speed_rpm},
+                 {"depth_m", depth},
+                 {"stable", found.stable},
+                 {"multiplier_modulus", by_poles ? json(found.multiplier->modulus) : json(nullptr)},
+                 {"depth_margin_m", found.depth.margin_m},
+                 {"depth_margin_relative", found.depth.margin_m / depth},
+                 {"depth_margin_at_limit", found.depth.at_limit},
+                 {"boundary_below_rpm", known(found.speed.below_rpm)},
+                 {"boundary_above_rpm", known(found.speed.above_rpm)},
+                 {"status", milling::name(found.status)}};
+  result["multiplier_error_estimate_relative"] = by_poles ? finite(found.multiplier->error_estimate) : json(nullptr);
+  const bool frequency = by_poles || !found.depth.at_limit;
+  result["chatter_frequency_hz"] =
+      !frequency ? json(nullptr)
+                 : finite(by_poles ? found.multiplier->chatter_frequency_hz : boundary.chatter_frequency_hz);
+  result["bifurcation"] =
+      !frequency ? json(nullptr) : json(milling::name(by_poles ? found.multiplier->kind : boundary.kind));
+  result["depth_error_estimate_relative"] = found.depth.at_limit ? json(nullptr) : finite(boundary.error_estimate);
   return result;
 }
 
@@ -215,6 +249,10 @@ json summary_of(const Case& source, const Results& results) {
   if (results.coupled) summary["coupling"] = coupling_of(results);
   summary["lobes"] = json::array();
   for (const auto& lobes : results.lobes) summary["lobes"].push_back(lobes_of(lobes));
+  summary["operating_points"] = json::array();
+  for (const auto& lobes : results.lobes) {
+    for (const auto& point : lobes.points) summary["operating_points"].push_back(point_of(lobes.name, point));
+  }
   summary["checks"] = json::array();
   summary["timings_s"] = json::object();
   for (const auto& [stage, seconds] : results.timings_s) summary["timings_s"][stage] = seconds;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "app/lobes_report.hpp"
+
 namespace thinwall::app {
 
 namespace {
@@ -15,10 +17,6 @@ using nlohmann::json;
 std::string depth(const json& row) {
   const double mm = row["limiting_depth_m"].get<double>() * 1e3;
   return row["at_depth_limit"].get<bool>() ? fmt::format("over {:.1f} mm", mm) : fmt::format("{:.2f} mm", mm);
-}
-
-std::string title_of(const std::string& name) {
-  return name == "part" ? "part alone" : "with the robot";
 }
 
 std::string minimum(const json& lobes) {
@@ -32,7 +30,7 @@ void answer(std::string& out, const json& summary) {
   for (const json& lobes : summary["lobes"]) {
     if (!lobes.contains("at_case_speed")) continue;
     const json& row = lobes["at_case_speed"];
-    out += fmt::format("  {:<15} stable up to {} at {:.0f} rpm", title_of(lobes["name"]), depth(row),
+    out += fmt::format("  {:<15} stable up to {} at {:.0f} rpm", chart_title(lobes["name"]), depth(row),
                        row["spindle_speed_rpm"].get<double>());
     if (!row["at_depth_limit"].get<bool>())
       out += fmt::format(", chatter at {:.1f} Hz ({})", row["chatter_frequency_hz"].get<double>(),
@@ -81,7 +79,7 @@ void charts(std::string& out, const json& summary) {
     const json& best = lobes["maximum"];
     const json& error = lobes["error_estimate_relative"];
     const std::string estimate = error.is_null() ? "unknown" : fmt::format("{:.2f} %", error.get<double>() * 100.0);
-    out += fmt::format("  {:<22} {:<38} {:<25} {}\n", title_of(lobes["name"]), minimum(lobes),
+    out += fmt::format("  {:<22} {:<38} {:<25} {}\n", chart_title(lobes["name"]), minimum(lobes),
                        fmt::format("{} at {:.0f} rpm", depth(best), best["spindle_speed_rpm"].get<double>()), estimate);
     if (const json& static_share = lobes["static_share"];
         !static_share.is_null() && static_share.get<double>() > 0.01) {
@@ -170,6 +168,7 @@ std::string terminal_report(const json& summary, const std::string& result_folde
   }
   charts(out, summary);
   out += '\n';
+  if (const std::string points = operating_points_text(summary); !points.empty()) out += points + '\n';
   updating(out, summary);
   trust(out, summary);
   checks(out, summary);

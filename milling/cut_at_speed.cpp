@@ -8,8 +8,8 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "milling/chatter_frequency.hpp"
 #include "milling/edge.hpp"
-#include "milling/product_rule.hpp"
 
 namespace thinwall::milling {
 
@@ -100,30 +100,10 @@ int unstable(const DiscreteCut& d, double depth_m) {
 }
 
 double chatter_frequency_hz(const CutAtSpeed& cut, const DiscreteCut& d, double theta, const Eigen::VectorXcd& c) {
-  const double period = d.loop.period_s;
-  const double seconds_per_rad = period / d.grid.period_rad;
   double fastest = 0.0;
   for (const complex<double> pole : cut.structure.poles) fastest = std::max(fastest, std::abs(pole));
-  const double spacing = 2.0 * std::numbers::pi / period;
-  const int reach = 1 + static_cast<int>(std::ceil(1.5 * fastest / spacing));
-  Eigen::Matrix3Xcd force = Eigen::Matrix3Xcd::Zero(3, d.grid.node_rad.size());
-  for (std::size_t k = 0; k < d.grid.contacts.size(); ++k)
-    force.col(d.grid.contacts[k].node) += d.grid.contacts[k].force * c(static_cast<Index>(k));
-  for (const CutElement& e : d.grid.elements) {
-    const Eigen::VectorXd weight = gauss_legendre(e.nodes).weight * (e.to_rad - e.from_rad);
-    force.middleCols(e.first_node, e.nodes) *= weight.asDiagonal();
-  }
-  double largest = -1.0;
-  double chatter = 0.0;
-  for (int k = -reach; k <= reach; ++k) {
-    const double omega = theta / period + k * spacing;
-    const Eigen::VectorXcd turn = (complex<double>(0.0, -omega * seconds_per_rad) * d.grid.node_rad).array().exp();
-    const double motion = (receptance(cut.structure, omega) * (force * turn)).norm();
-    if (motion <= largest) continue;
-    largest = motion;
-    chatter = omega;
-  }
-  return std::abs(chatter) / (2.0 * std::numbers::pi);
+  const auto at = [&](double omega) { return receptance(cut.structure, omega); };
+  return chatter_frequency_hz(d.grid, d.loop.period_s, at, 1.5 * fastest, theta, c);
 }
 
 Eigen::VectorXcd modulation(const DiscreteCut& d, double depth_m, complex<double> mu) {

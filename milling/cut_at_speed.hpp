@@ -50,8 +50,7 @@ struct DiscreteCut {
 /// How many of them lie outside of the unit circle.
 [[nodiscard]] int unstable(const DiscreteCut& d, double depth_m);
 
-/// The frequency, of (θ + 2πk)/T for all k, at which the motion |G(ω) F(ω)| is largest, F the harmonic of the force of
-/// the modulations c; Hz.
+/// The same of chatter_frequency.hpp, from the poles.
 [[nodiscard]] double chatter_frequency_hz(const CutAtSpeed& cut, const DiscreteCut& d, double theta_rad,
                                           const Eigen::VectorXcd& c);
 

@@ -24,6 +24,8 @@ std::string name(StabilityStatus status) {
       return "converged";
     case StabilityStatus::node_limit_reached:
       return "node_limit_reached";
+    case StabilityStatus::range_limited:
+      return "range_limited";
     case StabilityStatus::stable_to_depth_limit:
       return "stable_to_depth_limit";
     case StabilityStatus::crossing_missed:

@@ -18,6 +18,7 @@ enum class Bifurcation {
 enum class StabilityStatus {
   converged,              ///< the error estimate meets the tolerance
   node_limit_reached,     ///< it does not, at the largest number of nodes; the estimate says by how much
+  range_limited,          ///< it does not, for the lines of a sampled receptance end too early
   stable_to_depth_limit,  ///< no crossing up to the depth limit
   crossing_missed,        ///< the count of unstable multipliers at the end of the search is not that of the crossings
 };

@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
 namespace thinwall::milling {
 
-namespace {
-
-void summarise(Lobes& lobes) {
+Lobes lobes_of(std::vector<LobeRow> rows, std::string method) {
+  if (rows.empty()) throw core::InputError("stability lobes: no spindle speeds, at least 1 is needed; give a range");
+  Lobes lobes;
+  lobes.method = std::move(method);
+  lobes.rows = std::move(rows);
   const auto least = std::min_element(lobes.rows.begin(), lobes.rows.end(), [](const LobeRow& a, const LobeRow& b) {
     return a.limiting_depth_m < b.limiting_depth_m;
   });
@@ -23,9 +26,8 @@ void summarise(Lobes& lobes) {
     const bool sound = row.status == StabilityStatus::converged || row.status == StabilityStatus::stable_to_depth_limit;
     if (!sound) ++lobes.rows_not_converged;
   }
+  return lobes;
 }
-
-}  // namespace
 
 std::vector<double> spindle_speeds(double from_rpm, double to_rpm, int count) {
   if (!(from_rpm > 0.0) || !(to_rpm > from_rpm) || count < 2) {
@@ -42,21 +44,17 @@ std::vector<double> spindle_speeds(double from_rpm, double to_rpm, int count) {
 }
 
 Lobes stability_lobes(const LobeMethod& method, const std::vector<double>& spindle_speeds_rpm) {
-  if (spindle_speeds_rpm.empty())
-    throw core::InputError("stability lobes: no spindle speeds, at least 1 is needed; give a range");
-  Lobes lobes;
-  lobes.method = method.name();
-  lobes.residual_share = method.residual_share();
-  lobes.rows.resize(spindle_speeds_rpm.size());
   constexpr std::size_t block = 8;  // of speeds, whose searches begin at their neighbour's limit
-  core::parallel_for((lobes.rows.size() + block - 1) / block, [&](std::size_t b) {
+  std::vector<LobeRow> rows(spindle_speeds_rpm.size());
+  core::parallel_for((rows.size() + block - 1) / block, [&](std::size_t b) {
     std::optional<double> expected;
-    for (std::size_t i = block * b; i < std::min(lobes.rows.size(), block * (b + 1)); ++i) {
-      lobes.rows[i] = method.limiting_depth(spindle_speeds_rpm[i], expected);
-      expected = lobes.rows[i].limiting_depth_m;
+    for (std::size_t i = block * b; i < std::min(rows.size(), block * (b + 1)); ++i) {
+      rows[i] = method.limiting_depth(spindle_speeds_rpm[i], expected);
+      expected = rows[i].limiting_depth_m;
     }
   });
-  summarise(lobes);
+  Lobes lobes = lobes_of(std::move(rows), method.name());
+  lobes.residual_share = method.residual_share();
   return lobes;
 }
 

@@ -23,6 +23,9 @@ struct Lobes {
 /// `count` speeds, evenly spaced from `from_rpm` to `to_rpm`. Throws InputError unless 0 < from < to and count ≥ 2.
 [[nodiscard]] std::vector<double> spindle_speeds(double from_rpm, double to_rpm, int count);
 
+/// The chart of rows in the order of their speeds. Throws InputError if there are none.
+[[nodiscard]] Lobes lobes_of(std::vector<LobeRow> rows, std::string method);
+
 /// The method's limiting_depth() at every speed, the speeds shared out among core::thread_count() threads; the rows do
 /// not depend on the number of threads. Throws InputError for a bad speed or if there are no speeds; Interrupted.
 [[nodiscard]] Lobes stability_lobes(const LobeMethod& method, const std::vector<double>& spindle_speeds_rpm);

@@ -113,6 +113,33 @@ TEST(BadCase, ReferencesMustExist) {
   expect_problem("at = \"P\"", "at = \"X\"", "there is no point \"X\"");
 }
 
+TEST(BadCase, PitchesAndHelicesAreOneAToothWithinTheirBounds) {
+  const auto pitches = [](const std::string& list) { return "teeth = 6\npitches = " + list; };
+  expect_problem("teeth = 6", pitches(R"(["60 deg", "60 deg"])"), "2 values for 6 teeth");
+  expect_problem("teeth = 6", pitches(R"(["60 deg", "60 deg", "60 deg", "60 deg", "60 deg", "50 deg"])"),
+                 "the pitches come to 350 deg together");
+  expect_problem("teeth = 6", pitches(R"(["0 deg", "120 deg", "60 deg", "60 deg", "60 deg", "60 deg"])"), "above 0");
+  expect_problem("teeth = 6", pitches(R"(["60 mm", "60 deg", "60 deg", "60 deg", "60 deg", "60 deg"])"),
+                 "is a length, but a");
+  expect_problem("teeth = 6", pitches("[1.0, nan, 1.0, 1.0, 1.0, 1.0]"), "finite");
+  EXPECT_TRUE(problems_of(with(plate_case(), "teeth = 6",
+                               pitches(R"(["55 deg", "65 deg", "55 deg", "65 deg", "55 deg", "65 deg"])")))
+                  .empty());
+  const auto helices = [](const std::string& value) { return "teeth = 6\nhelices = " + value; };
+  expect_problem("teeth = 6", helices(R"("90 deg")"), "tool.helices");
+  expect_problem("teeth = 6", helices(R"("-30 deg")"), "at least 0");
+  expect_problem("teeth = 6", helices(R"(["30 deg", "35 deg"])"), "2 values for 6 teeth");
+  EXPECT_TRUE(problems_of(with(plate_case(), "teeth = 6", helices(R"("30 deg")"))).empty());
+}
+
+TEST(BadCase, AMeasuredToolStandsForItselfAndTakesStraightEqualTeeth) {
+  const std::string tip =
+      "[[tool.measured]]\nresponse = \"x\"\nforce = \"x\"\nfile = \"nowhere.csv\"\nquantity = \"receptance\"\n"
+      "unit = \"m/N\"\n[cutting]";
+  expect_problem("[cutting]", tip, "there is no file");
+  expect_problem("at = \"P\"\n", "", "cutting.at: missing");
+}
+
 TEST(BadCase, AContactOnAClampedFaceIsRefused) {
   const auto problems = problems_of(with(plate_case(), "at = [1.0, 0.5, 0.95]", "at = [1.0, 0.0, 0.95]"));
   ASSERT_EQ(problems.size(), 2U);

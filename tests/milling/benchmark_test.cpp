@@ -1,28 +1,19 @@
-// The one-DOF benchmark of Insperger & Stepan (2004) against values computed independently of this project's method
-// (data/lobes_1dof.csv: Chebyshev collocation, three discretisations agreeing to 1e-9; critical depths confirmed by a
-// Hill determinant).
+// The one-DOF benchmark against its independent values (benchmark.hpp).
 
 #include "tests/milling/benchmark.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "milling/lobes.hpp"
-#include "milling/sampled_receptance.hpp"
 
 namespace thinwall::milling {
 namespace {
 
+using testing::base_frequency;
 using testing::benchmark_process;
 using testing::benchmark_structure;
 using testing::Reference;
 using testing::references;
-
-// The chatter frequency is one of (±arg μ + 2πk)/T, so its distance from a multiple of 1/T is the base frequency.
-double base_frequency(double chatter_hz, double rpm) {
-  const double tooth_hz = rpm * 2.0 / 60.0;
-  return std::abs(chatter_hz - tooth_hz * std::round(chatter_hz / tooth_hz));
-}
 
 StabilityOptions sharp() {
   StabilityOptions options;
@@ -80,41 +71,6 @@ TEST(Benchmark, DirectDepthsAreThoseOfTheMultipliers) {
     EXPECT_GT(slope, 0.0);
     EXPECT_NEAR(growth(0.0) / slope, 0.0, 1e-8);
   }
-}
-
-TEST(Benchmark, DepthsFromSamplesOfTheReceptanceAlone) {
-  // Lines of 2 Hz up to 12 kHz, as an analyser gives them, in place of the pole.
-  SampledReceptance sampled;
-  sampled.frequency_hz = Eigen::VectorXd::LinSpaced(6001, 0.0, 12000.0);
-  for (const double hz : sampled.frequency_hz)
-    sampled.H.push_back(receptance(benchmark_structure(), 2.0 * std::numbers::pi * hz));
-  for (const Reference& row : references("wcrit_mm")) {
-    SCOPED_TRACE(row.where());
-    const ContactGrid grid = contact_grid(benchmark_process(row.immersion), Eigen::Vector3d::UnitX(),
-                                          row.immersion == 1.0 ? Resolution{4, 10} : Resolution{1, 10});
-    CriticalDepths search(harmonic_gain(sampled, grid, row.rpm));
-    const std::vector<Crossing> crossings = search.up_to(1.2 * row.depth_m);
-    ASSERT_FALSE(crossings.empty());
-    EXPECT_NEAR(crossings.front().depth_m / row.depth_m, 1.0, 1e-4);
-    EXPECT_EQ(std::abs(crossings.front().unstable_change), row.kind == "Hopf" ? 2 : 1);
-  }
-}
-
-TEST(SampledReceptance, RefusesWhatCannotBeUsed) {
-  const ContactGrid grid = contact_grid(benchmark_process(0.1), Eigen::Vector3d::UnitX(), {1, 6});
-  const SampledReceptance good{Eigen::VectorXd::LinSpaced(7, 1.0, 7.0),
-                               std::vector<Eigen::Matrix3cd>(7, Eigen::Matrix3cd::Identity())};
-  SampledReceptance bad = good;
-  bad.H[3](1, 2) = std::nan("");
-  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
-  bad = good;
-  bad.frequency_hz(2) = 1.5;
-  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
-  bad = good;
-  bad.H.pop_back();
-  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
-  bad = {Eigen::VectorXd::LinSpaced(5, 1.0, 5.0), std::vector<Eigen::Matrix3cd>(5, Eigen::Matrix3cd::Identity())};
-  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
 }
 
 }  // namespace

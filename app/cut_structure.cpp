@@ -1,0 +1,101 @@
+#include "app/cut_structure.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+
+#include "app/measured.hpp"
+#include "core/error.hpp"
+#include "dynamics/conversion.hpp"
+#include "milling/passivity.hpp"
+#include "robot/one_mode.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+milling::RelativeStructure tool_modes(const Tool& tool) {
+  std::vector<robot::OneMode> modes;
+  for (const ToolMode& m : tool.modes)
+    modes.push_back(robot::one_mode(m.frequency_hz, m.damping_ratio, m.stiffness, m.direction));
+  return milling::relative_structure(dynamics::to_modal(robot::spatial_model(modes, "tool")), "tool");
+}
+
+milling::RelativeStructure part_structure(const Case& source, const dynamics::ModalModel& part) {
+  const auto& limit = source.lobes->modes_up_to_hz;
+  const auto kept = limit ? dynamics::truncate(part, 2.0 * std::numbers::pi * *limit, true) : part;
+  return milling::relative_structure(kept, source.cutting->at);
+}
+
+/// 0, 1, 2 of "tool.x", "tool.y", "tool.z".
+int direction_of_dof(const std::string& dof) {
+  return dof.back() - 'x';
+}
+
+/// The tool's files as a matrix in part axes, on the lines of the first.
+milling::SampledReceptance measured_tip(const std::vector<MeasuredFrf>& files) {
+  const dynamics::FrequencyAxis axis = read_measured(files.front()).axis;
+  milling::SampledReceptance tip{axis.hz, {}};
+  tip.H.assign(static_cast<std::size_t>(axis.size()), Eigen::Matrix3cd::Zero());
+  for (const MeasuredFrf& file : files) {
+    const Eigen::VectorXcd H = io::resample(read_measured(file), axis);
+    const int i = direction_of_dof(file.response);
+    const int j = direction_of_dof(file.force);
+    const bool reverse_given = std::ranges::any_of(
+        files, [&](const MeasuredFrf& other) { return other.response == file.force && other.force == file.response; });
+    for (Eigen::Index line = 0; line < axis.size(); ++line) {
+      auto& matrix = tip.H[static_cast<std::size_t>(line)];
+      matrix(i, j) = H(line);
+      if (!reverse_given) matrix(j, i) = H(line);
+    }
+  }
+  return tip;
+}
+
+void warn_of_doubts(const milling::SampledReceptance& tip) {
+  if (const auto doubt = milling::energy_given(tip)) {
+    spdlog::warn(
+        "the tool's FRF along {0}{0} gives energy at {1:.1f} Hz (its imaginary part is {2:.2f} of its size and "
+        "positive, "
+        "a passive structure's is not): check sign convention, quantity and unit",
+        "xyz"[doubt->direction], doubt -> frequency_hz, doubt -> share);
+  }
+  const auto resonances = milling::resonances(tip);
+  if (resonances.empty()) return;
+  const auto highest = std::ranges::max_element(resonances, {}, &milling::Resonance::size);
+  const auto* begin = tip.frequency_hz.data();
+  const auto* line = std::lower_bound(begin, begin + tip.frequency_hz.size(), highest->frequency_hz);
+  const double spacing = *line - *(line - 1);
+  if (2.0 * spacing > highest->half_width_hz) {
+    spdlog::warn(
+        "lines {:.2g} Hz apart are few for the resonance at {:.1f} Hz, whose half width is {:.2g} Hz: the chart may be "
+        "off; measure with lines at half of that or closer",
+        spacing, highest->frequency_hz, highest->half_width_hz);
+  }
+}
+
+}  // namespace
+
+CutStructure cut_structure(const Case& source, const milling::ToolFrame& frame, const dynamics::ModalModel* part) {
+  std::optional<milling::RelativeStructure> modal;
+  if (part != nullptr) modal = part_structure(source, *part);
+  if (!source.tool->measured.empty()) {
+    milling::SampledReceptance sampled = measured_tip(source.tool->measured);
+    warn_of_doubts(sampled);
+    const Eigen::Matrix3d R = frame.rotation();
+    for (std::size_t line = 0; line < sampled.H.size(); ++line) {
+      const double omega = 2.0 * std::numbers::pi * sampled.frequency_hz(static_cast<Eigen::Index>(line));
+      if (modal) sampled.H[line] += milling::receptance(*modal, omega);
+      sampled.H[line] = (R.transpose() * sampled.H[line] * R).eval();
+    }
+    return sampled;
+  }
+  if (!source.tool->modes.empty())
+    modal = modal ? milling::sum(*modal, tool_modes(*source.tool)) : tool_modes(*source.tool);
+  if (!modal) throw core::InputError("lobes need something that moves: a part, tool.modes or tool.measured");
+  return *modal;
+}
+
+}  // namespace thinwall::app

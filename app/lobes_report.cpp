@@ -1,0 +1,101 @@
+#include "app/lobes_report.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+
+namespace thinwall::app {
+
+namespace {
+
+using nlohmann::json;
+
+/// "below 0.01 %" or "0.35 %".
+std::string estimate_text(const json& relative) {
+  if (relative.is_null()) return "unknown";
+  const double percent = relative.get<double>() * 100.0;
+  return percent < 0.01 ? "below 0.01 %" : fmt::format("{:.2g} %", percent);
+}
+
+std::string depth_text(double depth_m, bool at_limit) {
+  return fmt::format("{}{:.3f} mm", at_limit ? "over " : "", depth_m * 1e3);
+}
+
+std::string chart_text(const json& chart) {
+  const bool all = chart["speeds_stable_to_depth_limit"] == chart["speeds"];
+  std::string text = fmt::format(
+      "  {}\n    least depth   {} {}\n    error         {} (estimate)\n", chart_title(chart["name"].get<std::string>()),
+      depth_text(chart["minimum_depth_m"].get<double>(), all),
+      all ? "at every speed" : fmt::format("at {:.0f} rpm", chart["at_spindle_speed_rpm"].get<double>()),
+      estimate_text(chart["error_estimate_relative"]));
+  std::string label = "best pockets";
+  for (const json& pocket : chart["best_pockets"]) {
+    text += fmt::format("    {:<13} {} at {:.0f} rpm\n", label,
+                        depth_text(pocket["depth_m"].get<double>(), pocket["at_depth_limit"].get<bool>()),
+                        pocket["spindle_speed_rpm"].get<double>());
+    label.clear();
+  }
+  if (const int missed = chart["speeds_not_converged"].get<int>(); missed > 0) {
+    text += fmt::format("    {} of {} speeds did not reach the tolerance: see the status column of lobes/{}.csv\n",
+                        missed, chart["speeds"].get<int>(), chart["name"].get<std::string>());
+  }
+  return text;
+}
+
+std::string speed_text(const json& boundary, double rpm, const char* none) {
+  if (boundary.is_null()) return none;
+  return fmt::format("{:.0f} rpm ({:+.0f})", boundary.get<double>(), boundary.get<double>() - rpm);
+}
+
+std::string depth_margin_text(const json& p) {
+  const double margin_mm = p["depth_margin_m"].get<double>() * 1e3;
+  const double percent = p["depth_margin_relative"].get<double>() * 100.0;
+  const double boundary_mm = p["depth_m"].get<double>() * 1e3 + margin_mm;
+  if (p["depth_margin_at_limit"].get<bool>())
+    return fmt::format("stable to the limit of {:.3f} mm ({:+.0f} % or more)", boundary_mm, percent);
+  return fmt::format("boundary at {:.3f} mm ({:+.3f} mm, {:+.1f} %), error {}", boundary_mm, margin_mm, percent,
+                     estimate_text(p["depth_error_estimate_relative"]));
+}
+
+std::string point_text(const json& p) {
+  const double rpm = p["spindle_speed_rpm"].get<double>();
+  std::string text =
+      fmt::format("  {:.0f} rpm, {:.3f} mm, {}: {}", rpm, p["depth_m"].get<double>() * 1e3,
+                  chart_title(p["chart"].get<std::string>()), p["stable"].get<bool>() ? "stable" : "UNSTABLE");
+  if (!p["multiplier_modulus"].is_null()) text += fmt::format(", |mu| {:.6f}", p["multiplier_modulus"].get<double>());
+  if (!p["chatter_frequency_hz"].is_null())
+    text +=
+        fmt::format(", {:.1f} Hz ({})", p["chatter_frequency_hz"].get<double>(), p["bifurcation"].get<std::string>());
+  const auto status = p["status"].get<std::string>();
+  if (status != "converged" && status != "stable_to_depth_limit") text += ", " + status;
+  text += fmt::format("\n    {}\n    speeds {} to {} at this depth\n", depth_margin_text(p),
+                      speed_text(p["boundary_below_rpm"], rpm, "from the chart's lowest"),
+                      speed_text(p["boundary_above_rpm"], rpm, "the chart's highest"));
+  return text;
+}
+
+}  // namespace
+
+std::string chart_title(const std::string& chart) {
+  return chart == "part" ? "part alone" : chart == "tool" ? "tool" : "with the robot";
+}
+
+std::string operating_points_text(const json& summary) {
+  std::string text;
+  for (const json& point : summary["operating_points"]) text += point_text(point);
+  return text;
+}
+
+std::string lobes_report(const json& summary, const std::string& result_folder) {
+  const auto title = summary["title"].get<std::string>();
+  std::string text = "\n" + (title.empty() ? summary["case"].get<std::string>() : title) + "\n\n";
+  for (const json& chart : summary["lobes"]) text += chart_text(chart);
+  if (const std::string points = operating_points_text(summary); !points.empty()) text += "\n" + points;
+  for (const json& check : summary["checks"]) {
+    if (!check["ok"].get<bool>())
+      text += fmt::format("\n  expectation not met: {}\n", check["name"].get<std::string>());
+  }
+  return text + fmt::format("\n  {:.1f} s; results in {}\n", summary["timings_s"].value("total", 0.0), result_folder);
+}
+
+}  // namespace thinwall::app

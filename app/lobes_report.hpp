@@ -1,0 +1,18 @@
+#pragma once
+// What `thinwall lobes` prints: the chart in a few figures, and a line an operating point.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace thinwall::app {
+
+/// Plain text, at most 100 columns, from a summary. Ends with a line break.
+[[nodiscard]] std::string lobes_report(const nlohmann::json& summary, const std::string& result_folder);
+
+/// "part alone", "with the robot", "tool".
+[[nodiscard]] std::string chart_title(const std::string& chart);
+
+/// Three lines for every operating point of a summary; empty if it has none.
+[[nodiscard]] std::string operating_points_text(const nlohmann::json& summary);
+
+}  // namespace thinwall::app

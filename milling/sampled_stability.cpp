@@ -1,0 +1,350 @@
+#include "milling/sampled_stability.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <memory>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "milling/chatter_frequency.hpp"
+#include "milling/product_rule.hpp"
+#include "milling/refined_crossing.hpp"
+#include "milling/unstable_count.hpp"
+
+namespace thinwall::milling {
+
+namespace {
+
+using Eigen::Index;
+using std::complex;
+
+constexpr double pi = std::numbers::pi;
+
+/// What does not change with resolution and depth. Keeps references.
+struct SampledCut {
+  const SampledReceptance& receptance;
+  const MillingProcess& process;
+  Eigen::Matrix3Xd yielding;
+  double mean_stiffness = 0.0;  ///< ‖mean directional matrix‖ over a period, N/m²
+  double resonance_hz = 0.0;    ///< the highest
+  double spindle_speed_rpm = 0.0;
+};
+
+/// Directions that take part in the motion by more than a ten-millionth.
+Eigen::Matrix3Xd yielding_directions(const SampledReceptance& r) {
+  Eigen::Matrix3d motion = Eigen::Matrix3d::Zero();
+  for (const Eigen::Matrix3cd& H : r.H) motion += (H * H.adjoint()).real();
+  if (!(motion.topLeftCorner<2, 2>().norm() > 1e-14 * motion.norm())) {
+    throw core::InputError(
+        "receptance at the cut: nothing moves in the plane of the cut, something must; check the feed and the tool "
+        "axis");
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(motion);
+  const auto count = (eigen.eigenvalues().array() > 1e-14 * eigen.eigenvalues()(2)).count();
+  return eigen.eigenvectors().rightCols(count);
+}
+
+/// 0 if there is none.
+double highest_resonance_hz(const SampledReceptance& r) {
+  Resonance highest;
+  for (const Resonance& found : resonances(r)) {
+    if (found.size > highest.size) highest = found;
+  }
+  return highest.frequency_hz;
+}
+
+/// Mean over the period of force · chipᵀ.
+double mean_stiffness(const ContactGrid& grid) {
+  Eigen::VectorXd weight(grid.node_rad.size());
+  for (const CutElement& e : grid.elements)
+    weight.segment(e.first_node, e.nodes) = gauss_legendre(e.nodes).weight * (e.to_rad - e.from_rad);
+  Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
+  for (const Contact& c : grid.contacts) mean += weight(c.node) / grid.period_rad * c.force * c.chip.transpose();
+  return mean.norm();
+}
+
+void require_usable(const MillingProcess& process, const StabilityOptions& options, double spindle_speed_rpm) {
+  std::vector<std::string> violations = validate(process);
+  const auto more = validate(options);
+  violations.insert(violations.end(), more.begin(), more.end());
+  require_valid(violations);
+  (void)tooth_period_s(process.cutter, spindle_speed_rpm);  // refuses a bad speed
+  if (!process.cutter.equal_teeth() || process.cutter.has_helix()) {
+    throw core::InputError(std::string("stability from a measured receptance: the teeth have ") +
+                           (process.cutter.equal_teeth() ? "a helix" : "unequal pitches or helices") +
+                           ", must be equal and straight; leave pitches and helices out, or describe the structure by "
+                           "its modes");
+  }
+}
+
+SampledCut sampled_cut(const SampledReceptance& receptance, const MillingProcess& process, double spindle_speed_rpm) {
+  SampledCut cut{receptance,       process, yielding_directions(receptance), 0.0, highest_resonance_hz(receptance),
+                 spindle_speed_rpm};
+  cut.mean_stiffness = mean_stiffness(contact_grid(process, cut.yielding, {1, 8}));
+  return cut;
+}
+
+/// The highest line that could regenerate at this depth (0: none), or has a twentieth of the largest |H|.
+double highest_that_matters_hz(const SampledCut& cut, double depth_m) {
+  const auto& H = cut.receptance.H;
+  double largest = 0.0;
+  for (const auto& line : H) largest = std::max(largest, line.norm());
+  const double least = std::min(0.05 * largest, 0.25 / (depth_m * cut.mean_stiffness));
+  std::size_t line = H.size() - 1;
+  while (line > 0 && H[line].norm() < least) --line;
+  return cut.receptance.frequency_hz(static_cast<Index>(line));
+}
+
+/// Nodes in the cut, and harmonics up to a frequency.
+struct Fineness {
+  Resolution resolution;
+  double harmonics_to_hz = 0.0;
+};
+
+Fineness resolving(const SampledCut& cut, double depth_m) {
+  const double hz = highest_that_matters_hz(cut, depth_m);
+  const double phase = 2.0 * pi * hz * longest_stretch_rad(cut.process) * 30.0 / (pi * cut.spindle_speed_rpm);
+  const int elements = std::max(1, static_cast<int>(std::ceil(phase / 14.0)));
+  const double tooth_passing_hz = 1.0 / tooth_period_s(cut.process.cutter, cut.spindle_speed_rpm);
+  return {{elements, static_cast<int>(std::ceil(4.0 + 0.5 * phase / elements))}, 4.0 * (hz + 2.0 * tooth_passing_hz)};
+}
+
+Fineness finer(const Fineness& f) {
+  return {finer(f.resolution), 2.0 * f.harmonics_to_hz};
+}
+
+/// Grids from coarse to fine, made when they are asked for.
+class SampledGrids {
+ public:
+  struct Level {
+    ContactGrid grid;
+    double reach = 0.0;  ///< harmonics, over the last line
+    GainOnCircle gain;
+  };
+
+  SampledGrids(const SampledCut& cut, Fineness first, int most_nodes)
+      : cut_(cut), next_(first), most_nodes_(most_nodes) {}
+
+  const Level& operator[](std::size_t level) {
+    const auto& hz = cut_.receptance.frequency_hz;
+    while (levels_.size() <= level) {
+      levels_.push_back(std::make_unique<Level>(Level{
+          contact_grid(cut_.process, cut_.yielding, next_.resolution), next_.harmonics_to_hz / hz(hz.size() - 1), {}}));
+      Level& made = *levels_.back();
+      made.gain = remembering(gain_of(made, {cut_.resonance_hz, cut_.resonance_hz}));
+      next_ = finer(next_);
+    }
+    return *levels_[level];
+  }
+  [[nodiscard]] int nodes(std::size_t level) { return static_cast<int>((*this)[level].grid.node_rad.size()); }
+
+  /// For refine_until().
+  [[nodiscard]] ToLevel to_level() {
+    return [this](std::size_t level, Crossing& crossing) {
+      if (level > 2 && 3 * nodes(level - 1) >= 2 * most_nodes_) return OnFinerGrid::none_finer;
+      return refine((*this)[level].gain, crossing) ? OnFinerGrid::kept : OnFinerGrid::lost;
+    };
+  }
+
+  /// Error of a crossing's depth, relative, for what lies beyond the range of the receptance: twice what it moves by
+  /// with a plain line at either end, since the oscillator that matters there may be another than the one that is
+  /// taken.
+  [[nodiscard]] double error_by_range(std::size_t level, const Crossing& crossing) {
+    double error = 0.0;
+    for (const Continuation& plain : {Continuation{0.0, cut_.resonance_hz}, Continuation{cut_.resonance_hz, 0.0}}) {
+      Crossing moved = crossing;
+      const bool kept = refine(gain_of((*this)[level], plain), moved);
+      error += kept ? 2.0 * std::abs(moved.depth_m / crossing.depth_m - 1.0) : 1.0;
+    }
+    return error;
+  }
+
+ private:
+  [[nodiscard]] GainOnCircle gain_of(const Level& level, const Continuation& beyond) const {
+    return harmonic_gain(cut_.receptance, level.grid, cut_.spindle_speed_rpm, level.reach, beyond);
+  }
+
+  const SampledCut& cut_;
+  Fineness next_;
+  int most_nodes_;
+  std::vector<std::unique_ptr<Level>> levels_;
+};
+
+double chatter_hz(const SampledCut& cut, const ContactGrid& grid, double theta, const Eigen::VectorXcd& c) {
+  const auto& hz = cut.receptance.frequency_hz;
+  const auto at = [&](double omega) {
+    return interpolated(cut.receptance, omega, {cut.resonance_hz, cut.resonance_hz});
+  };
+  return chatter_frequency_hz(grid, tooth_period_s(cut.process.cutter, cut.spindle_speed_rpm), at,
+                              2.0 * pi * hz(hz.size() - 1), theta, c);
+}
+
+Bifurcation kind_of(double theta) {
+  if (theta == pi) return Bifurcation::flip;
+  return theta == 0.0 ? Bifurcation::fold : Bifurcation::hopf;
+}
+
+/// Crossings up to `follow` times the first; sets how far was searched.
+std::vector<Crossing> search(const GainOnCircle& gain, const StabilityOptions& options, double& searched_m) {
+  CriticalDepths depths(gain);
+  std::vector<Crossing> found;
+  searched_m = 0.5 * depths.none_below_m();
+  do {
+    searched_m = std::min(options.depth_limit_m, 4.0 * searched_m);
+    found = depths.up_to(searched_m);
+  } while (found.empty() && searched_m < options.depth_limit_m);
+  if (found.empty()) return found;
+  if (options.follow == 1.0) {
+    searched_m = found.front().depth_m;
+    found.resize(1);
+    return found;
+  }
+  const double reach = std::min(options.depth_limit_m, options.follow * found.front().depth_m);
+  if (reach > searched_m) found = depths.up_to(searched_m = reach);
+  return found;
+}
+
+/// The crossings in ascending depth, those that bound a stable range to the tolerance. The row's status tells what
+/// failed.
+std::vector<RefinedCrossing> refined(SampledGrids& grids, std::vector<Crossing> found, const StabilityOptions& options,
+                                     LobeRow& row) {
+  std::vector<RefinedCrossing> all;
+  for (Crossing& crossing : found) {
+    all.push_back({std::move(crossing)});
+    refine_until(1, 1.0, grids.to_level(), all.back());
+  }
+  std::stable_sort(all.begin(), all.end(), [](const RefinedCrossing& a, const RefinedCrossing& b) {
+    return a.crossing.depth_m < b.crossing.depth_m;
+  });
+  int count = 0;  // of unstable multipliers above the crossings so far
+  for (RefinedCrossing& c : all) {
+    const bool bounds = count == 0 || count + c.crossing.unstable_change == 0;
+    count += c.crossing.unstable_change;
+    if (!bounds || c.crossing.depth_m > options.depth_limit_m) continue;
+    refine_until(2, options.error_tolerance, grids.to_level(), c);
+    const double by_range = c.kept ? grids.error_by_range(c.level, c.crossing) : 0.0;
+    if (!c.kept) row.status = StabilityStatus::crossing_missed;
+    else if (c.error_estimate > options.error_tolerance) row.status = StabilityStatus::node_limit_reached;
+    else if (by_range > options.error_tolerance) row.status = StabilityStatus::range_limited;
+    c.error_estimate += by_range;
+  }
+  const bool counted = options.follow == 1.0 || unstable_count(grids[0].gain, row.searched_m) == count;
+  if (!counted) row.status = StabilityStatus::crossing_missed;
+  return all;
+}
+
+/// Of a cut that is stable at the depth limit: the motion nearest to growing there.
+void describe_limit(const SampledCut& cut, const SampledGrids::Level& level, double depth_limit_m, LobeRow& row) {
+  double nearest = INFINITY;
+  for (const double theta : level.gain.stops) {
+    const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> eigen(-depth_limit_m * level.gain.Z(theta));
+    Index at = 0;
+    const double distance = (eigen.eigenvalues().array() - 1.0).abs().minCoeff(&at);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    row.kind = kind_of(theta);
+    row.chatter_frequency_hz = chatter_hz(cut, level.grid, theta, eigen.eigenvectors().col(at));
+  }
+  row.limiting_depth_m = depth_limit_m;
+  row.at_limit = true;
+  if (row.status == StabilityStatus::converged) row.status = StabilityStatus::stable_to_depth_limit;
+}
+
+LobeRow row_from(const SampledCut& cut, SampledGrids& grids, std::vector<Crossing> found, double searched_m,
+                 const StabilityOptions& options) {
+  LobeRow row;
+  row.spindle_speed_rpm = cut.spindle_speed_rpm;
+  row.searched_m = searched_m;
+  std::size_t finest = 1;
+  for (const RefinedCrossing& c : refined(grids, std::move(found), options, row)) {
+    if (c.crossing.depth_m > options.depth_limit_m) continue;
+    finest = std::max(finest, c.level);
+    row.crossings.push_back({c.crossing.depth_m,
+                             chatter_hz(cut, grids[c.level].grid, c.crossing.theta_rad, c.crossing.mode),
+                             kind_of(c.crossing.theta_rad), c.crossing.unstable_change, c.error_estimate});
+  }
+  row.nodes = grids.nodes(finest);
+  const double below = row.crossings.empty() ? row.searched_m : 0.999 * row.crossings.front().depth_m;
+  if (unstable_count(grids[1].gain, below) != 0) row.status = StabilityStatus::crossing_missed;
+  if (row.crossings.empty()) {
+    describe_limit(cut, grids[0], options.depth_limit_m, row);
+    return row;
+  }
+  const LobePoint& first = row.crossings.front();
+  row.limiting_depth_m = first.depth_m;
+  row.chatter_frequency_hz = first.chatter_frequency_hz;
+  row.kind = first.kind;
+  row.error_estimate = first.error_estimate;
+  return row;
+}
+
+LobeRow row_of(const SampledCut& cut, const StabilityOptions& options) {
+  const auto nodes = [](const Fineness& f) { return f.resolution.elements * f.resolution.nodes; };
+  Fineness fineness = resolving(cut, 0.0);
+  // Noise may let the search and the count of any grid disagree: a second try, but no endless ones.
+  for (int tries = 0; true;) {
+    SampledGrids grids(cut, fineness, options.most_nodes);
+    double searched_m = 0.0;
+    std::vector<Crossing> found = search(grids[0].gain, options, searched_m);
+    // What is stable up to a depth must be so with every line that could regenerate there.
+    const Fineness needed = resolving(cut, found.empty() ? options.depth_limit_m : found.front().depth_m);
+    if (nodes(fineness) < nodes(needed)) {
+      fineness = needed;
+      continue;
+    }
+    LobeRow row = row_from(cut, grids, std::move(found), searched_m, options);
+    const bool sound = row.status == StabilityStatus::converged || row.status == StabilityStatus::range_limited ||
+                       row.status == StabilityStatus::stable_to_depth_limit;
+    if (sound || ++tries == 2 || 3 * row.nodes >= options.most_nodes) return row;
+    fineness = finer(fineness);
+  }
+}
+
+}  // namespace
+
+void require_range(const SampledReceptance& receptance, const MillingProcess& process, double spindle_speed_rpm) {
+  require_usable(receptance);
+  const double first = receptance.frequency_hz(0);
+  const double last = receptance.frequency_hz(receptance.frequency_hz.size() - 1);
+  const double resonance = highest_resonance_hz(receptance);
+  std::ostringstream text;
+  text << "receptance at the cut: lines from " << first << " to " << last << " Hz ";
+  if (resonance == 0.0) {
+    text << "hold no resonance, the one that chatters must lie among them; measure a wider range";
+    throw core::InputError(text.str());
+  }
+  const double passing = 1.0 / tooth_period_s(process.cutter, spindle_speed_rpm);
+  const double above = resonance + passing;
+  const double below = std::abs(resonance - passing);
+  const bool reaches_down = first <= below || first <= 0.5 * resonance;
+  if (last >= above && reaches_down) return;
+  text << "do not hold the harmonic at " << (last < above ? above : below) << " Hz, one tooth passing (" << passing
+       << " Hz at " << spindle_speed_rpm << " rpm) " << (last < above ? "above" : "beside") << " the resonance at "
+       << resonance << " Hz; measure from " << std::min(first, 0.5 * resonance) << " to " << std::max(last, above)
+       << " Hz" << (last < above ? ", or ask for lower speeds" : "");
+  throw core::InputError(text.str());
+}
+
+LobeRow limiting_depth(const SampledReceptance& receptance, const MillingProcess& process, double spindle_speed_rpm,
+                       const StabilityOptions& options) {
+  require_usable(process, options, spindle_speed_rpm);
+  require_range(receptance, process, spindle_speed_rpm);
+  return row_of(sampled_cut(receptance, process, spindle_speed_rpm), options);
+}
+
+Lobes stability_lobes(const SampledReceptance& receptance, const MillingProcess& process,
+                      const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options) {
+  std::vector<LobeRow> rows(spindle_speeds_rpm.size());
+  core::parallel_for(rows.size(), [&](std::size_t i) {
+    rows[i] = limiting_depth(receptance, process, spindle_speeds_rpm[i], options);
+  });
+  return lobes_of(std::move(rows), "contact-phase collocation on samples of the receptance");
+}
+
+}  // namespace thinwall::milling

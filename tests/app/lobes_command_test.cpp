@@ -1,0 +1,246 @@
+// `thinwall lobes`: the same structure as a case, as a table of modes and as FRFs; operating points; bad input.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "app/case_reader.hpp"
+#include "app/command_line.hpp"
+#include "app/lobes_input.hpp"
+#include "case_text.hpp"
+#include "core/atomic_file.hpp"
+#include "temporary_folder.hpp"
+
+namespace thinwall::app {
+namespace {
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+const std::string tool_toml = R"([tool]
+teeth = 2
+diameter = "10 mm"
+length = "10 mm"
+[cutting]
+radial_depth = "1 mm"
+feed_direction = "x"
+Kt = "600 N/mm^2"
+Kr = "200 N/mm^2"
+[lobes]
+from = "9000 rpm"
+to = "16000 rpm"
+count = 8
+)";
+
+class LobesCommand : public testing::Test {
+ protected:
+  LobesCommand() {
+    write("tool.toml", tool_toml);
+    write("modes.csv", "frequency_hz,damping_ratio,mass,direction\n922,0.011,0.03993,x\n");
+    write_frf("tip.csv", 0, 1.0);
+  }
+  void write(const std::string& name, const std::string& text) const {
+    core::write_file_atomically(temporary.path / name, text);
+  }
+  /// The benchmark's mode as receptance (0), mobility (1) or accelerance (2), with the sign of its damping.
+  void write_frf(const std::string& name, int derivative, double damping_sign, double to_hz = 6000.0) const {
+    std::ostringstream text;
+    text.precision(17);
+    text << "frequency_hz,real,imaginary\n";
+    const double omega_0 = 2.0 * std::numbers::pi * 922.0;
+    for (double hz = 2.0; hz <= to_hz; hz += 2.0) {
+      const double omega = 2.0 * std::numbers::pi * hz;
+      const std::complex<double> stiffness(omega_0 * omega_0 - omega * omega, 0.022 * damping_sign * omega_0 * omega);
+      const auto H = std::pow(std::complex<double>(0.0, omega), derivative) / (0.03993 * stiffness);
+      text << hz << ',' << H.real() << ',' << H.imag() << '\n';
+    }
+    write(name, text.str());
+  }
+  [[nodiscard]] std::string path(const std::string& name) const { return (temporary.path / name).string(); }
+  [[nodiscard]] nlohmann::json summary() const {
+    return nlohmann::json::parse(core::read_file(temporary.path / "results" / "summary.json"));
+  }
+  /// Runs `thinwall lobes` with words after it; results go to results/.
+  [[nodiscard]] Outcome lobes(std::vector<std::string> words) const {
+    words.insert(words.begin(), {"thinwall", "lobes"});
+    words.insert(words.end(), {"--out", path("results"), "-q"});
+    std::vector<const char*> argv;
+    for (const auto& word : words) argv.push_back(word.c_str());
+    std::ostringstream out, err;
+    const int code = run_command_line(static_cast<int>(argv.size()), argv.data(), run_case, out, err);
+    return {code, out.str(), err.str()};
+  }
+  [[nodiscard]] Outcome frf(const std::string& file, std::vector<std::string> more = {},
+                            const std::string& quantity = "receptance", const std::string& unit = "m/N") const {
+    std::vector<std::string> words{file, "--tool", path("tool.toml"), "--quantity", quantity, "--unit", unit};
+    words.insert(words.end(), more.begin(), more.end());
+    return lobes(words);
+  }
+
+  TemporaryFolder temporary;
+};
+
+void expect_refused(const Outcome& outcome, int code, const std::string& part) {
+  EXPECT_EQ(outcome.code, code) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+}
+
+TEST_F(LobesCommand, ACaseATableOfModesAndFrfsOfEveryQuantityGiveOneChart) {
+  ASSERT_EQ(lobes({path("modes.csv"), "--tool", path("tool.toml")}).code, 0);
+  const double depth = summary()["lobes"][0]["minimum_depth_m"];
+  EXPECT_GT(depth, 1e-4);
+  const double stiffness = 0.03993 * std::pow(2.0 * std::numbers::pi * 922.0, 2);
+  std::ostringstream modes;
+  modes.precision(17);
+  modes << "[[tool.modes]]\nfrequency = \"922 Hz\"\ndamping_ratio = 0.011\nstiffness = \"" << stiffness
+        << " N/m\"\ndirection = \"x\"\n";
+  write("case.toml", tool_toml + modes.str());
+  ASSERT_EQ(lobes({path("case.toml")}).code, 0);
+  EXPECT_NEAR(summary()["lobes"][0]["minimum_depth_m"].get<double>() / depth, 1.0, 1e-12);
+  ASSERT_EQ(frf(path("tip.csv")).code, 0);
+  EXPECT_NEAR(summary()["lobes"][0]["minimum_depth_m"].get<double>() / depth, 1.0, 2e-4);
+  write_frf("mobility.csv", 1, 1.0);
+  ASSERT_EQ(frf("x=" + path("mobility.csv"), {}, "mobility", "m/s/N").code, 0);
+  EXPECT_NEAR(summary()["lobes"][0]["minimum_depth_m"].get<double>() / depth, 1.0, 2e-4);
+}
+
+TEST_F(LobesCommand, TheResolvedCaseOfAnFrfCanBeRunAgain) {
+  ASSERT_EQ(frf(path("tip.csv"), {"--set", "lobes.count=2"}).code, 0);
+  const double depth = summary()["lobes"][0]["minimum_depth_m"];
+  const Case again = read_case(temporary.path / "results" / "case.resolved.toml");
+  ASSERT_EQ(again.tool->measured.size(), 1U);
+  EXPECT_EQ(again.lobes->count, 2);
+  ASSERT_EQ(lobes({path("results") + "/case.resolved.toml"}).code, 0);
+  EXPECT_EQ(summary()["lobes"][0]["minimum_depth_m"].get<double>(), depth);
+}
+
+TEST_F(LobesCommand, EntriesOfTheFrfMatrixAreNamedBeforeTheFile) {
+  const LobesInput input{
+      {"x=" + path("tip.csv"), "yx=" + path("tip.csv")}, path("tool.toml"), {}, "receptance", "m/N", ""};
+  const Case source = lobes_case(input);
+  ASSERT_EQ(source.tool->measured.size(), 2U);
+  EXPECT_EQ(source.tool->measured[0].response, "tool.x");
+  EXPECT_EQ(source.tool->measured[1].response, "tool.y");
+  EXPECT_EQ(source.tool->measured[1].force, "tool.x");
+  EXPECT_EQ(source.name, "tip");
+}
+
+TEST_F(LobesCommand, OperatingPointsAreAnsweredFromPolesWithTheMultiplier) {
+  const Outcome outcome = lobes({path("modes.csv"), "--tool", path("tool.toml"), "--at", "14000 rpm, 0.5 mm", "--at",
+                                 "12000rpm,5mm", "--set", "lobes.count=30"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto points = summary()["operating_points"];
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_EQ(points[0]["stable"], true);
+  EXPECT_LT(points[0]["multiplier_modulus"].get<double>(), 1.0);
+  EXPECT_GT(points[0]["depth_margin_m"].get<double>(), 0.0);
+  EXPECT_EQ(points[1]["stable"], false);
+  EXPECT_GT(points[1]["multiplier_modulus"].get<double>(), 1.0);
+  EXPECT_LT(points[1]["depth_margin_m"].get<double>(), 0.0);
+  for (const auto* key : {"chart", "boundary_below_rpm", "boundary_above_rpm", "chatter_frequency_hz", "bifurcation",
+                          "depth_margin_relative", "depth_margin_at_limit", "depth_error_estimate_relative",
+                          "multiplier_error_estimate_relative", "status"})
+    EXPECT_TRUE(points[1].contains(key)) << key;
+  EXPECT_NE(outcome.out.find("14000 rpm, 0.500 mm, tool: stable, |mu| 0."), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("12000 rpm, 5.000 mm, tool: UNSTABLE"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("best pockets"), std::string::npos);
+}
+
+TEST_F(LobesCommand, FromSamplesTheMultiplierIsNullAndTheRestAgrees) {
+  const std::vector<std::string> at{"--at", "13000 rpm, 1.5 mm", "--set", "lobes.count=15"};
+  std::vector<std::string> words{path("modes.csv"), "--tool", path("tool.toml")};
+  words.insert(words.end(), at.begin(), at.end());
+  ASSERT_EQ(lobes(words).code, 0);
+  const auto poles = summary()["operating_points"][0];
+  ASSERT_EQ(frf(path("tip.csv"), at).code, 0);
+  const auto samples = summary()["operating_points"][0];
+  EXPECT_TRUE(samples["multiplier_modulus"].is_null());
+  EXPECT_EQ(samples["stable"], poles["stable"]);
+  EXPECT_NEAR(samples["depth_margin_m"].get<double>(), poles["depth_margin_m"].get<double>(), 1e-6);
+  for (const auto* key : {"boundary_below_rpm", "boundary_above_rpm"}) {
+    ASSERT_EQ(samples[key].is_null(), poles[key].is_null()) << key;
+    if (!poles[key].is_null()) {
+      EXPECT_NEAR(samples[key].get<double>() / poles[key].get<double>(), 1.0, 1e-4) << key;
+    }
+  }
+}
+
+TEST_F(LobesCommand, AnOperatingPointThatIsNoneIsWrongUse) {
+  for (const auto* text : {"5000 rpm", "5000 rpm 0.5 mm", "5000 rpm, 0.5 mm, 3", "5000, 0.5 mm", "5000 rpm, 0.5 Hz",
+                           "0.5 mm, 5000 rpm", "0 rpm, 0.5 mm", "-5000 rpm, 0.5 mm", "5000 rpm, 0 mm",
+                           "5000 rpm, -1 mm", ", ", "5000 rpm, nan mm", "fast, deep"}) {
+    expect_refused(lobes({path("modes.csv"), "--tool", path("tool.toml"), std::string("--at=") + text}), 2, "--at");
+  }
+  expect_refused(lobes({path("modes.csv"), "--tool", path("tool.toml"), "--at", "9000 rpm, 11 mm"}), 3,
+                 "deeper than the chart goes");
+}
+
+TEST_F(LobesCommand, WordsThatDoNotGoTogetherAreWrongUse) {
+  expect_refused(lobes({path("tip.csv"), "--tool", path("tool.toml")}), 2, "--quantity");
+  expect_refused(lobes({path("tip.csv"), "--quantity", "receptance", "--unit", "m/N"}), 2, "--tool");
+  expect_refused(lobes({path("tool.toml"), "--tool", path("tool.toml")}), 2, "is a case");
+  expect_refused(frf(path("modes.csv")), 2, "table of modes");
+  expect_refused(frf("x=" + path("tip.csv"), {"modes=" + path("tip.csv")}), 4, "modes=");
+}
+
+TEST_F(LobesCommand, FilesThatAreMissingOrWrongAreRefused) {
+  expect_refused(frf(path("absent.csv")), 4, "absent.csv");
+  expect_refused(lobes({path("modes.csv"), "--tool", path("absent.toml")}), 4, "absent.toml");
+  expect_refused(lobes({path("absent.toml")}), 3, "no case");
+  expect_refused(lobes({path("tool.toml")}), 3, "a case holds a part");
+  expect_refused(frf(path("tip.csv"), {}, "mobility", "m/N"), 3, "is no unit of a mobility");
+  expect_refused(frf(path("tip.csv"), {}, "flexibility", "m/N"), 3, "none of");
+  expect_refused(frf(path("tip.csv"), {"x=" + path("tip.csv")}), 3, "the same entry");
+  write_frf("narrow.csv", 0, 1.0, 1200.0);
+  expect_refused(frf(path("narrow.csv")), 3, "the harmonic at");
+}
+
+TEST_F(LobesCommand, ATableOfModesThatNoStructureHasIsRefusedWithItsLine) {
+  const auto refused = [&](const std::string& table, const std::string& part) {
+    write("modes.csv", table);
+    expect_refused(lobes({path("modes.csv"), "--tool", path("tool.toml")}), 4, part);
+  };
+  const std::string header = "frequency_hz,damping_ratio,stiffness,direction\n";
+  refused(header + "922,-0.011,1e6,x\n", "modes.csv:2: damping_ratio = -0.011, must be above 0");
+  refused(header + "922,0,1e6,x\n", "damping_ratio = 0");
+  refused(header + "922,1.1,1e6,x\n", "below 1");
+  refused(header + "-922,0.01,1e6,x\n", "frequency_hz");
+  refused(header + "922,0.01,0,x\n", "stiffness");
+  refused(header + "922,0.01,1e6,u\n", "modes.csv:2");
+  refused(header + "922,0.01,1e6\n", "modes.csv:2");
+  refused("frequency_hz,damping_ratio,direction\n922,0.01,x\n", "no column \"stiffness\"");
+  refused("frequency_hz,damping_ratio,stiffness,mass\n922,0.01,1e6,1\n", "keep one");
+}
+
+TEST_F(LobesCommand, ToolsCutsAndSpeedsThatCannotBeAreRefusedWithTheirKey) {
+  const auto refused = [&](const std::string& from, const std::string& to, const std::string& part) {
+    write("tool.toml", with(tool_toml, from, to));
+    expect_refused(lobes({path("modes.csv"), "--tool", path("tool.toml")}), 3, part);
+  };
+  refused("teeth = 2", "teeth = 0", "tool.teeth");
+  refused("radial_depth = \"1 mm\"", "radial_depth = \"0 mm\"", "cutting.radial_depth");
+  refused("radial_depth = \"1 mm\"", "radial_depth = \"10.1 mm\"", "more than the tool's diameter");
+  refused("from = \"9000 rpm\"", "from = \"-9000 rpm\"", "lobes.from");
+  refused("from = \"9000 rpm\"", "from = \"0 rpm\"", "lobes.from");
+  refused("from = \"9000 rpm\"", "from = \"16000 rpm\"", "must lie below the highest");
+  refused("count = 8", "count = 1", "lobes.count");
+  refused("teeth = 2", "teeth = 2\nhelices = \"90 deg\"", "tool.helices");
+  refused("teeth = 2", "teeth = 2\npitches = [\"170 deg\", \"180 deg\"]", "350 deg");
+  refused("teeth = 2", "teeth = 2\npitches = [\"360 deg\"]", "1 values for 2 teeth");
+}
+
+TEST_F(LobesCommand, HelixAndPitchesDoNotGoWithFrfs) {
+  write("tool.toml", with(tool_toml, "teeth = 2", "teeth = 2\nhelices = \"30 deg\""));
+  expect_refused(frf(path("tip.csv")), 3, "straight teeth only");
+  write("tool.toml", with(tool_toml, "teeth = 2", "teeth = 2\npitches = [\"170 deg\", \"190 deg\"]"));
+  expect_refused(frf(path("tip.csv")), 3, "equal pitches only");
+}
+
+}  // namespace
+}  // namespace thinwall::app

@@ -1,0 +1,300 @@
+// Stability from samples of a receptance, without poles, against the same structures by their poles and against the
+// benchmark's independent values.
+
+#include "milling/sampled_stability.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "milling/critical_depths.hpp"
+#include "milling/cut_at_speed.hpp"
+#include "milling/passivity.hpp"
+#include "milling/stability.hpp"
+#include "milling/unstable_count.hpp"
+#include "tests/milling/benchmark.hpp"
+
+namespace thinwall::milling {
+namespace {
+
+using testing::base_frequency;
+using testing::benchmark_process;
+using testing::benchmark_structure;
+using testing::Reference;
+using testing::references;
+
+/// Lines as an analyser gives them, tool axes.
+SampledReceptance sampled(const RelativeStructure& structure, const ToolFrame& frame, double from_hz, double to_hz,
+                          double spacing_hz) {
+  const RelativeStructure in_tool = in_tool_axes(structure, frame);
+  const auto lines = static_cast<Eigen::Index>(std::lround((to_hz - from_hz) / spacing_hz)) + 1;
+  SampledReceptance result{Eigen::VectorXd::LinSpaced(lines, from_hz, to_hz), {}};
+  for (const double hz : result.frequency_hz) result.H.push_back(receptance(in_tool, 2.0 * std::numbers::pi * hz));
+  return result;
+}
+
+const SampledReceptance& benchmark_lines() {
+  static const SampledReceptance lines = sampled(benchmark_structure(), {}, 0.0, 12000.0, 1.0);
+  return lines;
+}
+
+std::string refusal(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const core::InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SampledStability, TheBenchmarksCriticalDepths) {
+  const auto rows = references("wcrit_mm");
+  ASSERT_EQ(rows.size(), 15u);
+  for (const Reference& row : rows) {
+    SCOPED_TRACE(row.where());
+    StabilityOptions options;
+    options.depth_limit_m = 3.0 * row.depth_m;
+    const LobeRow found = limiting_depth(benchmark_lines(), benchmark_process(row.immersion), row.rpm, options);
+    EXPECT_EQ(found.status, StabilityStatus::converged);
+    EXPECT_LE(found.error_estimate, options.error_tolerance);
+    // Six-point interpolation of lines 1 Hz apart at a half width of 10 Hz is good to 3e-6 of the peak; the inertia
+    // line beyond 12 kHz to (922/12000)² of what is left there.
+    EXPECT_NEAR(found.limiting_depth_m / row.depth_m, 1.0, found.error_estimate + 5e-6);
+    EXPECT_EQ(found.kind, row.kind == "Hopf" ? Bifurcation::hopf : Bifurcation::flip);
+    EXPECT_NEAR(base_frequency(found.chatter_frequency_hz, row.rpm), row.base_hz, 1e-3 * row.rpm / 30.0);
+  }
+}
+
+TEST(SampledStability, ATighterToleranceStaysWithinTheLooserEstimate) {
+  // Nodes and harmonics only: both answers come from the same lines.
+  StabilityOptions loose;
+  loose.error_tolerance = 1e-2;
+  loose.follow = 1.0;
+  StabilityOptions sharp = loose;
+  sharp.error_tolerance = 1e-6;
+  for (const Reference& row : references("wcrit_mm")) {
+    SCOPED_TRACE(row.where());
+    const MillingProcess process = benchmark_process(row.immersion);
+    const LobeRow coarse = limiting_depth(benchmark_lines(), process, row.rpm, loose);
+    const LobeRow fine = limiting_depth(benchmark_lines(), process, row.rpm, sharp);
+    EXPECT_LE(std::abs(coarse.limiting_depth_m / fine.limiting_depth_m - 1.0),
+              coarse.error_estimate + fine.error_estimate);
+    EXPECT_LE(fine.error_estimate, 2e-5);  // what lies beyond 12 kHz has its share
+  }
+}
+
+/// Two directions that share no axis with the cut, and a third in z that K_a excites.
+const std::vector<testing::Mode> skewed{{420.0, 0.03, 0.4, Eigen::Vector3d(0.9, 0.3, 0.1)},
+                                        {660.0, 0.02, 0.3, Eigen::Vector3d(-0.2, 0.8, 0.3)}};
+
+MillingProcess skewed_cut() {
+  MillingProcess process;
+  process.cutter = {3, 0.012};
+  process.coefficients = {1.2e9, 0.4e9, 0.2e9, 0.0, 0.0, 0.0};
+  process.engagement = engagement_of(process.cutter, 3e-3, MillingDirection::up);
+  process.frame = {Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+  return process;
+}
+
+TEST(SampledStability, AgreesWithThePolesForThreeByThreeReceptances) {
+  const RelativeStructure structure = relative_structure(testing::modal_model(skewed), "P");
+  const MillingProcess process = skewed_cut();
+  const SampledReceptance lines = sampled(structure, process.frame, 0.0, 8000.0, 2.0);
+  StabilityOptions options;
+  options.follow = 4.0;
+  int compared = 0;
+  for (const double rpm : {2300.0, 4100.0, 5600.0, 9700.0}) {
+    SCOPED_TRACE(rpm);
+    const LobeRow by_lines = limiting_depth(lines, process, rpm, options);
+    const LobeRow by_poles = limiting_depth(structure, process, rpm, options);
+    ASSERT_EQ(by_lines.status, by_poles.status);
+    const double reach = std::min(by_lines.searched_m, by_poles.searched_m);
+    for (std::size_t i = 0; i < by_poles.crossings.size() && by_poles.crossings[i].depth_m < 0.99 * reach; ++i) {
+      const LobePoint& pole = by_poles.crossings[i];
+      ASSERT_LT(i, by_lines.crossings.size());
+      const LobePoint& line = by_lines.crossings[i];
+      EXPECT_NEAR(line.depth_m / pole.depth_m, 1.0, line.error_estimate + pole.error_estimate + 2e-5);
+      EXPECT_EQ(line.unstable_change, pole.unstable_change);
+      EXPECT_EQ(line.kind, pole.kind);
+      EXPECT_NEAR(line.chatter_frequency_hz, pole.chatter_frequency_hz, 0.1);
+      ++compared;
+    }
+  }
+  EXPECT_GE(compared, 6);
+}
+
+TEST(SampledStability, TheEstimateHoldsForRangesThatEndEarly) {
+  const RelativeStructure structure = relative_structure(testing::modal_model(skewed), "P");
+  const MillingProcess process = skewed_cut();
+  StabilityOptions options;
+  options.follow = 1.0;
+  int limited = 0;
+  for (const double from_hz : {1.0, 150.0}) {
+    for (const double to_hz : {1000.0, 1400.0, 2500.0, 6000.0}) {
+      const SampledReceptance lines = sampled(structure, process.frame, from_hz, to_hz, 1.0);
+      for (const double rpm : {2300.0, 4100.0, 5600.0}) {
+        const LobeRow by_lines = limiting_depth(lines, process, rpm, options);
+        const LobeRow by_poles = limiting_depth(structure, process, rpm, options);
+        EXPECT_NEAR(by_lines.limiting_depth_m / by_poles.limiting_depth_m, 1.0, by_lines.error_estimate + 1e-5)
+            << from_hz << " to " << to_hz << " Hz, " << rpm << " rpm";
+        limited += by_lines.status == StabilityStatus::range_limited ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(limited, 0);
+}
+
+TEST(SampledStability, NyquistsCountIsThatOfTheMultipliers) {
+  const RelativeStructure structure = relative_structure(testing::modal_model(skewed), "P");
+  const MillingProcess process = skewed_cut();
+  int unstable_somewhere = 0;
+  for (const double rpm : {1700.0, 2900.0, 5200.0, 8800.0}) {
+    const CutAtSpeed cut = cut_at_speed(structure, process, rpm);
+    const DiscreteCut d = discrete(cut, {2, 10}, 0.0);
+    const GainOnCircle gain = remembering(gain_of(d));
+    for (double depth = 2e-4; depth < 5e-2; depth *= 1.7) {
+      const int count = unstable(d, depth);
+      EXPECT_EQ(unstable_count(gain, depth), count) << rpm << " rpm, " << depth << " m";
+      unstable_somewhere += count > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(unstable_somewhere, 10);
+}
+
+TEST(SampledStability, ARangeThatIsTooNarrowNamesTheHarmonicAndWhatWouldDo) {
+  const MillingProcess process = benchmark_process(0.1);
+  // At 25000 rpm two teeth pass 833.3 times a second: 922 + 833.3 = 1755.3 Hz is needed.
+  const SampledReceptance narrow = sampled(benchmark_structure(), {}, 20.0, 1500.0, 2.0);
+  const std::string text = refusal([&] { (void)limiting_depth(narrow, process, 25000.0, {}); });
+  EXPECT_NE(text.find("1755.3"), std::string::npos) << text;
+  EXPECT_NE(text.find("20 to 1500 Hz"), std::string::npos) << text;
+  EXPECT_NE(text.find("measure from 20 to 1755.3"), std::string::npos) << text;
+  EXPECT_NO_THROW(require_range(narrow, process, 12000.0));
+  // A range that begins on the flank of the resonance has no static line: 922 − 333.3 = 588.7 Hz is missing.
+  const SampledReceptance late = sampled(benchmark_structure(), {}, 700.0, 4000.0, 2.0);
+  EXPECT_NE(refusal([&] { require_range(late, process, 10000.0); }).find("588.6"), std::string::npos);
+  EXPECT_NO_THROW(require_range(late, process, 5000.0)) << "922 - 166.7 = 755.3 Hz is there";
+  const SampledReceptance flank = sampled(benchmark_structure(), {}, 20.0, 900.0, 2.0);
+  EXPECT_NE(refusal([&] { require_range(flank, process, 5000.0); }).find("no resonance"), std::string::npos);
+}
+
+TEST(SampledStability, TakesEqualStraightTeethOnly) {
+  MillingProcess helical = benchmark_process(0.1);
+  helical.cutter.helices_rad = {0.5, 0.5};
+  EXPECT_NE(refusal([&] { (void)limiting_depth(benchmark_lines(), helical, 5000.0, {}); }).find("a helix"),
+            std::string::npos);
+  MillingProcess uneven = benchmark_process(0.1);
+  uneven.cutter.pitches_rad = {3.0, 2.0 * std::numbers::pi - 3.0};
+  EXPECT_NE(refusal([&] { (void)limiting_depth(benchmark_lines(), uneven, 5000.0, {}); }).find("unequal pitches"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { (void)limiting_depth(benchmark_lines(), benchmark_process(0.1), 0.0, {}); }).find("0 rpm"),
+            std::string::npos);
+  SampledReceptance still = benchmark_lines();
+  for (auto& H : still.H) H.topRows<2>().setZero();
+  EXPECT_NE(refusal([&] { (void)limiting_depth(still, benchmark_process(0.1), 5000.0, {}); }), "");
+}
+
+TEST(SampledStability, StableToTheDepthLimitIsSaidWithTheMotionNearestToChatter) {
+  StabilityOptions options;
+  options.depth_limit_m = 2e-4;
+  const MillingProcess process = benchmark_process(0.1);
+  const LobeRow row = limiting_depth(benchmark_lines(), process, 5000.0, options);
+  EXPECT_EQ(row.status, StabilityStatus::stable_to_depth_limit);
+  EXPECT_TRUE(row.at_limit);
+  EXPECT_EQ(row.limiting_depth_m, 2e-4);
+  EXPECT_NEAR(row.chatter_frequency_hz, 922.0, 30.0);
+}
+
+TEST(SampledStability, NodeLimitIsAStatusWithTheErrorThatRemains) {
+  StabilityOptions options;
+  options.most_nodes = 8;
+  options.error_tolerance = 1e-9;
+  const LobeRow row = limiting_depth(benchmark_lines(), benchmark_process(0.1), 5000.0, options);
+  EXPECT_EQ(row.status, StabilityStatus::node_limit_reached);
+  EXPECT_GT(row.error_estimate, 1e-9);
+}
+
+TEST(SampledStability, ChartsDoNotDependOnTheNumberOfThreads) {
+  const auto speeds = spindle_speeds(8000.0, 20000.0, 5);
+  const int before = core::thread_count();
+  core::set_thread_count(1);
+  const Lobes one = stability_lobes(benchmark_lines(), benchmark_process(0.1), speeds, {});
+  core::set_thread_count(3);
+  const Lobes three = stability_lobes(benchmark_lines(), benchmark_process(0.1), speeds, {});
+  core::set_thread_count(before);
+  EXPECT_EQ(one.rows_not_converged, 0);
+  for (std::size_t i = 0; i < speeds.size(); ++i)
+    EXPECT_EQ(one.rows[i].limiting_depth_m, three.rows[i].limiting_depth_m);
+  EXPECT_THROW((void)stability_lobes(benchmark_lines(), benchmark_process(0.1), {}, {}), core::InputError);
+}
+
+/// Multiplicative noise of a standard deviation, real and imaginary part alike.
+SampledReceptance with_noise(SampledReceptance r, double deviation) {
+  std::mt19937 engine(7);
+  std::normal_distribution<double> normal(0.0, deviation);
+  for (auto& H : r.H) H *= std::complex<double>(1.0 + normal(engine), normal(engine));
+  return r;
+}
+
+TEST(SampledStability, NoiseOfAPerCentMovesTheLimitByPerCents) {
+  // A line's noise moves 1/H, and the depth with it, by as much: three deviations, as the lines that decide are few.
+  const SampledReceptance noisy = with_noise(sampled(benchmark_structure(), {}, 20.0, 5000.0, 1.0), 0.01);
+  for (const Reference& row : references("wcrit_mm")) {
+    if (row.immersion != 0.1) continue;
+    const LobeRow found = limiting_depth(noisy, benchmark_process(0.1), row.rpm, {});
+    EXPECT_NEAR(found.limiting_depth_m / row.depth_m, 1.0, 0.03) << row.where();
+  }
+}
+
+TEST(Passivity, ANoisyPassiveReceptanceGivesNoEnergyAndAConjugateOneDoes) {
+  const SampledReceptance good = sampled(benchmark_structure(), {}, 2.0, 4000.0, 2.0);
+  EXPECT_FALSE(energy_given(good));
+  EXPECT_FALSE(energy_given(with_noise(good, 0.03)));
+  SampledReceptance conjugate = good;
+  for (auto& H : conjugate.H) H = H.conjugate().eval();
+  const auto given = energy_given(conjugate);
+  ASSERT_TRUE(given);
+  EXPECT_EQ(given->direction, 0);
+  EXPECT_NEAR(given->frequency_hz, 922.0, 2.0);
+  EXPECT_NEAR(given->share, 1.0, 0.02);
+  // A mobility that is read as a receptance: iωH has a positive imaginary part below the resonance.
+  SampledReceptance mobility = good;
+  for (std::size_t i = 0; i < good.H.size(); ++i)
+    mobility.H[i] *= std::complex<double>(0.0, good.frequency_hz(static_cast<Eigen::Index>(i)));
+  ASSERT_TRUE(energy_given(mobility));
+  EXPECT_LT(energy_given(mobility)->frequency_hz, 922.0);
+}
+
+TEST(Resonances, AreFoundOnceAndNoiseIsNone) {
+  const RelativeStructure structure = relative_structure(testing::modal_model(skewed), "P");
+  for (const double noise : {0.0, 0.02}) {
+    const auto found = resonances(with_noise(sampled(structure, {}, 10.0, 3000.0, 1.0), noise));
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_NEAR(found[0].frequency_hz, 420.0, 6.0);
+    EXPECT_NEAR(found[1].frequency_hz, 660.0, 6.0);
+    EXPECT_NEAR(found[0].half_width_hz, 0.03 * 420.0, 3.0);
+  }
+}
+
+TEST(SampledReceptance, RefusesWhatCannotBeUsed) {
+  const ContactGrid grid = contact_grid(benchmark_process(0.1), Eigen::Vector3d::UnitX(), {1, 6});
+  const SampledReceptance good{Eigen::VectorXd::LinSpaced(7, 1.0, 7.0),
+                               std::vector<Eigen::Matrix3cd>(7, Eigen::Matrix3cd::Identity())};
+  SampledReceptance bad = good;
+  bad.H[3](1, 2) = std::nan("");
+  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
+  bad = good;
+  bad.frequency_hz(2) = 1.5;
+  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
+  bad = good;
+  bad.H.pop_back();
+  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
+  bad = {Eigen::VectorXd::LinSpaced(5, 1.0, 5.0), std::vector<Eigen::Matrix3cd>(5, Eigen::Matrix3cd::Identity())};
+  EXPECT_THROW((void)harmonic_gain(bad, grid, 5000.0), core::InputError);
+}
+
+}  // namespace
+}  // namespace thinwall::milling
