@@ -66,7 +66,7 @@ Resolution resolving(const CutAtSpeed& cut, double depth_m) {
   const double phase =
       fastest * longest_stretch_rad(cut.process, depth_m) * 30.0 / (std::numbers::pi * cut.spindle_speed_rpm);
   const int elements = std::max(1, static_cast<int>(std::ceil(phase / 14.0)));
-  return {elements, static_cast<int>(std::ceil(4.0 + 0.5 * phase / elements))};
+  return {elements, static_cast<int>(std::ceil(3.0 + 0.35 * phase / elements))};
 }
 
 Resolution finer(Resolution r) {
