@@ -90,7 +90,8 @@ void helical_crossings(const CutAtSpeed& cut, const StabilityOptions& options, c
     });
     if (known) continue;
     change += p.crossing.unstable_change;
-    points.push_back(lobe_point(cut, discrete(cut, r, p.crossing.depth_m), p));
+    const DiscreteCut d = discrete(cut, r, p.crossing.depth_m);
+    points.push_back(lobe_point(p, chatter_frequency_hz(cut, d, p.crossing.theta_rad, p.crossing.mode)));
     row.nodes = std::max(row.nodes, finest.elements * finest.nodes);
   }
   if (change != high.unstable - low.unstable && halvings > 0) {
@@ -136,6 +137,7 @@ LobeRow helical_row(const CutAtSpeed& cut, const StabilityOptions& options) {
   row.searched_m = low.depth_m;
   std::stable_sort(row.crossings.begin(), row.crossings.end(),
                    [](const LobePoint& a, const LobePoint& b) { return a.depth_m < b.depth_m; });
+  take_limit_from_crossings(row);
   return row;
 }
 

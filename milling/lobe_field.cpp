@@ -5,14 +5,11 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "milling/row_search.hpp"
 
 namespace thinwall::milling {
 
 namespace {
-
-bool sound(const LobeRow& row) {
-  return row.status == StabilityStatus::converged || row.status == StabilityStatus::stable_to_depth_limit;
-}
 
 void summarise(LobeField& field) {
   const std::size_t speeds = field.spindle_speeds_rpm.size();

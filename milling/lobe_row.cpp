@@ -18,6 +18,11 @@ std::string name(Bifurcation kind) {
   return "fold";
 }
 
+Bifurcation bifurcation_at(double theta_rad) {
+  if (theta_rad == std::numbers::pi) return Bifurcation::flip;
+  return theta_rad == 0.0 ? Bifurcation::fold : Bifurcation::hopf;
+}
+
 std::string name(StabilityStatus status) {
   switch (status) {
     case StabilityStatus::converged:
@@ -57,6 +62,15 @@ std::vector<std::string> validate(const StabilityOptions& options) {
           "at least 1; 20 is usual");
   require(options.most_nodes >= 8, "largest number of nodes", options.most_nodes, "at least 8; 240 is usual");
   return violations;
+}
+
+void take_limit_from_crossings(LobeRow& row) {
+  if (row.crossings.empty()) return;
+  const LobePoint& first = row.crossings.front();
+  row.limiting_depth_m = first.depth_m;
+  row.chatter_frequency_hz = first.chatter_frequency_hz;
+  row.kind = first.kind;
+  row.error_estimate = first.error_estimate;
 }
 
 }  // namespace thinwall::milling

@@ -24,6 +24,10 @@ enum class StabilityStatus {
 };
 
 [[nodiscard]] std::string name(Bifurcation kind);
+
+/// Of a multiplier e^{iθ}, 0 ≤ θ ≤ π.
+[[nodiscard]] Bifurcation bifurcation_at(double theta_rad);
+
 [[nodiscard]] std::string name(StabilityStatus status);
 
 struct StabilityOptions {
@@ -76,5 +80,8 @@ struct LobeRow {
   int nodes = 0;                     ///< in the cut
   StabilityStatus status = StabilityStatus::converged;
 };
+
+/// Limiting depth, frequency, kind and estimate are the first crossing's, if there is one.
+void take_limit_from_crossings(LobeRow& row);
 
 }  // namespace thinwall::milling

@@ -2,19 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace thinwall::milling {
-
-namespace {
-
-Bifurcation kind_of(double theta) {
-  if (theta == std::numbers::pi) return Bifurcation::flip;
-  return theta == 0.0 ? Bifurcation::fold : Bifurcation::hopf;
-}
-
-}  // namespace
 
 double estimate_from(double change, double change_before) {
   return 1e-11 + std::max(change, 0.1 * change_before);
@@ -32,9 +22,9 @@ void refine_until(std::size_t levels, double tolerance, const ToLevel& to_level,
   }
 }
 
-LobePoint lobe_point(const CutAtSpeed& cut, const DiscreteCut& d, const RefinedCrossing& c) {
-  return {c.crossing.depth_m, chatter_frequency_hz(cut, d, c.crossing.theta_rad, c.crossing.mode),
-          kind_of(c.crossing.theta_rad), c.crossing.unstable_change, c.error_estimate};
+LobePoint lobe_point(const RefinedCrossing& c, double chatter_frequency_hz) {
+  return {c.crossing.depth_m, chatter_frequency_hz, bifurcation_at(c.crossing.theta_rad), c.crossing.unstable_change,
+          c.error_estimate};
 }
 
 }  // namespace thinwall::milling

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "milling/cut_at_speed.hpp"
+#include "milling/crossing.hpp"
 #include "milling/lobe_row.hpp"
 
 namespace thinwall::milling {
@@ -32,7 +32,7 @@ using ToLevel = std::function<OnFinerGrid(std::size_t level, Crossing& crossing)
 /// left.
 void refine_until(std::size_t levels, double tolerance, const ToLevel& to_level, RefinedCrossing& crossing);
 
-/// As it stands in a row, with its chatter frequency on the grid `d`.
-[[nodiscard]] LobePoint lobe_point(const CutAtSpeed& cut, const DiscreteCut& d, const RefinedCrossing& crossing);
+/// As it stands in a row.
+[[nodiscard]] LobePoint lobe_point(const RefinedCrossing& crossing, double chatter_frequency_hz);
 
 }  // namespace thinwall::milling

@@ -13,8 +13,9 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "milling/chatter_frequency.hpp"
+#include "milling/cut_at_speed.hpp"
 #include "milling/product_rule.hpp"
-#include "milling/refined_crossing.hpp"
+#include "milling/row_search.hpp"
 #include "milling/unstable_count.hpp"
 
 namespace thinwall::milling {
@@ -75,11 +76,15 @@ void require_usable(const MillingProcess& process, const StabilityOptions& optio
   violations.insert(violations.end(), more.begin(), more.end());
   require_valid(violations);
   (void)tooth_period_s(process.cutter, spindle_speed_rpm);  // refuses a bad speed
-  if (!process.cutter.equal_teeth() || process.cutter.has_helix()) {
-    throw core::InputError(std::string("stability from a measured receptance: the teeth have ") +
-                           (process.cutter.equal_teeth() ? "a helix" : "unequal pitches or helices") +
-                           ", must be equal and straight; leave pitches and helices out, or describe the structure by "
-                           "its modes");
+  if (!equal_teeth(process) || process.cutter.depends_on_depth() || process.damping.C != 0.0) {
+    throw core::InputError(
+        std::string("stability from a measured receptance: ") +
+        (!equal_teeth(process)               ? "the teeth have unequal pitches, helices or chips"
+         : process.cutter.has_helix()        ? "the teeth have a helix"
+         : process.cutter.depends_on_depth() ? "the tool has a round end"
+                                             : "there is process damping") +
+        ", only equal straight teeth on a cylinder or cone without it are known here; change that, or "
+        "describe the structure by its modes");
   }
 }
 
@@ -119,53 +124,62 @@ Fineness finer(const Fineness& f) {
   return {finer(f.resolution), 2.0 * f.harmonics_to_hz};
 }
 
-/// Grids from coarse to fine, made when they are asked for.
-class SampledGrids {
- public:
-  struct Level {
-    ContactGrid grid;
-    double reach = 0.0;  ///< harmonics, over the last line
-    GainOnCircle gain;
+double chatter_hz(const SampledCut& cut, const ContactGrid& grid, double theta, const Eigen::VectorXcd& c) {
+  const auto& hz = cut.receptance.frequency_hz;
+  const auto at = [&](double omega) {
+    return interpolated(cut.receptance, omega, {cut.resonance_hz, cut.resonance_hz});
   };
+  return chatter_frequency_hz(grid, tooth_period_s(cut.process.cutter, cut.spindle_speed_rpm), at,
+                              2.0 * pi * hz(hz.size() - 1), theta, c);
+}
 
+/// Grids of a cut known by samples, each finer one with more harmonics, too.
+class SampledGrids : public SearchGrids {
+ public:
   SampledGrids(const SampledCut& cut, Fineness first, int most_nodes)
       : cut_(cut), next_(first), most_nodes_(most_nodes) {}
 
-  const Level& operator[](std::size_t level) {
-    const auto& hz = cut_.receptance.frequency_hz;
-    while (levels_.size() <= level) {
-      levels_.push_back(std::make_unique<Level>(Level{
-          contact_grid(cut_.process, cut_.yielding, next_.resolution), next_.harmonics_to_hz / hz(hz.size() - 1), {}}));
-      Level& made = *levels_.back();
-      made.gain = remembering(gain_of(made, {cut_.resonance_hz, cut_.resonance_hz}));
-      next_ = finer(next_);
-    }
-    return *levels_[level];
+  const ContactGrid& operator[](std::size_t level) { return made(level).grid; }
+  [[nodiscard]] const GainOnCircle& gain(std::size_t level) override { return made(level).gain; }
+  [[nodiscard]] int nodes(std::size_t level) override { return static_cast<int>((*this)[level].node_rad.size()); }
+  [[nodiscard]] bool more_after(std::size_t level) override { return level < 2 || 3 * nodes(level) < 2 * most_nodes_; }
+  /// On the second grid at most: the count costs as much as a search, and its harmonics are many enough for it.
+  [[nodiscard]] int unstable(std::size_t level, double depth_m) override {
+    return unstable_count(gain(std::min<std::size_t>(level, 1)), depth_m);
   }
-  [[nodiscard]] int nodes(std::size_t level) { return static_cast<int>((*this)[level].grid.node_rad.size()); }
-
-  /// For refine_until().
-  [[nodiscard]] ToLevel to_level() {
-    return [this](std::size_t level, Crossing& crossing) {
-      if (level > 2 && 3 * nodes(level - 1) >= 2 * most_nodes_) return OnFinerGrid::none_finer;
-      return refine((*this)[level].gain, crossing) ? OnFinerGrid::kept : OnFinerGrid::lost;
-    };
+  [[nodiscard]] double chatter_frequency_hz(std::size_t level, const Crossing& crossing) override {
+    return chatter_hz(cut_, (*this)[level], crossing.theta_rad, crossing.mode);
   }
-
-  /// Error of a crossing's depth, relative, for what lies beyond the range of the receptance: twice what it moves by
-  /// with a plain line at either end, since the oscillator that matters there may be another than the one that is
-  /// taken.
-  [[nodiscard]] double error_by_range(std::size_t level, const Crossing& crossing) {
+  /// For what lies beyond the range of the receptance: twice what the depth moves by with a plain line at either end,
+  /// since the oscillator that matters there may be another than the one that is taken.
+  [[nodiscard]] double error_beyond_grids(std::size_t level, const Crossing& crossing) override {
     double error = 0.0;
     for (const Continuation& plain : {Continuation{0.0, cut_.resonance_hz}, Continuation{cut_.resonance_hz, 0.0}}) {
       Crossing moved = crossing;
-      const bool kept = refine(gain_of((*this)[level], plain), moved);
+      const bool kept = refine(gain_of(made(level), plain), moved);
       error += kept ? 2.0 * std::abs(moved.depth_m / crossing.depth_m - 1.0) : 1.0;
     }
     return error;
   }
 
  private:
+  struct Level {
+    ContactGrid grid;
+    double reach = 0.0;  ///< harmonics, over the last line
+    GainOnCircle gain;
+  };
+
+  const Level& made(std::size_t level) {
+    const auto& hz = cut_.receptance.frequency_hz;
+    while (levels_.size() <= level) {
+      levels_.push_back(std::make_unique<Level>(Level{
+          contact_grid(cut_.process, cut_.yielding, next_.resolution), next_.harmonics_to_hz / hz(hz.size() - 1), {}}));
+      Level& last = *levels_.back();
+      last.gain = remembering(gain_of(last, {cut_.resonance_hz, cut_.resonance_hz}));
+      next_ = finer(next_);
+    }
+    return *levels_[level];
+  }
   [[nodiscard]] GainOnCircle gain_of(const Level& level, const Continuation& beyond) const {
     return harmonic_gain(cut_.receptance, level.grid, cut_.spindle_speed_rpm, level.reach, beyond);
   }
@@ -176,112 +190,21 @@ class SampledGrids {
   std::vector<std::unique_ptr<Level>> levels_;
 };
 
-double chatter_hz(const SampledCut& cut, const ContactGrid& grid, double theta, const Eigen::VectorXcd& c) {
-  const auto& hz = cut.receptance.frequency_hz;
-  const auto at = [&](double omega) {
-    return interpolated(cut.receptance, omega, {cut.resonance_hz, cut.resonance_hz});
-  };
-  return chatter_frequency_hz(grid, tooth_period_s(cut.process.cutter, cut.spindle_speed_rpm), at,
-                              2.0 * pi * hz(hz.size() - 1), theta, c);
-}
-
-Bifurcation kind_of(double theta) {
-  if (theta == pi) return Bifurcation::flip;
-  return theta == 0.0 ? Bifurcation::fold : Bifurcation::hopf;
-}
-
-/// Crossings up to `follow` times the first; sets how far was searched.
-std::vector<Crossing> search(const GainOnCircle& gain, const StabilityOptions& options, double& searched_m) {
-  CriticalDepths depths(gain);
-  std::vector<Crossing> found;
-  searched_m = 0.5 * depths.none_below_m();
-  do {
-    searched_m = std::min(options.depth_limit_m, 4.0 * searched_m);
-    found = depths.up_to(searched_m);
-  } while (found.empty() && searched_m < options.depth_limit_m);
-  if (found.empty()) return found;
-  if (options.follow == 1.0) {
-    searched_m = found.front().depth_m;
-    found.resize(1);
-    return found;
-  }
-  const double reach = std::min(options.depth_limit_m, options.follow * found.front().depth_m);
-  if (reach > searched_m) found = depths.up_to(searched_m = reach);
-  return found;
-}
-
-/// The crossings in ascending depth, those that bound a stable range to the tolerance. The row's status tells what
-/// failed.
-std::vector<RefinedCrossing> refined(SampledGrids& grids, std::vector<Crossing> found, const StabilityOptions& options,
-                                     LobeRow& row) {
-  std::vector<RefinedCrossing> all;
-  for (Crossing& crossing : found) {
-    all.push_back({std::move(crossing)});
-    refine_until(1, 1.0, grids.to_level(), all.back());
-  }
-  std::stable_sort(all.begin(), all.end(), [](const RefinedCrossing& a, const RefinedCrossing& b) {
-    return a.crossing.depth_m < b.crossing.depth_m;
-  });
-  int count = 0;  // of unstable multipliers above the crossings so far
-  for (RefinedCrossing& c : all) {
-    const bool bounds = count == 0 || count + c.crossing.unstable_change == 0;
-    count += c.crossing.unstable_change;
-    if (!bounds || c.crossing.depth_m > options.depth_limit_m) continue;
-    refine_until(2, options.error_tolerance, grids.to_level(), c);
-    const double by_range = c.kept ? grids.error_by_range(c.level, c.crossing) : 0.0;
-    if (!c.kept) row.status = StabilityStatus::crossing_missed;
-    else if (c.error_estimate > options.error_tolerance) row.status = StabilityStatus::node_limit_reached;
-    else if (by_range > options.error_tolerance) row.status = StabilityStatus::range_limited;
-    c.error_estimate += by_range;
-  }
-  const bool counted = options.follow == 1.0 || unstable_count(grids[0].gain, row.searched_m) == count;
-  if (!counted) row.status = StabilityStatus::crossing_missed;
-  return all;
-}
-
-/// Of a cut that is stable at the depth limit: the motion nearest to growing there.
-void describe_limit(const SampledCut& cut, const SampledGrids::Level& level, double depth_limit_m, LobeRow& row) {
+/// Of a row without crossings: the motion nearest to growing at the depth limit.
+void describe_depth_limit(const SampledCut& cut, SampledGrids& grids, double depth_limit_m, LobeRow& row) {
   double nearest = INFINITY;
-  for (const double theta : level.gain.stops) {
-    const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> eigen(-depth_limit_m * level.gain.Z(theta));
+  for (const double theta : grids.gain(0).stops) {
+    const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> eigen(-depth_limit_m * grids.gain(0).Z(theta));
     Index at = 0;
     const double distance = (eigen.eigenvalues().array() - 1.0).abs().minCoeff(&at);
     if (distance >= nearest) continue;
     nearest = distance;
-    row.kind = kind_of(theta);
-    row.chatter_frequency_hz = chatter_hz(cut, level.grid, theta, eigen.eigenvectors().col(at));
+    row.kind = bifurcation_at(theta);
+    row.chatter_frequency_hz = chatter_hz(cut, grids[0], theta, eigen.eigenvectors().col(at));
   }
   row.limiting_depth_m = depth_limit_m;
   row.at_limit = true;
   if (row.status == StabilityStatus::converged) row.status = StabilityStatus::stable_to_depth_limit;
-}
-
-LobeRow row_from(const SampledCut& cut, SampledGrids& grids, std::vector<Crossing> found, double searched_m,
-                 const StabilityOptions& options) {
-  LobeRow row;
-  row.spindle_speed_rpm = cut.spindle_speed_rpm;
-  row.searched_m = searched_m;
-  std::size_t finest = 1;
-  for (const RefinedCrossing& c : refined(grids, std::move(found), options, row)) {
-    if (c.crossing.depth_m > options.depth_limit_m) continue;
-    finest = std::max(finest, c.level);
-    row.crossings.push_back({c.crossing.depth_m,
-                             chatter_hz(cut, grids[c.level].grid, c.crossing.theta_rad, c.crossing.mode),
-                             kind_of(c.crossing.theta_rad), c.crossing.unstable_change, c.error_estimate});
-  }
-  row.nodes = grids.nodes(finest);
-  const double below = row.crossings.empty() ? row.searched_m : 0.999 * row.crossings.front().depth_m;
-  if (unstable_count(grids[1].gain, below) != 0) row.status = StabilityStatus::crossing_missed;
-  if (row.crossings.empty()) {
-    describe_limit(cut, grids[0], options.depth_limit_m, row);
-    return row;
-  }
-  const LobePoint& first = row.crossings.front();
-  row.limiting_depth_m = first.depth_m;
-  row.chatter_frequency_hz = first.chatter_frequency_hz;
-  row.kind = first.kind;
-  row.error_estimate = first.error_estimate;
-  return row;
 }
 
 LobeRow row_of(const SampledCut& cut, const StabilityOptions& options) {
@@ -290,18 +213,16 @@ LobeRow row_of(const SampledCut& cut, const StabilityOptions& options) {
   // Noise may let the search and the count of any grid disagree: a second try, but no endless ones.
   for (int tries = 0; true;) {
     SampledGrids grids(cut, fineness, options.most_nodes);
-    double searched_m = 0.0;
-    std::vector<Crossing> found = search(grids[0].gain, options, searched_m);
+    FirstCrossing first = first_crossing(grids.gain(0), options);
     // What is stable up to a depth must be so with every line that could regenerate there.
-    const Fineness needed = resolving(cut, found.empty() ? options.depth_limit_m : found.front().depth_m);
+    const Fineness needed = resolving(cut, first.found.empty() ? options.depth_limit_m : first.found.front().depth_m);
     if (nodes(fineness) < nodes(needed)) {
       fineness = needed;
       continue;
     }
-    LobeRow row = row_from(cut, grids, std::move(found), searched_m, options);
-    const bool sound = row.status == StabilityStatus::converged || row.status == StabilityStatus::range_limited ||
-                       row.status == StabilityStatus::stable_to_depth_limit;
-    if (sound || ++tries == 2 || 3 * row.nodes >= options.most_nodes) return row;
+    LobeRow row = row_from(grids, std::move(first), cut.spindle_speed_rpm, options);
+    if (row.crossings.empty()) describe_depth_limit(cut, grids, options.depth_limit_m, row);
+    if (sound(row) || ++tries == 2 || 3 * row.nodes >= options.most_nodes) return row;
     fineness = finer(fineness);
   }
 }

@@ -190,6 +190,14 @@ TEST(SampledStability, TakesEqualStraightTeethOnly) {
   uneven.cutter.pitches_rad = {3.0, 2.0 * std::numbers::pi - 3.0};
   EXPECT_NE(refusal([&] { (void)limiting_depth(benchmark_lines(), uneven, 5000.0, {}); }).find("unequal pitches"),
             std::string::npos);
+  MillingProcess damped = benchmark_process(0.1);
+  damped.damping.C = 1e4;
+  EXPECT_NE(refusal([&] { (void)limiting_depth(benchmark_lines(), damped, 5000.0, {}); }).find("process damping"),
+            std::string::npos);
+  MillingProcess round = benchmark_process(0.1);
+  round.cutter.envelope = ball_end(round.cutter.diameter_m);
+  EXPECT_NE(refusal([&] { (void)limiting_depth(benchmark_lines(), round, 5000.0, {}); }).find("round end"),
+            std::string::npos);
   EXPECT_NE(refusal([&] { (void)limiting_depth(benchmark_lines(), benchmark_process(0.1), 0.0, {}); }).find("0 rpm"),
             std::string::npos);
   SampledReceptance still = benchmark_lines();

@@ -1,0 +1,53 @@
+#pragma once
+// The crossings of one speed on grids from coarse to fine, checked, however the loop's gain was come by.
+
+#include <vector>
+
+#include "milling/critical_depths.hpp"
+#include "milling/lobe_row.hpp"
+#include "milling/refined_crossing.hpp"
+
+namespace thinwall::milling {
+
+/// Grids of one cut without helix, the search's view of them: level 0 is searched, finer ones are made when they are
+/// asked for.
+class SearchGrids {
+ public:
+  SearchGrids() = default;
+  virtual ~SearchGrids() = default;
+  SearchGrids(const SearchGrids&) = delete;
+  SearchGrids& operator=(const SearchGrids&) = delete;
+
+  [[nodiscard]] virtual const GainOnCircle& gain(std::size_t level) = 0;
+  [[nodiscard]] virtual int nodes(std::size_t level) = 0;
+  /// Whether a level beyond this one may be made.
+  [[nodiscard]] virtual bool more_after(std::size_t level) = 0;
+  /// Multipliers outside of the unit circle.
+  [[nodiscard]] virtual int unstable(std::size_t level, double depth_m) = 0;
+  [[nodiscard]] virtual double chatter_frequency_hz(std::size_t level, const Crossing& crossing) = 0;
+  /// Error of a depth, relative, that no finer grid shows.
+  [[nodiscard]] virtual double error_beyond_grids(std::size_t /*level*/, const Crossing& /*crossing*/) { return 0.0; }
+
+  /// For refine_until().
+  [[nodiscard]] ToLevel to_level();
+};
+
+/// A search of the coarse grid from small depths on until a crossing is found.
+struct FirstCrossing {
+  CriticalDepths search;
+  std::vector<Crossing> found;  ///< empty: stable up to the limit
+  double searched_m = 0.0;
+};
+
+[[nodiscard]] FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& options);
+
+/// The row that follows from there: crossings up to `follow` times the first, each on a finer grid, those that bound a
+/// stable range to the tolerance; the two counts of limiting_depth() (stability.hpp). The status tells what failed. The
+/// limit is filled in if there is a crossing. Throws NumericalError as CriticalDepths.
+[[nodiscard]] LobeRow row_from(SearchGrids& grids, FirstCrossing first, double spindle_speed_rpm,
+                               const StabilityOptions& options);
+
+/// Whether nothing failed that a finer grid could mend.
+[[nodiscard]] bool sound(const LobeRow& row);
+
+}  // namespace thinwall::milling
