@@ -32,7 +32,7 @@ bool improve(const GainOnCircle& gain, double theta, int solves, Eigenpair& pair
   Eigen::MatrixXcd shifted = -Z;
   // Off by round-off, so that nothing is divided by an exact zero.
   shifted.diagonal().array() -= pair.nu + 1e-14 * std::abs(pair.nu);
-  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(std::move(shifted));
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(shifted);
   for (int i = 0; i < solves; ++i) {
     pair.right = lu.solve(pair.right).normalized().eval();
     pair.left = lu.transpose().solve(pair.left).normalized().eval();
