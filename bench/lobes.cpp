@@ -4,6 +4,7 @@
 #include "milling/lobes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>

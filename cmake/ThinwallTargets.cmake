@@ -2,7 +2,8 @@
 # thinwall_test(<name> LINKS ...)        one GoogleTest program from every .cpp of the current folder
 
 add_library(thinwall_flags INTERFACE)
-target_compile_options(thinwall_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror)
+target_compile_options(thinwall_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wsuggest-override
+                                                -Wzero-as-null-pointer-constant -Werror)
 # GCC 12 takes "text" + std::string for overlapping copies (GCC bug 105329, mended in 13).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(thinwall_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)

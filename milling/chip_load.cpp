@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <sstream>
@@ -66,12 +67,12 @@ std::vector<ChipLoad> chip_loads(const Cutter& cutter, const std::vector<Engagem
     throw core::InputError(text.str());
   }
   std::vector<ChipLoad> loads;
+  loads.reserve(static_cast<std::size_t>(cutter.teeth));
   for (int j = 0; j < cutter.teeth; ++j) loads.push_back(load_of(surfaces_before(cutter, j, feed_m), arcs));
   if (std::none_of(loads.begin(), loads.end(), [](const ChipLoad& l) { return l.mean_thickness_m > 0.0; })) {
     throw core::InputError(
-        "chip thickness: no tooth cuts a chip between entry and exit, at least one must; the feed makes chips from 0 "
-        "to "
-        "180°, correct the angles");
+        "chip thickness: no tooth cuts a chip between entry and exit, at least one must; "
+        "the feed makes chips from 0 to 180°, correct the angles");
   }
   return loads;
 }

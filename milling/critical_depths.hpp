@@ -28,7 +28,8 @@ class CriticalDepths {
     bool slope_known = false;
   };
 
-  /// Below this depth, m, there is no crossing: 1/max |ν| over the stops, less a quarter for what lies between them.
+  /// Below this depth, m, hardly any crossing lies: 1/max |ν| over the stops, less a quarter for what lies between
+  /// them. Where a search may begin; up_to() finds what lies below all the same.
   [[nodiscard]] double none_below_m() const { return 0.75 / largest_; }
 
   /// Depths from 0 to depth_limit_m (> 0), ascending. Throws NumericalError as above. Cost: an eigenvalue problem of

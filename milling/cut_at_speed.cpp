@@ -55,14 +55,19 @@ GainOnCircle gain_of(const DiscreteCut& d) {
           stops_between(d.loop.flow)};
 }
 
-Resolution resolving(const CutAtSpeed& cut, double depth_m) {
+double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m) {
   const RelativeStructure& s = cut.structure;
   const Eigen::ArrayXd peak = peaks(s);
-  const double regenerates = 0.25 / (depth_m * mean_stiffness(cut.process, depth_m));
+  const double regenerates = 0.25 / (depth_m * stiffness);
   double fastest = 0.0;
   for (Index i = 0; i < s.poles.size(); ++i) {
     if (peak(i) >= std::min(0.05 * peak.maxCoeff(), regenerates)) fastest = std::max(fastest, std::abs(s.poles(i)));
   }
+  return fastest;
+}
+
+Resolution resolving(const CutAtSpeed& cut, double depth_m) {
+  const double fastest = fastest_that_matters(cut, mean_stiffness(cut.process, depth_m), depth_m);
   const double phase =
       fastest * longest_stretch_rad(cut.process, depth_m) * 30.0 / (std::numbers::pi * cut.spindle_speed_rpm);
   const int elements = std::max(1, static_cast<int>(std::ceil(phase / 14.0)));

@@ -37,6 +37,9 @@ struct DiscreteCut {
 /// the highest resonance. A grid that does not see a mode would call it stable.
 [[nodiscard]] Resolution resolving(const CutAtSpeed& cut, double depth_m);
 
+/// |λ| of that mode, rad/s; `stiffness` is the norm of the mean directional matrix, N/m².
+[[nodiscard]] double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m);
+
 /// Half as fine again, or about.
 [[nodiscard]] Resolution finer(Resolution r);
 

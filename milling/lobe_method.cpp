@@ -24,12 +24,8 @@ LobeRow row_from(const LobeMethod& method, double rpm, FoundCrossings found, con
   row.nodes = found.nodes;
   row.crossings = std::move(found.points);
   if (!row.crossings.empty()) {
-    const LobePoint& first = row.crossings.front();
-    row.limiting_depth_m = first.depth_m;
-    row.chatter_frequency_hz = first.chatter_frequency_hz;
-    row.kind = first.kind;
-    row.error_estimate = first.error_estimate;
-    if (first.error_estimate > options.error_tolerance) row.status = StabilityStatus::node_limit_reached;
+    take_limit_from_crossings(row);
+    if (row.error_estimate > options.error_tolerance) row.status = StabilityStatus::node_limit_reached;
     return row;
   }
   const Multiplier mu = method.multiplier_at(rpm, options.depth_limit_m);

@@ -18,6 +18,11 @@ std::string name(Bifurcation kind) {
   return "fold";
 }
 
+Bifurcation bifurcation_of(std::complex<double> mu) {
+  if (mu.imag() != 0.0) return Bifurcation::hopf;
+  return mu.real() < 0.0 ? Bifurcation::flip : Bifurcation::fold;
+}
+
 Bifurcation bifurcation_at(double theta_rad) {
   if (theta_rad == std::numbers::pi) return Bifurcation::flip;
   return theta_rad == 0.0 ? Bifurcation::fold : Bifurcation::hopf;

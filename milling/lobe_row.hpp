@@ -25,6 +25,9 @@ enum class StabilityStatus {
 
 [[nodiscard]] std::string name(Bifurcation kind);
 
+/// Of a multiplier on, inside or outside of the circle.
+[[nodiscard]] Bifurcation bifurcation_of(std::complex<double> mu);
+
 /// Of a multiplier e^{iθ}, 0 ≤ θ ≤ π.
 [[nodiscard]] Bifurcation bifurcation_at(double theta_rad);
 

@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "milling/critical_depths.hpp"
 #include "milling/product_rule.hpp"
-#include "milling/refined_crossing.hpp"
+#include "milling/row_search.hpp"
 
 namespace thinwall::milling {
 
@@ -34,19 +34,6 @@ Eigen::Matrix3cd receptance_slope(const RelativeStructure& s, double omega) {
       slope -= i_unit * residue.conjugate() / std::pow(i_unit * omega - std::conj(s.poles(k)), 2);
   }
   return slope;
-}
-
-/// |λ| of the fastest mode that could regenerate at this depth, as resolving() has it.
-double fastest_that_matters(const CutAtSpeed& cut, const Eigen::Matrix3cd& mean, double depth_m) {
-  const RelativeStructure& s = cut.structure;
-  const Eigen::ArrayXd peak = s.phi.colwise().norm().transpose().array() * s.b.colwise().norm().transpose().array() /
-                              s.poles.real().cwiseAbs().array();
-  const double regenerates = 0.25 / (depth_m * mean.norm());
-  double fastest = 0.0;
-  for (Index k = 0; k < s.poles.size(); ++k) {
-    if (peak(k) >= std::min(0.05 * peak.maxCoeff(), regenerates)) fastest = std::max(fastest, std::abs(s.poles(k)));
-  }
-  return fastest;
 }
 
 /// What the gain is made of at any angle.
@@ -109,7 +96,7 @@ HarmonicLoop harmonic_loop(const CutAtSpeed& cut, const std::vector<Eigen::Matri
   loop.structure = cut.structure;
   loop.yielding = cut.yielding;
   loop.period_s = tooth_period_s(cut.process.cutter, cut.spindle_speed_rpm);
-  const double fastest = fastest_that_matters(cut, harmonics.front(), depth_m);
+  const double fastest = fastest_that_matters(cut, harmonics.front().norm(), depth_m);
   const auto h = static_cast<Index>(harmonics.size()) - 1;
   loop.first = -1 - h - static_cast<Index>(std::ceil(2.0 * fastest * loop.period_s / (2.0 * pi)));
   const Index p = cut.yielding.cols();
@@ -151,20 +138,6 @@ ContactGrid harmonic_grid(const CutAtSpeed& cut, const std::vector<Eigen::Matrix
     }
   }
   return grid;
-}
-
-/// CriticalDepths up to `follow` times the first crossing, from small depths on until one is found.
-std::vector<Crossing> followed(const GainOnCircle& gain, const StabilityOptions& options, double& searched_m) {
-  CriticalDepths search(gain);
-  searched_m = 0.5 * search.none_below_m();
-  std::vector<Crossing> found;
-  do {
-    searched_m = std::min(options.depth_limit_m, 4.0 * searched_m);
-    found = search.up_to(searched_m);
-  } while (found.empty() && searched_m < options.depth_limit_m);
-  if (found.empty()) return found;
-  searched_m = std::min(options.depth_limit_m, options.follow * found.front().depth_m);
-  return search.up_to(searched_m * (1.0 + 1e-12));
 }
 
 /// The harmonic of the largest motion, Hz.
@@ -211,7 +184,7 @@ GainOnCircle multi_frequency_gain(const CutAtSpeed& cut, const std::vector<Eigen
 Multiplier harmonic_multiplier(const CutAtSpeed& cut, const std::vector<Eigen::Matrix3cd>& harmonics, double depth_m,
                                const StabilityOptions& options) {
   const double period = tooth_period_s(cut.process.cutter, cut.spindle_speed_rpm);
-  const double phase = fastest_that_matters(cut, harmonics.front(), depth_m) * period +
+  const double phase = fastest_that_matters(cut, harmonics.front().norm(), depth_m) * period +
                        2.0 * pi * static_cast<double>(harmonics.size() - 1);
   const int elements = std::max(1, static_cast<int>(std::ceil(phase / 14.0)));
   Resolution r{elements, static_cast<int>(std::ceil(4.0 + 0.5 * phase / elements))};
@@ -231,8 +204,7 @@ Multiplier harmonic_multiplier(const CutAtSpeed& cut, const std::vector<Eigen::M
     if (!enough && 3 * result.nodes < 2 * options.most_nodes) continue;
     result.value = {all(largest).real(), std::abs(all(largest).imag())};
     result.status = enough ? StabilityStatus::converged : StabilityStatus::node_limit_reached;
-    const bool real = result.value.imag() == 0.0;
-    result.kind = !real ? Bifurcation::hopf : result.value.real() < 0.0 ? Bifurcation::flip : Bifurcation::fold;
+    result.kind = bifurcation_of(result.value);
     result.chatter_frequency_hz =
         chatter_frequency_hz(cut, d, std::arg(result.value), modulation(d, depth_m, result.value * (1.0 + 1e-9)));
     return result;
@@ -247,13 +219,14 @@ FoundCrossings multi_frequency_crossings(const CutAtSpeed& cut, int harmonics, c
       multi_frequency_gain(cut, directional_harmonics(cut.process, harmonics == 0 ? 1 : harmonics / 2), depth);
   FoundCrossings found;
   found.nodes = harmonics;
-  for (const Crossing& crossing : followed(gain_of(loop), options, found.searched_m)) {
+  FirstCrossing first = first_crossing(gain_of(loop), options);
+  found.searched_m = follow(first, options);
+  for (const Crossing& crossing : first.found) {
     Crossing coarse = crossing;
     const bool kept = to_axis(other, 1.0 / crossing.depth_m, coarse);
     const double estimate = kept ? std::min(1.0, 1e-11 + 2.0 * std::abs(coarse.depth_m / crossing.depth_m - 1.0)) : 1.0;
-    const Bifurcation kind = crossing.theta_rad == pi ? Bifurcation::flip : Bifurcation::hopf;
-    found.points.push_back(
-        {crossing.depth_m, chatter_frequency(*loop, crossing), kind, crossing.unstable_change, estimate});
+    found.points.push_back({crossing.depth_m, chatter_frequency(*loop, crossing), bifurcation_at(crossing.theta_rad),
+                            crossing.unstable_change, estimate});
   }
   return found;
 }

@@ -15,12 +15,17 @@ std::vector<RefinedCrossing> refined(SearchGrids& grids, std::vector<Crossing> f
     all.push_back({std::move(crossing)});
     refine_until(1, 1.0, grids.to_level(), all.back());
   }
-  std::stable_sort(all.begin(), all.end(), [](const RefinedCrossing& a, const RefinedCrossing& b) {
-    return a.crossing.depth_m < b.crossing.depth_m;
-  });
+  const auto ascending = [&] {
+    std::stable_sort(all.begin(), all.end(), [](const RefinedCrossing& a, const RefinedCrossing& b) {
+      return a.crossing.depth_m < b.crossing.depth_m;
+    });
+  };
+  ascending();
+  // What lies this near to the first may turn out to be the first.
+  const double beside_first_m = all.empty() ? 0.0 : 1.01 * all.front().crossing.depth_m;
   int count = 0;  // of unstable multipliers above the crossings so far
   for (RefinedCrossing& c : all) {
-    const bool bounds = count == 0 || count + c.crossing.unstable_change == 0;
+    const bool bounds = count == 0 || count + c.crossing.unstable_change == 0 || c.crossing.depth_m <= beside_first_m;
     count += c.crossing.unstable_change;
     if (!bounds || c.crossing.depth_m > options.depth_limit_m) continue;
     refine_until(2, options.error_tolerance, grids.to_level(), c);
@@ -31,20 +36,8 @@ std::vector<RefinedCrossing> refined(SearchGrids& grids, std::vector<Crossing> f
     c.error_estimate += beyond_grids;
   }
   if (options.follow > 1.0 && grids.unstable(0, row.searched_m) != count) row.status = StabilityStatus::crossing_missed;
+  ascending();
   return all;
-}
-
-/// Further, to `follow` times the first crossing; the depth that was searched.
-double follow(FirstCrossing& first, const StabilityOptions& options) {
-  if (first.found.empty()) return first.searched_m;
-  if (options.follow == 1.0) {
-    first.found.resize(1);
-    return first.found.front().depth_m;
-  }
-  const double reach = std::min(options.depth_limit_m, options.follow * first.found.front().depth_m);
-  if (reach <= first.searched_m) return first.searched_m;
-  first.found = first.search.up_to(reach);
-  return reach;
 }
 
 }  // namespace
@@ -66,6 +59,19 @@ FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& o
     first.found = first.search.up_to(first.searched_m);
   } while (first.found.empty() && first.searched_m < options.depth_limit_m);
   return first;
+}
+
+double follow(FirstCrossing& first, const StabilityOptions& options) {
+  if (first.found.empty()) return first.searched_m;
+  const double first_m = first.found.front().depth_m;
+  if (options.follow == 1.0) {
+    std::erase_if(first.found, [&](const Crossing& c) { return c.depth_m > 1.1 * first_m; });
+    return first_m;
+  }
+  const double reach = std::min(options.depth_limit_m, options.follow * first_m);
+  if (reach <= first.searched_m) return first.searched_m;
+  first.found = first.search.up_to(reach);
+  return reach;
 }
 
 LobeRow row_from(SearchGrids& grids, FirstCrossing first, double spindle_speed_rpm, const StabilityOptions& options) {

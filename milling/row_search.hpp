@@ -41,6 +41,10 @@ struct FirstCrossing {
 
 [[nodiscard]] FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& options);
 
+/// Goes on to `follow` times the first crossing, if there is one; with `follow` = 1 those within a tenth of it are
+/// kept, one of which may turn out to be the first on a finer grid. Returns the depth that was searched, m.
+[[nodiscard]] double follow(FirstCrossing& first, const StabilityOptions& options);
+
 /// The row that follows from there: crossings up to `follow` times the first, each on a finer grid, those that bound a
 /// stable range to the tolerance; the two counts of limiting_depth() (stability.hpp). The status tells what failed. The
 /// limit is filled in if there is a crossing. Throws NumericalError as CriticalDepths.

@@ -16,6 +16,7 @@
 #include "milling/cut_at_speed.hpp"
 #include "milling/product_rule.hpp"
 #include "milling/row_search.hpp"
+#include "milling/stability.hpp"
 #include "milling/unstable_count.hpp"
 
 namespace thinwall::milling {
@@ -71,10 +72,7 @@ double mean_stiffness(const ContactGrid& grid) {
 }
 
 void require_usable(const MillingProcess& process, const StabilityOptions& options, double spindle_speed_rpm) {
-  std::vector<std::string> violations = validate(process);
-  const auto more = validate(options);
-  violations.insert(violations.end(), more.begin(), more.end());
-  require_valid(violations);
+  milling::require_usable(process, options);
   (void)tooth_period_s(process.cutter, spindle_speed_rpm);  // refuses a bad speed
   if (!equal_teeth(process) || process.cutter.depends_on_depth() || process.damping.C != 0.0) {
     throw core::InputError(

@@ -83,8 +83,7 @@ Multiplier multiplier_of(const CutAtSpeed& cut, double depth_m, const StabilityO
     const bool enough = level > 1 && result.error_estimate <= options.error_tolerance;
     if (!enough && grids.more_after(level)) continue;
     result.status = enough ? StabilityStatus::converged : StabilityStatus::node_limit_reached;
-    const bool real = result.value.imag() == 0.0;
-    result.kind = !real ? Bifurcation::hopf : result.value.real() < 0.0 ? Bifurcation::flip : Bifurcation::fold;
+    result.kind = bifurcation_of(result.value);
     result.chatter_frequency_hz =
         chatter_frequency_hz(cut, fine, std::arg(result.value), modulation(fine, depth_m, result.value * (1.0 + 1e-9)));
     return result;

@@ -35,7 +35,7 @@ double change(const DiscreteCut& coarse, const DiscreteCut& fine, const std::vec
 }
 
 Column column(const CutAtSpeed& cut, const std::vector<double>& depths_m, const StabilityOptions& options) {
-  Resolution r = resolving(cut, *std::max_element(depths_m.begin(), depths_m.end()));
+  Resolution r = resolving(cut, depths_m.back());
   DiscreteCut coarse = discrete(cut, r, 0.0);
   Column result;
   while (true) {
@@ -71,10 +71,11 @@ StabilityMap stability_map(const RelativeStructure& structure, const MillingProc
                            const StabilityOptions& options) {
   require_usable(process, options);
   const auto usable = [](double depth) { return depth > 0.0 && std::isfinite(depth); };
-  if (spindle_speeds_rpm.empty() || depths_m.empty() || !std::all_of(depths_m.begin(), depths_m.end(), usable)) {
+  if (spindle_speeds_rpm.empty() || depths_m.empty() || !std::is_sorted(depths_m.begin(), depths_m.end()) ||
+      !std::all_of(depths_m.begin(), depths_m.end(), usable)) {
     throw core::InputError("stability map: " + std::to_string(spindle_speeds_rpm.size()) + " speeds and " +
                            std::to_string(depths_m.size()) +
-                           " depths, one of each at least is needed, and depths above 0; correct the ranges");
+                           " depths, one of each at least is needed, and ascending depths above 0; correct the ranges");
   }
   StabilityMap map{spindle_speeds_rpm, depths_m, {}};
   map.modulus.resize(static_cast<Eigen::Index>(depths_m.size()), static_cast<Eigen::Index>(spindle_speeds_rpm.size()));

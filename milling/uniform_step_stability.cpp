@@ -27,11 +27,6 @@ double growth(UniformStepMap& map, double depth_m) {
   return std::log(std::abs(map.dominant().value));
 }
 
-Bifurcation kind_of(complex<double> mu) {
-  if (mu.imag() != 0.0) return Bifurcation::hopf;
-  return mu.real() < 0.0 ? Bifurcation::flip : Bifurcation::fold;
-}
-
 /// The frequency of (±arg μ + 2πk)/T at which the tool moves most.
 double chatter_frequency(const CutAtSpeed& cut, const UniformStepMap& map, const DominantEigenvalue& mu) {
   const double period = tooth_period_s(cut.process.cutter, cut.spindle_speed_rpm);
@@ -88,7 +83,7 @@ LobePoint crossing_between(const CutAtSpeed& cut, StepRule rule, UniformStepMap&
   point.depth_m = bracketed_root([&](double depth) { return growth(map, depth); }, low, g_low, high, g_high, 1e-11);
   map.set_depth(point.depth_m);
   const DominantEigenvalue mu = map.dominant();
-  point.kind = kind_of(mu.value);
+  point.kind = bifurcation_of(mu.value);
   point.unstable_change = (g_high > g_low ? 1 : -1) * (point.kind == Bifurcation::hopf ? 2 : 1);
   point.chatter_frequency_hz = chatter_frequency(cut, map, mu);
   point.error_estimate = estimate_at(finer, rule, point.depth_m);
@@ -106,7 +101,7 @@ Multiplier uniform_step_multiplier(const CutAtSpeed& cut, StepRule rule, int ste
   result.value = mu.value;
   result.modulus = std::abs(mu.value);
   result.error_estimate = estimate_from_distance(rule, std::expm1(growth(finer, depth_m) - std::log(result.modulus)));
-  result.kind = kind_of(mu.value);
+  result.kind = bifurcation_of(mu.value);
   result.chatter_frequency_hz = chatter_frequency(cut, map, mu);
   result.nodes = steps;
   return result;

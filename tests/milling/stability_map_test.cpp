@@ -78,6 +78,7 @@ TEST(StabilityMap, RefusesEmptyRangesAndDepthsThatAreNotPositive) {
   EXPECT_THROW((void)stability_map(two_modes(), two_teeth(), {}, {1e-3}, {}), core::InputError);
   EXPECT_THROW((void)stability_map(two_modes(), two_teeth(), {5000.0}, {}, {}), core::InputError);
   EXPECT_THROW((void)stability_map(two_modes(), two_teeth(), {5000.0}, {1e-3, 0.0}, {}), core::InputError);
+  EXPECT_THROW((void)stability_map(two_modes(), two_teeth(), {5000.0}, {2e-3, 1e-3}, {}), core::InputError);
 }
 
 }  // namespace
