@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <functional>
 #include <numbers>
 
 #include "app/case_writer.hpp"
@@ -209,21 +210,27 @@ nlohmann::json records(const std::vector<io::FileRecord>& files) {
 }  // namespace
 
 void write_results(const fs::path& folder, const Case& source, const Results& results) {
-  const auto& points = source.response.points;
   for (const char* name : subfolders) fs::create_directories(folder / name);
-  if (results.finite_elements) write_part_modes(folder / "modes", results);
-  if (results.finite_elements && results.coupled && results.coupled->modal)
-    write_coupled_modes(folder / "modes", results);
-  if (results.finite_elements && results.finite_elements->damped)
-    io::write_mat(folder / "models" / "part.mat", *results.finite_elements->damped);
-  if (results.part) write_frf(folder / "frf", "part", at_points(results.part->response, points));
-  if (results.robot) write_frf(folder / "frf", "robot", results.robot->response);
-  if (results.coupled) {
-    write_frf(folder / "frf", "coupled_receptance", at_points(results.coupled->receptance.response, points));
-    if (results.coupled->spatial_response)
-      write_frf(folder / "frf", "coupled_spatial", at_points(*results.coupled->spatial_response, points));
+  std::vector<std::function<void()>> files;  // that may be written side by side
+  if (results.finite_elements) {
+    files.emplace_back([&] {  // one after the other: VTK's first objects set up what all share
+      write_part_modes(folder / "modes", results);
+      if (results.coupled && results.coupled->modal) write_coupled_modes(folder / "modes", results);
+    });
   }
-  for (const auto& lobes : results.lobes) write_lobes(folder / "lobes", lobes);
+  if (results.finite_elements && results.finite_elements->damped)
+    files.emplace_back([&] { io::write_mat(folder / "models" / "part.mat", *results.finite_elements->damped); });
+  const auto add_frf = [&](const std::string& name, const dynamics::ResponseModel& response) {
+    files.emplace_back([&, name] { write_frf(folder / "frf", name, at_points(response, source.response.points)); });
+  };
+  if (results.part) add_frf("part", results.part->response);
+  if (results.coupled) {
+    add_frf("coupled_receptance", results.coupled->receptance.response);
+    if (results.coupled->spatial_response) add_frf("coupled_spatial", *results.coupled->spatial_response);
+  }
+  if (results.robot) files.emplace_back([&] { write_frf(folder / "frf", "robot", results.robot->response); });
+  for (const auto& lobes : results.lobes) files.emplace_back([&] { write_lobes(folder / "lobes", lobes); });
+  core::parallel_for(files.size(), [&](std::size_t i) { files[i](); });
 }
 
 void publish(const fs::path& staging, const fs::path& folder) {

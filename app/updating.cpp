@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <set>
 
 #include "app/least_squares.hpp"
 #include "app/part_stage.hpp"
@@ -62,6 +63,7 @@ class PartEvaluation {
     const fem::Model model = part_model(now, stretched(mesh_, start_size_, box_size(*now.part)), order_);
     const fem::Factored factored = fem::factorise(model);
     fem::ModeOptions options;
+    options.inverse_residual = 1e-6;  // far below what a fit can tell
     options.count = 8;
     for (const auto& target : updating_.targets) options.count = std::max(options.count, target.rank + 6);
     const fem::Modes modes = fem::modes(model, factored, options);
@@ -88,7 +90,9 @@ class PartEvaluation {
   Eigen::MatrixXd reference_;  // shapes of the first evaluation, for MAC
 };
 
-double coupled_value(const UpdatingTarget& target, const Component& part, const CouplingResult& coupled) {
+/// `line`: of the frequency axis, for this target.
+double coupled_value(const UpdatingTarget& target, const Component& part, const CouplingResult& coupled,
+                     Eigen::Index line) {
   if (target.quantity == "coupled_frequency") {
     if (target.match == "participation") return ranked(target, participating_modes(*coupled.modal, target.point));
     const auto modes = dynamics::oscillating_modes(*coupled.modal);
@@ -96,7 +100,8 @@ double coupled_value(const UpdatingTarget& target, const Component& part, const 
     return dynamics::summarise(coupled.modal->poles(modes[static_cast<std::size_t>(target.rank) - 1])).frequency_hz;
   }
   const auto row = static_cast<Eigen::Index>(dynamics::row_of(part.response.responses, target.point));
-  return 1.0 - std::abs(coupled.receptance.response.H[0](row, row)) / std::abs(part.response.H[0](row, row));
+  const auto at = static_cast<std::size_t>(line);
+  return 1.0 - std::abs(coupled.receptance.response.H[at](row, row)) / std::abs(part.response.H[at](row, row));
 }
 
 /// Frequency at which a reduction is read: the one given, or that of the part's mode.
@@ -106,23 +111,33 @@ double reading_frequency(const UpdatingTarget& target, const dynamics::ModalMode
   return ranked(target, participating_modes(part, target.point));
 }
 
+/// The frequencies that the targets are read at, rising, each once.
+dynamics::FrequencyAxis axis_of(const std::vector<double>& reading_hz) {
+  const std::set<double> lines(reading_hz.begin(), reading_hz.end());
+  dynamics::FrequencyAxis axis;
+  axis.hz.resize(static_cast<Eigen::Index>(lines.size()));
+  std::copy(lines.begin(), lines.end(), axis.hz.begin());
+  return axis;
+}
+
 Eigen::VectorXd evaluate_coupled(const Case& now, const Updating& updating, const dynamics::SpatialModel& reduced) {
   std::vector<reduction::IdentifiedMode> identified;
-  const dynamics::SpatialModel part_matrices = damped(now, reduced, identified);
+  const dynamics::SpatialModel matrices = damped(now, reduced, identified);
+  Component part = component(matrices, axis_of({1.0}));
+  if (!part.modal) throw core::InputError("updating on = \"coupled\" needs a part that is held; add part.supports");
+  std::vector<double> reading_hz;
+  reading_hz.reserve(updating.targets.size());
+  for (const UpdatingTarget& target : updating.targets) reading_hz.push_back(reading_frequency(target, *part.modal));
+  const dynamics::FrequencyAxis axis = axis_of(reading_hz);
+  part.response = matrices.has_structural_damping() ? dynamics::direct_response(matrices, axis)
+                                                    : dynamics::to_response(*part.modal, axis);
+  const Component robot = robot_component(now, axis);
+  if (!robot.spatial) throw core::InputError("updating on = \"coupled\" needs a robot of one mode, not a measured one");
+  const CouplingResult coupled = couple(now, part, robot);
   Eigen::VectorXd values(static_cast<Eigen::Index>(updating.targets.size()));
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    const UpdatingTarget& target = updating.targets[static_cast<std::size_t>(i)];
-    dynamics::FrequencyAxis axis;
-    axis.hz = Eigen::VectorXd::Constant(1, 1.0);
-    Component part = component(part_matrices, axis);
-    if (!part.modal) throw core::InputError("updating on = \"coupled\" needs a part that is held; add part.supports");
-    axis.hz(0) = reading_frequency(target, *part.modal);
-    part.response = part_matrices.has_structural_damping() ? dynamics::direct_response(part_matrices, axis)
-                                                           : dynamics::to_response(*part.modal, axis);
-    const Component robot = robot_component(now, axis);
-    if (!robot.spatial)
-      throw core::InputError("updating on = \"coupled\" needs a robot of one mode, not a measured one");
-    values(i) = coupled_value(target, part, couple(now, part, robot));
+  for (std::size_t i = 0; i < updating.targets.size(); ++i) {
+    const auto line = std::lower_bound(axis.hz.begin(), axis.hz.end(), reading_hz[i]) - axis.hz.begin();
+    values(static_cast<Eigen::Index>(i)) = coupled_value(updating.targets[i], part, coupled, line);
   }
   return values;
 }

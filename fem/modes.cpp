@@ -22,7 +22,8 @@ linalg::Eigenpairs solve(const Model& model, const Factored& factored, const Mod
     const double omega = 2.0 * std::numbers::pi * *options.up_to_hz;
     return linalg::eigenpairs_up_to(model.K, model.M, inverse_of(factored), omega * omega);
   }
-  return linalg::lowest_eigenpairs(model.K, model.M, inverse_of(factored), options.count + model.rigid_motions);
+  return linalg::lowest_eigenpairs(model.K, model.M, inverse_of(factored), options.count + model.rigid_motions,
+                                   options.inverse_residual);
 }
 
 /// ε tr K / tr M. K's entries are rounded at ε of those of the stiffest elements, and so are the Rayleigh quotients of

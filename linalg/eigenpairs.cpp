@@ -75,9 +75,10 @@ void require_count(int count, Eigen::Index rows) {
 
 }  // namespace
 
-Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, int count) {
+Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, int count,
+                             double inverse_residual) {
   require_count(count, K.rows());
-  return block_lanczos(M, inverse, {.count = count});
+  return block_lanczos(M, inverse, {.count = count, .tolerance = inverse_residual});
 }
 
 Eigenpairs eigenpairs_up_to(const SparseMatrix&, const SparseMatrix& M, const ShiftedInverse& inverse,

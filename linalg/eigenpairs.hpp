@@ -30,9 +30,11 @@ struct [[nodiscard]] Eigenpairs {
 };
 
 /// The `count` eigenpairs next above σ, by block_lanczos(). K, M: n × n; M positive definite on the range of the
-/// inverse; σ below the wanted eigenvalues; 1 ≤ count < n. Throws InputError for another count. Cost: some eight solves
-/// of eight right-hand sides for ten pairs.
-Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, int count);
+/// inverse; σ below the wanted eigenvalues; 1 ≤ count < n; `inverse_residual` (≤ 1e-6) is reached by all of them, λ is
+/// off by its square. Throws InputError for another count. Cost: some eight solves of eight right-hand sides for ten
+/// pairs.
+Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, int count,
+                             double inverse_residual = 3e-10);
 
 /// All eigenpairs with λ ≤ lambda_max, by the same method, which goes on until it has found one beyond.
 /// Throws InputError unless lambda_max > 0.

@@ -76,7 +76,8 @@ struct LobeRow {
   double chatter_frequency_hz = 0.0;  ///< at the crossing, or of the least damped motion at the limit
   Bifurcation kind = Bifurcation::hopf;
   double error_estimate = 0.0;       ///< relative, of the depth; at the limit of |μ|
-  double searched_m = 0.0;           ///< the depth up to which crossings were looked for
+  double searched_m = 0.0;           ///< the depth up to which crossings are known: they add up to the multipliers
+                                     ///< that are unstable there. Less than was wanted if deeper ones do not
   std::vector<LobePoint> crossings;  ///< all up to there, ascending: islands and gaps too. Those that bound a
                                      ///< stable range meet the tolerance; deep in an unstable range, beyond one whose
                                      ///< estimate exceeds 1e-3, others may be missing

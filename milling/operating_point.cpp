@@ -95,7 +95,9 @@ LobeRow row_to(const RowAt& row_at, const OperatingPoint& point, const Stability
   if (row.crossings.empty() || row.searched_m >= point.depth_m) return row;
   StabilityOptions further = options;
   further.follow = 1.05 * point.depth_m / row.crossings.front().depth_m;
-  return row_at(point.spindle_speed_rpm, further);
+  row = row_at(point.spindle_speed_rpm, further);
+  if (row.searched_m < point.depth_m) row.status = StabilityStatus::crossing_missed;
+  return row;
 }
 
 SpeedMargin speed_margin(const RowAt& row_at, const std::vector<LobeRow>& chart, const OperatingPoint& point,

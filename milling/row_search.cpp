@@ -1,42 +1,74 @@
 #include "milling/row_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace thinwall::milling {
 
 namespace {
 
-/// All crossings in ascending depth; those that bound a stable range to the tolerance.
-std::vector<RefinedCrossing> refined(SearchGrids& grids, std::vector<Crossing> found, const StabilityOptions& options,
-                                     LobeRow& row) {
-  std::vector<RefinedCrossing> all;
-  for (Crossing& crossing : found) {
-    all.push_back({std::move(crossing)});
-    refine_until(1, 1.0, grids.to_level(), all.back());
-  }
-  const auto ascending = [&] {
-    std::stable_sort(all.begin(), all.end(), [](const RefinedCrossing& a, const RefinedCrossing& b) {
-      return a.crossing.depth_m < b.crossing.depth_m;
-    });
-  };
-  ascending();
+void sort_by_depth(std::vector<RefinedCrossing>& all) {
+  std::stable_sort(all.begin(), all.end(), [](const RefinedCrossing& a, const RefinedCrossing& b) {
+    return a.crossing.depth_m < b.crossing.depth_m;
+  });
+}
+
+/// Without the last: what lies as deep is not known.
+void drop_last(std::vector<RefinedCrossing>& all, LobeRow& row) {
+  const double deepest = all.back().crossing.depth_m;
+  all.pop_back();
+  row.searched_m = std::sqrt(all.back().crossing.depth_m * std::min(deepest, row.searched_m));
+}
+
+/// The crossings that bound a stable range to the tolerance; `all` ends before one that gets lost. The changes of all.
+int refine_boundaries(SearchGrids& grids, std::vector<RefinedCrossing>& all, const StabilityOptions& options,
+                      LobeRow& row) {
   // What lies this near to the first may turn out to be the first.
-  const double beside_first_m = all.empty() ? 0.0 : 1.01 * all.front().crossing.depth_m;
+  const double beside_first_m = 1.01 * all.front().crossing.depth_m;
   int count = 0;  // of unstable multipliers above the crossings so far
-  for (RefinedCrossing& c : all) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    RefinedCrossing& c = all[i];
     const bool bounds = count == 0 || count + c.crossing.unstable_change == 0 || c.crossing.depth_m <= beside_first_m;
     count += c.crossing.unstable_change;
     if (!bounds || c.crossing.depth_m > options.depth_limit_m) continue;
     refine_until(2, options.error_tolerance, grids.to_level(), c);
+    if (!c.kept && c.crossing.depth_m > beside_first_m) {
+      count -= c.crossing.unstable_change;
+      while (all.size() > i) drop_last(all, row);
+      return count;
+    }
     const double beyond_grids = c.kept ? grids.error_beyond_grids(c.level, c.crossing) : 0.0;
     if (!c.kept) row.status = StabilityStatus::crossing_missed;
     else if (c.error_estimate > options.error_tolerance) row.status = StabilityStatus::node_limit_reached;
     else if (beyond_grids > options.error_tolerance) row.status = StabilityStatus::range_limited;
     c.error_estimate += beyond_grids;
   }
-  if (options.follow > 1.0 && grids.unstable(0, row.searched_m) != count) row.status = StabilityStatus::crossing_missed;
-  ascending();
+  return count;
+}
+
+/// All crossings in ascending depth, as deep as they add up to the count of unstable multipliers.
+std::vector<RefinedCrossing> refined(SearchGrids& grids, std::vector<Crossing> found, const StabilityOptions& options,
+                                     LobeRow& row) {
+  std::vector<RefinedCrossing> all;
+  all.reserve(found.size());
+  for (Crossing& crossing : found) {
+    all.push_back({std::move(crossing)});
+    refine_until(1, 1.0, grids.to_level(), all.back());
+  }
+  sort_by_depth(all);
+  int count = all.empty() ? 0 : refine_boundaries(grids, all, options, row);
+  if (options.follow > 1.0) {
+    while (grids.unstable(0, row.searched_m) != count) {
+      if (all.size() <= 1) {
+        row.status = StabilityStatus::crossing_missed;
+        break;
+      }
+      count -= all.back().crossing.unstable_change;
+      drop_last(all, row);
+    }
+  }
+  sort_by_depth(all);
   return all;
 }
 
@@ -61,17 +93,21 @@ FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& o
   return first;
 }
 
+double wanted_m(const FirstCrossing& first, const StabilityOptions& options) {
+  if (first.found.empty()) return first.searched_m;
+  return std::min(options.depth_limit_m, options.follow * first.found.front().depth_m);
+}
+
 double follow(FirstCrossing& first, const StabilityOptions& options) {
   if (first.found.empty()) return first.searched_m;
-  const double first_m = first.found.front().depth_m;
+  const double wanted = wanted_m(first, options);
   if (options.follow == 1.0) {
-    std::erase_if(first.found, [&](const Crossing& c) { return c.depth_m > 1.1 * first_m; });
-    return first_m;
+    std::erase_if(first.found, [&](const Crossing& c) { return c.depth_m > 1.1 * wanted; });
+    return wanted;
   }
-  const double reach = std::min(options.depth_limit_m, options.follow * first_m);
-  if (reach <= first.searched_m) return first.searched_m;
-  first.found = first.search.up_to(reach);
-  return reach;
+  if (wanted <= first.searched_m) return first.searched_m;
+  first.found = first.search.up_to(wanted);
+  return wanted;
 }
 
 LobeRow row_from(SearchGrids& grids, FirstCrossing first, double spindle_speed_rpm, const StabilityOptions& options) {

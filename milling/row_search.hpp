@@ -41,6 +41,9 @@ struct FirstCrossing {
 
 [[nodiscard]] FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& options);
 
+/// The depth up to which a row's crossings are wanted, m: `follow` times the first, or the depth limit.
+[[nodiscard]] double wanted_m(const FirstCrossing& first, const StabilityOptions& options);
+
 /// Goes on to `follow` times the first crossing, if there is one; with `follow` = 1 those within a tenth of it are
 /// kept, one of which may turn out to be the first on a finer grid. Returns the depth that was searched, m.
 [[nodiscard]] double follow(FirstCrossing& first, const StabilityOptions& options);

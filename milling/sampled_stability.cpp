@@ -218,9 +218,10 @@ LobeRow row_of(const SampledCut& cut, const StabilityOptions& options) {
       fineness = needed;
       continue;
     }
+    const double wanted = wanted_m(first, options);
     LobeRow row = row_from(grids, std::move(first), cut.spindle_speed_rpm, options);
     if (row.crossings.empty()) describe_depth_limit(cut, grids, options.depth_limit_m, row);
-    if (sound(row) || ++tries == 2 || 3 * row.nodes >= options.most_nodes) return row;
+    if ((sound(row) && row.searched_m >= wanted) || ++tries == 2 || 3 * row.nodes >= options.most_nodes) return row;
     fineness = finer(fineness);
   }
 }

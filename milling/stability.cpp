@@ -121,9 +121,10 @@ LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
       resolution = needed;
       continue;
     }
+    const double wanted = wanted_m(first, options);
     LobeRow row = row_from(grids, std::move(first), cut.spindle_speed_rpm, options);
     if (row.crossings.empty()) describe_depth_limit(row, cut, options);
-    if (sound(row) || 3 * row.nodes >= options.most_nodes) return row;
+    if ((sound(row) && row.searched_m >= wanted) || 3 * row.nodes >= options.most_nodes) return row;
     resolution = finer(resolution);
   }
 }

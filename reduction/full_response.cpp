@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "linalg/tall.hpp"
 
 namespace thinwall::reduction {
 
@@ -19,17 +20,17 @@ FullResponse full_response(const linalg::SparseMatrix& K, const linalg::SparseMa
                            " Hz, beyond 0.9 of the highest mode known: compute more modes (modes.up_to)");
   }
   const Eigen::MatrixXd& Phi = pairs.Phi;
-  const Eigen::MatrixXd MPhi = M * Phi;
+  const Eigen::MatrixXd MPhi = linalg::symmetric_product(M, Phi);
   const Eigen::MatrixXd W = interface.W;
   const Eigen::MatrixXd amplitude = interface.W.transpose() * Phi;
   Eigen::MatrixXd X = inverse.apply(W);
   Eigen::MatrixXd undamped = Eigen::MatrixXd::Zero(W.rows(), W.cols());  // the series at the highest frequency
   std::vector<Eigen::MatrixXd> moments;  // times ω_max^{2k}, which keeps them of one size
   for (double power = 1.0; power > 1e-14; power *= quotient) {
-    X -= Phi * (MPhi.transpose() * X);
+    linalg::tall_subtract(X, Phi, linalg::tall_gram(MPhi, X));
     undamped += X;
     moments.emplace_back(interface.W.transpose() * X);
-    X = omega_max * omega_max * inverse.apply(M * X);
+    X = omega_max * omega_max * inverse.apply(linalg::symmetric_product(M, X));
   }
   FullResponse result;
   const Eigen::VectorXd dynamic = (pairs.lambda.array() - omega_max * omega_max).inverse();
