@@ -82,7 +82,7 @@ void add_damping_torque(const FedCut& given, const ContactGrid& grid, const Eige
     const Eigen::VectorXd node = grid.node_rad.segment(e.first_node, e.nodes);
     for (int i = 0; i < e.nodes; ++i) {
       const Eigen::Vector3d slope = q.middleCols(e.first_node, e.nodes) * lagrange_slopes(node, i);
-      const Advance advance = [&](const Sweep&, double) { return slope; };
+      const Advance advance = [&](const Sweep&, double) -> const Eigen::Vector3d& { return slope; };
       torque(e.first_node + i) +=
           cutting_load(process.cutter, rubbing, given.shape, given.depth_m, node(i), advance).torque;
     }
@@ -98,9 +98,10 @@ Eigen::RowVectorXd torque_of(const FedCut& given, const PeriodicMotion& motion) 
   for (Index i = 0; i < torque.size(); ++i) {
     const double theta = grid.node_rad(i);
     const Advance advance = [&](const Sweep& sweep, double height) -> Eigen::Vector3d {
-      const Eigen::Vector3d fed = given.feed(sweep, height);
-      if (given.cycle.equal_teeth) return fed;
-      return fed + q.col(i) - displacement(motion, moment_at(grid, theta - sweep.delay_rad(height)));
+      Eigen::Vector3d moved = given.feed(sweep, height);
+      if (!given.cycle.equal_teeth)
+        moved += q.col(i) - displacement(motion, moment_at(grid, theta - sweep.delay_rad(height)));
+      return moved;
     };
     torque(i) = cutting_load(cutter, given.cycle, given.shape, given.depth_m, theta, advance).torque;
   }
@@ -123,6 +124,7 @@ void add_run(const ContactGrid& grid, double from, double to, bool in_cut, doubl
   if (to - from < 1e-9) return;
   const int steps = std::max(8, static_cast<int>(std::ceil((to - from) * per_rad)));
   samples.runs.push_back({static_cast<Index>(samples.moments.size()), steps + 1});
+  samples.moments.reserve(samples.moments.size() + static_cast<std::size_t>(steps) + 1);
   for (int i = 0; i <= steps; ++i) {
     const double at = from + (to - from) * i / steps;
     const double inside = std::clamp(at, from + 1e-10, to - 1e-10);

@@ -45,8 +45,8 @@ struct ForcedVibration {
 ///
 ///     (I + w Z(1)) c = chipᵀ [q_s(t) − Σ weight q_s(past)],       q_s the motion under f_s alone        (loop_gain())
 ///
-/// With equal teeth the delay is the period: c = 0, regeneration does not act, and f = f_s (Altintas 2012, ch. 4.2;
-/// Schmitz & Smith 2009, ch. 5). Forces that are not linear in the chip are taken as linearised in the process. The
+/// With equal teeth the delay is the period: c = 0, regeneration does not act, and f = f_s (Schmitz & Smith
+/// 2009, ch. 5). Forces that are not linear in the chip are taken as linearised in the process. The
 /// motion exists beyond the stability boundary as well but is not what one sees there: ask multiplier_at() first.
 ///
 /// Every finer grid has half as many samples again, so that the estimate, which is the largest change of any figure

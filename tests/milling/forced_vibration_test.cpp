@@ -288,8 +288,8 @@ TEST(ForcedVibration, TorqueIsTheTangentialForceTimesTheRadius) {
 }
 
 TEST(ForcedVibration, MeanForcesOfASlotAreTheClosedForms) {
-  // Altintas 2012, Eq. 2.27 (slot, entry 0, exit π): F_x = −z w/4 K_r f − z w/π K_re, F_y = z w/4 K_t f + z w/π K_te,
-  // F_z = z w/π K_a f + z w/2 K_ae; a helix changes the length of the edge alone.
+  // Budak, Altintas & Armarego 1996, average forces of a slot (entry 0, exit π): F_x = −z w/4 K_r f − z w/π K_re, F_y =
+  // z w/4 K_t f + z w/π K_te, F_z = z w/π K_a f + z w/2 K_ae; a helix changes the length of the edge alone.
   const CuttingCoefficients& k = with_edges;
   const double w = 1e-4;
   for (const int z : {2, 3}) {
