@@ -57,6 +57,18 @@ std::string depth_margin_text(const json& p) {
                      estimate_text(p["depth_error_estimate_relative"]));
 }
 
+std::string forced_text(const json& forced) {
+  std::string text = "    forced: ";
+  if (const json& error = forced["surface_location_error_m"]; !error.is_null()) {
+    const double um = error.get<double>() * 1e6;
+    text += fmt::format("surface {:.3g} um{}, ", std::abs(um), um > 0.0 ? " overcut" : um < 0.0 ? " undercut" : "");
+  }
+  text += fmt::format("peak force {:.3g} N, torque {:.3g} N m", forced["peak_force_n"].get<double>(),
+                      forced["peak_torque_n_m"].get<double>());
+  if (forced["status"] != "converged") text += ", error " + estimate_text(forced["error_estimate_relative"]);
+  return text + '\n';
+}
+
 std::string point_text(const json& p) {
   const double rpm = p["spindle_speed_rpm"].get<double>();
   std::string text =
@@ -71,6 +83,7 @@ std::string point_text(const json& p) {
   text += fmt::format("\n    {}\n    speeds {} to {} at this depth\n", depth_margin_text(p),
                       speed_text(p["boundary_below_rpm"], rpm, "from the chart's lowest"),
                       speed_text(p["boundary_above_rpm"], rpm, "the chart's highest"));
+  if (const json& forced = p["forced_vibration"]; !forced.is_null()) text += forced_text(forced);
   return text;
 }
 

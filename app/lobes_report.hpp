@@ -12,7 +12,8 @@ namespace thinwall::app {
 /// "part alone", "with the robot", "tool".
 [[nodiscard]] std::string chart_title(const std::string& chart);
 
-/// Three lines for every operating point of a summary; empty if it has none.
+/// Three lines for every operating point of a summary, a fourth where its forced vibration is known; empty if it has
+/// none.
 [[nodiscard]] std::string operating_points_text(const nlohmann::json& summary);
 
 }  // namespace thinwall::app

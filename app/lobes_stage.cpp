@@ -1,5 +1,7 @@
 #include "app/lobes_stage.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <cmath>
 #include <variant>
 
@@ -19,6 +21,21 @@ milling::StabilityOptions options_of(const LobesOptions& wanted) {
   options.depth_limit_m = wanted.depth_limit;
   options.error_tolerance = wanted.tolerance;
   return options;
+}
+
+/// Of a stable point; none without poles or a feed. What the library does not model is a warning.
+std::optional<milling::ForcedVibration> forced_at(const Case& source, const PointStability& found,
+                                                  const CutStructure& structure,
+                                                  const milling::MillingProcess& process) {
+  const auto* poles = std::get_if<milling::RelativeStructure>(&structure);
+  const auto feed = feed_per_tooth(source);
+  if (poles == nullptr || !feed || !found.stable) return std::nullopt;
+  try {
+    return milling::forced_vibration(*poles, process, found.point.spindle_speed_rpm, found.point.depth_m, *feed);
+  } catch (const core::InputError& error) {
+    spdlog::warn("{}", error.what());
+    return std::nullopt;
+  }
 }
 
 /// |μ| where there are poles, and the margins to the boundary.
@@ -61,8 +78,10 @@ NamedLobes compute_lobes(const Case& source, const std::string& name, const dyna
   result.lobes =
       std::visit([&](const auto& s) { return milling::stability_lobes(s, process, speeds, options); }, structure);
   if (source.cutting->spindle_speed_rpm) result.at_spindle_speed = row_at(*source.cutting->spindle_speed_rpm, options);
-  for (const auto& point : points)
+  for (const auto& point : points) {
     result.points.push_back(stability_of(point, structure, process, row_at, result.lobes, options));
+    result.points.back().forced = forced_at(source, result.points.back(), structure, process);
+  }
   return result;
 }
 

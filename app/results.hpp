@@ -15,6 +15,7 @@
 #include "fem/modes.hpp"
 #include "fem/to_tolerance.hpp"
 #include "mesh/quality.hpp"
+#include "milling/forced_vibration.hpp"
 #include "milling/lobes.hpp"
 #include "milling/operating_point.hpp"
 #include "reduction/craig_bampton.hpp"
@@ -71,6 +72,7 @@ struct PointStability {
   milling::DepthMargin depth;
   milling::SpeedMargin speed;
   milling::StabilityStatus status = milling::StabilityStatus::converged;
+  std::optional<milling::ForcedVibration> forced;  ///< of a stable point where poles and the feed are known
 };
 
 struct NamedLobes {

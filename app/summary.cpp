@@ -190,6 +190,17 @@ json lobes_of(const NamedLobes& named) {
   return result;
 }
 
+json forced_of(const milling::ForcedVibration& v) {
+  const auto& q = v.peak_to_peak_m;
+  return {{"surface_location_error_m", v.surface_location_error_m ? json(*v.surface_location_error_m) : json(nullptr)},
+          {"peak_force_n", v.peak_force_n},
+          {"peak_torque_n_m", v.peak_torque_n_m},
+          {"mean_power_w", v.mean_power_w},
+          {"peak_to_peak_m", {q.x(), q.y(), q.z()}},
+          {"status", milling::name(v.status)},
+          {"error_estimate_relative", finite(v.error_estimate)}};
+}
+
 json point_of(const std::string& chart, const PointStability& found) {
   const double depth = found.point.depth_m;
   const bool by_poles = found.multiplier.has_value();
@@ -214,6 +225,7 @@ json point_of(const std::string& chart, const PointStability& found) {
   result["bifurcation"] =
       !frequency ? json(nullptr) : json(milling::name(by_poles ? found.multiplier->kind : boundary.kind));
   result["depth_error_estimate_relative"] = found.depth.at_limit ? json(nullptr) : finite(boundary.error_estimate);
+  result["forced_vibration"] = found.forced ? forced_of(*found.forced) : json(nullptr);
   return result;
 }
 

@@ -63,16 +63,6 @@ void add_contacts(const Eigen::Matrix3d& A, int node, const std::vector<Past>& p
     contacts.push_back({node, size(k) * svd.matrixU().col(k), svd.matrixV().col(k), past});
 }
 
-/// Heights of an edge in the cut s rad after its tip entered, as shares of the depth.
-struct Heights {
-  double low = 0.0, high = 1.0;
-};
-
-Heights in_cut(const Sweep& sweep, double s) {
-  if (sweep.lag_rad == 0.0) return {};
-  return {std::clamp((s - sweep.arc_rad) / sweep.lag_rad, 0.0, 1.0), std::clamp(s / sweep.lag_rad, 0.0, 1.0)};
-}
-
 Eigen::Matrix3d mean_over_depth(const EdgeShape& shape, const CuttingCoefficients& k, const Sweep& sweep, double s) {
   const Heights h = in_cut(sweep, s);
   return edge_matrix(shape, k, sweep.entry_phi_rad + s, sweep.lag_rad, h.low, h.high);
@@ -98,30 +88,21 @@ void add_edge(const Sweep& sweep, const EdgeShape& shape, double s, int node, co
   }
   const Heights h = in_cut(sweep, s);
   for (const EdgeWeight& w : edge_weights(shape, 6, h.low, h.high)) {
-    const double delay = sweep.pitch_rad + w.height * (sweep.lag_rad - sweep.ahead_lag_rad);
     const Eigen::Matrix3d D =
         directional_matrix_on(sweep.coefficients, w.kappa_rad, sweep.entry_phi_rad + s - w.height * sweep.lag_rad);
-    add_contacts(w.weight * D * onto, node, past_at(grid, theta - delay), grid.contacts);
+    add_contacts(w.weight * D * onto, node, past_at(grid, theta - sweep.delay_rad(w.height)), grid.contacts);
   }
 }
 
 /// The pasts with which a contact sees dq/dφ instead of q: the polynomial of the element has the slope
 /// Σ d_j q(φ_j) at the node, and q − Σ weight q(past) is that slope, in m a rad, with weight = [own node] − d_j.
 std::vector<Past> slope_at(const ContactGrid& grid, const CutElement& element, int node) {
-  const auto x = [&](int i) { return grid.node_rad(element.first_node + i); };
   const int own = node - element.first_node;
+  const Eigen::VectorXd slope = lagrange_slopes(grid.node_rad.segment(element.first_node, element.nodes), own);
   std::vector<Past> past;
-  double own_slope = 0.0;
-  for (int j = 0; j < element.nodes; ++j) {
-    if (j == own) continue;
-    double slope = 1.0 / (x(j) - x(own));
-    for (int k = 0; k < element.nodes; ++k) {
-      if (k != j && k != own) slope *= (x(own) - x(k)) / (x(j) - x(k));
-    }
-    own_slope += 1.0 / (x(own) - x(j));
-    past.push_back({element.first_node + j, false, -slope});
-  }
-  past.push_back({node, false, 1.0 - own_slope});
+  past.reserve(static_cast<std::size_t>(element.nodes));
+  for (int j = 0; j < element.nodes; ++j)
+    past.push_back({element.first_node + j, false, (j == own ? 1.0 : 0.0) - slope(j)});
   return past;
 }
 

@@ -52,6 +52,11 @@ std::vector<double> breaks_of(const CutCycle& cycle) {
 
 }  // namespace
 
+Heights in_cut(const Sweep& sweep, double s) {
+  if (sweep.lag_rad == 0.0) return {};
+  return {std::clamp((s - sweep.arc_rad) / sweep.lag_rad, 0.0, 1.0), std::clamp(s / sweep.lag_rad, 0.0, 1.0)};
+}
+
 CutCycle cut_cycle(const MillingProcess& process, double depth_m) {
   const Cutter& cutter = process.cutter;
   const bool alike = equal_teeth(process);
@@ -64,7 +69,7 @@ CutCycle cut_cycle(const MillingProcess& process, double depth_m) {
       const double later = arc.entry_rad - process.engagement.entry_rad;
       cycle.sweeps.push_back({wrapped(tip + later, cycle.period_rad), arc.entry_rad, arc.arc_rad(), cutter.pitch_rad(j),
                               depth_m * cutter.lag_rad_per_m(j), depth_m * cutter.lag_rad_per_m(ahead),
-                              coefficients(process, j)});
+                              coefficients(process, j), j});
     }
   }
   return cycle;

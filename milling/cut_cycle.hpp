@@ -17,10 +17,21 @@ struct Sweep {
   double lag_rad = 0.0;        ///< of the edge at the depth behind its tip
   double ahead_lag_rad = 0.0;  ///< of the edge ahead
   CuttingCoefficients coefficients;
+  int tooth = 0;
 
   /// Whether all heights of the edge have one delay.
   [[nodiscard]] bool one_delay() const { return lag_rad == ahead_lag_rad; }
+  /// Rotation since the edge ahead passed, at a height (share of the depth).
+  [[nodiscard]] double delay_rad(double height) const { return pitch_rad + height * (lag_rad - ahead_lag_rad); }
 };
+
+/// Heights as shares of the depth.
+struct Heights {
+  double low = 0.0, high = 1.0;
+};
+
+/// Those of an edge that are in the cut s rad after its tip entered.
+[[nodiscard]] Heights in_cut(const Sweep& sweep, double s);
 
 /// The period is a pitch where all teeth are alike, else a turn; it begins when the tip of the first tooth enters the
 /// first arc.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -36,6 +37,19 @@ Eigen::VectorXd lagrange_polynomials(const Eigen::VectorXd& node, double at) {
     }
   }
   return value;
+}
+
+Eigen::VectorXd lagrange_slopes(const Eigen::VectorXd& node, Eigen::Index i) {
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(node.size());
+  for (Eigen::Index j = 0; j < node.size(); ++j) {
+    if (j == i) continue;
+    slope(j) = 1.0 / (node(j) - node(i));
+    for (Eigen::Index k = 0; k < node.size(); ++k) {
+      if (k != j && k != i) slope(j) *= (node(i) - node(k)) / (node(j) - node(k));
+    }
+    slope(i) += 1.0 / (node(i) - node(j));
+  }
+  return slope;
 }
 
 namespace {
@@ -101,6 +115,12 @@ ModeMoments ProductRule::moments(std::complex<double> z) const {
     if (i < n) result.inside.row(i) = result.end;
   }
   return result;
+}
+
+const ProductRule& shared_product_rule(int nodes, double exponent) {
+  thread_local std::map<std::pair<int, int>, ProductRule> rules;
+  const int half_powers = std::max(4, static_cast<int>(std::ceil(2.0 * std::log2(std::max(exponent, 1.0)))));
+  return rules.try_emplace({nodes, half_powers}, nodes, std::exp2(0.5 * half_powers)).first->second;
 }
 
 }  // namespace thinwall::milling

@@ -20,6 +20,9 @@ struct GaussRule {
 /// ℓ_j(at) of the Lagrange polynomials of `node`.
 [[nodiscard]] Eigen::VectorXd lagrange_polynomials(const Eigen::VectorXd& node, double at);
 
+/// ℓ_j'(node_i) of the same, for one of the nodes.
+[[nodiscard]] Eigen::VectorXd lagrange_slopes(const Eigen::VectorXd& node, Eigen::Index i);
+
 /// What polynomial forces of an element of unit length do to a mode u' = z u + ℓ_j(s), u(0) = 0:
 ///
 ///     inside(i, j) = ∫₀^{c_i} e^{z (c_i − s)} ℓ_j(s) ds,      end(j) = ∫₀¹ e^{z (1 − s)} ℓ_j(s) ds
@@ -53,5 +56,9 @@ class ProductRule {
   Eigen::ArrayXd gap_distance_;             ///< 1 − x of the points of a gap
   std::vector<Eigen::MatrixXd> gap_table_;  ///< as whole_, for each gap
 };
+
+/// A rule that serves the exponent, which is rounded up to a power of √2, at least 4: made once a thread, and kept for
+/// its life.
+[[nodiscard]] const ProductRule& shared_product_rule(int nodes, double exponent);
 
 }  // namespace thinwall::milling

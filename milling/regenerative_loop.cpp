@@ -1,9 +1,7 @@
 #include "milling/regenerative_loop.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <vector>
 
@@ -16,18 +14,6 @@ namespace {
 using Eigen::Index;
 using std::complex;
 
-/// Rules by node count and exponent, which is rounded up to a power of √2, at least 4: made once a thread.
-class Rules {
- public:
-  const ProductRule& of(int nodes, double exponent) {
-    const int half_powers = std::max(4, static_cast<int>(std::ceil(2.0 * std::log2(std::max(exponent, 1.0)))));
-    return rules_.try_emplace({nodes, half_powers}, nodes, std::exp2(0.5 * half_powers)).first->second;
-  }
-
- private:
-  std::map<std::pair<int, int>, ProductRule> rules_;
-};
-
 /// What unit modal forces at the nodes do to one mode: at the nodes, and at the end of the period.
 struct ModeHistory {
   Eigen::VectorXcd flow;     ///< e^{λ t_i}
@@ -36,7 +22,6 @@ struct ModeHistory {
 };
 
 ModeHistory mode_history(complex<double> pole, const ContactGrid& grid, double seconds_per_rad) {
-  thread_local Rules rules;
   const Index n = grid.node_rad.size();
   const double period = grid.period_rad * seconds_per_rad;
   ModeHistory history{Eigen::VectorXcd(n), Eigen::MatrixXcd::Zero(n, n), Eigen::RowVectorXcd(n)};
@@ -46,7 +31,7 @@ ModeHistory mode_history(complex<double> pole, const ContactGrid& grid, double s
   for (const CutElement& e : grid.elements) {
     const double length = (e.to_rad - e.from_rad) * seconds_per_rad;
     if (std::abs(length - last_length) > 1e-12 * length) {
-      moments = rules.of(e.nodes, std::abs(pole) * length).moments(pole * length);
+      moments = shared_product_rule(e.nodes, std::abs(pole) * length).moments(pole * length);
       moments.inside *= length;
       moments.end *= length;
       last_length = length;

@@ -171,6 +171,37 @@ TEST_F(LobesCommand, FromSamplesTheMultiplierIsNullAndTheRestAgrees) {
   }
 }
 
+TEST_F(LobesCommand, AStablePointWithAFeedSaysWhatTheTeethForce) {
+  // Down-milling with K_t and K_r alone: the force is largest at the entry, w f sin φ √(K_t² + K_r²), torque alike.
+  write("tool.toml", with(tool_toml, "[cutting]", "[cutting]\nfeed_per_tooth = \"0.1 mm\""));
+  const std::vector<std::string> at{"--at", "14000 rpm, 0.5 mm", "--at", "12000 rpm, 5 mm", "--set", "lobes.count=8"};
+  std::vector<std::string> words{path("modes.csv"), "--tool", path("tool.toml")};
+  words.insert(words.end(), at.begin(), at.end());
+  const Outcome outcome = lobes(words);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto points = summary()["operating_points"];
+  const auto forced = points[0]["forced_vibration"];
+  const double entry = std::sin(std::acos(2.0 * 0.1 - 1.0));
+  EXPECT_NEAR(forced["peak_force_n"].get<double>(), 0.5e-3 * 0.1e-3 * entry * std::hypot(6e8, 2e8), 1e-5);
+  EXPECT_NEAR(forced["peak_torque_n_m"].get<double>(), 0.5e-3 * 0.1e-3 * entry * 6e8 * 0.005, 1e-7);
+  EXPECT_EQ(forced["surface_location_error_m"], 0.0);  // the structure moves along the feed alone
+  EXPECT_GT(forced["peak_to_peak_m"][0].get<double>(), 1e-6);
+  EXPECT_LE(forced["error_estimate_relative"].get<double>(), 1e-4);
+  EXPECT_EQ(forced["status"], "converged");
+  EXPECT_GT(forced["mean_power_w"].get<double>(), 0.0);
+  EXPECT_TRUE(points[1]["forced_vibration"].is_null());  // unstable
+  EXPECT_NE(outcome.out.find("forced: surface 0 um, peak force "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("N, torque 0."), std::string::npos) << outcome.out;
+}
+
+TEST_F(LobesCommand, APointWithoutAFeedSaysNothingOfForces) {
+  const Outcome outcome =
+      lobes({path("modes.csv"), "--tool", path("tool.toml"), "--at", "14000 rpm, 0.5 mm", "--set", "lobes.count=2"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(summary()["operating_points"][0]["forced_vibration"].is_null());
+  EXPECT_EQ(outcome.out.find("forced"), std::string::npos) << outcome.out;
+}
+
 TEST_F(LobesCommand, AnOperatingPointThatIsNoneIsWrongUse) {
   for (const auto* text : {"5000 rpm", "5000 rpm 0.5 mm", "5000 rpm, 0.5 mm, 3", "5000, 0.5 mm", "5000 rpm, 0.5 Hz",
                            "0.5 mm, 5000 rpm", "0 rpm, 0.5 mm", "-5000 rpm, 0.5 mm", "5000 rpm, 0 mm",

@@ -67,6 +67,22 @@ class Marching {
     return std::sqrt(-ab(1));
   }
 
+  /// The last of `turns` turns with the chip of the feed and the edge forces, a displacement a step; the first lies at
+  /// the start of the turn.
+  std::vector<Eigen::Vector3d> last_turn_fed(double feed_per_tooth_m, int turns) {
+    feed_m_per_rad_ = feed_per_tooth_m / process_.cutter.pitch_rad();
+    edge_acts_ = true;
+    std::vector<Eigen::Vector3d> seen;
+    for (int turn = 0; turn < turns; ++turn) {
+      seen.clear();
+      for (int i = 0; i < steps_; ++i) {
+        seen.push_back(history_.back().q);
+        step(i);
+      }
+    }
+    return seen;
+  }
+
  private:
   struct State {
     Eigen::Vector3d q, v;
@@ -98,10 +114,14 @@ class Marching {
     const Eigen::Vector3d t(std::cos(phi), -std::sin(phi), 0.0);
     const Eigen::Vector3d n = std::sin(kappa) * r - std::cos(kappa) * up;
     const Eigen::Vector3d a = std::cos(kappa) * r + std::sin(kappa) * up;
-    const double chip = n.dot(x.q - delayed(delay / turn * steps_, part));
+    const double chip =
+        n.dot(x.q - delayed(delay / turn * steps_, part) + delay * feed_m_per_rad_ * Eigen::Vector3d::UnitX());
     const double speed = 0.5 * cutter.diameter_m * turn / (steps_ * dt_);
     const double flank = process_.damping.C / speed * r.dot(x.v);
-    return chip / std::sin(kappa) * (k.K_t * t + k.K_r * n - k.K_a * a) + flank * (r + process_.damping.friction * t);
+    // Edges of a cylinder: √(1 + (r ψ')²) of them a height.
+    const double edge = edge_acts_ ? std::hypot(1.0, 0.5 * cutter.diameter_m * cutter.lag_rad_per_m(tooth)) : 0.0;
+    return chip / std::sin(kappa) * (k.K_t * t + k.K_r * n - k.K_a * a) + flank * (r + process_.damping.friction * t) +
+           edge * (k.K_te * t + k.K_re * n - k.K_ae * a);
   }
 
   /// Over heights from low to high, m, within joints.
@@ -182,6 +202,8 @@ class Marching {
   std::vector<double> heights_;  // the joints, 0 and the depth
   std::vector<double> entry_{0.0};
   std::vector<State> history_;
+  double feed_m_per_rad_ = 0.0;
+  bool edge_acts_ = false;
 };
 
 }  // namespace thinwall::milling::testing
