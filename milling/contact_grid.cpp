@@ -63,18 +63,8 @@ void add_contacts(const Eigen::Matrix3d& A, int node, const std::vector<Past>& p
     contacts.push_back({node, size(k) * svd.matrixU().col(k), svd.matrixV().col(k), past});
 }
 
-/// Heights of an edge in the cut s rad after its tip entered, as shares of the depth.
-struct Heights {
-  double low = 0.0, high = 1.0;
-};
-
-Heights in_cut(const Sweep& sweep, double s) {
-  if (sweep.lag_rad == 0.0) return {};
-  return {std::clamp((s - sweep.arc_rad) / sweep.lag_rad, 0.0, 1.0), std::clamp(s / sweep.lag_rad, 0.0, 1.0)};
-}
-
 Eigen::Matrix3d mean_over_depth(const EdgeShape& shape, const CuttingCoefficients& k, const Sweep& sweep, double s) {
-  const Heights h = in_cut(sweep, s);
+  const Heights h = heights_in_cut(sweep, s);
   return edge_matrix(shape, k, sweep.entry_phi_rad + s, sweep.lag_rad, h.low, h.high);
 }
 
@@ -96,7 +86,7 @@ void add_edge(const Sweep& sweep, const EdgeShape& shape, double s, int node, co
                  past_at(grid, theta - sweep.pitch_rad), grid.contacts);
     return;
   }
-  const Heights h = in_cut(sweep, s);
+  const Heights h = heights_in_cut(sweep, s);
   for (const EdgeWeight& w : edge_weights(shape, 6, h.low, h.high)) {
     const double delay = sweep.pitch_rad + w.height * (sweep.lag_rad - sweep.ahead_lag_rad);
     const Eigen::Matrix3d D =
