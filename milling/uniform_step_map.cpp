@@ -71,12 +71,14 @@ std::vector<UniformStepMap::Share> UniformStepMap::displacement_at(double steps_
   const double below = std::floor(steps_from_start);
   const VectorXd weight = lagrange_polynomials(VectorXd::LinSpaced(4, -1.0, 2.0), steps_from_start - below);
   std::vector<Share> shares;
+  shares.reserve(4);
   for (int k = 0; k < 4; ++k) shares.push_back({static_cast<int>(below) + k - 1, weight(k)});
   return shares;
 }
 
 UniformStepMap::Reach UniformStepMap::reach_of(double delay) const {
   Reach reach;
+  reach.reserve(static_cast<std::size_t>(rule_.delayed_order) + 1);
   for (const double place : places(rule_.delayed_order)) reach.push_back(displacement_at(place - delay));
   return reach;
 }
@@ -94,6 +96,7 @@ void UniformStepMap::set_depth(double depth_m, const StepCoefficients& coefficie
   require_delays(coefficients);
   history_ = std::max(3, steps_);
   std::vector<Reach> reach;
+  reach.reserve(coefficients.delayed.size());
   for (const DelayedTerm& term : coefficients.delayed) {
     reach.push_back(reach_of(term.delay));
     for (const auto& shares : reach.back()) {
@@ -101,6 +104,7 @@ void UniformStepMap::set_depth(double depth_m, const StepCoefficients& coefficie
     }
   }
   step_.clear();
+  step_.reserve(static_cast<std::size_t>(steps_));
   coefficients_ = coefficients;
   for (std::size_t i = 0; i < static_cast<std::size_t>(steps_); ++i) {
     step_.push_back(rule_.full ? full_step(i, depth_m, coefficients, reach)
