@@ -64,7 +64,7 @@ void add_contacts(const Eigen::Matrix3d& A, int node, const std::vector<Past>& p
 }
 
 Eigen::Matrix3d mean_over_depth(const EdgeShape& shape, const CuttingCoefficients& k, const Sweep& sweep, double s) {
-  const Heights h = in_cut(sweep, s);
+  const Heights h = heights_in_cut(sweep, s);
   return edge_matrix(shape, k, sweep.entry_phi_rad + s, sweep.lag_rad, h.low, h.high);
 }
 
@@ -86,7 +86,7 @@ void add_edge(const Sweep& sweep, const EdgeShape& shape, double s, int node, co
                  past_at(grid, theta - sweep.pitch_rad), grid.contacts);
     return;
   }
-  const Heights h = in_cut(sweep, s);
+  const Heights h = heights_in_cut(sweep, s);
   for (const EdgeWeight& w : edge_weights(shape, 6, h.low, h.high)) {
     const Eigen::Matrix3d D =
         directional_matrix_on(sweep.coefficients, w.kappa_rad, sweep.entry_phi_rad + s - w.height * sweep.lag_rad);

@@ -75,6 +75,11 @@ CutCycle cut_cycle(const MillingProcess& process, double depth_m) {
   return cycle;
 }
 
+Heights heights_in_cut(const Sweep& sweep, double s) {
+  if (sweep.lag_rad == 0.0) return {};
+  return {std::clamp((s - sweep.arc_rad) / sweep.lag_rad, 0.0, 1.0), std::clamp(s / sweep.lag_rad, 0.0, 1.0)};
+}
+
 std::vector<CutStretch> cut_stretches(const CutCycle& cycle) {
   const std::vector<double> breaks = breaks_of(cycle);
   std::vector<CutStretch> stretches;

@@ -90,7 +90,7 @@ void helical_crossings(const CutAtSpeed& cut, const StabilityOptions& options, c
     });
     if (known) continue;
     change += p.crossing.unstable_change;
-    const DiscreteCut d = discrete(cut, r, p.crossing.depth_m);
+    const DiscreteCut d = discrete(cut, finest, p.crossing.depth_m);
     points.push_back(lobe_point(p, chatter_frequency_hz(cut, d, p.crossing.theta_rad, p.crossing.mode)));
     row.nodes = std::max(row.nodes, finest.elements * finest.nodes);
   }

@@ -127,6 +127,11 @@ class UniformSteps : public LobeMethod {
 
 void require_suited(Method method, const MillingProcess& process) {
   if (method == Method::direct) return;
+  if (method != Method::zeroth_order && method != Method::multi_frequency) {
+    if (regenerates_in_plane(process)) return;
+    throw core::InputError(name(method) +
+                           ": takes a cylinder without process damping; this cut has more; take the direct method");
+  }
   MillingProcess taken = process;
   if (method == Method::zeroth_order && process.cutter.equal_teeth()) taken.cutter.helices_rad.clear();
   if (elementary(taken)) return;

@@ -31,8 +31,9 @@ enum class Method {
 
 struct MethodOptions {
   StabilityOptions stability;
-  int steps_per_period = 40;  ///< ≥ 3: semi- and full-discretization; 40 is customary and not always enough
-  int harmonics = 16;         ///< ≥ 0: of the directional matrix, in the multi-frequency solution
+  int steps_per_period =
+      40;              ///< ≥ 3 a mean tooth period: semi- and full-discretization; 40 is usual, not always enough
+  int harmonics = 16;  ///< ≥ 0: of the directional matrix, in the multi-frequency solution
 };
 
 /// Every violation, empty if there is none.
@@ -74,8 +75,9 @@ class LobeMethod {
   [[nodiscard]] virtual LobeRow row_of(double spindle_speed_rpm, std::optional<double> expected_depth_m) const = 0;
 };
 
-/// Keeps copies of its arguments. Throws InputError for a bad process or option, or for teeth that the method cannot
-/// take: unequal ones other than by `direct`, a helix other than by `direct` and `zeroth_order`.
+/// Keeps copies of its arguments. Throws InputError for a bad process or option, or for a cut that the method cannot
+/// take: `direct` takes all, semi- and full-discretization all on a cylinder without process damping (any pitches,
+/// helices, arcs), `zeroth_order` equal teeth with any helix, `multi_frequency` equal teeth without.
 [[nodiscard]] std::unique_ptr<LobeMethod> lobe_method(Method method, const RelativeStructure& structure,
                                                       const MillingProcess& process, const MethodOptions& options);
 

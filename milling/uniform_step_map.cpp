@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <unsupported/Eigen/MatrixFunctions>
 #include <utility>
@@ -24,146 +25,152 @@ VectorXd places(int order) {
   return VectorXd::LinSpaced(order + 1, 1.0, 1.0 - order);
 }
 
-/// Rotation since the last tooth entry when the tooth that began the period at φ = 0 stands at φ.
-double since_entry(const MillingProcess& process, double phi) {
-  const double pitch = process.cutter.pitch_rad();
-  const double theta = std::fmod(phi - process.engagement.entry_rad, pitch);
-  return theta < 0.0 ? theta + pitch : theta;
-}
-
-/// ∫ Σ D over from < θ < to of one period, 0 ≤ from < to ≤ pitch.
-DirectionalMatrix integral(const MillingProcess& process, double from, double to) {
-  DirectionalMatrix sum = DirectionalMatrix::Zero();
-  for (const CutSegment& s : cut_segments(process.engagement, process.cutter)) {
-    const double begin = std::max(from, s.from_rad);
-    const double end = std::min(to, s.to_rad);
-    if (end <= begin) continue;
-    sum += (end - begin) *
-           mean_directional_matrix(process.coefficients, process.cutter, process.engagement, s.teeth, begin, end);
+/// ∫ e^{Λ (t_{i+1} − t)} B ℓ(t) (1 − σ, σ) dt of each ℓ. The integrands are entire: Gauss's sums converge to round-off.
+std::vector<std::array<MatrixXd, 2>> pushes(const ContactState& state, double step_s, const VectorXd& place) {
+  const double phase = std::min(200.0, fastest_pole(state) * step_s);
+  const GaussRule gauss = gauss_legendre(10 + static_cast<int>(std::ceil(phase)));
+  const MatrixXd zero = MatrixXd::Zero(state.size(), 3);
+  std::vector<std::array<MatrixXd, 2>> sums(static_cast<std::size_t>(place.size()), {zero, zero});
+  for (Index q = 0; q < gauss.node.size(); ++q) {
+    const double at = gauss.node(q);
+    MatrixXd push = state.B * (gauss.weight(q) * step_s);
+    advance(free_flight(state, (1.0 - at) * step_s), push);
+    const VectorXd l = lagrange_polynomials(place, at);
+    for (std::size_t a = 0; a < sums.size(); ++a) {
+      sums[a][0] += l(static_cast<Index>(a)) * (1.0 - at) * push;
+      sums[a][1] += l(static_cast<Index>(a)) * at * push;
+    }
   }
-  return sum;
+  return sums;
 }
 
-DirectionalMatrix mean_over(const MillingProcess& process, double phi, double length) {
-  const double pitch = process.cutter.pitch_rad();
-  const double from = since_entry(process, phi);
-  const double to = from + length;
-  if (to <= pitch) return integral(process, from, to) / length;
-  return (integral(process, from, pitch) + integral(process, 0.0, to - pitch)) / length;
-}
-
-DirectionalMatrix value_at(const MillingProcess& process, double phi) {
-  const Eigen::Matrix3d A = directional_matrix(process.coefficients, process.cutter, process.engagement, ToolFrame{},
-                                               since_entry(process, phi));
-  return A.leftCols<2>();
+void require_delays(const StepCoefficients& coefficients) {
+  for (const DelayedTerm& term : coefficients.delayed) {
+    if (term.delay > 3.0 - 1e-9) continue;
+    std::ostringstream text;
+    text << "semi- and full-discretization: a delay of " << term.delay
+         << " steps, must be at least 3; take more steps a tooth period, 40 is usual";
+    throw core::InputError(text.str());
+  }
 }
 
 }  // namespace
 
-StepRule semi_discretization(int order) {
-  return {false, 0, order};
-}
-
-StepRule full_discretization(int order) {
-  return {true, order, 1};
-}
-
-StepCoefficients step_coefficients(const MillingProcess& process, const Eigen::Matrix2Xd& in_plane, int steps,
-                                   StepRule rule) {
-  if (!elementary(process)) {
-    throw core::InputError(
-        "semi- and full-discretization: equal teeth without helix on a cylinder, one arc, no process damping; take the "
-        "direct method for this cut");
-  }
-  const double step = process.cutter.pitch_rad() / steps;
-  StepCoefficients c;
-  for (int i = 0; i < steps + (rule.full ? 1 : 0); ++i)
-    c.present.emplace_back((rule.full ? value_at(process, i * step) : mean_over(process, i * step, step)) * in_plane);
-  c.delayed = c.present;
-  return c;
-}
-
-UniformStepMap::UniformStepMap(ContactState state, StepCoefficients coefficients, double period_s, StepRule rule)
-    : state_(std::move(state)), coefficients_(std::move(coefficients)), rule_(rule) {
-  steps_ = static_cast<int>(coefficients_.present.size()) - (rule.full ? 1 : 0);
-  if (steps_ < 3) {
-    throw core::InputError("semi- and full-discretization: " + std::to_string(steps_) +
-                           " steps a tooth period, must be at least 3; 40 is usual");
-  }
-  history_ = steps_ + std::max(0, rule.delayed_order - 1);
-  step_s_ = period_s / steps_;
+UniformStepMap::UniformStepMap(ContactState state, int steps, double period_s, StepRule rule)
+    : state_(std::move(state)), rule_(rule), steps_(steps), step_s_(period_s / steps) {
   free_ = MatrixXd::Identity(state_.size(), state_.size());
   advance(free_flight(state_, step_s_), free_);
-  // The integrands are entire: Gauss's sums converge to round-off.
-  const double phase = std::min(200.0, fastest_pole(state_) * step_s_);
-  const GaussRule gauss = gauss_legendre(10 + static_cast<int>(std::ceil(phase)));
-  point_ = gauss.node;
-  for (Index q = 0; q < point_.size(); ++q) {
-    push_.emplace_back(state_.B * (gauss.weight(q) * step_s_));
-    advance(free_flight(state_, (1.0 - point_(q)) * step_s_), push_.back());
+  if (!rule.full) return;
+  state_push_ = pushes(state_, step_s_, places(rule.state_order));
+  delayed_push_ = pushes(state_, step_s_, places(rule.delayed_order));
+}
+
+std::vector<UniformStepMap::Share> UniformStepMap::displacement_at(double steps_from_start) {
+  const double nearest = std::round(steps_from_start);
+  if (std::abs(steps_from_start - nearest) < 1e-9) return {{static_cast<int>(nearest), 1.0}};
+  const double below = std::floor(steps_from_start);
+  const VectorXd weight = lagrange_polynomials(VectorXd::LinSpaced(4, -1.0, 2.0), steps_from_start - below);
+  std::vector<Share> shares;
+  shares.reserve(4);
+  for (int k = 0; k < 4; ++k) shares.push_back({static_cast<int>(below) + k - 1, weight(k)});
+  return shares;
+}
+
+UniformStepMap::Reach UniformStepMap::reach_of(double delay) const {
+  Reach reach;
+  reach.reserve(static_cast<std::size_t>(rule_.delayed_order) + 1);
+  for (const double place : places(rule_.delayed_order)) reach.push_back(displacement_at(place - delay));
+  return reach;
+}
+
+void UniformStepMap::add_felt(const MatrixXd& by, const std::vector<Share>& shares, Step& step) {
+  for (const Share& share : shares) {
+    const auto same =
+        std::find_if(step.felt.begin(), step.felt.end(), [&](const Felt& f) { return f.offset == share.offset; });
+    if (same == step.felt.end()) step.felt.push_back({share.offset, share.weight * by});
+    else same->by += share.weight * by;
   }
 }
 
-void UniformStepMap::set_depth(double depth_m) {
+void UniformStepMap::set_depth(double depth_m, const StepCoefficients& coefficients) {
+  require_delays(coefficients);
+  history_ = std::max(3, steps_);
+  std::vector<Reach> reach;
+  reach.reserve(coefficients.delayed.size());
+  for (const DelayedTerm& term : coefficients.delayed) {
+    reach.push_back(reach_of(term.delay));
+    for (const auto& shares : reach.back()) {
+      for (const Share& share : shares) history_ = std::max(history_, -share.offset);
+    }
+  }
   step_.clear();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(steps_); ++i)
-    step_.push_back(rule_.full ? full_step(i, depth_m) : semi_step(i, depth_m));
+  step_.reserve(static_cast<std::size_t>(steps_));
+  coefficients_ = coefficients;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(steps_); ++i) {
+    step_.push_back(rule_.full ? full_step(i, depth_m, coefficients, reach)
+                               : semi_step(i, depth_m, coefficients, reach));
+  }
 }
 
-UniformStepMap::Step UniformStepMap::semi_step(std::size_t i, double depth_m) const {
-  // Over the step, d' = d_1, d_1' = d_2 … for the derivatives of the delayed polynomial, by the step's length: one
-  // exponential gives what the state and each derivative do (Van Loan 1978).
+UniformStepMap::Step UniformStepMap::semi_step(std::size_t i, double depth_m, const StepCoefficients& c,
+                                               const std::vector<Reach>& reach) const {
+  std::vector<std::size_t> acting;
+  for (std::size_t d = 0; d < c.delayed.size(); ++d) {
+    if (!c.delayed[d].coefficient[i].isZero(0.0)) acting.push_back(d);
+  }
+  if (acting.empty() && c.present[i].isZero(0.0)) return {free_, {}};
+  // Over the step, d' = d_1, d_1' = d_2 … for the derivatives of a delayed polynomial, by the step's length: one
+  // exponential gives what the state and each derivative do (Van Loan 1978). Several delays share that of a unit force.
+  const bool one = acting.size() == 1;
+  const MatrixXd input = one ? c.delayed[acting.front()].coefficient[i] : MatrixXd::Identity(3, 3);
   const Index n = state_.size();
-  const Index p = state_.directions();
+  const Index p = input.cols();
   const Index terms = rule_.delayed_order + 1;
   MatrixXd Z = MatrixXd::Zero(n + p * terms, n + p * terms);
-  Z.topLeftCorner(n, n) = step_s_ * (state_matrix(state_) - depth_m * state_.B * coefficients_.present[i] * state_.C);
-  Z.block(0, n, n, p) = step_s_ * depth_m * state_.B * coefficients_.delayed[i];
+  Z.topLeftCorner(n, n) = step_s_ * (state_matrix(state_) - depth_m * state_.B * c.present[i] * state_.C);
+  Z.block(0, n, n, p) = step_s_ * depth_m * state_.B * input;
   for (Index j = 0; j + 1 < terms; ++j) Z.block(n + p * j, n + p * (j + 1), p, p).setIdentity();
   const MatrixXd E = Z.exp();
   // d = Σ_j c_j σ^j through the values at the places, so that derivative j at the start is j! c_j.
   const VectorXd place = places(rule_.delayed_order);
   MatrixXd powers(terms, terms);
   for (Index j = 0; j < terms; ++j) powers.col(j) = place.array().pow(static_cast<double>(j));
-  const MatrixXd c = powers.inverse();
-  Step step{E.topLeftCorner(n, n), {}, {}};
+  const MatrixXd monomial = powers.inverse();
+  Step step{E.topLeftCorner(n, n), {}};
   for (Index b = 0; b < terms; ++b) {
-    MatrixXd past = MatrixXd::Zero(n, p);
-    for (Index j = 0; j < terms; ++j) past += std::tgamma(j + 1.0) * c(j, b) * E.block(0, n + p * j, n, p);
-    step.past.push_back(std::move(past));
+    MatrixXd push = MatrixXd::Zero(n, p);
+    for (Index j = 0; j < terms; ++j) push += std::tgamma(j + 1.0) * monomial(j, b) * E.block(0, n + p * j, n, p);
+    for (const std::size_t d : acting)
+      add_felt(one ? push : push * c.delayed[d].coefficient[i], reach[d][static_cast<std::size_t>(b)], step);
   }
   return step;
 }
 
-UniformStepMap::Step UniformStepMap::full_step(std::size_t i, double depth_m) const {
-  const VectorXd state_place = places(rule_.state_order);
-  const VectorXd delayed_place = places(rule_.delayed_order);
-  const MatrixXd zero = MatrixXd::Zero(state_.size(), state_.directions());
-  std::vector<MatrixXd> now(static_cast<std::size_t>(state_place.size()), zero);
-  std::vector<MatrixXd> past(static_cast<std::size_t>(delayed_place.size()), zero);
-  for (std::size_t q = 0; q < push_.size(); ++q) {
-    const double at = point_(static_cast<Index>(q));
-    const MatrixXd P = (1.0 - at) * coefficients_.present[i] + at * coefficients_.present[i + 1];
-    const MatrixXd Q = (1.0 - at) * coefficients_.delayed[i] + at * coefficients_.delayed[i + 1];
-    const VectorXd l = lagrange_polynomials(state_place, at);
-    const VectorXd l_past = lagrange_polynomials(delayed_place, at);
-    for (std::size_t a = 0; a < now.size(); ++a) now[a] -= depth_m * l(static_cast<Index>(a)) * (push_[q] * P);
-    for (std::size_t b = 0; b < past.size(); ++b) past[b] += depth_m * l_past(static_cast<Index>(b)) * (push_[q] * Q);
-  }
+UniformStepMap::Step UniformStepMap::full_step(std::size_t i, double depth_m, const StepCoefficients& c,
+                                               const std::vector<Reach>& reach) const {
+  const auto pushed = [&](const Push& push, const std::vector<MatrixXd>& coefficient) -> MatrixXd {
+    return depth_m * (push[0] * coefficient[2 * i] + push[1] * coefficient[2 * i + 1]);
+  };
   // x_{i+1} stands on both sides, through y_{i+1} = C x_{i+1}: of rank p, solved for once.
-  const MatrixXd implicit =
-      now[0] * (MatrixXd::Identity(zero.cols(), zero.cols()) - state_.C * now[0]).partialPivLu().inverse();
+  const MatrixXd now = -pushed(state_push_[0], c.present);
+  const Index p = state_.directions();
+  const MatrixXd implicit = now * (MatrixXd::Identity(p, p) - state_.C * now).partialPivLu().inverse();
   const auto solved = [&](const MatrixXd& X) -> MatrixXd { return X + implicit * (state_.C * X); };
-  Step step{solved(now.size() > 1 ? MatrixXd(free_ + now[1] * state_.C) : free_), {}, {}};
-  for (std::size_t a = 2; a < now.size(); ++a) step.earlier.push_back(solved(now[a]));
-  for (const MatrixXd& b : past) step.past.push_back(solved(b));
+  Step step{solved(free_ - pushed(state_push_[1], c.present) * state_.C), {}};
+  for (std::size_t a = 2; a < state_push_.size(); ++a)
+    add_felt(solved(-pushed(state_push_[a], c.present)), {{1 - static_cast<int>(a), 1.0}}, step);
+  for (std::size_t d = 0; d < c.delayed.size(); ++d) {
+    const auto& Q = c.delayed[d].coefficient;
+    if (Q[2 * i].isZero(0.0) && Q[2 * i + 1].isZero(0.0)) continue;
+    for (std::size_t b = 0; b < delayed_push_.size(); ++b)
+      add_felt(solved(pushed(delayed_push_[b], Q)), reach[d][b], step);
+  }
   return step;
 }
 
 void UniformStepMap::apply(const Eigen::Ref<const VectorXd>& in, Eigen::Ref<VectorXd> out) const {
   const Index n = state_.size();
   const Index p = state_.directions();
-  const Index first_place = rule_.delayed_order == 0 ? 0 : 1;
   VectorXd x = in.head(n);
   MatrixXd y(p, history_ + steps_ + 1);  // column history_ + i holds y_i
   y.leftCols(history_) = Eigen::Map<const MatrixXd>(in.data() + n, p, history_);
@@ -172,10 +179,7 @@ void UniformStepMap::apply(const Eigen::Ref<const VectorXd>& in, Eigen::Ref<Vect
     const Step& step = step_[static_cast<std::size_t>(i)];
     const Index now = history_ + i;
     VectorXd next = step.flow * x;
-    for (std::size_t a = 0; a < step.earlier.size(); ++a)
-      next.noalias() += step.earlier[a] * y.col(now - 1 - static_cast<Index>(a));
-    for (std::size_t b = 0; b < step.past.size(); ++b)
-      next.noalias() += step.past[b] * y.col(now - steps_ + first_place - static_cast<Index>(b));
+    for (const Felt& felt : step.felt) next.noalias() += felt.by * y.col(now + felt.offset);
     x = next;
     y.col(now + 1).noalias() = state_.C * x;
   }
@@ -193,15 +197,25 @@ DominantEigenvalue UniformStepMap::dominant() const {
                              " steps a period was not found; take more steps or a smaller depth");
 }
 
-Eigen::Vector3cd UniformStepMap::force_harmonic(const Eigen::VectorXcd& v, double omega_rad_s) const {
+Eigen::Matrix3Xcd UniformStepMap::force_over_period(const DominantEigenvalue& eigen) const {
   const Index p = state_.directions();
-  Eigen::Vector3cd sum = Eigen::Vector3cd::Zero();
-  for (Index i = 0; i < steps_; ++i) {
-    const auto y = v.segment(v.size() - p * (steps_ - i), p);
-    const double t = static_cast<double>(i) * step_s_;
-    sum += std::polar(1.0, -omega_rad_s * t) * (coefficients_.present[static_cast<std::size_t>(i)] * y);
+  const Index first = state_.size() + p * (history_ - steps_);  // of y_{−m}
+  const auto at = [&](int i) -> Eigen::VectorXcd {
+    const bool before = i < 0;
+    const Eigen::VectorXcd y = eigen.vector.segment(first + p * (before ? i + steps_ : i), p);
+    return before ? Eigen::VectorXcd(y / eigen.value) : y;
+  };
+  Eigen::Matrix3Xcd force(3, steps_);
+  for (int i = 0; i < steps_; ++i) {
+    const auto slot = static_cast<std::size_t>(rule_.full ? 2 * i : i);
+    force.col(i) = coefficients_.present[slot] * at(i);
+    for (const DelayedTerm& term : coefficients_.delayed) {
+      if (term.coefficient[slot].isZero(0.0)) continue;
+      for (const Share& share : displacement_at(-term.delay))
+        force.col(i) -= share.weight * (term.coefficient[slot] * at(i + share.offset));
+    }
   }
-  return sum;
+  return force;
 }
 
 }  // namespace thinwall::milling

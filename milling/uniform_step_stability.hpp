@@ -7,11 +7,12 @@
 
 namespace thinwall::milling {
 
-/// Both of m steps and of 2m: the value is that of m, as the method is used, and its error estimate twice what their
-/// distance δ says: 4 δ for a method of first order, 8/3 δ for the second order of the others. Without the two a jump
-/// of the directional matrix, which falls into a step as it may, would make the estimate too small. The structure's
-/// residual R is left out. Equal teeth without helix; throws InputError for others, NumericalError if a multiplier is
-/// not found. Cost: an eigenvalue by Arnoldi's method of either.
+/// Both of m steps a tooth period and of 2m (with unequal teeth the period is a turn of z m steps, and so is that of
+/// the multiplier): the value is that of m, as the method is used, and its error estimate twice what their distance δ
+/// says: 4 δ for a method of first order, 8/3 δ for the second order of the others. Without the two a jump of the
+/// directional matrix, which falls into a step as it may, would make the estimate too small. The structure's residual R
+/// is left out. Throws InputError as step_coefficients() and UniformStepMap, NumericalError if a multiplier is not
+/// found. Cost: an eigenvalue by Arnoldi's method of either; where the cut depends on its depth, the coefficients anew.
 [[nodiscard]] Multiplier uniform_step_multiplier(const CutAtSpeed& cut, StepRule rule, int steps, double depth_m);
 
 /// Depths at which the dominant multiplier crosses the unit circle, which bound the stable ranges: |μ| at depths in

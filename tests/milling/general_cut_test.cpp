@@ -13,6 +13,7 @@
 #include "milling/product_rule.hpp"
 #include "milling/sampled_receptance.hpp"
 #include "milling/stability.hpp"
+#include "milling/step_coefficients.hpp"
 #include "tests/milling/marching.hpp"
 #include "tests/milling/single_mode.hpp"
 
@@ -308,11 +309,15 @@ TEST(General, ClassicalMethodsRefuseWhatTheyDoNotKnow) {
   others[2].damping.C = 1e4;
   others[3].tooth_coefficients = {plain.coefficients, plain.coefficients};
   others[3].tooth_coefficients[1].K_t *= 1.1;
+  EXPECT_FALSE(regenerates_in_plane(others[0]) || regenerates_in_plane(others[2]));
+  EXPECT_TRUE(regenerates_in_plane(others[1]) && regenerates_in_plane(others[3]));
   for (const Method method : all_methods()) {
     SCOPED_TRACE(name(method));
     EXPECT_NO_THROW((void)lobe_method(method, structure(), plain, {}));
+    const bool in_steps = method != Method::zeroth_order && method != Method::multi_frequency;
     for (const MillingProcess& other : others) {
-      if (method == Method::direct) EXPECT_NO_THROW((void)lobe_method(method, structure(), other, {}));
+      const bool takes = method == Method::direct || (in_steps && regenerates_in_plane(other));
+      if (takes) EXPECT_NO_THROW((void)lobe_method(method, structure(), other, {}));
       else EXPECT_THROW((void)lobe_method(method, structure(), other, {}), core::InputError);
     }
   }

@@ -124,18 +124,22 @@ TEST(LobeMethod, RefusesWhatAMethodCannotTake) {
   unequal.cutter.pitches_rad = {3.0, 2.0 * std::numbers::pi - 3.0};
   MillingProcess helical = benchmark_process(0.1);
   helical.cutter.helices_rad = {0.5, 0.5};
+  MillingProcess tapered = benchmark_process(0.1);
+  tapered.cutter.envelope.taper_rad = 0.1;
+  const auto takes = [&](Method method, const MillingProcess& process) {
+    try {
+      (void)lobe_method(method, structure, process, {});
+      return true;
+    } catch (const core::InputError&) {
+      return false;
+    }
+  };
   for (const Method method : all_methods()) {
     SCOPED_TRACE(name(method));
-    if (method == Method::direct) {
-      EXPECT_NO_THROW((void)lobe_method(method, structure, unequal, {}));
-    } else {
-      EXPECT_THROW((void)lobe_method(method, structure, unequal, {}), core::InputError);
-    }
-    if (method == Method::direct || method == Method::zeroth_order) {
-      EXPECT_NO_THROW((void)lobe_method(method, structure, helical, {}));
-    } else {
-      EXPECT_THROW((void)lobe_method(method, structure, helical, {}), core::InputError);
-    }
+    const bool in_time = method != Method::zeroth_order && method != Method::multi_frequency;
+    EXPECT_EQ(takes(method, unequal), in_time);
+    EXPECT_EQ(takes(method, helical), method != Method::multi_frequency);
+    EXPECT_EQ(takes(method, tapered), method == Method::direct);
     const auto good = lobe_method(method, structure, benchmark_process(0.1), {});
     EXPECT_THROW((void)good->multiplier_at(5000.0, 0.0), core::InputError);
     EXPECT_THROW((void)good->multiplier_at(-5000.0, 1e-3), core::InputError);

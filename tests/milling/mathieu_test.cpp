@@ -11,14 +11,15 @@
 namespace thinwall::milling {
 namespace {
 
-/// x'' + c x' + (δ − b) x = −ε cos t · x − b [x − x(t − 2π)], which is x'' + c x' + (δ + ε cos t) x = b x(t − 2π): at
-/// every node a contact without past and one with. All multipliers of the period 2π; δ > b.
+/// x'' + c x' + x = −(δ − b − 1 + ε cos t) x − b [x − x(t − 2π)], which is x'' + c x' + (δ + ε cos t) x = b x(t − 2π):
+/// at every node a contact without past and one with. The oscillator has the stiffness 1, so that δ − b may be
+/// negative. All multipliers of the period 2π.
 Eigen::VectorXcd mathieu(double damping, double delta, double epsilon, double b) {
   constexpr double turn = 2.0 * std::numbers::pi;
   constexpr int elements = 4, nodes = 12;
   RelativeStructure oscillator;
   oscillator.poles.resize(1);
-  oscillator.poles(0) = {-0.5 * damping, std::sqrt(delta - b - 0.25 * damping * damping)};
+  oscillator.poles(0) = {-0.5 * damping, std::sqrt(1.0 - 0.25 * damping * damping)};
   oscillator.phi = Eigen::Vector3cd(1.0, 0.0, 0.0);
   oscillator.b = Eigen::Vector3cd(1.0, 0.0, 0.0) / std::complex<double>(0.0, 2.0 * oscillator.poles(0).imag());
   DiscreteCut d;
@@ -32,7 +33,8 @@ Eigen::VectorXcd mathieu(double damping, double delta, double epsilon, double b)
       const int node = e * nodes + i;
       d.grid.node_rad(node) = (e + rule.node(i)) * turn / elements;
       const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
-      d.grid.contacts.push_back({node, epsilon * std::cos(d.grid.node_rad(node)) * x, x, {}});
+      const double now = delta - b - 1.0 + epsilon * std::cos(d.grid.node_rad(node));
+      d.grid.contacts.push_back({node, now * x, x, {}});
       d.grid.contacts.push_back({node, b * x, x, {{node, true, 1.0}}});
     }
   }
@@ -48,13 +50,15 @@ TEST(DelayedMathieu, MultipliersWithDamping) {
 
 TEST(DelayedMathieu, BoundariesAreStraightLines) {
   // Without damping a multiplier is 1 where δ − b is a_2k/4 or b_2k/4, characteristic values of Mathieu's equation at
-  // q = 2ε, and −1 where δ + b is one of odd order: ε = 1, ten digits.
+  // q = 2ε, and −1 where δ + b is one of odd order: ε = 1, ten digits. The lowest of each, a_0/4 and b_1/4, lie below
+  // zero, where the equation without cos t would diverge.
   const auto distance = [](double delta, double b, double multiplier) {
     return (mathieu(0.0, delta, 1.0, b).array() - multiplier).abs().minCoeff();
   };
   for (const double b : {-0.3, -0.1, 0.2}) {
-    for (const double line : {0.9180581766, 1.2931662833}) EXPECT_LT(distance(line + b, b, 1.0), 1e-9) << line << b;
-    for (const double line : {0.5947999701, 2.2851569344, 2.3425806209})
+    for (const double line : {-0.3784892213, 0.9180581766, 1.2931662833})
+      EXPECT_LT(distance(line + b, b, 1.0), 1e-9) << line << b;
+    for (const double line : {-0.3476691253, 0.5947999701, 2.2851569344, 2.3425806209})
       EXPECT_LT(distance(line - b, b, -1.0), 1e-9) << line << ", " << b;
   }
 }
