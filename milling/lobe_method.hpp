@@ -29,6 +29,13 @@ enum class Method {
 /// As in the enumeration, "zeroth_order" and so on.
 [[nodiscard]] std::string name(Method method);
 
+/// The method of that name. Throws InputError with the nearest one if there is none.
+[[nodiscard]] Method method_named(const std::string& name);
+
+/// Why the method cannot take this cut, "" if it can: unequal teeth other than by `direct`, a helix other than by
+/// `direct` and `zeroth_order`, more than a cylinder and one arc, process damping.
+[[nodiscard]] std::string objection(Method method, const MillingProcess& process);
+
 struct MethodOptions {
   StabilityOptions stability;
   int steps_per_period = 40;  ///< ≥ 3: semi- and full-discretization; 40 is customary and not always enough
@@ -74,8 +81,7 @@ class LobeMethod {
   [[nodiscard]] virtual LobeRow row_of(double spindle_speed_rpm, std::optional<double> expected_depth_m) const = 0;
 };
 
-/// Keeps copies of its arguments. Throws InputError for a bad process or option, or for teeth that the method cannot
-/// take: unequal ones other than by `direct`, a helix other than by `direct` and `zeroth_order`.
+/// Keeps copies of its arguments. Throws InputError for a bad process or option, or with the method's objection().
 [[nodiscard]] std::unique_ptr<LobeMethod> lobe_method(Method method, const RelativeStructure& structure,
                                                       const MillingProcess& process, const MethodOptions& options);
 
