@@ -11,6 +11,8 @@
 
 #include "app/case_values.hpp"
 #include "mesh/prism.hpp"
+#include "milling/machine_limits.hpp"
+#include "milling/sensitivity.hpp"
 
 namespace thinwall::app {
 
@@ -214,12 +216,23 @@ struct Cutting {
   std::optional<double> feed_per_tooth;  ///< m
 };
 
+/// What a robust chart allows for.
+struct RobustOptions {
+  milling::Uncertainty uncertainty;
+  double confidence = 2.0;  ///< k, standard uncertainties
+};
+
 struct LobesOptions {
   double from_rpm = 0.0, to_rpm = 0.0;
   int count = 400;
   double depth_limit = 0.0;  ///< m
   double tolerance = 1e-4;   ///< bound on the estimated relative error of the limiting depth
   std::optional<double> modes_up_to_hz;
+  std::string method = "direct";                   ///< a name of milling::Method
+  std::vector<std::string> compare = {};           ///< others
+  std::optional<int> steps_per_period, harmonics;  ///< none: milling::MethodOptions' own
+  std::optional<int> map_depths;                   ///< none: no map
+  std::optional<RobustOptions> robust;
 };
 
 struct Case {
@@ -242,6 +255,7 @@ struct Case {
   std::optional<Tool> tool;
   std::optional<Cutting> cutting;
   std::optional<LobesOptions> lobes;
+  std::optional<milling::MachineLimits> machine;
   CaseValues values;  ///< what all of the above was bound from, defaults included
 };
 

@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "app/case_table.hpp"
+#include "app/lobes_binding.hpp"
 #include "app/schema.hpp"
 #include "core/error.hpp"
 
@@ -12,64 +14,6 @@ namespace thinwall::app {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// The values below one table.
-struct Table {
-  const CaseValues& values;
-  std::string path;
-
-  [[nodiscard]] const CaseValue* get(std::string_view name) const {
-    return find(values, path.empty() ? std::string(name) : path + "." + std::string(name));
-  }
-  [[nodiscard]] bool has(std::string_view name) const { return get(name) != nullptr; }
-
-  template <typename T>
-  [[nodiscard]] T value(std::string_view name, T otherwise) const {
-    const CaseValue* found = get(name);
-    const T* held = found == nullptr ? nullptr : std::get_if<T>(&found->value);
-    return held == nullptr ? otherwise : *held;
-  }
-  [[nodiscard]] double number(std::string_view name) const { return value<double>(name, nan); }
-  [[nodiscard]] std::optional<double> optional(std::string_view name) const {
-    return has(name) ? std::optional(number(name)) : std::nullopt;
-  }
-  /// Whole numbers; −1 stands for one that could not be read.
-  [[nodiscard]] int integer(std::string_view name) const {
-    const double held = number(name);
-    return std::isfinite(held) ? static_cast<int>(held) : -1;
-  }
-  [[nodiscard]] std::string text(std::string_view name) const { return value<std::string>(name, ""); }
-  [[nodiscard]] bool flag(std::string_view name) const { return value<bool>(name, false); }
-  [[nodiscard]] std::vector<double> numbers(std::string_view name) const {
-    return value<std::vector<double>>(name, {});
-  }
-  [[nodiscard]] std::vector<std::string> names(std::string_view name) const {
-    return value<std::vector<std::string>>(name, {});
-  }
-  [[nodiscard]] std::vector<Eigen::Vector3d> directions(std::string_view name) const {
-    return value<std::vector<Eigen::Vector3d>>(name, {});
-  }
-  [[nodiscard]] Eigen::Vector3d direction(std::string_view name) const {
-    const auto list = directions(name);
-    return list.empty() ? Eigen::Vector3d::Constant(nan) : list.front();
-  }
-  [[nodiscard]] Eigen::Vector3d vector(std::string_view name) const {
-    const auto list = numbers(name);
-    return list.size() == 3 ? Eigen::Vector3d(list[0], list[1], list[2]) : Eigen::Vector3d::Constant(nan);
-  }
-  [[nodiscard]] Table table(std::string_view name) const {
-    return {values, path.empty() ? std::string(name) : path + "." + std::string(name)};
-  }
-  [[nodiscard]] std::vector<Table> tables(std::string_view name) const {
-    const std::string prefix = table(name).path;
-    const int count = array_size(values, prefix);
-    std::vector<Table> list;
-    list.reserve(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) list.push_back({values, prefix + "[" + std::to_string(i) + "]"});
-    return list;
-  }
-  [[nodiscard]] bool exists() const { return has_table(values, path); }
-};
 
 int axis_index(const std::string& letter) {
   return letter == "x" ? 0 : letter == "y" ? 1 : letter == "z" ? 2 : -1;
@@ -330,13 +274,6 @@ Cutting bind_cutting(const Table& table) {
   return cutting;
 }
 
-LobesOptions bind_lobes(const Table& table, const std::optional<Tool>& tool) {
-  const double deepest = tool ? tool->length : nan;
-  return {table.number("from"),      table.number("to"),
-          table.integer("count"),    table.optional("depth_limit").value_or(deepest),
-          table.number("tolerance"), table.optional("modes_up_to")};
-}
-
 std::vector<std::string> point_names(const std::vector<Point>& points) {
   std::vector<std::string> names;
   names.reserve(points.size());
@@ -372,6 +309,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   if (root.table("tool").exists()) bound.tool = bind_tool(root.table("tool"), folder);
   if (root.table("cutting").exists()) bound.cutting = bind_cutting(root.table("cutting"));
   if (root.table("lobes").exists()) bound.lobes = bind_lobes(root.table("lobes"), bound.tool);
+  if (root.table("machine").exists()) bound.machine = bind_machine(root.table("machine"));
   bound.values = std::move(values);
   return bound;
 }

@@ -10,6 +10,7 @@
 
 #include "app/cutting_checks.hpp"
 #include "app/findings.hpp"
+#include "app/lobes_checks.hpp"
 #include "app/part_checks.hpp"
 #include "app/schema.hpp"
 #include "app/tool_checks.hpp"
@@ -385,6 +386,7 @@ void check_lobes(const Case& source, Findings& findings) {
   const LobesOptions& lobes = *source.lobes;
   if (source.tool && !source.tool->measured.empty()) check_measured_tool(*source.tool, findings);
   if (!source.cutting) findings.report("lobes", "there is no cut; add [cutting]");
+  check_chart_choices(source, findings);
   if (source.part ? source.part->supports.empty() : !source.measured_part.empty()) {
     findings.report("lobes", "lobes need a part that is held and modelled; " +
                                  std::string(source.part ? "add [[part.supports]]" : "describe it (part.length …)") +
@@ -415,6 +417,7 @@ std::vector<Problem> check_case(const Case& source) {
   if (source.tool) check_tool(*source.tool, findings);
   if (source.cutting) check_cutting(source, findings);
   if (source.lobes) check_lobes(source, findings);
+  if (source.machine) check_machine(source, findings);
   return std::move(findings.problems);
 }
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "app/lobes_answers.hpp"
+
 namespace thinwall::app {
 
 namespace {
@@ -28,12 +30,12 @@ std::string chart_text(const json& chart) {
       depth_text(chart["minimum_depth_m"].get<double>(), all),
       all ? "at every speed" : fmt::format("at {:.0f} rpm", chart["at_spindle_speed_rpm"].get<double>()),
       estimate_text(chart["error_estimate_relative"]));
-  std::string label = "best pockets";
-  for (const json& pocket : chart["best_pockets"]) {
-    text += fmt::format("    {:<13} {} at {:.0f} rpm\n", label,
-                        depth_text(pocket["depth_m"].get<double>(), pocket["at_depth_limit"].get<bool>()),
-                        pocket["spindle_speed_rpm"].get<double>());
-    label.clear();
+  text += pockets_text(chart["best_pockets"], "best pockets") + asked_text(chart);
+  if (chart.contains("at_case_speed")) {
+    const json& row = chart["at_case_speed"];
+    text += fmt::format("    at {:.0f} rpm {}\n", row["spindle_speed_rpm"].get<double>(),
+                        depth_text(row["limiting_depth_m"].get<double>(), row["at_depth_limit"].get<bool>()));
+    text += sensitivities_text(row["sensitivities"]);
   }
   if (const int missed = chart["speeds_not_converged"].get<int>(); missed > 0) {
     text += fmt::format("    {} of {} speeds did not reach the tolerance: see the status column of lobes/{}.csv\n",
@@ -84,7 +86,7 @@ std::string point_text(const json& p) {
                       speed_text(p["boundary_below_rpm"], rpm, "from the chart's lowest"),
                       speed_text(p["boundary_above_rpm"], rpm, "the chart's highest"));
   if (const json& forced = p["forced_vibration"]; !forced.is_null()) text += forced_text(forced);
-  return text;
+  return text + sensitivities_text(p["sensitivities"]);
 }
 
 }  // namespace

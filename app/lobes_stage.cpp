@@ -2,10 +2,12 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
 
 #include "app/cut_structure.hpp"
+#include "app/lobe_sensitivity.hpp"
 #include "app/milling_process.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -16,22 +18,56 @@ namespace thinwall::app {
 
 namespace {
 
-milling::StabilityOptions options_of(const LobesOptions& wanted) {
-  milling::StabilityOptions options;
-  options.depth_limit_m = wanted.depth_limit;
-  options.error_tolerance = wanted.tolerance;
+milling::MethodOptions options_of(const LobesOptions& wanted) {
+  milling::MethodOptions options;
+  options.stability.depth_limit_m = wanted.depth_limit;
+  options.stability.error_tolerance = wanted.tolerance;
+  options.steps_per_period = wanted.steps_per_period.value_or(options.steps_per_period);
+  options.harmonics = wanted.harmonics.value_or(options.harmonics);
   return options;
 }
 
+/// What a chart and its answers are computed from; `poles` is null where the structure is known by samples.
+struct Chart {
+  CutStructure structure;
+  milling::MillingProcess process;
+  milling::MethodOptions options;
+  std::vector<double> speeds_rpm;
+  bool direct = true;
+
+  [[nodiscard]] const milling::RelativeStructure* poles() const {
+    return std::get_if<milling::RelativeStructure>(&structure);
+  }
+  [[nodiscard]] milling::Lobes by(const std::string& method) const {
+    if (const auto* sampled = std::get_if<milling::SampledReceptance>(&structure))
+      return milling::stability_lobes(*sampled, process, speeds_rpm, options.stability);
+    return milling::stability_lobes(*milling::lobe_method(milling::method_named(method), *poles(), process, options),
+                                    speeds_rpm);
+  }
+  [[nodiscard]] milling::RowAt row_at(const std::string& method) const {
+    return [this, method](double rpm, const milling::StabilityOptions& with) {
+      if (const auto* sampled = std::get_if<milling::SampledReceptance>(&structure))
+        return milling::limiting_depth(*sampled, process, rpm, with);
+      milling::MethodOptions all = options;
+      all.stability = with;
+      return milling::lobe_method(milling::method_named(method), *poles(), process, all)
+          ->limiting_depth(rpm, with.expected_depth_m);
+    };
+  }
+  /// Where the direct method gave the crossing from poles.
+  [[nodiscard]] std::vector<ParameterSensitivity> sensitivities(double rpm, const milling::LobePoint& point) const {
+    if (!direct || poles() == nullptr) return {};
+    return parameter_sensitivities(*poles(), process, rpm, point, options.stability);
+  }
+};
+
 /// Of a stable point; none without poles or a feed. What the library does not model is a warning.
-std::optional<milling::ForcedVibration> forced_at(const Case& source, const PointStability& found,
-                                                  const CutStructure& structure,
-                                                  const milling::MillingProcess& process) {
-  const auto* poles = std::get_if<milling::RelativeStructure>(&structure);
+std::optional<milling::ForcedVibration> forced_at(const Case& source, const PointStability& found, const Chart& chart) {
   const auto feed = feed_per_tooth(source);
-  if (poles == nullptr || !feed || !found.stable) return std::nullopt;
+  if (chart.poles() == nullptr || !feed || !found.stable) return std::nullopt;
   try {
-    return milling::forced_vibration(*poles, process, found.point.spindle_speed_rpm, found.point.depth_m, *feed);
+    return milling::forced_vibration(*chart.poles(), chart.process, found.point.spindle_speed_rpm, found.point.depth_m,
+                                     *feed);
   } catch (const core::InputError& error) {
     spdlog::warn("{}", error.what());
     return std::nullopt;
@@ -39,19 +75,22 @@ std::optional<milling::ForcedVibration> forced_at(const Case& source, const Poin
 }
 
 /// |μ| where there are poles, and the margins to the boundary.
-PointStability stability_of(const milling::OperatingPoint& point, const CutStructure& structure,
-                            const milling::MillingProcess& process, const milling::RowAt& row_at,
-                            const milling::Lobes& chart, const milling::StabilityOptions& options) {
+PointStability stability_of(const milling::OperatingPoint& point, const Chart& chart, const std::string& method,
+                            const milling::Lobes& lobes) {
+  const milling::StabilityOptions& options = chart.options.stability;
+  const milling::RowAt row_at = chart.row_at(method);
   PointStability result;
   result.point = point;
   const milling::LobeRow row = milling::row_to(row_at, point, options);
   result.stable = milling::stable_at(row, point.depth_m);
   result.depth = milling::depth_margin(row, point.depth_m);
-  result.speed = milling::speed_margin(row_at, chart.rows, point, options);
+  result.speed = milling::speed_margin(row_at, lobes.rows, point, options);
   result.status = row.status;
-  const auto* poles = std::get_if<milling::RelativeStructure>(&structure);
-  if (poles == nullptr) return result;
-  result.multiplier = milling::multiplier_at(*poles, process, point.spindle_speed_rpm, point.depth_m, options);
+  if (chart.poles() == nullptr) return result;
+  if (!result.depth.at_limit)
+    result.sensitivities = chart.sensitivities(point.spindle_speed_rpm, result.depth.boundary);
+  result.multiplier = milling::lobe_method(milling::method_named(method), *chart.poles(), chart.process, chart.options)
+                          ->multiplier_at(point.spindle_speed_rpm, point.depth_m);
   if ((result.multiplier->modulus < 1.0) != result.stable) {
     // The two disagree on the boundary itself only, unless a crossing was missed.
     const bool on_boundary = std::abs(result.depth.margin_m) <= 1e-3 * point.depth_m;
@@ -61,27 +100,74 @@ PointStability stability_of(const milling::OperatingPoint& point, const CutStruc
   return result;
 }
 
+ComparedLobes compared(const Chart& chart, const milling::Lobes& reference, const std::string& method) {
+  ComparedLobes result{method, chart.by(method)};
+  for (std::size_t i = 0; i < reference.rows.size(); ++i) {
+    const milling::LobeRow& row = reference.rows[i];
+    const double difference = std::abs(result.lobes.rows[i].limiting_depth_m / row.limiting_depth_m - 1.0);
+    if (i > 0 && difference <= result.largest_difference) continue;
+    result.largest_difference = difference;
+    result.at_spindle_speed_rpm = row.spindle_speed_rpm;
+  }
+  return result;
+}
+
+milling::StabilityMap map_of(const Chart& chart, const milling::Lobes& lobes, int count) {
+  double deepest = 0.0;
+  for (const milling::LobeRow& row : lobes.rows) deepest = std::max(deepest, row.limiting_depth_m);
+  std::vector<double> depths(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < depths.size(); ++i) depths[i] = deepest * static_cast<double>(i + 1) / count;
+  return milling::stability_map(*chart.poles(), chart.process, chart.speeds_rpm, depths, chart.options.stability);
+}
+
+/// The rows with the robust depths in place of the limits.
+std::vector<milling::LobeRow> robust_rows(std::vector<milling::LobeRow> rows, const milling::RobustLobes& robust) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].limiting_depth_m = robust.rows[i].depth_m;
+    rows[i].at_limit = robust.rows[i].at_limit;
+  }
+  return rows;
+}
+
+void add_pockets(const Case& source, const milling::MillingProcess& process, NamedLobes& result) {
+  constexpr std::size_t most = 5;
+  const milling::MachineLimits machine = source.machine.value_or(milling::MachineLimits{});
+  std::optional<milling::CutLoad> load;
+  if (const auto feed = feed_per_tooth(source); feed && source.tool->end == "flat")
+    load = milling::cut_load(process, *feed);
+  result.pockets = milling::best_pockets(result.lobes.rows, machine, load, most);
+  if (!result.robust) return;
+  result.robust_pockets = milling::best_pockets(robust_rows(result.lobes.rows, *result.robust), machine, load, most);
+  std::erase_if(result.robust_pockets, [](const milling::Pocket& pocket) { return pocket.depth_m == 0.0; });
+}
+
 }  // namespace
 
 NamedLobes compute_lobes(const Case& source, const std::string& name, const dynamics::ModalModel* part,
                          const std::vector<milling::OperatingPoint>& points) {
   const LobesOptions& wanted = *source.lobes;
   const milling::MillingProcess process = milling_process(source);
-  const CutStructure structure = cut_structure(source, process.frame, part);
-  const milling::StabilityOptions options = options_of(wanted);
-  const milling::RowAt row_at = [&](double rpm, const milling::StabilityOptions& with) {
-    return std::visit([&](const auto& s) { return milling::limiting_depth(s, process, rpm, with); }, structure);
-  };
-  const auto speeds = milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count);
+  const Chart chart{cut_structure(source, process.frame, part), process, options_of(wanted),
+                    milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count), wanted.method == "direct"};
   NamedLobes result;
   result.name = name;
-  result.lobes =
-      std::visit([&](const auto& s) { return milling::stability_lobes(s, process, speeds, options); }, structure);
-  if (source.cutting->spindle_speed_rpm) result.at_spindle_speed = row_at(*source.cutting->spindle_speed_rpm, options);
-  for (const auto& point : points) {
-    result.points.push_back(stability_of(point, structure, process, row_at, result.lobes, options));
-    result.points.back().forced = forced_at(source, result.points.back(), structure, process);
+  result.lobes = chart.by(wanted.method);
+  if (const auto rpm = source.cutting->spindle_speed_rpm) {
+    result.at_spindle_speed = chart.row_at(wanted.method)(*rpm, chart.options.stability);
+    if (!result.at_spindle_speed->crossings.empty())
+      result.sensitivities = chart.sensitivities(*rpm, result.at_spindle_speed->crossings.front());
   }
+  for (const auto& point : points) {
+    result.points.push_back(stability_of(point, chart, wanted.method, result.lobes));
+    result.points.back().forced = forced_at(source, result.points.back(), chart);
+  }
+  for (const auto& method : wanted.compare) result.compared.push_back(compared(chart, result.lobes, method));
+  if (wanted.map_depths) result.map = map_of(chart, result.lobes, *wanted.map_depths);
+  if (wanted.robust) {
+    result.robust = milling::robust_lobes(*chart.poles(), process, chart.speeds_rpm, chart.options.stability,
+                                          wanted.robust->uncertainty, wanted.robust->confidence);
+  }
+  add_pockets(source, process, result);
   return result;
 }
 

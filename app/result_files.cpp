@@ -10,6 +10,7 @@
 
 #include "app/case_writer.hpp"
 #include "app/doctor.hpp"
+#include "app/lobes_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -22,7 +23,6 @@
 #include "io/vtp.hpp"
 #include "io/vtu.hpp"
 #include "mesh/tessellation.hpp"
-#include "milling/stability.hpp"
 
 namespace thinwall::app {
 
@@ -147,58 +147,6 @@ dynamics::ResponseModel at_points(const dynamics::ResponseModel& all, const std:
   chosen.forces = chosen.responses;
   for (const auto& H : all.H) chosen.H.emplace_back(H(kept, kept));
   return chosen;
-}
-
-/// Every crossing of every speed, so that islands and gaps above the limiting depth are there, too.
-void write_crossings(const fs::path& folder, const NamedLobes& named) {
-  std::vector<double> speed, depth, chatter, change, error;
-  std::vector<std::string> kind;
-  for (const milling::LobeRow& row : named.lobes.rows) {
-    for (const milling::LobePoint& point : row.crossings) {
-      speed.push_back(row.spindle_speed_rpm);
-      depth.push_back(point.depth_m);
-      chatter.push_back(point.chatter_frequency_hz);
-      kind.push_back(milling::name(point.kind));
-      change.push_back(point.unstable_change);
-      error.push_back(point.error_estimate);
-    }
-  }
-  io::write_csv(folder / (named.name + "_crossings.csv"),
-                {{"spindle_speed_rpm", speed},
-                 {"depth_m", depth},
-                 {"chatter_frequency_hz", chatter},
-                 {"bifurcation", kind},
-                 {"unstable_change", change},
-                 {"error_estimate_relative", error}},
-                {"unstable_change: Floquet multipliers that leave the unit circle there as the depth rises; negative: "
-                 "that return. A cut is stable where the sum of those below its depth is 0"});
-}
-
-void write_lobes(const fs::path& folder, const NamedLobes& named) {
-  std::vector<double> speed;
-  std::vector<double> depth;
-  std::vector<double> chatter;
-  std::vector<double> error;
-  std::vector<std::string> kind;
-  std::vector<std::string> status;
-  for (const milling::LobeRow& row : named.lobes.rows) {
-    speed.push_back(row.spindle_speed_rpm);
-    depth.push_back(row.limiting_depth_m);
-    chatter.push_back(row.chatter_frequency_hz);
-    error.push_back(row.error_estimate);
-    kind.push_back(milling::name(row.kind));
-    status.push_back(milling::name(row.status));
-  }
-  io::write_csv(folder / (named.name + ".csv"),
-                {{"spindle_speed_rpm", speed},
-                 {"limiting_depth_m", depth},
-                 {"chatter_frequency_hz", chatter},
-                 {"bifurcation", kind},
-                 {"error_estimate_relative", error},
-                 {"status", status}},
-                {"method: " + named.lobes.method,
-                 "rows with status stable_to_depth_limit are stable up to the depth given, the limit of the chart"});
-  write_crossings(folder, named);
 }
 
 nlohmann::json records(const std::vector<io::FileRecord>& files) {

@@ -18,6 +18,9 @@
 #include "milling/forced_vibration.hpp"
 #include "milling/lobes.hpp"
 #include "milling/operating_point.hpp"
+#include "milling/pockets.hpp"
+#include "milling/robust_lobes.hpp"
+#include "milling/stability_map.hpp"
 #include "reduction/craig_bampton.hpp"
 #include "reduction/identification.hpp"
 
@@ -64,6 +67,13 @@ struct AmplitudeReduction {
   double supported = 0.0;  ///< |G|, m/N
 };
 
+/// By how many percent a limiting depth rises if a parameter rises by one percent, d ln w / d ln p.
+struct ParameterSensitivity {
+  std::string parameter;                    ///< frequency, damping_ratio, receptance (of a mode); K_t, K_r, K_a
+  std::optional<double> mode_frequency_hz;  ///< the mode's own; none of a coefficient
+  double value = 0.0;
+};
+
 /// What a chart says of one operating point.
 struct PointStability {
   milling::OperatingPoint point;
@@ -72,7 +82,16 @@ struct PointStability {
   milling::DepthMargin depth;
   milling::SpeedMargin speed;
   milling::StabilityStatus status = milling::StabilityStatus::converged;
-  std::optional<milling::ForcedVibration> forced;  ///< of a stable point where poles and the feed are known
+  std::optional<milling::ForcedVibration> forced;   ///< of a stable point where poles and the feed are known
+  std::vector<ParameterSensitivity> sensitivities;  ///< of the boundary in depth, largest first; by the direct method
+};
+
+/// A chart of the same cut by another method, and where it differs most.
+struct ComparedLobes {
+  std::string method;  ///< name of milling::Method
+  milling::Lobes lobes;
+  double largest_difference = 0.0;  ///< |w' − w|/w of limiting depths
+  double at_spindle_speed_rpm = 0.0;
 };
 
 struct NamedLobes {
@@ -80,6 +99,12 @@ struct NamedLobes {
   milling::Lobes lobes;
   std::optional<milling::LobeRow> at_spindle_speed;  ///< at the case's own speed
   std::vector<PointStability> points;                ///< that were asked for
+  std::vector<ParameterSensitivity> sensitivities;   ///< at the case's own speed, largest first
+  std::vector<milling::Pocket> pockets;              ///< within the machine's limits, best first
+  std::vector<ComparedLobes> compared;
+  std::optional<milling::StabilityMap> map;
+  std::optional<milling::RobustLobes> robust;
+  std::vector<milling::Pocket> robust_pockets;
 };
 
 /// One fit of model updating.

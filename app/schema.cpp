@@ -28,6 +28,12 @@ constexpr Bounds tilt{-1.3962634016, 1.3962634016, false, false, false, "within 
 constexpr Bounds turn{-6.2831853072, 12.5663706144, false, false, false, "a full turn is 360 deg"};
 constexpr Bounds radial_bounds{0.0, 1e12, false, false, false, "for N/mm^2 write the unit: \"600 N/mm^2\""};
 
+constexpr Bounds uncertainty{0.0,   1.0,   false,
+                             false, false, "a standard uncertainty relative to the value: 5 % is 0.05"};
+constexpr auto methods =
+    "direct|zeroth_order|multi_frequency|semi_discretization_0|semi_discretization_1|semi_discretization_2|"
+    "full_discretization_1|full_discretization_2|full_discretization_3";
+
 constexpr bool required = true;
 
 constexpr std::array case_sections{
@@ -63,7 +69,13 @@ constexpr std::array case_sections{
     Section{"tool.measured[]", "Measured FRFs of the tool tip, in place of modes; entries that no file gives are zero.",
             ""},
     Section{"cutting", "How the cutter meets the part.", ""},
+    Section{"machine", "What the machine allows; pockets are ranked within it.", ""},
     Section{"lobes", "The stability chart.", ""},
+    Section{
+        "lobes.uncertainty",
+        "Relative standard uncertainties, for a chart that holds in spite of them (docs/theory/lobes.md). From poles "
+        "and by the direct method.",
+        ""},
 };
 
 // clang-format off
@@ -239,6 +251,23 @@ constexpr std::array case_keys{
     Key{"lobes.depth_limit", Type::quantity, kind::length, "", positive, "", "Deepest cut that is asked; `tool.length` if not given."},
     Key{"lobes.tolerance", Type::quantity, kind::number, "1e-4", {1e-9, 0.5, false, false, false, ""}, "", "Bound on the estimated relative error of the depth."},
     Key{"lobes.modes_up_to", Type::quantity, kind::frequency, "", positive, "", "Only modes up to this frequency; those above act by their static compliance alone, whose share is reported as static_share."},
+    Key{"lobes.method", Type::choice, kind::number, "\"direct\"", any, methods, "What the chart is computed by; `docs/theory/lobes.md` says which when. All but `direct` take equal straight teeth (`zeroth_order` equal helices, too), one arc and modes."},
+    Key{"lobes.compare", Type::names, kind::number, "", any, methods, "Further charts of the same cut by these methods, `lobes/<name>_<method>.csv`, with the largest difference from the chart."},
+    Key{"lobes.steps_per_period", Type::integer, kind::number, "", {3, 2000, false, false, false, "40 is customary, 200 better"}, "", "Steps a tooth period of semi- and full-discretization; 40 if not given."},
+    Key{"lobes.harmonics", Type::integer, kind::number, "", {0, 500, false, false, false, "16 is usual"}, "", "Harmonics of the cut in `multi_frequency`, and in the error estimate of `zeroth_order`; 16 if not given."},
+    Key{"lobes.map_depths", Type::integer, kind::number, "", {1, 2000, false, false, false, "200 draws a fine map"}, "", "Number of depths, up to the chart's largest, of a map of the largest Floquet multiplier's modulus: `lobes/<name>_map.csv`. By collocation, from poles."},
+    Key{"lobes.uncertainty.frequency", Type::quantity, kind::number, "0", uncertainty, "", "Of every natural frequency, at constant modal mass."},
+    Key{"lobes.uncertainty.damping_ratio", Type::quantity, kind::number, "0", uncertainty, "", "Of every damping ratio."},
+    Key{"lobes.uncertainty.receptance", Type::quantity, kind::number, "0", uncertainty, "", "Of every mode's height in the receptance (its modal mass), frequency and damping apart."},
+    Key{"lobes.uncertainty.coefficients", Type::quantity, kind::number, "0", uncertainty, "", "Of each cutting coefficient."},
+    Key{"lobes.uncertainty.confidence", Type::quantity, kind::number, "2", {0.0, 6.0, true, false, false, "2 stands for 97.7 %"}, "", "k: how many standard uncertainties the robust depth stays below the limit."},
+
+    Key{"machine.min_spindle_speed", Type::quantity, kind::spindle_speed, "", positive, "", "Lowest spindle speed."},
+    Key{"machine.max_spindle_speed", Type::quantity, kind::spindle_speed, "", positive, "", "Highest spindle speed."},
+    Key{"machine.max_power", Type::quantity, kind::power, "", positive, "", "Power of the spindle's motor; against the mean of the static cutting force."},
+    Key{"machine.max_torque", Type::quantity, kind::torque, "", positive, "", "Torque at the spindle, likewise."},
+    Key{"machine.max_feed_rate", Type::quantity, kind::velocity, "", positive, "", "Highest feed rate: with the feed per tooth a bound on the speed."},
+    Key{"machine.efficiency", Type::quantity, kind::number, "1", {0.0, 1.0, true, false, false, "0.8 to 0.95 is usual"}, "", "Share of the motor's power that reaches the cut."},
 };
 
 constexpr std::array expectation_sections{

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/lobes_summary.hpp"
 #include "app/support_stage.hpp"
-#include "milling/pockets.hpp"
 #include "milling/stability.hpp"
 
 namespace thinwall::app {
@@ -161,7 +161,7 @@ json crossing_of(const milling::LobePoint& point) {
           {"error_estimate_relative", finite(point.error_estimate)}};
 }
 
-json lobes_of(const NamedLobes& named) {
+json lobes_of(const Case& source, const NamedLobes& named) {
   const milling::Lobes& lobes = named.lobes;
   const auto deepest = std::max_element(lobes.rows.begin(), lobes.rows.end(), [](const auto& a, const auto& b) {
     return a.limiting_depth_m < b.limiting_depth_m;
@@ -176,15 +176,12 @@ json lobes_of(const NamedLobes& named) {
                  {"speeds", lobes.rows.size()},
                  {"speeds_stable_to_depth_limit", lobes.rows_at_limit},
                  {"speeds_not_converged", lobes.rows_not_converged}};
-  result["best_pockets"] = json::array();
-  for (const auto& pocket : milling::best_pockets(lobes.rows, 5)) {
-    result["best_pockets"].push_back({{"spindle_speed_rpm", pocket.spindle_speed_rpm},
-                                      {"depth_m", pocket.depth_m},
-                                      {"at_depth_limit", pocket.at_limit}});
-  }
+  result["best_pockets"] = pockets_summary(source, named.pockets);
+  add_what_was_asked(result, source, named);
   if (named.at_spindle_speed) {
     json row = row_of(*named.at_spindle_speed);
     for (const auto& point : named.at_spindle_speed->crossings) row["crossings"].push_back(crossing_of(point));
+    row["sensitivities"] = sensitivities_summary(named.sensitivities);
     result["at_case_speed"] = std::move(row);
   }
   return result;
@@ -226,6 +223,7 @@ json point_of(const std::string& chart, const PointStability& found) {
       !frequency ? json(nullptr) : json(milling::name(by_poles ? found.multiplier->kind : boundary.kind));
   result["depth_error_estimate_relative"] = found.depth.at_limit ? json(nullptr) : finite(boundary.error_estimate);
   result["forced_vibration"] = found.forced ? forced_of(*found.forced) : json(nullptr);
+  result["sensitivities"] = sensitivities_summary(found.sensitivities);
   return result;
 }
 
@@ -260,7 +258,7 @@ json summary_of(const Case& source, const Results& results) {
   if (results.robot) summary["robot"] = robot_of(source, *results.robot);
   if (results.coupled) summary["coupling"] = coupling_of(results);
   summary["lobes"] = json::array();
-  for (const auto& lobes : results.lobes) summary["lobes"].push_back(lobes_of(lobes));
+  for (const auto& lobes : results.lobes) summary["lobes"].push_back(lobes_of(source, lobes));
   summary["operating_points"] = json::array();
   for (const auto& lobes : results.lobes) {
     for (const auto& point : lobes.points) summary["operating_points"].push_back(point_of(lobes.name, point));

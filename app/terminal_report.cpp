@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "app/lobes_answers.hpp"
 #include "app/lobes_report.hpp"
 
 namespace thinwall::app {
@@ -35,7 +36,7 @@ void answer(std::string& out, const json& summary) {
     if (!row["at_depth_limit"].get<bool>())
       out += fmt::format(", chatter at {:.1f} Hz ({})", row["chatter_frequency_hz"].get<double>(),
                          row["bifurcation"].get<std::string>());
-    out += '\n';
+    out += '\n' + sensitivities_text(row["sensitivities"]);
   }
   if (summary.contains("coupling")) {
     for (const json& r : summary["coupling"]["reductions"]) {
@@ -81,6 +82,7 @@ void charts(std::string& out, const json& summary) {
     const std::string estimate = error.is_null() ? "unknown" : fmt::format("{:.2f} %", error.get<double>() * 100.0);
     out += fmt::format("  {:<22} {:<38} {:<25} {}\n", chart_title(lobes["name"]), minimum(lobes),
                        fmt::format("{} at {:.0f} rpm", depth(best), best["spindle_speed_rpm"].get<double>()), estimate);
+    out += asked_text(lobes);
     if (const json& static_share = lobes["static_share"];
         !static_share.is_null() && static_share.get<double>() > 0.01) {
       out += fmt::format(

@@ -24,7 +24,7 @@ constexpr double turn = 2.0 * std::numbers::pi;
 constexpr Dimension none{};
 constexpr Dimension length{1, 0, 0, 0, 0}, mass{0, 1, 0, 0, 0}, time{0, 0, 1, 0, 0}, angle{0, 0, 0, 1, 0};
 constexpr Dimension data{0, 0, 0, 0, 1}, per_time{0, 0, -1, 0, 0}, angular_rate{0, 0, -1, 1, 0};
-constexpr Dimension force{1, 1, -2, 0, 0}, pressure{-1, 1, -2, 0, 0};
+constexpr Dimension force{1, 1, -2, 0, 0}, pressure{-1, 1, -2, 0, 0}, work_rate{2, 1, -3, 0, 0};
 
 constexpr std::array units{
     NamedUnit{"1", 1.0, none},
@@ -61,6 +61,8 @@ constexpr std::array units{
     NamedUnit{"kPa", 1e3, pressure},
     NamedUnit{"MPa", 1e6, pressure},
     NamedUnit{"GPa", 1e9, pressure},
+    NamedUnit{"W", 1.0, work_rate},
+    NamedUnit{"kW", 1e3, work_rate},
     NamedUnit{"B", 1.0, data},
     NamedUnit{"kB", 1e3, data},
     NamedUnit{"MB", 1e6, data},
@@ -135,9 +137,9 @@ std::optional<double> take_number(std::string_view& text) {
 }
 
 /// The kinds by which a dimension is named; a stiffness comes before anything else in N/m.
-constexpr std::array named_kinds{kind::number,  kind::length, kind::mass,         kind::time,     kind::angle,
-                                 kind::density, kind::stress, kind::frequency,    kind::velocity, kind::stiffness,
-                                 kind::damping, kind::memory, kind::spindle_speed};
+constexpr std::array named_kinds{kind::number,  kind::length, kind::mass,      kind::time,     kind::angle,
+                                 kind::density, kind::stress, kind::frequency, kind::velocity, kind::stiffness,
+                                 kind::damping, kind::power,  kind::torque,    kind::memory,   kind::spindle_speed};
 
 Quantity kind_unit(const QuantityKind& kind) {
   return kind.unit.empty() ? Quantity{1.0, {}} : parse_unit(kind.unit);

@@ -48,6 +48,8 @@ inline constexpr QuantityKind velocity{"velocity", "m/s", "1800 mm/min"};
 inline constexpr QuantityKind stiffness{"stiffness", "N/m", "1.7e6 N/m"};
 inline constexpr QuantityKind damping{"damping", "N s/m", "200 N s/m"};
 inline constexpr QuantityKind rate{"rate", "1/s", "12 1/s"};
+inline constexpr QuantityKind power{"power", "W", "15 kW"};
+inline constexpr QuantityKind torque{"torque", "N m", "40 N m"};
 inline constexpr QuantityKind memory{"memory", "B", "4 GB"};
 }  // namespace kind
 

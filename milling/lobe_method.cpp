@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/nearest_name.hpp"
 #include "milling/multi_frequency.hpp"
 #include "milling/stability.hpp"
 #include "milling/uniform_step_stability.hpp"
@@ -125,21 +126,6 @@ class UniformSteps : public LobeMethod {
   StepRule rule_;
 };
 
-void require_suited(Method method, const MillingProcess& process) {
-  if (method == Method::direct) return;
-  if (method != Method::zeroth_order && method != Method::multi_frequency) {
-    if (regenerates_in_plane(process)) return;
-    throw core::InputError(name(method) +
-                           ": takes a cylinder without process damping; this cut has more; take the direct method");
-  }
-  MillingProcess taken = process;
-  if (method == Method::zeroth_order && process.cutter.equal_teeth()) taken.cutter.helices_rad.clear();
-  if (elementary(taken)) return;
-  const std::string helix = method == Method::zeroth_order ? ", with any helix, " : " without helix ";
-  throw core::InputError(name(method) + ": takes equal teeth" + helix +
-                         "on a cylinder, one arc, no process damping; this cut has more; take the direct method");
-}
-
 }  // namespace
 
 const std::vector<Method>& all_methods() {
@@ -177,6 +163,31 @@ std::string name(Method method) {
       break;
   }
   return "full_discretization_3";
+}
+
+Method method_named(const std::string& name) {
+  std::vector<std::string> known;
+  known.reserve(all_methods().size());
+  for (const Method method : all_methods()) {
+    if (milling::name(method) == name) return method;
+    known.push_back(milling::name(method));
+  }
+  throw core::InputError("there is no method \"" + name + "\" for lobes" + core::did_you_mean(name, known) +
+                         "; \"direct\" serves any cut");
+}
+
+std::string objection(Method method, const MillingProcess& process) {
+  if (method == Method::direct) return "";
+  if (method != Method::zeroth_order && method != Method::multi_frequency) {
+    if (regenerates_in_plane(process)) return "";
+    return name(method) + ": takes a cylinder without process damping; this cut has more; take the direct method";
+  }
+  MillingProcess taken = process;
+  if (method == Method::zeroth_order && process.cutter.equal_teeth()) taken.cutter.helices_rad.clear();
+  if (elementary(taken)) return "";
+  const std::string helix = method == Method::zeroth_order ? ", with any helix, " : " without helix ";
+  return name(method) + ": takes equal teeth" + helix +
+         "on a cylinder, one arc, no process damping; this cut has more; take the direct method";
 }
 
 std::vector<std::string> validate(const MethodOptions& options) {
@@ -217,7 +228,7 @@ std::unique_ptr<LobeMethod> lobe_method(Method method, const RelativeStructure& 
   const auto more = validate(options);
   violations.insert(violations.end(), more.begin(), more.end());
   require_valid(violations);
-  require_suited(method, process);
+  if (const std::string why = objection(method, process); !why.empty()) throw core::InputError(why);
   const auto steps = [&](StepRule rule) -> std::unique_ptr<LobeMethod> {
     return std::make_unique<UniformSteps>(structure, process, options, rule);
   };

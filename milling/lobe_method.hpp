@@ -29,11 +29,18 @@ enum class Method {
 /// As in the enumeration, "zeroth_order" and so on.
 [[nodiscard]] std::string name(Method method);
 
+/// The method of that name. Throws InputError with the nearest one if there is none.
+[[nodiscard]] Method method_named(const std::string& name);
+
+/// Why the method cannot take this cut, "" if it can. `direct` takes all, semi- and full-discretization all on a
+/// cylinder without process damping (any pitches, helices, arcs), `zeroth_order` equal teeth with any helix,
+/// `multi_frequency` equal teeth without.
+[[nodiscard]] std::string objection(Method method, const MillingProcess& process);
+
 struct MethodOptions {
   StabilityOptions stability;
-  int steps_per_period =
-      40;              ///< ≥ 3 a mean tooth period: semi- and full-discretization; 40 is usual, not always enough
-  int harmonics = 16;  ///< ≥ 0: of the directional matrix, in the multi-frequency solution
+  int steps_per_period = 40;  ///< ≥ 3 a mean tooth period: semi- and full-discretization; 40 is not always enough
+  int harmonics = 16;         ///< ≥ 0: of the directional matrix, in the multi-frequency solution
 };
 
 /// Every violation, empty if there is none.
@@ -75,9 +82,7 @@ class LobeMethod {
   [[nodiscard]] virtual LobeRow row_of(double spindle_speed_rpm, std::optional<double> expected_depth_m) const = 0;
 };
 
-/// Keeps copies of its arguments. Throws InputError for a bad process or option, or for a cut that the method cannot
-/// take: `direct` takes all, semi- and full-discretization all on a cylinder without process damping (any pitches,
-/// helices, arcs), `zeroth_order` equal teeth with any helix, `multi_frequency` equal teeth without.
+/// Keeps copies of its arguments. Throws InputError for a bad process or option, or with the method's objection().
 [[nodiscard]] std::unique_ptr<LobeMethod> lobe_method(Method method, const RelativeStructure& structure,
                                                       const MillingProcess& process, const MethodOptions& options);
 

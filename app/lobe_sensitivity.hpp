@@ -1,0 +1,21 @@
+#pragma once
+// What the depth at a crossing depends on, by name.
+
+#include <vector>
+
+#include "app/results.hpp"
+#include "milling/process.hpp"
+#include "milling/relative_structure.hpp"
+
+namespace thinwall::app {
+
+/// depth_sensitivity() of a crossing, an entry for each parameter, largest magnitude first. `receptance` is a mode's
+/// height, the reciprocal of its modal mass. Empty, with a warning in the log, where the crossing is not found again.
+/// Throws InputError as depth_sensitivity().
+[[nodiscard]] std::vector<ParameterSensitivity> parameter_sensitivities(const milling::RelativeStructure& structure,
+                                                                        const milling::MillingProcess& process,
+                                                                        double spindle_speed_rpm,
+                                                                        const milling::LobePoint& point,
+                                                                        const milling::StabilityOptions& options);
+
+}  // namespace thinwall::app

@@ -1,0 +1,17 @@
+#pragma once
+// [lobes] and [machine], typed.
+
+#include <optional>
+
+#include "app/case.hpp"
+#include "app/case_table.hpp"
+
+namespace thinwall::app {
+
+/// `tool` gives the depth limit where the table does not.
+[[nodiscard]] LobesOptions bind_lobes(const Table& table, const std::optional<Tool>& tool);
+
+/// What the table does not bound stays without bound.
+[[nodiscard]] milling::MachineLimits bind_machine(const Table& table);
+
+}  // namespace thinwall::app

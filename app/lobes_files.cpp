@@ -1,0 +1,94 @@
+#include "app/lobes_files.hpp"
+
+#include <string>
+#include <vector>
+
+#include "io/csv_table.hpp"
+#include "milling/stability.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Every crossing of every speed, so that islands and gaps above the limiting depth are there, too.
+void write_crossings(const fs::path& folder, const NamedLobes& named) {
+  std::vector<double> speed, depth, chatter, change, error;
+  std::vector<std::string> kind;
+  for (const milling::LobeRow& row : named.lobes.rows) {
+    for (const milling::LobePoint& point : row.crossings) {
+      speed.push_back(row.spindle_speed_rpm);
+      depth.push_back(point.depth_m);
+      chatter.push_back(point.chatter_frequency_hz);
+      kind.push_back(milling::name(point.kind));
+      change.push_back(point.unstable_change);
+      error.push_back(point.error_estimate);
+    }
+  }
+  io::write_csv(folder / (named.name + "_crossings.csv"),
+                {{"spindle_speed_rpm", speed},
+                 {"depth_m", depth},
+                 {"chatter_frequency_hz", chatter},
+                 {"bifurcation", kind},
+                 {"unstable_change", change},
+                 {"error_estimate_relative", error}},
+                {"unstable_change: Floquet multipliers that leave the unit circle there as the depth rises; negative: "
+                 "that return. A cut is stable where the sum of those below its depth is 0"});
+}
+
+/// Limits of one method; with what is robust of them, if that is known.
+void write_chart(const fs::path& file, const milling::Lobes& lobes, const milling::RobustLobes* robust) {
+  std::vector<double> speed, depth, chatter, error, uncertainty, robust_depth;
+  std::vector<std::string> kind, status;
+  for (const milling::LobeRow& row : lobes.rows) {
+    speed.push_back(row.spindle_speed_rpm);
+    depth.push_back(row.limiting_depth_m);
+    chatter.push_back(row.chatter_frequency_hz);
+    error.push_back(row.error_estimate);
+    kind.push_back(milling::name(row.kind));
+    status.push_back(milling::name(row.status));
+  }
+  io::Table table{{"spindle_speed_rpm", speed}, {"limiting_depth_m", depth},        {"chatter_frequency_hz", chatter},
+                  {"bifurcation", kind},        {"error_estimate_relative", error}, {"status", status}};
+  std::vector<std::string> comments{
+      "method: " + lobes.method,
+      "rows with status stable_to_depth_limit are stable up to the depth given, the limit of the chart"};
+  if (robust != nullptr) {
+    for (const milling::RobustRow& row : robust->rows) {
+      uncertainty.push_back(row.relative_uncertainty);
+      robust_depth.push_back(row.depth_m);
+    }
+    table.push_back({"relative_uncertainty", uncertainty});
+    table.push_back({"robust_depth_m", robust_depth});
+    comments.emplace_back(
+        "relative_uncertainty: standard, of the limiting depth, first order; 0 where no crossing is known to twice the "
+        "depth limit. robust_depth_m: docs/theory/lobes.md; 0 where the cut is not robust at any depth");
+  }
+  io::write_csv(file, table, comments);
+}
+
+void write_map(const fs::path& file, const milling::StabilityMap& map) {
+  std::vector<double> speed, depth, modulus;
+  for (std::size_t s = 0; s < map.spindle_speeds_rpm.size(); ++s) {
+    for (std::size_t d = 0; d < map.depths_m.size(); ++d) {
+      speed.push_back(map.spindle_speeds_rpm[s]);
+      depth.push_back(map.depths_m[d]);
+      modulus.push_back(map.modulus(static_cast<Eigen::Index>(d), static_cast<Eigen::Index>(s)));
+    }
+  }
+  io::write_csv(file, {{"spindle_speed_rpm", speed}, {"depth_m", depth}, {"multiplier_modulus", modulus}},
+                {"of the largest Floquet multiplier, by contact-phase collocation; stable below 1"});
+}
+
+}  // namespace
+
+void write_lobes(const fs::path& folder, const NamedLobes& named) {
+  write_chart(folder / (named.name + ".csv"), named.lobes, named.robust ? &*named.robust : nullptr);
+  write_crossings(folder, named);
+  for (const ComparedLobes& other : named.compared)
+    write_chart(folder / (named.name + "_" + other.method + ".csv"), other.lobes, nullptr);
+  if (named.map) write_map(folder / (named.name + "_map.csv"), *named.map);
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,14 @@
+#pragma once
+// The tables of a chart: limits, crossings, charts by other methods, a map.
+
+#include <filesystem>
+
+#include "app/results.hpp"
+
+namespace thinwall::app {
+
+/// lobes/<name>.csv, <name>_crossings.csv, and where they were asked for <name>_<method>.csv and <name>_map.csv, into
+/// `folder`. Throws as io::write_csv.
+void write_lobes(const std::filesystem::path& folder, const NamedLobes& named);
+
+}  // namespace thinwall::app
