@@ -251,7 +251,7 @@ constexpr std::array case_keys{
     Key{"lobes.depth_limit", Type::quantity, kind::length, "", positive, "", "Deepest cut that is asked; `tool.length` if not given."},
     Key{"lobes.tolerance", Type::quantity, kind::number, "1e-4", {1e-9, 0.5, false, false, false, ""}, "", "Bound on the estimated relative error of the depth."},
     Key{"lobes.modes_up_to", Type::quantity, kind::frequency, "", positive, "", "Only modes up to this frequency; those above act by their static compliance alone, whose share is reported as static_share."},
-    Key{"lobes.method", Type::choice, kind::number, "\"direct\"", any, methods, "What the chart is computed by; `docs/theory/lobes.md` says which when. All but `direct` take equal straight teeth (`zeroth_order` equal helices, too), one arc and modes."},
+    Key{"lobes.method", Type::choice, kind::number, "\"direct\"", any, methods, "What the chart is computed by; `docs/theory/lobes.md` says which when. All but `direct` need modes; `semi_` and `full_discretization` a cylinder without process damping, `zeroth_order` equal teeth besides, `multi_frequency` equal straight ones."},
     Key{"lobes.compare", Type::names, kind::number, "", any, methods, "Further charts of the same cut by these methods, `lobes/<name>_<method>.csv`, with the largest difference from the chart."},
     Key{"lobes.steps_per_period", Type::integer, kind::number, "", {3, 2000, false, false, false, "40 is customary, 200 better"}, "", "Steps a tooth period of semi- and full-discretization; 40 if not given."},
     Key{"lobes.harmonics", Type::integer, kind::number, "", {0, 500, false, false, false, "16 is usual"}, "", "Harmonics of the cut in `multi_frequency`, and in the error estimate of `zeroth_order`; 16 if not given."},
