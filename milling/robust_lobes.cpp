@@ -66,32 +66,62 @@ DepthSensitivity beside_common_change(DepthSensitivity s) {
   return s;
 }
 
-/// The step of length `confidence`, in standard uncertainties, down the slope.
-ParameterChange worst_change(const DepthSensitivity& s, const Uncertainty& u, double confidence) {
-  const double length = relative_uncertainty(s, u);
-  const double scale = length > 0.0 ? -confidence / length : 0.0;
-  const auto down = [&](double uncertainty) { return scale * uncertainty * uncertainty; };
-  return {down(u.frequency) * s.to_frequency, down(u.damping_ratio) * s.to_damping_ratio,
-          down(u.mass) * s.to_mass,           down(u.coefficients) * s.to_K_t,
-          down(u.coefficients) * s.to_K_r,    down(u.coefficients) * s.to_K_a};
+/// The slope of ln w in standard uncertainties: frequencies, damping ratios, masses, K_t, K_r, K_a.
+Eigen::VectorXd standard_slope(const DepthSensitivity& s, const Uncertainty& u) {
+  Eigen::VectorXd slope(3 * s.to_mass.size() + 3);
+  slope << u.frequency * s.to_frequency, u.damping_ratio * s.to_damping_ratio, u.mass * s.to_mass,
+      u.coefficients * s.to_K_t, u.coefficients * s.to_K_r, u.coefficients * s.to_K_a;
+  return slope;
+}
+
+ParameterChange change_of(const Eigen::VectorXd& z, const Uncertainty& u) {
+  const Eigen::Index poles = z.size() / 3 - 1;
+  const Eigen::VectorXd K = u.coefficients * z.tail(3);
+  return {u.frequency * z.head(poles),
+          u.damping_ratio * z.segment(poles, poles),
+          u.mass * z.segment(2 * poles, poles),
+          K(0),
+          K(1),
+          K(2)};
+}
+
+/// The least limit found k standard uncertainties away: down the slope, then towards what the slope is there, while
+/// that gains a hundredth.
+double worst_depth(const RelativeStructure& structure, const MillingProcess& process, double rpm,
+                   const StabilityOptions& options, const Uncertainty& u, double confidence, Eigen::VectorXd slope,
+                   double depth_m) {
+  constexpr int most_steps = 4;
+  Eigen::VectorXd direction = Eigen::VectorXd::Zero(slope.size());
+  for (int step = 0; step < most_steps && slope.norm() > 0.0; ++step) {
+    direction = (direction - slope.normalized()).normalized();
+    const ParameterChange change = change_of(confidence * direction, u);
+    const RelativeStructure other = changed(structure, change);
+    const MillingProcess other_process = changed(process, change);
+    const LobeRow there = limiting_depth(other, other_process, rpm, options);
+    const bool gains = there.limiting_depth_m < 0.99 * depth_m;
+    depth_m = std::min(depth_m, there.limiting_depth_m);
+    if (!gains || there.at_limit || there.crossings.empty()) break;
+    slope = standard_slope(
+        beside_common_change(depth_sensitivity(other, other_process, rpm, there.crossings.front(), options)), u);
+  }
+  return depth_m;
 }
 
 /// Depths that nothing is known of are 0, which is on the safe side: parameters that no structure has any more, a
 /// sensitivity that cannot be had.
 UncertainRow uncertain_row(const RelativeStructure& structure, const MillingProcess& process, double rpm,
-                           StabilityOptions options, const Uncertainty& uncertainty, double confidence) {
+                           const StabilityOptions& options, const Uncertainty& uncertainty, double confidence) {
   const LobeRow row = limiting_depth(structure, process, rpm, options);
   UncertainRow result{rpm, row.limiting_depth_m, 0.0, row.limiting_depth_m};
   if (row.at_limit || row.crossings.empty()) return result;
-  options.expected_depth_m = row.limiting_depth_m;
   try {
     const DepthSensitivity s = depth_sensitivity(structure, process, rpm, row.crossings.front(), options);
     result.uncertainty = relative_uncertainty(s, uncertainty);
-    const ParameterChange worst = worst_change(beside_common_change(s), uncertainty, confidence);
-    const LobeRow there = limiting_depth(changed(structure, worst), changed(process, worst), rpm, options);
-    result.worst_depth_m = std::min(row.limiting_depth_m, there.limiting_depth_m);
+    const Eigen::VectorXd slope = standard_slope(beside_common_change(s), uncertainty);
+    result.worst_depth_m =
+        worst_depth(structure, process, rpm, options, uncertainty, confidence, slope, row.limiting_depth_m);
   } catch (const core::NumericalError&) {
-    result.uncertainty = std::numeric_limits<double>::infinity();
+    if (result.uncertainty == 0.0) result.uncertainty = std::numeric_limits<double>::infinity();
     result.worst_depth_m = 0.0;
   } catch (const core::InputError&) {
     result.worst_depth_m = 0.0;

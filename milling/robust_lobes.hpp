@@ -38,16 +38,17 @@ constexpr double most_reach = 0.5;
 ///
 ///     w_r(n) = min over |δ| ≤ k' u_f of (1 + δ)² [w(n') − √(1 − (δ/k' u_f)²) (w(n') − w_k(n'))],     n' = n/(1 + δ)
 ///
-/// with w_k ≤ w the limit of the structure and coefficients k standard uncertainties down the slope of
-/// depth_sensitivity() at n', in units of the uncertainties, where the part of the frequencies' sensitivities s that a
-/// common change explains, (Σ s) |s_j|/Σ|s|, is taken off; 0 where no structure is that far. The root shares k among
-/// the two, as independent uncertainties do. `confidence` k: for normal distributions a share Φ(k) of the structures is
-/// stable there as a rule (97.7 % with k = 2). n' are the speeds and enough others that k' u_f has four steps,
+/// with w_k ≤ w the least limit found k standard uncertainties away: down the slope of depth_sensitivity() at n', in
+/// units of the uncertainties, then in the mean direction of that and of the slope there, while that gains a hundredth
+/// (four steps at most; two equal modes need them). Of the frequencies' sensitivities s the part that a common change
+/// explains, (Σ s) |s_j|/Σ|s|, is taken off. w_k is 0 where no structure is that far. The root shares k among the two,
+/// as independent uncertainties do. `confidence` k: for normal distributions a share Φ(k) of the structures is stable
+/// there as a rule (97.7 % with k = 2). n' are the speeds and enough others that k' u_f has four steps,
 /// `spindle_speeds_rpm` ascending. The limit w is looked for to twice the depth limit where the envelope is straight,
 /// so that a cut that is stable to the limit by little is not taken for robust. Speeds are shared out among
 /// core::thread_count() threads; the result does not depend on their number. Throws InputError as limiting_depth(), for
 /// a bad uncertainty or confidence (k > 0; k' u_f ≤ most_reach) or if there are no speeds; NumericalError; Interrupted.
-/// Cost: two rows and a depth_sensitivity() for every n'.
+/// Cost: two to five rows and one to four depth_sensitivity() for every n'.
 [[nodiscard]] RobustLobes robust_lobes(const RelativeStructure& structure, const MillingProcess& process,
                                        const std::vector<double>& spindle_speeds_rpm, StabilityOptions options,
                                        const Uncertainty& uncertainty, double confidence);

@@ -47,13 +47,13 @@ double limit(const Modes& modes, const MillingProcess& process, double rpm) {
 }
 
 /// Limiting depths of `count` structures and processes drawn from `uncertainty`, ascending.
-std::vector<double> drawn_limits(double rpm, const Uncertainty& u, int count) {
+std::vector<double> drawn_limits(const Modes& mean, double rpm, const Uncertainty& u, int count) {
   std::mt19937 engine(20260101);
   std::normal_distribution<double> normal;
   const auto factor = [&](double uncertainty) { return 1.0 + uncertainty * normal(engine); };
   std::vector<double> limits;
   for (int i = 0; i < count; ++i) {
-    Modes modes = two_modes;
+    Modes modes = mean;
     for (testing::Mode& mode : modes) {
       mode.frequency_hz *= factor(u.frequency);
       mode.damping_ratio *= std::max(0.05, factor(u.damping_ratio));
@@ -162,7 +162,7 @@ constexpr int least_of_200 = 191;
 TEST_P(RobustDepth, IsStableInThePromisedShareOfStructuresAndHardlyInMore) {
   const double rpm = GetParam().rpm;
   const RobustRow row = robust_at(rpm, usual);
-  const std::vector<double> limits = drawn_limits(rpm, usual, 200);
+  const std::vector<double> limits = drawn_limits(two_modes, rpm, usual, 200);
   EXPECT_GE(std::ranges::count_if(limits, [&](double w) { return w >= row.depth_m; }), least_of_200);
   EXPECT_GT(row.depth_m, 0.85 * limits[4]) << "the depth in which five of 200 are unstable";
 }
@@ -172,12 +172,27 @@ INSTANTIATE_TEST_SUITE_P(Places, RobustDepth,
                                            Place{"pocket", 14300.0}, Place{"two_modes_at_odds", 8600.0}),
                          [](const auto& place) { return std::string(place.param.what); });
 
+// Their slope against each other is some hundred, and saturates within the uncertainty: first order knows no depth.
+TEST(RobustLobes, TwoModesOfOneFrequencyKeepThePromiseToo) {
+  Modes equal = two_modes;
+  equal[1].frequency_hz = equal[0].frequency_hz;
+  equal[1].mass_kg = equal[0].mass_kg;
+  for (const double rpm : {5000.0, 14000.0}) {
+    const RobustRow row =
+        robust_lobes(structure_of(equal), process_with(), {rpm}, to_depth(0.1), usual, 2.0).rows.front();
+    const std::vector<double> limits = drawn_limits(equal, rpm, usual, 200);
+    EXPECT_GT(row.relative_uncertainty, 1.0);
+    EXPECT_GE(std::ranges::count_if(limits, [&](double w) { return w >= row.depth_m; }), least_of_200) << rpm;
+    EXPECT_GT(row.depth_m, 0.85 * limits[4]) << rpm;
+  }
+}
+
 // What the range of speeds is for: beside the flank the slope at the speed alone promises too much.
 TEST(RobustLobes, BesideASteepFlankFirstOrderAloneWouldNotHold) {
   const double rpm = 13700.0;
   const double slope_alone =
       limit(two_modes, process_with(), rpm) * (1.0 - 2.0 * robust_at(rpm, usual).relative_uncertainty);
-  const std::vector<double> limits = drawn_limits(rpm, usual, 200);
+  const std::vector<double> limits = drawn_limits(two_modes, rpm, usual, 200);
   EXPECT_LT(std::ranges::count_if(limits, [&](double w) { return w >= slope_alone; }), least_of_200);
 }
 
