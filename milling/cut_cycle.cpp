@@ -52,11 +52,6 @@ std::vector<double> breaks_of(const CutCycle& cycle) {
 
 }  // namespace
 
-Heights in_cut(const Sweep& sweep, double s) {
-  if (sweep.lag_rad == 0.0) return {};
-  return {std::clamp((s - sweep.arc_rad) / sweep.lag_rad, 0.0, 1.0), std::clamp(s / sweep.lag_rad, 0.0, 1.0)};
-}
-
 CutCycle cut_cycle(const MillingProcess& process, double depth_m) {
   const Cutter& cutter = process.cutter;
   const bool alike = equal_teeth(process);

@@ -31,7 +31,7 @@ struct Heights {
 };
 
 /// Those of an edge that are in the cut s rad after its tip entered.
-[[nodiscard]] Heights in_cut(const Sweep& sweep, double s);
+[[nodiscard]] Heights heights_in_cut(const Sweep& sweep, double s_rad);
 
 /// The period is a pitch where all teeth are alike, else a turn; it begins when the tip of the first tooth enters the
 /// first arc.
@@ -52,14 +52,6 @@ struct CutStretch {
 
 /// With unequal teeth stretches also end where such a moment is felt again a pitch later.
 [[nodiscard]] std::vector<CutStretch> cut_stretches(const CutCycle& cycle);
-
-/// Heights of an edge, as shares of the depth.
-struct Heights {
-  double low = 0.0, high = 1.0;
-};
-
-/// Those in the cut s rad after the tip entered.
-[[nodiscard]] Heights heights_in_cut(const Sweep& sweep, double s_rad);
 
 /// body(s) for every rotation s since the tip entered, of this and earlier periods, while any of the edge may cut.
 template <class Body>

@@ -32,7 +32,7 @@ Advance feed_advance(const Cutter& cutter, double feed_per_tooth_m) {
 CuttingLoad edge_load(const Cutter& cutter, const Sweep& sweep, const EdgeShape& shape, double depth_m, double s,
                       const Advance& advance) {
   const CuttingCoefficients& k = sweep.coefficients;
-  const Heights h = in_cut(sweep, s);
+  const Heights h = heights_in_cut(sweep, s);
   CuttingLoad load;
   for (const EdgeWeight& w : edge_weights(shape, points_for(shape, sweep, h), h.low, h.high)) {
     const double phi = sweep.entry_phi_rad + s - w.height * sweep.lag_rad;

@@ -56,8 +56,7 @@ void add_edge_of_many_delays(const Sweep& sweep, double s, double weight, std::s
     cut.result.present[slot] += A;
     const Eigen::VectorXd share = lagrange_polynomials(cut.height, e.height);
     for (Index k = 0; k < share.size(); ++k) {
-      const double delay_rad = sweep.pitch_rad + cut.height(k) * (sweep.lag_rad - sweep.ahead_lag_rad);
-      delayed_by(delay_rad, cut)[slot] += share(k) * A;
+      delayed_by(sweep.delay_rad(cut.height(k)), cut)[slot] += share(k) * A;
     }
   }
 }
