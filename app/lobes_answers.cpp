@@ -38,6 +38,8 @@ std::string robust_text(const json& robust) {
                                  robust["at_spindle_speed_rpm"].get<double>(), robust["confidence"].get<double>());
   if (const int missed = robust["speeds_not_robust"].get<int>(); missed > 0)
     text += fmt::format("                  not robust at any depth at {} speeds\n", missed);
+  if (const int open = robust["speeds_not_converged"].get<int>(); open > 0)
+    text += fmt::format("                  not converged at {} speeds\n", open);
   return text + pockets_text(robust["best_pockets"], "pockets");
 }
 

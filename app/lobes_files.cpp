@@ -62,8 +62,8 @@ void write_chart(const fs::path& file, const milling::Lobes& lobes, const millin
     table.push_back({"relative_uncertainty", uncertainty});
     table.push_back({"robust_depth_m", robust_depth});
     comments.emplace_back(
-        "relative_uncertainty: standard, of the limiting depth, first order; 0 where no crossing is known to twice the "
-        "depth limit. robust_depth_m: docs/theory/lobes.md; 0 where the cut is not robust at any depth");
+        "relative_uncertainty: standard, of the limiting depth, first order; 0 where the cut is stable as far "
+        "as was looked. robust_depth_m: docs/theory/lobes.md; 0 where the cut is not robust at any depth");
   }
   io::write_csv(file, table, comments);
 }

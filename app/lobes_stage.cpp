@@ -70,8 +70,10 @@ std::optional<milling::ForcedVibration> forced_at(const Case& source, const Poin
                                      *feed);
   } catch (const core::InputError& error) {
     spdlog::warn("{}", error.what());
-    return std::nullopt;
+  } catch (const core::NumericalError& error) {
+    spdlog::warn("no forced vibration: {}", error.what());
   }
+  return std::nullopt;
 }
 
 /// |μ| where there are poles, and the margins to the boundary.
@@ -91,7 +93,10 @@ PointStability stability_of(const milling::OperatingPoint& point, const Chart& c
     result.sensitivities = chart.sensitivities(point.spindle_speed_rpm, result.depth.boundary);
   result.multiplier = milling::lobe_method(milling::method_named(method), *chart.poles(), chart.process, chart.options)
                           ->multiplier_at(point.spindle_speed_rpm, point.depth_m);
-  if ((result.multiplier->modulus < 1.0) != result.stable) {
+  if (result.multiplier->status != milling::StabilityStatus::converged) {
+    // The crossings' word, which converged by itself, stands.
+    if (result.status == milling::StabilityStatus::converged) result.status = result.multiplier->status;
+  } else if ((result.multiplier->modulus < 1.0) != result.stable) {
     // The two disagree on the boundary itself only, unless a crossing was missed.
     const bool on_boundary = std::abs(result.depth.margin_m) <= 1e-3 * point.depth_m;
     if (!on_boundary) result.status = milling::StabilityStatus::crossing_missed;
@@ -110,6 +115,17 @@ ComparedLobes compared(const Chart& chart, const milling::Lobes& reference, cons
     result.at_spindle_speed_rpm = row.spindle_speed_rpm;
   }
   return result;
+}
+
+/// A comparison that fails leaves the chart as it is.
+void add_compared(const Chart& chart, const std::string& method, NamedLobes& result) {
+  try {
+    result.compared.push_back(compared(chart, result.lobes, method));
+  } catch (const core::InputError& error) {
+    spdlog::warn("no chart by {} to compare with: {}", method, error.what());
+  } catch (const core::NumericalError& error) {
+    spdlog::warn("no chart by {} to compare with: {}", method, error.what());
+  }
 }
 
 milling::StabilityMap map_of(const Chart& chart, const milling::Lobes& lobes, int count) {
@@ -161,7 +177,7 @@ NamedLobes compute_lobes(const Case& source, const std::string& name, const dyna
     result.points.push_back(stability_of(point, chart, wanted.method, result.lobes));
     result.points.back().forced = forced_at(source, result.points.back(), chart);
   }
-  for (const auto& method : wanted.compare) result.compared.push_back(compared(chart, result.lobes, method));
+  for (const auto& method : wanted.compare) add_compared(chart, method, result);
   if (wanted.map_depths) result.map = map_of(chart, result.lobes, *wanted.map_depths);
   if (wanted.robust) {
     result.robust = milling::robust_lobes(*chart.poles(), process, chart.speeds_rpm, chart.options.stability,

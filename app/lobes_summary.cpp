@@ -69,6 +69,7 @@ void add_what_was_asked(json& chart, const Case& source, const NamedLobes& named
                      {"minimum_depth_m", named.robust->minimum_depth_m},
                      {"at_spindle_speed_rpm", named.robust->at_spindle_speed_rpm},
                      {"speeds_not_robust", named.robust->rows_not_robust},
+                     {"speeds_not_converged", named.robust->rows_not_converged},
                      {"best_pockets", pockets_summary(source, named.robust_pockets)}};
 }
 

@@ -81,7 +81,10 @@ bool to_axis(const GainOnCircle& gain, complex<double> nu, Crossing& crossing) {
 
 bool refine(const GainOnCircle& gain, Crossing& crossing) {
   const double before = crossing.depth_m;
-  return to_axis(gain, 1.0 / before, crossing) && std::abs(crossing.depth_m - before) <= 0.1 * before;
+  Crossing moved = crossing;
+  if (!to_axis(gain, 1.0 / before, moved) || std::abs(moved.depth_m - before) > 0.1 * before) return false;
+  crossing = std::move(moved);
+  return true;
 }
 
 }  // namespace thinwall::milling

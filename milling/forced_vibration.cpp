@@ -213,10 +213,14 @@ double change_between(const ForcedVibration& coarse, const ForcedVibration& fine
   double change = std::max(relative(coarse.peak_force_n, fine.peak_force_n, fine.peak_force_n),
                            relative(coarse.peak_torque_n_m, fine.peak_torque_n_m, fine.peak_torque_n_m));
   change = std::max(change, (coarse.mean_force_n - fine.mean_force_n).norm() / fine.peak_force_n);
+  change = std::max(change, relative(coarse.mean_torque_n_m, fine.mean_torque_n_m, fine.peak_torque_n_m));
   for (int k = 0; k < 3; ++k)
     change = std::max(change, relative(coarse.peak_to_peak_m(k), fine.peak_to_peak_m(k), motion));
-  return std::max(change, relative(coarse.surface_location_error_m.value_or(0.0),
-                                   fine.surface_location_error_m.value_or(0.0), motion));
+  change = std::max(change, relative(coarse.surface_location_error_m.value_or(0.0),
+                                     fine.surface_location_error_m.value_or(0.0), motion));
+  if (!std::isfinite(fine.surface_location_error_m.value_or(0.0)) || !fine.displacement_m.allFinite())
+    throw core::NumericalError("forced vibration: the motion is not finite; check the structure at the cut");
+  return change;
 }
 
 void require_positive(double value, const char* what, const char* remedy) {

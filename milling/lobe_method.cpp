@@ -35,7 +35,7 @@ LobeRow row_from(const LobeMethod& method, double rpm, FoundCrossings found, con
   row.chatter_frequency_hz = mu.chatter_frequency_hz;
   row.kind = mu.kind;
   row.error_estimate = mu.error_estimate;
-  row.status = StabilityStatus::stable_to_depth_limit;
+  row.status = mu.status == StabilityStatus::converged ? StabilityStatus::stable_to_depth_limit : mu.status;
   if (mu.modulus >= 1.0) row.status = StabilityStatus::crossing_missed;
   return row;
 }

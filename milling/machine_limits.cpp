@@ -72,7 +72,9 @@ CutLoad cut_load(const MillingProcess& process, double feed_per_tooth_m) {
   for (int j = 0; j < cutter.teeth; ++j) {
     const CuttingCoefficients& k = coefficients(process, j);
     const double feed = feed_per_tooth_m * cutter.pitch_rad(j) / cutter.pitch_rad();
-    load.torque_per_depth_N += cutter.diameter_m / (4.0 * pi) * (k.K_t * feed * chips.sine + k.K_te * chips.angle_rad);
+    load.torque_per_depth_N +=
+        cutter.diameter_m / (4.0 * pi) *
+        (k.K_t * feed * chips.sine + k.K_te * edge_length_per_height(cutter, j, 0.0) * chips.angle_rad);
   }
   load.feed_per_turn_m = cutter.teeth * feed_per_tooth_m;
   load.removal_per_depth_turn_m2 = 0.5 * cutter.diameter_m * load.feed_per_turn_m * chips.sine;

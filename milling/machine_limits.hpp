@@ -32,13 +32,13 @@ struct CutLoad {
 /// Means over a turn of the static force F_t = w (K_t h + K_te), h = f_j sin φ, of all teeth j over the parts of the
 /// arcs in which the feed makes chips (0 < φ < π and the same a turn on), from φ_1 to φ_2 each:
 ///
-///     M/w = D/(4π) Σ_j Σ_arcs [ K_t f_j (cos φ_1 − cos φ_2) + K_te (φ_2 − φ_1) ]          (Altintas 2012, ch. 2)
-///     V/w = D/2 z f Σ_arcs (cos φ_1 − cos φ_2)                                              = a z f of a wall
+///     M/w = D/(4π) Σ_j Σ_arcs [ K_t f_j (cos φ_1 − cos φ_2) + K_te/cos β_j (φ_2 − φ_1) ]          (Altintas 2012, ch.
+///     2) V/w = D/2 z f Σ_arcs (cos φ_1 − cos φ_2)                                              = a z f of a wall
 ///
-/// with f_j = f z p_j/2π the feed while the pitch p_j turns. The helix does not change these means, nor does runout as
-/// long as every tooth cuts over all of its arc. A law that is not linear is taken by its tangent at the mean chip,
-/// which lies above a force that bends downwards. `feed_per_tooth_m` f > 0. Throws InputError for a feed that is not
-/// positive or an end that is not flat. Cost O(teeth · arcs).
+/// with f_j = f z p_j/2π the feed while the pitch p_j turns. The helix β_j lengthens the edge and changes nothing else,
+/// nor does runout as long as every tooth cuts over all of its arc. A law that is not linear is taken by its tangent at
+/// the mean chip, which lies above a force that bends downwards. `feed_per_tooth_m` f > 0. Throws InputError for a feed
+/// that is not positive or an end that is not flat. Cost O(teeth · arcs).
 [[nodiscard]] CutLoad cut_load(const MillingProcess& process, double feed_per_tooth_m);
 
 /// Deepest cut that torque (M ≤ max_torque) and power (2π n/60 M ≤ efficiency max_power) allow at a speed, m; infinite

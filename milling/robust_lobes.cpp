@@ -9,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "milling/bracketed_root.hpp"
 #include "milling/parameter_change.hpp"
+#include "milling/row_search.hpp"
 #include "milling/stability.hpp"
 
 namespace thinwall::milling {
@@ -16,6 +17,7 @@ namespace thinwall::milling {
 namespace {
 
 constexpr int steps_of_reach = 4;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A speed with its limit and what is uncertain of it.
 struct UncertainRow {
@@ -23,7 +25,15 @@ struct UncertainRow {
   double depth_m = 0.0;
   double uncertainty = 0.0;    ///< relative, standard, first order
   double worst_depth_m = 0.0;  ///< at the worst parameters but for a common change of the frequencies
+  bool converged = true;       ///< all that this comes from
 };
+
+void require_speeds(const std::vector<double>& rpm) {
+  const auto usable = [](double n) { return n > 0.0 && std::isfinite(n); };
+  if (!rpm.empty() && std::ranges::all_of(rpm, usable) && std::ranges::is_sorted(rpm)) return;
+  throw core::InputError("robust lobes: " + std::to_string(rpm.size()) +
+                         " spindle speeds, at least 1 is needed, all above 0 and ascending; correct the range");
+}
 
 double require_reach(double frequency_uncertainty, double confidence) {
   if (!(confidence > 0.0) || !std::isfinite(confidence)) {
@@ -85,26 +95,59 @@ ParameterChange change_of(const Eigen::VectorXd& z, const Uncertainty& u) {
           K(2)};
 }
 
+/// A limit, infinite at the end of what is looked at; 0 where no structure or cut is any more.
+struct ChangedLimit {
+  LobeRow row;
+  double depth_m = 0.0;
+  RelativeStructure structure;
+  MillingProcess process;
+};
+
+ChangedLimit changed_limit(const RelativeStructure& structure, const MillingProcess& process, double rpm,
+                           const StabilityOptions& options, const ParameterChange& change) {
+  ChangedLimit result;
+  try {
+    result.structure = changed(structure, change);
+    result.process = changed(process, change);
+  } catch (const core::InputError&) {
+    return result;
+  }
+  result.row = limiting_depth(result.structure, result.process, rpm, options);
+  result.depth_m = result.row.at_limit ? infinity : result.row.limiting_depth_m;
+  return result;
+}
+
 /// The least limit found k standard uncertainties away: down the slope, then towards what the slope is there, while
 /// that gains a hundredth.
-double worst_depth(const RelativeStructure& structure, const MillingProcess& process, double rpm,
-                   const StabilityOptions& options, const Uncertainty& u, double confidence, Eigen::VectorXd slope,
-                   double depth_m) {
+void add_worst_depth(const RelativeStructure& structure, const MillingProcess& process, const StabilityOptions& options,
+                     const Uncertainty& u, double confidence, Eigen::VectorXd slope, UncertainRow& result) {
   constexpr int most_steps = 4;
   Eigen::VectorXd direction = Eigen::VectorXd::Zero(slope.size());
   for (int step = 0; step < most_steps && slope.norm() > 0.0; ++step) {
     direction = (direction - slope.normalized()).normalized();
-    const ParameterChange change = change_of(confidence * direction, u);
-    const RelativeStructure other = changed(structure, change);
-    const MillingProcess other_process = changed(process, change);
-    const LobeRow there = limiting_depth(other, other_process, rpm, options);
-    const bool gains = there.limiting_depth_m < 0.99 * depth_m;
-    depth_m = std::min(depth_m, there.limiting_depth_m);
-    if (!gains || there.at_limit || there.crossings.empty()) break;
-    slope = standard_slope(
-        beside_common_change(depth_sensitivity(other, other_process, rpm, there.crossings.front(), options)), u);
+    const ChangedLimit there =
+        changed_limit(structure, process, result.rpm, options, change_of(confidence * direction, u));
+    const bool gains = there.depth_m < 0.99 * result.worst_depth_m;
+    result.worst_depth_m = std::min(result.worst_depth_m, there.depth_m);
+    result.converged = result.converged && sound(there.row);
+    if (!gains || there.row.crossings.empty()) break;
+    slope = standard_slope(beside_common_change(depth_sensitivity(there.structure, there.process, result.rpm,
+                                                                  there.row.crossings.front(), options)),
+                           u);
   }
-  return depth_m;
+}
+
+/// Of a row that is stable to the limit, where no slope is known: less damping of every mode, lighter modes, higher
+/// coefficients, all at once, which is on the safe side.
+void add_adverse_depth(const RelativeStructure& structure, const MillingProcess& process,
+                       const StabilityOptions& options, const Uncertainty& u, double confidence, UncertainRow& result) {
+  const Eigen::VectorXd one = Eigen::VectorXd::Ones(structure.poles.size());
+  const double more = confidence * u.coefficients;
+  const ChangedLimit there =
+      changed_limit(structure, process, result.rpm, options,
+                    {0.0 * one, -confidence * u.damping_ratio * one, -confidence * u.mass * one, more, more, more});
+  result.worst_depth_m = there.depth_m;
+  result.converged = result.converged && sound(there.row);
 }
 
 /// Depths that nothing is known of are 0, which is on the safe side: parameters that no structure has any more, a
@@ -112,21 +155,29 @@ double worst_depth(const RelativeStructure& structure, const MillingProcess& pro
 UncertainRow uncertain_row(const RelativeStructure& structure, const MillingProcess& process, double rpm,
                            const StabilityOptions& options, const Uncertainty& uncertainty, double confidence) {
   const LobeRow row = limiting_depth(structure, process, rpm, options);
-  UncertainRow result{rpm, row.limiting_depth_m, 0.0, row.limiting_depth_m};
-  if (row.at_limit || row.crossings.empty()) return result;
+  const double depth = row.at_limit ? infinity : row.limiting_depth_m;
+  UncertainRow result{rpm, depth, 0.0, depth, sound(row)};
   try {
+    if (row.crossings.empty()) {
+      add_adverse_depth(structure, process, options, uncertainty, confidence, result);
+      return result;
+    }
     const DepthSensitivity s = depth_sensitivity(structure, process, rpm, row.crossings.front(), options);
     result.uncertainty = relative_uncertainty(s, uncertainty);
     const Eigen::VectorXd slope = standard_slope(beside_common_change(s), uncertainty);
-    result.worst_depth_m =
-        worst_depth(structure, process, rpm, options, uncertainty, confidence, slope, row.limiting_depth_m);
+    add_worst_depth(structure, process, options, uncertainty, confidence, slope, result);
   } catch (const core::NumericalError&) {
-    if (result.uncertainty == 0.0) result.uncertainty = std::numeric_limits<double>::infinity();
+    if (result.uncertainty == 0.0) result.uncertainty = infinity;
     result.worst_depth_m = 0.0;
-  } catch (const core::InputError&) {
-    result.worst_depth_m = 0.0;
+    result.converged = false;
   }
   return result;
+}
+
+/// Between the limit and the worst one, which counts alone where the limit is not known.
+double weighed_depth(const UncertainRow& row, double share) {
+  if (std::isinf(row.depth_m)) return share > 0.0 ? row.worst_depth_m : row.depth_m;
+  return row.depth_m - share * (row.depth_m - row.worst_depth_m);
 }
 
 RobustRow robust_row(const std::vector<UncertainRow>& rows, double rpm, double reach, double depth_limit_m) {
@@ -134,14 +185,14 @@ RobustRow robust_row(const std::vector<UncertainRow>& rows, double rpm, double r
   const double slack = std::exp(std::log1p(reach) / steps_of_reach * (1.0 + 1e-9));
   const double low = rpm / (1.0 + reach) / slack;
   const double high = rpm / (1.0 - reach) * slack;
-  RobustRow result{rpm, 0.0, std::numeric_limits<double>::infinity()};
+  RobustRow result{rpm, 0.0, infinity};
   auto row = std::ranges::lower_bound(rows, reach == 0.0 ? rpm : low, {}, &UncertainRow::rpm);
   for (; row != rows.end() && row->rpm <= (reach == 0.0 ? rpm : high); ++row) {
     if (row->rpm == rpm) result.relative_uncertainty = row->uncertainty;
     const double moved = rpm / row->rpm;
     const double used = reach == 0.0 ? 0.0 : std::min(1.0, std::abs(moved - 1.0) / reach);
-    const double depth = row->depth_m - std::sqrt(1.0 - used * used) * (row->depth_m - row->worst_depth_m);
-    result.depth_m = std::min(result.depth_m, moved * moved * depth);
+    result.depth_m = std::min(result.depth_m, moved * moved * weighed_depth(*row, std::sqrt(1.0 - used * used)));
+    result.converged = result.converged && row->converged;
   }
   result.at_limit = result.depth_m >= depth_limit_m;
   result.depth_m = std::min(result.depth_m, depth_limit_m);
@@ -161,8 +212,7 @@ RobustLobes robust_lobes(const RelativeStructure& structure, const MillingProces
                          const std::vector<double>& spindle_speeds_rpm, StabilityOptions options,
                          const Uncertainty& uncertainty, double confidence) {
   require_valid(validate(uncertainty));
-  if (spindle_speeds_rpm.empty())
-    throw core::InputError("robust lobes: no spindle speeds, at least 1 is needed; give a range");
+  require_speeds(spindle_speeds_rpm);
   const double reach = require_reach(uncertainty.frequency, confidence);
   const double limit = options.depth_limit_m;
   MillingProcess endless = process;
@@ -182,7 +232,10 @@ RobustLobes robust_lobes(const RelativeStructure& structure, const MillingProces
   const auto least = std::ranges::min_element(result.rows, {}, &RobustRow::depth_m);
   result.minimum_depth_m = least->depth_m;
   result.at_spindle_speed_rpm = least->spindle_speed_rpm;
-  for (const RobustRow& row : result.rows) result.rows_not_robust += row.depth_m == 0.0 ? 1 : 0;
+  for (const RobustRow& row : result.rows) {
+    result.rows_not_robust += row.depth_m == 0.0 ? 1 : 0;
+    result.rows_not_converged += row.converged ? 0 : 1;
+  }
   return result;
 }
 

@@ -15,6 +15,7 @@ struct RobustRow {
                                       ///< known, infinite where its sensitivity is not
   double depth_m = 0.0;               ///< robust limiting depth; 0: not robust at any
   bool at_limit = false;              ///< robust up to the depth limit
+  bool converged = true;              ///< every limit that this comes from
 };
 
 struct RobustLobes {
@@ -22,6 +23,7 @@ struct RobustLobes {
   double minimum_depth_m = 0.0;       ///< the robust absolute minimum
   double at_spindle_speed_rpm = 0.0;  ///< where that is
   int rows_not_robust = 0;            ///< at any depth
+  int rows_not_converged = 0;
 };
 
 /// Largest change of frequencies that is followed, as a share.
@@ -45,10 +47,12 @@ constexpr double most_reach = 0.5;
 /// as independent uncertainties do. `confidence` k: for normal distributions a share Φ(k) of the structures is stable
 /// there as a rule (97.7 % with k = 2). n' are the speeds and enough others that k' u_f has four steps,
 /// `spindle_speeds_rpm` ascending. The limit w is looked for to twice the depth limit where the envelope is straight,
-/// so that a cut that is stable to the limit by little is not taken for robust. Speeds are shared out among
-/// core::thread_count() threads; the result does not depend on their number. Throws InputError as limiting_depth(), for
-/// a bad uncertainty or confidence (k > 0; k' u_f ≤ most_reach) or if there are no speeds; NumericalError; Interrupted.
-/// Cost: two to five rows and one to four depth_sensitivity() for every n'.
+/// so that a cut that is stable to the limit by little is not taken for robust; where it is stable to the end of that,
+/// w_k is the limit with k standard uncertainties less damping of every mode, lighter modes and higher coefficients at
+/// once, which is on the safe side. R moves with the chart in a common change of frequencies and stays otherwise.
+/// Speeds are shared out among core::thread_count() threads; the result does not depend on their number. Throws
+/// InputError as limiting_depth(), for a bad uncertainty or confidence (k > 0; k' u_f ≤ most_reach) or if there are no
+/// speeds; NumericalError; Interrupted. Cost: two to five rows and one to four depth_sensitivity() for every n'.
 [[nodiscard]] RobustLobes robust_lobes(const RelativeStructure& structure, const MillingProcess& process,
                                        const std::vector<double>& spindle_speeds_rpm, StabilityOptions options,
                                        const Uncertainty& uncertainty, double confidence);

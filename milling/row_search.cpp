@@ -33,7 +33,7 @@ int refine_boundaries(SearchGrids& grids, std::vector<RefinedCrossing>& all, con
     count += c.crossing.unstable_change;
     if (!bounds || c.crossing.depth_m > options.depth_limit_m) continue;
     refine_until(2, options.error_tolerance, grids.to_level(), c);
-    if (!c.kept && c.crossing.depth_m > beside_first_m) {
+    if (!c.kept && i > 0 && c.crossing.depth_m > beside_first_m) {
       count -= c.crossing.unstable_change;
       while (all.size() > i) drop_last(all, row);
       return count;

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "milling/cut_at_speed.hpp"
+#include "milling/parameter_change.hpp"
 #include "milling/stability.hpp"
 
 namespace thinwall::milling {
@@ -30,16 +31,9 @@ RelativeStructure alone(const RelativeStructure& s, Index k) {
   return {s.poles.segment(k, 1), s.phi.col(k), s.b.col(k)};
 }
 
-/// The same mode with another pole at the same modal mass: its constant goes with 1/ω_d (1/λ of a real pole).
 RelativeStructure with_pole(RelativeStructure mode, complex<double> pole) {
-  const complex<double> before = mode.poles(0);
-  mode.b *= before.imag() != 0.0 ? before.imag() / pole.imag() : before.real() / pole.real();
-  mode.poles(0) = pole;
+  move_pole(mode, 0, pole);
   return mode;
-}
-
-complex<double> pole_of(double omega, double zeta) {
-  return omega * complex<double>(-zeta, std::sqrt(1.0 - zeta * zeta));
 }
 
 using Coefficient = double CuttingCoefficients::*;

@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "milling/forced_vibration.hpp"
 #include "milling/pockets.hpp"
 
 namespace thinwall::milling {
@@ -53,8 +55,21 @@ TEST(CutLoad, TorqueIsTheMeanOfTheTeethSummedOverATurn) {
   EXPECT_NEAR(cut_load(process, feed).torque_per_depth_N, sum / steps, 2e-5 * sum / steps);
 }
 
-TEST(CutLoad, HelixAndUnequalPitchesDoNotChangeIt) {
-  const MillingProcess straight = cut(5e-3, MillingDirection::down, 2e4);
+TEST(CutLoad, IsTheMeanTorqueOfTheForcedVibrationOfAHelicalCut) {
+  MillingProcess process = cut(5e-3, MillingDirection::down, 2e4);
+  process.cutter.helices_rad = {0.6, 0.6, 0.6};
+  RelativeStructure structure;
+  structure.poles.resize(1);
+  structure.poles << std::complex<double>(-50.0, 5000.0);
+  structure.phi = Eigen::Vector3cd::UnitX();
+  structure.b = Eigen::Vector3cd::UnitX() / std::complex<double>(0.0, 1e4);
+  const double depth = 1e-4;
+  const ForcedVibration forced = forced_vibration(structure, process, 6000.0, depth, feed);
+  EXPECT_NEAR(cut_load(process, feed).torque_per_depth_N * depth / forced.mean_torque_n_m, 1.0, 1e-6);
+}
+
+TEST(CutLoad, WithoutEdgeForcesHelixAndUnequalPitchesDoNotChangeIt) {
+  const MillingProcess straight = cut(5e-3, MillingDirection::down);
   MillingProcess other = straight;
   other.cutter.helices_rad = {0.5, 0.5, 0.6};
   other.cutter.pitches_rad = {1.9, 2.1, 2.0 * pi - 4.0};
