@@ -337,6 +337,19 @@ LobesOptions bind_lobes(const Table& table, const std::optional<Tool>& tool) {
           table.number("tolerance"), table.optional("modes_up_to")};
 }
 
+/// Positions as they are listed, or evenly on the line; none where the path could not be read.
+Path bind_path(const Table& table) {
+  Path path{{}, table.text("support") == "follows"};
+  const auto list = table.numbers("points");
+  for (std::size_t i = 0; i + 2 < list.size(); i += 3) path.positions.emplace_back(list[i], list[i + 1], list[i + 2]);
+  const int count = table.has("positions") ? table.integer("positions") : 11;
+  if (!table.has("from") || !table.has("to") || table.has("points") || count < 2) return path;
+  const Eigen::Vector3d from = table.vector("from"), to = table.vector("to");
+  path.positions.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) path.positions.emplace_back(from + (to - from) * i / (count - 1));
+  return path;
+}
+
 std::vector<std::string> point_names(const std::vector<Point>& points) {
   std::vector<std::string> names;
   names.reserve(points.size());
@@ -372,6 +385,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   if (root.table("tool").exists()) bound.tool = bind_tool(root.table("tool"), folder);
   if (root.table("cutting").exists()) bound.cutting = bind_cutting(root.table("cutting"));
   if (root.table("lobes").exists()) bound.lobes = bind_lobes(root.table("lobes"), bound.tool);
+  if (root.table("path").exists()) bound.path = bind_path(root.table("path"));
   bound.values = std::move(values);
   return bound;
 }
@@ -381,7 +395,7 @@ std::vector<Expectation> bind_expectations(const CaseValues& values) {
   for (const auto& table : Table{values, ""}.tables("expect")) {
     list.push_back({table.text("name"), table.text("quantity"), table.optional("value"), table.optional("tolerance"),
                     table.optional("relative"), table.optional("at_least"), table.optional("at_most"),
-                    table.text("origin")});
+                    table.text("origin"), table.text("same_as")});
   }
   return list;
 }

@@ -11,6 +11,7 @@
 #include "app/cutting_checks.hpp"
 #include "app/findings.hpp"
 #include "app/part_checks.hpp"
+#include "app/path_checks.hpp"
 #include "app/schema.hpp"
 #include "app/tool_checks.hpp"
 #include "core/units.hpp"
@@ -415,6 +416,7 @@ std::vector<Problem> check_case(const Case& source) {
   if (source.tool) check_tool(*source.tool, findings);
   if (source.cutting) check_cutting(source, findings);
   if (source.lobes) check_lobes(source, findings);
+  if (source.path) check_path(source, findings);
   return std::move(findings.problems);
 }
 

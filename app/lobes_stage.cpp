@@ -14,13 +14,6 @@ namespace thinwall::app {
 
 namespace {
 
-milling::StabilityOptions options_of(const LobesOptions& wanted) {
-  milling::StabilityOptions options;
-  options.depth_limit_m = wanted.depth_limit;
-  options.error_tolerance = wanted.tolerance;
-  return options;
-}
-
 /// |μ| where there are poles, and the margins to the boundary.
 PointStability stability_of(const milling::OperatingPoint& point, const CutStructure& structure,
                             const milling::MillingProcess& process, const milling::RowAt& row_at,
@@ -46,12 +39,19 @@ PointStability stability_of(const milling::OperatingPoint& point, const CutStruc
 
 }  // namespace
 
+milling::StabilityOptions stability_options(const LobesOptions& wanted) {
+  milling::StabilityOptions options;
+  options.depth_limit_m = wanted.depth_limit;
+  options.error_tolerance = wanted.tolerance;
+  return options;
+}
+
 NamedLobes compute_lobes(const Case& source, const std::string& name, const dynamics::ModalModel* part,
                          const std::vector<milling::OperatingPoint>& points) {
   const LobesOptions& wanted = *source.lobes;
   const milling::MillingProcess process = milling_process(source);
   const CutStructure structure = cut_structure(source, process.frame, part);
-  const milling::StabilityOptions options = options_of(wanted);
+  const milling::StabilityOptions options = stability_options(wanted);
   const milling::RowAt row_at = [&](double rpm, const milling::StabilityOptions& with) {
     return std::visit([&](const auto& s) { return milling::limiting_depth(s, process, rpm, with); }, structure);
   };

@@ -64,6 +64,8 @@ constexpr std::array case_sections{
             ""},
     Section{"cutting", "How the cutter meets the part.", ""},
     Section{"lobes", "The stability chart.", ""},
+    Section{"path", "Where the cut goes along the part: the chart at each position. Give `points`, or `from` and `to`.",
+            ""},
 };
 
 // clang-format off
@@ -239,6 +241,12 @@ constexpr std::array case_keys{
     Key{"lobes.depth_limit", Type::quantity, kind::length, "", positive, "", "Deepest cut that is asked; `tool.length` if not given."},
     Key{"lobes.tolerance", Type::quantity, kind::number, "1e-4", {1e-9, 0.5, false, false, false, ""}, "", "Bound on the estimated relative error of the depth."},
     Key{"lobes.modes_up_to", Type::quantity, kind::frequency, "", positive, "", "Only modes up to this frequency; those above act by their static compliance alone, whose share is reported as static_share."},
+
+    Key{"path.points", Type::positions, kind::length, "", any, "", "Positions of the point that is cut, in the part's axes, in order. The patch is that of `cutting.at`."},
+    Key{"path.from", Type::vector, kind::length, "", any, "", "First position of a straight path."},
+    Key{"path.to", Type::vector, kind::length, "", any, "", "Last position."},
+    Key{"path.positions", Type::integer, kind::number, "", {2, 200, false, false, false, "2 to 200 positions"}, "", "Number of positions, evenly spaced `from` … `to`; 11 if not given."},
+    Key{"path.support", Type::choice, kind::number, "\"held\"", any, "held|follows", "`held`: the robot stays at its contacts. `follows`: they move with the cut and keep the distance that they have from `cutting.at`."},
 };
 
 constexpr std::array expectation_sections{
@@ -248,6 +256,7 @@ constexpr std::array expectation_keys{
     Key{"expect[].name", Type::text, kind::number, "", any, "", "What it is, for people.", required},
     Key{"expect[].quantity", Type::text, kind::number, "", any, "", "Path into summary.json, `coupling.modes[0].frequency_hz`.", required},
     Key{"expect[].value", Type::quantity, kind::number, "", any, "", "The expected number, in the unit of the summary."},
+    Key{"expect[].same_as", Type::text, kind::number, "", any, "", "Path into summary.json of the number that it must equal, in place of `value`."},
     Key{"expect[].tolerance", Type::quantity, kind::number, "", not_negative, "", "Largest deviation, absolute."},
     Key{"expect[].relative", Type::quantity, kind::number, "", not_negative, "", "Largest deviation relative to the value."},
     Key{"expect[].at_least", Type::quantity, kind::number, "", any, "", "Least value."},
