@@ -235,6 +235,12 @@ struct LobesOptions {
   std::optional<RobustOptions> robust;
 };
 
+/// Where the cut goes along the part, and what the robot does meanwhile.
+struct Path {
+  std::vector<Eigen::Vector3d> positions;  ///< m, of the point that is cut, in order
+  bool robot_follows = false;              ///< its contacts keep their distance to the cut; else they stay
+};
+
 struct Case {
   std::string name;  ///< name of the case's folder
   std::string title;
@@ -256,6 +262,7 @@ struct Case {
   std::optional<Cutting> cutting;
   std::optional<LobesOptions> lobes;
   std::optional<milling::MachineLimits> machine;
+  std::optional<Path> path;
   CaseValues values;  ///< what all of the above was bound from, defaults included
 };
 

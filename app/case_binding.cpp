@@ -310,6 +310,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   if (root.table("cutting").exists()) bound.cutting = bind_cutting(root.table("cutting"));
   if (root.table("lobes").exists()) bound.lobes = bind_lobes(root.table("lobes"), bound.tool);
   if (root.table("machine").exists()) bound.machine = bind_machine(root.table("machine"));
+  if (root.table("path").exists()) bound.path = bind_path(root.table("path"));
   bound.values = std::move(values);
   return bound;
 }
@@ -319,7 +320,7 @@ std::vector<Expectation> bind_expectations(const CaseValues& values) {
   for (const auto& table : Table{values, ""}.tables("expect")) {
     list.push_back({table.text("name"), table.text("quantity"), table.optional("value"), table.optional("tolerance"),
                     table.optional("relative"), table.optional("at_least"), table.optional("at_most"),
-                    table.text("origin")});
+                    table.text("origin"), table.text("same_as")});
   }
   return list;
 }

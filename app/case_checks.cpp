@@ -12,6 +12,7 @@
 #include "app/findings.hpp"
 #include "app/lobes_checks.hpp"
 #include "app/part_checks.hpp"
+#include "app/path_checks.hpp"
 #include "app/schema.hpp"
 #include "app/tool_checks.hpp"
 #include "core/units.hpp"
@@ -418,6 +419,7 @@ std::vector<Problem> check_case(const Case& source) {
   if (source.cutting) check_cutting(source, findings);
   if (source.lobes) check_lobes(source, findings);
   if (source.machine) check_machine(source, findings);
+  if (source.path) check_path(source, findings);
   return std::move(findings.problems);
 }
 

@@ -106,6 +106,17 @@ std::vector<double> read_polygon(const toml::node& node, const Key& key) {
   return list;
 }
 
+/// Positions one after the other: x₀, y₀, z₀, x₁ …
+std::vector<double> read_positions(const toml::node& node, const Key& key) {
+  const auto* positions = node.as_array();
+  if (positions == nullptr || positions->size() < 2 || positions->size() > 200)
+    throw InputError("must be a list of 2 to 200 positions [x, y, z], such as [[\"6 mm\", \"0 mm\", \"50 mm\"], …]");
+  std::vector<double> list;
+  list.reserve(3 * positions->size());
+  for (const auto& position : *positions) std::ranges::copy(read_vector(position, key), std::back_inserter(list));
+  return list;
+}
+
 /// A word that the key allows in place of a number.
 bool is_choice(const toml::node& node, const Key& key) {
   const auto allowed = choices(key);
@@ -166,6 +177,8 @@ Value read_value(const toml::node& node, const Key& key) {
       return read_vector(node, key);
     case Type::polygon:
       return read_polygon(node, key);
+    case Type::positions:
+      return read_positions(node, key);
     case Type::direction:
       return std::vector<Eigen::Vector3d>{read_direction(node)};
     case Type::directions:
@@ -187,6 +200,7 @@ Value unread_value(const Key& key) {
       return std::vector<double>(3, nan);
     case Type::quantities:
     case Type::polygon:
+    case Type::positions:
       return std::vector<double>();
     case Type::boolean:
       return false;
@@ -429,11 +443,12 @@ std::vector<Expectation> read_expectations(const std::filesystem::path& case_fil
   for (int i = 0; i < array_size(walk.values, "expect"); ++i) {
     const std::string item = "expect[" + std::to_string(i) + "]";
     const auto given = [&](const char* key) { return find(walk.values, item + key) != nullptr; };
-    const bool comparable = given(".value") && (given(".tolerance") || given(".relative"));
-    if (comparable || given(".at_least") || given(".at_most")) continue;
+    const bool comparable = given(".value") != given(".same_as") && (given(".tolerance") || given(".relative"));
+    const bool both = given(".value") && given(".same_as");
+    if (!both && (comparable || given(".at_least") || given(".at_most"))) continue;
     const auto* name = find(walk.values, item + ".name");
-    walk.problems.push_back(
-        {name->line, name->column, item + ": give value with tolerance or relative, or at_least or at_most"});
+    walk.problems.push_back({name->line, name->column,
+                             item + ": give value or same_as with tolerance or relative, or at_least or at_most"});
   }
   if (!walk.problems.empty()) throw CaseError(file.string(), std::move(walk.problems));
   return bind_expectations(walk.values);

@@ -70,10 +70,13 @@ struct ValueText {
   }
   std::string operator()(const std::vector<double>& list) const {
     const auto number = [this](double value) { return quantity_text(value, key.kind); };
-    if (key.type != Type::polygon) return list_text(list, number);
-    std::vector<std::vector<double>> corners;
-    for (std::size_t i = 0; i + 1 < list.size(); i += 2) corners.push_back({list[i], list[i + 1]});
-    return list_text(corners, [&](const std::vector<double>& corner) { return list_text(corner, number); });
+    if (key.type != Type::polygon && key.type != Type::positions) return list_text(list, number);
+    const std::size_t width = key.type == Type::polygon ? 2 : 3;
+    std::vector<std::vector<double>> places;
+    places.reserve(list.size() / width);
+    for (auto place = list.begin(); place != list.end(); place += static_cast<std::ptrdiff_t>(width))
+      places.emplace_back(place, place + static_cast<std::ptrdiff_t>(width));
+    return list_text(places, [&](const std::vector<double>& place) { return list_text(place, number); });
   }
   std::string operator()(const std::vector<std::string>& list) const { return list_text(list, quoted); }
   std::string operator()(const std::vector<Eigen::Vector3d>& list) const {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "app/path.hpp"
 #include "core/memory.hpp"
 #include "mesh/bend.hpp"
 #include "mesh/prism_mesh.hpp"
@@ -105,6 +106,19 @@ int along_axis(const Part& part, int through) {
   return longest;
 }
 
+/// Where the tolerance on receptances is to hold: at the interface, and at both ends and the middle of the path.
+std::vector<fem::NamedPoint> watched_points(const Case& source) {
+  std::vector<fem::NamedPoint> points;
+  const auto add = [&points](const Case& at) {
+    for (const std::string& name : at.reduction.interface) points.push_back(named_point(at, name));
+  };
+  add(source);
+  if (!source.path) return points;
+  const std::size_t last = source.path->positions.size() - 1;
+  for (const std::size_t i : {std::size_t{0}, last / 2, last}) add(at_position(source, i));
+  return points;
+}
+
 Discretisation refined_to_tolerance(const Case& source) {
   const MeshOptions& wanted = source.part->mesh;
   fem::SolidPart part{[&](int level) { return graded_mesh(source, level); }, shaping(*source.part),
@@ -116,7 +130,7 @@ Discretisation refined_to_tolerance(const Case& source) {
   options.memory_limit_bytes = core::available_memory_bytes();
   options.reentrant_edges = mesh::has_reentrant_edge(planar(*source.part).prism);
   if (options.reentrant_edges) options.levels = 2;  // more bring little: across a rib one element remains
-  for (const std::string& name : source.reduction.interface) options.points.push_back(named_point(source, name));
+  options.points = watched_points(source);
   if (wanted.order) {
     options.last_order = std::max(2, *wanted.order);
     options.first_order = options.last_order - 1;

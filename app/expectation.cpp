@@ -36,13 +36,14 @@ std::optional<double> number_at(const nlohmann::json& summary, const std::string
 
 ExpectationResult compare(const Expectation& expected, const nlohmann::json& summary) {
   ExpectationResult result{expected, number_at(summary, expected.quantity), false};
+  if (!expected.same_as.empty()) result.expected.value = number_at(summary, expected.same_as);
   if (!result.actual || !std::isfinite(*result.actual)) return result;
+  if (!expected.same_as.empty() && !result.expected.value) return result;
   const double actual = *result.actual;
   result.ok = true;
-  if (expected.value) {
-    const double allowed =
-        expected.tolerance.value_or(0.0) + expected.relative.value_or(0.0) * std::abs(*expected.value);
-    result.ok = std::abs(actual - *expected.value) <= allowed;
+  if (const auto& value = result.expected.value) {
+    const double allowed = expected.tolerance.value_or(0.0) + expected.relative.value_or(0.0) * std::abs(*value);
+    result.ok = std::abs(actual - *value) <= allowed;
   }
   if (expected.at_least) result.ok = result.ok && actual >= *expected.at_least;
   if (expected.at_most) result.ok = result.ok && actual <= *expected.at_most;

@@ -38,4 +38,16 @@ milling::MachineLimits bind_machine(const Table& table) {
   return machine;
 }
 
+Path bind_path(const Table& table) {
+  Path path{{}, table.text("support") == "follows"};
+  const auto list = table.numbers("points");
+  for (std::size_t i = 0; i + 2 < list.size(); i += 3) path.positions.emplace_back(list[i], list[i + 1], list[i + 2]);
+  const int count = table.has("positions") ? table.integer("positions") : 11;
+  if (!table.has("from") || !table.has("to") || table.has("points") || count < 2) return path;
+  const Eigen::Vector3d from = table.vector("from"), to = table.vector("to");
+  path.positions.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) path.positions.emplace_back(from + (to - from) * i / (count - 1));
+  return path;
+}
+
 }  // namespace thinwall::app

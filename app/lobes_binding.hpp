@@ -1,5 +1,5 @@
 #pragma once
-// [lobes] and [machine], typed.
+// [lobes], [machine] and [path], typed.
 
 #include <optional>
 
@@ -13,5 +13,8 @@ namespace thinwall::app {
 
 /// What the table does not bound stays without bound.
 [[nodiscard]] milling::MachineLimits bind_machine(const Table& table);
+
+/// Positions as they are listed, or evenly on the line; none where the path could not be read.
+[[nodiscard]] Path bind_path(const Table& table);
 
 }  // namespace thinwall::app

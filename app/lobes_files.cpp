@@ -91,4 +91,37 @@ void write_lobes(const fs::path& folder, const NamedLobes& named) {
   if (named.map) write_map(folder / (named.name + "_map.csv"), *named.map);
 }
 
+void write_path(const fs::path& folder, const Case& source, const PathLobes& path) {
+  std::vector<double> number, x, y, z, speed, depth, chatter, error;
+  std::vector<std::string> kind, status;
+  for (std::size_t i = 0; i < path.lobes.size(); ++i) {
+    const Eigen::Vector3d& at = source.path->positions[i];
+    for (const milling::LobeRow& row : path.lobes[i].rows) {
+      number.push_back(static_cast<double>(i + 1));
+      x.push_back(at.x());
+      y.push_back(at.y());
+      z.push_back(at.z());
+      speed.push_back(row.spindle_speed_rpm);
+      depth.push_back(row.limiting_depth_m);
+      chatter.push_back(row.chatter_frequency_hz);
+      error.push_back(row.error_estimate);
+      kind.push_back(milling::name(row.kind));
+      status.push_back(milling::name(row.status));
+    }
+  }
+  io::write_csv(folder / (path.name + "_path.csv"),
+                {{"position", number},
+                 {"x_m", x},
+                 {"y_m", y},
+                 {"z_m", z},
+                 {"spindle_speed_rpm", speed},
+                 {"limiting_depth_m", depth},
+                 {"chatter_frequency_hz", chatter},
+                 {"bifurcation", kind},
+                 {"error_estimate_relative", error},
+                 {"status", status}},
+                {"method: " + path.lobes.front().method,
+                 "rows with status stable_to_depth_limit are stable up to the depth given, the limit of the chart"});
+}
+
 }  // namespace thinwall::app

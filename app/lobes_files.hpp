@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "app/case.hpp"
 #include "app/results.hpp"
 
 namespace thinwall::app {
@@ -10,5 +11,8 @@ namespace thinwall::app {
 /// lobes/<name>.csv, <name>_crossings.csv, and where they were asked for <name>_<method>.csv and <name>_map.csv, into
 /// `folder`. Throws as io::write_csv.
 void write_lobes(const std::filesystem::path& folder, const NamedLobes& named);
+
+/// lobes/<name>_path.csv: position by position, in each the speeds of the chart. Throws as io::write_csv.
+void write_path(const std::filesystem::path& folder, const Case& source, const PathLobes& path);
 
 }  // namespace thinwall::app

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/lobes_answers.hpp"
+#include "app/path_report.hpp"
 
 namespace thinwall::app {
 
@@ -105,6 +106,7 @@ std::string lobes_report(const json& summary, const std::string& result_folder) 
   const auto title = summary["title"].get<std::string>();
   std::string text = "\n" + (title.empty() ? summary["case"].get<std::string>() : title) + "\n\n";
   for (const json& chart : summary["lobes"]) text += chart_text(chart);
+  text += path_text(summary);
   if (const std::string points = operating_points_text(summary); !points.empty()) text += "\n" + points;
   for (const json& check : summary["checks"]) {
     if (!check["ok"].get<bool>())

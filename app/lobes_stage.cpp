@@ -20,8 +20,7 @@ namespace {
 
 milling::MethodOptions options_of(const LobesOptions& wanted) {
   milling::MethodOptions options;
-  options.stability.depth_limit_m = wanted.depth_limit;
-  options.stability.error_tolerance = wanted.tolerance;
+  options.stability = stability_options(wanted);
   options.steps_per_period = wanted.steps_per_period.value_or(options.steps_per_period);
   options.harmonics = wanted.harmonics.value_or(options.harmonics);
   return options;
@@ -158,6 +157,13 @@ void add_pockets(const Case& source, const milling::MillingProcess& process, Nam
 }
 
 }  // namespace
+
+milling::StabilityOptions stability_options(const LobesOptions& wanted) {
+  milling::StabilityOptions options;
+  options.depth_limit_m = wanted.depth_limit;
+  options.error_tolerance = wanted.tolerance;
+  return options;
+}
 
 NamedLobes compute_lobes(const Case& source, const std::string& name, const dynamics::ModalModel* part,
                          const std::vector<milling::OperatingPoint>& points) {

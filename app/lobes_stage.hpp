@@ -8,6 +8,9 @@
 
 namespace thinwall::app {
 
+/// What [lobes] asks of the search at a speed.
+[[nodiscard]] milling::StabilityOptions stability_options(const LobesOptions& wanted);
+
 /// The chart of one structure at the case's cutting point, the tool added, and what it says of operating points.
 /// `structure` must hold that point; null: a rigid part, the tool alone.
 [[nodiscard]] NamedLobes compute_lobes(const Case& source, const std::string& name,

@@ -218,15 +218,8 @@ void check_point(const Case& source, const Point& point, Findings& findings) {
     return;
   }
   if (source.part && geometry_known(*source.part)) {
-    const Eigen::Vector3d p = position(*source.part, point);
-    const Eigen::AlignedBox3d box = bounds(*source.part);
-    const double slack = tolerance(*source.part);
-    const bool box_from_origin = box.min().isZero();
-    if (((box.min() - p).array() > slack).any() || ((p - box.max()).array() > slack).any()) {
-      findings.report(point.at ? key + ".at" : key + ".position",
-                      text(p) + " lies outside the part, which reaches from " +
-                          (box_from_origin ? "the origin" : text(box.min())) + " to " + text(box.max()));
-    }
+    const std::string outside = outside_part(*source.part, position(*source.part, point));
+    if (!outside.empty()) findings.report(point.at ? key + ".at" : key + ".position", outside);
   }
   if (!independent(point.directions)) {
     findings.report(key + ".directions", "the directions must be independent, three at most");
@@ -276,6 +269,15 @@ void check_part(const Case& source, Findings& findings) {
   }
   for (const auto& selection : source.selections) check_selection(selection, findings);
   for (const auto& point : source.points) check_point(source, point, findings);
+}
+
+std::string outside_part(const Part& part, const Eigen::Vector3d& p) {
+  if (!geometry_known(part)) return "";
+  const Eigen::AlignedBox3d box = bounds(part);
+  const double slack = tolerance(part);
+  if (!((box.min() - p).array() > slack).any() && !((p - box.max()).array() > slack).any()) return "";
+  return text(p) + " lies outside the part, which reaches from " +
+         (box.min().isZero() ? "the origin" : text(box.min())) + " to " + text(box.max());
 }
 
 std::string point_of(const std::string& dof) {

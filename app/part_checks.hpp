@@ -11,6 +11,10 @@ void check_part(const Case& source, Findings& findings);
 /// Names of the points that the part has: those of [points], or those that its measured FRFs name.
 [[nodiscard]] std::vector<std::string> part_points(const Case& source);
 
+/// "(…) lies outside the part, which reaches from …" for a position (m) off the block around the part (before it is
+/// bent), or "" if it lies within or the part is not known well enough.
+[[nodiscard]] std::string outside_part(const Part& part, const Eigen::Vector3d& p);
+
 /// Name of the support that holds the point in the direction, or "" if it is free to move (or not known well enough).
 [[nodiscard]] std::string clamped_by(const Case& source, const std::string& point, const Eigen::Vector3d& direction);
 

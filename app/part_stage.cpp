@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "app/measured.hpp"
+#include "app/path_stage.hpp"
 #include "core/error.hpp"
 #include "core/memory.hpp"
 #include "fem/free_motions.hpp"
@@ -187,6 +188,10 @@ PartResult compute_part(const Case& source, Discretisation discretisation, Stage
                                " found): ask for fewer in reduction.modes, or mesh more evenly");
   }
   part.damped = damped(source, part.reduced->model, part.identified);
+  if (source.path) {
+    stages.begin("path");
+    part.along_path = models_along_path(source, part, fem::inverse_of(factored));
+  }
   stages.begin("reduction check");
   check_reduction(source, part, factored);
   spdlog::info("reduced to {} degrees of freedom; frequencies agree to {:.1e}", part.reduced->model.size(),

@@ -8,6 +8,7 @@
 #include "app/expectation.hpp"
 #include "app/lobes_stage.hpp"
 #include "app/part_stage.hpp"
+#include "app/path_stage.hpp"
 #include "app/result_files.hpp"
 #include "app/results.hpp"
 #include "app/stages.hpp"
@@ -100,6 +101,9 @@ void run_lobes(const Case& work, const std::vector<milling::OperatingPoint>& poi
   } else if (results.coupled) {
     spdlog::warn("no chart of the supported part: the robot is known by its receptance only, which has no poles");
   }
+  if (!work.path) return;
+  stages.begin("lobes along the path");
+  results.path = lobes_along_path(work, results);
 }
 
 }  // namespace

@@ -178,6 +178,7 @@ void write_results(const fs::path& folder, const Case& source, const Results& re
   }
   if (results.robot) files.emplace_back([&] { write_frf(folder / "frf", "robot", results.robot->response); });
   for (const auto& lobes : results.lobes) files.emplace_back([&] { write_lobes(folder / "lobes", lobes); });
+  for (const auto& path : results.path) files.emplace_back([&] { write_path(folder / "lobes", source, path); });
   core::parallel_for(files.size(), [&](std::size_t i) { files[i](); });
 }
 

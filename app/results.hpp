@@ -40,6 +40,7 @@ struct PartResult {
   std::optional<double> receptance_error;             ///< against direct solves of the full model, largest relative
   std::vector<reduction::IdentifiedMode> identified;  ///< damping found in a measured FRF
   std::optional<dynamics::SpatialModel> damped;       ///< the reduced model with its damping
+  std::vector<dynamics::SpatialModel> along_path;     ///< reduced at each position of the path; undamped
 };
 
 /// A component as the coupling sees it: matrices where they are known, and its response on the axis of the run.
@@ -107,6 +108,12 @@ struct NamedLobes {
   std::vector<milling::Pocket> robust_pockets;
 };
 
+/// Charts of one structure at the positions of the path.
+struct PathLobes {
+  std::string name;                   ///< "part", "supported"
+  std::vector<milling::Lobes> lobes;  ///< of each position
+};
+
 /// One fit of model updating.
 struct UpdatingResult {
   struct Parameter {
@@ -134,6 +141,7 @@ struct Results {
   std::optional<CouplingResult> coupled;
   std::vector<AmplitudeReduction> reductions;
   std::vector<NamedLobes> lobes;
+  std::vector<PathLobes> path;
   std::vector<std::pair<std::string, double>> timings_s;  ///< stage, seconds, in the order they ran
 };
 

@@ -76,6 +76,8 @@ constexpr std::array case_sections{
         "Relative standard uncertainties, for a chart that holds in spite of them (docs/theory/lobes.md). From poles "
         "and by the direct method.",
         ""},
+    Section{"path", "Where the cut goes along the part: the chart at each position. Give `points`, or `from` and `to`.",
+            ""},
 };
 
 // clang-format off
@@ -268,6 +270,12 @@ constexpr std::array case_keys{
     Key{"machine.max_torque", Type::quantity, kind::torque, "", positive, "", "Torque at the spindle, likewise."},
     Key{"machine.max_feed_rate", Type::quantity, kind::velocity, "", positive, "", "Highest feed rate: with the feed per tooth a bound on the speed."},
     Key{"machine.efficiency", Type::quantity, kind::number, "1", {0.0, 1.0, true, false, false, "0.8 to 0.95 is usual"}, "", "Share of the motor's power that reaches the cut."},
+
+    Key{"path.points", Type::positions, kind::length, "", any, "", "Positions of the point that is cut, in the part's axes, in order. The patch is that of `cutting.at`."},
+    Key{"path.from", Type::vector, kind::length, "", any, "", "First position of a straight path."},
+    Key{"path.to", Type::vector, kind::length, "", any, "", "Last position."},
+    Key{"path.positions", Type::integer, kind::number, "", {2, 200, false, false, false, "2 to 200 positions"}, "", "Number of positions, evenly spaced `from` … `to`; 11 if not given."},
+    Key{"path.support", Type::choice, kind::number, "\"held\"", any, "held|follows", "`held`: the robot stays at its contacts. `follows`: they move with the cut and keep the distance that they have from `cutting.at`."},
 };
 
 constexpr std::array expectation_sections{
@@ -277,6 +285,7 @@ constexpr std::array expectation_keys{
     Key{"expect[].name", Type::text, kind::number, "", any, "", "What it is, for people.", required},
     Key{"expect[].quantity", Type::text, kind::number, "", any, "", "Path into summary.json, `coupling.modes[0].frequency_hz`.", required},
     Key{"expect[].value", Type::quantity, kind::number, "", any, "", "The expected number, in the unit of the summary."},
+    Key{"expect[].same_as", Type::text, kind::number, "", any, "", "Path into summary.json of the number that it must equal, in place of `value`."},
     Key{"expect[].tolerance", Type::quantity, kind::number, "", not_negative, "", "Largest deviation, absolute."},
     Key{"expect[].relative", Type::quantity, kind::number, "", not_negative, "", "Largest deviation relative to the value."},
     Key{"expect[].at_least", Type::quantity, kind::number, "", any, "", "Least value."},

@@ -28,6 +28,7 @@ enum class Type {
   quantities,  ///< list of them, or one
   vector,      ///< three quantities along x, y, z
   polygon,     ///< list of corners, each two quantities along x, y
+  positions,   ///< list of positions, each three quantities along x, y, z
   direction,   ///< "x", "-y" or three numbers, made a unit vector
   directions,  ///< list of directions, or one
   amount,      ///< quantity whose dimension follows from another key of the same table

@@ -53,6 +53,8 @@ std::string_view type_text(const Key& key) {
       return "x, y, z";
     case Type::polygon:
       return "list of corners";
+    case Type::positions:
+      return "list of x, y, z";
     case Type::direction:
       return "direction";
     case Type::directions:
@@ -65,7 +67,8 @@ std::string_view type_text(const Key& key) {
 
 std::string type_cell(const Key& key) {
   std::string text(type_text(key));
-  if (key.type == Type::quantities || key.type == Type::vector || key.type == Type::polygon)
+  if (key.type == Type::quantities || key.type == Type::vector || key.type == Type::polygon ||
+      key.type == Type::positions)
     text += " (" + std::string(key.kind.name) + ")";
   for (const auto& choice : choices(key)) text += " `" + choice + "`";
   if (!key.kind.unit.empty()) text += ", " + std::string(key.kind.unit);

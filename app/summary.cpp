@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/lobes_summary.hpp"
+#include "app/path_report.hpp"
 #include "app/support_stage.hpp"
 #include "milling/stability.hpp"
 
@@ -259,6 +260,7 @@ json summary_of(const Case& source, const Results& results) {
   if (results.coupled) summary["coupling"] = coupling_of(results);
   summary["lobes"] = json::array();
   for (const auto& lobes : results.lobes) summary["lobes"].push_back(lobes_of(source, lobes));
+  for (const auto& path : results.path) summary["path"].push_back(path_summary(source, path));
   summary["operating_points"] = json::array();
   for (const auto& lobes : results.lobes) {
     for (const auto& point : lobes.points) summary["operating_points"].push_back(point_of(lobes.name, point));
@@ -271,8 +273,9 @@ json summary_of(const Case& source, const Results& results) {
 
 bool add_checks(json& summary, const std::vector<Expectation>& expectations) {
   bool all = true;
-  for (const Expectation& expected : expectations) {
-    const ExpectationResult result = compare(expected, summary);
+  for (const Expectation& wanted : expectations) {
+    const ExpectationResult result = compare(wanted, summary);
+    const Expectation& expected = result.expected;
     json check = {
         {"name", expected.name}, {"quantity", expected.quantity}, {"origin", expected.origin}, {"ok", result.ok}};
     check["value"] = result.actual ? json(*result.actual) : json(nullptr);

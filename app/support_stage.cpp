@@ -75,7 +75,7 @@ Component component(dynamics::SpatialModel model, const dynamics::FrequencyAxis&
     result.spatial = std::move(model);
     return result;
   }
-  result.modal = dynamics::to_modal(model.has_structural_damping() ? dynamics::equivalent_viscous(model) : model);
+  result.modal = modes_of(model);
   result.response = model.has_structural_damping() ? dynamics::direct_response(model, axis)
                                                    : dynamics::to_response(*result.modal, axis);
   result.spatial = std::move(model);
@@ -127,16 +127,22 @@ std::vector<coupling::Contact> contacts_of(const Case& source) {
   return contacts;
 }
 
+dynamics::ModalModel modes_of(const dynamics::SpatialModel& model) {
+  return dynamics::to_modal(model.has_structural_damping() ? dynamics::equivalent_viscous(model) : model);
+}
+
+dynamics::ModalModel modes_of(coupling::CoupledModel model) {
+  if (model.independent.has_structural_damping()) model.independent = dynamics::equivalent_viscous(model.independent);
+  return coupling::to_modal(model);
+}
+
 CouplingResult couple(const Case& source, const Component& part, const Component& robot) {
   const auto contacts = contacts_of(source);
   const dynamics::FrequencyAxis& axis = part.response.axis;
   CouplingResult result{coupling::couple(part.response, robot.response, contacts), {}, {}, {}, {}, {}};
   if (part.spatial && robot.spatial) {
     result.model = coupling::couple(*part.spatial, *robot.spatial, contacts);
-    coupling::CoupledModel viscous = *result.model;
-    if (viscous.independent.has_structural_damping())
-      viscous.independent = dynamics::equivalent_viscous(viscous.independent);
-    result.modal = coupling::to_modal(viscous);
+    result.modal = modes_of(*result.model);
     result.spatial_response = part_block(coupling::direct_response(*result.model, axis), part.response);
   } else if (part.spatial) {
     result.spatial_response = coupling::direct_response(*part.spatial, robot.response, contacts, axis);

@@ -7,6 +7,7 @@
 
 #include "app/lobes_answers.hpp"
 #include "app/lobes_report.hpp"
+#include "app/path_report.hpp"
 
 namespace thinwall::app {
 
@@ -170,6 +171,7 @@ std::string terminal_report(const json& summary, const std::string& result_folde
   }
   charts(out, summary);
   out += '\n';
+  if (const std::string path = path_text(summary); !path.empty()) out += path + '\n';
   if (const std::string points = operating_points_text(summary); !points.empty()) out += points + '\n';
   updating(out, summary);
   trust(out, summary);

@@ -158,5 +158,16 @@ TEST(Expectation, HoldsWithinToleranceAndNeverForWhatIsMissing) {
   EXPECT_FALSE(compare({"", "nan", {}, {}, {}, 0.0, {}, ""}, summary).ok);
 }
 
+TEST(Expectation, AFigureMayBeComparedWithAnother) {
+  const auto summary = nlohmann::json::parse(R"({"ends": [1.0, 1.01]})");
+  Expectation e{"", "ends[0]", {}, {}, 0.02, {}, {}, "", "ends[1]"};
+  EXPECT_TRUE(compare(e, summary).ok);
+  EXPECT_EQ(compare(e, summary).expected.value, 1.01);
+  e.relative = 0.005;
+  EXPECT_FALSE(compare(e, summary).ok);
+  e.same_as = "ends[2]";
+  EXPECT_FALSE(compare(e, summary).ok) << "there is no such figure";
+}
+
 }  // namespace
 }  // namespace thinwall::app

@@ -206,7 +206,7 @@ TEST(ChartChoicesBad, MethodsAreRefusedForWhatTheyCannotTake) {
   expect_problem(mill(helix, "", "method = \"multi_frequency\"\n"), "lobes.method", "takes equal teeth without helix");
   expect_problem(mill(pitches, "", "compare = [\"zeroth_order\"]\n"), "lobes.compare", "takes equal teeth");
   expect_problem(mill("", "process_damping = \"1e4 N/m\"\n", "method = \"semi_discretization_2\"\n"), "lobes.method",
-                 "no process damping");
+                 "without process damping");
 }
 
 TEST(ChartChoicesBad, AMeasuredToolHasNoPolesForThem) {

@@ -1,0 +1,89 @@
+#include "app/path_stage.hpp"
+
+#include <utility>
+#include <variant>
+
+#include "app/cut_structure.hpp"
+#include "app/lobes_stage.hpp"
+#include "app/milling_process.hpp"
+#include "app/part_stage.hpp"
+#include "app/path.hpp"
+#include "app/support_stage.hpp"
+#include "core/error.hpp"
+#include "coupling/spatial.hpp"
+#include "milling/lobe_field.hpp"
+#include "reduction/attachment_modes.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+/// What the cut feels at each position: of the part alone, and held by the robot (empty without one).
+struct StructuresAlongPath {
+  std::vector<milling::RelativeStructure> part, supported;
+};
+
+StructuresAlongPath structures_along_path(const Case& source, const Results& results, const milling::ToolFrame& frame) {
+  const auto& models = results.finite_elements->along_path;
+  const bool supported = results.robot && results.robot->spatial && !source.contacts.empty();
+  StructuresAlongPath structures;
+  structures.part.reserve(models.size());
+  structures.supported.reserve(models.size());
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const Case there = at_position(source, i);
+    std::vector<reduction::IdentifiedMode> identified;
+    const dynamics::SpatialModel part = damped(there, models[i], identified);
+    const auto felt = [&](const dynamics::ModalModel& modal) {
+      return std::get<milling::RelativeStructure>(cut_structure(there, frame, &modal));
+    };
+    structures.part.push_back(felt(modes_of(part)));
+    if (supported)
+      structures.supported.push_back(
+          felt(modes_of(coupling::couple(part, *results.robot->spatial, contacts_of(there)))));
+  }
+  return structures;
+}
+
+PathLobes charts(const Case& source, const std::string& name, const std::string& method,
+                 const milling::MillingProcess& process, const std::vector<milling::RelativeStructure>& structures) {
+  const LobesOptions& wanted = *source.lobes;
+  const auto speeds = milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count);
+  milling::LobeField field = milling::lobe_field(structures, process, speeds, stability_options(wanted));
+  PathLobes result{name, {}};
+  result.lobes.reserve(structures.size());
+  for (std::size_t i = 0; i < structures.size(); ++i) {
+    result.lobes.push_back(milling::lobes_of(std::move(field.rows[i]), method));
+    result.lobes.back().residual_share = milling::residual_share(structures[i]);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<dynamics::SpatialModel> models_along_path(const Case& source, const PartResult& part,
+                                                      const linalg::ShiftedInverse& inverse) {
+  const reduction::PartModes modes = reduction::part_modes(*part.reduced, part.model.M, inverse);
+  const std::size_t count = source.path->positions.size();
+  std::vector<dynamics::SpatialModel> models;
+  models.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    try {
+      const reduction::Interface interface = part_interface(at_position(source, i), part.model);
+      models.push_back(reduction::with_attachment_modes(modes, part.model.M, inverse, interface));
+    } catch (const core::InputError& error) {
+      throw core::InputError("position " + std::to_string(i + 1) + " of the path: " + error.what());
+    }
+  }
+  return models;
+}
+
+std::vector<PathLobes> lobes_along_path(const Case& source, const Results& results) {
+  const milling::MillingProcess process = milling_process(source);
+  const StructuresAlongPath structures = structures_along_path(source, results, process.frame);
+  const std::string& method = results.lobes.front().lobes.method;
+  std::vector<PathLobes> all{charts(source, "part", method, process, structures.part)};
+  if (!structures.supported.empty()) all.push_back(charts(source, "supported", method, process, structures.supported));
+  return all;
+}
+
+}  // namespace thinwall::app
