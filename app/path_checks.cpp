@@ -37,6 +37,9 @@ bool check_needs(const Case& source, Findings& findings) {
   if (source.tool && !source.tool->measured.empty())
     findings.report("path",
                     "lobes along a path need a tool known by its modes; give tool.modes in place of measured FRFs");
+  if (source.lobes && source.lobes->method != "direct")
+    findings.report("lobes.method", "lobes along a path are by the direct method; leave it at \"direct\" and name \"" +
+                                        source.lobes->method + "\" in lobes.compare");
   return findings.problems.size() == before;
 }
 

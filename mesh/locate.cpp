@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -92,12 +93,11 @@ const BoundaryTriangle& nearest_triangle(const TetMesh& mesh, const std::vector<
   throw core::InputError(text.str());
 }
 
-}  // namespace
-
-Located locate(const TetMesh& mesh, const Eigen::Vector3d& x) {
+/// Of these tetrahedra the one that x lies in, or the one that it is least outside of by barycentric coordinates.
+Located locate_among(const TetMesh& mesh, const std::vector<int>& tets, const Eigen::Vector3d& x) {
   Location best;
   double worst = -std::numeric_limits<double>::max();
-  for (int tet = 0; tet < static_cast<int>(mesh.tets.size()); ++tet) {
+  for (const int tet : tets) {
     const Eigen::Vector4d lambda = barycentric(mesh, tet, x);
     if (lambda.minCoeff() > worst) {
       worst = lambda.minCoeff();
@@ -108,6 +108,25 @@ Located locate(const TetMesh& mesh, const Eigen::Vector3d& x) {
   best.lambda = best.lambda.cwiseMax(0.0);
   best.lambda /= best.lambda.sum();
   return {best, (position(mesh, best) - x).norm()};
+}
+
+/// Those whose boxes come within `reach_m` of x.
+std::vector<int> tets_near(const TetMesh& mesh, const Eigen::Vector3d& x, double reach_m) {
+  std::vector<int> near;
+  for (std::size_t tet = 0; tet < mesh.tets.size(); ++tet) {
+    Eigen::AlignedBox3d box;
+    for (const int corner : mesh.tets[tet]) box.extend(vertex(mesh, corner));
+    if (box.squaredExteriorDistance(x) <= reach_m * reach_m) near.push_back(static_cast<int>(tet));
+  }
+  return near;
+}
+
+}  // namespace
+
+Located locate(const TetMesh& mesh, const Eigen::Vector3d& x) {
+  std::vector<int> all(mesh.tets.size());
+  std::iota(all.begin(), all.end(), 0);
+  return locate_among(mesh, all, x);
 }
 
 std::vector<PatchSample> patch_samples(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary,
@@ -128,6 +147,7 @@ std::vector<PatchSample> patch_samples(const TetMesh& mesh, const std::vector<Bo
   const Eigen::Vector3d normal =
       e1.cross(vertex(mesh, triangle.vertices[2]) - vertex(mesh, triangle.vertices[0])).normalized();
   const Eigen::Vector3d e2 = normal.cross(e1);
+  const std::vector<int> tets = tets_near(mesh, x, radius_m + tolerance);
   constexpr int rings = 8;
   constexpr int sectors = 24;
   std::vector<PatchSample> samples;
@@ -137,7 +157,7 @@ std::vector<PatchSample> patch_samples(const TetMesh& mesh, const std::vector<Bo
       // A quarter of a sector on, so that no ray lies on an edge of the part along e1, where half a sector would count
       // whole.
       const double angle = 2.0 * std::numbers::pi * (sector + 0.25 + 0.5 * (ring % 2)) / sectors;
-      const Located found = locate(mesh, x + r * (std::cos(angle) * e1 + std::sin(angle) * e2));
+      const Located found = locate_among(mesh, tets, x + r * (std::cos(angle) * e1 + std::sin(angle) * e2));
       if (found.distance_m <= tolerance) samples.push_back({found.location, 1.0});
     }
   }

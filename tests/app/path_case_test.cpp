@@ -118,6 +118,8 @@ TEST(PathCase, WhatAPathNeedsIsNamed) {
                       "N/m\"\ndirection = \"x\"\n[cutting]") +
                      "[path]\n" + straight,
                  "there is no modelled part to move along", "from = [\"6 mm\"");
+  expect_problem(with(path_case(straight), "[lobes]\n", "[lobes]\nmethod = \"zeroth_order\"\n"),
+                 "lobes along a path are by the direct method", "method");
 }
 
 /// Two positions, three speeds; the second position is the weaker one but at the middle speed.
