@@ -1,5 +1,7 @@
 #include "app/path_checks.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "app/part_checks.hpp"
@@ -59,7 +61,7 @@ void check_length(const Path& path, Findings& findings) {
 
 /// What is wrong with a point of the case at one position; empty if nothing.
 std::string fault_at(const Case& there, const Point& p) {
-  if (const std::string outside = outside_part(*there.part, *p.position); !outside.empty()) return outside;
+  if (std::string outside = outside_part(*there.part, *p.position); !outside.empty()) return outside;
   for (const Eigen::Vector3d& direction : p.directions) {
     const std::string support = clamped_by(there, p.name, direction);
     if (!support.empty()) return "is clamped by \"" + support + "\"";
@@ -77,14 +79,15 @@ bool check_position(const Case& source, std::size_t i, Findings& findings) {
     if (!is_cut && !source.path->robot_follows) continue;
     const std::string fault = fault_at(there, p);
     if (fault.empty()) continue;
-    if (is_cut)
-      findings.report(findings.given("path.points") ? "path.points"
-                      : i == 0                      ? "path.from"
-                                                    : "path.to",
-                      number + " " + fault + "; keep the path on the part and off its supports");
-    else
-      findings.report("path.support", "at " + number + " the contact at \"" + p.name + "\" " + fault +
-                                          "; shorten the path, or hold the robot (support = \"held\")");
+    if (is_cut) {
+      const char* last = i == 0 ? "path.from" : "path.to";
+      findings.report(findings.given("path.points") ? "path.points" : last,
+                      fmt::format("{} {}; keep the path on the part and off its supports", number, fault));
+    } else {
+      findings.report("path.support", fmt::format("at {} the contact at \"{}\" {}; shorten the path, or hold the robot "
+                                                  "(support = \"held\")",
+                                                  number, p.name, fault));
+    }
     return false;
   }
   return true;
