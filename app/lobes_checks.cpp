@@ -41,6 +41,9 @@ milling::MillingProcess outline_of(const Case& source) {
   const std::size_t arcs = source.cutting->entry_angles.size();
   process.further_engagements.resize(arcs > 1 ? arcs - 1 : 0);
   process.damping.C = source.cutting->process_damping;
+  const bool linear = source.cutting->law == "linear" || source.cutting->law == "oblique";
+  const bool own_chips = source.tool && !linear && !source.tool->runout.empty();
+  if (own_chips) process.tooth_coefficients.resize(source.tool->runout.size());  // by a law of the chip, each its own
   return process;
 }
 

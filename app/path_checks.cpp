@@ -39,7 +39,8 @@ bool check_needs(const Case& source, Findings& findings) {
   if (source.tool && !source.tool->measured.empty())
     findings.report("path",
                     "lobes along a path need a tool known by its modes; give tool.modes in place of measured FRFs");
-  if (source.lobes && source.lobes->method != "direct")
+  const bool known_method = source.lobes && !source.lobes->method.empty();  // another was reported by the reader
+  if (known_method && source.lobes->method != "direct")
     findings.report("lobes.method", "lobes along a path are by the direct method; leave it at \"direct\" and name \"" +
                                         source.lobes->method + "\" in lobes.compare");
   return findings.problems.size() == before;

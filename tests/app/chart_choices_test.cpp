@@ -205,6 +205,10 @@ TEST(ChartChoicesBad, MethodsAreRefusedForWhatTheyCannotTake) {
   EXPECT_NO_THROW((void)parse_case(mill(helix, "", "method = \"zeroth_order\"\n"), "."));
   expect_problem(mill(helix, "", "method = \"multi_frequency\"\n"), "lobes.method", "takes equal teeth without helix");
   expect_problem(mill(pitches, "", "compare = [\"zeroth_order\"]\n"), "lobes.compare", "takes equal teeth");
+  const std::string power = "law = \"power\"\nexponents = 0.25\n" + feed;
+  EXPECT_NO_THROW((void)parse_case(mill("", power, "method = \"zeroth_order\"\n"), "."));
+  expect_problem(mill("runout = [\"10 um\", \"0 um\"]\n", power, "method = \"zeroth_order\"\n"), "lobes.method",
+                 "takes equal teeth");
   expect_problem(mill("", "process_damping = \"1e4 N/m\"\n", "method = \"semi_discretization_2\"\n"), "lobes.method",
                  "without process damping");
 }

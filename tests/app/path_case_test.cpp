@@ -120,6 +120,8 @@ TEST(PathCase, WhatAPathNeedsIsNamed) {
                  "there is no modelled part to move along", "from = [\"6 mm\"");
   expect_problem(with(path_case(straight), "[lobes]\n", "[lobes]\nmethod = \"zeroth_order\"\n"),
                  "lobes along a path are by the direct method", "method");
+  expect_problem(with(path_case(straight), "[lobes]\n", "[lobes]\nmethod = \"zeroth_ordr\"\n"),
+                 "did you mean \"zeroth_order\"", "method");
 }
 
 /// Two positions, three speeds; the second position is the weaker one but at the middle speed.
