@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "app/measured.hpp"
 #include "core/error.hpp"
@@ -82,15 +83,11 @@ CutStructure cut_structure(const Case& source, const milling::ToolFrame& frame, 
   std::optional<milling::RelativeStructure> modal;
   if (part != nullptr) modal = part_structure(source, *part);
   if (!source.tool->measured.empty()) {
-    milling::SampledReceptance sampled = measured_tip(source.tool->measured);
-    warn_of_doubts(sampled);
+    milling::SampledReceptance tip = measured_tip(source.tool->measured);
+    warn_of_doubts(tip);
     const Eigen::Matrix3d R = frame.rotation();
-    for (std::size_t line = 0; line < sampled.H.size(); ++line) {
-      const double omega = 2.0 * std::numbers::pi * sampled.frequency_hz(static_cast<Eigen::Index>(line));
-      if (modal) sampled.H[line] += milling::receptance(*modal, omega);
-      sampled.H[line] = (R.transpose() * sampled.H[line] * R).eval();
-    }
-    return sampled;
+    for (Eigen::Matrix3cd& H : tip.H) H = (R.transpose() * H * R).eval();
+    return milling::SampledStructure{std::move(tip), modal};
   }
   if (!source.tool->modes.empty())
     modal = modal ? milling::sum(*modal, tool_modes(*source.tool)) : tool_modes(*source.tool);

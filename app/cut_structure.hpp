@@ -6,13 +6,14 @@
 #include "app/case.hpp"
 #include "dynamics/modal_model.hpp"
 #include "milling/relative_structure.hpp"
-#include "milling/sampled_receptance.hpp"
+#include "milling/sampled_stability.hpp"
 #include "milling/tool.hpp"
 
 namespace thinwall::app {
 
-/// Poles where everything is known by its modes (part axes), samples where the tool tip is measured (tool axes).
-using CutStructure = std::variant<milling::RelativeStructure, milling::SampledReceptance>;
+/// Poles where everything is known by its modes (part axes); samples, with the part's poles beside them, where the tool
+/// tip is measured.
+using CutStructure = std::variant<milling::RelativeStructure, milling::SampledStructure>;
 
 /// Part and tool together; `frame` is the cut's, `part` must hold the point that is cut, null: a rigid part. Samples
 /// lie on the lines of the first measured file; what speaks against them is logged as a warning: a driving point that

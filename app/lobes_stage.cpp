@@ -38,14 +38,14 @@ struct Chart {
     return std::get_if<milling::RelativeStructure>(&structure);
   }
   [[nodiscard]] milling::Lobes by(const std::string& method) const {
-    if (const auto* sampled = std::get_if<milling::SampledReceptance>(&structure))
+    if (const auto* sampled = std::get_if<milling::SampledStructure>(&structure))
       return milling::stability_lobes(*sampled, process, speeds_rpm, options.stability);
     return milling::stability_lobes(*milling::lobe_method(milling::method_named(method), *poles(), process, options),
                                     speeds_rpm);
   }
   [[nodiscard]] milling::RowAt row_at(const std::string& method) const {
     return [this, method](double rpm, const milling::StabilityOptions& with) {
-      if (const auto* sampled = std::get_if<milling::SampledReceptance>(&structure))
+      if (const auto* sampled = std::get_if<milling::SampledStructure>(&structure))
         return milling::limiting_depth(*sampled, process, rpm, with);
       milling::MethodOptions all = options;
       all.stability = with;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
 #include <memory>
 #include <numbers>
 #include <sstream>
@@ -31,6 +32,7 @@ constexpr double pi = std::numbers::pi;
 /// What does not change with resolution and depth. Keeps references.
 struct SampledCut {
   const SampledReceptance& receptance;
+  std::optional<CutAtSpeed> by_poles;
   const MillingProcess& process;
   Eigen::Matrix3Xd yielding;
   double mean_stiffness = 0.0;  ///< ‖mean directional matrix‖ over a period, N/m²
@@ -38,10 +40,20 @@ struct SampledCut {
   double spindle_speed_rpm = 0.0;
 };
 
-/// Directions that take part in the motion by more than a ten-millionth.
-Eigen::Matrix3Xd yielding_directions(const SampledReceptance& r) {
+/// Samples and poles together.
+Eigen::Matrix3cd receptance_at(const SampledCut& cut, double omega_rad_s) {
+  Eigen::Matrix3cd H = interpolated(cut.receptance, omega_rad_s, {cut.resonance_hz, cut.resonance_hz});
+  if (cut.by_poles) H += receptance(cut.by_poles->structure, omega_rad_s);
+  return H;
+}
+
+/// Directions that take part in the motion by more than a ten-millionth, at the lines of the samples.
+Eigen::Matrix3Xd yielding_directions(const SampledCut& cut) {
   Eigen::Matrix3d motion = Eigen::Matrix3d::Zero();
-  for (const Eigen::Matrix3cd& H : r.H) motion += (H * H.adjoint()).real();
+  for (const double hz : cut.receptance.frequency_hz) {
+    const Eigen::Matrix3cd H = receptance_at(cut, 2.0 * pi * hz);
+    motion += (H * H.adjoint()).real();
+  }
   if (!(motion.topLeftCorner<2, 2>().norm() > 1e-14 * motion.norm())) {
     throw core::InputError(
         "receptance at the cut: nothing moves in the plane of the cut, something must; check the feed and the tool "
@@ -86,9 +98,12 @@ void require_usable(const MillingProcess& process, const StabilityOptions& optio
   }
 }
 
-SampledCut sampled_cut(const SampledReceptance& receptance, const MillingProcess& process, double spindle_speed_rpm) {
-  SampledCut cut{receptance,       process, yielding_directions(receptance), 0.0, highest_resonance_hz(receptance),
-                 spindle_speed_rpm};
+SampledCut sampled_cut(const SampledStructure& structure, const MillingProcess& process, double spindle_speed_rpm) {
+  SampledCut cut{structure.samples, {}, process, {}, 0.0, highest_resonance_hz(structure.samples), spindle_speed_rpm};
+  if (structure.poles)
+    cut.by_poles.emplace(in_tool_axes(*structure.poles, process.frame), process, Eigen::Matrix3Xd(), spindle_speed_rpm);
+  cut.yielding = yielding_directions(cut);
+  if (cut.by_poles) cut.by_poles->yielding = cut.yielding;  // one grid for both
   cut.mean_stiffness = mean_stiffness(contact_grid(process, cut.yielding, {1, 8}));
   return cut;
 }
@@ -112,7 +127,10 @@ struct Fineness {
 
 Fineness resolving(const SampledCut& cut, double depth_m) {
   const double hz = highest_that_matters_hz(cut, depth_m);
-  const double phase = 2.0 * pi * hz * longest_stretch_rad(cut.process) * 30.0 / (pi * cut.spindle_speed_rpm);
+  const double pole_hz =
+      cut.by_poles ? fastest_that_matters(*cut.by_poles, cut.mean_stiffness, depth_m) / (2.0 * pi) : 0.0;
+  const double phase =
+      2.0 * pi * std::max(hz, pole_hz) * longest_stretch_rad(cut.process) * 30.0 / (pi * cut.spindle_speed_rpm);
   const int elements = std::max(1, static_cast<int>(std::ceil(phase / 14.0)));
   const double tooth_passing_hz = 1.0 / tooth_period_s(cut.process.cutter, cut.spindle_speed_rpm);
   return {{elements, static_cast<int>(std::ceil(4.0 + 0.5 * phase / elements))}, 4.0 * (hz + 2.0 * tooth_passing_hz)};
@@ -124,11 +142,19 @@ Fineness finer(const Fineness& f) {
 
 double chatter_hz(const SampledCut& cut, const ContactGrid& grid, double theta, const Eigen::VectorXcd& c) {
   const auto& hz = cut.receptance.frequency_hz;
-  const auto at = [&](double omega) {
-    return interpolated(cut.receptance, omega, {cut.resonance_hz, cut.resonance_hz});
-  };
-  return chatter_frequency_hz(grid, tooth_period_s(cut.process.cutter, cut.spindle_speed_rpm), at,
-                              2.0 * pi * hz(hz.size() - 1), theta, c);
+  double highest = 2.0 * pi * hz(hz.size() - 1);
+  if (cut.by_poles) highest = std::max(highest, 1.5 * cut.by_poles->structure.poles.cwiseAbs().maxCoeff());
+  const auto at = [&](double omega) { return receptance_at(cut, omega); };
+  return chatter_frequency_hz(grid, tooth_period_s(cut.process.cutter, cut.spindle_speed_rpm), at, highest, theta, c);
+}
+
+GainOnCircle sum(const GainOnCircle& a, const GainOnCircle& b) {
+  GainOnCircle both{a.size,
+                    [a, b](double theta) { return Eigen::MatrixXcd(a.Z(theta) + b.Z(theta)); },
+                    [a, b](double theta) { return Eigen::MatrixXcd(a.slope(theta) + b.slope(theta)); },
+                    {}};
+  std::ranges::set_union(a.stops, b.stops, std::back_inserter(both.stops));
+  return both;
 }
 
 /// Grids of a cut known by samples, each finer one with more harmonics, too.
@@ -137,7 +163,7 @@ class SampledGrids : public SearchGrids {
   SampledGrids(const SampledCut& cut, Fineness first, int most_nodes)
       : cut_(cut), next_(first), most_nodes_(most_nodes) {}
 
-  const ContactGrid& operator[](std::size_t level) { return made(level).grid; }
+  const ContactGrid& operator[](std::size_t level) { return made(level).cut.grid; }
   [[nodiscard]] const GainOnCircle& gain(std::size_t level) override { return made(level).gain; }
   [[nodiscard]] int nodes(std::size_t level) override { return static_cast<int>((*this)[level].node_rad.size()); }
   [[nodiscard]] bool more_after(std::size_t level) override { return level < 2 || 3 * nodes(level) < 2 * most_nodes_; }
@@ -162,7 +188,7 @@ class SampledGrids : public SearchGrids {
 
  private:
   struct Level {
-    ContactGrid grid;
+    DiscreteCut cut;     ///< its loop empty without poles
     double reach = 0.0;  ///< harmonics, over the last line
     GainOnCircle gain;
   };
@@ -170,16 +196,20 @@ class SampledGrids : public SearchGrids {
   const Level& made(std::size_t level) {
     const auto& hz = cut_.receptance.frequency_hz;
     while (levels_.size() <= level) {
-      levels_.push_back(std::make_unique<Level>(Level{
-          contact_grid(cut_.process, cut_.yielding, next_.resolution), next_.harmonics_to_hz / hz(hz.size() - 1), {}}));
+      levels_.push_back(std::make_unique<Level>());
       Level& last = *levels_.back();
+      last.cut = cut_.by_poles ? discrete(*cut_.by_poles, next_.resolution, 0.0)
+                               : DiscreteCut{contact_grid(cut_.process, cut_.yielding, next_.resolution), {}};
+      last.reach = next_.harmonics_to_hz / hz(hz.size() - 1);
       last.gain = remembering(gain_of(last, {cut_.resonance_hz, cut_.resonance_hz}));
       next_ = finer(next_);
     }
     return *levels_[level];
   }
   [[nodiscard]] GainOnCircle gain_of(const Level& level, const Continuation& beyond) const {
-    return harmonic_gain(cut_.receptance, level.grid, cut_.spindle_speed_rpm, level.reach, beyond);
+    const GainOnCircle samples =
+        harmonic_gain(cut_.receptance, level.cut.grid, cut_.spindle_speed_rpm, level.reach, beyond);
+    return cut_.by_poles ? sum(samples, milling::gain_of(level.cut)) : samples;
   }
 
   const SampledCut& cut_;
@@ -251,18 +281,18 @@ void require_range(const SampledReceptance& receptance, const MillingProcess& pr
   throw core::InputError(text.str());
 }
 
-LobeRow limiting_depth(const SampledReceptance& receptance, const MillingProcess& process, double spindle_speed_rpm,
+LobeRow limiting_depth(const SampledStructure& structure, const MillingProcess& process, double spindle_speed_rpm,
                        const StabilityOptions& options) {
   require_usable(process, options, spindle_speed_rpm);
-  require_range(receptance, process, spindle_speed_rpm);
-  return row_of(sampled_cut(receptance, process, spindle_speed_rpm), options);
+  require_range(structure.samples, process, spindle_speed_rpm);
+  return row_of(sampled_cut(structure, process, spindle_speed_rpm), options);
 }
 
-Lobes stability_lobes(const SampledReceptance& receptance, const MillingProcess& process,
+Lobes stability_lobes(const SampledStructure& structure, const MillingProcess& process,
                       const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options) {
   std::vector<LobeRow> rows(spindle_speeds_rpm.size());
   core::parallel_for(rows.size(), [&](std::size_t i) {
-    rows[i] = limiting_depth(receptance, process, spindle_speeds_rpm[i], options);
+    rows[i] = limiting_depth(structure, process, spindle_speeds_rpm[i], options);
   });
   return lobes_of(std::move(rows), "contact-phase collocation on samples of the receptance");
 }

@@ -1,17 +1,26 @@
 #pragma once
 // Stability from a measured or coupled receptance as it is, without poles.
 
+#include <optional>
 #include <vector>
 
 #include "milling/lobe_row.hpp"
 #include "milling/lobes.hpp"
 #include "milling/process.hpp"
+#include "milling/relative_structure.hpp"
 #include "milling/sampled_receptance.hpp"
 
 namespace thinwall::milling {
 
+/// What the cut feels where something is known by samples only: both receptances add. Beside a measured tool a part
+/// keeps all its modes, also those beyond the tool's lines.
+struct SampledStructure {
+  SampledReceptance samples;               ///< tool axes
+  std::optional<RelativeStructure> poles;  ///< part axes
+};
+
 /// All crossings of a speed, as limiting_depth() of stability.hpp finds them from poles, here by CriticalDepths on
-/// harmonic_gain(). `receptance` in tool axes.
+/// harmonic_gain() of the samples plus loop_gain() of the poles.
 ///
 /// Each finer grid has more nodes and twice the harmonics, so that the change of a depth from grid to grid, which makes
 /// its estimate, is that of both. Nodes start with the highest line that matters: |H| of a twentieth of the largest, or
@@ -28,11 +37,11 @@ namespace thinwall::milling {
 /// with the tooth and not change with its depth), receptances without resonance or whose lines do not reach the
 /// harmonics next to the highest resonance (require_range()); NumericalError if an eigen-solution fails. Cost: some
 /// hundred sums over the harmonics, each O(harmonics nodes²).
-[[nodiscard]] LobeRow limiting_depth(const SampledReceptance& receptance, const MillingProcess& process,
+[[nodiscard]] LobeRow limiting_depth(const SampledStructure& structure, const MillingProcess& process,
                                      double spindle_speed_rpm, const StabilityOptions& options);
 
 /// limiting_depth() at every speed in parallel, as the chart from poles (lobes.hpp).
-[[nodiscard]] Lobes stability_lobes(const SampledReceptance& receptance, const MillingProcess& process,
+[[nodiscard]] Lobes stability_lobes(const SampledStructure& structure, const MillingProcess& process,
                                     const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options);
 
 /// What must be measured: the highest resonance f with its neighbours at the distance of a tooth passing, f + z n/60

@@ -57,7 +57,7 @@ TEST(SampledStability, TheBenchmarksCriticalDepths) {
     SCOPED_TRACE(row.where());
     StabilityOptions options;
     options.depth_limit_m = 3.0 * row.depth_m;
-    const LobeRow found = limiting_depth(benchmark_lines(), benchmark_process(row.immersion), row.rpm, options);
+    const LobeRow found = limiting_depth({benchmark_lines(), {}}, benchmark_process(row.immersion), row.rpm, options);
     EXPECT_EQ(found.status, StabilityStatus::converged);
     EXPECT_LE(found.error_estimate, options.error_tolerance);
     // Six-point interpolation of lines 1 Hz apart at a half width of 10 Hz is good to 3e-6 of the peak; the inertia
@@ -78,8 +78,8 @@ TEST(SampledStability, ATighterToleranceStaysWithinTheLooserEstimate) {
   for (const Reference& row : references("wcrit_mm")) {
     SCOPED_TRACE(row.where());
     const MillingProcess process = benchmark_process(row.immersion);
-    const LobeRow coarse = limiting_depth(benchmark_lines(), process, row.rpm, loose);
-    const LobeRow fine = limiting_depth(benchmark_lines(), process, row.rpm, sharp);
+    const LobeRow coarse = limiting_depth({benchmark_lines(), {}}, process, row.rpm, loose);
+    const LobeRow fine = limiting_depth({benchmark_lines(), {}}, process, row.rpm, sharp);
     EXPECT_LE(std::abs(coarse.limiting_depth_m / fine.limiting_depth_m - 1.0),
               coarse.error_estimate + fine.error_estimate);
     EXPECT_LE(fine.error_estimate, 2e-5);  // what lies beyond 12 kHz has its share
@@ -108,7 +108,7 @@ TEST(SampledStability, AgreesWithThePolesForThreeByThreeReceptances) {
   int compared = 0;
   for (const double rpm : {2300.0, 4100.0, 5600.0, 9700.0}) {
     SCOPED_TRACE(rpm);
-    const LobeRow by_lines = limiting_depth(lines, process, rpm, options);
+    const LobeRow by_lines = limiting_depth({lines, {}}, process, rpm, options);
     const LobeRow by_poles = limiting_depth(structure, process, rpm, options);
     ASSERT_EQ(by_lines.status, by_poles.status);
     const double reach = std::min(by_lines.searched_m, by_poles.searched_m);
@@ -126,6 +126,32 @@ TEST(SampledStability, AgreesWithThePolesForThreeByThreeReceptances) {
   EXPECT_GE(compared, 6);
 }
 
+/// A tool from lines to 3 kHz, a part that has a mode at 5.2 kHz besides.
+TEST(SampledStability, APartKeepsItsModesBeyondTheLinesOfTheTool) {
+  const RelativeStructure tool = relative_structure(testing::modal_model(skewed), "P");
+  const std::vector<testing::Mode> part_modes{{880.0, 0.01, 0.5, Eigen::Vector3d(0.3, 0.9, 0.0)},
+                                              {5200.0, 0.004, 0.02, Eigen::Vector3d(0.1, 1.0, 0.2)}};
+  const RelativeStructure part = relative_structure(testing::modal_model(part_modes), "P");
+  const MillingProcess process = skewed_cut();
+  const SampledReceptance lines = sampled(tool, process.frame, 0.0, 3000.0, 2.0);
+  StabilityOptions options;
+  options.follow = 1.0;
+  int by_the_high_mode = 0;
+  for (const double rpm : {2900.0, 4100.0, 5600.0, 9700.0}) {
+    SCOPED_TRACE(rpm);
+    const LobeRow mixed = limiting_depth({lines, part}, process, rpm, options);
+    const LobeRow by_poles = limiting_depth(sum(tool, part), process, rpm, options);
+    EXPECT_EQ(by_poles.status, StabilityStatus::converged);
+    EXPECT_NEAR(mixed.limiting_depth_m / by_poles.limiting_depth_m, 1.0,
+                mixed.error_estimate + by_poles.error_estimate + 2e-5);
+    EXPECT_LE(mixed.error_estimate, 1e-2);
+    EXPECT_EQ(mixed.kind, by_poles.kind);
+    EXPECT_NEAR(mixed.chatter_frequency_hz, by_poles.chatter_frequency_hz, 0.1);
+    by_the_high_mode += by_poles.chatter_frequency_hz > 5000.0 ? 1 : 0;
+  }
+  EXPECT_GE(by_the_high_mode, 1) << "else the lines alone would do";
+}
+
 TEST(SampledStability, TheEstimateHoldsForRangesThatEndEarly) {
   const RelativeStructure structure = relative_structure(testing::modal_model(skewed), "P");
   const MillingProcess process = skewed_cut();
@@ -136,7 +162,7 @@ TEST(SampledStability, TheEstimateHoldsForRangesThatEndEarly) {
     for (const double to_hz : {1000.0, 1400.0, 2500.0, 6000.0}) {
       const SampledReceptance lines = sampled(structure, process.frame, from_hz, to_hz, 1.0);
       for (const double rpm : {2300.0, 4100.0, 5600.0}) {
-        const LobeRow by_lines = limiting_depth(lines, process, rpm, options);
+        const LobeRow by_lines = limiting_depth({lines, {}}, process, rpm, options);
         const LobeRow by_poles = limiting_depth(structure, process, rpm, options);
         EXPECT_NEAR(by_lines.limiting_depth_m / by_poles.limiting_depth_m, 1.0, by_lines.error_estimate + 1e-5)
             << from_hz << " to " << to_hz << " Hz, " << rpm << " rpm";
@@ -168,7 +194,7 @@ TEST(SampledStability, ARangeThatIsTooNarrowNamesTheHarmonicAndWhatWouldDo) {
   const MillingProcess process = benchmark_process(0.1);
   // At 25000 rpm two teeth pass 833.3 times a second: 922 + 833.3 = 1755.3 Hz is needed.
   const SampledReceptance narrow = sampled(benchmark_structure(), {}, 20.0, 1500.0, 2.0);
-  const std::string text = refusal([&] { (void)limiting_depth(narrow, process, 25000.0, {}); });
+  const std::string text = refusal([&] { (void)limiting_depth({narrow, {}}, process, 25000.0, {}); });
   EXPECT_NE(text.find("1755.3"), std::string::npos) << text;
   EXPECT_NE(text.find("20 to 1500 Hz"), std::string::npos) << text;
   EXPECT_NE(text.find("measure from 20 to 1755.3"), std::string::npos) << text;
@@ -184,32 +210,42 @@ TEST(SampledStability, ARangeThatIsTooNarrowNamesTheHarmonicAndWhatWouldDo) {
 TEST(SampledStability, TakesEqualStraightTeethOnly) {
   MillingProcess helical = benchmark_process(0.1);
   helical.cutter.helices_rad = {0.5, 0.5};
-  EXPECT_NE(refusal([&] { (void)limiting_depth(benchmark_lines(), helical, 5000.0, {}); }).find("a helix"),
+  EXPECT_NE(refusal([&] {
+              (void)limiting_depth({benchmark_lines(), {}}, helical, 5000.0, {});
+            }).find("a helix"),
             std::string::npos);
   MillingProcess uneven = benchmark_process(0.1);
   uneven.cutter.pitches_rad = {3.0, 2.0 * std::numbers::pi - 3.0};
-  EXPECT_NE(refusal([&] { (void)limiting_depth(benchmark_lines(), uneven, 5000.0, {}); }).find("unequal pitches"),
+  EXPECT_NE(refusal([&] {
+              (void)limiting_depth({benchmark_lines(), {}}, uneven, 5000.0, {});
+            }).find("unequal pitches"),
             std::string::npos);
   MillingProcess damped = benchmark_process(0.1);
   damped.damping.C = 1e4;
-  EXPECT_NE(refusal([&] { (void)limiting_depth(benchmark_lines(), damped, 5000.0, {}); }).find("process damping"),
+  EXPECT_NE(refusal([&] {
+              (void)limiting_depth({benchmark_lines(), {}}, damped, 5000.0, {});
+            }).find("process damping"),
             std::string::npos);
   MillingProcess round = benchmark_process(0.1);
   round.cutter.envelope = ball_end(round.cutter.diameter_m);
-  EXPECT_NE(refusal([&] { (void)limiting_depth(benchmark_lines(), round, 5000.0, {}); }).find("round end"),
+  EXPECT_NE(refusal([&] {
+              (void)limiting_depth({benchmark_lines(), {}}, round, 5000.0, {});
+            }).find("round end"),
             std::string::npos);
-  EXPECT_NE(refusal([&] { (void)limiting_depth(benchmark_lines(), benchmark_process(0.1), 0.0, {}); }).find("0 rpm"),
+  EXPECT_NE(refusal([&] {
+              (void)limiting_depth({benchmark_lines(), {}}, benchmark_process(0.1), 0.0, {});
+            }).find("0 rpm"),
             std::string::npos);
   SampledReceptance still = benchmark_lines();
   for (auto& H : still.H) H.topRows<2>().setZero();
-  EXPECT_NE(refusal([&] { (void)limiting_depth(still, benchmark_process(0.1), 5000.0, {}); }), "");
+  EXPECT_NE(refusal([&] { (void)limiting_depth({still, {}}, benchmark_process(0.1), 5000.0, {}); }), "");
 }
 
 TEST(SampledStability, StableToTheDepthLimitIsSaidWithTheMotionNearestToChatter) {
   StabilityOptions options;
   options.depth_limit_m = 2e-4;
   const MillingProcess process = benchmark_process(0.1);
-  const LobeRow row = limiting_depth(benchmark_lines(), process, 5000.0, options);
+  const LobeRow row = limiting_depth({benchmark_lines(), {}}, process, 5000.0, options);
   EXPECT_EQ(row.status, StabilityStatus::stable_to_depth_limit);
   EXPECT_TRUE(row.at_limit);
   EXPECT_EQ(row.limiting_depth_m, 2e-4);
@@ -220,7 +256,7 @@ TEST(SampledStability, NodeLimitIsAStatusWithTheErrorThatRemains) {
   StabilityOptions options;
   options.most_nodes = 8;
   options.error_tolerance = 1e-9;
-  const LobeRow row = limiting_depth(benchmark_lines(), benchmark_process(0.1), 5000.0, options);
+  const LobeRow row = limiting_depth({benchmark_lines(), {}}, benchmark_process(0.1), 5000.0, options);
   EXPECT_EQ(row.status, StabilityStatus::node_limit_reached);
   EXPECT_GT(row.error_estimate, 1e-9);
 }
@@ -229,14 +265,14 @@ TEST(SampledStability, ChartsDoNotDependOnTheNumberOfThreads) {
   const auto speeds = spindle_speeds(8000.0, 20000.0, 5);
   const int before = core::thread_count();
   core::set_thread_count(1);
-  const Lobes one = stability_lobes(benchmark_lines(), benchmark_process(0.1), speeds, {});
+  const Lobes one = stability_lobes({benchmark_lines(), {}}, benchmark_process(0.1), speeds, {});
   core::set_thread_count(3);
-  const Lobes three = stability_lobes(benchmark_lines(), benchmark_process(0.1), speeds, {});
+  const Lobes three = stability_lobes({benchmark_lines(), {}}, benchmark_process(0.1), speeds, {});
   core::set_thread_count(before);
   EXPECT_EQ(one.rows_not_converged, 0);
   for (std::size_t i = 0; i < speeds.size(); ++i)
     EXPECT_EQ(one.rows[i].limiting_depth_m, three.rows[i].limiting_depth_m);
-  EXPECT_THROW((void)stability_lobes(benchmark_lines(), benchmark_process(0.1), {}, {}), core::InputError);
+  EXPECT_THROW((void)stability_lobes({benchmark_lines(), {}}, benchmark_process(0.1), {}, {}), core::InputError);
 }
 
 /// Multiplicative noise of a standard deviation, real and imaginary part alike.
@@ -252,7 +288,7 @@ TEST(SampledStability, NoiseOfAPerCentMovesTheLimitByPerCents) {
   const SampledReceptance noisy = with_noise(sampled(benchmark_structure(), {}, 20.0, 5000.0, 1.0), 0.01);
   for (const Reference& row : references("wcrit_mm")) {
     if (row.immersion != 0.1) continue;
-    const LobeRow found = limiting_depth(noisy, benchmark_process(0.1), row.rpm, {});
+    const LobeRow found = limiting_depth({noisy, {}}, benchmark_process(0.1), row.rpm, {});
     EXPECT_NEAR(found.limiting_depth_m / row.depth_m, 1.0, 0.03) << row.where();
   }
 }
