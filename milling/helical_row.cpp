@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
 #include <numbers>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
+#include "milling/critical_depths.hpp"
 #include "milling/refined_crossing.hpp"
 
 namespace thinwall::milling {
@@ -17,128 +17,240 @@ namespace {
 
 using std::complex;
 
-/// A crossing of a helical cut on grids of one resolution: the depth of the grid is moved to the depth of the crossing
-/// by the secant rule.
-bool settle(const CutAtSpeed& cut, Resolution resolution, Crossing& c) {
-  double grid_depth = c.depth_m;
+Resolution finer_by(Resolution r, std::size_t levels) {
+  for (std::size_t i = 0; i < levels; ++i) r = finer(r);
+  return r;
+}
+
+/// A crossing, its depth that of the grid it is found on.
+struct Settled {
+  Crossing crossing;
+  double slope = -1.0;  ///< of (depth found − depth of the grid) over the depth of the grid
+};
+
+/// Moves the grid's depth to that of the crossing by the secant rule, which begins with the slope of the last grid.
+/// False if it does not come within `tolerance` of it (relative).
+bool settle(const CutAtSpeed& cut, Resolution resolution, double tolerance, Settled& settled) {
+  const double height = cut.process.cutter.envelope.height_m;
+  double grid_depth = std::min(settled.crossing.depth_m, height);
   double grid_before = 0.0;
   double error_before = 0.0;
-  for (int i = 0; i < 25; ++i) {
+  for (int i = 0; i < 12; ++i) {
     const DiscreteCut d = discrete(cut, resolution, grid_depth);
-    if (!refine(gain_of(d), c)) return false;
-    const double error = c.depth_m - grid_depth;
-    if (std::abs(error) <= 1e-11 * grid_depth) return true;
-    const double slope = i > 0 ? (error - error_before) / (grid_depth - grid_before) : -1.0;
-    grid_before =
-        std::exchange(grid_depth, std::clamp(grid_depth - error / slope, 0.8 * grid_depth, 1.25 * grid_depth));
+    if (!refine(gain_of(d), settled.crossing)) return false;
+    const double error = settled.crossing.depth_m - grid_depth;
+    if (std::abs(error) <= tolerance * grid_depth) return true;
+    if (i > 0) settled.slope = (error - error_before) / (grid_depth - grid_before);
+    const double highest = std::min(1.25 * grid_depth, height);
+    grid_before = std::exchange(grid_depth, std::clamp(grid_depth - error / settled.slope, 0.8 * grid_depth, highest));
+    if (grid_depth == grid_before) return false;  // it lies above the edges
     error_before = error;
   }
   return false;
 }
 
-/// A depth of a helical cut and the number of multipliers outside of the circle there.
-struct Count {
+/// What is known of the cut at one depth.
+struct Probe {
   double depth_m = 0.0;
-  int unstable = 0;
+  int unstable = 0;               ///< multipliers outside of the unit circle
+  std::vector<Crossing> guesses;  ///< where crossings of other depths may lie
 };
 
-/// Where multipliers near the unit circle at this depth would cross it, the nearest first: guesses.
-std::vector<Crossing> near_crossings(const DiscreteCut& d, double depth_m) {
-  constexpr std::size_t most = 6;
-  const Eigen::VectorXcd all = multipliers(d, depth_m);
-  std::vector<complex<double>> upper;
-  for (const complex<double> mu : all) {
-    if (mu.imag() >= 0.0 && std::abs(mu) > 0.2) upper.push_back(mu);
+/// The search for the crossings of a speed on grids of one resolution, so many times finer than is needed.
+class HelicalSearch {
+ public:
+  HelicalSearch(const CutAtSpeed& cut, std::size_t refinements) : cut_(cut), refinements_(refinements) {}
+
+  [[nodiscard]] Resolution resolution(double depth_m) const {
+    return finer_by(resolving(cut_, std::min(depth_m, cut_.process.cutter.envelope.height_m)), refinements_);
   }
-  std::sort(upper.begin(), upper.end(), [](complex<double> a, complex<double> b) {
-    return std::abs(std::log(std::abs(a))) < std::abs(std::log(std::abs(b)));
-  });
-  upper.resize(std::min(upper.size(), most));
-  std::vector<Crossing> guesses;
-  for (const complex<double> mu : upper) {
-    const double theta = mu.imag() > 0.0 ? std::arg(mu) : mu.real() > 0.0 ? 0.0 : std::numbers::pi;
-    guesses.push_back({depth_m, theta, 0, {}});
+
+  /// The cut keeps the shape of this depth while its force grows: what crosses the unit circle up to a sixth beyond,
+  /// pairs that leave no trace in a count among it. Below the depth of interest a search costs less than a count.
+  [[nodiscard]] Probe frozen(double depth_m) const {
+    constexpr double beyond = 7.0 / 6.0;
+    const DiscreteCut d = discrete(cut_, resolution(beyond * depth_m), depth_m);
+    Probe probe{depth_m, 0, CriticalDepths(gain_of(d)).up_to(beyond * depth_m)};
+    for (const Crossing& c : probe.guesses) probe.unstable += c.depth_m <= depth_m ? c.unstable_change : 0;
+    return probe;
   }
-  return guesses;
+
+  /// The multipliers at this depth, those nearest to the circle for guesses.
+  [[nodiscard]] Probe counted(double depth_m) const {
+    constexpr std::size_t most = 6;
+    const DiscreteCut d = discrete(cut_, resolution(depth_m), depth_m);
+    std::vector<complex<double>> near;
+    Probe probe{depth_m, 0, {}};
+    for (const complex<double> mu : multipliers(d, depth_m)) {
+      probe.unstable += std::abs(mu) > 1.0 ? 1 : 0;
+      if (mu.imag() >= 0.0 && std::abs(mu) > 0.2) near.push_back(mu);
+    }
+    std::ranges::sort(near, {}, [](complex<double> mu) { return std::abs(std::log(std::abs(mu))); });
+    near.resize(std::min(near.size(), most));
+    for (const complex<double> mu : near) {
+      const double theta = mu.imag() > 0.0 ? std::arg(mu) : mu.real() > 0.0 ? 0.0 : std::numbers::pi;
+      probe.guesses.push_back({depth_m, theta, 0, {}});
+    }
+    return probe;
+  }
+
+  /// Deep in an unstable range counts are cheaper, and crossings that cancel there do not matter.
+  [[nodiscard]] Probe after(const Probe& low, double depth_m) const {
+    return low.unstable > 0 ? counted(depth_m) : frozen(depth_m);
+  }
+
+  /// Steps in which neither the stretch of a tooth in the cut grows by more than 12 % nor, with unequal helices, the
+  /// delay by more than a radian of the fastest mode; on round ends the depth itself shapes the cut.
+  [[nodiscard]] double next_depth(double depth_m) const {
+    constexpr double growth = 0.12;
+    const MillingProcess& process = cut_.process;
+    if (!process.cutter.envelope.straight())
+      return depth_m > 0.0 ? (1.0 + growth) * depth_m : surely_stable_depth_m(cut_);
+    double steepest = 0.0;
+    double least = INFINITY;
+    for (int tooth = 0; tooth < process.cutter.teeth; ++tooth) {
+      steepest = std::max(steepest, process.cutter.lag_rad_per_m(tooth));
+      least = std::min(least, process.cutter.lag_rad_per_m(tooth));
+    }
+    double shortest = INFINITY;
+    for (const Engagement& arc : arcs(process)) shortest = std::min(shortest, arc.arc_rad());
+    const double step_m = growth * (depth_m + shortest / steepest);
+    if (steepest == least) return depth_m + step_m;
+    const double spindle_rad_s = cut_.spindle_speed_rpm * std::numbers::pi / 30.0;
+    const double phase_rad_per_m = (steepest - least) * fastest_that_matters(cut_, 0.0, depth_m) / spindle_rad_s;
+    return depth_m + std::max(0.05 * depth_m, std::min(step_m, 1.0 / phase_rad_per_m));
+  }
+
+  /// Adds the crossings between two depths to `found`; false if what is found does not explain the counts, however
+  /// often the step is halved.
+  [[nodiscard]] bool between(const Probe& low, const Probe& high, int halvings, std::vector<Settled>& found) const {
+    std::vector<Settled> inside;
+    int change = 0;
+    const auto add_from = [&](const std::vector<Crossing>& guesses) {
+      for (const Crossing& guess : guesses) {
+        Settled s{guess};
+        if (guess.depth_m < 0.8 * low.depth_m || !settle(cut_, resolution(high.depth_m), 1e-7, s)) continue;
+        const Crossing& c = s.crossing;
+        if (c.depth_m <= low.depth_m || c.depth_m > high.depth_m || is_known(c, inside)) continue;
+        change += c.unstable_change;
+        inside.push_back(std::move(s));
+      }
+    };
+    if (low.unstable == 0 || high.unstable != low.unstable) add_from(high.guesses);
+    if (change != high.unstable - low.unstable) add_from(low.guesses);
+    if (change == high.unstable - low.unstable) {
+      std::move(inside.begin(), inside.end(), std::back_inserter(found));
+      return true;
+    }
+    if (halvings == 0) return false;
+    const Probe middle = after(low, 0.5 * (low.depth_m + high.depth_m));
+    return between(low, middle, halvings - 1, found) && between(middle, high, halvings - 1, found);
+  }
+
+ private:
+  [[nodiscard]] static bool is_known(const Crossing& c, const std::vector<Settled>& all) {
+    return std::any_of(all.begin(), all.end(), [&](const Settled& other) {
+      return std::abs(other.crossing.depth_m / c.depth_m - 1.0) < 1e-5 &&
+             other.crossing.unstable_change == c.unstable_change;
+    });
+  }
+
+  const CutAtSpeed& cut_;
+  std::size_t refinements_;
+};
+
+/// Crossings on grids of one resolution.
+struct Scan {
+  std::vector<Settled> found;
+  double searched_m = 0.0;  ///< up to here they explain the counts
+};
+
+double wanted_m(const std::vector<Settled>& found, const StabilityOptions& options) {
+  if (found.empty()) return options.depth_limit_m;
+  return std::min(options.depth_limit_m, options.follow * found.front().crossing.depth_m);
 }
 
-/// The crossings of a helical cut between two depths whose counts differ, halved until what is found explains the
-/// difference.
-void helical_crossings(const CutAtSpeed& cut, const StabilityOptions& options, const Count& low, const Count& high,
-                       int halvings, LobeRow& row) {
-  const Resolution r = resolving(cut, high.depth_m);
-  std::vector<LobePoint> points;
-  int change = 0;
-  for (Crossing& c : near_crossings(discrete(cut, r, high.depth_m), high.depth_m)) {
-    if (change == high.unstable - low.unstable) break;
-    const auto beyond = [&](double depth, double slack) {
-      return depth * slack <= low.depth_m || depth > slack * high.depth_m;
-    };
-    RefinedCrossing p{std::move(c)};
-    if (!settle(cut, r, p.crossing) || beyond(p.crossing.depth_m, 1.01)) continue;
-    Resolution finest = r;
-    const auto settle_finer = [&](std::size_t level, Crossing& crossing) {
-      const Resolution next = finer(finest);
+Scan scan(const HelicalSearch& search, const StabilityOptions& options) {
+  Scan result;
+  Probe low;
+  while (low.depth_m < wanted_m(result.found, options)) {
+    Probe high = search.after(low, std::min(search.next_depth(low.depth_m), wanted_m(result.found, options)));
+    if (!search.between(low, high, 5, result.found)) break;
+    std::ranges::sort(result.found, {}, [](const Settled& s) { return s.crossing.depth_m; });
+    low = std::move(high);
+  }
+  result.searched_m = low.depth_m;
+  return result;
+}
+
+/// On finer grids: to the tolerance those that bound a stable range.
+std::vector<RefinedCrossing> refined(const CutAtSpeed& cut, const HelicalSearch& search, Scan scan,
+                                     const StabilityOptions& options, LobeRow& row) {
+  std::vector<RefinedCrossing> all;
+  all.reserve(scan.found.size());
+  int count = 0;
+  for (Settled& s : scan.found) {
+    RefinedCrossing c{s.crossing};
+    const Resolution coarsest = search.resolution(c.crossing.depth_m);
+    const auto to_level = [&](std::size_t level, Crossing& crossing) {
+      const Resolution next = finer_by(coarsest, level);
       if (level > 2 && next.elements * next.nodes > options.most_nodes) return OnFinerGrid::none_finer;
-      finest = next;
-      return settle(cut, next, crossing) ? OnFinerGrid::kept : OnFinerGrid::lost;
+      s.crossing = std::move(crossing);
+      const bool kept = settle(cut, next, 1e-10, s);
+      crossing = s.crossing;
+      row.nodes = std::max(row.nodes, next.elements * next.nodes);
+      return kept ? OnFinerGrid::kept : OnFinerGrid::lost;
     };
-    refine_until(2, options.error_tolerance, settle_finer, p);
-    if (!p.kept || beyond(p.crossing.depth_m, 1.0)) continue;
-    const bool known = std::any_of(points.begin(), points.end(), [&](const LobePoint& q) {
-      return std::abs(q.depth_m / p.crossing.depth_m - 1.0) < 1e-6 && q.unstable_change == p.crossing.unstable_change;
-    });
-    if (known) continue;
-    change += p.crossing.unstable_change;
-    const DiscreteCut d = discrete(cut, finest, p.crossing.depth_m);
-    points.push_back(lobe_point(p, chatter_frequency_hz(cut, d, p.crossing.theta_rad, p.crossing.mode)));
-    row.nodes = std::max(row.nodes, finest.elements * finest.nodes);
+    const bool bounds = count == 0 || count + c.crossing.unstable_change == 0;
+    count += c.crossing.unstable_change;
+    refine_until(bounds ? 2 : 1, bounds ? options.error_tolerance : 1.0, to_level, c);
+    if (!c.kept) row.status = StabilityStatus::crossing_missed;
+    else if (bounds && c.error_estimate > options.error_tolerance) row.status = StabilityStatus::node_limit_reached;
+    all.push_back(std::move(c));
   }
-  if (change != high.unstable - low.unstable && halvings > 0) {
-    const double middle_m = std::sqrt(low.depth_m * high.depth_m);
-    const Count middle{middle_m, unstable(discrete(cut, resolving(cut, middle_m), middle_m), middle_m)};
-    if (middle.unstable != low.unstable) helical_crossings(cut, options, low, middle, halvings - 1, row);
-    if (middle.unstable != high.unstable) helical_crossings(cut, options, middle, high, halvings - 1, row);
-    return;
+  std::ranges::stable_sort(all, {}, [](const RefinedCrossing& c) { return c.crossing.depth_m; });
+  return all;
+}
+
+/// A row that the counts of multipliers at its end and below its first crossing agree with; deep crossings that do not
+/// add up are left out.
+LobeRow row_of(const CutAtSpeed& cut, std::size_t refinements, const StabilityOptions& options) {
+  const HelicalSearch search(cut, refinements);
+  LobeRow row;
+  row.spindle_speed_rpm = cut.spindle_speed_rpm;
+  Scan found = scan(search, options);
+  row.searched_m = found.searched_m;
+  if (found.found.empty() && found.searched_m < options.depth_limit_m) row.status = StabilityStatus::crossing_missed;
+  std::vector<RefinedCrossing> all = refined(cut, search, std::move(found), options, row);
+  const auto count_at = [&](double depth_m, std::size_t level) {
+    return unstable(discrete(cut, finer_by(search.resolution(depth_m), level), depth_m), depth_m);
+  };
+  int count = 0;
+  for (const RefinedCrossing& c : all) count += c.crossing.unstable_change;
+  while (all.size() > 1 && count_at(row.searched_m, 0) != count) {
+    count -= all.back().crossing.unstable_change;
+    const double deepest = all.back().crossing.depth_m;
+    all.pop_back();
+    row.searched_m = std::sqrt(all.back().crossing.depth_m * std::min(deepest, row.searched_m));
   }
-  if (change != high.unstable - low.unstable) row.status = StabilityStatus::crossing_missed;
-  for (LobePoint& point : points) {
-    if (point.error_estimate > options.error_tolerance) row.status = StabilityStatus::node_limit_reached;
-    row.crossings.push_back(point);
+  for (const RefinedCrossing& c : all) {
+    const Resolution finest = finer_by(search.resolution(c.crossing.depth_m), c.level);
+    const DiscreteCut d = discrete(cut, finest, c.crossing.depth_m);
+    row.crossings.push_back(lobe_point(c, chatter_frequency_hz(cut, d, c.crossing.theta_rad, c.crossing.mode)));
   }
+  const double below = all.empty() ? row.searched_m : 0.999 * all.front().crossing.depth_m;
+  if (count_at(below, all.empty() ? 1 : all.front().level) != 0) row.status = StabilityStatus::crossing_missed;
+  take_limit_from_crossings(row);
+  return row;
 }
 
 }  // namespace
 
 LobeRow helical_row(const CutAtSpeed& cut, const StabilityOptions& options) {
-  constexpr double ratio = 1.12;
-  LobeRow row;
-  row.spindle_speed_rpm = cut.spindle_speed_rpm;
-  const auto count_at = [&](double depth) {
-    return Count{depth, unstable(discrete(cut, finer(resolving(cut, depth)), depth), depth)};
-  };
-  Count low = count_at(std::min(surely_stable_depth_m(cut), options.depth_limit_m));
-  for (int halvings = 0; low.unstable > 0; ++halvings) {
-    if (halvings == 30) {
-      throw core::NumericalError("stability: unstable at any depth, down to " + std::to_string(low.depth_m * 1e9) +
-                                 " nm, so the structure's damping is lost in round-off; give its modes more damping");
-    }
-    low = count_at(0.5 * low.depth_m);
+  for (std::size_t refinements = 0;; ++refinements) {
+    LobeRow row = row_of(cut, refinements, options);
+    if (row.status != StabilityStatus::crossing_missed || refinements == 2) return row;
   }
-  const auto reach = [&] {
-    if (row.crossings.empty()) return options.depth_limit_m;
-    return std::min(options.depth_limit_m, options.follow * row.crossings.front().depth_m);
-  };
-  while (low.depth_m < reach()) {
-    const Count high = count_at(std::min(ratio * low.depth_m, reach()));
-    if (high.unstable != low.unstable) helical_crossings(cut, options, low, high, 8, row);
-    low = high;
-  }
-  row.searched_m = low.depth_m;
-  std::stable_sort(row.crossings.begin(), row.crossings.end(),
-                   [](const LobePoint& a, const LobePoint& b) { return a.depth_m < b.depth_m; });
-  take_limit_from_crossings(row);
-  return row;
 }
 
 }  // namespace thinwall::milling

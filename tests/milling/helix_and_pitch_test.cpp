@@ -136,6 +136,22 @@ TEST(Helix, LimitingDepthIsWhereTheMultiplierCrossesOne) {
   }
 }
 
+TEST(Helix, SearchesUpToTheEndOfTheEdgesAndNotBeyond) {
+  // Among so many speeds some have a crossing just beyond the edges, which the steps towards it must not pass.
+  MillingProcess process = process_with({2, 0.012, {}, {30.0 * degree, 30.0 * degree}}, 120.0 * degree, 180.0 * degree);
+  StabilityOptions options;
+  options.depth_limit_m = 0.006;
+  for (double rpm = 4000.0; rpm < 16000.0; rpm += 300.0) {
+    process.cutter.envelope.height_m = 0.012;
+    const LobeRow longer = limiting_depth(structure(), process, rpm, options);
+    process.cutter.envelope.height_m = options.depth_limit_m;
+    const LobeRow row = limiting_depth(structure(), process, rpm, options);
+    EXPECT_EQ(row.at_limit, longer.at_limit) << rpm;
+    EXPECT_EQ(row.crossings.size(), longer.crossings.size()) << rpm;
+    EXPECT_NEAR(row.limiting_depth_m / longer.limiting_depth_m, 1.0, 2e-4) << rpm;
+  }
+}
+
 TEST(Cutter, RefusesPitchesThatAreNoTurnAndHelicesTooSteep) {
   EXPECT_EQ(validate(Cutter{2, 0.01, {1.0, 2.0}}).size(), 1u);
   EXPECT_EQ(validate(Cutter{2, 0.01, {-1.0, 1.0 + 2.0 * std::numbers::pi}}).size(), 1u);
