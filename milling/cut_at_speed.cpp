@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "milling/chatter_frequency.hpp"
 #include "milling/edge.hpp"
+#include "milling/vanishing_powers.hpp"
 
 namespace thinwall::milling {
 
@@ -102,6 +103,10 @@ Eigen::VectorXcd multipliers(const DiscreteCut& d, double depth_m) {
 
 int unstable(const DiscreteCut& d, double depth_m) {
   return static_cast<int>((multipliers(d, depth_m).cwiseAbs().array() > 1.0).count());
+}
+
+bool stable(const DiscreteCut& d, double depth_m) {
+  return powers_vanish(period_map(d.loop, depth_m)) || unstable(d, depth_m) == 0;
 }
 
 double chatter_frequency_hz(const CutAtSpeed& cut, const DiscreteCut& d, double theta, const Eigen::VectorXcd& c) {

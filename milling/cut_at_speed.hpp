@@ -53,6 +53,9 @@ struct DiscreteCut {
 /// How many of them lie outside of the unit circle.
 [[nodiscard]] int unstable(const DiscreteCut& d, double depth_m);
 
+/// Whether none does: by powers_vanish(), or where that cannot tell by the count.
+[[nodiscard]] bool stable(const DiscreteCut& d, double depth_m);
+
 /// The same of chatter_frequency.hpp, from the poles.
 [[nodiscard]] double chatter_frequency_hz(const CutAtSpeed& cut, const DiscreteCut& d, double theta_rad,
                                           const Eigen::VectorXcd& c);

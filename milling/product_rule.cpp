@@ -68,20 +68,26 @@ Eigen::MatrixXd weighted_polynomials(const Eigen::VectorXd& node, const GaussRul
   return table;
 }
 
-/// e^{z d} for all distances d.
-Eigen::RowVectorXcd exponentials(std::complex<double> z, const Eigen::ArrayXd& distance) {
-  const Eigen::ArrayXd size = (z.real() * distance).exp();
-  const Eigen::ArrayXd phase = z.imag() * distance;
-  Eigen::RowVectorXcd result(distance.size());
-  result.real() = (size * phase.cos()).matrix().transpose();
-  result.imag() = (size * phase.sin()).matrix().transpose();
+/// e^{z_k d_q}, real parts above imaginary ones: 2 modes × distances.
+Eigen::MatrixXd exponentials(const Eigen::VectorXcd& z, const Eigen::ArrayXd& distance) {
+  const Eigen::Index modes = z.size();
+  Eigen::MatrixXd result(2 * modes, distance.size());
+  for (Eigen::Index q = 0; q < distance.size(); ++q) {
+    const Eigen::ArrayXd size = (z.real().array() * distance(q)).exp();
+    for (Eigen::Index k = 0; k < modes; ++k) {
+      const double phase = z(k).imag() * distance(q);
+      result(k, q) = size(k) * std::cos(phase);
+      result(modes + k, q) = size(k) * std::sin(phase);
+    }
+  }
   return result;
 }
 
-Eigen::RowVectorXcd product(const Eigen::RowVectorXcd& a, const Eigen::MatrixXd& b) {
-  Eigen::RowVectorXcd result(b.cols());
-  result.real() = a.real() * b;
-  result.imag() = a.imag() * b;
+Eigen::MatrixXcd as_complex(const Eigen::MatrixXd& parts) {
+  const Eigen::Index modes = parts.rows() / 2;
+  Eigen::MatrixXcd result(modes, parts.cols());
+  result.real() = parts.topRows(modes);
+  result.imag() = parts.bottomRows(modes);
   return result;
 }
 
@@ -100,19 +106,22 @@ ProductRule::ProductRule(int nodes, double largest_exponent) : node_(gauss_legen
 }
 
 Eigen::RowVectorXcd ProductRule::end(std::complex<double> z) const {
-  return product(exponentials(z, distance_), whole_);
+  return as_complex(exponentials(Eigen::VectorXcd::Constant(1, z), distance_) * whole_);
 }
 
-ModeMoments ProductRule::moments(std::complex<double> z) const {
+ModeMoments ProductRule::moments(const Eigen::VectorXcd& z) const {
   const Eigen::Index n = node_.size();
-  ModeMoments result{Eigen::MatrixXcd(n, n), Eigen::RowVectorXcd::Zero(n)};
-  std::vector<Eigen::RowVectorXcd> decay(static_cast<std::size_t>(n / 2 + 1));
+  ModeMoments result{{}, Eigen::MatrixXcd::Zero(z.size(), n)};
+  result.inside.reserve(static_cast<std::size_t>(n));
+  std::vector<Eigen::MatrixXd> decay(static_cast<std::size_t>(n / 2 + 1));
   for (Eigen::Index i = 0; i <= n; ++i) {
     const Eigen::Index same = std::min(i, n - i);  // the gaps are symmetric
     auto& in_gap = decay[static_cast<std::size_t>(same)];
     if (i == same) in_gap = exponentials(z * gap_(i), gap_distance_);
-    result.end = (std::exp(z * gap_(i)) * result.end + product(in_gap, gap_table_[static_cast<std::size_t>(i)])).eval();
-    if (i < n) result.inside.row(i) = result.end;
+    const Eigen::VectorXcd over_gap = (z * gap_(i)).array().exp();
+    result.end =
+        (over_gap.asDiagonal() * result.end + as_complex(in_gap * gap_table_[static_cast<std::size_t>(i)])).eval();
+    if (i < n) result.inside.push_back(result.end);
   }
   return result;
 }

@@ -23,12 +23,12 @@ struct GaussRule {
 /// ℓ_j'(node_i) of the same, for one of the nodes.
 [[nodiscard]] Eigen::VectorXd lagrange_slopes(const Eigen::VectorXd& node, Eigen::Index i);
 
-/// What polynomial forces of an element of unit length do to a mode u' = z u + ℓ_j(s), u(0) = 0:
+/// What polynomial forces of an element of unit length do to modes u_k' = z_k u_k + ℓ_j(s), u_k(0) = 0:
 ///
-///     inside(i, j) = ∫₀^{c_i} e^{z (c_i − s)} ℓ_j(s) ds,      end(j) = ∫₀¹ e^{z (1 − s)} ℓ_j(s) ds
+///     inside[i](k, j) = ∫₀^{c_i} e^{z_k (c_i − s)} ℓ_j(s) ds,      end(k, j) = ∫₀¹ e^{z_k (1 − s)} ℓ_j(s) ds
 struct ModeMoments {
-  Eigen::MatrixXcd inside;
-  Eigen::RowVectorXcd end;
+  std::vector<Eigen::MatrixXcd> inside;  ///< of each node, modes × nodes
+  Eigen::MatrixXcd end;                  ///< modes × nodes
 };
 
 /// Product integration at n Gauss nodes c_i: the exponential of each mode is integrated against the polynomials as it
@@ -42,10 +42,10 @@ class ProductRule {
 
   [[nodiscard]] const Eigen::VectorXd& node() const { return node_; }
 
-  /// Re z ≤ 0, |z| within what the rule serves. Cost O(nodes² points).
-  [[nodiscard]] ModeMoments moments(std::complex<double> z) const;
+  /// Re z ≤ 0, |z| within what the rule serves. Cost O(modes nodes² points), in products of matrices.
+  [[nodiscard]] ModeMoments moments(const Eigen::VectorXcd& z) const;
 
-  /// Its `end` alone. Cost O(nodes points).
+  /// `end` of one mode alone. Cost O(nodes points).
   [[nodiscard]] Eigen::RowVectorXcd end(std::complex<double> z) const;
 
  private:

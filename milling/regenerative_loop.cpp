@@ -2,7 +2,9 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "milling/product_rule.hpp"
@@ -14,97 +16,146 @@ namespace {
 using Eigen::Index;
 using std::complex;
 
-/// What unit modal forces at the nodes do to one mode: at the nodes, and at the end of the period.
-struct ModeHistory {
-  Eigen::VectorXcd flow;     ///< e^{λ t_i}
-  Eigen::MatrixXcd at_node;  ///< nodes × nodes
-  Eigen::RowVectorXcd at_end;
-};
-
-ModeHistory mode_history(complex<double> pole, const ContactGrid& grid, double seconds_per_rad) {
-  const Index n = grid.node_rad.size();
-  const double period = grid.period_rad * seconds_per_rad;
-  ModeHistory history{Eigen::VectorXcd(n), Eigen::MatrixXcd::Zero(n, n), Eigen::RowVectorXcd(n)};
-  for (Index i = 0; i < n; ++i) history.flow(i) = std::exp(pole * (grid.node_rad(i) * seconds_per_rad));
-  double last_length = -1.0;
-  ModeMoments moments;
-  for (const CutElement& e : grid.elements) {
-    const double length = (e.to_rad - e.from_rad) * seconds_per_rad;
-    if (std::abs(length - last_length) > 1e-12 * length) {
-      moments = shared_product_rule(e.nodes, std::abs(pole) * length).moments(pole * length);
-      moments.inside *= length;
+/// What unit modal forces at the nodes do to the modes: at a node, and at the end of the period.
+class ModeHistory {
+ public:
+  ModeHistory(const Eigen::VectorXcd& poles, const ContactGrid& grid, double seconds_per_rad)
+      : poles_(poles), grid_(grid), seconds_per_rad_(seconds_per_rad) {
+    const double fastest = poles.cwiseAbs().maxCoeff();
+    double last_length = -1.0;
+    for (const CutElement& e : grid.elements) {
+      const double length = (e.to_rad - e.from_rad) * seconds_per_rad;
+      if (!moments_.empty() && std::abs(length - last_length) <= 1e-12 * length) {
+        moments_.push_back(moments_.back());
+        continue;
+      }
+      ModeMoments moments = shared_product_rule(e.nodes, fastest * length).moments(poles * length);
+      for (Eigen::MatrixXcd& at_node : moments.inside) at_node *= length;
       moments.end *= length;
+      moments_.push_back(std::make_shared<const ModeMoments>(std::move(moments)));
       last_length = length;
     }
-    history.at_node.block(e.first_node, e.first_node, e.nodes, e.nodes) = moments.inside;
-    const double end = e.to_rad * seconds_per_rad;
-    for (Index i = e.first_node + e.nodes; i < n; ++i) {
-      history.at_node.row(i).segment(e.first_node, e.nodes) =
-          std::exp(pole * (grid.node_rad(i) * seconds_per_rad - end)) * moments.end;
-    }
-    history.at_end.segment(e.first_node, e.nodes) = std::exp(pole * (period - end)) * moments.end;
   }
-  return history;
-}
+
+  /// e^{λ t}, poles.
+  [[nodiscard]] Eigen::VectorXcd flow(double rad) const { return (poles_ * (rad * seconds_per_rad_)).array().exp(); }
+
+  /// At a node, poles × nodes.
+  [[nodiscard]] Eigen::MatrixXcd at_node(int node) const {
+    Eigen::MatrixXcd history = Eigen::MatrixXcd::Zero(poles_.size(), grid_.node_rad.size());
+    for (std::size_t e = 0; e < moments_.size(); ++e) {
+      const CutElement& element = grid_.elements[e];
+      const int inside = node - element.first_node;
+      if (inside < 0) continue;
+      auto block = history.middleCols(element.first_node, element.nodes);
+      if (inside < element.nodes) block = moments_[e]->inside[static_cast<std::size_t>(inside)];
+      else block = flow(grid_.node_rad(node) - element.to_rad).asDiagonal() * moments_[e]->end;
+    }
+    return history;
+  }
+
+  /// At the end of the period, poles × nodes.
+  [[nodiscard]] Eigen::MatrixXcd at_end() const {
+    Eigen::MatrixXcd history(poles_.size(), grid_.node_rad.size());
+    for (std::size_t e = 0; e < moments_.size(); ++e) {
+      const CutElement& element = grid_.elements[e];
+      history.middleCols(element.first_node, element.nodes) =
+          flow(grid_.period_rad - element.to_rad).asDiagonal() * moments_[e]->end;
+    }
+    return history;
+  }
+
+ private:
+  const Eigen::VectorXcd& poles_;
+  const ContactGrid& grid_;
+  double seconds_per_rad_;
+  std::vector<std::shared_ptr<const ModeMoments>> moments_;  ///< of each element
+};
 
 /// A row of the contacts' displacement: `chip` at a node.
 struct Seen {
   Index row;
-  int node;
   double weight;
 };
 
-/// Which nodes each contact sees in this period (its own, less the past within it), and in the previous one.
+/// Which contacts see a node in this period (their own, less the past within it), and in the next one.
 struct Sight {
-  std::vector<Seen> now, before;
+  std::vector<std::vector<Seen>> now, before;  ///< of each node
 };
 
 Sight sight(const ContactGrid& grid) {
-  Sight result;
+  const auto nodes = static_cast<std::size_t>(grid.node_rad.size());
+  Sight result{std::vector<std::vector<Seen>>(nodes), std::vector<std::vector<Seen>>(nodes)};
   for (std::size_t k = 0; k < grid.contacts.size(); ++k) {
     const auto row = static_cast<Index>(k);
-    result.now.push_back({row, grid.contacts[k].node, 1.0});
+    result.now[static_cast<std::size_t>(grid.contacts[k].node)].push_back({row, 1.0});
     for (const Past& past : grid.contacts[k].past) {
-      if (past.previous_period) result.before.push_back({row, past.node, past.weight});
-      else result.now.push_back({row, past.node, -past.weight});
+      const auto node = static_cast<std::size_t>(past.node);
+      if (past.previous_period) result.before[node].push_back({row, past.weight});
+      else result.now[node].push_back({row, -past.weight});
     }
   }
   return result;
 }
 
-void add_mode(const RelativeStructure& structure, Index k, const ContactGrid& grid, const std::vector<Seen>& seen,
-              const ModeHistory& history, const Eigen::RowVectorXcd& modal_force, double share, Eigen::MatrixXcd& E,
-              Eigen::MatrixXd& K) {
-  const Index contacts = K.cols();
+/// What the contacts that see a node see of the modes there: `flow` e^{λt}, and `forced`, the motion by unit forces at
+/// all contacts, poles × contacts.
+void add_motion(const RelativeStructure& structure, const ContactGrid& grid, const std::vector<Seen>& seen,
+                const Eigen::VectorXcd& flow, const Eigen::MatrixXcd& forced, const Eigen::VectorXd& share,
+                Eigen::MatrixXd& E, Eigen::MatrixXd& K) {
+  const Index poles = flow.size();
   for (const Seen& s : seen) {
-    const auto& chip = grid.contacts[static_cast<std::size_t>(s.row)].chip;
-    const complex<double> motion = s.weight * (chip.transpose() * structure.phi.col(k)).value();
-    E(s.row, k) += motion * history.flow(s.node);
-    for (Index l = 0; l < contacts; ++l) {
-      const int from = grid.contacts[static_cast<std::size_t>(l)].node;
-      K(s.row, l) += 2.0 * share * (motion * history.at_node(s.node, from) * modal_force(l)).real();
-    }
+    const Contact& contact = grid.contacts[static_cast<std::size_t>(s.row)];
+    const Eigen::RowVectorXcd shape = s.weight * contact.chip.transpose() * structure.phi;
+    const Eigen::RowVectorXcd free = shape.cwiseProduct(flow.transpose());
+    E.row(s.row).head(poles) += free.real();
+    E.row(s.row).tail(poles) += free.imag();
+    K.row(s.row) += 2.0 * (shape.cwiseProduct(share.transpose()) * forced).real();
   }
 }
 
-void add_residual(const RelativeStructure& structure, const ContactGrid& grid, const std::vector<Seen>& seen,
-                  Eigen::MatrixXd& K) {
+void add_residual(const RelativeStructure& structure, const ContactGrid& grid,
+                  const std::vector<std::vector<Seen>>& seen, Eigen::MatrixXd& K) {
   if (structure.R.isZero(0.0)) return;
-  for (const Seen& s : seen) {
-    const Eigen::RowVector3d row =
-        s.weight * grid.contacts[static_cast<std::size_t>(s.row)].chip.transpose() * structure.R;
-    for (Index l = 0; l < K.cols(); ++l) {
-      const Contact& from = grid.contacts[static_cast<std::size_t>(l)];
-      if (from.node == s.node) K(s.row, l) += row * from.force;
-    }
+  for (Index l = 0; l < K.cols(); ++l) {
+    const Contact& from = grid.contacts[static_cast<std::size_t>(l)];
+    const Eigen::Vector3d motion = structure.R * from.force;
+    for (const Seen& s : seen[static_cast<std::size_t>(from.node)])
+      K(s.row, l) += s.weight * grid.contacts[static_cast<std::size_t>(s.row)].chip.dot(motion);
   }
 }
 
-const Eigen::MatrixXcd& before(const Eigen::MatrixXcd& now, const Eigen::MatrixXcd& previous) {
-  return previous.size() > 0 ? previous : now;
-}
 const Eigen::MatrixXd& before(const Eigen::MatrixXd& now, const Eigen::MatrixXd& previous) {
   return previous.size() > 0 ? previous : now;
+}
+
+/// X with Σ E_k a_k L_k + Ē_k a'_k L̄_k = [Re E, Im E] X, real and imaginary parts of X side by side: half the products
+/// of the complex sum, and real ones. Shape 2 poles × 2 contacts.
+Eigen::MatrixXd modal_motion(const Eigen::MatrixXd& L, const Eigen::ArrayXcd& a, const Eigen::ArrayXcd& conjugate) {
+  const Index poles = a.size(), contacts = L.cols();
+  const Eigen::ArrayXcd even = a + conjugate;
+  const Eigen::ArrayXcd odd = complex<double>(0.0, 1.0) * (a - conjugate);
+  Eigen::MatrixXd X(2 * poles, 2 * contacts);
+  const auto fill = [&](Index first, const Eigen::ArrayXd& of_even, const Eigen::ArrayXd& of_odd) {
+    for (Index l = 0; l < contacts; ++l) {
+      const auto re = L.col(l).head(poles).array(), im = L.col(l).tail(poles).array();
+      X.col(first + l).head(poles) = of_even * re + of_odd * im;
+      X.col(first + l).tail(poles) = of_odd * re - of_even * im;
+    }
+  };
+  fill(0, even.real(), odd.real());
+  fill(contacts, even.imag(), odd.imag());
+  return X;
+}
+
+/// [Re E, Im E] X as complex numbers, contacts × contacts.
+Eigen::MatrixXcd seen_motion(const Eigen::MatrixXd& E, const Eigen::MatrixXd& X) {
+  const Index contacts = E.rows();
+  const Eigen::MatrixXd product = E * X;
+  Eigen::MatrixXcd result(contacts, contacts);
+  result.real() = product.leftCols(contacts);
+  result.imag() = product.rightCols(contacts);
+  return result;
 }
 
 }  // namespace
@@ -118,26 +169,34 @@ RegenerativeLoop regenerative_loop(const RelativeStructure& structure, const Con
   loop.period_s = grid.period_rad * seconds_per_rad;
   loop.flow = (structure.poles * loop.period_s).array().exp();
   loop.share = structure.poles.imag().unaryExpr([](double w) { return w != 0.0 ? 1.0 : 0.5; });
-  loop.E = Eigen::MatrixXcd::Zero(contacts, poles);
+  loop.E = Eigen::MatrixXd::Zero(contacts, 2 * poles);
   loop.K = Eigen::MatrixXd::Zero(contacts, contacts);
-  loop.L.resize(poles, contacts);
   if (!grid.one_delay) {
     loop.E_previous = loop.E;
     loop.K_previous = loop.K;
   }
+  const ModeHistory history(structure.poles, grid, seconds_per_rad);
+  Eigen::MatrixXcd modal_force(poles, contacts);
+  for (Index l = 0; l < contacts; ++l)
+    modal_force.col(l) = structure.b.transpose() * grid.contacts[static_cast<std::size_t>(l)].force;
+  const auto forced_by_contacts = [&](const Eigen::MatrixXcd& by_nodes) {
+    Eigen::MatrixXcd forced = modal_force;
+    for (Index l = 0; l < contacts; ++l)
+      forced.col(l).array() *= by_nodes.col(grid.contacts[static_cast<std::size_t>(l)].node).array();
+    return forced;
+  };
   const Sight seen = sight(grid);
-  Eigen::RowVectorXcd modal_force(contacts);
-  for (Index k = 0; k < poles; ++k) {
-    const ModeHistory history = mode_history(structure.poles(k), grid, seconds_per_rad);
-    for (Index l = 0; l < contacts; ++l) {
-      const Contact& c = grid.contacts[static_cast<std::size_t>(l)];
-      modal_force(l) = (c.force.transpose() * structure.b.col(k)).value();
-      loop.L(k, l) = history.at_end(c.node) * modal_force(l);
-    }
-    add_mode(structure, k, grid, seen.now, history, modal_force, loop.share(k), loop.E, loop.K);
+  for (int node = 0; node < static_cast<int>(grid.node_rad.size()); ++node) {
+    const Eigen::VectorXcd flow = history.flow(grid.node_rad(node));
+    const Eigen::MatrixXcd forced = forced_by_contacts(history.at_node(node));
+    const auto i = static_cast<std::size_t>(node);
+    add_motion(structure, grid, seen.now[i], flow, forced, loop.share, loop.E, loop.K);
     if (!grid.one_delay)
-      add_mode(structure, k, grid, seen.before, history, modal_force, loop.share(k), loop.E_previous, loop.K_previous);
+      add_motion(structure, grid, seen.before[i], flow, forced, loop.share, loop.E_previous, loop.K_previous);
   }
+  const Eigen::MatrixXcd L = forced_by_contacts(history.at_end());
+  loop.L.resize(2 * poles, contacts);
+  loop.L << L.real(), L.imag();
   add_residual(structure, grid, seen.now, loop.K);
   if (!grid.one_delay) add_residual(structure, grid, seen.before, loop.K_previous);
   return loop;
@@ -150,18 +209,18 @@ Eigen::MatrixXd period_map(const RegenerativeLoop& loop, double depth_m) {
   // Real columns and rows of the modes: Re z of all, Im z of pairs.
   Eigen::MatrixXd E(contacts, states), E_previous(contacts, states), L(states, contacts);
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(states + contacts, states + contacts);
-  const Eigen::MatrixXcd& E_before = before(loop.E, loop.E_previous);
+  const Eigen::MatrixXd& E_before = before(loop.E, loop.E_previous);
   Index im = poles;
   for (Index k = 0; k < poles; ++k) {
     const double twice = 2.0 * loop.share(k);
-    E.col(k) = twice * loop.E.col(k).real();
-    E_previous.col(k) = twice * E_before.col(k).real();
-    L.row(k) = loop.L.row(k).real();
+    E.col(k) = twice * loop.E.col(k);
+    E_previous.col(k) = twice * E_before.col(k);
+    L.row(k) = loop.L.row(k);
     map(k, k) = loop.flow(k).real();
     if (loop.share(k) != 1.0) continue;
-    E.col(im) = -twice * loop.E.col(k).imag();
-    E_previous.col(im) = -twice * E_before.col(k).imag();
-    L.row(im) = loop.L.row(k).imag();
+    E.col(im) = -twice * loop.E.col(poles + k);
+    E_previous.col(im) = -twice * E_before.col(poles + k);
+    L.row(im) = loop.L.row(poles + k);
     map(im, im) = loop.flow(k).real();
     map(im, k) = loop.flow(k).imag();
     map(k, im) = -loop.flow(k).imag();
@@ -180,42 +239,30 @@ Eigen::MatrixXd period_map(const RegenerativeLoop& loop, double depth_m) {
 
 Eigen::MatrixXcd loop_gain(const RegenerativeLoop& loop, complex<double> mu) {
   const complex<double> past = 1.0 / mu;
-  const Eigen::VectorXcd gain = loop.share.array() / (mu - loop.flow.array());
-  const Eigen::VectorXcd conjugate_gain = loop.share.array() / (mu - loop.flow.conjugate().array());
-  Eigen::MatrixXcd Z;
-  if (loop.K_previous.size() == 0) {
-    Z = loop.K.cast<complex<double>>();
-    Z.noalias() += loop.E * (gain.asDiagonal() * loop.L);
-    Z.noalias() += loop.E.conjugate() * (conjugate_gain.asDiagonal() * loop.L.conjugate());
-    Z *= 1.0 - past;
-  } else {
-    Z = loop.K.cast<complex<double>>() - past * loop.K_previous;
-    Z.noalias() += (loop.E - past * loop.E_previous) * (gain.asDiagonal() * loop.L);
-    Z.noalias() +=
-        (loop.E.conjugate() - past * loop.E_previous.conjugate()) * (conjugate_gain.asDiagonal() * loop.L.conjugate());
-  }
-  return Z;
+  const Eigen::ArrayXcd gain = loop.share.array() / (mu - loop.flow.array());
+  const Eigen::ArrayXcd conjugate_gain = loop.share.array() / (mu - loop.flow.conjugate().array());
+  const Eigen::MatrixXd motion = modal_motion(loop.L, gain, conjugate_gain);
+  if (loop.K_previous.size() == 0) return (1.0 - past) * (loop.K.cast<complex<double>>() + seen_motion(loop.E, motion));
+  return loop.K.cast<complex<double>>() + seen_motion(loop.E, motion) -
+         past * (loop.K_previous.cast<complex<double>>() + seen_motion(loop.E_previous, motion));
 }
 
 Eigen::MatrixXcd loop_gain_slope(const RegenerativeLoop& loop, complex<double> mu) {
   // dZ/dμ = K⁻/μ² + Σ (E − E⁻/μ) g' L + Σ E⁻ (g/μ²) L + the same of the conjugates, g = share/(μ − Φ)
   const complex<double> past = 1.0 / mu;
-  const Eigen::MatrixXcd& E_before = before(loop.E, loop.E_previous);
-  Eigen::MatrixXcd slope = past * past * before(loop.K, loop.K_previous).cast<complex<double>>();
-  const auto add = [&](const auto& flow, const auto& E, const auto& E_past, const auto& L) {
-    const Eigen::ArrayXcd resonance = 1.0 / (mu - flow.array());
-    const Eigen::ArrayXcd g = loop.share.array() * resonance;
-    const Eigen::ArrayXcd g_slope = -g * resonance;
-    if (loop.E_previous.size() == 0) {
-      slope.noalias() += E * (((1.0 - past) * g_slope + past * past * g).matrix().asDiagonal() * L);
-    } else {
-      slope.noalias() += E * (g_slope.matrix().asDiagonal() * L);
-      slope.noalias() += E_past * ((past * past * g - past * g_slope).matrix().asDiagonal() * L);
-    }
+  const Eigen::ArrayXcd resonance = 1.0 / (mu - loop.flow.array());
+  const Eigen::ArrayXcd conjugate_resonance = 1.0 / (mu - loop.flow.array().conjugate());
+  const auto changes = [&](complex<double> of_resonance, complex<double> of_slope) {
+    const auto change = [&](const Eigen::ArrayXcd& r) -> Eigen::ArrayXcd {
+      return loop.share.array() * r * (of_resonance - of_slope * r);
+    };
+    return modal_motion(loop.L, change(resonance), change(conjugate_resonance));
   };
-  add(loop.flow, loop.E, E_before, loop.L);
-  add(loop.flow.conjugate(), loop.E.conjugate(), E_before.conjugate(), loop.L.conjugate());
-  return complex<double>(0.0, 1.0) * mu * slope;
+  const complex<double> along = complex<double>(0.0, 1.0) * mu;
+  const Eigen::MatrixXcd K = past * past * before(loop.K, loop.K_previous).cast<complex<double>>();
+  if (loop.K_previous.size() == 0) return along * (K + seen_motion(loop.E, changes(past * past, 1.0 - past)));
+  return along *
+         (K + seen_motion(loop.E, changes(0.0, 1.0)) + seen_motion(loop.E_previous, changes(past * past, -past)));
 }
 
 }  // namespace thinwall::milling

@@ -20,13 +20,13 @@ namespace thinwall::milling {
 /// one period, E⁻ = E and K⁻ = K.
 struct RegenerativeLoop {
   double period_s = 0.0;
-  Eigen::VectorXd share;        ///< 1 of a pair (with its conjugate), ½ of a real pole
-  Eigen::VectorXcd flow;        ///< Φ = e^{λT}, poles
-  Eigen::MatrixXcd E;           ///< contacts × poles
-  Eigen::MatrixXcd E_previous;  ///< contacts × poles; empty where it is E
-  Eigen::MatrixXcd L;           ///< poles × contacts
-  Eigen::MatrixXd K;            ///< contacts × contacts
-  Eigen::MatrixXd K_previous;   ///< contacts × contacts; empty where it is K
+  Eigen::VectorXd share;       ///< 1 of a pair (with its conjugate), ½ of a real pole
+  Eigen::VectorXcd flow;       ///< Φ = e^{λT}, poles
+  Eigen::MatrixXd E;           ///< [Re E, Im E], contacts × 2 poles
+  Eigen::MatrixXd E_previous;  ///< the same; empty where it is E
+  Eigen::MatrixXd L;           ///< [Re L; Im L], 2 poles × contacts
+  Eigen::MatrixXd K;           ///< contacts × contacts
+  Eigen::MatrixXd K_previous;  ///< contacts × contacts; empty where it is K
 };
 
 /// `structure` in tool axes; its residual R, without inertia, follows the force at once. Cost O(poles (nodes² points +

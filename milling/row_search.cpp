@@ -122,7 +122,7 @@ LobeRow row_from(SearchGrids& grids, FirstCrossing first, double spindle_speed_r
   }
   row.nodes = grids.nodes(finest);
   const double below = row.crossings.empty() ? row.searched_m : 0.999 * row.crossings.front().depth_m;
-  if (grids.unstable(finest, below) != 0) row.status = StabilityStatus::crossing_missed;
+  if (!grids.stable(finest, below)) row.status = StabilityStatus::crossing_missed;
   take_limit_from_crossings(row);
   return row;
 }

@@ -24,6 +24,8 @@ class SearchGrids {
   [[nodiscard]] virtual bool more_after(std::size_t level) = 0;
   /// Multipliers outside of the unit circle.
   [[nodiscard]] virtual int unstable(std::size_t level, double depth_m) = 0;
+  /// Whether there is none.
+  [[nodiscard]] virtual bool stable(std::size_t level, double depth_m) { return unstable(level, depth_m) == 0; }
   [[nodiscard]] virtual double chatter_frequency_hz(std::size_t level, const Crossing& crossing) = 0;
   /// Error of a depth, relative, that no finer grid shows.
   [[nodiscard]] virtual double error_beyond_grids(std::size_t /*level*/, const Crossing& /*crossing*/) { return 0.0; }

@@ -41,6 +41,9 @@ class PoleGrids : public SearchGrids {
   [[nodiscard]] int unstable(std::size_t level, double depth_m) override {
     return milling::unstable((*this)[level], depth_m);
   }
+  [[nodiscard]] bool stable(std::size_t level, double depth_m) override {
+    return milling::stable((*this)[level], depth_m);
+  }
   [[nodiscard]] double chatter_frequency_hz(std::size_t level, const Crossing& crossing) override {
     return milling::chatter_frequency_hz(cut_, (*this)[level], crossing.theta_rad, crossing.mode);
   }
