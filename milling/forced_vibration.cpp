@@ -40,14 +40,13 @@ Eigen::MatrixXd static_force(const FedCut& given, const ContactGrid& grid) {
   return force;
 }
 
-/// What the contacts see of a periodic motion, chipᵀ [q − Σ weight q(past)].
+/// What the contacts see of a periodic motion, chipᵀ q − Σ chip_pastᵀ q(past).
 Eigen::VectorXd seen(const ContactGrid& grid, const Eigen::Matrix3Xd& q) {
   Eigen::VectorXd c(static_cast<Index>(grid.contacts.size()));
   for (Index k = 0; k < c.size(); ++k) {
     const Contact& contact = grid.contacts[static_cast<std::size_t>(k)];
-    Eigen::Vector3d moved = q.col(contact.node);
-    for (const Past& past : contact.past) moved -= past.weight * q.col(past.node);
-    c(k) = contact.chip.dot(moved);
+    c(k) = contact.chip.dot(q.col(contact.node));
+    for (const Past& past : contact.past) c(k) -= past.chip.dot(q.col(past.node));
   }
   return c;
 }

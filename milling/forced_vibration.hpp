@@ -43,7 +43,7 @@ struct ForcedVibration {
 /// modulation of the chip (contact_grid.hpp), the force on the tool is f = f_s − w Σ force c, f_s that of
 /// cutting_load() with feed_advance(), and on the circle at μ = 1, where the motion repeats itself,
 ///
-///     (I + w Z(1)) c = chipᵀ [q_s(t) − Σ weight q_s(past)],       q_s the motion under f_s alone        (loop_gain())
+///     (I + w Z(1)) c = chipᵀ q_s(t) − Σ chip_pastᵀ q_s(past),       q_s the motion under f_s alone (loop_gain())
 ///
 /// With equal teeth the delay is the period: c = 0, regeneration does not act, and f = f_s (Schmitz & Smith
 /// 2009, ch. 5). Forces that are not linear in the chip are taken as linearised in the process. The

@@ -134,7 +134,8 @@ ContactGrid harmonic_grid(const CutAtSpeed& cut, const std::vector<Eigen::Matrix
       for (std::size_t k = 1; k < harmonics.size(); ++k)
         A += 2.0 * (harmonics[k] * std::polar(1.0, 2.0 * pi * static_cast<double>(k) * theta / grid.period_rad)).real();
       for (Index d = 0; d < cut.yielding.cols(); ++d)
-        grid.contacts.push_back({node, A * cut.yielding.col(d), cut.yielding.col(d), {{node, true, 1.0}}});
+        grid.contacts.push_back(
+            {node, A * cut.yielding.col(d), cut.yielding.col(d), {{node, true, cut.yielding.col(d)}}});
     }
   }
   return grid;

@@ -72,10 +72,10 @@ class ModeHistory {
   std::vector<std::shared_ptr<const ModeMoments>> moments_;  ///< of each element
 };
 
-/// A row of the contacts' displacement: `chip` at a node.
+/// What a contact sees of a node: chipᵀ q.
 struct Seen {
   Index row;
-  double weight;
+  Eigen::Vector3d chip;
 };
 
 /// Which contacts see a node in this period (their own, less the past within it), and in the next one.
@@ -88,11 +88,11 @@ Sight sight(const ContactGrid& grid) {
   Sight result{std::vector<std::vector<Seen>>(nodes), std::vector<std::vector<Seen>>(nodes)};
   for (std::size_t k = 0; k < grid.contacts.size(); ++k) {
     const auto row = static_cast<Index>(k);
-    result.now[static_cast<std::size_t>(grid.contacts[k].node)].push_back({row, 1.0});
+    result.now[static_cast<std::size_t>(grid.contacts[k].node)].push_back({row, grid.contacts[k].chip});
     for (const Past& past : grid.contacts[k].past) {
       const auto node = static_cast<std::size_t>(past.node);
-      if (past.previous_period) result.before[node].push_back({row, past.weight});
-      else result.now[node].push_back({row, -past.weight});
+      if (past.previous_period) result.before[node].push_back({row, past.chip});
+      else result.now[node].push_back({row, -past.chip});
     }
   }
   return result;
@@ -100,13 +100,11 @@ Sight sight(const ContactGrid& grid) {
 
 /// What the contacts that see a node see of the modes there: `flow` e^{λt}, and `forced`, the motion by unit forces at
 /// all contacts, poles × contacts.
-void add_motion(const RelativeStructure& structure, const ContactGrid& grid, const std::vector<Seen>& seen,
-                const Eigen::VectorXcd& flow, const Eigen::MatrixXcd& forced, const Eigen::VectorXd& share,
-                Eigen::MatrixXd& E, Eigen::MatrixXd& K) {
+void add_motion(const RelativeStructure& structure, const std::vector<Seen>& seen, const Eigen::VectorXcd& flow,
+                const Eigen::MatrixXcd& forced, const Eigen::VectorXd& share, Eigen::MatrixXd& E, Eigen::MatrixXd& K) {
   const Index poles = flow.size();
   for (const Seen& s : seen) {
-    const Contact& contact = grid.contacts[static_cast<std::size_t>(s.row)];
-    const Eigen::RowVectorXcd shape = s.weight * contact.chip.transpose() * structure.phi;
+    const Eigen::RowVectorXcd shape = s.chip.transpose() * structure.phi;
     const Eigen::RowVectorXcd free = shape.cwiseProduct(flow.transpose());
     E.row(s.row).head(poles) += free.real();
     E.row(s.row).tail(poles) += free.imag();
@@ -120,8 +118,7 @@ void add_residual(const RelativeStructure& structure, const ContactGrid& grid,
   for (Index l = 0; l < K.cols(); ++l) {
     const Contact& from = grid.contacts[static_cast<std::size_t>(l)];
     const Eigen::Vector3d motion = structure.R * from.force;
-    for (const Seen& s : seen[static_cast<std::size_t>(from.node)])
-      K(s.row, l) += s.weight * grid.contacts[static_cast<std::size_t>(s.row)].chip.dot(motion);
+    for (const Seen& s : seen[static_cast<std::size_t>(from.node)]) K(s.row, l) += s.chip.dot(motion);
   }
 }
 
@@ -190,9 +187,9 @@ RegenerativeLoop regenerative_loop(const RelativeStructure& structure, const Con
     const Eigen::VectorXcd flow = history.flow(grid.node_rad(node));
     const Eigen::MatrixXcd forced = forced_by_contacts(history.at_node(node));
     const auto i = static_cast<std::size_t>(node);
-    add_motion(structure, grid, seen.now[i], flow, forced, loop.share, loop.E, loop.K);
+    add_motion(structure, seen.now[i], flow, forced, loop.share, loop.E, loop.K);
     if (!grid.one_delay)
-      add_motion(structure, grid, seen.before[i], flow, forced, loop.share, loop.E_previous, loop.K_previous);
+      add_motion(structure, seen.before[i], flow, forced, loop.share, loop.E_previous, loop.K_previous);
   }
   const Eigen::MatrixXcd L = forced_by_contacts(history.at_end());
   loop.L.resize(2 * poles, contacts);

@@ -107,13 +107,14 @@ RelativeStructure in_tool_axes(const RelativeStructure& structure, const ToolFra
 
 Eigen::Matrix3Xd yielding_directions(const RelativeStructure& structure, bool chip_sees_axis) {
   const Eigen::Index poles = structure.poles.size();
-  Eigen::Matrix3Xd motion(3, 2 * poles + 3);
+  // An unsymmetric structure may move along one direction and feel forces along another.
+  Eigen::Matrix3Xd motion(3, 4 * poles + 6);
   for (Eigen::Index k = 0; k < poles; ++k) {
-    const double compliance = structure.b.col(k).norm() / std::abs(structure.poles(k));
-    motion.col(2 * k) = structure.phi.col(k).real() * compliance;
-    motion.col(2 * k + 1) = structure.phi.col(k).imag() * compliance;
+    const Eigen::Vector3cd moves = structure.phi.col(k) * structure.b.col(k).norm() / std::abs(structure.poles(k));
+    const Eigen::Vector3cd feels = structure.b.col(k) * structure.phi.col(k).norm() / std::abs(structure.poles(k));
+    motion.middleCols<4>(4 * k) << moves.real(), moves.imag(), feels.real(), feels.imag();
   }
-  motion.rightCols<3>() = structure.R;
+  motion.rightCols<6>() << structure.R, structure.R.transpose();
   const double largest = motion.norm();
   if (!((chip_sees_axis ? largest : motion.topRows<2>().norm()) > 1e-12 * largest)) {
     throw core::InputError(

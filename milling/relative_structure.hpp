@@ -42,9 +42,10 @@ struct RelativeStructure {
 /// takes it as it is; semi-discretization leaves it out.
 [[nodiscard]] double residual_share(const RelativeStructure& structure);
 
-/// Directions (orthonormal columns, 3 × p) in which the structure moves more than by round-off, modes weighed by their
-/// compliance. Throws InputError if there is none that the chip sees: tool axes are meant, and the chip of a
-/// cylindrical cutter sees the first two only, that of other envelopes the axis as well (`chip_sees_axis`).
+/// Directions (orthonormal columns, 3 × p) in which the structure moves, or feels a force, by more than round-off,
+/// modes weighed by their compliance. Throws InputError if there is none that the chip sees: tool axes are meant, and
+/// the chip of a cylindrical cutter sees the first two only, that of other envelopes the axis as well
+/// (`chip_sees_axis`).
 [[nodiscard]] Eigen::Matrix3Xd yielding_directions(const RelativeStructure& structure, bool chip_sees_axis = false);
 
 }  // namespace thinwall::milling

@@ -51,27 +51,6 @@ MillingProcess with_only(MillingProcess process, Coefficient which) {
   return process;
 }
 
-/// The grid of a cut, with the force that one coefficient brings to the same contacts.
-ContactGrid with_force_of(const CutAtSpeed& cut, const ContactGrid& grid, Coefficient which, Resolution resolution,
-                          double depth_m) {
-  const MillingProcess process = with_only(cut.process, which);
-  const ContactGrid other = contact_grid(process, cut.yielding, resolution, depth_m);
-  const auto same_past = [](const Contact& a, const Contact& b) {
-    return a.node == b.node &&
-           std::equal(a.past.begin(), a.past.end(), b.past.begin(), b.past.end(), [](const Past& x, const Past& y) {
-             return x.node == y.node && x.previous_period == y.previous_period && x.weight == y.weight;
-           });
-  };
-  ContactGrid result = grid;
-  for (Contact& c : result.contacts) {
-    c.force.setZero();
-    for (const Contact& from : other.contacts) {
-      if (same_past(c, from)) c.force += from.force * from.chip.dot(c.chip);
-    }
-  }
-  return result;
-}
-
 /// The crossing on a grid whose depth agrees with it to the estimate, with its eigenpair.
 struct Found {
   Resolution resolution;
@@ -112,6 +91,23 @@ complex<double> own_change(const CutAtSpeed& cut, const Found& f) {
   return (nu_at(f.crossing.depth_m + step) - nu_at(f.crossing.depth_m - step)) / (2.0 * step);
 }
 
+/// The change of Z when one coefficient doubles, as far as the eigenpair feels it. The loop's eigenvalues are those of
+/// M = D G on the forces at the nodes, too, D the cut and G the structure, and M changes by D_which G. With the
+/// contacts of both cuts on one grid, X what the contacts see of the motion by the forces of `which`, Y the reverse:
+///
+///     dν = lᵀ X Y r / (ν lᵀ r)
+Eigen::MatrixXcd gain_by(Coefficient which, const CutAtSpeed& cut, const Found& f, double depth_m) {
+  const MillingProcess process = with_only(cut.process, which);
+  const ContactGrid other = contact_grid(process, cut.yielding, f.resolution, depth_m);
+  ContactGrid both = f.d.grid;
+  both.contacts.insert(both.contacts.end(), other.contacts.begin(), other.contacts.end());
+  const Eigen::MatrixXcd Z =
+      loop_gain(regenerative_loop(cut.structure, both, cut.spindle_speed_rpm), on_circle(f.crossing.theta_rad));
+  const auto contacts = static_cast<Index>(f.d.grid.contacts.size());
+  const auto others = static_cast<Index>(other.contacts.size());
+  return -Z.topRightCorner(contacts, others) * Z.bottomLeftCorner(others, contacts) / f.pair.nu;
+}
+
 }  // namespace
 
 DepthSensitivity depth_sensitivity(const RelativeStructure& structure, const MillingProcess& process,
@@ -135,11 +131,7 @@ DepthSensitivity depth_sensitivity(const RelativeStructure& structure, const Mil
   const auto gain_of_structure = [&](const RelativeStructure& s) {
     return loop_gain(regenerative_loop(s, f.d.grid, spindle_speed_rpm), on_circle(f.crossing.theta_rad));
   };
-  const auto to = [&](Coefficient which) {
-    const ContactGrid grid = with_force_of(cut, f.d.grid, which, f.resolution, point.depth_m);
-    return relative_change(
-        loop_gain(regenerative_loop(cut.structure, grid, spindle_speed_rpm), on_circle(f.crossing.theta_rad)));
-  };
+  const auto to = [&](Coefficient which) { return relative_change(gain_by(which, cut, f, point.depth_m)); };
   const Index poles = cut.structure.poles.size();
   DepthSensitivity result{Eigen::VectorXd(poles), Eigen::VectorXd::Zero(poles), Eigen::VectorXd(poles)};
   for (Index k = 0; k < poles; ++k) {

@@ -35,7 +35,7 @@ Eigen::VectorXcd mathieu(double damping, double delta, double epsilon, double b)
       const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
       const double now = delta - b - 1.0 + epsilon * std::cos(d.grid.node_rad(node));
       d.grid.contacts.push_back({node, now * x, x, {}});
-      d.grid.contacts.push_back({node, b * x, x, {{node, true, 1.0}}});
+      d.grid.contacts.push_back({node, b * x, x, {{node, true, x}}});
     }
   }
   d.loop = regenerative_loop(oscillator, d.grid, 30.0 / std::numbers::pi);  // a radian a second
