@@ -4,9 +4,11 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "core/error.hpp"
 #include "fem/free_motions.hpp"
+#include "linalg/inverse_iteration.hpp"
 #include "linalg/sparse_indefinite.hpp"
 
 namespace thinwall::fem {
@@ -33,10 +35,10 @@ double round_off(const Model& model) {
   return std::numeric_limits<double>::epsilon() * model.K.diagonal().sum() / model.M.diagonal().sum();
 }
 
-/// Throws unless as many modes without stiffness show as rigid motions are free, and no more.
-void require_rigid_modes(const Model& model, const Eigen::VectorXd& lambda) {
+/// Throws unless as many modes without stiffness show as rigid motions are free, and no more; `noise`, rad²/s², tells
+/// motions without stiffness from elastic ones.
+void require_rigid_modes(const Model& model, const Eigen::VectorXd& lambda, double noise) {
   const Eigen::Index rigid = model.rigid_motions;
-  const double noise = 10.0 * round_off(model);  // what tells motions without stiffness from elastic ones
   const double largest = rigid > 0 ? lambda.head(rigid).cwiseAbs().maxCoeff() : 0.0;
   if (largest <= std::max(1e-6 * lambda(rigid), noise) && lambda(rigid) > noise) return;
   throw core::NumericalError(
@@ -59,27 +61,50 @@ bool none_missed(const Model& model, const linalg::Eigenpairs& pairs) {
   return false;
 }
 
-Modes modes(const Model& model, const Factored& factored, const ModeOptions& options) {
+namespace {
+
+/// Frequencies, residuals and what round-off leaves of the pairs.
+Modes described(const Model& model, linalg::Eigenpairs&& pairs) {
   Modes result;
   result.rigid_motions = model.rigid_motions;
-  result.pairs = solve(model, factored, options);
-  if (result.pairs.status != linalg::EigenStatus::converged) {
-    throw core::NumericalError("the part's modes did not converge (" + std::to_string(result.pairs.lambda.size()) +
-                               " found): ask for fewer modes, or mesh more evenly");
-  }
-  auto& lambda = result.pairs.lambda;
-  if (lambda.size() <= result.rigid_motions) {
-    throw core::InputError("no elastic mode lies below the frequency that was asked for; raise modes.up_to");
-  }
+  result.pairs = std::move(pairs);
+  const auto& lambda = result.pairs.lambda;
   const int rigid = result.rigid_motions;
-  require_rigid_modes(model, lambda);
-  result.round_off = 0.5 * round_off(model) / lambda(rigid);
+  const double noise = round_off(model);
+  require_rigid_modes(model, lambda, 10.0 * noise);
+  result.round_off = 0.5 * noise / lambda(rigid);
   result.residual = linalg::residuals(model.K, model.M, result.pairs);
   result.residual.head(rigid).setZero();
   result.frequency_hz = lambda.unaryExpr(&hertz);
   result.frequency_hz.head(rigid).setZero();
+  return result;
+}
+
+}  // namespace
+
+Modes modes(const Model& model, const Factored& factored, const ModeOptions& options) {
+  linalg::Eigenpairs pairs = solve(model, factored, options);
+  if (pairs.status != linalg::EigenStatus::converged) {
+    throw core::NumericalError("the part's modes did not converge (" + std::to_string(pairs.lambda.size()) +
+                               " found): ask for fewer modes, or mesh more evenly");
+  }
+  if (pairs.lambda.size() <= model.rigid_motions) {
+    throw core::InputError("no elastic mode lies below the frequency that was asked for; raise modes.up_to");
+  }
+  Modes result = described(model, std::move(pairs));
   if (options.verify_count) result.count_verified = none_missed(model, result.pairs);
   return result;
+}
+
+std::optional<Modes> modes_near(const Model& model, const Factored& factored, linalg::Eigenpairs start,
+                                double inverse_residual) {
+  constexpr int most_steps = 4;
+  const linalg::ShiftedInverse inverse = inverse_of(factored);
+  for (int step = 0; step < most_steps; ++step) {
+    if (!linalg::inverse_iteration(model.M, inverse, start)) return std::nullopt;
+    if (start.inverse_residual.maxCoeff() <= inverse_residual) return described(model, std::move(start));
+  }
+  return std::nullopt;
 }
 
 }  // namespace thinwall::fem

@@ -38,4 +38,13 @@ struct [[nodiscard]] Modes {
 /// elastic eigenvalue, of a held part too, is no more than that round-off.
 Modes modes(const Model& model, const Factored& factored, const ModeOptions& options);
 
+/// The modes near given ones, which must lie near the lowest: inverse iteration (linalg::inverse_iteration) until the
+/// residuals of all are below `inverse_residual` before the last step; frequencies are then off by less than its square
+/// (relative, where they are not close to one that is left out), upwards in a held part. Of a solution of another order
+/// two steps do, where block_lanczos() takes nine of as many columns. None if the start is too far: the columns depend
+/// on each other, or four steps were not enough. Does not show if a mode is missing between those given. start: λ,
+/// rad²/s², and Φ on the free rows of the model. Throws as modes() does.
+std::optional<Modes> modes_near(const Model& model, const Factored& factored, linalg::Eigenpairs start,
+                                double inverse_residual);
+
 }  // namespace thinwall::fem

@@ -49,78 +49,126 @@ Real factorial(std::size_t n) {
   return f;
 }
 
-/// ∫ Π_k f_k(λ_k) dV / V, term by term.
-Real integral(const std::array<const Polynomial*, 4>& f) {
-  // Σ over powers of 6 Π c γ! / (|γ| + 3)!: gather the coefficients by total power first.
-  std::vector<Real> by_power{1.0L};
-  for (const Polynomial* factor : f) {
-    Polynomial weighted(factor->size());
-    for (std::size_t j = 0; j < factor->size(); ++j) weighted[j] = (*factor)[j] * factorial(j);
-    by_power = product(by_power, weighted);
-  }
-  Real sum = 0.0L;
-  for (std::size_t g = 0; g < by_power.size(); ++g) sum += 6.0L * by_power[g] / factorial(g + 3);
-  return sum;
+/// Σ c_j s^j → Σ j! c_j s^j, as the integral of a monomial wants its powers.
+Polynomial weighted(Polynomial c) {
+  for (std::size_t j = 0; j < c.size(); ++j) c[j] *= factorial(j);
+  return c;
 }
 
-/// Products of one-dimensional factors of two shape functions in one coordinate, with derivatives on neither, the
-/// first, the second, both; indexed [derivative of a][derivative of b][m_a][m_b].
-using Products = std::array<std::array<std::vector<std::vector<Polynomial>>, 2>, 2>;
+/// Where a shape function of the pair is differentiated, seen from two of the four coordinates.
+enum Derivative : std::size_t { by_first, by_second, by_neither };
 
-Products factor_products(int p) {
-  Products table;
-  for (std::size_t da = 0; da < 2; ++da) {
-    for (std::size_t db = 0; db < 2; ++db) {
-      for (int ma = 0; ma <= p; ++ma) {
-        std::vector<Polynomial> row;
-        for (int mb = 0; mb <= p; ++mb) {
-          const Polynomial a = da != 0U ? derivative(silvester(p, ma)) : silvester(p, ma);
-          const Polynomial b = db != 0U ? derivative(silvester(p, mb)) : silvester(p, mb);
-          row.push_back(product(a, b));
+/// The weighted products of the factors of two shape functions in two coordinates: half of each integrand. There are
+/// few of them, while the integrals are many.
+class Halves {
+ public:
+  explicit Halves(int order) : p_(static_cast<std::size_t>(order)), products_(9 * size() * size() * size() * size()) {
+    const auto one = factors();
+    for (const auto da : {by_first, by_second, by_neither}) {
+      for (const auto db : {by_first, by_second, by_neither}) {
+        for (std::size_t a0 = 0; a0 <= p_; ++a0) {
+          for (std::size_t a1 = 0; a0 + a1 <= p_; ++a1) {
+            for (std::size_t b0 = 0; b0 <= p_; ++b0) {
+              for (std::size_t b1 = 0; b0 + b1 <= p_; ++b1)
+                products_[place(da, db, a0, a1, b0, b1)] =
+                    product(one[da == by_first][db == by_first][a0 * size() + b0],
+                            one[da == by_second][db == by_second][a1 * size() + b1]);
+            }
+          }
         }
-        table[da][db].push_back(std::move(row));
       }
     }
   }
-  return table;
+
+  [[nodiscard]] const Polynomial& of(Derivative da, Derivative db, const int* alpha, const int* beta) const {
+    return products_[place(da, db, static_cast<std::size_t>(alpha[0]), static_cast<std::size_t>(alpha[1]),
+                           static_cast<std::size_t>(beta[0]), static_cast<std::size_t>(beta[1]))];
+  }
+
+ private:
+  [[nodiscard]] std::size_t size() const { return p_ + 1; }
+  [[nodiscard]] std::size_t place(Derivative da, Derivative db, std::size_t a0, std::size_t a1, std::size_t b0,
+                                  std::size_t b1) const {
+    return ((((da * 3 + db) * size() + a0) * size() + a1) * size() + b0) * size() + b1;
+  }
+
+  /// Of one coordinate: [whether a is differentiated][whether b is][(p + 1) m_a + m_b].
+  [[nodiscard]] std::array<std::array<std::vector<Polynomial>, 2>, 2> factors() const {
+    std::array<std::array<std::vector<Polynomial>, 2>, 2> table;
+    const int p = static_cast<int>(p_);
+    for (std::size_t da = 0; da < 2; ++da) {
+      for (std::size_t db = 0; db < 2; ++db) {
+        for (int ma = 0; ma <= p; ++ma) {
+          for (int mb = 0; mb <= p; ++mb) {
+            const Polynomial a = da != 0U ? derivative(silvester(p, ma)) : silvester(p, ma);
+            const Polynomial b = db != 0U ? derivative(silvester(p, mb)) : silvester(p, mb);
+            table[da][db].push_back(weighted(product(a, b)));
+          }
+        }
+      }
+    }
+    return table;
+  }
+
+  std::size_t p_;
+  std::vector<Polynomial> products_;
+};
+
+/// ∫ of the product of two halves dV / V = Σ 6 c_i d_j / (i + j + 3)!.
+Real integral(const Polynomial& c, const Polynomial& d) {
+  static const auto by_power = [] {
+    std::array<Real, 32> weights{};
+    for (std::size_t g = 0; g < weights.size(); ++g) weights[g] = 6.0L / factorial(g + 3);
+    return weights;
+  }();
+  Real sum = 0.0L;
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    Real inner = 0.0L;
+    for (std::size_t j = 0; j < d.size(); ++j) inner += d[j] * by_power[i + j];
+    sum += c[i] * inner;
+  }
+  return sum;
 }
 
-/// ∫ ∂N_a/∂λ_k ∂N_b/∂λ_l dV / V with the four λ taken as independent; k or l = −1: no derivative.
-Real pair_integral(const Products& table, const std::array<int, 4>& alpha, const std::array<int, 4>& beta, int k,
+/// ∫ ∂N_a/∂λ_k ∂N_b/∂λ_l dV / V with the four λ taken as independent; k or l = 4: no derivative.
+Real pair_integral(const Halves& halves, const std::array<int, 4>& alpha, const std::array<int, 4>& beta, int k,
                    int l) {
-  std::array<const Polynomial*, 4> f{};
-  for (int c = 0; c < 4; ++c) {
-    const auto i = static_cast<std::size_t>(c);
-    f[i] = &table[c == k][c == l][static_cast<std::size_t>(alpha[i])][static_cast<std::size_t>(beta[i])];
+  const auto in = [](int coordinate, int first) {
+    return coordinate == first ? by_first : (coordinate == first + 1 ? by_second : by_neither);
+  };
+  return integral(halves.of(in(k, 0), in(l, 0), alpha.data(), beta.data()),
+                  halves.of(in(k, 2), in(l, 2), alpha.data() + 2, beta.data() + 2));
+}
+
+/// D̂^{kl}_ab at (k, l).
+Eigen::Matrix3d slopes_integral(const Halves& halves, const std::array<int, 4>& alpha, const std::array<int, 4>& beta) {
+  Eigen::Matrix<Real, 4, 4> d;
+  for (int k = 0; k < 4; ++k) {
+    for (int l = 0; l < 4; ++l) d(k, l) = pair_integral(halves, alpha, beta, k, l);
   }
-  return integral(f);
+  Eigen::Matrix3d D;
+  for (int k = 0; k < 3; ++k) {
+    for (int l = 0; l < 3; ++l) D(k, l) = static_cast<double>(d(k + 1, l + 1) - d(0, l + 1) - d(k + 1, 0) + d(0, 0));
+  }
+  return D;
 }
 
 ReferenceElement make(int order) {
   const auto alphas = mesh::lattice(order);
-  const Products table = factor_products(order);
+  const Halves halves(order);
   ReferenceElement element;
   element.order = order;
   element.nodes = static_cast<int>(alphas.size());
   element.mass.resize(element.nodes, element.nodes);
   element.stiffness.resize(9, static_cast<Eigen::Index>(element.nodes) * element.nodes);
-  for (int b = 0; b < element.nodes; ++b) {
-    for (int a = 0; a < element.nodes; ++a) {
+  for (Eigen::Index b = 0; b < element.nodes; ++b) {
+    for (Eigen::Index a = 0; a <= b; ++a) {
       const auto& alpha = alphas[static_cast<std::size_t>(a)];
       const auto& beta = alphas[static_cast<std::size_t>(b)];
-      element.mass(a, b) = static_cast<double>(pair_integral(table, alpha, beta, -1, -1));
-      std::array<std::array<Real, 4>, 4> d{};
-      for (int k = 0; k < 4; ++k) {
-        for (int l = 0; l < 4; ++l)
-          d[static_cast<std::size_t>(k)][static_cast<std::size_t>(l)] = pair_integral(table, alpha, beta, k, l);
-      }
-      for (std::size_t k = 1; k < 4; ++k) {
-        for (std::size_t l = 1; l < 4; ++l) {
-          element.stiffness(static_cast<Eigen::Index>(3 * (k - 1) + l - 1),
-                            a + static_cast<Eigen::Index>(element.nodes) * b) =
-              static_cast<double>(d[k][l] - d[0][l] - d[k][0] + d[0][0]);
-        }
-      }
+      element.mass(a, b) = element.mass(b, a) = static_cast<double>(pair_integral(halves, alpha, beta, 4, 4));
+      const Eigen::Matrix3d D = slopes_integral(halves, alpha, beta);
+      element.stiffness.col(a + element.nodes * b) = D.reshaped<Eigen::RowMajor>();
+      element.stiffness.col(b + element.nodes * a) = D.reshaped();
     }
   }
   return element;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "fem/interpolation.hpp"
 
 namespace thinwall::fem {
 
@@ -36,15 +37,36 @@ linalg::SparseMatrix point_loads(const Model& model, const std::vector<NamedPoin
   return W;
 }
 
-Solution solve(const SolidPart& part, const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
+/// Model and factor, the modes yet to be found.
+Solution prepared(const SolidPart& part, const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
   Model model = supported_model(mesh, order, part.material, part.supports, part.shape);
   Factored factored = factorise(model, options.memory_limit_bytes);
-  Modes found = modes(model, factored, options.modes);
-  Solution s{std::move(model), std::move(factored), std::move(found), {}, {}};
-  if (options.points.empty()) return s;
+  return {std::move(model), std::move(factored), {}, {}, {}};
+}
+
+void find_responses(Solution& s, const ToleranceOptions& options) {
+  if (options.points.empty()) return;
   const linalg::SparseMatrix W = point_loads(s.model, options.points);
   s.amplitudes = W.transpose() * s.modes.pairs.Phi;
   s.flexibility = W.transpose() * s.factored.factor.solve(Eigen::MatrixXd(W));
+}
+
+Solution solve(const SolidPart& part, const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
+  Solution s = prepared(part, mesh, order, options);
+  s.modes = modes(s.model, s.factored, options.modes);
+  find_responses(s, options);
+  return s;
+}
+
+/// The solution of a lower order from that of the next, as far as an estimate needs it: frequencies to a hundredth
+/// of the tolerance.
+Solution solve_below(const SolidPart& part, const Solution& above, const ToleranceOptions& options) {
+  Solution s = prepared(part, above.model.mesh, above.model.nodes.order - 1, options);
+  linalg::Eigenpairs start = above.modes.pairs;
+  start.Phi = interpolated(above.model, start.Phi, s.model);
+  auto near = modes_near(s.model, s.factored, std::move(start), 0.1 * std::sqrt(options.tolerance));
+  s.modes = near ? std::move(*near) : modes(s.model, s.factored, options.modes);
+  find_responses(s, options);
   return s;
 }
 
@@ -131,24 +153,28 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
   for (int level = 0;; ++level) {
     const mesh::TetMesh mesh = part.mesh(level);
     const bool last_level = level + 1 == options.levels;
-    Solution below = solve(part, mesh, options.first_order, options);
+    Solution now = solve(part, mesh, options.first_order + 1, options);
+    Solution below = solve_below(part, now, options);
     estimate.steps.push_back({level, options.first_order, below.model.K.rows(), {}, {}});
-    for (int order = options.first_order + 1; order <= options.last_order; ++order) {
-      Solution now = solve(part, mesh, order, options);
+    for (int order = options.first_order + 1;; ++order) {
       RefinementStep step{level, order, now.model.K.rows(), frequency_change(below.modes, now.modes), {}};
       if (!options.points.empty()) step.receptance_change = receptance_change(below, now);
       estimate.steps.push_back(step);
       const double of_lower = 1.0 / (1.0 - left_by(order, options));
       const double of_higher = of_lower - 1.0;
       const double worst = std::max(*step.frequency_change, step.receptance_change.value_or(0.0));
-      if (of_lower * worst <= options.tolerance) return finished(std::move(below), std::move(estimate), of_lower);
+      if (of_lower * worst <= options.tolerance) {
+        if (order == options.first_order + 1) below.modes = modes(below.model, below.factored, options.modes);
+        return finished(std::move(below), std::move(estimate), of_lower);
+      }
       if (of_higher * worst <= options.tolerance || (last_level && order == options.last_order))
         return finished(std::move(now), std::move(estimate), of_higher);
       // Smaller elements, where the next order will not do: away from inner edges one brings a factor of ten, at most
       // thirty; beside them what the law says.
       const double next = options.reentrant_edges ? of_higher * left_by(order + 1, options) : 1.0 / 30.0;
-      if (!last_level && next * worst > options.tolerance) break;
+      if (!last_level && (order == options.last_order || next * worst > options.tolerance)) break;
       below = std::move(now);
+      now = solve(part, mesh, order + 1, options);
     }
   }
 }

@@ -63,12 +63,13 @@ struct [[nodiscard]] Refined {
   Estimate estimate;
 };
 
-/// Raises the order on a mesh from first_order; where the estimate is still above the tolerance at last_order, or too
-/// far above for an order to help, goes to the next level (Babuska & Guo 1992: exponential convergence with elements
-/// graded to edges and rising order). Receptances between the points are compared at zero (or at the shift of a free
-/// part) and between resonances that lie more than a quarter apart; nearer to a resonance they magnify the error of its
-/// frequency. Throws InputError for options out of range, and what the steps throw. Cost: that of the last step, and
-/// about a half more for those before.
+/// Raises the order on a mesh from first_order, whose modes are made from those of the next order (modes_near) to a
+/// hundredth of the tolerance, and found anew if they are returned; where the estimate is still above the tolerance at
+/// last_order, or too far above for an order to help, goes to the next level (Babuska & Guo 1992: exponential
+/// convergence with elements graded to edges and rising order). Receptances between the points are compared at zero (or
+/// at the shift of a free part) and between resonances that lie more than a quarter apart; nearer to a resonance they
+/// magnify the error of its frequency. Throws InputError for options out of range, and what the steps throw. Cost: that
+/// of the last step, and about a third more for those before.
 Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& options);
 
 }  // namespace thinwall::fem

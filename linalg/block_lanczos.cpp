@@ -1,6 +1,5 @@
 #include "linalg/block_lanczos.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "linalg/inverse_iteration.hpp"
 #include "linalg/tall.hpp"
 
 namespace thinwall::linalg {
@@ -161,40 +161,6 @@ Index finished(const Ritz& ritz, const BlockLanczosOptions& options, double sigm
   return exhausted && converged == have ? converged : -1;
 }
 
-void fix_signs(MatrixXd& Phi) {
-  for (auto phi : Phi.colwise()) {
-    Index largest = 0;
-    phi.cwiseAbs().maxCoeff(&largest);
-    if (phi(largest) < 0.0) phi = -phi;
-  }
-}
-
-/// One inverse iteration Y = A Φ on the converged pairs measures their residual; Rayleigh-Ritz in span Y then gives
-/// better ones: with K Y = M Φ + σ M Y no product with K is needed.
-void polish(const SparseMatrix& M, const ShiftedInverse& inverse, Eigenpairs& pairs) {
-  const MatrixXd MPhi = symmetric_product(M, pairs.Phi);
-  const MatrixXd Y = inverse.apply(MPhi);
-  const VectorXd shifted = pairs.lambda.array() - inverse.sigma;
-  MatrixXd R = pairs.Phi;
-  tall_subtract(R, Y, shifted.asDiagonal());
-  const MatrixXd MY = symmetric_product(M, Y);
-  MatrixXd MR = MPhi;
-  tall_subtract(MR, MY, shifted.asDiagonal());
-  pairs.inverse_residual = R.cwiseProduct(MR).colwise().sum().cwiseMax(0.0).cwiseSqrt().transpose();
-  MatrixXd Kr = tall_gram(Y, MPhi);
-  MatrixXd Mr = tall_gram(Y, MY);
-  // The columns of Y differ in length by orders of magnitude; scaled to one, the small problem is well conditioned.
-  const VectorXd s = Mr.diagonal().cwiseSqrt().cwiseInverse();
-  Kr = (s.asDiagonal() * (0.5 * (Kr + Kr.transpose())) * s.asDiagonal()).eval();
-  Mr = (s.asDiagonal() * (0.5 * (Mr + Mr.transpose())) * s.asDiagonal()).eval();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(Kr, Mr);
-  if (ritz.info() == Eigen::Success && ritz.eigenvalues().allFinite()) {
-    pairs.lambda = ritz.eigenvalues().array() + inverse.sigma;
-    pairs.Phi = tall_product(Y, s.asDiagonal() * ritz.eigenvectors());
-  }
-  fix_signs(pairs.Phi);
-}
-
 int block_width(const BlockLanczosOptions& options, Index rows) {
   const int wanted = options.block > 0 ? options.block : std::clamp(options.count / 4, 8, 16);
   return static_cast<int>(std::min<Index>(wanted, rows));
@@ -227,7 +193,7 @@ Eigenpairs block_lanczos(const SparseMatrix& M, const ShiftedInverse& inverse, c
     pairs.lambda = inverse.sigma + ritz.theta.head(kept).array().inverse();
     pairs.Phi = tall_product(krylov.basis(), ritz.S.leftCols(kept));
   }
-  if (pairs.lambda.size() > 0) polish(M, inverse, pairs);
+  if (pairs.lambda.size() > 0) (void)inverse_iteration(M, inverse, pairs);
   // Beside a shift on an eigenvalue the other pairs drown in round-off, which only the measured residual tells.
   if (pairs.inverse_residual.size() > 0 && !(pairs.inverse_residual.maxCoeff() < 1e-6)) {
     pairs.status = EigenStatus::not_converged;

@@ -1,6 +1,8 @@
 #include "linalg/matrix_graph.hpp"
 
 #include <algorithm>
+#include <span>
+#include <unordered_map>
 
 #include "core/parallel.hpp"
 
@@ -22,7 +24,61 @@ std::vector<int> without_gaps(const std::vector<int>& node_of_row) {
   return result;
 }
 
+/// The indices of a row's entries.
+std::span<const int> pattern(const SparseMatrix& A, Eigen::Index row) {
+  const int* first = A.outerIndexPtr();
+  return {A.innerIndexPtr() + first[row], A.innerIndexPtr() + first[row + 1]};
+}
+
+/// Equal for equal patterns; few others share it.
+std::size_t key(std::span<const int> pattern) {
+  std::size_t h = pattern.size();
+  if (pattern.empty()) return h;
+  for (const int index : {pattern.front(), pattern[pattern.size() / 2], pattern.back()})
+    h = (h ^ static_cast<std::size_t>(index)) * 0x9e3779b97f4a7c15ULL;
+  return h;
+}
+
+/// Sets of rows with one pattern, by their first rows.
+std::vector<std::vector<int>> rows_by_pattern(const SparseMatrix& A) {
+  std::vector<std::vector<int>> sets;
+  std::unordered_multimap<std::size_t, std::size_t> by_key;  // → set
+  const auto set_of = [&](std::span<const int> wanted) {
+    const std::size_t h = key(wanted);
+    const auto [from, to] = by_key.equal_range(h);
+    for (auto it = from; it != to; ++it) {
+      if (std::ranges::equal(wanted, pattern(A, sets[it->second].front()))) return it->second;
+    }
+    by_key.emplace(h, sets.size());
+    sets.emplace_back();
+    return sets.size() - 1;
+  };
+  for (int row = 0; row < static_cast<int>(A.rows()); ++row) sets[set_of(pattern(A, row))].push_back(row);
+  return sets;
+}
+
 }  // namespace
+
+MatrixGraph pattern_graph(const SparseMatrix& A) {
+  MatrixGraph graph;
+  graph.rows = rows_by_pattern(A);
+  std::vector<int> set_of(static_cast<std::size_t>(A.rows()));
+  for (int set = 0; set < graph.size(); ++set) {
+    for (const int row : graph.rows[static_cast<std::size_t>(set)]) set_of[static_cast<std::size_t>(row)] = set;
+  }
+  graph.neighbours.resize(graph.rows.size());
+  std::vector<int> last_seen(graph.rows.size(), -1);  // by which set
+  for (int set = 0; set < graph.size(); ++set) {
+    last_seen[static_cast<std::size_t>(set)] = set;
+    for (const int row : pattern(A, graph.rows[static_cast<std::size_t>(set)].front())) {
+      const int other = set_of[static_cast<std::size_t>(row)];
+      if (last_seen[static_cast<std::size_t>(other)] == set) continue;
+      last_seen[static_cast<std::size_t>(other)] = set;
+      graph.neighbours[static_cast<std::size_t>(set)].push_back(other);
+    }
+  }
+  return graph;
+}
 
 MatrixGraph matrix_graph(const SparseMatrix& A, const std::vector<int>& node_of_row) {
   const std::vector<int> node_of = without_gaps(node_of_row);

@@ -7,6 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "linalg/large_array.hpp"
+#include "linalg/minimum_fill.hpp"
 #include "linalg/ordering.hpp"
 #include "linalg/supernodal_factor.hpp"
 #include "linalg/supernodal_solve.hpp"
@@ -22,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 /// body(row) for every row, in pieces on all threads.
 template <class Body>
 void over_rows(Eigen::Index rows, const Body& body) {
-  constexpr Eigen::Index piece = 8192;
+  constexpr Eigen::Index piece = 2048;
   core::parallel_for(static_cast<std::size_t>((rows + piece - 1) / piece), [&](std::size_t i) {
     const Eigen::Index first = static_cast<Eigen::Index>(i) * piece;
     for (Eigen::Index row = first; row < std::min(first + piece, rows); ++row) body(row);
@@ -54,10 +55,11 @@ struct SparseCholesky::Impl {
     return 8.0 * static_cast<double>(L.values()) + 4.0 * static_cast<double>(L.rows.size()) + update_bytes(L, cut);
   }
 
-  void analyse(const SparseMatrix& A, const std::vector<int>& node_of_row) {
+  void analyse(const SparseMatrix& A) {
     auto start = Clock::now();
-    const MatrixGraph graph = matrix_graph(A, node_of_row);
-    const std::vector<int> order = elimination_order(graph);
+    constexpr int small = 1500;  // beyond, least fill takes longer to find than it saves
+    const MatrixGraph graph = pattern_graph(A);
+    const std::vector<int> order = graph.size() <= small ? minimum_fill_order(graph) : elimination_order(graph);
     statistics.seconds_ordering = seconds_since(start);
     start = Clock::now();
     L = symbolic_factor(graph, order);
@@ -104,7 +106,7 @@ SparseCholesky::SparseCholesky(const SparseMatrix& A, const std::vector<int>& no
     : impl_(std::make_unique<Impl>()) {
   if (A.rows() == 0 || A.rows() != A.cols() || static_cast<std::size_t>(A.rows()) != node_of_row.size())
     throw core::NumericalError("a factorisation needs a square matrix and a node for each of its rows");
-  impl_->analyse(A, node_of_row);
+  impl_->analyse(A);
   require_memory(impl_->statistics.bytes, options.memory_limit_bytes, A.rows());
   impl_->compute(A, node_of_row);
 }

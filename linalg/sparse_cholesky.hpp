@@ -34,11 +34,12 @@ class MemoryLimitError : public core::NumericalError {
   double limit_bytes = 0.0;
 };
 
-/// P A Pᵀ = L Lᵀ: elimination_order() with METIS, symbolic_factor() with CHOLMOD, supernodal_factor().
+/// P A Pᵀ = L Lᵀ on the sets of rows with one pattern (pattern_graph): minimum_fill_order(), beyond 1500 sets
+/// elimination_order() with METIS; symbolic_factor() with CHOLMOD, supernodal_factor().
 class SparseCholesky {
  public:
   /// A: n × n, symmetric positive definite, both triangles stored. node_of_row: for each row the node it belongs to,
-  /// any numbering; rows of one node are ordered together. Throws NumericalError if A is not positive definite, naming
+  /// any numbering, for messages. Throws NumericalError if A is not positive definite, naming
   /// the row, and MemoryLimitError. Cost: statistics().flops.
   SparseCholesky(const SparseMatrix& A, const std::vector<int>& node_of_row, const FactorOptions& options = {});
   ~SparseCholesky();

@@ -1,5 +1,8 @@
 #include "linalg/symbolic_factor.hpp"
 
+#include <array>
+#include <cmath>
+
 #include "linalg/cholmod.hpp"
 
 namespace thinwall::linalg {
@@ -22,6 +25,12 @@ Pattern pattern(const MatrixGraph& graph) {
     lower.first.push_back(static_cast<int>(lower.rows.size()));
   }
   return lower;
+}
+
+std::size_t row_count(const MatrixGraph& graph) {
+  std::size_t count = 0;
+  for (const auto& rows : graph.rows) count += rows.size();
+  return count;
 }
 
 /// The factor of the rows from that of their nodes.
@@ -82,10 +91,12 @@ SymbolicFactor symbolic_factor(const MatrixGraph& graph, const std::vector<int>&
   Pattern lower = pattern(graph);
   cholmod_sparse view = cholmod_view(graph.rows.size(), lower.first.data(), lower.rows.data(), nullptr);
   CholmodFactor factor(CHOLMOD_SUPERNODAL);
-  // The library merges supernodes of up to 4, 16 and 48 columns; here a column stands for some three.
-  factor.common.nrelax[0] = 2;
-  factor.common.nrelax[1] = 6;
-  factor.common.nrelax[2] = 16;
+  // The library merges supernodes of up to 4, 16 and 48 columns; here a column stands for the rows of a node.
+  const auto mean_rows = static_cast<double>(row_count(graph)) / static_cast<double>(graph.size());
+  for (std::size_t k : {0U, 1U, 2U}) {
+    constexpr std::array<double, 3> columns{4.0, 16.0, 48.0};
+    factor.common.nrelax[k] = static_cast<std::size_t>(std::ceil(columns[k] / mean_rows));
+  }
   factor.analyse(&view, order);
   return of_rows(*factor.L, graph);
 }

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr Index piece = 8192;  // rows: a piece of 16 columns stays in the second-level cache
+constexpr Index piece = 2048;  // rows: a piece of 16 columns stays in the second-level cache
 
 /// body(first, rows) for every piece; on this thread alone where there is little to do.
 template <class Body>

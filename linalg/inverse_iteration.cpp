@@ -1,0 +1,52 @@
+#include "linalg/inverse_iteration.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "linalg/tall.hpp"
+
+namespace thinwall::linalg {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+void fix_signs(MatrixXd& Phi) {
+  for (auto phi : Phi.colwise()) {
+    Index largest = 0;
+    phi.cwiseAbs().maxCoeff(&largest);
+    if (phi(largest) < 0.0) phi = -phi;
+  }
+}
+
+}  // namespace
+
+bool inverse_iteration(const SparseMatrix& M, const ShiftedInverse& inverse, Eigenpairs& pairs) {
+  const MatrixXd MPhi = symmetric_product(M, pairs.Phi);
+  const MatrixXd Y = inverse.apply(MPhi);
+  const VectorXd shifted = pairs.lambda.array() - inverse.sigma;
+  MatrixXd R = pairs.Phi;
+  tall_subtract(R, Y, shifted.asDiagonal());
+  const MatrixXd MY = symmetric_product(M, Y);
+  MatrixXd MR = MPhi;
+  tall_subtract(MR, MY, shifted.asDiagonal());
+  pairs.inverse_residual = R.cwiseProduct(MR).colwise().sum().cwiseMax(0.0).cwiseSqrt().transpose();
+  MatrixXd Kr = tall_gram(Y, MPhi);
+  MatrixXd Mr = tall_gram(Y, MY);
+  // The columns of Y differ in length by orders of magnitude; scaled to one, the small problem is well conditioned.
+  const VectorXd s = Mr.diagonal().cwiseSqrt().cwiseInverse();
+  Kr = (s.asDiagonal() * (0.5 * (Kr + Kr.transpose())) * s.asDiagonal()).eval();
+  Mr = (s.asDiagonal() * (0.5 * (Mr + Mr.transpose())) * s.asDiagonal()).eval();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(Kr, Mr);
+  const bool solved = ritz.info() == Eigen::Success && ritz.eigenvalues().allFinite();
+  if (solved) {
+    pairs.lambda = ritz.eigenvalues().array() + inverse.sigma;
+    pairs.Phi = tall_product(Y, s.asDiagonal() * ritz.eigenvectors());
+  }
+  fix_signs(pairs.Phi);
+  return solved;
+}
+
+}  // namespace thinwall::linalg

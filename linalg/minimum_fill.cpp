@@ -1,0 +1,107 @@
+#include "linalg/minimum_fill.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+namespace thinwall::linalg {
+
+namespace {
+
+/// A graph that loses its nodes one by one, with the fill that the loss of each would make. Sets of nodes are rows of
+/// bits.
+class Elimination {
+ public:
+  explicit Elimination(const MatrixGraph& graph)
+      : nodes_(static_cast<std::size_t>(graph.size())),
+        words_((nodes_ + 63) / 64),
+        adjacent_(nodes_ * words_, 0),
+        fill_(nodes_, 0) {
+    weight_.reserve(nodes_);
+    for (std::size_t v = 0; v < nodes_; ++v) {
+      weight_.push_back(static_cast<std::int64_t>(graph.rows[v].size()));
+      for (const int other : graph.neighbours[v]) insert(v, static_cast<std::size_t>(other));
+      left_.push_back(v);
+    }
+    for (std::size_t v = 0; v < nodes_; ++v) {
+      each_of(v, [&](std::size_t i) { fill_[v] += weight_[i] * outside(v, i); });
+      fill_[v] /= 2;  // both (i, j) and (j, i) were counted
+    }
+  }
+
+  /// Takes out the node with the least fill.
+  std::size_t take_next() {
+    const auto least =
+        std::min_element(left_.begin(), left_.end(), [&](std::size_t a, std::size_t b) { return fill_[a] < fill_[b]; });
+    const std::size_t v = *least;
+    left_.erase(least);
+    std::vector<std::size_t> around;
+    each_of(v, [&](std::size_t i) { around.push_back(i); });
+    if (fill_[v] > 0) connect(around);
+    for (const std::size_t i : around) {
+      fill_[i] -= weight_[v] * outside(i, v);
+      row(i)[v / 64] &= ~bit(v);
+    }
+    return v;
+  }
+
+ private:
+  static std::uint64_t bit(std::size_t v) { return std::uint64_t{1} << (v % 64); }
+  [[nodiscard]] std::uint64_t* row(std::size_t v) { return adjacent_.data() + v * words_; }
+  [[nodiscard]] bool are_adjacent(std::size_t i, std::size_t j) { return (row(i)[j / 64] & bit(j)) != 0; }
+  void insert(std::size_t v, std::size_t other) { row(v)[other / 64] |= bit(other); }
+
+  /// body(k) for every k in the set of bits word(0), word(1), …
+  template <class Word, class Body>
+  void each_in(const Word& word, const Body& body) {
+    for (std::size_t w = 0; w < words_; ++w) {
+      for (std::uint64_t bits = word(w); bits != 0; bits &= bits - 1)
+        body(64 * w + static_cast<std::size_t>(std::countr_zero(bits)));
+    }
+  }
+  template <class Body>
+  void each_of(std::size_t v, const Body& body) {
+    each_in([a = row(v)](std::size_t w) { return a[w]; }, body);
+  }
+
+  /// Weight of adj(v) \ adj(i) \ {i}.
+  std::int64_t outside(std::size_t v, std::size_t i) {
+    std::int64_t sum = 0;
+    each_in([a = row(v), b = row(i)](std::size_t w) { return a[w] & ~b[w]; },
+            [&](std::size_t k) { sum += weight_[k]; });
+    return are_adjacent(v, i) ? sum - weight_[i] : sum;
+  }
+
+  /// Makes the nodes adjacent to each other.
+  void connect(const std::vector<std::size_t>& nodes) {
+    for (const std::size_t i : nodes) {
+      for (const std::size_t j : nodes) {
+        if (j <= i || are_adjacent(i, j)) continue;
+        const std::int64_t pair = weight_[i] * weight_[j];
+        each_in([a = row(i), b = row(j)](std::size_t w) { return a[w] & b[w]; },
+                [&](std::size_t k) { fill_[k] -= pair; });
+        fill_[i] += weight_[j] * outside(i, j);
+        fill_[j] += weight_[i] * outside(j, i);
+        insert(i, j);
+        insert(j, i);
+      }
+    }
+  }
+
+  std::size_t nodes_, words_;
+  std::vector<std::uint64_t> adjacent_;
+  std::vector<std::int64_t> weight_, fill_;
+  std::vector<std::size_t> left_;  // ascending
+};
+
+}  // namespace
+
+std::vector<int> minimum_fill_order(const MatrixGraph& graph) {
+  Elimination elimination(graph);
+  std::vector<int> order;
+  order.reserve(graph.rows.size());
+  for (int i = 0; i < graph.size(); ++i) order.push_back(static_cast<int>(elimination.take_next()));
+  return order;
+}
+
+}  // namespace thinwall::linalg

@@ -1,0 +1,106 @@
+// What a lower order learns from the next one: displacements carried over, modes from near ones.
+
+#include "fem/interpolation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fem/modes.hpp"
+#include "fem/supports.hpp"
+#include "fem/to_tolerance.hpp"
+#include "tests/mesh/kuhn_box.hpp"
+
+namespace thinwall::fem {
+namespace {
+
+const Material steel{210e9, 0.3, 7850.0};
+const mesh::Box box{{0.3, 0.2, 0.05}};
+
+Model cantilever(int order) {
+  return supported_model(mesh::kuhn_box(box.size, {3, 2, 1}), order, steel,
+                         {{"x_min", mesh::face_of(box, "x_min"), {0, 1, 2}}});
+}
+
+/// A displacement field at the free DOFs, which vanishes with x.
+Eigen::VectorXd field(const Model& model, int degree) {
+  Eigen::VectorXd u(model.K.rows());
+  for (std::size_t i = 0; i < model.free_rows.size(); ++i) {
+    const Eigen::Vector3d x = model.nodes.positions.row(model.free_rows[i] / 3).transpose() / 0.3;
+    const int axis = model.free_rows[i] % 3;
+    u(static_cast<Eigen::Index>(i)) = x.x() * std::pow(x.x() + (axis - 1.0) * x.y() + 2.0 * x.z(), degree - 1);
+  }
+  return u;
+}
+
+TEST(Interpolation, CarriesOverExactlyWhatTheOtherOrderHolds) {
+  for (const auto& [from, to] : {std::pair{5, 4}, {4, 5}, {3, 2}, {2, 6}}) {
+    const Model a = cantilever(from), b = cantilever(to);
+    for (int degree = 1; degree <= std::min(from, to); ++degree) {
+      const Eigen::VectorXd expected = field(b, degree);
+      EXPECT_LT((interpolated(a, field(a, degree), b) - expected).norm(), 1e-12 * expected.norm())
+          << "order " << from << " to " << to << ", degree " << degree;
+    }
+    const Eigen::VectorXd beyond = field(b, std::min(from, to) + 1);
+    EXPECT_GT((interpolated(a, field(a, std::min(from, to) + 1), b) - beyond).norm(), from < to ? 1e-6 : 0.0);
+  }
+}
+
+TEST(ModesNear, OfTheNextOrderAreThoseOfABlockLanczosRun) {
+  const ModeOptions options{.count = 6, .up_to_hz = {}, .verify_count = false};
+  const Model fine = cantilever(4), coarse = cantilever(3);
+  const Modes above = modes(fine, factorise(fine), options);
+  const Factored factored = factorise(coarse);
+  const Modes exact = modes(coarse, factored, options);
+  linalg::Eigenpairs start = above.pairs;
+  start.Phi = interpolated(fine, start.Phi, coarse);
+  const double residual = 0.02;
+  const auto near = modes_near(coarse, factored, start, residual);
+  ASSERT_TRUE(near.has_value());
+  EXPECT_LE(near->pairs.inverse_residual.maxCoeff(), residual);
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    const double above_exact = near->pairs.lambda(k) / exact.pairs.lambda(k) - 1.0;
+    EXPECT_GT(above_exact, -1e-9) << "a Ritz value of a held part lies above";
+    EXPECT_LT(above_exact, residual * residual) << "mode " << k;
+    EXPECT_GT(exact.frequency_hz(k), above.frequency_hz(k)) << "the orders are nested";
+  }
+}
+
+TEST(ModesNear, GivesUpWhereTheStartIsTooFar) {
+  const Model model = cantilever(2);
+  const Factored factored = factorise(model);
+  linalg::Eigenpairs start;
+  start.lambda = Eigen::Vector2d(1.0, 2.0);
+  start.Phi = Eigen::MatrixXd::Random(model.K.rows(), 2);
+  EXPECT_FALSE(modes_near(model, factored, start, 1e-12).has_value()) << "four steps do not reach this";
+  start.Phi.col(0).setZero();
+  start.Phi.col(1).setZero();
+  EXPECT_FALSE(modes_near(model, factored, start, 1e-3).has_value()) << "no directions";
+}
+
+TEST(RefineToTolerance, EstimatesFromTheLowerOrderAsTwoFullSolutionsDo) {
+  SolidPart part;
+  part.mesh = [](int) { return mesh::kuhn_box(box.size, {3, 2, 1}); };
+  part.material = steel;
+  for (const bool held : {true, false}) {
+    if (held) part.supports = {{"x_min", mesh::face_of(box, "x_min"), {0, 1, 2}}};
+    if (!held) part.supports.clear();
+    ToleranceOptions options;
+    options.tolerance = 1e-3;
+    options.modes.count = 6;
+    options.first_order = 3;
+    options.last_order = 4;
+    options.levels = 1;
+    const RefinementStep step = refine_to_tolerance(part, options).estimate.steps.at(1);
+    const auto frequencies = [&](int order) {
+      const Model model = supported_model(part.mesh(0), order, steel, part.supports);
+      return Eigen::VectorXd(modes(model, factorise(model), options.modes).frequency_hz.tail(6));
+    };
+    const Eigen::VectorXd lower = frequencies(3), higher = frequencies(4);
+    const double change = ((lower - higher).array() / higher.array()).abs().maxCoeff();
+    EXPECT_NEAR(step.frequency_change.value_or(0.0), change, 0.01 * options.tolerance) << "held: " << held;
+  }
+}
+
+}  // namespace
+}  // namespace thinwall::fem
