@@ -7,88 +7,20 @@
 #include <set>
 
 #include "app/least_squares.hpp"
+#include "app/part_evaluation.hpp"
 #include "app/part_stage.hpp"
 #include "app/support_stage.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
-#include "fem/points.hpp"
 
 namespace thinwall::app {
 
 namespace {
 
-[[noreturn]] void no_such_mode(const UpdatingTarget& target, std::size_t found) {
-  throw core::InputError("updating: mode " + std::to_string(target.rank) + " at " + target.point +
-                         " was asked for, but only " + std::to_string(found) +
-                         " take part there; raise modes.count or modes.up_to, or choose another point");
-}
-
 double ranked(const UpdatingTarget& target, const std::vector<Participation>& modes) {
-  if (static_cast<std::size_t>(target.rank) > modes.size()) no_such_mode(target, modes.size());
+  if (static_cast<std::size_t>(target.rank) > modes.size()) throw no_such_mode(target, modes.size());
   return modes[static_cast<std::size_t>(target.rank) - 1].frequency_hz;
 }
-
-/// Modes of the full model that take part at "P.x" by at least a tenth of the largest share φ²/ω².
-std::vector<Participation> full_participation(const Case& source, const fem::Model& model, const fem::Modes& modes,
-                                              const std::string& dof) {
-  const auto dot = dof.rfind('.');
-  const Point& p = point(source, dof.substr(0, dot));
-  const fem::NamedPoint named{p.name, position(*source.part, p), p.patch_radius, {dynamics::axis(dof.substr(dot + 1))}};
-  const Eigen::VectorXd amplitude = modes.pairs.Phi.transpose() * fem::point_columns(model, named);
-  std::vector<Participation> all;
-  double largest = 0.0;
-  for (Eigen::Index k = modes.rigid_motions; k < amplitude.size(); ++k) {
-    const double share = amplitude(k) * amplitude(k) / modes.pairs.lambda(k);
-    all.push_back({modes.frequency_hz(k), share});
-    largest = std::max(largest, share);
-  }
-  std::erase_if(all, [&](const Participation& q) { return q.share < 0.1 * largest; });
-  return all;
-}
-
-/// |φᵀMψ|² / (φᵀMφ ψᵀMψ) of mass-normalised shapes on one mesh: the mode most like the reference.
-double most_alike(const fem::Model& model, const fem::Modes& modes, const Eigen::VectorXd& reference) {
-  Eigen::Index best = 0;
-  (modes.pairs.Phi.transpose() * (model.M * reference)).cwiseAbs().maxCoeff(&best);
-  return modes.frequency_hz(best);
-}
-
-/// What the targets are on the part as the case now describes it.
-class PartEvaluation {
- public:
-  PartEvaluation(const Case& start, const Updating& updating, const mesh::TetMesh& mesh, int order)
-      : updating_(updating), mesh_(mesh), order_(order), start_size_(box_size(*start.part)) {}
-
-  Eigen::VectorXd operator()(const Case& now) {
-    const fem::Model model = part_model(now, stretched(mesh_, start_size_, box_size(*now.part)), order_);
-    const fem::Factored factored = fem::factorise(model);
-    fem::ModeOptions options;
-    options.inverse_residual = 1e-6;  // far below what a fit can tell
-    options.count = 8;
-    for (const auto& target : updating_.targets) options.count = std::max(options.count, target.rank + 6);
-    const fem::Modes modes = fem::modes(model, factored, options);
-    if (reference_.cols() == 0) reference_ = modes.pairs.Phi;
-    Eigen::VectorXd values(static_cast<Eigen::Index>(updating_.targets.size()));
-    for (Eigen::Index i = 0; i < values.size(); ++i) {
-      const UpdatingTarget& target = updating_.targets[static_cast<std::size_t>(i)];
-      const Eigen::Index number = target.rank - 1 + modes.rigid_motions;
-      if (target.match == "participation") {
-        values(i) = ranked(target, full_participation(now, model, modes, target.point));
-      } else {
-        values(i) =
-            target.match == "mac" ? most_alike(model, modes, reference_.col(number)) : modes.frequency_hz(number);
-      }
-    }
-    return values;
-  }
-
- private:
-  const Updating& updating_;
-  const mesh::TetMesh& mesh_;
-  int order_;
-  Eigen::Vector3d start_size_;
-  Eigen::MatrixXd reference_;  // shapes of the first evaluation, for MAC
-};
 
 /// `line`: of the frequency axis, for this target.
 double coupled_value(const UpdatingTarget& target, const Component& part, const CouplingResult& coupled,
@@ -96,7 +28,7 @@ double coupled_value(const UpdatingTarget& target, const Component& part, const 
   if (target.quantity == "coupled_frequency") {
     if (target.match == "participation") return ranked(target, participating_modes(*coupled.modal, target.point));
     const auto modes = dynamics::oscillating_modes(*coupled.modal);
-    if (static_cast<std::size_t>(target.rank) > modes.size()) no_such_mode(target, modes.size());
+    if (static_cast<std::size_t>(target.rank) > modes.size()) throw no_such_mode(target, modes.size());
     return dynamics::summarise(coupled.modal->poles(modes[static_cast<std::size_t>(target.rank) - 1])).frequency_hz;
   }
   const auto row = static_cast<Eigen::Index>(dynamics::row_of(part.response.responses, target.point));
@@ -156,8 +88,9 @@ Case with_parameters(const Case& source, const Updating& updating, const Eigen::
   return now;
 }
 
-UpdatingResult fit(Case& source, const Updating& updating,
-                   const std::function<Eigen::VectorXd(const Case&)>& evaluate) {
+/// `slopes`: ∂ values / ∂ scaled parameters of the case evaluated last; empty: by differences.
+UpdatingResult fit(Case& source, const Updating& updating, const std::function<Eigen::VectorXd(const Case&)>& evaluate,
+                   const std::function<Eigen::MatrixXd(const Case&)>& slopes) {
   Eigen::VectorXd start(static_cast<Eigen::Index>(updating.parameters.size()));
   UpdatingResult result;
   result.name = updating.name;
@@ -168,14 +101,23 @@ UpdatingResult fit(Case& source, const Updating& updating,
     result.parameters.push_back({p.key, value, 0.0, p.lower, p.upper, false});
   }
   const auto residuals = [&](const Eigen::VectorXd& scaled) {
+    ++result.evaluations;
     const Eigen::VectorXd values = evaluate(with_parameters(source, updating, scaled));
     Eigen::VectorXd r(values.size());
     for (Eigen::Index i = 0; i < r.size(); ++i)
       r(i) = residual(updating.targets[static_cast<std::size_t>(i)], values(i));
     return r;
   };
-  const LeastSquares found = bounded_least_squares(residuals, start, 0.02, 1e-4, 12);
-  result.evaluations = found.evaluations;
+  const auto relative_slopes = [&](const Eigen::VectorXd& scaled, const Eigen::VectorXd&) {
+    Eigen::MatrixXd jacobian = slopes(with_parameters(source, updating, scaled));
+    for (Eigen::Index i = 0; i < jacobian.rows(); ++i) {
+      const UpdatingTarget& target = updating.targets[static_cast<std::size_t>(i)];
+      jacobian.row(i) *= target.weight / target.value;
+    }
+    return jacobian;
+  };
+  const LeastSquares found = bounded_least_squares(
+      residuals, slopes ? JacobianAt(relative_slopes) : forward_differences(residuals, 0.02), start, 1e-4, 12);
   result.converged = found.converged;
   source = with_parameters(source, updating, found.parameters);
   for (Eigen::Index k = 0; k < start.size(); ++k) {
@@ -201,13 +143,18 @@ UpdatingResult fit(Case& source, const Updating& updating,
 
 }  // namespace
 
-UpdatingResult update_part(Case& source, const Updating& updating, const mesh::TetMesh& mesh, int order) {
+PartUpdating update_part(Case& source, const Updating& updating, const mesh::TetMesh& mesh, int order) {
   PartEvaluation evaluation(source, updating, mesh, order);
-  return fit(source, updating, [&](const Case& now) { return evaluation(now); });
+  PartUpdating result{fit(
+                          source, updating, [&](const Case& now) { return evaluation(now); },
+                          [&](const Case& now) { return evaluation.slopes(now); }),
+                      {}};
+  result.solved = evaluation.take(source);
+  return result;
 }
 
 UpdatingResult update_coupled(Case& source, const Updating& updating, const dynamics::SpatialModel& reduced) {
-  return fit(source, updating, [&](const Case& now) { return evaluate_coupled(now, updating, reduced); });
+  return fit(source, updating, [&](const Case& now) { return evaluate_coupled(now, updating, reduced); }, {});
 }
 
 }  // namespace thinwall::app
