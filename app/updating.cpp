@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <set>
 
 #include "app/least_squares.hpp"
 #include "app/part_evaluation.hpp"
@@ -22,54 +21,53 @@ double ranked(const UpdatingTarget& target, const std::vector<Participation>& mo
   return modes[static_cast<std::size_t>(target.rank) - 1].frequency_hz;
 }
 
-/// `line`: of the frequency axis, for this target.
-double coupled_value(const UpdatingTarget& target, const Component& part, const CouplingResult& coupled,
-                     Eigen::Index line) {
-  if (target.quantity == "coupled_frequency") {
-    if (target.match == "participation") return ranked(target, participating_modes(*coupled.modal, target.point));
-    const auto modes = dynamics::oscillating_modes(*coupled.modal);
-    if (static_cast<std::size_t>(target.rank) > modes.size()) throw no_such_mode(target, modes.size());
-    return dynamics::summarise(coupled.modal->poles(modes[static_cast<std::size_t>(target.rank) - 1])).frequency_hz;
-  }
-  const auto row = static_cast<Eigen::Index>(dynamics::row_of(part.response.responses, target.point));
-  const auto at = static_cast<std::size_t>(line);
-  return 1.0 - std::abs(coupled.receptance.response.H[at](row, row)) / std::abs(part.response.H[at](row, row));
+double coupled_frequency(const UpdatingTarget& target, const dynamics::ModalModel& coupled) {
+  if (target.match == "participation") return ranked(target, participating_modes(coupled, target.point));
+  const auto modes = dynamics::oscillating_modes(coupled);
+  if (static_cast<std::size_t>(target.rank) > modes.size()) throw no_such_mode(target, modes.size());
+  return dynamics::summarise(coupled.poles(modes[static_cast<std::size_t>(target.rank) - 1])).frequency_hz;
 }
 
 /// Frequency at which a reduction is read: the one given, or that of the part's mode.
 double reading_frequency(const UpdatingTarget& target, const dynamics::ModalModel& part) {
-  if (target.quantity != "reduction_at") return 1.0;
   if (target.frequency_hz > 0.0) return target.frequency_hz;
   return ranked(target, participating_modes(part, target.point));
 }
 
-/// The frequencies that the targets are read at, rising, each once.
-dynamics::FrequencyAxis axis_of(const std::vector<double>& reading_hz) {
-  const std::set<double> lines(reading_hz.begin(), reading_hz.end());
-  dynamics::FrequencyAxis axis;
-  axis.hz.resize(static_cast<Eigen::Index>(lines.size()));
-  std::copy(lines.begin(), lines.end(), axis.hz.begin());
-  return axis;
+/// 1 − |G|/|H| at the target's point, by receptances at one frequency.
+double reduction_at(const Case& now, const UpdatingTarget& target, const Component& part) {
+  dynamics::FrequencyAxis line;
+  line.hz = Eigen::VectorXd::Constant(1, reading_frequency(target, *part.modal));
+  const dynamics::ResponseModel H = part.spatial->has_structural_damping()
+                                        ? dynamics::direct_response(*part.spatial, line)
+                                        : dynamics::to_response(*part.modal, line);
+  const auto G = coupling::couple(H, robot_component(now, line).response, contacts_of(now)).response.H.front();
+  const auto row = static_cast<Eigen::Index>(dynamics::row_of(H.responses, target.point));
+  return 1.0 - std::abs(G(row, row)) / std::abs(H.H.front()(row, row));
 }
 
+void require_held(const dynamics::SpatialModel& part) {
+  if (dynamics::undamped_modes(part).omega_rad_s.minCoeff() >= 1e-3 * 2.0 * std::numbers::pi) return;
+  throw core::InputError("updating on = \"coupled\" needs a part that is held; add part.supports");
+}
+
+/// Modes of part and robot joined only if a target asks for them, and receptances likewise.
 Eigen::VectorXd evaluate_coupled(const Case& now, const Updating& updating, const dynamics::SpatialModel& reduced) {
+  if (now.robot->model != "one_mode")
+    throw core::InputError("updating on = \"coupled\" needs a robot of one mode, not a measured one");
+  const auto is_frequency = [](const UpdatingTarget& target) { return target.quantity == "coupled_frequency"; };
   std::vector<reduction::IdentifiedMode> identified;
-  const dynamics::SpatialModel matrices = damped(now, reduced, identified);
-  Component part = component(matrices, axis_of({1.0}));
-  if (!part.modal) throw core::InputError("updating on = \"coupled\" needs a part that is held; add part.supports");
-  std::vector<double> reading_hz;
-  reading_hz.reserve(updating.targets.size());
-  for (const UpdatingTarget& target : updating.targets) reading_hz.push_back(reading_frequency(target, *part.modal));
-  const dynamics::FrequencyAxis axis = axis_of(reading_hz);
-  part.response = matrices.has_structural_damping() ? dynamics::direct_response(matrices, axis)
-                                                    : dynamics::to_response(*part.modal, axis);
-  const Component robot = robot_component(now, axis);
-  if (!robot.spatial) throw core::InputError("updating on = \"coupled\" needs a robot of one mode, not a measured one");
-  const CouplingResult coupled = couple(now, part, robot);
+  Component part;
+  part.spatial = damped(now, reduced, identified);
+  require_held(*part.spatial);
+  if (!std::ranges::all_of(updating.targets, is_frequency)) part.modal = modes_of(*part.spatial);
+  dynamics::ModalModel coupled;
+  if (std::ranges::any_of(updating.targets, is_frequency))
+    coupled = modes_of(coupling::couple(*part.spatial, robot_mode(*now.robot), contacts_of(now)));
   Eigen::VectorXd values(static_cast<Eigen::Index>(updating.targets.size()));
-  for (std::size_t i = 0; i < updating.targets.size(); ++i) {
-    const auto line = std::lower_bound(axis.hz.begin(), axis.hz.end(), reading_hz[i]) - axis.hz.begin();
-    values(static_cast<Eigen::Index>(i)) = coupled_value(updating.targets[i], part, coupled, line);
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    const UpdatingTarget& target = updating.targets[static_cast<std::size_t>(i)];
+    values(i) = is_frequency(target) ? coupled_frequency(target, coupled) : reduction_at(now, target, part);
   }
   return values;
 }

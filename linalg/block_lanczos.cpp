@@ -195,8 +195,9 @@ void polish(const SparseMatrix& M, const ShiftedInverse& inverse, Eigenpairs& pa
   fix_signs(pairs.Phi);
 }
 
+/// A solve takes columns by eights and sixteens: a width between would pay for columns that it does not have.
 int block_width(const BlockLanczosOptions& options, Index rows) {
-  const int wanted = options.block > 0 ? options.block : std::clamp(options.count / 4, 8, 16);
+  const int wanted = options.block > 0 ? options.block : options.count < 64 ? 8 : 16;
   return static_cast<int>(std::min<Index>(wanted, rows));
 }
 
