@@ -22,7 +22,7 @@ struct [[nodiscard]] PartUpdating {
 /// whatever the number of parameters, for their derivatives need none (PartEvaluation::slopes).
 PartUpdating update_part(Case& source, const Updating& updating, const mesh::TetMesh& mesh, int order);
 
-/// The same with on = "coupled", on the reduced part: microseconds an evaluation. A reduction is compared by the
+/// The same with on = "coupled", on the reduced part: milliseconds an evaluation. A reduction is compared by the
 /// logarithm of what remains, log((1 − value)/(1 − wanted)).
 [[nodiscard]] UpdatingResult update_coupled(Case& source, const Updating& updating,
                                             const dynamics::SpatialModel& reduced);
