@@ -146,7 +146,7 @@ Discretisation refined_to_tolerance(const Case& source) {
                  wanted.tolerance, refined.estimate.frequency, refined.estimate.receptance);
   }
   Discretisation result{refined.model.mesh, refined.model.nodes.order, refined.estimate, {}};
-  result.solved = std::move(refined);
+  result.solved.emplace(Solution{std::move(refined.model), std::move(refined.factored), std::move(refined.modes)});
   return result;
 }
 

@@ -13,12 +13,19 @@
 
 namespace thinwall::app {
 
+/// The part's matrices, their factor and the modes that the case asks for.
+struct Solution {
+  fem::Model model;
+  fem::Factored factored;
+  fem::Modes modes;
+};
+
 /// How the part is cut into elements, in the part's own coordinates (before it is bent).
 struct Discretisation {
   mesh::TetMesh mesh;
   int order = 2;
   std::optional<fem::Estimate> estimate;  ///< with a tolerance
-  std::optional<fem::Refined> solved;     ///< with a tolerance: the last solution, until the part is changed
+  std::optional<Solution> solved;         ///< what a tolerance or a fit has left, until the part is changed
 };
 
 /// The part's prism in its plane: of a box, length and height; x, y, z of the mesher run along `axes` of the part.

@@ -1,6 +1,7 @@
 #include "app/least_squares.hpp"
 
 #include <Eigen/QR>
+#include <utility>
 #include <vector>
 
 namespace thinwall::app {
@@ -28,20 +29,25 @@ Eigen::VectorXd step_within_bounds(const LeastSquares& at) {
 
 }  // namespace
 
-LeastSquares bounded_least_squares(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& r,
-                                   const Eigen::VectorXd& start, double difference, double tolerance,
-                                   int most_iterations) {
+JacobianAt forward_differences(ResidualsAt r, double difference) {
+  return [r = std::move(r), difference](const Eigen::VectorXd& at, const Eigen::VectorXd& r_at) {
+    Eigen::MatrixXd jacobian(r_at.size(), at.size());
+    for (Eigen::Index k = 0; k < at.size(); ++k) {
+      Eigen::VectorXd x = at;
+      const double h = x(k) + difference <= 1.0 ? difference : -difference;
+      x(k) += h;
+      jacobian.col(k) = (r(x) - r_at) / h;
+    }
+    return jacobian;
+  };
+}
+
+LeastSquares bounded_least_squares(const ResidualsAt& r, const JacobianAt& jacobian, const Eigen::VectorXd& start,
+                                   double tolerance, int most_iterations) {
   LeastSquares at;
   at.parameters = clamped(start);
   at.residuals = r(at.parameters);
-  at.jacobian.resize(at.residuals.size(), start.size());
-  at.evaluations = 1 + static_cast<int>(start.size());
-  for (Eigen::Index k = 0; k < start.size(); ++k) {
-    Eigen::VectorXd x = at.parameters;
-    const double h = x(k) + difference <= 1.0 ? difference : -difference;
-    x(k) += h;
-    at.jacobian.col(k) = (r(x) - at.residuals) / h;
-  }
+  at.jacobian = jacobian(at.parameters, at.residuals);
   for (int iteration = 0; iteration < most_iterations && !at.converged; ++iteration) {
     Eigen::VectorXd step = step_within_bounds(at);
     for (int halving = 0; halving < 6; ++halving, step *= 0.5) {
@@ -50,7 +56,6 @@ LeastSquares bounded_least_squares(const std::function<Eigen::VectorXd(const Eig
         break;
       }
       const Eigen::VectorXd tried = r(at.parameters + step);
-      ++at.evaluations;
       if (!tried.allFinite()) continue;
       at.jacobian += (tried - at.residuals - at.jacobian * step) * step.transpose() / step.squaredNorm();
       if (!(tried.norm() < at.residuals.norm())) continue;

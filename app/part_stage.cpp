@@ -139,10 +139,10 @@ void check_mass(const Case& source, PartResult& part) {
                              (part.model.curved_elements > 0 ? ": use smaller elements or a higher order" : ""));
 }
 
-/// Model, factor and modes: as the tolerance left them, or computed now.
+/// Model, factor and modes: as the tolerance or a fit left them, or computed now.
 fem::Factored solve_part(const Case& source, Discretisation& discretisation, PartResult& part, Stages& stages) {
   if (discretisation.solved) {
-    fem::Refined& solved = *discretisation.solved;
+    Solution& solved = *discretisation.solved;
     part.model = std::move(solved.model);
     part.modes = std::move(solved.modes);
     return std::move(solved.factored);

@@ -44,8 +44,9 @@ void run_part(Case& work, Results& results, Stages& stages) {
     stages.begin("updating");
     const Eigen::Vector3d size_before = box_size(*work.part);
     discretisation.solved.reset();  // the part changes: mesh and order stay, the solution does not
-    results.updating.push_back(
-        update_part(work, updating, stretched(mesh, meshed_size, size_before), discretisation.order));
+    PartUpdating fit = update_part(work, updating, stretched(mesh, meshed_size, size_before), discretisation.order);
+    results.updating.push_back(std::move(fit.result));
+    discretisation.solved = std::move(fit.solved);
     spdlog::info("{}: {} evaluations", updating.name, results.updating.back().evaluations);
   }
   discretisation.mesh = stretched(std::move(discretisation.mesh), meshed_size, box_size(*work.part));

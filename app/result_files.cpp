@@ -38,18 +38,25 @@ std::string numbered(const std::string& stem, std::size_t number) {
   return stem + text;
 }
 
+/// Files to be written side by side, each by one call; what they refer to must outlive them.
+using Files = std::vector<std::function<void()>>;
+
 /// One shape a file, and the collection that names them in order.
 struct ShapeSeries {
   fs::path folder;
   std::string stem;  ///< "part_mode", "coupled_mode"
   std::vector<io::PvdEntry> entries;
 
-  void add(const fem::Model& model, const Eigen::VectorXd& free, double frequency_hz, double damping_ratio) {
+  /// `shape` is over the free rows of the model, computed when its file is written.
+  void add(Files& files, const fem::Model& model, const std::function<Eigen::VectorXd()>& shape, double frequency_hz,
+           double damping_ratio) {
     const std::size_t number = entries.size() + 1;
-    const std::string file = numbered(stem, number) + ".vtu";
-    io::write_vtu(folder / file, model.nodes, {{"displacement", fem::displacements(model, free)}},
-                  {{"frequency_hz", frequency_hz}, {"damping_ratio", damping_ratio}});
-    entries.push_back({static_cast<double>(number), file});
+    const std::string name = numbered(stem, number) + ".vtu";
+    files.emplace_back([path = folder / name, &model, shape, frequency_hz, damping_ratio] {
+      io::write_vtu(path, model.nodes, {{"displacement", fem::displacements(model, shape())}},
+                    {{"frequency_hz", frequency_hz}, {"damping_ratio", damping_ratio}});
+    });
+    entries.push_back({static_cast<double>(number), name});
   }
 };
 
@@ -65,7 +72,7 @@ void write_part_surface(const fs::path& file, const PartResult& part) {
   io::write_vtp(file, model.nodes, mesh::surface_triangles(model.nodes, mesh::boundary(model.mesh)), shapes);
 }
 
-void write_part_modes(const fs::path& folder, const Results& results) {
+void write_part_modes(Files& files, const fs::path& folder, const Results& results) {
   const PartResult& part = *results.finite_elements;
   ShapeSeries series{folder, "part_mode", {}};
   std::vector<double> ratios;
@@ -80,14 +87,15 @@ void write_part_modes(const fs::path& folder, const Results& results) {
   for (Eigen::Index k = 0; k < part.modes.frequency_hz.size(); ++k) {
     const auto elastic = static_cast<std::size_t>(std::max<Eigen::Index>(0, k - part.modes.rigid_motions));
     const double zeta = k >= part.modes.rigid_motions && elastic < ratios.size() ? ratios[elastic] : 0.0;
-    series.add(part.model, part.modes.pairs.Phi.col(k), part.modes.frequency_hz(k), zeta);
+    const auto shape = [&part, k]() -> Eigen::VectorXd { return part.modes.pairs.Phi.col(k); };
+    series.add(files, part.model, shape, part.modes.frequency_hz(k), zeta);
     number.push_back(static_cast<double>(k + 1));
     frequency.push_back(part.modes.frequency_hz(k));
     damping.push_back(zeta);
     residual.push_back(part.modes.residual(k));
   }
   io::write_pvd(folder / "part.pvd", series.entries);
-  write_part_surface(folder / "part_surface.vtp", part);
+  files.emplace_back([path = folder / "part_surface.vtp", &part] { write_part_surface(path, part); });
   io::write_csv(
       folder / "modes.csv",
       {{"mode", number}, {"frequency_hz", frequency}, {"damping_ratio", damping}, {"relative_residual", residual}});
@@ -95,7 +103,7 @@ void write_part_modes(const fs::path& folder, const Results& results) {
 
 /// Coupled shapes on the part's mesh: u = T_CB q with q the part's rows of a coupled mode, turned so that the largest
 /// entry is real (a complex mode is drawn at the phase of its largest displacement).
-void write_coupled_modes(const fs::path& folder, const Results& results) {
+void write_coupled_modes(Files& files, const fs::path& folder, const Results& results) {
   const PartResult& part = *results.finite_elements;
   const dynamics::ModalModel& modal = *results.coupled->modal;
   const Eigen::MatrixXd& T = part.reduced->T;
@@ -110,10 +118,12 @@ void write_coupled_modes(const fs::path& folder, const Results& results) {
     Eigen::Index largest = 0;
     q.cwiseAbs().maxCoeff(&largest);
     q *= std::conj(q(largest)) / std::abs(q(largest));
-    Eigen::VectorXd shape = T * q.real();
-    shape /= shape.cwiseAbs().maxCoeff();
+    const auto shape = [&T, q = Eigen::VectorXd(q.real())]() -> Eigen::VectorXd {
+      const Eigen::VectorXd u = T * q;
+      return u / u.cwiseAbs().maxCoeff();
+    };
     const auto summary = dynamics::summarise(modal.poles(k));
-    series.add(part.model, shape, summary.frequency_hz, summary.damping_ratio);
+    series.add(files, part.model, shape, summary.frequency_hz, summary.damping_ratio);
     number.push_back(static_cast<double>(number.size() + 1));
     frequency.push_back(summary.frequency_hz);
     damping.push_back(summary.damping_ratio);
@@ -159,12 +169,10 @@ nlohmann::json records(const std::vector<io::FileRecord>& files) {
 
 void write_results(const fs::path& folder, const Case& source, const Results& results) {
   for (const char* name : subfolders) fs::create_directories(folder / name);
-  std::vector<std::function<void()>> files;  // that may be written side by side
+  Files files;
   if (results.finite_elements) {
-    files.emplace_back([&] {  // one after the other: VTK's first objects set up what all share
-      write_part_modes(folder / "modes", results);
-      if (results.coupled && results.coupled->modal) write_coupled_modes(folder / "modes", results);
-    });
+    write_part_modes(files, folder / "modes", results);
+    if (results.coupled && results.coupled->modal) write_coupled_modes(files, folder / "modes", results);
   }
   if (results.finite_elements && results.finite_elements->damped)
     files.emplace_back([&] { io::write_mat(folder / "models" / "part.mat", *results.finite_elements->damped); });
@@ -179,7 +187,9 @@ void write_results(const fs::path& folder, const Case& source, const Results& re
   if (results.robot) files.emplace_back([&] { write_frf(folder / "frf", "robot", results.robot->response); });
   for (const auto& lobes : results.lobes) files.emplace_back([&] { write_lobes(folder / "lobes", lobes); });
   for (const auto& path : results.path) files.emplace_back([&] { write_path(folder / "lobes", source, path); });
-  core::parallel_for(files.size(), [&](std::size_t i) { files[i](); });
+  if (results.finite_elements) files.front()();  // alone: VTK's first objects set up what all share
+  const std::size_t done = results.finite_elements ? 1 : 0;
+  core::parallel_for(files.size() - done, [&](std::size_t i) { files[done + i](); });
 }
 
 void publish(const fs::path& staging, const fs::path& folder) {

@@ -63,21 +63,22 @@ std::string integer_field(long value, std::size_t width) {
   return to_the_right(std::to_string(value), width);
 }
 
-/// Ew.d with one digit before the point, as every program but a Fortran one writes it.
-std::string real_field(double value, std::size_t width, int decimals) {
+/// Adds Ew.d with one digit before the point, as every program but a Fortran one writes it.
+void add_real(std::string& text, double value, std::size_t width, int decimals) {
   std::array<char, 40> buffer{};
   const auto end =
       std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::scientific, decimals).ptr;
   std::replace(buffer.data(), end, 'e', 'E');
-  return to_the_right({buffer.data(), static_cast<std::size_t>(end - buffer.data())}, width);
+  const auto size = static_cast<std::size_t>(end - buffer.data());
+  text.append(width - std::min(width, size), ' ').append(buffer.data(), size);
 }
 
-std::string abscissa_field(double hz) {
-  return real_field(hz, 13, 5);
+void add_abscissa(std::string& text, double hz) {
+  add_real(text, hz, 13, 5);
 }
 
-std::string value_field(double value) {
-  return real_field(value, 20, 12);
+void add_value(std::string& text, double value) {
+  add_real(text, value, 20, 12);
 }
 
 // ---- What both directions share ----
@@ -114,7 +115,8 @@ double even_line(const Abscissa& abscissa, Eigen::Index line) {
 // ---- Writing ----
 
 double in_six_digits(double value) {
-  const std::string field = abscissa_field(value);
+  std::string field;
+  add_abscissa(field, value);
   const auto first = field.find_first_not_of(' ');
   double rounded = value;
   std::from_chars(field.data() + first, field.data() + field.size(), rounded);
@@ -241,8 +243,9 @@ std::string values(const ResponseModel& model, bool even, Eigen::Index row, Eige
                                  name(model.forces[static_cast<std::size_t>(column)]) + " is not finite at " +
                                  core::number_text(hz) + " Hz");
     }
-    if (!even) text += abscissa_field(hz);
-    text += value_field(value.real()) + value_field(value.imag());
+    if (!even) add_abscissa(text, hz);
+    add_value(text, value.real());
+    add_value(text, value.imag());
     const bool line_is_full = !even || line % 2 == 1 || line + 1 == model.H.size();
     if (line_is_full) text += "\n";
   }
@@ -262,9 +265,9 @@ std::string function_text(const ResponseModel& model, const Abscissa& abscissa, 
   text += integer_field(frequency_response_function, 5) + integer_field(number, 10) + integer_field(0, 5) +
           integer_field(0, 10) + dof_fields(points, response) + dof_fields(points, force) + "\n";
   text += integer_field(complex_double_precision, 10) + integer_field(model.axis.size(), 10) +
-          integer_field(abscissa.even ? 1 : 0, 10) + abscissa_field(abscissa.first_hz) +
-          abscissa_field(abscissa.step_hz) + abscissa_field(0.0) + "\n";
-  text += all_characteristics(response, force) + values(model, abscissa.even, row, column);
+          integer_field(abscissa.even ? 1 : 0, 10);
+  for (const double hz : {abscissa.first_hz, abscissa.step_hz, 0.0}) add_abscissa(text, hz);
+  text += "\n" + all_characteristics(response, force) + values(model, abscissa.even, row, column);
   return text + std::string(delimiter) + "\n";
 }
 

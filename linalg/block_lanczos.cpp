@@ -161,8 +161,9 @@ Index finished(const Ritz& ritz, const BlockLanczosOptions& options, double sigm
   return exhausted && converged == have ? converged : -1;
 }
 
+/// A solve takes columns by eights and sixteens: a width between would pay for columns that it does not have.
 int block_width(const BlockLanczosOptions& options, Index rows) {
-  const int wanted = options.block > 0 ? options.block : std::clamp(options.count / 4, 8, 16);
+  const int wanted = options.block > 0 ? options.block : options.count < 64 ? 8 : 16;
   return static_cast<int>(std::min<Index>(wanted, rows));
 }
 

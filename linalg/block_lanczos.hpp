@@ -9,7 +9,7 @@ namespace thinwall::linalg {
 struct BlockLanczosOptions {
   int count = 10;            ///< pairs wanted, next above σ
   double lambda_max = 0.0;   ///< > 0: all pairs up to here instead, whatever their number
-  int block = 0;             ///< columns a step, ≥ 1; 0: chosen from count (8 to 16)
+  int block = 0;             ///< columns a step, ≥ 1; 0: 8, from 64 pairs on 16
   double tolerance = 3e-10;  ///< on the inverse residual of every pair that is wanted
 };
 

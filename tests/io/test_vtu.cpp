@@ -8,12 +8,15 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <fstream>
 #include <locale>
 #include <random>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "io/pvd.hpp"
+#include "io/vtp.hpp"
 #include "io/vtu.hpp"
 #include "mesh/tet_mesh.hpp"
 #include "scratch_folder.hpp"
@@ -100,6 +103,11 @@ struct CommaNumbers : std::numpunct<char> {
   [[nodiscard]] std::string do_grouping() const override { return "\3"; }
 };
 
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 }  // namespace
 
 TEST_P(VtuOfOrder, IsInterpolatedByVtkAsTheFieldThatWasWritten) {
@@ -130,6 +138,30 @@ TEST_P(VtuOfOrder, IsInterpolatedByVtkAsTheFieldThatWasWritten) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OneToSix, VtuOfOrder, ::testing::Range(1, 7));
+
+TEST_F(Vtu, FilesWrittenSideBySideAreThoseWrittenOneAfterTheOther) {
+  const auto nodes = mesh::lagrange_nodes(three_tets(), 4);
+  const std::vector<std::array<int, 3>> triangles{{0, 1, 2}, {0, 1, 3}, {1, 2, 4}};
+  const auto write = [&](const std::string& stem, std::size_t i) {
+    NodeVectors field = displacement(nodes);
+    field.values *= 1.0 + static_cast<double>(i);
+    if (i % 2 == 0) {
+      write_vtu(path(stem + std::to_string(i)), nodes, {field}, {{"frequency_hz", 1.0 + static_cast<double>(i)}});
+    } else {
+      write_vtp(path(stem + std::to_string(i)), nodes, triangles, {field});
+    }
+  };
+  constexpr std::size_t count = 200;
+  for (std::size_t i = 0; i < count; ++i) write("alone", i);
+  const int threads = core::thread_count();
+  core::set_thread_count(8);
+  core::parallel_for(count, [&](std::size_t i) { write("beside", i); });
+  core::set_thread_count(threads);
+  for (std::size_t i = 0; i < count; ++i) {
+    EXPECT_FALSE(bytes_of(path("alone" + std::to_string(i))).empty());
+    EXPECT_EQ(bytes_of(path("alone" + std::to_string(i))), bytes_of(path("beside" + std::to_string(i)))) << i;
+  }
+}
 
 TEST_F(Vtu, KeepsTheVolumeOfTheMesh) {
   const mesh::TetMesh mesh = three_tets();

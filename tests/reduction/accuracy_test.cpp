@@ -115,5 +115,39 @@ TEST(FullResponse, EqualsADirectSolveOfTheDampedFullModel) {
                core::InputError);
 }
 
+/// A chain of twelve unit masses and springs, held at one end: fewer degrees of freedom than the basis has room for.
+TEST(FullResponse, IsExactWhereItsBasisHoldsTheWholeModel) {
+  const int n = 12;
+  Eigen::MatrixXd K = 2.0 * Eigen::MatrixXd::Identity(n, n);
+  K.diagonal(1).setConstant(-1.0);
+  K.diagonal(-1).setConstant(-1.0);
+  K(n - 1, n - 1) = 1.0;
+  const linalg::SparseMatrix sparse_K(K.sparseView());
+  const linalg::SparseMatrix M(Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n)).sparseView());
+  linalg::Eigenpairs pairs = linalg::dense_eigenpairs(sparse_K, M, {});
+  pairs.lambda.conservativeResize(3);
+  pairs.Phi.conservativeResize(Eigen::NoChange, 3);
+  const Eigen::MatrixXd inverse = K.inverse();
+  const linalg::ShiftedInverse action{
+      [&](const Eigen::Ref<const Eigen::MatrixXd>& B) -> Eigen::MatrixXd { return inverse * B; }, 0.0};
+  Interface interface;
+  interface.W.resize(n, 2);
+  interface.W.insert(n - 1, 0) = 1.0;
+  interface.W.insert(4, 1) = 1.0;
+  interface.dofs = {{"tip", Eigen::Vector3d::UnitX(), dynamics::DofKind::translation},
+                    {"middle", Eigen::Vector3d::UnitX(), dynamics::DofKind::translation}};
+  const double hz = 0.85 * std::sqrt(pairs.lambda(2)) / (2.0 * std::numbers::pi);
+  const auto full =
+      full_response(sparse_K, M, action, pairs, {}, 0.0, interface, dynamics::linear_axis(0.1 * hz, hz, 5));
+  EXPECT_LT(full.max_relative_residual, 1e-12);
+  for (Eigen::Index line = 0; line < 5; ++line) {
+    const double w = full.response.axis.omega_rad_s(line);
+    const Eigen::MatrixXd expected =
+        interface.W.transpose() * (K - w * w * Eigen::MatrixXd::Identity(n, n)).inverse() * interface.W;
+    const Eigen::MatrixXd found = full.response.H[static_cast<std::size_t>(line)].real();
+    EXPECT_LT((found - expected).norm(), 1e-12 * expected.norm()) << "line " << line;
+  }
+}
+
 }  // namespace
 }  // namespace thinwall::reduction
