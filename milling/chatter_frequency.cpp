@@ -22,9 +22,13 @@ double chatter_frequency_hz(const ContactGrid& grid, double period_s, const Rece
   }
   double largest = -1.0;
   double chatter = 0.0;
-  for (int k = -reach; k <= reach; ++k) {
+  const auto turn_of = [&](double omega) -> Eigen::VectorXcd {
+    return (complex<double>(0.0, -omega * seconds_per_rad) * grid.node_rad).array().exp();
+  };
+  const Eigen::VectorXcd step = turn_of(spacing);
+  Eigen::VectorXcd turn = turn_of(theta_rad / period_s - reach * spacing);
+  for (int k = -reach; k <= reach; ++k, turn = turn.cwiseProduct(step)) {
     const double omega = theta_rad / period_s + k * spacing;
-    const Eigen::VectorXcd turn = (complex<double>(0.0, -omega * seconds_per_rad) * grid.node_rad).array().exp();
     const double motion = (receptance(omega) * (force * turn)).norm();
     if (motion <= largest) continue;
     largest = motion;

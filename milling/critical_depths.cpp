@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "milling/complex_eigenvalues.hpp"
 
 namespace thinwall::milling {
 
@@ -19,8 +20,8 @@ using std::complex;
 
 constexpr double pi = std::numbers::pi;
 
-void require_found(Eigen::ComputationInfo info) {
-  if (info == Eigen::Success) return;
+void require_found(bool found) {
+  if (found) return;
   throw core::NumericalError(
       "stability: eigenvalues of the loop's gain were not found; check the structure at the cut");
 }
@@ -29,13 +30,12 @@ void require_found(Eigen::ComputationInfo info) {
 Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXcd& Z, double theta) {
   if (theta == 0.0 || theta == pi) {
     const Eigen::EigenSolver<Eigen::MatrixXd> eigen(Z.real(), false);
-    require_found(eigen.info());
+    require_found(eigen.info() == Eigen::Success);
     return -eigen.eigenvalues();
   }
-  thread_local Eigen::ComplexSchur<Eigen::MatrixXcd> schur(Z.rows());  // keeps its memory
-  schur.compute(Z, false);
-  require_found(schur.info());
-  return -schur.matrixT().diagonal();
+  const std::optional<Eigen::VectorXcd> eigenvalues = complex_eigenvalues(Z);
+  require_found(eigenvalues.has_value());
+  return -*eigenvalues;
 }
 
 /// No eigenvalue exceeds ‖Z⁴‖^¼ (Frobenius), and it is rarely more than a fifth above the largest.
@@ -156,7 +156,7 @@ CriticalDepths::Stop& CriticalDepths::at(double theta_rad) {
   Stop& stop = place->second;
   if (is_new) {
     stop.Z = gain_.Z(theta_rad);
-    if (!stop.Z.allFinite()) require_found(Eigen::NumericalIssue);
+    require_found(stop.Z.allFinite());
     stop.bound = radius_bound(stop.Z);
   }
   return stop;

@@ -1,6 +1,7 @@
 #include "milling/regenerative_loop.hpp"
 
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -16,40 +17,61 @@ namespace {
 using Eigen::Index;
 using std::complex;
 
+/// What polynomial forces of an element of `length_s` do to the modes. The last few are kept, each thread its own:
+/// along a path the poles often stay while shapes change.
+std::shared_ptr<const ModeMoments> moments_of(const Eigen::VectorXcd& poles, int nodes, double length_s) {
+  struct Known {
+    Eigen::VectorXcd poles;
+    int nodes = 0;
+    double length_s = 0.0;
+    std::shared_ptr<const ModeMoments> moments;
+  };
+  thread_local std::array<Known, 6> known;  // the grids of a row
+  thread_local std::size_t oldest = 0;
+  for (const Known& k : known) {
+    if (k.nodes == nodes && k.length_s == length_s && k.poles.size() == poles.size() && k.poles == poles)
+      return k.moments;
+  }
+  const Eigen::VectorXcd exponent = poles * length_s;
+  ModeMoments moments = shared_product_rule(nodes, exponent.lpNorm<Eigen::Infinity>()).moments(exponent);
+  for (Eigen::MatrixXcd& at_node : moments.inside) at_node *= length_s;
+  moments.end *= length_s;
+  known[oldest] = {poles, nodes, length_s, std::make_shared<const ModeMoments>(std::move(moments))};
+  return known[std::exchange(oldest, (oldest + 1) % known.size())].moments;
+}
+
 /// What unit modal forces at the nodes do to the modes: at a node, and at the end of the period.
 class ModeHistory {
  public:
   ModeHistory(const Eigen::VectorXcd& poles, const ContactGrid& grid, double seconds_per_rad)
       : poles_(poles), grid_(grid), seconds_per_rad_(seconds_per_rad) {
-    const double fastest = poles.cwiseAbs().maxCoeff();
     double last_length = -1.0;
+    moments_.reserve(grid.elements.size());
     for (const CutElement& e : grid.elements) {
       const double length = (e.to_rad - e.from_rad) * seconds_per_rad;
-      if (!moments_.empty() && std::abs(length - last_length) <= 1e-12 * length) {
-        moments_.push_back(moments_.back());
-        continue;
-      }
-      ModeMoments moments = shared_product_rule(e.nodes, fastest * length).moments(poles * length);
-      for (Eigen::MatrixXcd& at_node : moments.inside) at_node *= length;
-      moments.end *= length;
-      moments_.push_back(std::make_shared<const ModeMoments>(std::move(moments)));
-      last_length = length;
+      const bool as_before = !moments_.empty() && std::abs(length - last_length) <= 1e-12 * length;
+      moments_.push_back(as_before ? moments_.back() : moments_of(poles, e.nodes, length));
+      if (!as_before) last_length = length;
     }
   }
 
   /// e^{λ t}, poles.
   [[nodiscard]] Eigen::VectorXcd flow(double rad) const { return (poles_ * (rad * seconds_per_rad_)).array().exp(); }
 
-  /// At a node, poles × nodes.
+  /// At a node, poles × the nodes up to the end of its element; later ones have no part in it.
   [[nodiscard]] Eigen::MatrixXcd at_node(int node) const {
-    Eigen::MatrixXcd history = Eigen::MatrixXcd::Zero(poles_.size(), grid_.node_rad.size());
-    for (std::size_t e = 0; e < moments_.size(); ++e) {
+    Eigen::MatrixXcd history;
+    for (std::size_t e = moments_.size(); e-- > 0;) {
       const CutElement& element = grid_.elements[e];
       const int inside = node - element.first_node;
       if (inside < 0) continue;
-      auto block = history.middleCols(element.first_node, element.nodes);
-      if (inside < element.nodes) block = moments_[e]->inside[static_cast<std::size_t>(inside)];
-      else block = flow(grid_.node_rad(node) - element.to_rad).asDiagonal() * moments_[e]->end;
+      if (inside < element.nodes) {
+        history.resize(poles_.size(), element.first_node + element.nodes);
+        history.rightCols(element.nodes) = moments_[e]->inside[static_cast<std::size_t>(inside)];
+      } else {
+        history.middleCols(element.first_node, element.nodes).noalias() =
+            flow(grid_.node_rad(node) - element.to_rad).asDiagonal() * moments_[e]->end;
+      }
     }
     return history;
   }
@@ -177,9 +199,12 @@ RegenerativeLoop regenerative_loop(const RelativeStructure& structure, const Con
   for (Index l = 0; l < contacts; ++l)
     modal_force.col(l) = structure.b.transpose() * grid.contacts[static_cast<std::size_t>(l)].force;
   const auto forced_by_contacts = [&](const Eigen::MatrixXcd& by_nodes) {
-    Eigen::MatrixXcd forced = modal_force;
-    for (Index l = 0; l < contacts; ++l)
-      forced.col(l).array() *= by_nodes.col(grid.contacts[static_cast<std::size_t>(l)].node).array();
+    Eigen::MatrixXcd forced(poles, contacts);
+    for (Index l = 0; l < contacts; ++l) {
+      const Index node = grid.contacts[static_cast<std::size_t>(l)].node;
+      if (node < by_nodes.cols()) forced.col(l) = modal_force.col(l).cwiseProduct(by_nodes.col(node));
+      else forced.col(l).setZero();
+    }
     return forced;
   };
   const Sight seen = sight(grid);

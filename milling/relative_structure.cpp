@@ -88,9 +88,12 @@ Eigen::Matrix3cd receptance(const RelativeStructure& structure, double omega_rad
   Eigen::Matrix3cd G = Eigen::Matrix3cd::Zero();
   for (Eigen::Index k = 0; k < structure.poles.size(); ++k) {
     const complex<double> pole = structure.poles(k);
-    const Eigen::Matrix3cd residue = structure.phi.col(k) * structure.b.col(k).transpose();
-    G += residue / (i_omega - pole);
-    if (pole.imag() != 0.0) G += residue.conjugate() / (i_omega - std::conj(pole));
+    const Eigen::Vector3cd phi = structure.phi.col(k), b = structure.b.col(k);
+    const complex<double> gain = 1.0 / (i_omega - pole);
+    G.noalias() += phi * (gain * b).transpose();
+    if (pole.imag() == 0.0) continue;
+    const complex<double> conjugate_gain = 1.0 / (i_omega - std::conj(pole));
+    G.noalias() += phi.conjugate() * (conjugate_gain * b.conjugate()).transpose();
   }
   return G + structure.R;
 }

@@ -31,7 +31,7 @@ bool powers_vanish(Eigen::MatrixXd M) {
   Eigen::MatrixXd square(M.rows(), M.cols());
   for (int i = 0; i < most_squarings; ++i) {
     const double norm = M.norm();
-    if (norm < 0.5) return true;
+    if (norm < 0.9) return true;
     if (!(norm <= largest)) return false;
     square.noalias() = M * M;
     M.swap(square);
