@@ -1,5 +1,6 @@
 #include "milling/helical_row.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -8,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "milling/critical_depths.hpp"
 #include "milling/refined_crossing.hpp"
 
@@ -22,31 +24,64 @@ Resolution finer_by(Resolution r, std::size_t levels) {
   return r;
 }
 
-/// A crossing, its depth that of the grid it is found on.
-struct Settled {
-  Crossing crossing;
-  double slope = -1.0;  ///< of (depth found − depth of the grid) over the depth of the grid
+/// The eigenvalue ν of −Z near 1/depth on a grid of this depth, with its change with the depth of the grid.
+struct PairAtDepth {
+  Eigenpair pair;
+  complex<double> by_depth;
 };
 
-/// Moves the grid's depth to that of the crossing by the secant rule, which begins with the slope of the last grid.
-/// False if it does not come within `tolerance` of it (relative).
-bool settle(const CutAtSpeed& cut, Resolution resolution, double tolerance, Settled& settled) {
+PairAtDepth pair_at(const CutAtSpeed& cut, Resolution resolution, double depth_m, double theta) {
+  const DiscreteCut d = discrete(cut, resolution, depth_m);
+  PairAtDepth result{eigenpair_near(gain_of(d), theta, 1.0 / depth_m), 0.0};
+  const double step_m = -1e-6 * depth_m;
+  const DiscreteCut beside = discrete(cut, resolution, depth_m + step_m);
+  result.by_depth = (eigenpair_near(gain_of(beside), theta, result.pair.nu).nu - result.pair.nu) / step_m;
+  return result;
+}
+
+/// Brings a crossing to where ν(θ, w) = 1/w on grids of its own depth, by Newton's rule for angle and depth together.
+/// A multiplier leaves the circle as the depth rises where
+///
+///     d ln|μ|/dw = −Re[i (∂ν/∂w + 1/w²) / (∂ν/∂θ)] > 0.
+///
+/// False if the depth does not settle to `tolerance` (relative) among the edges. Throws NumericalError if an eigenvalue
+/// is not found.
+bool settled(const CutAtSpeed& cut, Resolution resolution, double tolerance, Crossing& crossing) {
+  constexpr complex<double> i(0.0, 1.0);
   const double height = cut.process.cutter.envelope.height_m;
-  double grid_depth = std::min(settled.crossing.depth_m, height);
-  double grid_before = 0.0;
-  double error_before = 0.0;
-  for (int i = 0; i < 12; ++i) {
-    const DiscreteCut d = discrete(cut, resolution, grid_depth);
-    if (!refine(gain_of(d), settled.crossing)) return false;
-    const double error = settled.crossing.depth_m - grid_depth;
-    if (std::abs(error) <= tolerance * grid_depth) return true;
-    if (i > 0) settled.slope = (error - error_before) / (grid_depth - grid_before);
-    const double highest = std::min(1.25 * grid_depth, height);
-    grid_before = std::exchange(grid_depth, std::clamp(grid_depth - error / settled.slope, 0.8 * grid_depth, highest));
-    if (grid_depth == grid_before) return false;  // it lies above the edges
-    error_before = error;
+  const bool at_end = crossing.theta_rad == 0.0 || crossing.theta_rad == std::numbers::pi;
+  double depth = std::min(crossing.depth_m, height);
+  double theta = crossing.theta_rad;
+  for (int step = 0; step < 12; ++step) {
+    const PairAtDepth at = pair_at(cut, resolution, depth, theta);
+    const complex<double> miss = at.pair.nu - 1.0 / depth;
+    const complex<double> by_depth = at.by_depth + 1.0 / (depth * depth);
+    Eigen::Matrix2d rows;
+    rows << at.pair.slope.real(), by_depth.real(), at.pair.slope.imag(), by_depth.imag();
+    const Eigen::Vector2d change = at_end
+                                       ? Eigen::Vector2d(0.0, -miss.real() / by_depth.real())
+                                       : Eigen::Vector2d(-rows.inverse() * Eigen::Vector2d(miss.real(), miss.imag()));
+    if (!change.allFinite()) return false;
+    if (std::abs(change(1)) <= tolerance * depth && std::abs(change(0)) <= std::sqrt(tolerance)) {
+      const double leaves = -(i * by_depth / at.pair.slope).real();
+      crossing = {depth + change(1), theta + change(0), (at_end ? 1 : 2) * (leaves > 0.0 ? 1 : -1), at.pair.right};
+      return crossing.depth_m <= height;
+    }
+    const double shorter = std::min({1.0, 0.1 * depth / std::abs(change(1)), 0.5 / std::abs(change(0))});
+    const double before = std::exchange(depth, std::min(depth + shorter * change(1), height));
+    theta += shorter * change(0);
+    if (depth == before || theta < 0.0 || theta > std::numbers::pi) return false;
   }
   return false;
+}
+
+/// The same, false where a guess leads to no eigenvalue.
+bool settle(const CutAtSpeed& cut, Resolution resolution, double tolerance, Crossing& crossing) {
+  try {
+    return settled(cut, resolution, tolerance, crossing);
+  } catch (const core::NumericalError&) {
+    return false;
+  }
 }
 
 /// What is known of the cut at one depth.
@@ -123,17 +158,16 @@ class HelicalSearch {
 
   /// Adds the crossings between two depths to `found`; false if what is found does not explain the counts, however
   /// often the step is halved.
-  [[nodiscard]] bool between(const Probe& low, const Probe& high, int halvings, std::vector<Settled>& found) const {
-    std::vector<Settled> inside;
+  [[nodiscard]] bool between(const Probe& low, const Probe& high, int halvings, std::vector<Crossing>& found) const {
+    std::vector<Crossing> inside;
     int change = 0;
     const auto add_from = [&](const std::vector<Crossing>& guesses) {
       for (const Crossing& guess : guesses) {
-        Settled s{guess};
-        if (guess.depth_m < 0.8 * low.depth_m || !settle(cut_, resolution(high.depth_m), 1e-7, s)) continue;
-        const Crossing& c = s.crossing;
+        Crossing c = guess;
+        if (guess.depth_m < 0.8 * low.depth_m || !settle(cut_, resolution(high.depth_m), 1e-7, c)) continue;
         if (c.depth_m <= low.depth_m || c.depth_m > high.depth_m || is_known(c, inside)) continue;
         change += c.unstable_change;
-        inside.push_back(std::move(s));
+        inside.push_back(std::move(c));
       }
     };
     if (low.unstable == 0 || high.unstable != low.unstable) add_from(high.guesses);
@@ -148,10 +182,9 @@ class HelicalSearch {
   }
 
  private:
-  [[nodiscard]] static bool is_known(const Crossing& c, const std::vector<Settled>& all) {
-    return std::any_of(all.begin(), all.end(), [&](const Settled& other) {
-      return std::abs(other.crossing.depth_m / c.depth_m - 1.0) < 1e-5 &&
-             other.crossing.unstable_change == c.unstable_change;
+  [[nodiscard]] static bool is_known(const Crossing& c, const std::vector<Crossing>& all) {
+    return std::any_of(all.begin(), all.end(), [&](const Crossing& other) {
+      return std::abs(other.depth_m / c.depth_m - 1.0) < 1e-5 && other.unstable_change == c.unstable_change;
     });
   }
 
@@ -161,13 +194,13 @@ class HelicalSearch {
 
 /// Crossings on grids of one resolution.
 struct Scan {
-  std::vector<Settled> found;
+  std::vector<Crossing> found;
   double searched_m = 0.0;  ///< up to here they explain the counts
 };
 
-double wanted_m(const std::vector<Settled>& found, const StabilityOptions& options) {
+double wanted_m(const std::vector<Crossing>& found, const StabilityOptions& options) {
   if (found.empty()) return options.depth_limit_m;
-  return std::min(options.depth_limit_m, options.follow * found.front().crossing.depth_m);
+  return std::min(options.depth_limit_m, options.follow * found.front().depth_m);
 }
 
 Scan scan(const HelicalSearch& search, const StabilityOptions& options) {
@@ -176,7 +209,7 @@ Scan scan(const HelicalSearch& search, const StabilityOptions& options) {
   while (low.depth_m < wanted_m(result.found, options)) {
     Probe high = search.after(low, std::min(search.next_depth(low.depth_m), wanted_m(result.found, options)));
     if (!search.between(low, high, 5, result.found)) break;
-    std::ranges::sort(result.found, {}, [](const Settled& s) { return s.crossing.depth_m; });
+    std::ranges::sort(result.found, {}, &Crossing::depth_m);
     low = std::move(high);
   }
   result.searched_m = low.depth_m;
@@ -189,17 +222,14 @@ std::vector<RefinedCrossing> refined(const CutAtSpeed& cut, const HelicalSearch&
   std::vector<RefinedCrossing> all;
   all.reserve(scan.found.size());
   int count = 0;
-  for (Settled& s : scan.found) {
-    RefinedCrossing c{s.crossing};
+  for (Crossing& crossing : scan.found) {
+    RefinedCrossing c{std::move(crossing)};
     const Resolution coarsest = search.resolution(c.crossing.depth_m);
-    const auto to_level = [&](std::size_t level, Crossing& crossing) {
+    const auto to_level = [&](std::size_t level, Crossing& moved) {
       const Resolution next = finer_by(coarsest, level);
       if (level > 2 && next.elements * next.nodes > options.most_nodes) return OnFinerGrid::none_finer;
-      s.crossing = std::move(crossing);
-      const bool kept = settle(cut, next, 1e-10, s);
-      crossing = s.crossing;
       row.nodes = std::max(row.nodes, next.elements * next.nodes);
-      return kept ? OnFinerGrid::kept : OnFinerGrid::lost;
+      return settle(cut, next, 1e-7, moved) ? OnFinerGrid::kept : OnFinerGrid::lost;
     };
     const bool bounds = count == 0 || count + c.crossing.unstable_change == 0;
     count += c.crossing.unstable_change;
