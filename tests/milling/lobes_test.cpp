@@ -129,6 +129,29 @@ TEST(Lobes, MultiplierCrossesOneAtTheLimitingDepth) {
   }
 }
 
+TEST(Lobes, FlipsOfACoarseGridThatAreAHopfCrossingOnFinerOnesAreNotMissed) {
+  // Two multipliers meet at −1: with 8 to 12 nodes two real ones cross, with more a complex pair 0.007 rad beside.
+  const double s = 38.0 / 49.0;
+  const RelativeStructure structure =
+      structure_of({{400.0 * (1.0 + 0.1 * s), 0.01, 0.5, std::sin(1.0 + 3.0 * s) * Eigen::Vector3d(1.0, 0.1, 0.0)},
+                    {730.0 * (1.0 - 0.05 * s), 0.015, 0.4, std::cos(2.0 + 5.0 * s) * Eigen::Vector3d(1.0, -0.2, 0.1)},
+                    {1210.0, 0.008, 0.6, Eigen::Vector3d(0.3, 1.0, 0.1)}});
+  MillingProcess process = wall_cut(MillingDirection::up);
+  process.cutter = {3, 0.016};
+  process.coefficients = {6e8, 2e8, 0.5e8, 0.0, 0.0, 0.0};
+  process.engagement = engagement_of(process.cutter, 6e-3, MillingDirection::up);
+  const double rpm = 4000.0 + 12000.0 * 49.0 / 399.0;
+  StabilityOptions options;
+  options.follow = 1.0;
+  for (const double expected : {4.5e-3, 4.9e-3, 5.5e-3}) {
+    options.expected_depth_m = expected;
+    const LobeRow row = limiting_depth(structure, process, rpm, options);
+    EXPECT_EQ(row.status, StabilityStatus::converged) << expected;
+    EXPECT_LT(multiplier_at(structure, process, rpm, 0.999 * row.limiting_depth_m, {}).modulus, 1.0);
+    EXPECT_GT(multiplier_at(structure, process, rpm, 1.001 * row.limiting_depth_m, {}).modulus, 1.0);
+  }
+}
+
 TEST(Lobes, NodeLimitIsAStatusWithTheErrorThatRemains) {
   StabilityOptions options;
   options.most_nodes = 8;
