@@ -69,7 +69,7 @@ Matching matched(const std::vector<Path>& a, std::vector<Path>& b, double length
   };
   std::vector<Candidate> candidates;
   const auto distance = [&](const Path& x, const Path& y) {
-    return std::min(std::abs(x.nu - y.nu), std::abs(x.nu + x.slope * length_rad - y.nu));
+    return std::sqrt(std::min(std::norm(x.nu - y.nu), std::norm(x.nu + x.slope * length_rad - y.nu)));
   };
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t j = 0; j < b.size(); ++j) candidates.push_back({distance(a[i], b[j]), i, j});
@@ -169,7 +169,7 @@ std::vector<Path> CriticalDepths::reached_at(double theta_rad, double depth_limi
   if (stop.bound <= smallest) return reached;
   if (stop.nu.size() == 0) stop.nu = eigenvalues_of(stop.Z, theta_rad);
   for (const complex<double> nu : stop.nu) {
-    if (std::abs(nu) > smallest) reached.push_back({nu});
+    if (std::norm(nu) > smallest * smallest) reached.push_back({nu});
   }
   return reached;
 }

@@ -44,11 +44,12 @@ PairAtDepth pair_at(const CutAtSpeed& cut, Resolution resolution, double depth_m
 ///
 ///     d ln|μ|/dw = −Re[i (∂ν/∂w + 1/w²) / (∂ν/∂θ)] > 0.
 ///
-/// False if the depth does not settle to `tolerance` (relative) among the edges. Throws NumericalError if an eigenvalue
-/// is not found.
-bool settled(const CutAtSpeed& cut, Resolution resolution, double tolerance, Crossing& crossing) {
+/// False if the depth does not settle to 1e-7 (relative) between two depths and among the edges. Throws NumericalError
+/// if an eigenvalue is not found.
+bool settled(const CutAtSpeed& cut, Resolution resolution, double from_m, double to_m, Crossing& crossing) {
   constexpr complex<double> i(0.0, 1.0);
-  const double height = cut.process.cutter.envelope.height_m;
+  constexpr double tolerance = 1e-7;
+  const double height = std::min(to_m, cut.process.cutter.envelope.height_m);
   const bool at_end = crossing.theta_rad == 0.0 || crossing.theta_rad == std::numbers::pi;
   double depth = std::min(crossing.depth_m, height);
   double theta = crossing.theta_rad;
@@ -70,15 +71,15 @@ bool settled(const CutAtSpeed& cut, Resolution resolution, double tolerance, Cro
     const double shorter = std::min({1.0, 0.1 * depth / std::abs(change(1)), 0.5 / std::abs(change(0))});
     const double before = std::exchange(depth, std::min(depth + shorter * change(1), height));
     theta += shorter * change(0);
-    if (depth == before || theta < 0.0 || theta > std::numbers::pi) return false;
+    if (depth == before || depth < from_m || theta < 0.0 || theta > std::numbers::pi) return false;
   }
   return false;
 }
 
 /// The same, false where a guess leads to no eigenvalue.
-bool settle(const CutAtSpeed& cut, Resolution resolution, double tolerance, Crossing& crossing) {
+bool settle(const CutAtSpeed& cut, Resolution resolution, double from_m, double to_m, Crossing& crossing) {
   try {
-    return settled(cut, resolution, tolerance, crossing);
+    return settled(cut, resolution, from_m, to_m, crossing);
   } catch (const core::NumericalError&) {
     return false;
   }
@@ -164,7 +165,7 @@ class HelicalSearch {
     const auto add_from = [&](const std::vector<Crossing>& guesses) {
       for (const Crossing& guess : guesses) {
         Crossing c = guess;
-        if (guess.depth_m < 0.8 * low.depth_m || !settle(cut_, resolution(high.depth_m), 1e-7, c)) continue;
+        if (!settle(cut_, resolution(high.depth_m), 0.9 * low.depth_m, 1.1 * high.depth_m, c)) continue;
         if (c.depth_m <= low.depth_m || c.depth_m > high.depth_m || is_known(c, inside)) continue;
         change += c.unstable_change;
         inside.push_back(std::move(c));
@@ -229,7 +230,7 @@ std::vector<RefinedCrossing> refined(const CutAtSpeed& cut, const HelicalSearch&
       const Resolution next = finer_by(coarsest, level);
       if (level > 2 && next.elements * next.nodes > options.most_nodes) return OnFinerGrid::none_finer;
       row.nodes = std::max(row.nodes, next.elements * next.nodes);
-      return settle(cut, next, 1e-7, moved) ? OnFinerGrid::kept : OnFinerGrid::lost;
+      return settle(cut, next, 0.9 * moved.depth_m, 1.1 * moved.depth_m, moved) ? OnFinerGrid::kept : OnFinerGrid::lost;
     };
     const bool bounds = count == 0 || count + c.crossing.unstable_change == 0;
     count += c.crossing.unstable_change;

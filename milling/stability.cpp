@@ -127,8 +127,8 @@ LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
     const double wanted = wanted_m(first, options);
     LobeRow row = row_from(grids, std::move(first), cut.spindle_speed_rpm, options);
     if (row.crossings.empty()) describe_depth_limit(row, cut, options);
-    // By the nodes of the search: a crossing that is none on finer grids (two flips that become one Hopf crossing beside
-    // them) has been sought on many without avail, and another search with a few more nodes sees it as it is.
+    // By the nodes of the search: a crossing that is none on finer grids (two flips that become one Hopf crossing
+    // beside them) has been sought on many without avail, and another search with a few more nodes sees it as it is.
     if ((sound(row) && row.searched_m >= wanted) || 3 * grids.nodes(0) >= options.most_nodes) return row;
     resolution = finer(resolution);
   }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/error.hpp"
 #include "milling/stability.hpp"
@@ -136,19 +137,53 @@ TEST(Helix, LimitingDepthIsWhereTheMultiplierCrossesOne) {
   }
 }
 
+/// The two-DOF benchmark at a/D = 0.1 with helices.
+const std::vector<testing::Mode> benchmark_modes{{922.0, 0.011, 0.03993, Eigen::Vector3d::UnitX()},
+                                                 {922.0, 0.011, 0.03993, Eigen::Vector3d::UnitY()}};
+
+MillingProcess benchmark_with(std::vector<double> helices_rad) {
+  MillingProcess process;
+  process.cutter = {2, 0.01, {}, std::move(helices_rad)};
+  process.coefficients = {6e8, 2e8, 0.0, 0.0, 0.0, 0.0};
+  process.engagement = engagement_of(process.cutter, 1e-3, MillingDirection::down);
+  return process;
+}
+
 TEST(Helix, SearchesUpToTheEndOfTheEdgesAndNotBeyond) {
-  // Among so many speeds some have a crossing just beyond the edges, which the steps towards it must not pass.
-  MillingProcess process = process_with({2, 0.012, {}, {30.0 * degree, 30.0 * degree}}, 120.0 * degree, 180.0 * degree);
+  // At 7205.5 rpm a crossing lies at 10.01 mm, just beyond the edges.
+  const RelativeStructure tool = relative_structure(testing::modal_model(benchmark_modes), "P");
+  MillingProcess process = benchmark_with({30.0 * degree, 30.0 * degree});
   StabilityOptions options;
-  options.depth_limit_m = 0.006;
-  for (double rpm = 4000.0; rpm < 16000.0; rpm += 300.0) {
-    process.cutter.envelope.height_m = 0.012;
-    const LobeRow longer = limiting_depth(structure(), process, rpm, options);
+  options.depth_limit_m = 0.01;
+  for (const double rpm : {7205.514, 7210.0, 9210.0}) {
+    process.cutter.envelope.height_m = 0.02;
+    const LobeRow longer = limiting_depth(tool, process, rpm, options);
     process.cutter.envelope.height_m = options.depth_limit_m;
-    const LobeRow row = limiting_depth(structure(), process, rpm, options);
-    EXPECT_EQ(row.at_limit, longer.at_limit) << rpm;
+    const LobeRow row = limiting_depth(tool, process, rpm, options);
+    EXPECT_EQ(row.status, StabilityStatus::converged) << rpm;
     EXPECT_EQ(row.crossings.size(), longer.crossings.size()) << rpm;
     EXPECT_NEAR(row.limiting_depth_m / longer.limiting_depth_m, 1.0, 2e-4) << rpm;
+  }
+}
+
+TEST(Helix, CrossingsThatAppearWithTheShapeOfTheCutAreFound) {
+  // Frozen at any depth up to 5.4 mm the cut has no crossing near the one that the true cut has there (two flips appear
+  // together as the shape changes); the second row ends in a range that such a crossing makes unstable.
+  const RelativeStructure tool = relative_structure(testing::modal_model(benchmark_modes), "P");
+  MillingProcess process = benchmark_with({30.0 * degree, 40.0 * degree});
+  process.cutter.envelope.height_m = 0.012;
+  StabilityOptions options;
+  options.depth_limit_m = 0.01;
+  options.follow = 1.0;
+  for (const double rpm : {6818.182, 14090.909}) {
+    const LobeRow row = limiting_depth(tool, process, rpm, options);
+    ASSERT_EQ(row.status, StabilityStatus::converged) << rpm;
+    const auto modulus = [&](double factor) {
+      return multiplier_at(tool, process, rpm, factor * row.limiting_depth_m, options).modulus;
+    };
+    EXPECT_LT(modulus(0.999), 1.0) << rpm;
+    EXPECT_GT(modulus(1.001), 1.0) << rpm;
+    for (const double factor : {0.3, 0.6, 0.9}) EXPECT_LT(modulus(factor), 1.0) << rpm;
   }
 }
 
