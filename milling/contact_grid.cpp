@@ -20,25 +20,18 @@ double longest_of(const std::vector<CutStretch>& stretches) {
   return longest;
 }
 
-/// Nodes of an element of which others have `nodes` and that is shorter than they by `share`.
-int nodes_of(double share, int nodes) {
-  constexpr int fewest = 4;
-  return std::min(nodes, std::max(fewest, static_cast<int>(std::ceil(std::sqrt(share) * nodes - 1e-9))));
-}
-
 void add_elements(const CutCycle& cycle, Resolution resolution, ContactGrid& grid) {
   const std::vector<CutStretch> stretches = cut_stretches(cycle);
   const double longest = longest_of(stretches);
+  const GaussRule rule = gauss_legendre(resolution.nodes);
   std::vector<double> nodes;
   for (const CutStretch& s : stretches) {
     const double share = (s.to_rad - s.from_rad) / longest;
     const int count = std::max(1, static_cast<int>(std::ceil(share * resolution.elements - 1e-9)));
     const double length = (s.to_rad - s.from_rad) / count;
-    const int needed = nodes_of(std::min(1.0, share * resolution.elements), resolution.nodes);
-    const GaussRule rule = gauss_legendre(needed);
     for (int e = 0; e < count; ++e) {
       const double from = s.from_rad + e * length;
-      grid.elements.push_back({from, from + length, static_cast<int>(nodes.size()), needed});
+      grid.elements.push_back({from, from + length, static_cast<int>(nodes.size()), resolution.nodes});
       for (const double c : rule.node) nodes.push_back(from + c * length);
     }
   }

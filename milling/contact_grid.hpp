@@ -48,7 +48,7 @@ struct ContactGrid {
 /// How finely a cut is sampled.
 struct Resolution {
   int elements = 1;  ///< of the longest stretch between entries and exits; others in proportion
-  int nodes = 8;     ///< of an element; fewer, by the root of their length, of elements that are shorter
+  int nodes = 8;     ///< of an element
 };
 
 /// The period is a pitch where all teeth are alike, else a turn. Elements end where a tip, a joint of the envelope or

@@ -32,10 +32,15 @@ struct PairAtDepth {
 
 PairAtDepth pair_at(const CutAtSpeed& cut, Resolution resolution, double depth_m, double theta) {
   const DiscreteCut d = discrete(cut, resolution, depth_m);
-  PairAtDepth result{eigenpair_near(gain_of(d), theta, 1.0 / depth_m), 0.0};
-  const double step_m = -1e-6 * depth_m;
-  const DiscreteCut beside = discrete(cut, resolution, depth_m + step_m);
-  result.by_depth = (eigenpair_near(gain_of(beside), theta, result.pair.nu).nu - result.pair.nu) / step_m;
+  PairAtDepth result{eigenpair_near(gain_of(d), theta, 1.0 / depth_m), INFINITY};
+  // Where a stretch of the cut appears with the depth ν jumps by the error of the grid: not on both sides.
+  const double above = std::min(1e-6 * depth_m, cut.process.cutter.envelope.height_m - depth_m);
+  for (const double step_m : {-1e-6 * depth_m, above}) {
+    if (step_m == 0.0 || std::abs(result.by_depth) * depth_m * depth_m < 100.0) continue;
+    const DiscreteCut beside = discrete(cut, resolution, depth_m + step_m);
+    const complex<double> change = eigenpair_near(gain_of(beside), theta, result.pair.nu).nu - result.pair.nu;
+    if (std::abs(change / step_m) < std::abs(result.by_depth)) result.by_depth = change / step_m;
+  }
   return result;
 }
 
@@ -63,7 +68,7 @@ bool settled(const CutAtSpeed& cut, Resolution resolution, double from_m, double
                                        ? Eigen::Vector2d(0.0, -miss.real() / by_depth.real())
                                        : Eigen::Vector2d(-rows.inverse() * Eigen::Vector2d(miss.real(), miss.imag()));
     if (!change.allFinite()) return false;
-    if (std::abs(change(1)) <= tolerance * depth && std::abs(change(0)) <= std::sqrt(tolerance)) {
+    if (std::abs(miss) * depth <= 100.0 * tolerance && std::abs(change(1)) <= tolerance * depth) {
       const double leaves = -(i * by_depth / at.pair.slope).real();
       crossing = {depth + change(1), theta + change(0), (at_end ? 1 : 2) * (leaves > 0.0 ? 1 : -1), at.pair.right};
       return crossing.depth_m <= height;
