@@ -98,10 +98,20 @@ void require_usable(const MillingProcess& process, const StabilityOptions& optio
   }
 }
 
+std::optional<CutAtSpeed> by_poles(const SampledStructure& structure, const MillingProcess& process,
+                                   double spindle_speed_rpm) {
+  if (!structure.poles) return std::nullopt;
+  return CutAtSpeed{in_tool_axes(*structure.poles, process.frame), process, {}, spindle_speed_rpm};
+}
+
 SampledCut sampled_cut(const SampledStructure& structure, const MillingProcess& process, double spindle_speed_rpm) {
-  SampledCut cut{structure.samples, {}, process, {}, 0.0, highest_resonance_hz(structure.samples), spindle_speed_rpm};
-  if (structure.poles)
-    cut.by_poles.emplace(in_tool_axes(*structure.poles, process.frame), process, Eigen::Matrix3Xd(), spindle_speed_rpm);
+  SampledCut cut{structure.samples,
+                 by_poles(structure, process, spindle_speed_rpm),
+                 process,
+                 {},
+                 0.0,
+                 highest_resonance_hz(structure.samples),
+                 spindle_speed_rpm};
   cut.yielding = yielding_directions(cut);
   if (cut.by_poles) cut.by_poles->yielding = cut.yielding;  // one grid for both
   cut.mean_stiffness = mean_stiffness(contact_grid(process, cut.yielding, {1, 8}));
