@@ -183,7 +183,8 @@ void sample(const FedCut& given, const PeriodicMotion& motion, const Eigen::RowV
 
 ForcedVibration vibration_on(const FedCut& given, Resolution resolution, double per_rad) {
   const CutAtSpeed& cut = given.cut;
-  const ContactGrid grid = contact_grid(cut.process, cut.yielding, resolution, given.depth_m);
+  // All directions: the force is an answer, also where nothing yields.
+  const ContactGrid grid = contact_grid(cut.process, Eigen::Matrix3d::Identity(), resolution, given.depth_m);
   Eigen::MatrixXd force = static_force(given, grid);
   add_regeneration(given, grid, force);
   const PeriodicMotion motion = periodic_motion(cut.structure, grid, cut.spindle_speed_rpm, force);

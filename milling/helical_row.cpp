@@ -97,6 +97,12 @@ struct Probe {
   std::vector<Crossing> guesses;  ///< where crossings of other depths may lie
 };
 
+/// Crossings on grids of one resolution.
+struct Scan {
+  std::vector<Crossing> found;
+  double searched_m = 0.0;  ///< up to here they explain the counts
+};
+
 /// The search for the crossings of a speed on grids of one resolution, so many times finer than is needed.
 class HelicalSearch {
  public:
@@ -162,9 +168,9 @@ class HelicalSearch {
     return depth_m + std::max(0.05 * depth_m, std::min(step_m, 1.0 / phase_rad_per_m));
   }
 
-  /// Adds the crossings between two depths to `found`; false if what is found does not explain the counts, however
-  /// often the step is halved.
-  [[nodiscard]] bool between(const Probe& low, const Probe& high, int halvings, std::vector<Crossing>& found) const {
+  /// Adds the crossings between two depths; false if from some depth on, searched_m then, what is found does not
+  /// explain the counts, however often the step is halved.
+  [[nodiscard]] bool between(const Probe& low, const Probe& high, int halvings, Scan& scan) const {
     std::vector<Crossing> inside;
     int change = 0;
     const auto add_from = [&](const std::vector<Crossing>& guesses) {
@@ -179,12 +185,13 @@ class HelicalSearch {
     if (low.unstable == 0 || high.unstable != low.unstable) add_from(high.guesses);
     if (change != high.unstable - low.unstable) add_from(low.guesses);
     if (change == high.unstable - low.unstable) {
-      std::move(inside.begin(), inside.end(), std::back_inserter(found));
+      std::move(inside.begin(), inside.end(), std::back_inserter(scan.found));
+      scan.searched_m = high.depth_m;
       return true;
     }
     if (halvings == 0) return false;
     const Probe middle = after(low, 0.5 * (low.depth_m + high.depth_m));
-    return between(low, middle, halvings - 1, found) && between(middle, high, halvings - 1, found);
+    return between(low, middle, halvings - 1, scan) && between(middle, high, halvings - 1, scan);
   }
 
  private:
@@ -198,12 +205,6 @@ class HelicalSearch {
   std::size_t refinements_;
 };
 
-/// Crossings on grids of one resolution.
-struct Scan {
-  std::vector<Crossing> found;
-  double searched_m = 0.0;  ///< up to here they explain the counts
-};
-
 double wanted_m(const std::vector<Crossing>& found, const StabilityOptions& options) {
   if (found.empty()) return options.depth_limit_m;
   return std::min(options.depth_limit_m, options.follow * found.front().depth_m);
@@ -214,11 +215,11 @@ Scan scan(const HelicalSearch& search, const StabilityOptions& options) {
   Probe low;
   while (low.depth_m < wanted_m(result.found, options)) {
     Probe high = search.after(low, std::min(search.next_depth(low.depth_m), wanted_m(result.found, options)));
-    if (!search.between(low, high, 5, result.found)) break;
+    const bool explained = search.between(low, high, 5, result);
     std::ranges::sort(result.found, {}, &Crossing::depth_m);
+    if (!explained) break;
     low = std::move(high);
   }
-  result.searched_m = low.depth_m;
   return result;
 }
 
@@ -227,6 +228,7 @@ std::vector<RefinedCrossing> refined(const CutAtSpeed& cut, const HelicalSearch&
                                      const StabilityOptions& options, LobeRow& row) {
   std::vector<RefinedCrossing> all;
   all.reserve(scan.found.size());
+  const double first_m = scan.found.empty() ? 0.0 : scan.found.front().depth_m;
   int count = 0;
   for (Crossing& crossing : scan.found) {
     RefinedCrossing c{std::move(crossing)};
@@ -237,11 +239,17 @@ std::vector<RefinedCrossing> refined(const CutAtSpeed& cut, const HelicalSearch&
       row.nodes = std::max(row.nodes, next.elements * next.nodes);
       return settle(cut, next, 0.9 * moved.depth_m, 1.1 * moved.depth_m, moved) ? OnFinerGrid::kept : OnFinerGrid::lost;
     };
-    const bool bounds = count == 0 || count + c.crossing.unstable_change == 0;
+    const bool beside_first = c.crossing.depth_m <= 1.01 * first_m;
+    const bool bounds = count == 0 || count + c.crossing.unstable_change == 0 || beside_first;
     count += c.crossing.unstable_change;
     refine_until(bounds ? 2 : 1, bounds ? options.error_tolerance : 1.0, to_level, c);
+    if (!c.kept && all.size() > 1 && !beside_first) {  // what lies as deep is not known
+      row.searched_m = std::min(row.searched_m, std::sqrt(all.back().crossing.depth_m * c.crossing.depth_m));
+      break;
+    }
     if (!c.kept) row.status = StabilityStatus::crossing_missed;
-    else if (bounds && c.error_estimate > options.error_tolerance) row.status = StabilityStatus::node_limit_reached;
+    else if (bounds && c.error_estimate > options.error_tolerance && row.status == StabilityStatus::converged)
+      row.status = StabilityStatus::node_limit_reached;
     all.push_back(std::move(c));
   }
   std::ranges::stable_sort(all, {}, [](const RefinedCrossing& c) { return c.crossing.depth_m; });
@@ -257,13 +265,18 @@ LobeRow row_of(const CutAtSpeed& cut, std::size_t refinements, const StabilityOp
   Scan found = scan(search, options);
   row.searched_m = found.searched_m;
   if (found.found.empty() && found.searched_m < options.depth_limit_m) row.status = StabilityStatus::crossing_missed;
+  if (found.searched_m == 0.0) return row;  // not even near zero
   std::vector<RefinedCrossing> all = refined(cut, search, std::move(found), options, row);
   const auto count_at = [&](double depth_m, std::size_t level) {
     return unstable(discrete(cut, finer_by(search.resolution(depth_m), level), depth_m), depth_m);
   };
   int count = 0;
   for (const RefinedCrossing& c : all) count += c.crossing.unstable_change;
-  while (all.size() > 1 && count_at(row.searched_m, 0) != count) {
+  while (options.follow > 1.0 && count_at(row.searched_m, 0) != count) {
+    if (all.size() <= 1) {
+      row.status = StabilityStatus::crossing_missed;
+      break;
+    }
     count -= all.back().crossing.unstable_change;
     const double deepest = all.back().crossing.depth_m;
     all.pop_back();
@@ -272,7 +285,9 @@ LobeRow row_of(const CutAtSpeed& cut, std::size_t refinements, const StabilityOp
   for (const RefinedCrossing& c : all) {
     const Resolution finest = finer_by(search.resolution(c.crossing.depth_m), c.level);
     const DiscreteCut d = discrete(cut, finest, c.crossing.depth_m);
-    row.crossings.push_back(lobe_point(c, chatter_frequency_hz(cut, d, c.crossing.theta_rad, c.crossing.mode)));
+    const double theta = c.crossing.theta_rad;
+    const complex<double> mu = theta == std::numbers::pi ? complex<double>(-1.0) : std::polar(1.0, theta);
+    row.crossings.push_back(lobe_point(c, chatter_frequency_hz(cut, d, theta, modulation(d, c.crossing.depth_m, mu))));
   }
   const double below = all.empty() ? row.searched_m : 0.999 * all.front().crossing.depth_m;
   if (count_at(below, all.empty() ? 1 : all.front().level) != 0) row.status = StabilityStatus::crossing_missed;

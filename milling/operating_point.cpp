@@ -25,7 +25,9 @@ std::vector<LobePoint> boundaries(const LobeRow& row) {
 
 /// ln of the distance to the nearest boundary in depth, positive where stable.
 double signed_distance(const LobeRow& row, double depth_m) {
-  double nearest = row.at_limit ? std::log(row.limiting_depth_m / depth_m) + 1e-3 : INFINITY;
+  // Without crossings the row is known to be stable as deep as its limiting depth says, and no deeper.
+  const bool unbounded = row.at_limit || row.crossings.empty();
+  double nearest = unbounded ? std::abs(std::log(row.limiting_depth_m / depth_m)) + 1e-3 : INFINITY;
   for (const LobePoint& point : boundaries(row))
     nearest = std::min(nearest, std::abs(std::log(point.depth_m / depth_m)));
   return stable_at(row, depth_m) ? nearest : -nearest;
@@ -68,9 +70,10 @@ DepthMargin depth_margin(const LobeRow& row, double depth_m) {
   const std::vector<LobePoint> all = boundaries(row);
   const auto above =
       std::find_if(all.begin(), all.end(), [&](const LobePoint& point) { return point.depth_m > depth_m; });
-  if (!stable_at(row, depth_m)) {
+  const bool stable = stable_at(row, depth_m);
+  if (!stable && above != all.begin()) {
     margin.boundary = *std::prev(above);
-  } else if (above != all.end()) {
+  } else if (stable && above != all.end()) {
     margin.boundary = *above;
   } else {
     margin.margin_m = row.searched_m - depth_m;

@@ -15,8 +15,8 @@ void refine_until(std::size_t levels, double tolerance, const ToLevel& to_level,
     const double before = c.crossing.depth_m;
     const OnFinerGrid outcome = to_level(c.level + 1, c.crossing);
     if (outcome == OnFinerGrid::none_finer) return;
-    ++c.level;
     c.kept = outcome == OnFinerGrid::kept;
+    if (c.kept) ++c.level;  // else the crossing stays that of the level before
     const double change_before = std::exchange(c.change, std::abs(before / c.crossing.depth_m - 1.0));
     c.error_estimate = c.kept ? estimate_from(c.change, c.level > 1 ? change_before : 0.0) : 1.0;
   }

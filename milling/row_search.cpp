@@ -40,6 +40,7 @@ int refine_boundaries(SearchGrids& grids, std::vector<RefinedCrossing>& all, con
     }
     const double beyond_grids = c.kept ? grids.error_beyond_grids(c.level, c.crossing) : 0.0;
     if (!c.kept) row.status = StabilityStatus::crossing_missed;
+    else if (row.status == StabilityStatus::crossing_missed) continue;
     else if (c.error_estimate > options.error_tolerance) row.status = StabilityStatus::node_limit_reached;
     else if (beyond_grids > options.error_tolerance) row.status = StabilityStatus::range_limited;
     c.error_estimate += beyond_grids;

@@ -163,7 +163,10 @@ GainOnCircle sum(const GainOnCircle& a, const GainOnCircle& b) {
                     [a, b](double theta) { return Eigen::MatrixXcd(a.Z(theta) + b.Z(theta)); },
                     [a, b](double theta) { return Eigen::MatrixXcd(a.slope(theta) + b.slope(theta)); },
                     {}};
-  std::ranges::set_union(a.stops, b.stops, std::back_inserter(both.stops));
+  std::ranges::merge(a.stops, b.stops, std::back_inserter(both.stops));
+  const auto same = [](double x, double y) { return y - x < 1e-4; };
+  both.stops.erase(std::unique(both.stops.begin(), both.stops.end(), same), both.stops.end());
+  both.stops.back() = pi;
   return both;
 }
 

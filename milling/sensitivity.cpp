@@ -45,8 +45,11 @@ MillingProcess with_only(MillingProcess process, Coefficient which) {
     one.*which = all.*which;
     return one;
   };
+  const bool unequal = !equal_teeth(process);
   process.coefficients = only(process.coefficients);
   for (CuttingCoefficients& of_tooth : process.tooth_coefficients) of_tooth = only(of_tooth);
+  // Teeth that differ in another coefficient still make a turn the period: an edge force, which no contact sees.
+  if (unequal && equal_teeth(process)) process.tooth_coefficients.front().K_te = 1.0;
   process.damping = {};
   return process;
 }

@@ -109,7 +109,13 @@ void describe_depth_limit(LobeRow& row, const CutAtSpeed& cut, const StabilityOp
 LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
   if (cut.process.cutter.depends_on_depth()) {
     LobeRow row = helical_row(cut, options);
-    if (row.crossings.empty()) describe_depth_limit(row, cut, options);
+    if (row.crossings.empty() && row.status == StabilityStatus::crossing_missed) {
+      // As deep as it is known to be stable.
+      row.limiting_depth_m = std::max(row.searched_m, std::min(surely_stable_depth_m(cut), options.depth_limit_m));
+      row.error_estimate = 1.0;
+    } else if (row.crossings.empty()) {
+      describe_depth_limit(row, cut, options);
+    }
     return row;
   }
   const auto fewer = [](Resolution a, Resolution b) { return a.elements * a.nodes < b.elements * b.nodes; };
