@@ -51,6 +51,15 @@ TEST(DepthMargin, WithoutALossOfStabilityItReachesToTheLimit) {
   EXPECT_NEAR(margin.margin_m, 3e-3, 1e-15);
 }
 
+TEST(DepthMargin, OfARowThatLostItsCrossingsEndsWhereItIsKnown) {
+  LobeRow row;
+  row.status = StabilityStatus::crossing_missed;
+  row.limiting_depth_m = row.searched_m = 1e-3;
+  EXPECT_FALSE(stable_at(row, 2e-3));
+  EXPECT_NEAR(depth_margin(row, 2e-3).margin_m, -1e-3, 1e-15);
+  EXPECT_TRUE(depth_margin(row, 2e-3).at_limit);
+}
+
 /// The speeds, rpm, at which turning of K w/k = κ loses or regains stability in lobe j: with R = r²,
 /// (1−R)² + 4ζ²R = 2κ(R−1) and 1/T = f r π/(jπ − atan((R−1)/(2ζr))).
 std::pair<double, double> turning_boundaries(double kappa, double zeta, double hz, int teeth, int j) {

@@ -111,6 +111,17 @@ TEST(SensitivitySums, FollowFromScaling) {
   EXPECT_NEAR(s.to_frequency.sum() + by_speed, 2.0, 1e-4);
 }
 
+TEST(SensitivitySums, HoldForTeethThatDifferInOneCoefficient) {
+  MillingProcess process = process_of(0.1);
+  process.tooth_coefficients.assign(static_cast<std::size_t>(process.cutter.teeth), process.coefficients);
+  process.tooth_coefficients.front().K_t *= 1.3;
+  const LobeRow row = limiting_depth(structure_of(three_modes), process, 7000.0, exact());
+  const DepthSensitivity s =
+      depth_sensitivity(structure_of(three_modes), process, 7000.0, row.crossings.front(), exact());
+  EXPECT_NEAR(s.to_K_t + s.to_K_r + s.to_K_a, -1.0, 1e-8);
+  EXPECT_NEAR(s.to_mass.sum(), 1.0, 1e-8);
+}
+
 TEST(SensitivitySums, UncertaintiesAddAsSquares) {
   DepthSensitivity s{Eigen::Vector2d(3.0, 0.0), Eigen::Vector2d(0.5, 0.0), Eigen::Vector2d(1.0, 0.0), -0.6, -0.4, 0.0};
   EXPECT_NEAR(relative_uncertainty(s, {0.01, 0.2, 0.05, 0.1}), std::sqrt(0.0009 + 0.01 + 0.0025 + 0.0036 + 0.0016),
