@@ -54,6 +54,8 @@ std::string depth_margin_text(const json& p) {
   const double margin_mm = p["depth_margin_m"].get<double>() * 1e3;
   const double percent = p["depth_margin_relative"].get<double>() * 100.0;
   const double boundary_mm = p["depth_m"].get<double>() * 1e3 + margin_mm;
+  if (p["depth_margin_at_limit"].get<bool>() && margin_mm < 0.0)  // its row lost the crossings between
+    return fmt::format("known to be stable to {:.3f} mm only", boundary_mm);
   if (p["depth_margin_at_limit"].get<bool>())
     return fmt::format("stable to the limit of {:.3f} mm ({:+.0f} % or more)", boundary_mm, percent);
   return fmt::format("boundary at {:.3f} mm ({:+.3f} mm, {:+.1f} %), error {}", boundary_mm, margin_mm, percent,

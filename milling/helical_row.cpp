@@ -68,6 +68,8 @@ bool settled(const CutAtSpeed& cut, Resolution resolution, double from_m, double
                                        ? Eigen::Vector2d(0.0, -miss.real() / by_depth.real())
                                        : Eigen::Vector2d(-rows.inverse() * Eigen::Vector2d(miss.real(), miss.imag()));
     if (!change.allFinite()) return false;
+    // A short step alone may come from a derivative over a jump of the grid: ν must be there, too, as near as the step
+    // allows where it changes a hundred times as fast as 1/w.
     if (std::abs(miss) * depth <= 100.0 * tolerance && std::abs(change(1)) <= tolerance * depth) {
       const double leaves = -(i * by_depth / at.pair.slope).real();
       crossing = {depth + change(1), theta + change(0), (at_end ? 1 : 2) * (leaves > 0.0 ? 1 : -1), at.pair.right};

@@ -21,7 +21,8 @@ using RowAt = std::function<LobeRow(double spindle_speed_rpm, const StabilityOpt
 struct DepthMargin {
   double margin_m = 0.0;  ///< up to the next loss of stability; of an unstable point, negative, down to the nearest
                           ///< stable depth
-  bool at_limit = false;  ///< no loss of stability up to the depth limit: the margin is at least this
+  bool at_limit = false;  ///< no loss of stability as deep as is known (the depth limit, or less where a row lost its
+                          ///< crossings: the margin is negative then): the margin is at least this
   LobePoint boundary;     ///< the crossing; of no meaning at the limit
 };
 
