@@ -1,8 +1,10 @@
 #include "core/memory.hpp"
 
 #include <malloc.h>
+#include <sys/mman.h>
 
 #include <fstream>
+#include <memory>
 #include <string>
 
 namespace thinwall::core {
@@ -22,6 +24,12 @@ void keep_freed_memory() {
   mallopt(M_MMAP_MAX, 0);  // else blocks above 32 MB would go back to the system, whatever the threshold
   mallopt(M_TRIM_THRESHOLD, -1);
   mallopt(M_ARENA_MAX, 1);  // what one thread frees, all can use: 5 % less memory at 170 000 DOFs
+}
+
+void want_large_pages(void* memory, std::size_t bytes) {
+  constexpr std::size_t page = std::size_t{2} << 20;
+  if (bytes < 4 * page || std::align(page, page, memory, bytes) == nullptr) return;
+  madvise(memory, bytes / page * page, MADV_HUGEPAGE);
 }
 
 }  // namespace thinwall::core

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/memory.hpp"
 #include "core/parallel.hpp"
 #include "fem/curved_element.hpp"
 #include "fem/node_graph.hpp"
@@ -109,6 +110,13 @@ struct Numbering {
   [[nodiscard]] const int* of_node(int node) const { return row_of.data() + 3 * static_cast<std::size_t>(node); }
 };
 
+/// Room for so many entries, on large pages.
+void resize_entries(SparseMatrix& A, Eigen::Index count) {
+  A.resizeNonZeros(count);
+  core::want_large_pages(A.valuePtr(), sizeof(double) * static_cast<std::size_t>(count));
+  core::want_large_pages(A.innerIndexPtr(), sizeof(int) * static_cast<std::size_t>(count));
+}
+
 /// Empty matrices with room for every pair of neighbours: full 3 × 3 blocks in K, their diagonals in M.
 void reserve(const Lists& graph, const Numbering& rows, Assembled& result) {
   const int nodes = static_cast<int>(graph.start.size()) - 1;
@@ -142,9 +150,9 @@ void reserve(const Lists& graph, const Numbering& rows, Assembled& result) {
   k_column[column] = k_filled;
   m_column[column] = m_filled;
   result.node_mass.outerIndexPtr()[nodes] = static_cast<int>(graph.start.back());
-  result.K.resizeNonZeros(k_filled);
-  result.M.resizeNonZeros(m_filled);
-  result.node_mass.resizeNonZeros(graph.start.back());
+  resize_entries(result.K, k_filled);
+  resize_entries(result.M, m_filled);
+  resize_entries(result.node_mass, graph.start.back());
 }
 
 /// The columns of one node before constraints: for each neighbour the block (i, j) of K at 3j + i, and M.

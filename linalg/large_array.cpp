@@ -1,11 +1,10 @@
 #include "linalg/large_array.hpp"
 
-#include <sys/mman.h>
-
 #include <cstdlib>
 #include <string>
 
 #include "core/error.hpp"
+#include "core/memory.hpp"
 
 namespace thinwall::linalg {
 
@@ -26,7 +25,7 @@ std::unique_ptr<void, FreeLarge> allocate_large(std::size_t bytes) {
     throw core::NumericalError("out of memory for a block of " + std::to_string(static_cast<double>(bytes) * 1e-9) +
                                " GB: use larger elements");
   }
-  if (large) madvise(memory.get(), whole, MADV_HUGEPAGE);  // a wish; refused, it costs nothing
+  core::want_large_pages(memory.get(), whole);
   return memory;
 }
 

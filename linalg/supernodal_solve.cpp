@@ -19,8 +19,8 @@ struct Panel {
   std::ptrdiff_t columns = 0;
 
   [[nodiscard]] double at(std::ptrdiff_t row, std::ptrdiff_t column) const { return values[column * rows + row]; }
-  /// Number of values below the triangle.
-  [[nodiscard]] double below() const { return static_cast<double>(columns * (rows - columns)); }
+  /// Whether what lies below the triangle is worth the work of all threads.
+  [[nodiscard]] bool is_large() const { return columns * (rows - columns) >= 100000; }
 };
 
 Panel panel(const SymbolicFactor& L, const double* values, int s) {
@@ -31,12 +31,14 @@ Panel panel(const SymbolicFactor& L, const double* values, int s) {
 template <int width>
 constexpr int columns_at_once = width > 8 ? 2 : 4;
 
-/// Y[:, from:to] −= Σ_c x_c L(·, column + c), `count` columns of L at once: one pass over Y for all of them.
+/// Y[:, from:to] −= Σ_c x_c L(·, column + c), `count` columns of L at once: one pass over Y for all of them. What
+/// follows these columns in memory is on its way into the cache meanwhile.
 template <int width, int count>
 void rank_update(const Panel& L, std::ptrdiff_t column, std::ptrdiff_t from, std::ptrdiff_t to, Rows<width>& Y) {
   const Eigen::Matrix<double, width, count> x = -Y.template middleCols<count>(column);
   const double* values = L.values + column * L.rows;
   for (std::ptrdiff_t row = from; row < to; ++row) {
+    __builtin_prefetch(values + count * (L.rows + row));
     Eigen::Matrix<double, width, 1> y = Y.col(row);
 #pragma GCC unroll 4
     for (int c = 0; c < count; ++c) y += values[c * L.rows + row] * x.col(c);
@@ -44,7 +46,8 @@ void rank_update(const Panel& L, std::ptrdiff_t column, std::ptrdiff_t from, std
   }
 }
 
-/// Σ_row L(row, column + c) Y[:, row] over the rows from `from` on, for `count` columns.
+/// Σ_row L(row, column + c) Y[:, row] over the rows from `from` on, for `count` columns. What precedes these columns in
+/// memory is on its way into the cache meanwhile.
 template <int width, int count>
 Eigen::Matrix<double, width, count> dot_products(const Panel& L, std::ptrdiff_t column, std::ptrdiff_t from,
                                                  std::ptrdiff_t to, const Rows<width>& Y) {
@@ -52,6 +55,7 @@ Eigen::Matrix<double, width, count> dot_products(const Panel& L, std::ptrdiff_t 
   for (auto& s : sum) s.setZero();
   const double* values = L.values + column * L.rows;
   for (std::ptrdiff_t row = from; row < to; ++row) {
+    __builtin_prefetch(values - count * (L.rows - row));
     const Eigen::Matrix<double, width, 1> y = Y.col(row);
 #pragma GCC unroll 4
     for (int c = 0; c < count; ++c) sum[static_cast<std::size_t>(c)] += values[c * L.rows + row] * y;
@@ -61,9 +65,9 @@ Eigen::Matrix<double, width, count> dot_products(const Panel& L, std::ptrdiff_t 
   return result;
 }
 
-/// Y₁ ← L₁₁⁻¹ Y₁, the rows of the panel's own columns.
+/// Y₁ ← L₁₁⁻¹ Y₁, the rows of the panel's own columns, and Y₂ ← Y₂ − L₂₁ Y₁ on the rows below up to `to`.
 template <int width>
-void forward(const Panel& L, Rows<width>& Y) {
+void forward(const Panel& L, std::ptrdiff_t to, Rows<width>& Y) {
   constexpr int step = columns_at_once<width>;
   std::ptrdiff_t column = 0;
   for (; column + step <= L.columns; column += step) {
@@ -71,26 +75,26 @@ void forward(const Panel& L, Rows<width>& Y) {
       Y.col(column + c) /= L.at(column + c, column + c);
       for (int r = c + 1; r < step; ++r) Y.col(column + r) -= L.at(column + r, column + c) * Y.col(column + c);
     }
-    rank_update<width, step>(L, column, column + step, L.columns, Y);
+    rank_update<width, step>(L, column, column + step, to, Y);
   }
   for (; column < L.columns; ++column) {
     Y.col(column) /= L.at(column, column);
-    rank_update<width, 1>(L, column, column + 1, L.columns, Y);
+    rank_update<width, 1>(L, column, column + 1, to, Y);
   }
 }
 
-/// Y₁ ← L₁₁⁻ᵀ Y₁.
+/// Y₁ ← L₁₁⁻ᵀ (Y₁ − L₂₁ᵀ Y₂), with the rows Y₂ below up to `to`.
 template <int width>
-void backward(const Panel& L, Rows<width>& Y) {
+void backward(const Panel& L, std::ptrdiff_t to, Rows<width>& Y) {
   constexpr int step = columns_at_once<width>;
   std::ptrdiff_t column = L.columns;
   for (; column % step != 0; --column) {
-    Y.col(column - 1) -= dot_products<width, 1>(L, column - 1, column, L.columns, Y);
+    Y.col(column - 1) -= dot_products<width, 1>(L, column - 1, column, to, Y);
     Y.col(column - 1) /= L.at(column - 1, column - 1);
   }
   for (; column > 0; column -= step) {
     const std::ptrdiff_t first = column - step;
-    Y.template middleCols<step>(first) -= dot_products<width, step>(L, first, column, L.columns, Y);
+    Y.template middleCols<step>(first) -= dot_products<width, step>(L, first, column, to, Y);
     for (int c = step - 1; c >= 0; --c) {
       for (int r = c + 1; r < step; ++r) Y.col(first + c) -= L.at(first + r, first + c) * Y.col(first + r);
       Y.col(first + c) /= L.at(first + c, first + c);
@@ -116,10 +120,9 @@ void pull_up(const Panel& L, std::ptrdiff_t from, std::ptrdiff_t to, Rows<width>
   for (; from < to; ++from) Y.col(from) -= dot_products<width, 1>(L, from, L.columns, L.rows, Y);
 }
 
-/// body(from, to) for pieces of [from, to), each a multiple of 16 long; on all threads if `shared` and worth it.
+/// body(from, to) for pieces of [from, to), each a multiple of 16 long, on all threads.
 template <class Body>
-void in_pieces(bool shared, double values, std::ptrdiff_t from, std::ptrdiff_t to, const Body& body) {
-  if (!shared || values < 1e5) return body(from, to);
+void in_pieces(std::ptrdiff_t from, std::ptrdiff_t to, const Body& body) {
   const std::ptrdiff_t piece = ((to - from) / 8 + 15) / 16 * 16;
   core::parallel_for(static_cast<std::size_t>((to - from + piece - 1) / piece), [&](std::size_t i) {
     const std::ptrdiff_t first = from + static_cast<std::ptrdiff_t>(i) * piece;
@@ -138,9 +141,12 @@ void eliminate(const SymbolicFactor& L, const double* values, const std::vector<
     if (Y.cols() < block.rows) Y.resize(width, block.rows);
     Y.leftCols(block.columns) = X.middleCols(L.column(s), block.columns);
     Y.middleCols(block.columns, block.rows - block.columns).setZero();
-    forward<width>(block, Y);
-    in_pieces(shared, block.below(), block.columns, block.rows,
-              [&](std::ptrdiff_t from, std::ptrdiff_t to) { push_down<width>(block, from, to, Y); });
+    const bool divided = shared && block.is_large();
+    forward<width>(block, divided ? block.columns : block.rows, Y);
+    if (divided) {
+      in_pieces(block.columns, block.rows,
+                [&](std::ptrdiff_t from, std::ptrdiff_t to) { push_down<width>(block, from, to, Y); });
+    }
     X.middleCols(L.column(s), block.columns) = Y.leftCols(block.columns);
     for (std::ptrdiff_t k = block.columns; k < block.rows; ++k) add(row[k], Y.col(k));
   }
@@ -155,9 +161,11 @@ void substitute(const SymbolicFactor& L, const double* values, const std::vector
     const int* row = L.rows_of(*s);
     if (Y.cols() < block.rows) Y.resize(width, block.rows);
     for (std::ptrdiff_t k = 0; k < block.rows; ++k) Y.col(k) = X.col(row[k]);
-    in_pieces(shared, block.below(), 0, block.columns,
-              [&](std::ptrdiff_t from, std::ptrdiff_t to) { pull_up<width>(block, from, to, Y); });
-    backward<width>(block, Y);
+    const bool divided = shared && block.is_large();
+    if (divided) {
+      in_pieces(0, block.columns, [&](std::ptrdiff_t from, std::ptrdiff_t to) { pull_up<width>(block, from, to, Y); });
+    }
+    backward<width>(block, divided ? block.columns : block.rows, Y);
     X.middleCols(L.column(*s), block.columns) = Y.leftCols(block.columns);
   }
 }
