@@ -122,7 +122,7 @@ def measure(programs, folder, part, settings, with_ccx):
 
         row = once()
         brief = "failure" not in row and row["total_s"] < BRIEF_S
-        add(fem.median_run(once, settings.repeat) if brief else row)
+        add(fem.medians_in_turn([once], settings.repeat)[0] if brief else row)
     result = {"part": part, "rows": rows}
     result["reference_error"] = left_by_edges(result) if part == "pocket" else left_by_levels(result)
     compare_reference(result)

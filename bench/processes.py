@@ -6,6 +6,7 @@ import os
 import pathlib
 import signal
 import subprocess
+import sys
 import threading
 import time
 
@@ -29,6 +30,15 @@ def environment(**changes):
     """The caller's environment without settings of threads, so that each program gets those that it is given here."""
     kept = {k: v for k, v in os.environ.items() if not k.startswith(("OMP_", "OPENBLAS_", "CCX_", "PETSC_", "SLEPC_"))}
     return {**kept, "LC_ALL": "C", **{k: str(v) for k, v in changes.items()}}
+
+
+def bring_pages(size_bytes):
+    """Has a short-lived process touch so much memory, half of what is free at most. A virtual machine may have handed
+    its free memory back to its host, which brings it again at a second a GB: whatever runs first would be charged."""
+    size_bytes = int(min(size_bytes, os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_AVPHYS_PAGES") / 2))
+    touch = ("import mmap, sys; n = int(sys.argv[1]); m = mmap.mmap(-1, n, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS); "
+             "m.madvise(mmap.MADV_HUGEPAGE); m[::4096] = bytes(-(-n // 4096))")
+    subprocess.run([sys.executable, "-c", touch, str(size_bytes)], check=False)
 
 
 def run(command, time_limit_s, folder, env):
