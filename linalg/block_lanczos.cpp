@@ -74,17 +74,15 @@ struct Krylov {
     return MatrixXd::NullaryExpr(M.rows(), count, [&] { return std::ldexp(static_cast<double>(random()), -63) - 1.0; });
   }
 
-  /// Takes the last two blocks of the basis out of W, the only ones that an image has parts of in exact arithmetic, and
-  /// M times them out of M W. H receives VᵀMW.
-  void take_out_recent(MatrixXd& W, MatrixXd& MW, MatrixXd& H) const {
+  /// Takes the last two blocks of the basis out of W, the only ones that an image has parts of in exact arithmetic. H
+  /// receives VᵀMW.
+  void take_out_recent(MatrixXd& W, MatrixXd& H) const {
     Index end = columns;
     for (const MatrixXd* MQ : {&recent[1], &recent[0]}) {
       if (MQ->cols() == 0) continue;
-      const auto Q = V.middleCols(end - MQ->cols(), MQ->cols());
-      const MatrixXd C = tall_gram(Q, MW);
-      tall_subtract(W, Q, C);
-      tall_subtract(MW, *MQ, C);
       end -= MQ->cols();
+      const MatrixXd C = tall_gram(*MQ, W);
+      tall_subtract(W, V.middleCols(end, MQ->cols()), C);
       H.middleRows(end, MQ->cols()) += C;
     }
   }
@@ -92,28 +90,28 @@ struct Krylov {
   /// The part of W outside of the basis, orthonormal, by classical Gram-Schmidt: after the recent blocks, what
   /// round-off has brought of the whole basis is taken out as often as there is some. H receives VᵀMW.
   Block outside(MatrixXd W, MatrixXd& H) const {
-    MatrixXd MW = symmetric_product(M, W);
     H = MatrixXd::Zero(columns, W.cols());
+    take_out_recent(W, H);
+    MatrixXd MW = symmetric_product(M, W);
+    MatrixXd G = tall_gram(W, MW);
     // What the basis explains to round-off is no direction.
-    double shortest = 1e-14 * std::sqrt(tall_gram(W, MW).diagonal().maxCoeff());
-    take_out_recent(W, MW, H);
+    double shortest = 1e-14 * std::sqrt((G.diagonal().transpose() + H.colwise().squaredNorm()).maxCoeff());
     MatrixXd B = MatrixXd::Identity(W.cols(), W.cols());
     bool clean = false;
     for (int pass = 0; pass < 6 && W.cols() > 0 && !clean; ++pass) {
-      const Orthonormal next = orthonormal(tall_gram(W, MW), shortest);
+      const Orthonormal next = orthonormal(G, shortest);
+      const MatrixXd C = tall_gram(basis(), MW) * next.Z;
       W = tall_product(W, next.Z);
-      MW = tall_product(MW, next.Z);
-      B = next.B * B;
-      const MatrixXd C = tall_gram(basis(), MW);
       tall_subtract(W, basis(), C);
+      B = next.B * B;
       H += C * B;
       clean = C.size() == 0 || C.cwiseAbs().maxCoeff() < 1e-10;
-      if (!clean) MW = symmetric_product(M, W);
+      MW = symmetric_product(M, W);
+      G = tall_gram(W, MW);
       shortest = 1e-3;
     }
     if (W.cols() == 0) return {W, MW, B};
-    MW = symmetric_product(M, W);
-    const Orthonormal last = orthonormal(tall_gram(W, MW), shortest);
+    const Orthonormal last = orthonormal(G, shortest);
     return {tall_product(W, last.Z), tall_product(MW, last.Z), last.B * B};
   }
 

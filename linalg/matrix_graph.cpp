@@ -57,6 +57,18 @@ std::vector<std::vector<int>> rows_by_pattern(const SparseMatrix& A) {
   return sets;
 }
 
+/// body(node, last_seen) for every node, on all threads; last_seen: for each node the last that has seen it, −1 at
+/// first, a thread's own.
+template <class Body>
+void over_nodes(const MatrixGraph& graph, const Body& body) {
+  constexpr std::size_t piece = 4096;
+  const std::size_t nodes = graph.rows.size();
+  core::parallel_for((nodes + piece - 1) / piece, [&](std::size_t i) {
+    std::vector<int> last_seen(nodes, -1);
+    for (std::size_t node = i * piece; node < std::min((i + 1) * piece, nodes); ++node) body(node, last_seen);
+  });
+}
+
 }  // namespace
 
 MatrixGraph pattern_graph(const SparseMatrix& A) {
@@ -67,16 +79,18 @@ MatrixGraph pattern_graph(const SparseMatrix& A) {
     for (const int row : graph.rows[static_cast<std::size_t>(set)]) set_of[static_cast<std::size_t>(row)] = set;
   }
   graph.neighbours.resize(graph.rows.size());
-  std::vector<int> last_seen(graph.rows.size(), -1);  // by which set
-  for (int set = 0; set < graph.size(); ++set) {
-    last_seen[static_cast<std::size_t>(set)] = set;
-    for (const int row : pattern(A, graph.rows[static_cast<std::size_t>(set)].front())) {
+  over_nodes(graph, [&](std::size_t set, std::vector<int>& last_seen) {
+    std::vector<int>& around = graph.neighbours[set];
+    around.reserve(pattern(A, graph.rows[set].front()).size() / graph.rows[set].size());
+    const auto mark = static_cast<int>(set);
+    last_seen[set] = mark;
+    for (const int row : pattern(A, graph.rows[set].front())) {
       const int other = set_of[static_cast<std::size_t>(row)];
-      if (last_seen[static_cast<std::size_t>(other)] == set) continue;
-      last_seen[static_cast<std::size_t>(other)] = set;
-      graph.neighbours[static_cast<std::size_t>(set)].push_back(other);
+      if (last_seen[static_cast<std::size_t>(other)] == mark) continue;
+      last_seen[static_cast<std::size_t>(other)] = mark;
+      around.push_back(other);
     }
-  }
+  });
   return graph;
 }
 
@@ -87,18 +101,15 @@ MatrixGraph matrix_graph(const SparseMatrix& A, const std::vector<int>& node_of_
   for (std::size_t row = 0; row < node_of.size(); ++row)
     graph.rows[static_cast<std::size_t>(node_of[row])].push_back(static_cast<int>(row));
   graph.neighbours.resize(graph.rows.size());
-  constexpr std::size_t piece = 4096;
-  core::parallel_for((graph.rows.size() + piece - 1) / piece, [&](std::size_t i) {
-    std::vector<std::size_t> last_seen(graph.rows.size(), graph.rows.size());  // by which node
-    for (std::size_t node = i * piece; node < std::min((i + 1) * piece, graph.rows.size()); ++node) {
-      last_seen[node] = node;
-      for (const int row : graph.rows[node]) {
-        for (SparseMatrix::InnerIterator it(A, row); it; ++it) {
-          const int other = node_of[static_cast<std::size_t>(it.row())];
-          if (last_seen[static_cast<std::size_t>(other)] == node) continue;
-          last_seen[static_cast<std::size_t>(other)] = node;
-          graph.neighbours[node].push_back(other);
-        }
+  over_nodes(graph, [&](std::size_t node, std::vector<int>& last_seen) {
+    const auto mark = static_cast<int>(node);
+    last_seen[node] = mark;
+    for (const int row : graph.rows[node]) {
+      for (SparseMatrix::InnerIterator it(A, row); it; ++it) {
+        const int other = node_of[static_cast<std::size_t>(it.row())];
+        if (last_seen[static_cast<std::size_t>(other)] == mark) continue;
+        last_seen[static_cast<std::size_t>(other)] = mark;
+        graph.neighbours[node].push_back(other);
       }
     }
   });
