@@ -29,7 +29,7 @@ Panel panel(const SymbolicFactor& L, const double* values, int s) {
 
 /// How many columns of L a kernel takes at once: their products with one row of Y fill the registers.
 template <int width>
-constexpr int columns_at_once = width > 8 ? 2 : 4;
+constexpr int columns_at_once = width > 8 ? 2 : 6;
 
 /// Y[:, from:to] −= Σ_c x_c L(·, column + c), `count` columns of L at once: one pass over Y for all of them. What
 /// follows these columns in memory is on its way into the cache meanwhile.
@@ -40,7 +40,7 @@ void rank_update(const Panel& L, std::ptrdiff_t column, std::ptrdiff_t from, std
   for (std::ptrdiff_t row = from; row < to; ++row) {
     __builtin_prefetch(values + count * (L.rows + row));
     Eigen::Matrix<double, width, 1> y = Y.col(row);
-#pragma GCC unroll 4
+#pragma GCC unroll 6
     for (int c = 0; c < count; ++c) y += values[c * L.rows + row] * x.col(c);
     Y.col(row) = y;
   }
@@ -57,7 +57,7 @@ Eigen::Matrix<double, width, count> dot_products(const Panel& L, std::ptrdiff_t 
   for (std::ptrdiff_t row = from; row < to; ++row) {
     __builtin_prefetch(values - count * (L.rows - row));
     const Eigen::Matrix<double, width, 1> y = Y.col(row);
-#pragma GCC unroll 4
+#pragma GCC unroll 6
     for (int c = 0; c < count; ++c) sum[static_cast<std::size_t>(c)] += values[c * L.rows + row] * y;
   }
   Eigen::Matrix<double, width, count> result;
