@@ -32,7 +32,7 @@ bool inverse_iteration(const SparseMatrix& M, const ShiftedInverse& inverse, Eig
   const MatrixXd MY = symmetric_product(M, Y);
   MatrixXd MR = MPhi;
   tall_subtract(MR, MY, shifted.asDiagonal());
-  pairs.inverse_residual = R.cwiseProduct(MR).colwise().sum().cwiseMax(0.0).cwiseSqrt().transpose();
+  pairs.inverse_residual = tall_gram(R, MR).diagonal().cwiseMax(0.0).cwiseSqrt();
   MatrixXd Kr = tall_gram(Y, MPhi);
   MatrixXd Mr = tall_gram(Y, MY);
   // The columns of Y differ in length by orders of magnitude; scaled to one, the small problem is well conditioned.

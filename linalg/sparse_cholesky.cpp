@@ -118,7 +118,8 @@ SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& B) const {
   Eigen::MatrixXd X(B.rows(), B.cols());
   Eigen::Index column = 0;
-  for (; column + 8 < B.cols(); column += 16) impl_->solve_strip<16>(B, column, X);
+  for (; column + 12 < B.cols(); column += 16) impl_->solve_strip<16>(B, column, X);
+  for (; column + 8 < B.cols(); column += 12) impl_->solve_strip<12>(B, column, X);
   for (; column + 4 < B.cols(); column += 8) impl_->solve_strip<8>(B, column, X);
   for (; column < B.cols(); column += 4) impl_->solve_strip<4>(B, column, X);
   return X;

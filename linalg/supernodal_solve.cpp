@@ -29,7 +29,7 @@ Panel panel(const SymbolicFactor& L, const double* values, int s) {
 
 /// How many columns of L a kernel takes at once: their products with one row of Y fill the registers.
 template <int width>
-constexpr int columns_at_once = width > 8 ? 2 : 6;
+constexpr int columns_at_once = width > 12 ? 2 : width > 8 ? 4 : 6;
 
 /// Y[:, from:to] −= Σ_c x_c L(·, column + c), `count` columns of L at once: one pass over Y for all of them. What
 /// follows these columns in memory is on its way into the cache meanwhile.
@@ -197,6 +197,7 @@ void supernodal_solve(const SymbolicFactor& L, const TreeCut& cut, const double*
 
 template void supernodal_solve<4>(const SymbolicFactor&, const TreeCut&, const double*, Rows<4>&);
 template void supernodal_solve<8>(const SymbolicFactor&, const TreeCut&, const double*, Rows<8>&);
+template void supernodal_solve<12>(const SymbolicFactor&, const TreeCut&, const double*, Rows<12>&);
 template void supernodal_solve<16>(const SymbolicFactor&, const TreeCut&, const double*, Rows<16>&);
 
 }  // namespace thinwall::linalg

@@ -9,8 +9,9 @@
 namespace thinwall::linalg {
 
 /// X ← L⁻ᵀ L⁻¹ X in place; values: of L, lower triangles; X: `width` × n column-major, so that the right-hand sides of
-/// a row lie side by side; width 4, 8 or 16. Why not the library's: a solve is bound by the reading of L from memory;
-/// this one reads it once a sweep for all right-hand sides and from all threads. Cost 4 nnz(L) flops a right-hand side.
+/// a row lie side by side; width 4, 8, 12 or 16. Why not the library's: a solve is bound by the reading of L from
+/// memory; this one reads it once a sweep for all right-hand sides and from all threads. Cost 4 nnz(L) flops a
+/// right-hand side.
 template <int width>
 void supernodal_solve(const SymbolicFactor& L, const TreeCut& cut, const double* values,
                       Eigen::Matrix<double, width, Eigen::Dynamic>& X);
