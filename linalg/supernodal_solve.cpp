@@ -29,7 +29,9 @@ Panel panel(const SymbolicFactor& L, const double* values, int s) {
 
 /// How many columns of L a kernel takes at once: their products with one row of Y fill the registers.
 template <int width>
-constexpr int columns_at_once = width > 12 ? 2 : width > 8 ? 4 : 6;
+constexpr int columns_at_once = width > 12  ? 2
+                                : width > 8 ? 4
+                                            : 6;
 
 /// Y[:, from:to] −= Σ_c x_c L(·, column + c), `count` columns of L at once: one pass over Y for all of them. What
 /// follows these columns in memory is on its way into the cache meanwhile.
