@@ -74,6 +74,8 @@ void strip_product(const SparseMatrix& A, const Eigen::Ref<const MatrixXd>& X, I
 MatrixXd symmetric_product(const SparseMatrix& A, const Eigen::Ref<const MatrixXd>& X) {
   MatrixXd Y(A.rows(), X.cols());
   Index column = 0;
+  for (; column + 12 < X.cols(); column += 8) strip_product<8>(A, X, column, Y);
+  for (; column + 8 < X.cols(); column += 12) strip_product<12>(A, X, column, Y);
   for (; column + 4 < X.cols(); column += 8) strip_product<8>(A, X, column, Y);
   for (; column + 1 < X.cols(); column += 4) strip_product<4>(A, X, column, Y);
   for (; column < X.cols(); ++column) strip_product<1>(A, X, column, Y);
