@@ -1,0 +1,40 @@
+#pragma once
+// Where a serial arm's bodies are at a posture, and how they move with its joints.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "robot/serial_arm.hpp"
+
+namespace thinwall::robot {
+
+/// The arm at joint angles q. Positions in the world, m; column i is of joint or link i.
+struct ArmPose {
+  Eigen::Matrix3Xd origins;              ///< a point of each joint's axis
+  Eigen::Matrix3Xd axes;                 ///< unit vectors
+  std::vector<Eigen::Isometry3d> links;  ///< the links' frames
+  Eigen::Isometry3d tip;
+
+  [[nodiscard]] Eigen::Index joints() const { return origins.cols(); }
+};
+
+/// T_i = T_{i−1} placement_i Rot(axis_i, q_i). q: rad, as many as there are links; throws InputError otherwise, or
+/// where one is not finite. Cost O(links).
+[[nodiscard]] ArmPose pose(const SerialArm& arm, const Eigen::VectorXd& q);
+
+/// ∂p/∂q_i = a_i × (p − o_i) of a point p fixed to link `link`, 3 × joints; zero for the joints beyond the link.
+[[nodiscard]] Eigen::Matrix3Xd translation_jacobian(const ArmPose& at, const Eigen::Vector3d& p, Eigen::Index link);
+
+/// Angular velocity of link `link` for unit joint speeds: a_i, zero beyond the link. 3 × joints.
+[[nodiscard]] Eigen::Matrix3Xd rotation_jacobian(const ArmPose& at, Eigen::Index link);
+
+/// Both of the tip, translation first: 6 × joints (m/rad, rad/rad).
+[[nodiscard]] Eigen::Matrix<double, 6, Eigen::Dynamic> tip_jacobian(const ArmPose& at);
+
+/// f · ∂²p/∂q_i∂q_j of a point p fixed to link `link`, for a constant vector f: with ∂²p/∂q_i∂q_j = a_i × (∂p/∂q_j) for
+/// i ≤ j (Spong, Hutchinson & Vidyasagar 2006, section 4). Symmetric, joints × joints.
+[[nodiscard]] Eigen::MatrixXd projected_hessian(const ArmPose& at, const Eigen::Vector3d& p, Eigen::Index link,
+                                                const Eigen::Vector3d& f);
+
+}  // namespace thinwall::robot

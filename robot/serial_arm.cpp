@@ -1,0 +1,79 @@
+#include "robot/serial_arm.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <sstream>
+
+#include "core/error.hpp"
+
+namespace thinwall::robot {
+
+namespace {
+
+/// What a body's inertia tensor violates; empty if a body may have it.
+std::string fault_of_inertia(const Eigen::Matrix3d& inertia) {
+  const double scale = inertia.cwiseAbs().maxCoeff();
+  if (!((inertia - inertia.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * scale)) return "is not symmetric";
+  const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();
+  std::ostringstream text;
+  if (moments(0) < -1e-9 * scale) {
+    text << "has the principal moment " << moments(0) << " kg m^2, which cannot be negative";
+  } else if (moments(2) > (moments(0) + moments(1)) * (1.0 + 1e-9)) {
+    text << "has the principal moment " << moments(2) << " kg m^2, more than the sum of the other two, "
+         << moments(0) + moments(1) << " kg m^2: no body has that";
+  }
+  return text.str();
+}
+
+class Faults {
+ public:
+  void require(bool holds, const std::string& where, const std::string& what) {
+    if (!holds) text_ += (text_.empty() ? "" : "; ") + where + " " + what;
+  }
+  void require_number(double value, bool holds, const std::string& where, const std::string& what,
+                      const std::string& bound) {
+    if (holds && std::isfinite(value)) return;
+    std::ostringstream text;
+    text << "has the " << what << " " << value << ": it must " << bound;
+    require(false, where, text.str());
+  }
+  void raise() const {
+    if (!text_.empty()) throw core::InputError("robot arm: " + text_);
+  }
+
+ private:
+  std::string text_;
+};
+
+void check(const Link& link, const std::string& where, Faults& faults) {
+  const Joint& joint = link.joint;
+  faults.require(link.placement.matrix().allFinite() && link.centre.allFinite() && link.inertia.allFinite(), where,
+                 "has a placement, centre or inertia that is not a number");
+  faults.require(std::abs(link.axis.norm() - 1.0) <= 1e-9, where, "has a joint axis that is not a unit vector");
+  faults.require_number(joint.stiffness, joint.stiffness > 0.0, where, "joint stiffness (N m/rad)",
+                        "be positive (a joint that does not give is left out: join the two links)");
+  faults.require_number(joint.damping, joint.damping >= 0.0, where, "joint damping (N m s/rad)", "not be negative");
+  faults.require_number(joint.motor_inertia, joint.motor_inertia >= 0.0, where, "motor inertia (kg m^2)",
+                        "not be negative");
+  faults.require_number(joint.gear_ratio, joint.gear_ratio != 0.0, where, "gear ratio", "not be zero");
+  faults.require_number(link.mass, link.mass >= 0.0, where, "mass (kg)", "not be negative");
+  if (!link.inertia.allFinite()) return;
+  const std::string fault = fault_of_inertia(link.inertia);
+  faults.require(fault.empty(), where, "has an inertia tensor that " + fault);
+}
+
+}  // namespace
+
+void require_valid(const SerialArm& arm) {
+  Faults faults;
+  faults.require(!arm.links.empty(), "the arm", "has no link");
+  faults.require(arm.base.matrix().allFinite() && arm.tip.matrix().allFinite() && arm.gravity.allFinite(), "the arm",
+                 "has a base, tip or gravity that is not a number");
+  for (std::size_t i = 0; i < arm.links.size(); ++i) {
+    const Link& link = arm.links[i];
+    check(link, "link " + std::to_string(i + 1) + (link.name.empty() ? "" : " (" + link.name + ")"), faults);
+  }
+  faults.raise();
+}
+
+}  // namespace thinwall::robot

@@ -1,0 +1,46 @@
+#pragma once
+// A serial arm of rigid links on revolute joints that give: what a table, a data sheet or a URDF says of a robot.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+namespace thinwall::robot {
+
+/// What a joint's gearbox and motor are to a vibration. About the joint's axis, on the side of the link.
+struct Joint {
+  double stiffness = 0.0;      ///< of gearbox and shaft, N m/rad, > 0
+  double damping = 0.0;        ///< beside the stiffness, N m s/rad, ≥ 0
+  double motor_inertia = 0.0;  ///< of the rotor on its own shaft, kg m², ≥ 0
+  double gear_ratio = 1.0;     ///< turns of the rotor for one of the joint, ≠ 0
+};
+
+/// A rigid body and the joint that carries it. At q = 0 its frame is the joint's; q turns it about `axis`.
+struct Link {
+  std::string name;
+  Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();  ///< of the joint in the frame of the link before, m
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();              ///< unit vector in the joint's frame
+  Joint joint;
+  double mass = 0.0;                                  ///< kg, ≥ 0
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< of mass, in the link's frame, m
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre of mass, in the link's axes, kg m²
+};
+
+/// Links from the base to the tip. All results are in the axes of the world, in which the base stands.
+struct SerialArm {
+  Eigen::Isometry3d base = Eigen::Isometry3d::Identity();  ///< frame before the first joint, in the world, m
+  std::vector<Link> links;
+  Eigen::Isometry3d tip = Eigen::Isometry3d::Identity();  ///< in the last link's frame, m
+  Eigen::Vector3d gravity = {0.0, 0.0, -9.81};            ///< m/s²
+
+  [[nodiscard]] Eigen::Index joints() const { return static_cast<Eigen::Index>(links.size()); }
+};
+
+/// Throws InputError with every violation at once, each with the link's name: no link, an axis that is no unit vector,
+/// a joint without stiffness, negative damping, mass or motor inertia, no gear ratio, an inertia tensor that no body
+/// has (not symmetric, or a principal moment negative or larger than the sum of the other two), a number that is not
+/// finite.
+void require_valid(const SerialArm& arm);
+
+}  // namespace thinwall::robot

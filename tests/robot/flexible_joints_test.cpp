@@ -1,0 +1,95 @@
+#include "robot/flexible_joints.hpp"
+
+#include <gtest/gtest.h>
+
+#include <complex>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "dynamics/conversion.hpp"
+#include "robot/arm_dynamics.hpp"
+#include "tests/robot/arms.hpp"
+
+namespace thinwall::robot {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Two lines, 1e-6 Hz for the static receptance and 20 Hz.
+dynamics::FrequencyAxis two_lines() {
+  return dynamics::linear_axis(1e-6, 20.0, 2);
+}
+
+// shared reference values: computed by analytic Jacobians and by energies differentiated in 60 digits, which agree to
+// 1e-14; mass matrix and gravity confirmed with orocos-KDL.
+TEST(FourAxisArm, FrequenciesAndDampingAreThoseOfTwoIndependentComputations) {
+  const LinearisedArm arm = linearised(huynh_arm(), {huynh_posture()}, "R");
+  const dynamics::ModalModel modes = dynamics::to_modal(arm.joints);
+  const std::vector<int> rows = dynamics::oscillating_modes(modes);
+  ASSERT_EQ(rows.size(), 4U);
+  const double hz[] = {19.703627, 27.303195, 56.800864, 283.103294};
+  const double ratio[] = {0.0134127, 0.0238637, 0.0480681, 0.5935355};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const dynamics::ModeSummary mode = dynamics::summarise(modes.poles(rows[k]));
+    EXPECT_NEAR(mode.frequency_hz / hz[k], 1.0, 1e-7) << k;
+    EXPECT_NEAR(mode.damping_ratio / ratio[k], 1.0, 4e-6) << k;  // half of the last digit that is given
+  }
+}
+
+TEST(FourAxisArm, TipReceptancesAreThoseOfTwoIndependentComputations) {
+  const dynamics::ResponseModel tip = tip_response(linearised(huynh_arm(), {huynh_posture()}, "R"), two_lines());
+  ASSERT_EQ(tip.H.size(), 2U);
+  ASSERT_EQ(tip.H[0].rows(), 6);
+  const struct {
+    const char* response;
+    const char* force;
+    double at_rest;
+    Complex at_20_hz;
+  } reference[] = {
+      {"R.x", "R.x", 1.775981e-7, {-1.781268e-6, -1.680882e-6}},
+      {"R.y", "R.y", 2.772188e-7, {5.948146e-7, -0.448734e-7}},
+      {"R.z", "R.z", 3.396096e-7, {-4.598613e-6, -4.195581e-6}},
+      {"R.x", "R.z", -1.242994e-7, {2.996730e-6, 2.648222e-6}},
+  };
+  for (const auto& entry : reference) {
+    const Eigen::VectorXcd H = dynamics::entry(tip, entry.response, entry.force);
+    EXPECT_NEAR(H(0).real() / entry.at_rest, 1.0, 5e-7) << entry.response << entry.force;
+    EXPECT_LT(std::abs(H(1) - entry.at_20_hz), 1e-6 * std::abs(entry.at_20_hz)) << entry.response << entry.force;
+  }
+}
+
+TEST(FourAxisArm, TipReceptanceHasAsManyRanksAsJoints) {
+  const dynamics::ResponseModel tip = tip_response(linearised(huynh_arm(), {huynh_posture()}, "R"), two_lines());
+  const VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXcd>(tip.H[1]).singularValues();
+  EXPECT_GT(singular(3), 1e-6 * singular(0));
+  EXPECT_LT(singular(4), 1e-14 * singular(0));
+}
+
+TEST(LinearisedArm, APreloadStiffensOrSoftensByItsOwnStiffness) {
+  const SerialArm arm = huynh_arm();
+  const Eigen::Vector3d force(300.0, -200.0, 500.0);
+  const MatrixXd with = linearised(arm, {huynh_posture(), force}, "R").joints.K;
+  const MatrixXd without = linearised(arm, {huynh_posture()}, "R").joints.K;
+  EXPECT_LT((with - without - load_stiffness(pose(arm, huynh_posture()), force)).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(LinearisedArm, RefusesWhatDoesNotStayWhereItIs) {
+  SerialArm arm = huynh_arm();
+  arm.links[1].joint.stiffness = 100.0;  // upright arm of half a ton
+  try {
+    (void)linearised(arm, {Eigen::Vector4d::Zero()}, "R");
+    FAIL() << "an arm that falls was taken";
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("joint 2 (main arm)"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW((void)linearised(huynh_arm(), {Eigen::Vector3d::Zero()}, "R"), core::InputError) << "three angles";
+  VectorXd broken = huynh_posture();
+  broken(2) = std::nan("");
+  EXPECT_THROW((void)linearised(huynh_arm(), {broken}, "R"), core::InputError);
+  EXPECT_THROW((void)linearised(huynh_arm(), {huynh_posture(), {0.0, std::nan(""), 0.0}}, "R"), core::InputError);
+}
+
+}  // namespace
+}  // namespace thinwall::robot

@@ -1,0 +1,97 @@
+// The arm's own kinematics and dynamics against orocos-KDL's, an independent program.
+
+#include <gtest/gtest.h>
+
+#include <kdl/chaindynparam.hpp>
+#include <kdl/chainfksolverpos_recursive.hpp>
+#include <kdl/chainjnttojacsolver.hpp>
+
+#include "robot/arm_dynamics.hpp"
+#include "tests/robot/arms.hpp"
+
+namespace thinwall::robot {
+namespace {
+
+KDL::Vector to_kdl(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+KDL::Frame to_kdl(const Eigen::Isometry3d& frame) {
+  const Eigen::Matrix3d R = frame.linear();
+  return {KDL::Rotation(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)),
+          to_kdl(Eigen::Vector3d(frame.translation()))};
+}
+
+/// KDL turns a segment about its joint and puts the segment's frame behind; a link's frame is its joint's.
+KDL::Chain to_kdl(const SerialArm& arm) {
+  KDL::Chain chain;
+  chain.addSegment(KDL::Segment("base", KDL::Joint(KDL::Joint::None), to_kdl(arm.base)));
+  for (std::size_t i = 0; i < arm.links.size(); ++i) {
+    const Link& link = arm.links[i];
+    const Eigen::Vector3d axis = link.placement.linear() * link.axis;
+    const Eigen::Matrix3d& I = link.inertia;
+    chain.addSegment(KDL::Segment(
+        "link " + std::to_string(i + 1),
+        KDL::Joint("joint " + std::to_string(i + 1), to_kdl(Eigen::Vector3d(link.placement.translation())),
+                   to_kdl(axis), KDL::Joint::RotAxis),
+        to_kdl(link.placement),
+        KDL::RigidBodyInertia(link.mass, to_kdl(link.centre),
+                              KDL::RotationalInertia(I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)))));
+  }
+  chain.addSegment(KDL::Segment("tip", KDL::Joint(KDL::Joint::None), to_kdl(arm.tip)));
+  return chain;
+}
+
+// Entry by entry: KDL's Eigen need not be aligned as ours is.
+KDL::JntArray to_kdl(const Eigen::VectorXd& q) {
+  KDL::JntArray angles(static_cast<unsigned>(q.size()));
+  for (unsigned i = 0; i < angles.rows(); ++i) angles(i) = q(i);
+  return angles;
+}
+
+Eigen::MatrixXd from_kdl(const auto& matrix, unsigned rows, unsigned columns) {
+  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&](Eigen::Index i, Eigen::Index j) {
+    return matrix(static_cast<unsigned>(i), static_cast<unsigned>(j));
+  });
+}
+
+/// How far they are apart, beside the second.
+double apart(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return (a - b).norm() / b.norm();
+}
+
+TEST(OrocosKdl, HasTheSamePosesJacobiansMassMatricesAndGravity) {
+  std::mt19937_64 random(11);
+  double worst = 0.0;
+  for (int trial = 0; trial < 20; ++trial) {
+    const SerialArm arm = trial == 0 ? huynh_arm() : random_arm(random, 1 + trial % 7);
+    const Eigen::VectorXd q = trial == 0 ? huynh_posture() : random_posture(random, arm.joints());
+    const ArmPose at = pose(arm, q);
+    const KDL::Chain chain = to_kdl(arm);
+    ASSERT_EQ(chain.getNrOfJoints(), static_cast<unsigned>(arm.joints()));
+
+    KDL::Frame tip;
+    KDL::ChainFkSolverPos_recursive(chain).JntToCart(to_kdl(q), tip);
+    for (int i = 0; i < 3; ++i) {
+      worst = std::max(worst, std::abs(tip.p(i) - at.tip.translation()(i)));
+      for (int j = 0; j < 3; ++j) worst = std::max(worst, std::abs(tip.M(i, j) - at.tip.linear()(i, j)));
+    }
+    const unsigned n = chain.getNrOfJoints();
+    KDL::Jacobian J(n);
+    KDL::ChainJntToJacSolver(chain).JntToJac(to_kdl(q), J);
+    worst = std::max(worst, apart(from_kdl(J, 6, n), tip_jacobian(at)));
+
+    KDL::ChainDynParam dynamics(chain, to_kdl(arm.gravity));
+    KDL::JntSpaceInertiaMatrix M(static_cast<int>(n));
+    KDL::JntArray G(n);
+    dynamics.JntToMass(to_kdl(q), M);
+    dynamics.JntToGravity(to_kdl(q), G);
+    worst = std::max(worst, apart(from_kdl(M, n, n), mass_matrix(arm, at)));
+    worst = std::max(worst, apart(from_kdl(G, n, 1), gravity_torque(arm, at)));
+  }
+  std::printf("tip, Jacobian, mass matrix and gravity of 20 arms: within %.1e of orocos-KDL's\n", worst);
+  EXPECT_LT(worst, 1e-12);
+}
+
+}  // namespace
+}  // namespace thinwall::robot
