@@ -53,7 +53,7 @@ struct Component {
 /// Part and robot joined by both routes.
 struct CouplingResult {
   coupling::CoupledResponse receptance;
-  std::optional<coupling::CoupledModel> model;  ///< none if a component is known by measurement only
+  std::optional<dynamics::SpatialModel> model;  ///< none if a component is known by measurement only
   std::optional<dynamics::ModalModel> modal;
   std::optional<dynamics::ResponseModel> spatial_response;  ///< between the part's DOFs
   std::optional<coupling::RouteDifference> difference;      ///< none if both components are measured

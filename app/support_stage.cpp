@@ -131,11 +131,6 @@ dynamics::ModalModel modes_of(const dynamics::SpatialModel& model) {
   return dynamics::to_modal(model.has_structural_damping() ? dynamics::equivalent_viscous(model) : model);
 }
 
-dynamics::ModalModel modes_of(coupling::CoupledModel model) {
-  if (model.independent.has_structural_damping()) model.independent = dynamics::equivalent_viscous(model.independent);
-  return coupling::to_modal(model);
-}
-
 CouplingResult couple(const Case& source, const Component& part, const Component& robot) {
   const auto contacts = contacts_of(source);
   const dynamics::FrequencyAxis& axis = part.response.axis;
@@ -143,7 +138,7 @@ CouplingResult couple(const Case& source, const Component& part, const Component
   if (part.spatial && robot.spatial) {
     result.model = coupling::couple(*part.spatial, *robot.spatial, contacts);
     result.modal = modes_of(*result.model);
-    result.spatial_response = part_block(coupling::direct_response(*result.model, axis), part.response);
+    result.spatial_response = part_block(dynamics::direct_response(*result.model, axis), part.response);
   } else if (part.spatial) {
     result.spatial_response = coupling::direct_response(*part.spatial, robot.response, contacts, axis);
   }

@@ -28,9 +28,6 @@ namespace thinwall::app {
 /// Modes of a component's matrices, structural damping taken as equivalent viscous. Errors as dynamics::to_modal.
 [[nodiscard]] dynamics::ModalModel modes_of(const dynamics::SpatialModel& model);
 
-/// The same of part and robot joined.
-[[nodiscard]] dynamics::ModalModel modes_of(coupling::CoupledModel model);
-
 /// Both routes and their difference. Throws NumericalError if the kernel cannot be solved.
 [[nodiscard]] CouplingResult couple(const Case& source, const Component& part, const Component& robot);
 

@@ -10,7 +10,6 @@ namespace thinwall::coupling {
 namespace {
 
 using dynamics::Dof;
-using dynamics::DofKind;
 using dynamics::DofTable;
 using dynamics::SpatialModel;
 
@@ -35,11 +34,15 @@ SpatialModel side_by_side(const SpatialModel& part, const SpatialModel& robot) {
   }
   DofTable dofs = part.dofs;
   dofs.insert(dofs.end(), robot.dofs.begin(), robot.dofs.end());
-  return {block_diagonal(part.M, robot.M), block_diagonal(part.C, robot.C), block_diagonal(part.K, robot.K),
-          block_diagonal(structural_damping(part), structural_damping(robot)), dofs};
+  return {block_diagonal(part.M, robot.M),
+          block_diagonal(part.C, robot.C),
+          block_diagonal(part.K, robot.K),
+          block_diagonal(structural_damping(part), structural_damping(robot)),
+          dofs,
+          block_diagonal(displacements(part), displacements(robot))};
 }
 
-/// A spring between the components: bᵀx is its opening.
+/// A spring between the components: bᵀy is its opening.
 struct Joint {
   Eigen::VectorXd b;
   ContactSpring spring;
@@ -50,8 +53,8 @@ std::vector<Joint> joints(const SpatialModel& part, const SpatialModel& robot, c
   for (const Contact& contact : contacts) {
     for (const ContactSpring& spring : contact.springs) {
       Eigen::VectorXd b(part.size() + robot.size());
-      b << dynamics::displacement_row(part.dofs, contact.part_point, spring.direction),
-          -dynamics::displacement_row(robot.dofs, contact.robot_point, spring.direction);
+      b << coordinate_row(part, contact.part_point, spring.direction),
+          -coordinate_row(robot, contact.robot_point, spring.direction);
       all.push_back({b, spring});
     }
   }
@@ -64,7 +67,7 @@ bool outweighs(const Joint& joint, const Eigen::MatrixXd& K) {
   return (joint.b.array() != 0.0 && added > K.diagonal().array().abs()).any();
 }
 
-/// Which springs become coordinates, the rigid ones first, and which DOF each replaces.
+/// Which springs become coordinates, the rigid ones first, and which coordinate each replaces.
 struct Elimination {
   std::vector<std::size_t> joints;
   std::vector<Eigen::Index> replaced;
@@ -74,7 +77,7 @@ struct Elimination {
 /// which is the robot's.
 struct Pivot {
   std::size_t joint = 0;
-  Eigen::Index dof = 0;
+  Eigen::Index coordinate = 0;
   double size = 0.0;
 };
 Pivot largest_pivot(const Eigen::MatrixXd& rows, const std::vector<std::size_t>& candidates) {
@@ -95,9 +98,9 @@ void eliminate(std::vector<std::size_t> candidates, Eigen::MatrixXd& rows, Elimi
     const Pivot pivot = largest_pivot(rows, candidates);
     if (!(pivot.size > dependent)) return;
     const Eigen::VectorXd row = rows.col(static_cast<Eigen::Index>(pivot.joint));
-    rows -= row * (rows.row(pivot.dof) / row(pivot.dof));
+    rows -= row * (rows.row(pivot.coordinate) / row(pivot.coordinate));
     elimination.joints.push_back(pivot.joint);
-    elimination.replaced.push_back(pivot.dof);
+    elimination.replaced.push_back(pivot.coordinate);
     candidates.erase(std::find(candidates.begin(), candidates.end(), pivot.joint));
   }
 }
@@ -134,7 +137,7 @@ std::vector<Eigen::Index> others(Eigen::Index n, const std::vector<Eigen::Index>
   return kept;
 }
 
-/// T of x = T (u, d), over all openings, also those of rigid springs (which stand first among the openings).
+/// T of y = T (u, d), over all openings, also those of rigid springs (which stand first among the openings).
 Eigen::MatrixXd opening_coordinates(const std::vector<Joint>& joints, const Elimination& elimination,
                                     const std::vector<Eigen::Index>& kept) {
   const Eigen::Index n = joints.front().b.size();
@@ -169,25 +172,9 @@ void add_springs(const std::vector<Joint>& joints, const Elimination& eliminatio
   }
 }
 
-DofTable coordinate_table(const DofTable& dofs, const std::vector<Eigen::Index>& kept,
-                          const std::vector<Eigen::Index>& replaced) {
-  const auto incomplete = [&](const std::string& point) {
-    return std::any_of(replaced.begin(), replaced.end(),
-                       [&](Eigen::Index i) { return dofs[static_cast<std::size_t>(i)].point == point; });
-  };
-  const auto amplitude = [](const std::string& name) { return Dof{name, Eigen::Vector3d::Zero(), DofKind::modal}; };
-  DofTable table;
-  for (const Eigen::Index i : kept) {
-    const Dof& dof = dofs[static_cast<std::size_t>(i)];
-    table.push_back(incomplete(dof.point) ? amplitude(dynamics::name(dof)) : dof);
-  }
-  for (std::size_t j = 0; j < replaced.size(); ++j) table.push_back(amplitude("opening " + std::to_string(j + 1)));
-  return table;
-}
-
 }  // namespace
 
-CoupledModel couple(const SpatialModel& part, const SpatialModel& robot, const std::vector<Contact>& contacts) {
+SpatialModel couple(const SpatialModel& part, const SpatialModel& robot, const std::vector<Contact>& contacts) {
   require_valid(contacts);
   require_consistent(part);
   require_consistent(robot);
@@ -196,8 +183,12 @@ CoupledModel couple(const SpatialModel& part, const SpatialModel& robot, const s
   const Elimination elimination = eliminate(springs, all.K);
   const std::vector<Eigen::Index> kept = others(all.size(), elimination.replaced);
   const Eigen::MatrixXd T = opening_coordinates(springs, elimination, kept);
-  SpatialModel joined{T.transpose() * all.M * T, T.transpose() * all.C * T, T.transpose() * all.K * T,
-                      T.transpose() * all.D * T, coordinate_table(all.dofs, kept, elimination.replaced)};
+  SpatialModel joined{T.transpose() * all.M * T,
+                      T.transpose() * all.C * T,
+                      T.transpose() * all.K * T,
+                      T.transpose() * all.D * T,
+                      all.dofs,
+                      all.T * T};
   const auto first_opening = static_cast<Eigen::Index>(kept.size());
   add_springs(springs, elimination, first_opening, T, joined);
 
@@ -206,24 +197,11 @@ CoupledModel couple(const SpatialModel& part, const SpatialModel& robot, const s
   for (Eigen::Index i = 0; i < all.size(); ++i) {
     if (i < first_opening || i >= first_opening + closed) open.push_back(i);
   }
-  CoupledModel coupled{{joined.M(open, open), joined.C(open, open), joined.K(open, open), joined.D(open, open), {}},
-                       T(Eigen::all, open),
-                       all.dofs};
-  for (const Eigen::Index i : open) coupled.independent.dofs.push_back(joined.dofs[static_cast<std::size_t>(i)]);
-  if (coupled.independent.D.isZero(0.0)) coupled.independent.D.resize(0, 0);
+  SpatialModel coupled{
+      joined.M(open, open),      joined.C(open, open), joined.K(open, open), joined.D(open, open), all.dofs,
+      joined.T(Eigen::all, open)};
+  if (coupled.D.isZero(0.0)) coupled.D.resize(0, 0);
   return coupled;
-}
-
-dynamics::ModalModel to_modal(const CoupledModel& model) {
-  dynamics::ModalModel modal = dynamics::to_modal(model.independent);
-  modal.right = model.T * modal.right;
-  modal.left = model.T * modal.left;
-  modal.dofs = model.dofs;
-  return modal;
-}
-
-dynamics::ResponseModel direct_response(const CoupledModel& model, const dynamics::FrequencyAxis& axis) {
-  return dynamics::direct_response(model.independent, model.T, model.dofs, axis);
 }
 
 }  // namespace thinwall::coupling

@@ -8,36 +8,22 @@
 
 namespace thinwall::coupling {
 
-/// Part and robot as one structure, in independent coordinates y with x = T y.
-struct CoupledModel {
-  dynamics::SpatialModel independent;  ///< M, C, K, D over y; its table says what each coordinate is
-  Eigen::MatrixXd T;                   ///< all DOFs × coordinates
-  dynamics::DofTable dofs;             ///< all DOFs x: the part's, then the robot's
-};
-
+/// Part and robot as one structure, over independent coordinates y with x = T y, x the part's DOFs, then the robot's.
 /// Assembles (Barrios 2019, Eq. 16-18, any direction)
 ///
 ///     M = blkdiag(M_P, M_R),   K = blkdiag(K_P, K_R) + Σ k b bᵀ,   C likewise with c,   D likewise with η k
 ///
 /// over the springs, b = +n at the part's point and −n at the robot's. A spring that outweighs the components (k_P + k
-/// in one entry keeps k_P to ε k only) is not added to their entries: its opening d = bᵀx becomes a coordinate in the
-/// place of a DOF (the robot's where there is a choice), and k stands alone on the diagonal of d. With u the DOFs that
-/// stay and s those replaced, x_s = B_s⁻ᵀ (d − B_uᵀ u), which is T, and M ← TᵀMT and so on. A rigid spring is the same
-/// without its opening, d = 0: an elimination, not a penalty.
-///
-/// A coordinate u bears the name of its DOF; points that lost a DOF are not complete in `independent`, so what is left
-/// of them, and the openings, are marked modal there: displacements are taken from T and `dofs`.
+/// in one entry keeps k_P to ε k only) is not added to their entries: its opening d = bᵀy becomes a coordinate in the
+/// place of another (one of the robot's where there is a choice), and k stands alone on the diagonal of d. With u the
+/// coordinates that stay and s those replaced, y_s = B_s⁻ᵀ (d − B_uᵀ u), which with the components' own T gives the
+/// whole's, and M ← TᵀMT and so on. A rigid spring is the same without its opening, d = 0: an elimination, not a
+/// penalty.
 ///
 /// Errors: InputError for a faulty contact, an unknown point, points of one name in both components, or rigid
 /// directions that depend on each other. Cost O(n³).
-[[nodiscard]] CoupledModel couple(const dynamics::SpatialModel& part, const dynamics::SpatialModel& robot,
-                                  const std::vector<Contact>& contacts);
-
-/// Complex modes of the coupled structure at all its DOFs, φ = T φ_y. Errors as dynamics::to_modal.
-[[nodiscard]] dynamics::ModalModel to_modal(const CoupledModel& model);
-
-/// T (K + iD + iωC − ω²M)⁻¹ Tᵀ at all physical DOFs, by one factorisation a line and no modes.
-[[nodiscard]] dynamics::ResponseModel direct_response(const CoupledModel& model, const dynamics::FrequencyAxis& axis);
+[[nodiscard]] dynamics::SpatialModel couple(const dynamics::SpatialModel& part, const dynamics::SpatialModel& robot,
+                                            const std::vector<Contact>& contacts);
 
 /// The spatial part against a robot that is known by its receptance only. The joint forces f stay as unknowns,
 ///

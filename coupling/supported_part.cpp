@@ -39,16 +39,19 @@ dynamics::ResponseModel direct_response(const SpatialModel& part, const dynamics
   Eigen::MatrixXd B_P(n, m), B_response(robot.responses.size(), m), B_force(robot.forces.size(), m);
   for (Eigen::Index j = 0; j < m; ++j) {
     const auto& [contact, spring] = springs[static_cast<std::size_t>(j)];
-    B_P.col(j) = dynamics::displacement_row(part.dofs, contact->part_point, spring->direction);
+    B_P.col(j) = coordinate_row(part, contact->part_point, spring->direction);
     B_response.col(j) = dynamics::displacement_row(robot.responses, contact->robot_point, spring->direction);
     B_force.col(j) = dynamics::displacement_row(robot.forces, contact->robot_point, spring->direction);
   }
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(n, m);
+  Eigen::MatrixXd observed = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(part.dofs.size()), n + m);
+  observed.leftCols(n) = displacements(part);
   const SpatialModel system{bordered(part.M, none),
                             bordered(part.C, none),
                             bordered(part.K, B_P),
                             part.has_structural_damping() ? bordered(part.D, none) : Eigen::MatrixXd(),
-                            {}};
+                            part.dofs,
+                            observed};
   const auto add_joint_and_robot = [&](Eigen::Index line, Eigen::MatrixXcd& matrix) {
     auto W = matrix.bottomRightCorner(m, m);
     W -= B_response.transpose() * robot.H[static_cast<std::size_t>(line)] * B_force;
@@ -59,8 +62,7 @@ dynamics::ResponseModel direct_response(const SpatialModel& part, const dynamics
       W(j, j) -= 1.0 / Complex(spring.stiffness, loss);
     }
   };
-  const Eigen::MatrixXd T = Eigen::MatrixXd::Identity(n, n + m);
-  return dynamics::direct_response(system, T, part.dofs, axis, add_joint_and_robot);
+  return dynamics::direct_response(system, axis, add_joint_and_robot);
 }
 
 }  // namespace thinwall::coupling

@@ -9,7 +9,7 @@
 
 namespace thinwall::dynamics {
 
-/// Undamped modes of K φ = ω² M φ, M-normalised, ascending, sign fixed by the largest entry.
+/// Undamped modes of K φ = ω² M φ in the model's coordinates, M-normalised, ascending, sign fixed by the largest entry.
 struct UndampedModes {
   Eigen::VectorXd omega_rad_s;
   Eigen::MatrixXd Phi;
@@ -41,22 +41,14 @@ struct UndampedModes {
 /// n².
 [[nodiscard]] ResponseModel to_response(const ModalModel& model, const FrequencyAxis& axis);
 
-/// H = (K + iD + iωC − ω²M)⁻¹ by one LU factorisation a line, between all DOFs that are not modal amplitudes. The
-/// independent check of the modal sum. Cost lines · n³. Throws NumericalError where the matrix is singular (an undamped
-/// resonance, or a free part at ω = 0), with the frequency.
-[[nodiscard]] ResponseModel direct_response(const SpatialModel& model, const FrequencyAxis& axis);
-
-/// Adds the frequency-dependent part of the dynamic stiffness of one line to its matrix (N/m, rows of the model).
+/// Adds the frequency-dependent part of the dynamic stiffness of one line to its matrix (N/m, over the coordinates).
 using AddedStiffness = std::function<void(Eigen::Index line, Eigen::MatrixXcd& dynamic_stiffness)>;
 
-/// The same for a model in coordinates y that stand for the DOFs `dofs` by x = T y, with a dynamic stiffness S(ω) that
-/// the model's matrices do not hold:
-///
-///     H = T (K + iD + iωC − ω²M + S(ω))⁻¹ Tᵀ
-///
-/// T: dofs × coordinates; the result is between those of `dofs` that are not modal. Zero rows on the diagonal
-/// (constraint forces) are allowed. Cost and errors as above.
-[[nodiscard]] ResponseModel direct_response(const SpatialModel& model, const Eigen::MatrixXd& T, const DofTable& dofs,
-                                            const FrequencyAxis& axis, const AddedStiffness& added = {});
+/// H = T (K + iD + iωC − ω²M + S(ω))⁻¹ Tᵀ by one LU factorisation a line, between all DOFs that are not modal
+/// amplitudes; S(ω): what `added` adds, if anything. The independent check of the modal sum. Zero rows on the diagonal
+/// (constraint forces) are allowed. Cost lines · n³. Throws NumericalError where the matrix is singular (an undamped
+/// resonance, or a free part at ω = 0), with the frequency.
+[[nodiscard]] ResponseModel direct_response(const SpatialModel& model, const FrequencyAxis& axis,
+                                            const AddedStiffness& added = {});
 
 }  // namespace thinwall::dynamics

@@ -172,13 +172,15 @@ ModalModel to_modal(const SpatialModel& model) {
   const auto diagonal = proportional_damping(model.C, undamped.Phi, D);
   const QuadraticModes modes =
       diagonal ? proportional_modes(undamped.omega_rad_s, *diagonal) : general_modes(undamped.omega_rad_s, D);
-  const Eigen::MatrixXcd shapes = undamped.Phi * modes.eta;
+  Eigen::MatrixXcd shapes = undamped.Phi * modes.eta;
+  if (model.has_own_coordinates()) shapes = (model.T * shapes).eval();
   return {modes.lambda, shapes, shapes, modes.a, Eigen::MatrixXd(), model.dofs};
 }
 
 SpatialModel equivalent_viscous(const SpatialModel& model) {
   require_consistent(model);
-  SpatialModel viscous{model.M, model.C, model.K, Eigen::MatrixXd(), model.dofs};
+  SpatialModel viscous = model;
+  viscous.D.resize(0, 0);
   if (!model.has_structural_damping()) return viscous;
   const UndampedModes modes = undamped_modes(model);
   const Eigen::VectorXd loss = (modes.Phi.transpose() * model.D * modes.Phi).diagonal();

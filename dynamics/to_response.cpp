@@ -122,16 +122,11 @@ ResponseModel to_response(const ModalModel& model, const FrequencyAxis& axis) {
   return response;
 }
 
-ResponseModel direct_response(const SpatialModel& model, const FrequencyAxis& axis) {
+ResponseModel direct_response(const SpatialModel& model, const FrequencyAxis& axis, const AddedStiffness& added) {
   require_consistent(model);
-  return direct_response(model, Eigen::MatrixXd::Identity(model.size(), model.size()), model.dofs, axis);
-}
-
-ResponseModel direct_response(const SpatialModel& model, const Eigen::MatrixXd& T, const DofTable& dofs,
-                              const FrequencyAxis& axis, const AddedStiffness& added) {
-  const std::vector<int> rows = physical_rows(dofs);
-  const Eigen::MatrixXd observed = T(rows, Eigen::all);
-  ResponseModel response = empty_response(dofs, rows, axis);
+  const std::vector<int> rows = physical_rows(model.dofs);
+  const Eigen::MatrixXd observed = displacements(model)(rows, Eigen::all);
+  ResponseModel response = empty_response(model.dofs, rows, axis);
   const double zero = static_cast<double>(model.size()) * std::numeric_limits<double>::epsilon();
   for_line_blocks(axis.size(), [&](Eigen::Index first, Eigen::Index end) {
     DynamicStiffness stiffness(model);

@@ -203,6 +203,7 @@ void write_mat(const std::filesystem::path& path, const SpatialModel& model) {
     write_matrix(file.get(), "C", model.C);
     write_matrix(file.get(), "K", model.K);
     if (model.has_structural_damping()) write_matrix(file.get(), "D", model.D);
+    if (model.has_own_coordinates()) write_matrix(file.get(), "T", model.T);
     write_texts(file.get(), "dof_name", model.dofs, [](const Dof& dof) { return name(dof); });
     write_texts(file.get(), "dof_point", model.dofs, [](const Dof& dof) { return dof.point; });
     write_texts(file.get(), "dof_kind", model.dofs, [](const Dof& dof) { return kind_word(dof.kind); });
@@ -223,10 +224,12 @@ SpatialModel read_mat(const std::filesystem::path& path) {
   model.K = read_matrix(file.get(), "K", path, n, n);
   model.C = has_variable(file.get(), "C") ? read_matrix(file.get(), "C", path, n, n) : Eigen::MatrixXd::Zero(n, n);
   if (has_variable(file.get(), "D")) model.D = read_matrix(file.get(), "D", path, n, n);
-  const auto points = read_texts(file.get(), "dof_point", path, n);
-  const auto kinds = read_texts(file.get(), "dof_kind", path, n);
-  const auto axes = read_matrix(file.get(), "dof_direction", path, n, 3);
-  for (Eigen::Index i = 0; i < n; ++i) {
+  if (has_variable(file.get(), "T")) model.T = read_matrix(file.get(), "T", path, -1, n);
+  const Eigen::Index dofs = model.has_own_coordinates() ? model.T.rows() : n;
+  const auto points = read_texts(file.get(), "dof_point", path, dofs);
+  const auto kinds = read_texts(file.get(), "dof_kind", path, dofs);
+  const auto axes = read_matrix(file.get(), "dof_direction", path, dofs, 3);
+  for (Eigen::Index i = 0; i < dofs; ++i) {
     const auto row = static_cast<std::size_t>(i);
     model.dofs.push_back({points[row], axes.row(i).transpose(), kind_of(kinds[row], path)});
   }

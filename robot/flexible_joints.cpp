@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "dynamics/conversion.hpp"
 #include "robot/arm_dynamics.hpp"
 
 namespace thinwall::robot {
@@ -31,13 +30,6 @@ void require_stable(const SerialArm& arm, const Eigen::MatrixXd& K) {
   throw core::InputError(text.str());
 }
 
-dynamics::DofTable joint_angles(const SerialArm& arm) {
-  dynamics::DofTable table;
-  for (Index i = 0; i < arm.joints(); ++i)
-    table.push_back({joint_name(arm, i), Eigen::Vector3d::Zero(), dynamics::DofKind::modal});
-  return table;
-}
-
 dynamics::DofTable six_dofs(const std::string& point) {
   dynamics::DofTable table = dynamics::translations(point);
   for (Index axis = 0; axis < 3; ++axis)
@@ -47,30 +39,23 @@ dynamics::DofTable six_dofs(const std::string& point) {
 
 }  // namespace
 
-LinearisedArm linearised(const SerialArm& arm, const Posture& posture, const std::string& point) {
+dynamics::SpatialModel linearised(const SerialArm& arm, const Posture& posture, const std::string& point) {
   require_valid(arm);
   if (!posture.preload.allFinite()) throw core::InputError("the preload on the robot's tip is not a number");
   const ArmPose at = pose(arm, posture.q);
-  Eigen::VectorXd stiffness(arm.joints());
-  Eigen::VectorXd damping(arm.joints());
+  dynamics::SpatialModel model;
+  model.M = mass_matrix(arm, at);
+  model.C = Eigen::MatrixXd::Zero(arm.joints(), arm.joints());
+  model.K = gravity_stiffness(arm, at) + load_stiffness(at, posture.preload);
   for (Index i = 0; i < arm.joints(); ++i) {
-    stiffness(i) = arm.links[static_cast<std::size_t>(i)].joint.stiffness;
-    damping(i) = arm.links[static_cast<std::size_t>(i)].joint.damping;
+    const Joint& joint = arm.links[static_cast<std::size_t>(i)].joint;
+    model.C(i, i) = joint.damping;
+    model.K(i, i) += joint.stiffness;
   }
-  LinearisedArm result;
-  result.joints.M = mass_matrix(arm, at);
-  result.joints.C = damping.asDiagonal();
-  result.joints.K = gravity_stiffness(arm, at) + load_stiffness(at, posture.preload);
-  result.joints.K.diagonal() += stiffness;
-  require_stable(arm, result.joints.K);
-  result.joints.dofs = joint_angles(arm);
-  result.J = tip_jacobian(at);
-  result.tip = six_dofs(point);
-  return result;
-}
-
-dynamics::ResponseModel tip_response(const LinearisedArm& arm, const dynamics::FrequencyAxis& axis) {
-  return dynamics::direct_response(arm.joints, arm.J, arm.tip, axis);
+  require_stable(arm, model.K);
+  model.dofs = six_dofs(point);
+  model.T = tip_jacobian(at);
+  return model;
 }
 
 }  // namespace thinwall::robot

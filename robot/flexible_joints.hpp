@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "dynamics/response_model.hpp"
 #include "dynamics/spatial_model.hpp"
 #include "robot/serial_arm.hpp"
 
@@ -16,24 +15,15 @@ struct Posture {
   Eigen::Vector3d preload = Eigen::Vector3d::Zero();  ///< force on the tip that stays as it is, N, world axes
 };
 
-/// M δq'' + C δq' + K δq = Jᵀ f and δx = J δq, x the tip's translation and rotation in world axes (`tip`).
-struct LinearisedArm {
-  dynamics::SpatialModel joints;  ///< over δq, whose DOFs are marked modal: joint angles, no displacements
-  Eigen::MatrixXd J;              ///< 6 × joints
-  dynamics::DofTable tip;         ///< x, y, z, rx, ry, rz of the point
-};
-
-/// The arm with its motors locked (Huynh 2017, Eq. 7-8, linearised; docs/theory/robots.md):
+/// The arm with its motors locked (Huynh 2017, Eq. 7-8, linearised; docs/theory/robots.md), over the joint angles δq:
 ///
-///     M = M(q),   C = diag(d),   K = diag(k) + ∂G/∂q − ∂(Jᵀf)/∂q
+///     M = M(q),   C = diag(d),   K = diag(k) + ∂G/∂q − ∂(Jᵀf)/∂q,   T = J
 ///
+/// The DOFs are the tip's x, y, z, rx, ry, rz in world axes, under the name `point`.
 /// The joint springs bear weight and preload at rest, so that q is the posture with both. Coriolis terms vanish at
 /// rest. `point` names the tip. A tip of fewer than six joints has a receptance of as low a rank: couple it, never
 /// invert it. Throws InputError for a faulty arm, a posture of another size or not finite, or K that is not positive
 /// definite (the arm would fall: the softest joint and its share are named). Cost O(joints³).
-[[nodiscard]] LinearisedArm linearised(const SerialArm& arm, const Posture& posture, const std::string& point);
-
-/// H(ω) = J (K + iωC − ω²M)⁻¹ Jᵀ, 6 × 6: m/N, m/(N m), rad/N, rad/(N m). Cost lines · joints³.
-[[nodiscard]] dynamics::ResponseModel tip_response(const LinearisedArm& arm, const dynamics::FrequencyAxis& axis);
+[[nodiscard]] dynamics::SpatialModel linearised(const SerialArm& arm, const Posture& posture, const std::string& point);
 
 }  // namespace thinwall::robot

@@ -1,5 +1,6 @@
 #include "robot/one_mode.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -27,17 +28,6 @@ void require_valid(const OneMode& mode) {
   require(std::abs(length - 1.0) <= 1e-9, "the length of the direction", length, "it must be a unit vector");
 }
 
-/// Index of the first mode along the same line as modes[i]; the sign of that direction is `sign` times its own.
-std::size_t first_along(const std::vector<OneMode>& modes, std::size_t i, double& sign) {
-  for (std::size_t j = 0; j < i; ++j) {
-    const double cosine = modes[i].direction.dot(modes[j].direction);
-    sign = cosine < 0.0 ? -1.0 : 1.0;
-    if (std::abs(cosine) > 1.0 - 1e-12) return j;
-  }
-  sign = 1.0;
-  return i;
-}
-
 }  // namespace
 
 OneMode one_mode(double frequency_hz, double damping_ratio, double stiffness_n_m, const Eigen::Vector3d& direction) {
@@ -53,26 +43,24 @@ OneMode one_mode(double frequency_hz, double damping_ratio, double stiffness_n_m
 dynamics::SpatialModel spatial_model(const std::vector<OneMode>& modes, const std::string& point) {
   if (modes.empty()) throw core::InputError("robot \"" + point + "\" has no mode: give at least one");
   const auto n = static_cast<Eigen::Index>(modes.size());
-  Eigen::VectorXd mass(n), damping(n), stiffness(n);
-  Eigen::MatrixXd T = Eigen::MatrixXd::Identity(n, n);
-  dynamics::DofTable dofs;
-  for (std::size_t i = 0; i < modes.size(); ++i) {
-    require_valid(modes[i]);
-    const auto row = static_cast<Eigen::Index>(i);
-    mass(row) = modes[i].mass;
-    damping(row) = modes[i].damping;
-    stiffness(row) = modes[i].stiffness;
-    double sign = 1.0;
-    const std::size_t first = first_along(modes, i, sign);
-    if (first == i) {
-      dofs.push_back({point, modes[i].direction, dynamics::DofKind::translation});
-    } else {
-      T(static_cast<Eigen::Index>(first), row) = -sign;
-      dofs.push_back({point + " mode " + std::to_string(i + 1), Eigen::Vector3d::Zero(), dynamics::DofKind::modal});
-    }
+  dynamics::SpatialModel model{
+      Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd(), {},
+      Eigen::MatrixXd::Zero(n, n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const OneMode& mode = modes[static_cast<std::size_t>(i)];
+    require_valid(mode);
+    model.M(i, i) = mode.mass;
+    model.C(i, i) = mode.damping;
+    model.K(i, i) = mode.stiffness;
+    const auto along = std::find_if(model.dofs.begin(), model.dofs.end(), [&](const dynamics::Dof& dof) {
+      return std::abs(dof.direction.dot(mode.direction)) > 1.0 - 1e-12;
+    });
+    const auto row = along - model.dofs.begin();
+    model.T(row, i) = along == model.dofs.end() || along->direction.dot(mode.direction) > 0.0 ? 1.0 : -1.0;
+    if (along == model.dofs.end()) model.dofs.push_back({point, mode.direction, dynamics::DofKind::translation});
   }
-  return {T.transpose() * mass.asDiagonal() * T, T.transpose() * damping.asDiagonal() * T,
-          T.transpose() * stiffness.asDiagonal() * T, Eigen::MatrixXd(), dofs};
+  model.T.conservativeResize(static_cast<Eigen::Index>(model.dofs.size()), Eigen::NoChange);
+  return model;
 }
 
 }  // namespace thinwall::robot

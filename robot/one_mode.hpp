@@ -22,10 +22,9 @@ struct OneMode {
 [[nodiscard]] OneMode one_mode(double frequency_hz, double damping_ratio, double stiffness_n_m,
                                const Eigen::Vector3d& direction);
 
-/// The modes side by side at one point, u = Σ dᵢ qᵢ. Modes of different directions are the DOFs {point, dᵢ}. Where
-/// several share a direction, their sum is the DOF, and all but the first are kept as modal amplitudes: with x = q₁ +
-/// q₂ + … the matrices become Tᵀ diag(·) T, q₁ = x − q₂ − …. Throws InputError for an empty list, a direction that is
-/// not a unit vector, or a mass, stiffness or damping that no passive mode has.
+/// The modes side by side at one point, u = Σ dᵢ qᵢ, in their amplitudes qᵢ. The DOFs are the point's translations
+/// along the directions that differ, {point, d}; modes that share one add up. Throws InputError for an empty list, a
+/// direction that is not a unit vector, or a mass, stiffness or damping that no passive mode has.
 [[nodiscard]] dynamics::SpatialModel spatial_model(const std::vector<OneMode>& modes, const std::string& point);
 
 }  // namespace thinwall::robot

@@ -48,6 +48,19 @@ TEST_F(MatFile, ComesBackToTheLastBitWithItsDofTable) {
   }
 }
 
+TEST_F(MatFile, KeepsWhatTheDofsAreInCoordinatesOfTheirOwn) {
+  dynamics::SpatialModel model = random_model(false);
+  for (Eigen::MatrixXd* matrix : {&model.M, &model.C, &model.K}) matrix->conservativeResize(4, 4);
+  model.T = Eigen::MatrixXd::Random(6, 4);
+  write_mat(path("arm.mat"), model);
+  const auto back = read_mat(path("arm.mat"));
+  EXPECT_EQ(back.T, model.T);
+  EXPECT_EQ(back.K, model.K);
+  EXPECT_EQ(back.dofs.size(), 6U);
+  model.T = Eigen::MatrixXd::Random(5, 4);
+  EXPECT_THROW(write_mat(path("arm.mat"), model), core::InputError) << "six names for five rows";
+}
+
 // The header as the format's description has it: 116 bytes of text that start with "MATLAB", at 124 the version
 // 0x0100 and the letters "MI", which read "IM" on a little-endian machine.
 TEST_F(MatFile, IsOfVersionFiveAndTheSameEveryTime) {

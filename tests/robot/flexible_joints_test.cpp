@@ -25,8 +25,7 @@ dynamics::FrequencyAxis two_lines() {
 // shared reference values: computed by analytic Jacobians and by energies differentiated in 60 digits, which agree to
 // 1e-14; mass matrix and gravity confirmed with orocos-KDL.
 TEST(FourAxisArm, FrequenciesAndDampingAreThoseOfTwoIndependentComputations) {
-  const LinearisedArm arm = linearised(huynh_arm(), {huynh_posture()}, "R");
-  const dynamics::ModalModel modes = dynamics::to_modal(arm.joints);
+  const dynamics::ModalModel modes = dynamics::to_modal(linearised(huynh_arm(), {huynh_posture()}, "R"));
   const std::vector<int> rows = dynamics::oscillating_modes(modes);
   ASSERT_EQ(rows.size(), 4U);
   const double hz[] = {19.703627, 27.303195, 56.800864, 283.103294};
@@ -39,7 +38,8 @@ TEST(FourAxisArm, FrequenciesAndDampingAreThoseOfTwoIndependentComputations) {
 }
 
 TEST(FourAxisArm, TipReceptancesAreThoseOfTwoIndependentComputations) {
-  const dynamics::ResponseModel tip = tip_response(linearised(huynh_arm(), {huynh_posture()}, "R"), two_lines());
+  const dynamics::ResponseModel tip =
+      dynamics::direct_response(linearised(huynh_arm(), {huynh_posture()}, "R"), two_lines());
   ASSERT_EQ(tip.H.size(), 2U);
   ASSERT_EQ(tip.H[0].rows(), 6);
   const struct {
@@ -61,7 +61,8 @@ TEST(FourAxisArm, TipReceptancesAreThoseOfTwoIndependentComputations) {
 }
 
 TEST(FourAxisArm, TipReceptanceHasAsManyRanksAsJoints) {
-  const dynamics::ResponseModel tip = tip_response(linearised(huynh_arm(), {huynh_posture()}, "R"), two_lines());
+  const dynamics::ResponseModel tip =
+      dynamics::direct_response(linearised(huynh_arm(), {huynh_posture()}, "R"), two_lines());
   const VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXcd>(tip.H[1]).singularValues();
   EXPECT_GT(singular(3), 1e-6 * singular(0));
   EXPECT_LT(singular(4), 1e-14 * singular(0));
@@ -70,8 +71,8 @@ TEST(FourAxisArm, TipReceptanceHasAsManyRanksAsJoints) {
 TEST(LinearisedArm, APreloadStiffensOrSoftensByItsOwnStiffness) {
   const SerialArm arm = huynh_arm();
   const Eigen::Vector3d force(300.0, -200.0, 500.0);
-  const MatrixXd with = linearised(arm, {huynh_posture(), force}, "R").joints.K;
-  const MatrixXd without = linearised(arm, {huynh_posture()}, "R").joints.K;
+  const MatrixXd with = linearised(arm, {huynh_posture(), force}, "R").K;
+  const MatrixXd without = linearised(arm, {huynh_posture()}, "R").K;
   EXPECT_LT((with - without - load_stiffness(pose(arm, huynh_posture()), force)).cwiseAbs().maxCoeff(), 1e-9);
 }
 

@@ -55,7 +55,7 @@ double worst_difference(const dynamics::SpatialModel& part, double stiffness) {
   const auto H_part = dynamics::to_response(dynamics::to_modal(part), axis);
   const auto H_robot = dynamics::to_response(dynamics::to_modal(robot), axis);
   const auto receptance = coupling::couple(H_part, H_robot, contacts).response;
-  const auto spatial = coupling::direct_response(coupling::couple(part, robot, contacts), axis);
+  const auto spatial = dynamics::direct_response(coupling::couple(part, robot, contacts), axis);
   double worst = 0.0;
   for (const char* point : {"P", "P2"})
     worst = std::max(worst, coupling::route_difference(spatial, receptance, point, point).max_relative);

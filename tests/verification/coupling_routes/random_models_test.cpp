@@ -61,7 +61,7 @@ dynamics::FrequencyAxis axis_of(const Assembly& assembly, const std::vector<Cont
       hz.push_back(1.013 * hz.back());
     }
   }
-  dynamics::SpatialModel coupled = couple(assembly.part.model, assembly.robot.model, contacts).independent;
+  const dynamics::SpatialModel coupled = couple(assembly.part.model, assembly.robot.model, contacts);
   for (const double omega : dynamics::undamped_modes(coupled).omega_rad_s) {
     hz.push_back(omega / (2.0 * std::numbers::pi));
   }
@@ -221,7 +221,7 @@ TEST(RandomModels, ModesOfTheAssemblySumToItsDirectResponse) {
     for (Contact& contact : contacts) {
       for (ContactSpring& spring : contact.springs) spring.loss_factor = 0.0;  // poles exist for viscous damping only
     }
-    const CoupledModel coupled = couple(assembly.part.model, assembly.robot.model, contacts);
+    const dynamics::SpatialModel coupled = couple(assembly.part.model, assembly.robot.model, contacts);
     const auto axis = axis_of(assembly, contacts);
     const auto direct = direct_response(coupled, axis);
     const auto modal = dynamics::to_response(to_modal(coupled), axis);
