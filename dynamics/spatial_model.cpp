@@ -33,7 +33,7 @@ Eigen::MatrixXd displacements(const SpatialModel& model) {
 }
 
 Eigen::VectorXd coordinate_row(const SpatialModel& model, const std::string& point, const Eigen::Vector3d& n) {
-  const Eigen::VectorXd row = displacement_row(model.dofs, point, n);
+  Eigen::VectorXd row = displacement_row(model.dofs, point, n);
   if (!model.has_own_coordinates()) return row;
   return model.T.transpose() * row;
 }

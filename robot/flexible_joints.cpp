@@ -1,6 +1,7 @@
 #include "robot/flexible_joints.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -22,11 +23,11 @@ void require_stable(const SerialArm& arm, const Eigen::MatrixXd& K) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K);
   if (eigen.eigenvalues()(0) > 0.0) return;
   Index softest = 0;
-  eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&softest);
+  eigen.eigenvectors().col(0).head(arm.joints()).cwiseAbs().maxCoeff(&softest);
   std::ostringstream text;
   text << "the arm does not stay in its posture: weight and preload outdo the joints (stiffness "
        << eigen.eigenvalues()(0) << " N m/rad, most of it at " << joint_name(arm, softest)
-       << "): give that joint its stiffness in N m/rad, or lower the preload";
+       << "): give that joint and its servo their stiffness in N m/rad, or lower the preload";
   throw core::InputError(text.str());
 }
 
@@ -43,18 +44,32 @@ dynamics::SpatialModel linearised(const SerialArm& arm, const Posture& posture, 
   require_valid(arm);
   if (!posture.preload.allFinite()) throw core::InputError("the preload on the robot's tip is not a number");
   const ArmPose at = pose(arm, posture.q);
-  dynamics::SpatialModel model;
-  model.M = mass_matrix(arm, at);
-  model.C = Eigen::MatrixXd::Zero(arm.joints(), arm.joints());
-  model.K = gravity_stiffness(arm, at) + load_stiffness(at, posture.preload);
-  for (Index i = 0; i < arm.joints(); ++i) {
+  const Index links = arm.joints();
+  const Index n = links + std::count_if(arm.links.begin(), arm.links.end(),
+                                        [](const Link& link) { return !link.joint.motor_locked(); });
+  dynamics::SpatialModel model{Eigen::MatrixXd::Zero(n, n),
+                               Eigen::MatrixXd::Zero(n, n),
+                               Eigen::MatrixXd::Zero(n, n),
+                               Eigen::MatrixXd(),
+                               six_dofs(point),
+                               Eigen::MatrixXd::Zero(6, n)};
+  model.M.topLeftCorner(links, links) = mass_matrix(arm, at);
+  model.K.topLeftCorner(links, links) = gravity_stiffness(arm, at) + load_stiffness(at, posture.preload);
+  model.T.leftCols(links) = tip_jacobian(at);
+  Index motor = links;
+  for (Index i = 0; i < links; ++i) {
     const Joint& joint = arm.links[static_cast<std::size_t>(i)].joint;
-    model.C(i, i) = joint.damping;
     model.K(i, i) += joint.stiffness;
+    model.C(i, i) += joint.damping;
+    if (joint.motor_locked()) continue;
+    model.M(motor, motor) = joint.gear_ratio * joint.gear_ratio * joint.motor_inertia;
+    model.K(motor, motor) = joint.stiffness + joint.servo_stiffness;
+    model.C(motor, motor) = joint.damping + joint.servo_damping;
+    model.K(i, motor) = model.K(motor, i) = -joint.stiffness;
+    model.C(i, motor) = model.C(motor, i) = -joint.damping;
+    ++motor;
   }
   require_stable(arm, model.K);
-  model.dofs = six_dofs(point);
-  model.T = tip_jacobian(at);
   return model;
 }
 

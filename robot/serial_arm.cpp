@@ -56,6 +56,14 @@ void check(const Link& link, const std::string& where, Faults& faults) {
   faults.require_number(joint.motor_inertia, joint.motor_inertia >= 0.0, where, "motor inertia (kg m^2)",
                         "not be negative");
   faults.require_number(joint.gear_ratio, joint.gear_ratio != 0.0, where, "gear ratio", "not be zero");
+  if (!joint.motor_locked()) {
+    faults.require_number(joint.servo_stiffness, joint.servo_stiffness >= 0.0, where, "servo stiffness (N m/rad)",
+                          "not be negative");
+    faults.require_number(joint.servo_damping, joint.servo_damping >= 0.0, where, "servo damping (N m s/rad)",
+                          "not be negative");
+    faults.require_number(joint.motor_inertia, joint.motor_inertia > 0.0, where, "motor inertia (kg m^2)",
+                          "be positive where a servo of finite stiffness holds the motor");
+  }
   faults.require_number(link.mass, link.mass >= 0.0, where, "mass (kg)", "not be negative");
   if (!link.inertia.allFinite()) return;
   const std::string fault = fault_of_inertia(link.inertia);

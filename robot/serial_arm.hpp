@@ -3,17 +3,23 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace thinwall::robot {
 
-/// What a joint's gearbox and motor are to a vibration. About the joint's axis, on the side of the link.
+/// What a joint's gearbox and motor are to a vibration, about the joint's axis (Spong 1987): the rotor, held by the
+/// servo's position loop, carries the link by the gearbox. All but the rotor's inertia on the side of the link.
 struct Joint {
   double stiffness = 0.0;      ///< of gearbox and shaft, N m/rad, > 0
   double damping = 0.0;        ///< beside the stiffness, N m s/rad, ≥ 0
-  double motor_inertia = 0.0;  ///< of the rotor on its own shaft, kg m², ≥ 0
+  double motor_inertia = 0.0;  ///< of the rotor about its own shaft, kg m², ≥ 0; > 0 unless the motor is locked
   double gear_ratio = 1.0;     ///< turns of the rotor for one of the joint, ≠ 0
+  double servo_stiffness = std::numeric_limits<double>::infinity();  ///< N m/rad, ≥ 0; infinite: the motor is locked
+  double servo_damping = 0.0;  ///< N m s/rad, ≥ 0; without meaning for a locked motor
+
+  [[nodiscard]] bool motor_locked() const { return servo_stiffness == std::numeric_limits<double>::infinity(); }
 };
 
 /// A rigid body and the joint that carries it. At q = 0 its frame is the joint's; q turns it about `axis`.
@@ -38,9 +44,9 @@ struct SerialArm {
 };
 
 /// Throws InputError with every violation at once, each with the link's name: no link, an axis that is no unit vector,
-/// a joint without stiffness, negative damping, mass or motor inertia, no gear ratio, an inertia tensor that no body
-/// has (not symmetric, or a principal moment negative or larger than the sum of the other two), a number that is not
-/// finite.
+/// a joint without stiffness, a motor that turns without inertia, negative damping, mass, motor inertia or servo gain,
+/// no gear ratio, an inertia tensor that no body has (not symmetric, or a principal moment negative or larger than the
+/// sum of the other two), a number that is not finite.
 void require_valid(const SerialArm& arm);
 
 }  // namespace thinwall::robot

@@ -76,6 +76,63 @@ TEST(LinearisedArm, APreloadStiffensOrSoftensByItsOwnStiffness) {
   EXPECT_LT((with - without - load_stiffness(pose(arm, huynh_posture()), force)).cwiseAbs().maxCoeff(), 1e-9);
 }
 
+/// The arm of the reference with rotors of 0.002 kg m² behind gears of 100 and servos of so many times the gearboxes'
+/// stiffness and damping.
+SerialArm with_servos(double times_gearbox) {
+  SerialArm arm = huynh_arm();
+  for (Link& link : arm.links) {
+    link.joint.motor_inertia = 0.002;
+    link.joint.gear_ratio = -100.0;
+    link.joint.servo_stiffness = times_gearbox * link.joint.stiffness;
+    link.joint.servo_damping = times_gearbox * link.joint.damping;
+  }
+  return arm;
+}
+
+TEST(SpongsJoint, BecomesALockedMotorAsTheServosGainGrows) {
+  const dynamics::FrequencyAxis axis = dynamics::linear_axis(1.0, 100.0, 100);
+  const dynamics::ResponseModel locked =
+      dynamics::direct_response(linearised(huynh_arm(), {huynh_posture()}, "R"), axis);
+  double previous = 1.0;
+  for (const double gain : {1e3, 1e4, 1e5, 1e6}) {
+    const dynamics::SpatialModel model = linearised(with_servos(gain), {huynh_posture()}, "R");
+    ASSERT_EQ(model.size(), 8);
+    const dynamics::ResponseModel servo = dynamics::direct_response(model, axis);
+    double difference = 0.0;
+    for (std::size_t line = 0; line < servo.H.size(); ++line)
+      difference = std::max(difference, (servo.H[line] - locked.H[line]).norm() / locked.H[line].norm());
+    std::printf("servo %.0e times the gearbox: receptances to %.1e of the locked motors'\n", gain, difference);
+    EXPECT_LT(difference, gain > 1e3 ? 0.11 * previous : 0.1) << "first order in 1/gain";
+    previous = difference;
+  }
+}
+
+// At rest gearbox and servo are springs in a row; two equal ones give twice as much.
+TEST(SpongsJoint, IsTwoSpringsInARowAtRest) {
+  const dynamics::FrequencyAxis at_rest{Eigen::VectorXd::Constant(1, 1e-6)};
+  SerialArm servo = with_servos(1.0);
+  SerialArm half = huynh_arm();
+  servo.gravity.setZero();
+  half.gravity.setZero();
+  for (Link& link : half.links) link.joint.stiffness *= 0.5;
+  const Eigen::MatrixXd found =
+      dynamics::direct_response(linearised(servo, {huynh_posture()}, "R"), at_rest).H[0].real();
+  const Eigen::MatrixXd expected =
+      dynamics::direct_response(linearised(half, {huynh_posture()}, "R"), at_rest).H[0].real();
+  EXPECT_LT((found - expected).norm(), 1e-10 * expected.norm());
+}
+
+TEST(SpongsJoint, WithoutAServoOrARotorIsRefused) {
+  SerialArm free = with_servos(0.0);
+  free.gravity.setZero();
+  EXPECT_THROW((void)linearised(free, {huynh_posture()}, "R"), core::InputError) << "nothing holds it";
+  SerialArm massless = with_servos(1.0);
+  massless.links[2].joint.motor_inertia = 0.0;
+  EXPECT_THROW((void)linearised(massless, {huynh_posture()}, "R"), core::InputError);
+  SerialArm negative = with_servos(-1.0);
+  EXPECT_THROW((void)linearised(negative, {huynh_posture()}, "R"), core::InputError);
+}
+
 TEST(LinearisedArm, RefusesWhatDoesNotStayWhereItIs) {
   SerialArm arm = huynh_arm();
   arm.links[1].joint.stiffness = 100.0;  // upright arm of half a ton

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <kdl/chaindynparam.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
 #include "robot/arm_dynamics.hpp"
+#include "robot/flexible_joints.hpp"
 #include "tests/robot/arms.hpp"
 
 namespace thinwall::robot {
@@ -33,7 +35,8 @@ KDL::Chain to_kdl(const SerialArm& arm) {
     chain.addSegment(KDL::Segment(
         "link " + std::to_string(i + 1),
         KDL::Joint("joint " + std::to_string(i + 1), to_kdl(Eigen::Vector3d(link.placement.translation())),
-                   to_kdl(axis), KDL::Joint::RotAxis),
+                   to_kdl(axis), KDL::Joint::RotAxis, 1.0, 0.0,
+                   link.joint.gear_ratio * link.joint.gear_ratio * link.joint.motor_inertia),
         to_kdl(link.placement),
         KDL::RigidBodyInertia(link.mass, to_kdl(link.centre),
                               KDL::RotationalInertia(I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)))));
@@ -91,6 +94,37 @@ TEST(OrocosKdl, HasTheSamePosesJacobiansMassMatricesAndGravity) {
   }
   std::printf("tip, Jacobian, mass matrix and gravity of 20 arms: within %.1e of orocos-KDL's\n", worst);
   EXPECT_LT(worst, 1e-12);
+}
+
+/// Undamped frequencies of M and K, rad/s.
+Eigen::VectorXd frequencies(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K) {
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M).eigenvalues().cwiseMax(0.0).cwiseSqrt();
+}
+
+// Where gearboxes do not give, a rotor is an armature, which KDL adds to the mass matrix: the arm on its servos alone.
+TEST(OrocosKdl, HasTheTwoInertiaJointsLimitOfAStiffGearboxAsArmature) {
+  SerialArm arm = huynh_arm();
+  arm.gravity.setZero();
+  Eigen::VectorXd servo(4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    arm.links[i].joint.motor_inertia = 0.001 * static_cast<double>(i + 1);
+    arm.links[i].joint.gear_ratio = 120.0;
+    servo(static_cast<Eigen::Index>(i)) = arm.links[i].joint.servo_stiffness = arm.links[i].joint.stiffness;
+  }
+  const KDL::Chain chain = to_kdl(arm);
+  KDL::JntSpaceInertiaMatrix M(4);
+  KDL::ChainDynParam(chain, KDL::Vector::Zero()).JntToMass(to_kdl(huynh_posture()), M);
+  const Eigen::VectorXd expected = frequencies(from_kdl(M, 4, 4), servo.asDiagonal());
+  double previous = 1.0;
+  for (const double times : {1e3, 1e4, 1e5, 1e6}) {
+    SerialArm stiff = arm;
+    for (Link& link : stiff.links) link.joint.stiffness *= times;
+    const dynamics::SpatialModel model = linearised(stiff, {huynh_posture()}, "R");
+    const double error = (frequencies(model.M, model.K).head(4).array() / expected.array() - 1.0).abs().maxCoeff();
+    std::printf("gearbox %.0e times the servo: four frequencies to %.1e of those with KDL's armature\n", times, error);
+    EXPECT_LT(error, times > 1e3 ? 0.11 * previous : 1e-2) << "first order in servo/gearbox";
+    previous = error;
+  }
 }
 
 }  // namespace
