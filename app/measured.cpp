@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
+#include "reduction/damping.hpp"
 
 namespace thinwall::app {
 
@@ -61,7 +62,8 @@ dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files,
 
 std::vector<double> matched_ratios(const dynamics::SpatialModel& reduced,
                                    const std::vector<reduction::IdentifiedMode>& identified, double rest) {
-  const Eigen::VectorXd hz = dynamics::undamped_modes(reduced).omega_rad_s / (2.0 * std::numbers::pi);
+  const Eigen::VectorXd all_hz = dynamics::undamped_modes(reduced).omega_rad_s / (2.0 * std::numbers::pi);
+  const Eigen::VectorXd hz = all_hz.tail(all_hz.size() - reduction::rigid_motions(all_hz));
   std::vector<double> ratios(static_cast<std::size_t>(hz.size()), rest);
   for (const auto& mode : identified) {
     Eigen::Index nearest = 0;

@@ -20,8 +20,8 @@ namespace thinwall::app {
 [[nodiscard]] dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files,
                                                         const dynamics::FrequencyAxis& axis);
 
-/// Damping ratios of the reduced model's first modes: to each undamped mode the identified one within 10 % of its
-/// frequency, nearest first; `rest` where none is.
+/// Damping ratios of the reduced model's elastic modes, by rising frequency: each identified one at the mode nearest to
+/// it, `rest` at the others. Throws InputError where none is within 10 %.
 [[nodiscard]] std::vector<double> matched_ratios(const dynamics::SpatialModel& reduced,
                                                  const std::vector<reduction::IdentifiedMode>& identified, double rest);
 

@@ -91,9 +91,9 @@ Pivot largest_pivot(const Eigen::MatrixXd& rows, const std::vector<std::size_t>&
 }
 
 /// Gaussian elimination with full pivoting of the candidates' rows bᵀ, as far as they are independent; `rows` holds all
-/// rows, reduced by what was eliminated before, and is reduced further.
-void eliminate(std::vector<std::size_t> candidates, Eigen::MatrixXd& rows, Elimination& elimination) {
-  constexpr double dependent = 1e-10;  // beside unit directions
+/// rows, reduced by what was eliminated before, and is reduced further; what is no larger than `dependent` is
+/// round-off.
+void eliminate(std::vector<std::size_t> candidates, double dependent, Eigen::MatrixXd& rows, Elimination& elimination) {
   while (!candidates.empty()) {
     const Pivot pivot = largest_pivot(rows, candidates);
     if (!(pivot.size > dependent)) return;
@@ -118,14 +118,15 @@ Elimination eliminate(const std::vector<Joint>& joints, const Eigen::MatrixXd& K
       stiff.push_back(j);
     }
   }
+  const double dependent = 1e-10 * rows.cwiseAbs().maxCoeff();  // coordinates may have any unit
   Elimination elimination;
-  eliminate(rigid, rows, elimination);
+  eliminate(rigid, dependent, rows, elimination);
   if (elimination.joints.size() < rigid.size()) {
     throw core::InputError("of " + std::to_string(rigid.size()) + " rigid contact directions only " +
                            std::to_string(elimination.joints.size()) +
                            " are independent: leave out those that follow from the others or that nothing moves along");
   }
-  eliminate(stiff, rows, elimination);
+  eliminate(stiff, dependent, rows, elimination);
   return elimination;
 }
 
@@ -196,6 +197,9 @@ SpatialModel couple(const SpatialModel& part, const SpatialModel& robot, const s
   std::vector<Eigen::Index> open;
   for (Eigen::Index i = 0; i < all.size(); ++i) {
     if (i < first_opening || i >= first_opening + closed) open.push_back(i);
+  }
+  if (open.empty()) {
+    throw core::InputError("the rigid contacts hold every coordinate of part and robot: nothing is left that can move");
   }
   SpatialModel coupled{
       joined.M(open, open),      joined.C(open, open), joined.K(open, open), joined.D(open, open), all.dofs,

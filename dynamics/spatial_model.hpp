@@ -21,7 +21,7 @@ struct SpatialModel {
 
   [[nodiscard]] Eigen::Index size() const { return M.rows(); }
   [[nodiscard]] bool has_structural_damping() const { return D.size() > 0; }
-  [[nodiscard]] bool has_own_coordinates() const { return T.size() > 0; }
+  [[nodiscard]] bool has_own_coordinates() const { return T.rows() > 0; }
 };
 
 /// Throws InputError unless M, C, K (and D if present) are as large as the table, or as T where there is one, T as

@@ -224,7 +224,13 @@ SpatialModel read_mat(const std::filesystem::path& path) {
   model.K = read_matrix(file.get(), "K", path, n, n);
   model.C = has_variable(file.get(), "C") ? read_matrix(file.get(), "C", path, n, n) : Eigen::MatrixXd::Zero(n, n);
   if (has_variable(file.get(), "D")) model.D = read_matrix(file.get(), "D", path, n, n);
-  if (has_variable(file.get(), "T")) model.T = read_matrix(file.get(), "T", path, -1, n);
+  if (has_variable(file.get(), "T")) {
+    model.T = read_matrix(file.get(), "T", path, -1, -1);
+    if (model.T.cols() != n || model.T.rows() == 0) {
+      fail(path, "the variable T is " + std::to_string(model.T.rows()) + " x " + std::to_string(model.T.cols()) +
+                     "; it must have a column for each of the " + std::to_string(n) + " rows of M");
+    }
+  }
   const Eigen::Index dofs = model.has_own_coordinates() ? model.T.rows() : n;
   const auto points = read_texts(file.get(), "dof_point", path, dofs);
   const auto kinds = read_texts(file.get(), "dof_kind", path, dofs);

@@ -125,7 +125,7 @@ void pull_up(const Panel& L, std::ptrdiff_t from, std::ptrdiff_t to, Rows<width>
 /// body(from, to) for pieces of [from, to), each a multiple of 16 long, on all threads.
 template <class Body>
 void in_pieces(std::ptrdiff_t from, std::ptrdiff_t to, const Body& body) {
-  const std::ptrdiff_t piece = ((to - from) / 8 + 15) / 16 * 16;
+  const std::ptrdiff_t piece = (to - from + 127) / 128 * 16;
   core::parallel_for(static_cast<std::size_t>((to - from + piece - 1) / piece), [&](std::size_t i) {
     const std::ptrdiff_t first = from + static_cast<std::ptrdiff_t>(i) * piece;
     body(first, std::min(first + piece, to));

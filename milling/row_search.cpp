@@ -82,6 +82,11 @@ ToLevel SearchGrids::to_level() {
   };
 }
 
+StabilityOptions beyond_limit(StabilityOptions options) {
+  options.depth_limit_m *= 1.05;
+  return options;
+}
+
 FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& options) {
   constexpr double step = 1.5;
   FirstCrossing first{CriticalDepths(gain), {}, 0.0};
@@ -95,7 +100,7 @@ FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& o
 }
 
 double wanted_m(const FirstCrossing& first, const StabilityOptions& options) {
-  if (first.found.empty()) return first.searched_m;
+  if (first.found.empty()) return std::min(options.depth_limit_m, first.searched_m);
   return std::min(options.depth_limit_m, options.follow * first.found.front().depth_m);
 }
 
@@ -114,9 +119,11 @@ double follow(FirstCrossing& first, const StabilityOptions& options) {
 LobeRow row_from(SearchGrids& grids, FirstCrossing first, double spindle_speed_rpm, const StabilityOptions& options) {
   LobeRow row;
   row.spindle_speed_rpm = spindle_speed_rpm;
-  row.searched_m = follow(first, options);
+  row.searched_m = follow(first, beyond_limit(options));
   std::size_t finest = 1;
-  for (const RefinedCrossing& c : refined(grids, std::move(first.found), options, row)) {
+  const std::vector<RefinedCrossing> all = refined(grids, std::move(first.found), options, row);
+  row.searched_m = std::min(row.searched_m, options.depth_limit_m);
+  for (const RefinedCrossing& c : all) {
     if (c.crossing.depth_m > options.depth_limit_m) continue;
     finest = std::max(finest, c.level);
     row.crossings.push_back(lobe_point(c, grids.chatter_frequency_hz(c.level, c.crossing)));

@@ -34,6 +34,11 @@ class SearchGrids {
   [[nodiscard]] ToLevel to_level();
 };
 
+/// The options of a search: a twentieth beyond the depth limit, for a crossing that lies there on a coarse grid may lie
+/// within on a finer one (a flip at 22.785 of 22.856 mm was 1 % deeper on the coarse grid, and its stable gap was
+/// lost).
+[[nodiscard]] StabilityOptions beyond_limit(StabilityOptions options);
+
 /// A search of the coarse grid from small depths on until a crossing is found.
 struct FirstCrossing {
   CriticalDepths search;

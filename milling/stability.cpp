@@ -123,7 +123,7 @@ LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
   Resolution resolution = resolving(cut, std::min(options.depth_limit_m, likely));
   while (true) {
     PoleGrids grids(cut, resolution, 0.0, options.most_nodes);
-    FirstCrossing first = first_crossing(grids.gain(0), options);
+    FirstCrossing first = first_crossing(grids.gain(0), beyond_limit(options));
     // What is stable up to a depth must be so with every mode that could regenerate there.
     const Resolution needed = resolving(cut, first.found.empty() ? options.depth_limit_m : first.found.front().depth_m);
     if (fewer(resolution, needed)) {

@@ -23,13 +23,17 @@ void require_not_negative(double value, const char* name) {
 
 }  // namespace
 
+Eigen::Index rigid_motions(const Eigen::VectorXd& ascending) {
+  return (ascending.array() <= 1e-6 * ascending.maxCoeff()).count();
+}
+
 dynamics::SpatialModel with_modal_damping(dynamics::SpatialModel model, const std::vector<double>& ratios,
                                           double rest) {
   for (const double zeta : ratios) require_ratio(zeta);
   require_ratio(rest);
   const dynamics::UndampedModes modes = dynamics::undamped_modes(model);
   Eigen::VectorXd two_zeta_omega = 2.0 * modes.omega_rad_s;
-  const Eigen::Index rigid = (modes.omega_rad_s.array() <= 1e-6 * modes.omega_rad_s.maxCoeff()).count();
+  const Eigen::Index rigid = rigid_motions(modes.omega_rad_s);
   for (Eigen::Index k = rigid; k < two_zeta_omega.size(); ++k) {
     const auto elastic = static_cast<std::size_t>(k - rigid);
     two_zeta_omega(k) *= elastic < ratios.size() ? ratios[elastic] : rest;

@@ -7,6 +7,9 @@
 
 namespace thinwall::reduction {
 
+/// How many of a model's undamped frequencies, ascending, are of rigid motions: up to 1e-6 of the largest.
+[[nodiscard]] Eigen::Index rigid_motions(const Eigen::VectorXd& ascending);
+
 /// C = M Φ diag(2 ζ ω) Φᵀ M over the model's undamped modes Φ (M-normalised): mode k then decays with exactly ζ_k and
 /// the modes stay what they are. `ratios`: ζ of the first elastic modes in ascending order; `rest` for all others.
 /// Rigid-body modes (ω = 0) get none. Returns the model with C set. Throws InputError unless 0 ≤ ζ < 1. Cost O(n³).

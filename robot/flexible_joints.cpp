@@ -21,7 +21,8 @@ std::string joint_name(const SerialArm& arm, Index i) {
 /// A stiffness without which the arm would leave its posture is none.
 void require_stable(const SerialArm& arm, const Eigen::MatrixXd& K) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K);
-  if (eigen.eigenvalues()(0) > 0.0) return;
+  // What is zero but for round-off holds nothing.
+  if (eigen.eigenvalues()(0) > 1e-13 * eigen.eigenvalues().maxCoeff()) return;
   Index softest = 0;
   eigen.eigenvectors().col(0).head(arm.joints()).cwiseAbs().maxCoeff(&softest);
   std::ostringstream text;
@@ -29,6 +30,16 @@ void require_stable(const SerialArm& arm, const Eigen::MatrixXd& K) {
        << eigen.eigenvalues()(0) << " N m/rad, most of it at " << joint_name(arm, softest)
        << "): give that joint and its servo their stiffness in N m/rad, or lower the preload";
   throw core::InputError(text.str());
+}
+
+/// Every motion of the joints moves some mass.
+void require_massive(const SerialArm& arm, const Eigen::MatrixXd& M) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(M);
+  if (eigen.eigenvalues()(0) > 1e-13 * eigen.eigenvalues().maxCoeff()) return;
+  Index lightest = 0;
+  eigen.eigenvectors().col(0).head(arm.joints()).cwiseAbs().maxCoeff(&lightest);
+  throw core::InputError("the arm can move without moving mass, most of all at " + joint_name(arm, lightest) +
+                         ": give the links beyond that joint their mass and inertia");
 }
 
 dynamics::DofTable six_dofs(const std::string& point) {
@@ -69,6 +80,7 @@ dynamics::SpatialModel linearised(const SerialArm& arm, const Posture& posture, 
     model.C(i, motor) = model.C(motor, i) = -joint.damping;
     ++motor;
   }
+  require_massive(arm, model.M);
   require_stable(arm, model.K);
   return model;
 }

@@ -25,8 +25,8 @@ struct Posture {
 ///
 /// The springs bear weight and preload at rest, so that q is the posture with both. Coriolis terms vanish at rest. A
 /// tip of fewer than six joints has a receptance of as low a rank: couple it, never invert it. Throws InputError for a
-/// faulty arm, a posture of another size or not finite, or K that is not positive definite (the arm would fall: the
-/// joint that gives most is named). Cost O(joints³).
+/// faulty arm, a posture of another size or not finite, M that is singular (links without mass), or K that is not
+/// positive definite (the arm would fall: the joint that gives most is named). Cost O(joints³).
 [[nodiscard]] dynamics::SpatialModel linearised(const SerialArm& arm, const Posture& posture, const std::string& point);
 
 }  // namespace thinwall::robot

@@ -25,6 +25,12 @@ std::string fault_of_inertia(const Eigen::Matrix3d& inertia) {
   return text.str();
 }
 
+bool is_frame(const Eigen::Isometry3d& frame) {
+  const Eigen::Matrix3d R = frame.linear();
+  return frame.matrix().allFinite() && R.determinant() > 0.0 &&
+         (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= 1e-9;
+}
+
 class Faults {
  public:
   void require(bool holds, const std::string& where, const std::string& what) {
@@ -47,8 +53,12 @@ class Faults {
 
 void check(const Link& link, const std::string& where, Faults& faults) {
   const Joint& joint = link.joint;
-  faults.require(link.placement.matrix().allFinite() && link.centre.allFinite() && link.inertia.allFinite(), where,
-                 "has a placement, centre or inertia that is not a number");
+  faults.require(link.centre.allFinite() && link.inertia.allFinite(), where,
+                 "has a centre or inertia that is not a number");
+  faults.require(
+      is_frame(link.placement), where,
+      "has a placement that is no frame: its axes must be of unit length, at right angles and right-handed, to "
+      "nine digits");
   faults.require(std::abs(link.axis.norm() - 1.0) <= 1e-9, where, "has a joint axis that is not a unit vector");
   faults.require_number(joint.stiffness, joint.stiffness > 0.0, where, "joint stiffness (N m/rad)",
                         "be positive (a joint that does not give is left out: join the two links)");
@@ -75,8 +85,9 @@ void check(const Link& link, const std::string& where, Faults& faults) {
 void require_valid(const SerialArm& arm) {
   Faults faults;
   faults.require(!arm.links.empty(), "the arm", "has no link");
-  faults.require(arm.base.matrix().allFinite() && arm.tip.matrix().allFinite() && arm.gravity.allFinite(), "the arm",
-                 "has a base, tip or gravity that is not a number");
+  faults.require(is_frame(arm.base) && is_frame(arm.tip), "the arm",
+                 "has a base or a tip that is no frame: axes of unit length, at right angles and right-handed");
+  faults.require(arm.gravity.allFinite(), "the arm", "has a gravity that is not a number");
   for (std::size_t i = 0; i < arm.links.size(); ++i) {
     const Link& link = arm.links[i];
     check(link, "link " + std::to_string(i + 1) + (link.name.empty() ? "" : " (" + link.name + ")"), faults);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
+#include <optional>
 #include <random>
 
 #include "linalg/sparse_cholesky.hpp"
@@ -42,6 +44,36 @@ TEST(SupernodalSolve, TakesColumnsOfALargerMatrix) {
   EXPECT_EQ(factor.solve(B.middleCols(2, 5)), factor.solve(MatrixXd(B.middleCols(2, 5))));
   const MatrixXd tall = MatrixXd::Random(500, 3);
   EXPECT_EQ(factor.solve(tall.topRows(400)), factor.solve(MatrixXd(tall.topRows(400))));
+}
+
+/// Two dense blocks that touch nothing but a third: supernodes large enough that all threads share them.
+GridProblem dense_blocks(int size) {
+  const MatrixXd random = MatrixXd::Random(3 * size, 3 * size);
+  MatrixXd A = 0.5 * (random + random.transpose()) + 4.0 * size * MatrixXd::Identity(3 * size, 3 * size);
+  A.block(0, size, size, size).setZero();
+  A.block(size, 0, size, size).setZero();
+  GridProblem problem;
+  problem.K = A.sparseView();
+  for (int row = 0; row < 3 * size; ++row) problem.node_of_row.push_back(row);
+  return problem;
+}
+
+TEST(SupernodalSolve, OfSupernodesThatAllThreadsShareAgreesWithADenseOneForEveryWidth) {
+  const GridProblem blocks = dense_blocks(420);
+  const SparseCholesky factor(blocks.K, blocks.node_of_row);
+  const MatrixXd A = blocks.K;
+  const MatrixXd B = MatrixXd::Random(A.rows(), 16);
+  const MatrixXd expected = A.llt().solve(B);
+  for (const int columns : {1, 4, 5, 8, 9, 12, 13, 16}) {
+    std::optional<MatrixXd> first;
+    for (const int threads : {1, 2, 5}) {
+      const ThreadCount count(threads);
+      const MatrixXd X = factor.solve(B.leftCols(columns));
+      EXPECT_LT((X - expected.leftCols(columns)).norm(), 1e-13 * expected.norm()) << columns;
+      if (!first) first = X;
+      EXPECT_EQ(X, *first) << columns << " columns, " << threads << " threads";
+    }
+  }
 }
 
 TEST(SupernodalSolve, IsTheSameBitByBitForAnyNumberOfThreads) {

@@ -83,6 +83,20 @@ int disagreements(const RandomCut& cut, double rpm, int depths, std::string& whe
   return count;
 }
 
+// The stable gap of system 7 from 22.785 mm up to the limit of 22.856 mm: on the coarse grid its flip lies beyond.
+TEST(DepthLimit, HidesNoCrossingThatACoarseGridSeesBeyondIt) {
+  const RandomCut cut = random_cut(7);
+  std::string where;
+  EXPECT_EQ(disagreements(cut, 10731.781016, 1000, where), 0) << where;
+  StabilityOptions options;
+  options.follow = 1e9;
+  options.depth_limit_m = cut.deepest_m;
+  const LobeRow row = limiting_depth(cut.structure, cut.process, 10731.781016, options);
+  ASSERT_EQ(row.crossings.size(), 2U);
+  EXPECT_NEAR(row.crossings[1].depth_m, 22.78476e-3, 1e-8) << "as with a deeper limit";
+  EXPECT_LE(row.searched_m, cut.deepest_m);
+}
+
 class Islands : public testing::TestWithParam<unsigned> {};
 
 TEST_P(Islands, NoneIsMissed) {

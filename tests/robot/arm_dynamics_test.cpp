@@ -144,5 +144,17 @@ TEST(SerialArm, EveryFaultIsSaidAtOnce) {
   EXPECT_THROW(require_valid(arm), core::InputError) << "nan";
 }
 
+TEST(SerialArm, FramesMustBeFrames) {
+  SerialArm arm = huynh_arm();
+  arm.links[2].placement.linear() = Vector3d(1, 1, -1).asDiagonal();
+  EXPECT_THROW(require_valid(arm), core::InputError) << "mirrored";
+  arm = huynh_arm();
+  arm.tip.linear()(0, 0) = 0.999;
+  EXPECT_THROW(require_valid(arm), core::InputError) << "three digits";
+  arm = huynh_arm();
+  arm.base.translation().x() = std::nan("");
+  EXPECT_THROW(require_valid(arm), core::InputError) << "not a number";
+}
+
 }  // namespace
 }  // namespace thinwall::robot

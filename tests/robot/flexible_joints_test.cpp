@@ -122,7 +122,72 @@ TEST(SpongsJoint, IsTwoSpringsInARowAtRest) {
   EXPECT_LT((found - expected).norm(), 1e-10 * expected.norm());
 }
 
+// One joint about z, its tip one metre out: H = 1 / (Z_g Z_s / (Z_g + Z_s) − ω²I) with the gearbox Z_g = k + iωd and
+// the motor on its servo Z_s = k_p + iωk_d − ω²r²J.
+TEST(SpongsJoint, IsTheChainOfGearboxAndServoWithAllItsDamping) {
+  SerialArm arm;
+  arm.links.resize(1);
+  Link& link = arm.links[0];
+  link.mass = 20.0;
+  link.inertia = Eigen::Vector3d(1.0, 1.0, 1.5).asDiagonal();
+  link.joint = {2e5, 40.0, 1e-3, 80.0, 3e5, 900.0};
+  arm.tip.translation() = Eigen::Vector3d::UnitX();
+  const dynamics::FrequencyAxis axis = dynamics::linear_axis(1.0, 120.0, 60);
+  const Eigen::VectorXcd found =
+      dynamics::entry(dynamics::direct_response(linearised(arm, {VectorXd::Zero(1)}, "R"), axis), "R.y", "R.y");
+  for (Eigen::Index line = 0; line < axis.size(); ++line) {
+    const double w = axis.omega_rad_s(line);
+    const Complex gearbox(2e5, 40.0 * w);
+    const Complex servo(3e5 - w * w * 80.0 * 80.0 * 1e-3, 900.0 * w);
+    const Complex expected = 1.0 / (gearbox * servo / (gearbox + servo) - w * w * 1.5);
+    EXPECT_LT(std::abs(found(line) / expected - 1.0), 1e-12) << axis.hz(line);
+  }
+}
+
+TEST(LinearisedArm, SixDofsOfTheTipStandUnderTheirNames) {
+  const SerialArm arm = huynh_arm();
+  const MatrixXd J = tip_jacobian(pose(arm, huynh_posture()));
+  const dynamics::SpatialModel model = linearised(arm, {huynh_posture()}, "R");
+  const MatrixXd expected = J * model.K.inverse() * J.transpose();
+  const dynamics::ResponseModel tip =
+      dynamics::direct_response(model, dynamics::FrequencyAxis{VectorXd::Constant(1, 1e-6)});
+  const char* names[] = {"R.x", "R.y", "R.z", "R.rx", "R.ry", "R.rz"};
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    for (Eigen::Index j = 0; j < 6; ++j) {
+      const double found = dynamics::entry(tip, names[i], names[j])(0).real();
+      EXPECT_NEAR(found, expected(i, j), 1e-12 * expected.cwiseAbs().maxCoeff()) << names[i] << names[j];
+    }
+  }
+}
+
+TEST(LinearisedArm, BucklesUnderAPreloadAlongIt) {
+  // Upright without weight: joint 4 carries k = 0.66e6 N m/rad and 0.2 m, which f l = k buckles at the latest.
+  SerialArm arm = huynh_arm();
+  arm.gravity.setZero();
+  const Eigen::Vector3d down(0.0, 0.0, -1.0);
+  EXPECT_NO_THROW((void)linearised(arm, {Eigen::Vector4d::Zero(), 1e5 * down}, "R"));
+  EXPECT_THROW((void)linearised(arm, {Eigen::Vector4d::Zero(), 3.4e6 * down}, "R"), core::InputError);
+  EXPECT_NO_THROW((void)linearised(arm, {Eigen::Vector4d::Zero(), -3.4e6 * down}, "R")) << "pulled";
+}
+
+TEST(LinearisedArm, WithoutMassBeyondAJointIsRefused) {
+  SerialArm arm = huynh_arm();
+  arm.links[3].mass = 0.0;
+  arm.links[3].inertia.setZero();
+  try {
+    (void)linearised(arm, {huynh_posture()}, "R");
+    FAIL();
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("joint 4 (spindle)"), std::string::npos) << error.what();
+  }
+}
+
 TEST(SpongsJoint, WithoutAServoOrARotorIsRefused) {
+  for (const double stiffness : {3.8e6, 3.9e6, 6.6e6}) {
+    SerialArm loose = huynh_arm();  // the weight holds nothing about a vertical axis
+    loose.links[0].joint = {stiffness, 10.0, 0.002, 100.0, 0.0, 0.0};
+    EXPECT_THROW((void)linearised(loose, {huynh_posture()}, "R"), core::InputError) << stiffness;
+  }
   SerialArm free = with_servos(0.0);
   free.gravity.setZero();
   EXPECT_THROW((void)linearised(free, {huynh_posture()}, "R"), core::InputError) << "nothing holds it";

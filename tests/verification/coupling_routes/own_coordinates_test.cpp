@@ -46,7 +46,9 @@ TEST(OwnCoordinates, ChangeNeitherResponsesNorModesNorWhatIsCoupled) {
   std::mt19937 random(91);
   const dynamics::SpatialModel part = random_part(random);
   const dynamics::SpatialModel robot = testing::random_component(5, {"R"}, testing::Damping::light, 20.0, random).model;
-  const Eigen::MatrixXd S = Eigen::MatrixXd::Identity(15, 15) + 0.2 * Eigen::MatrixXd::Random(15, 15);
+  std::uniform_real_distribution<double> small(-0.2, 0.2);
+  const Eigen::MatrixXd S =
+      Eigen::MatrixXd::NullaryExpr(15, 15, [&] { return small(random); }) + Eigen::MatrixXd::Identity(15, 15);
   const dynamics::SpatialModel other = in_other_coordinates(part, S);
   const dynamics::FrequencyAxis axis = dynamics::logarithmic_axis(5.0, 3000.0, 300);
   const auto response = dynamics::direct_response(part, axis);
@@ -79,6 +81,19 @@ TEST(OwnCoordinates, AnArmOfFourJointsJoinsByBothRoutes) {
     const auto modal = dynamics::to_response(dynamics::to_modal(couple(part, arm, contacts)), axis);
     EXPECT_LT(route_difference(spatial, modal).max_relative, 1e-8) << K;
   }
+}
+
+TEST(OwnCoordinates, NothingLeftToMoveIsSaid) {
+  const auto one = [](const char* point, const Eigen::Vector3d& along) {
+    return dynamics::SpatialModel{Eigen::MatrixXd::Identity(1, 1),
+                                  Eigen::MatrixXd::Zero(1, 1),
+                                  1e6 * Eigen::MatrixXd::Identity(1, 1),
+                                  Eigen::MatrixXd(),
+                                  {{point, along, dynamics::DofKind::translation}}};
+  };
+  const Contact contact{"P", "R", {{Eigen::Vector3d::UnitX(), rigid}, {Eigen::Vector3d::UnitY(), rigid}}};
+  EXPECT_THROW((void)couple(one("P", Eigen::Vector3d::UnitX()), one("R", Eigen::Vector3d::UnitY()), {contact}),
+               core::InputError);
 }
 
 TEST(OwnCoordinates, AnArmInASingularPostureIsRefusedRigidlyWhereNothingYields) {
