@@ -44,6 +44,9 @@ struct FirstCrossing {
   CriticalDepths search;
   std::vector<Crossing> found;  ///< empty: stable up to the limit
   double searched_m = 0.0;
+
+  /// Of the first; of the search where there is none.
+  [[nodiscard]] double depth_m() const { return found.empty() ? searched_m : found.front().depth_m; }
 };
 
 [[nodiscard]] FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& options);

@@ -256,7 +256,7 @@ LobeRow row_of(const SampledCut& cut, const StabilityOptions& options) {
     SampledGrids grids(cut, fineness, options.most_nodes);
     FirstCrossing first = first_crossing(grids.gain(0), beyond_limit(options));
     // What is stable up to a depth must be so with every line that could regenerate there.
-    const Fineness needed = resolving(cut, first.found.empty() ? options.depth_limit_m : first.found.front().depth_m);
+    const Fineness needed = resolving(cut, std::min(options.depth_limit_m, first.depth_m()));
     if (nodes(fineness) < nodes(needed)) {
       fineness = needed;
       continue;

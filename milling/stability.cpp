@@ -125,7 +125,7 @@ LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
     PoleGrids grids(cut, resolution, 0.0, options.most_nodes);
     FirstCrossing first = first_crossing(grids.gain(0), beyond_limit(options));
     // What is stable up to a depth must be so with every mode that could regenerate there.
-    const Resolution needed = resolving(cut, first.found.empty() ? options.depth_limit_m : first.found.front().depth_m);
+    const Resolution needed = resolving(cut, std::min(options.depth_limit_m, first.depth_m()));
     if (fewer(resolution, needed)) {
       resolution = needed;
       continue;

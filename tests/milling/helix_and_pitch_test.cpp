@@ -166,6 +166,25 @@ TEST(Helix, SearchesUpToTheEndOfTheEdgesAndNotBeyond) {
   }
 }
 
+TEST(StraightEdges, MayEndJustBelowOrAboveACrossing) {
+  const RelativeStructure tool = relative_structure(testing::modal_model(benchmark_modes), "P");
+  MillingProcess process = benchmark_with({});
+  StabilityOptions options;
+  for (const double rpm : {5000.0, 7205.514, 9210.0}) {
+    process.cutter.envelope.height_m = 0.04;
+    options.depth_limit_m = 0.04;
+    const double depth_m = limiting_depth(tool, process, rpm, options).limiting_depth_m;
+    ASSERT_LT(depth_m, 0.03) << rpm;
+    for (const double part : {0.96, 0.99, 0.999, 1.001, 1.01}) {
+      process.cutter.envelope.height_m = options.depth_limit_m = part * depth_m;
+      const LobeRow row = limiting_depth(tool, process, rpm, options);
+      EXPECT_EQ(row.at_limit, part < 1.0) << rpm << " rpm, edges of " << part << " times the depth";
+      EXPECT_NEAR(row.limiting_depth_m / depth_m, std::min(part, 1.0), 1e-4) << rpm;
+      EXPECT_LE(row.searched_m, options.depth_limit_m);
+    }
+  }
+}
+
 TEST(Helix, CrossingsThatAppearWithTheShapeOfTheCutAreFound) {
   // Frozen at any depth up to 5.4 mm the cut has no crossing near the one that the true cut has there (two flips appear
   // together as the shape changes); the second row ends in a range that such a crossing makes unstable.
