@@ -33,9 +33,8 @@ Lengths four_axis_lengths(const SerialArm& arm) {
   }
   if (!fits) {
     throw core::InputError(
-        "the closed form is for four joints, the first about z, the others about y, all above each other along z at q "
-        "= "
-        "0: search numerically instead");
+        "the closed form is for four joints, the first about z, the others about y, all above each other along z where "
+        "all angles are zero: search numerically instead");
   }
   const auto z = [&](std::size_t i) { return arm.links[i].placement.translation().z(); };
   return {z(0) + z(1), z(2), z(3), arm.tip.translation().z()};
@@ -63,6 +62,7 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> scaled_jacobian(const ArmPose& at, doub
 }  // namespace
 
 std::vector<Eigen::Vector4d> four_axis_postures(const SerialArm& arm, const Vector3d& tip, double pitch) {
+  require_valid(arm);
   const auto [shoulder, upper, fore, hand] = four_axis_lengths(arm);
   if (!tip.allFinite() || !std::isfinite(pitch)) throw core::InputError("the tip's place or pitch is not a number");
   const Vector3d p = arm.base.inverse() * tip;
@@ -96,6 +96,8 @@ std::vector<Eigen::Vector4d> four_axis_postures(const SerialArm& arm, const Vect
 
 Reached reach(const SerialArm& arm, const Eigen::Isometry3d& target, const Eigen::VectorXd& start,
               const ReachOptions& options) {
+  require_valid(arm);
+  if (!target.matrix().allFinite()) throw core::InputError("the place that the tip is to reach is not a number");
   Reached result{.q = start};
   ArmPose at = pose(arm, result.q);
   Vector6d e = error_of(at, target, options.length);
@@ -122,7 +124,7 @@ Reached reach(const SerialArm& arm, const Eigen::Isometry3d& target, const Eigen
   const Eigen::VectorXd singular =
       Eigen::JacobiSVD<Eigen::MatrixXd>(scaled_jacobian(at, options.length)).singularValues();
   result.smallest_singular = singular(singular.size() - 1) / singular(0);
-  if (e.norm() > options.tolerance) return result;
+  if (!(e.norm() <= options.tolerance)) return result;
   result.status = result.smallest_singular < options.singular_below ? ReachStatus::singular : ReachStatus::reached;
   return result;
 }

@@ -26,7 +26,7 @@ namespace thinwall::robot {
 enum class ReachStatus {
   reached,
   not_reached,  ///< the place is out of reach, or the search ended in a minimum beside it
-  singular,     ///< reached, but some motion of the tip needs no finite joint speed there
+  singular,     ///< reached, but some motion of the tip would need joint speeds without bound
 };
 
 /// A posture and what became of the search.
@@ -52,7 +52,8 @@ struct ReachOptions {
 ///     δq = −Jᵀ (J Jᵀ + μ |e|² I)⁻¹ e       by the singular values of J
 ///
 /// μ lowered after a step that helps and raised after one that does not; of several joints for one motion the least
-/// change. Throws InputError as pose(). Cost steps · 6² · joints.
+/// change. Throws InputError as pose() and require_valid(), or for a target that is not finite. Cost steps · 6² ·
+/// joints.
 Reached reach(const SerialArm& arm, const Eigen::Isometry3d& target, const Eigen::VectorXd& start,
               const ReachOptions& options = {});
 

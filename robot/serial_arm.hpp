@@ -44,10 +44,10 @@ struct SerialArm {
 };
 
 /// Throws InputError with every violation at once, each with the link's name: no link, a frame that is none (mirrored,
-/// or its axes not orthonormal to 1e-9), an axis that is no unit vector,
-/// a joint without stiffness, a motor that turns without inertia, negative damping, mass, motor inertia or servo gain,
-/// no gear ratio, an inertia tensor that no body has (not symmetric, or a principal moment negative or larger than the
-/// sum of the other two), a number that is not finite.
+/// or its axes not orthonormal to 1e-9), an axis that is no unit vector, a joint without stiffness, a motor that turns
+/// without inertia, negative damping, mass, motor inertia or servo gain, no gear ratio, an inertia tensor that no body
+/// has (not symmetric, or a principal moment negative or larger than the sum of the other two), a number that is not
+/// finite.
 void require_valid(const SerialArm& arm);
 
 }  // namespace thinwall::robot

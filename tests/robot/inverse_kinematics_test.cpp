@@ -86,5 +86,11 @@ TEST(Reach, SaysWhatIsOutOfReachAndWhatIsSingular) {
   EXPECT_LT((bent.q - huynh_posture()).norm(), 1e-8);
 }
 
+TEST(Reach, RefusesAPlaceThatIsNoneInsteadOfReachingIt) {
+  Eigen::Isometry3d nowhere = Eigen::Isometry3d::Identity();
+  nowhere.translation().y() = std::nan("");
+  EXPECT_THROW((void)reach(huynh_arm(), nowhere, huynh_posture()), core::InputError);
+}
+
 }  // namespace
 }  // namespace thinwall::robot
