@@ -1,5 +1,7 @@
 #include "robot/arm_dynamics.hpp"
 
+#include "core/error.hpp"
+
 namespace thinwall::robot {
 
 using Eigen::Index;
@@ -13,6 +15,33 @@ const Link& link_of(const SerialArm& arm, Index i) {
 
 Eigen::Vector3d centre_of(const SerialArm& arm, const ArmPose& at, Index i) {
   return at.links[static_cast<std::size_t>(i)] * link_of(arm, i).centre;
+}
+
+/// A counterbalance at a posture: d from end to end, and how it follows from the joints.
+struct Stretch {
+  Eigen::Vector3d from, to;  ///< in the world, m
+  Eigen::Matrix3Xd J;        ///< ∂d/∂q
+  double length = 0.0;       ///< l = |d|
+  Eigen::Vector3d e;         ///< d/l
+  Eigen::VectorXd rate;      ///< ∂l/∂q = Jᵀe
+  double force = 0.0;        ///< F
+};
+
+Stretch stretch_of(const SerialArm& arm, const ArmPose& at, const Counterbalance& spring) {
+  const auto place = [&](int link, const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    return link < 0 ? arm.base * p : at.links[static_cast<std::size_t>(link)] * p;
+  };
+  Stretch s;
+  s.from = place(spring.from, spring.from_point);
+  s.to = place(spring.to, spring.to_point);
+  s.J = translation_jacobian(at, s.to, spring.to) - translation_jacobian(at, s.from, spring.from);
+  s.length = (s.to - s.from).norm();
+  if (!(s.length > 1e-9))
+    throw core::InputError("both ends of a counterbalance meet in this posture: it has no direction there");
+  s.e = (s.to - s.from) / s.length;
+  s.rate = s.J.transpose() * s.e;
+  s.force = spring.force + spring.stiffness * (s.length - spring.length);
+  return s;
 }
 
 }  // namespace
@@ -45,6 +74,27 @@ MatrixXd gravity_stiffness(const SerialArm& arm, const ArmPose& at) {
 
 MatrixXd load_stiffness(const ArmPose& at, const Eigen::Vector3d& force) {
   return -projected_hessian(at, at.tip.translation(), at.joints() - 1, force);
+}
+
+Eigen::VectorXd counterbalance_torque(const SerialArm& arm, const ArmPose& at) {
+  Eigen::VectorXd torque = Eigen::VectorXd::Zero(at.joints());
+  for (const Counterbalance& spring : arm.counterbalances) {
+    const Stretch s = stretch_of(arm, at, spring);
+    torque += s.force * s.rate;
+  }
+  return torque;
+}
+
+MatrixXd counterbalance_stiffness(const SerialArm& arm, const ArmPose& at) {
+  MatrixXd K = MatrixXd::Zero(at.joints(), at.joints());
+  for (const Counterbalance& spring : arm.counterbalances) {
+    const Stretch s = stretch_of(arm, at, spring);
+    const MatrixXd along = s.rate * s.rate.transpose();
+    K += spring.stiffness * along + s.force / s.length * (s.J.transpose() * s.J - along) +
+         projected_hessian(at, s.to, spring.to, s.force * s.e) -
+         projected_hessian(at, s.from, spring.from, s.force * s.e);
+  }
+  return K;
 }
 
 }  // namespace thinwall::robot

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "core/error.hpp"
 #include "robot/arm_dynamics.hpp"
@@ -65,7 +66,8 @@ dynamics::SpatialModel linearised(const SerialArm& arm, const Posture& posture, 
                                six_dofs(point),
                                Eigen::MatrixXd::Zero(6, n)};
   model.M.topLeftCorner(links, links) = mass_matrix(arm, at);
-  model.K.topLeftCorner(links, links) = gravity_stiffness(arm, at) + load_stiffness(at, posture.preload);
+  model.K.topLeftCorner(links, links) =
+      gravity_stiffness(arm, at) + counterbalance_stiffness(arm, at) + load_stiffness(at, posture.preload);
   model.T.leftCols(links) = tip_jacobian(at);
   Index motor = links;
   for (Index i = 0; i < links; ++i) {
@@ -83,6 +85,12 @@ dynamics::SpatialModel linearised(const SerialArm& arm, const Posture& posture, 
   require_massive(arm, model.M);
   require_stable(arm, model.K);
   return model;
+}
+
+TipModel flexible_joints(SerialArm arm, std::string point) {
+  return [arm = std::move(arm), point = std::move(point)](const Posture& posture) {
+    return linearised(arm, posture, point);
+  };
 }
 
 }  // namespace thinwall::robot

@@ -80,6 +80,17 @@ void check(const Link& link, const std::string& where, Faults& faults) {
   faults.require(fault.empty(), where, "has an inertia tensor that " + fault);
 }
 
+void check(const Counterbalance& spring, Eigen::Index links, const std::string& where, Faults& faults) {
+  const auto known = [&](int link) { return link >= -1 && link < links; };
+  faults.require(known(spring.from) && known(spring.to), where, "is fixed to a link that the arm does not have");
+  faults.require(spring.from != spring.to, where, "has both ends on one link, where it does nothing");
+  faults.require(spring.from_point.allFinite() && spring.to_point.allFinite() && std::isfinite(spring.force), where,
+                 "has an end or a force that is not a number");
+  faults.require_number(spring.length, spring.length >= 0.0, where, "length (m)", "not be negative");
+  faults.require_number(spring.stiffness, spring.stiffness >= 0.0, where, "stiffness (N/m)", "not be negative");
+  faults.require(spring.stiffness > 0.0 || spring.force != 0.0, where, "has neither force nor stiffness");
+}
+
 }  // namespace
 
 void require_valid(const SerialArm& arm) {
@@ -92,6 +103,8 @@ void require_valid(const SerialArm& arm) {
     const Link& link = arm.links[i];
     check(link, "link " + std::to_string(i + 1) + (link.name.empty() ? "" : " (" + link.name + ")"), faults);
   }
+  for (std::size_t i = 0; i < arm.counterbalances.size(); ++i)
+    check(arm.counterbalances[i], arm.joints(), "counterbalance " + std::to_string(i + 1), faults);
   faults.raise();
 }
 

@@ -33,12 +33,25 @@ struct Link {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre of mass, in the link's axes, kg m²
 };
 
+/// A spring or a gas cylinder between two points of the arm, straight and without mass: it pulls them together with
+/// F = force + stiffness (l − length), l their distance.
+struct Counterbalance {
+  int from = -1;                                         ///< number of the link from 0; −1: the base
+  Eigen::Vector3d from_point = Eigen::Vector3d::Zero();  ///< in that link's frame, m
+  int to = 0;                                            ///< another one
+  Eigen::Vector3d to_point = Eigen::Vector3d::Zero();    ///< in its frame, m
+  double force = 0.0;                                    ///< N, at `length`; negative: it pushes
+  double length = 0.0;                                   ///< m, ≥ 0
+  double stiffness = 0.0;                                ///< N/m, ≥ 0; zero: the force is the same at any length
+};
+
 /// Links from the base to the tip. All results are in the axes of the world, in which the base stands.
 struct SerialArm {
   Eigen::Isometry3d base = Eigen::Isometry3d::Identity();  ///< frame before the first joint, in the world, m
   std::vector<Link> links;
   Eigen::Isometry3d tip = Eigen::Isometry3d::Identity();  ///< in the last link's frame, m
   Eigen::Vector3d gravity = {0.0, 0.0, -9.81};            ///< m/s²
+  std::vector<Counterbalance> counterbalances{};
 
   [[nodiscard]] Eigen::Index joints() const { return static_cast<Eigen::Index>(links.size()); }
 };
@@ -46,8 +59,9 @@ struct SerialArm {
 /// Throws InputError with every violation at once, each with the link's name: no link, a frame that is none (mirrored,
 /// or its axes not orthonormal to 1e-9), an axis that is no unit vector, a joint without stiffness, a motor that turns
 /// without inertia, negative damping, mass, motor inertia or servo gain, no gear ratio, an inertia tensor that no body
-/// has (not symmetric, or a principal moment negative or larger than the sum of the other two), a number that is not
-/// finite.
+/// has (not symmetric, or a principal moment negative or larger than the sum of the other two), a counterbalance
+/// between links that are not there or between a link and itself, or one that pushes as it is stretched, a number that
+/// is not finite.
 void require_valid(const SerialArm& arm);
 
 }  // namespace thinwall::robot

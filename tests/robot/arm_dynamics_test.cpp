@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "tests/robot/arms.hpp"
+#include "tests/robot/differences.hpp"
 
 namespace thinwall::robot {
 namespace {
@@ -16,17 +17,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-/// ∂f/∂q by central differences of fourth order: error h⁴, round-off ε/h.
-MatrixXd derivative(const std::function<VectorXd(const VectorXd&)>& f, const VectorXd& q) {
-  constexpr double h = 1e-3;
-  MatrixXd J(f(q).size(), q.size());
-  for (Index i = 0; i < q.size(); ++i) {
-    const VectorXd e = h * VectorXd::Unit(q.size(), i);
-    J.col(i) = (8.0 * (f(q + e) - f(q - e)) - f(q + 2 * e) + f(q - 2 * e)) / (12.0 * h);
-  }
-  return J;
-}
 
 TEST(MassMatrix, FirstEntryOfTheStretchedArmIsTheOneByHand) {
   const SerialArm arm = huynh_arm();
