@@ -13,6 +13,7 @@
 #include "mesh/prism.hpp"
 #include "milling/machine_limits.hpp"
 #include "milling/sensitivity.hpp"
+#include "robot/serial_arm.hpp"
 
 namespace thinwall::app {
 
@@ -123,14 +124,36 @@ struct Damping {
   double loss_factor = 0.0;
 };
 
+/// A mode of a tip along a direction.
+struct TipMode {
+  double frequency_hz = 0.0, damping_ratio = 0.0, stiffness = 0.0;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+};
+
+/// How an arm is to stand: by its joints, or by the place of its tip (in the part's axes) with a pitch or an approach.
+struct PostureWish {
+  std::vector<double> joints;               ///< rad; empty: by the place
+  std::optional<Eigen::Vector3d> tip;       ///< m; none: the place of the first contact
+  std::optional<double> pitch;              ///< rad
+  bool elbow_up = true, ahead = true;       ///< of the postures for a pitch
+  std::optional<Eigen::Vector3d> approach;  ///< unit vector
+  double angle = 0.0;                       ///< rad, about it
+  std::vector<double> start;                ///< rad; empty: zeros
+};
+
 /// What is known of the robot's tip. `one_mode`: stiffness with frequency and damping ratio, or mass with stiffness and
 /// damping (or damping ratio); what was not given is empty.
 struct Robot {
-  std::string model = "one_mode";  ///< one_mode, measured
+  std::string model = "one_mode";  ///< one_mode, modes, measured, flexible_joints
   std::string point = "R";
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
   std::optional<double> frequency_hz, damping_ratio, mass, stiffness, damping;
+  std::vector<TipMode> modes;
   std::vector<MeasuredFrf> measured;
+  robot::SerialArm arm;  ///< world: the part's axes
+  PostureWish posture;
+  Eigen::Vector3d preload = Eigen::Vector3d::Zero();  ///< N, on the tip
+  std::vector<Eigen::Vector3d> workspace;             ///< places of the tip, m
 };
 
 struct Contact {
@@ -170,11 +193,6 @@ struct Updating {
   std::vector<UpdatingTarget> targets;
 };
 
-struct ToolMode {
-  double frequency_hz = 0.0, damping_ratio = 0.0, stiffness = 0.0;
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
-};
-
 struct Tool {
   int teeth = 0;
   double diameter = 0.0;                           ///< m
@@ -186,7 +204,7 @@ struct Tool {
   double corner_radius = 0.0;                      ///< m; of bull_nose and general, the next four of general alone
   double corner_radial = 0.0, corner_axial = 0.0;  ///< m
   double tip_angle = 0.0, taper = 0.0;             ///< rad
-  std::vector<ToolMode> modes;
+  std::vector<TipMode> modes;
   std::vector<MeasuredFrf> measured;  ///< DOFs "tool.x", "tool.y", "tool.z"
 };
 

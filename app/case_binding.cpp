@@ -6,6 +6,7 @@
 
 #include "app/case_table.hpp"
 #include "app/lobes_binding.hpp"
+#include "app/robot_binding.hpp"
 #include "app/schema.hpp"
 #include "core/error.hpp"
 
@@ -144,18 +145,6 @@ Damping bind_damping(const Table& table, const std::filesystem::path& folder) {
   return damping;
 }
 
-Robot bind_robot(const Table& table, const std::filesystem::path& folder) {
-  return {table.text("model"),
-          table.text("point"),
-          table.direction("direction"),
-          table.optional("frequency"),
-          table.optional("damping_ratio"),
-          table.optional("mass"),
-          table.optional("stiffness"),
-          table.optional("damping"),
-          bind_all_measured(table.tables("measured"), folder)};
-}
-
 /// One value for every direction, where one was given for all.
 std::vector<double> spread(std::vector<double> list, std::size_t count) {
   return list.size() == 1 ? std::vector<double>(count, list.front()) : list;
@@ -231,10 +220,7 @@ Tool bind_tool(const Table& table, const std::filesystem::path& folder) {
   tool.tip_angle = table.optional("tip_angle").value_or(0.0);
   tool.taper = table.optional("taper").value_or(0.0);
   if (tool.helices.size() == 1) tool.helices.resize(static_cast<std::size_t>(tool.teeth), tool.helices.front());
-  for (const auto& mode : table.tables("modes")) {
-    tool.modes.push_back({mode.number("frequency"), mode.number("damping_ratio"), mode.number("stiffness"),
-                          mode.direction("direction")});
-  }
+  tool.modes = bind_modes(table.tables("modes"));
   tool.measured = bind_all_measured(table.tables("measured"), folder);
   for (MeasuredFrf& frf : tool.measured) {
     for (std::string* dof : {&frf.response, &frf.force}) {
@@ -301,7 +287,9 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   if (root.has("reduction.check_frequencies"))
     bound.reduction.check_frequencies = root.integer("reduction.check_frequencies");
   bound.damping = bind_damping(root.table("damping"), folder);
-  if (root.table("robot").exists()) bound.robot = bind_robot(root.table("robot"), folder);
+  if (root.table("robot").exists()) {
+    bound.robot = bind_robot(root.table("robot"), bind_all_measured(root.tables("robot.measured"), folder));
+  }
   bound.contacts = bind_contacts(root.tables("contacts"));
   bound.response = bind_response(root.table("response"));
   if (bound.response.points.empty()) bound.response.points = bound.reduction.interface;

@@ -13,6 +13,7 @@
 #include "app/lobes_checks.hpp"
 #include "app/part_checks.hpp"
 #include "app/path_checks.hpp"
+#include "app/robot_checks.hpp"
 #include "app/schema.hpp"
 #include "app/tool_checks.hpp"
 #include "core/units.hpp"
@@ -28,10 +29,11 @@ std::string indexed(const std::string& table, std::size_t index) {
 void check_something_to_do(const Case& source, Findings& findings) {
   const bool moves = source.tool && (!source.tool->modes.empty() || !source.tool->measured.empty());
   const bool tool_alone = moves && source.lobes;
-  if (source.part || !source.measured_part.empty() || tool_alone || has_table(source.values, "part")) return;
-  findings.report(
-      "part",
-      "missing; a case holds a part ([part] or [[part.measured]]), or a tool with modes or measured FRFs and [lobes]");
+  if (source.part || !source.measured_part.empty() || tool_alone || source.robot || has_table(source.values, "part"))
+    return;
+  findings.report("part",
+                  "missing; a case holds a part ([part] or [[part.measured]]), a [robot], or a tool with modes or "
+                  "measured FRFs and [lobes]");
 }
 
 void check_ranges(const Case& source, Findings& findings) {
@@ -131,49 +133,6 @@ void check_all_measured(const Case& source, Findings& findings) {
   }
 }
 
-bool parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return !(a.cross(b).norm() > 1e-6);
-}
-
-/// A measured robot is its driving-point receptance along robot.direction, nothing else.
-void check_measured_robot(const Robot& robot, Findings& findings) {
-  if (robot.measured.empty()) {
-    findings.report("robot.model", "measured needs [[robot.measured]] with a file");
-    return;
-  }
-  if (robot.measured.size() > 1)
-    findings.report("robot.measured[1]", "one direct receptance along robot.direction is used; remove the others");
-  const MeasuredFrf& frf = robot.measured.front();
-  require_driving_point("robot.measured[0]", frf, findings);
-  const auto measured_along = direction_of(frf.response);
-  if (!measured_along || point_of(frf.response) != robot.point) return;
-  for (const auto* letter : {"x", "y", "z"}) {
-    const Eigen::Vector3d axis = *direction_of(robot.point + "." + letter);
-    if ((robot.direction - axis).norm() < 1e-9 && *measured_along != axis)
-      findings.report("robot.measured[0].response", "\"" + frf.response + "\" is not along robot.direction; give \"" +
-                                                        robot.point + "." + letter + "\"");
-  }
-}
-
-void check_robot(const Robot& robot, Findings& findings) {
-  if (robot.model == "measured") {
-    check_measured_robot(robot, findings);
-    for (const auto* key :
-         {"robot.frequency", "robot.mass", "robot.stiffness", "robot.damping", "robot.damping_ratio"}) {
-      if (findings.given(key)) findings.report(key, "belongs to robot.model = \"one_mode\"");
-    }
-    return;
-  }
-  if (!robot.measured.empty()) findings.report("robot.measured", "belongs to robot.model = \"measured\"");
-  if (!robot.stiffness) findings.report("robot.stiffness", "missing; one mode needs its stiffness at the tip");
-  if (robot.mass.has_value() == robot.frequency_hz.has_value()) {
-    findings.report("robot.frequency", "give either frequency or mass beside the stiffness");
-  }
-  if (robot.damping.has_value() == robot.damping_ratio.has_value()) {
-    findings.report("robot.damping_ratio", "give either damping_ratio or damping");
-  }
-}
-
 /// A contact joins what both sides can do: the part's point in its directions, the robot along its own.
 void check_contact_directions(const Case& source, const std::string& key, const Contact& contact, Findings& findings) {
   const auto here = directions_at(source, contact.part_point);
@@ -184,10 +143,13 @@ void check_contact_directions(const Case& source, const std::string& key, const 
                                              "join fewer");
     break;
   }
+  const auto tip = source.robot ? tip_directions(*source.robot) : std::vector<Eigen::Vector3d>();
   for (const auto& direction : contact.directions) {
-    if (!source.robot || parallel(direction, source.robot->direction)) continue;
+    if (tip.empty() || spanned(tip, direction)) continue;
     findings.report(key + ".directions",
-                    "the robot resists along robot.direction only; join that direction alone, or turn the robot's");
+                    tip.size() == 1
+                        ? "the robot resists along robot.direction only; join that direction alone, or turn the robot's"
+                        : "the robot's tip is not known in all of these directions; join those that it is known in");
     break;
   }
 }
@@ -335,7 +297,7 @@ void check_coupled_fit(const Case& source, const std::string& key, Findings& fin
   if (!source.robot || source.contacts.empty() || source.points.empty())
     findings.report(key + ".on", "\"coupled\" needs [robot], [[contacts]] and [points]");
   if (source.robot && source.robot->model == "measured")
-    findings.report(key + ".on", "\"coupled\" needs a robot of one mode, not a measured one; set robot.model");
+    findings.report(key + ".on", "\"coupled\" needs a robot that is modelled, not a measured one; set robot.model");
   if (source.part->supports.empty())
     findings.report(key + ".on", "\"coupled\" needs a part that is held; add [[part.supports]]");
 }
@@ -411,7 +373,7 @@ std::vector<Problem> check_case(const Case& source) {
   check_ranges(source, findings);
   check_damping(source, findings);
   check_all_measured(source, findings);
-  if (source.robot) check_robot(*source.robot, findings);
+  if (source.robot) check_robot(source, findings);
   check_contacts(source, findings);
   check_response(source, findings);
   check_updating(source, findings);

@@ -16,6 +16,7 @@
 #include "app/lobes_report.hpp"
 #include "app/log.hpp"
 #include "app/result_folder.hpp"
+#include "app/robot_survey.hpp"
 #include "app/terminal_report.hpp"
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
@@ -68,6 +69,17 @@ ExitCode lobes(const Arguments& arguments, const RunCase& run_case, std::ostream
   LobesInput input = arguments.lobes;
   input.overrides = arguments.overrides;
   return compute(arguments, lobes_case(input), run_case, out, lobes_report);
+}
+
+ExitCode robot(const Arguments& arguments, std::ostream& out) {
+  const Case source = read_case(arguments.case_path, arguments.overrides);
+  const RobotSurvey found = survey(source);
+  const ResultFolder folder(arguments.out.empty() ? default_result_folder(source)
+                                                  : std::filesystem::path(arguments.out));
+  write_survey(folder.path(), source, found);
+  if (!source.title.empty()) out << source.title << '\n';
+  out << survey_text(found) << "  tables: " << (folder.path() / "robot").string() << '\n';
+  return ExitCode::done;
 }
 
 ExitCode check(const Arguments& arguments, std::ostream& out) {
@@ -156,6 +168,10 @@ void describe(CLI::App& app, Arguments& arguments) {
   run_command->add_flag("--fresh", arguments.fresh, "reserved: results are always computed anew");
   add_run_arguments(*run_command, arguments);
   describe_lobes(app, arguments);
+  auto* robot_command = app.add_subcommand(
+      "robot", "modes and stiffness of the robot's tip in its posture, along a path, over a workspace");
+  add_case_arguments(*robot_command, arguments);
+  robot_command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
   add_case_arguments(*app.add_subcommand("check", "report every error of a case, and sizes to expect"), arguments);
   auto* init = app.add_subcommand("init", "write a commented case to start from");
   init->add_option("--template", arguments.template_name, "plate or wall")->type_name("NAME");
@@ -170,6 +186,7 @@ void describe(CLI::App& app, Arguments& arguments) {
 ExitCode execute(const CLI::App& app, const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
   if (app.got_subcommand("run")) return run(arguments, run_case, out);
   if (app.got_subcommand("lobes")) return lobes(arguments, run_case, out);
+  if (app.got_subcommand("robot")) return robot(arguments, out);
   if (app.got_subcommand("check")) return check(arguments, out);
   if (app.got_subcommand("compare")) return compare(arguments, out);
   if (app.got_subcommand("init")) {

@@ -19,7 +19,7 @@ namespace {
 
 milling::RelativeStructure tool_modes(const Tool& tool) {
   std::vector<robot::OneMode> modes;
-  for (const ToolMode& m : tool.modes)
+  for (const TipMode& m : tool.modes)
     modes.push_back(robot::one_mode(m.frequency_hz, m.damping_ratio, m.stiffness, m.direction));
   return milling::relative_structure(dynamics::to_modal(robot::spatial_model(modes, "tool")), "tool");
 }

@@ -1,5 +1,6 @@
 #include "app/path_stage.hpp"
 
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -8,6 +9,7 @@
 #include "app/milling_process.hpp"
 #include "app/part_stage.hpp"
 #include "app/path.hpp"
+#include "app/robot_stage.hpp"
 #include "app/support_stage.hpp"
 #include "core/error.hpp"
 #include "coupling/spatial.hpp"
@@ -18,9 +20,11 @@ namespace thinwall::app {
 
 namespace {
 
-/// What the cut feels at each position: of the part alone, and held by the robot (empty without one).
+/// What the cut feels at each position: of the part alone, and held by the robot, as it stands there (empty without
+/// one).
 struct StructuresAlongPath {
   std::vector<milling::RelativeStructure> part, supported;
+  std::vector<RobotPosture> robot;
 };
 
 StructuresAlongPath structures_along_path(const Case& source, const Results& results, const milling::ToolFrame& frame) {
@@ -29,6 +33,8 @@ StructuresAlongPath structures_along_path(const Case& source, const Results& res
   StructuresAlongPath structures;
   structures.part.reserve(models.size());
   structures.supported.reserve(models.size());
+  const dynamics::FrequencyAxis one_line{Eigen::VectorXd::Ones(1)};  // a path needs matrices alone
+  std::optional<Eigen::VectorXd> near;
   for (std::size_t i = 0; i < models.size(); ++i) {
     const Case there = at_position(source, i);
     std::vector<reduction::IdentifiedMode> identified;
@@ -37,9 +43,11 @@ StructuresAlongPath structures_along_path(const Case& source, const Results& res
       return std::get<milling::RelativeStructure>(cut_structure(there, frame, &modal));
     };
     structures.part.push_back(felt(modes_of(part)));
-    if (supported)
-      structures.supported.push_back(
-          felt(modes_of(coupling::couple(part, *results.robot->spatial, contacts_of(there)))));
+    if (!supported) continue;
+    structures.robot.push_back(robot_posture(there, near));
+    near = structures.robot.back().posture.q;
+    const Component robot = robot_component(there, one_line, structures.robot.back().posture);
+    structures.supported.push_back(felt(modes_of(coupling::couple(part, *robot.spatial, contacts_of(there)))));
   }
   return structures;
 }
@@ -82,7 +90,10 @@ std::vector<PathLobes> lobes_along_path(const Case& source, const Results& resul
   const StructuresAlongPath structures = structures_along_path(source, results, process.frame);
   const std::string& method = results.lobes.front().lobes.method;
   std::vector<PathLobes> all{charts(source, "part", method, process, structures.part)};
-  if (!structures.supported.empty()) all.push_back(charts(source, "supported", method, process, structures.supported));
+  if (!structures.supported.empty()) {
+    all.push_back(charts(source, "supported", method, process, structures.supported));
+    all.back().robot = structures.robot;
+  }
   return all;
 }
 

@@ -11,6 +11,7 @@
 #include "app/path_stage.hpp"
 #include "app/result_files.hpp"
 #include "app/results.hpp"
+#include "app/robot_stage.hpp"
 #include "app/stages.hpp"
 #include "app/summary.hpp"
 #include "app/support_stage.hpp"
@@ -67,12 +68,16 @@ void run_coupled_updating(Case& work, Results& results, Stages& stages) {
 
 void run_responses(const Case& work, Results& results, Stages& stages) {
   const bool reduced = results.finite_elements && results.finite_elements->damped;
-  if (!reduced && work.measured_part.empty()) return;
+  const bool part = reduced || !work.measured_part.empty();
+  if (!part && !work.robot) return;
   stages.begin("receptances");
   const dynamics::FrequencyAxis axis = frequency_axis(work);
-  results.part = reduced ? component(*results.finite_elements->damped, axis) : measured_part(work, axis);
-  if (work.robot) results.robot = robot_component(work, axis);
-  if (!work.robot || work.contacts.empty()) return;
+  if (part) results.part = reduced ? component(*results.finite_elements->damped, axis) : measured_part(work, axis);
+  if (work.robot) {
+    results.robot_posture = robot_posture(work);
+    results.robot = robot_component(work, axis, results.robot_posture->posture);
+  }
+  if (!part || !work.robot || work.contacts.empty()) return;
   stages.begin("coupling");
   results.coupled = couple(work, *results.part, *results.robot);
   results.reductions = reductions(work, *results.part, *results.coupled);

@@ -23,6 +23,7 @@
 #include "milling/stability_map.hpp"
 #include "reduction/craig_bampton.hpp"
 #include "reduction/identification.hpp"
+#include "robot/tip_model.hpp"
 
 namespace thinwall::app {
 
@@ -48,6 +49,13 @@ struct Component {
   std::optional<dynamics::SpatialModel> spatial;
   std::optional<dynamics::ModalModel> modal;
   dynamics::ResponseModel response;
+};
+
+/// How the robot stands; what an arm's joints tell is empty for other models.
+struct RobotPosture {
+  robot::Posture posture;
+  std::optional<Eigen::Vector3d> tip;       ///< m, part axes
+  std::optional<double> smallest_singular;  ///< of the tip's Jacobian, 1 m a radian, over its largest
 };
 
 /// Part and robot joined by both routes.
@@ -112,6 +120,7 @@ struct NamedLobes {
 struct PathLobes {
   std::string name;                   ///< "part", "supported"
   std::vector<milling::Lobes> lobes;  ///< of each position
+  std::vector<RobotPosture> robot{};  ///< how it stands at each; empty for the part alone
 };
 
 /// One fit of model updating.
@@ -137,6 +146,7 @@ struct Results {
   std::vector<UpdatingResult> updating;
   std::optional<PartResult> finite_elements;
   std::optional<Component> part;
+  std::optional<RobotPosture> robot_posture;
   std::optional<Component> robot;
   std::optional<CouplingResult> coupled;
   std::vector<AmplitudeReduction> reductions;

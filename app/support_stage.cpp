@@ -7,8 +7,6 @@
 #include "app/measured.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
-#include "robot/measured.hpp"
-#include "robot/one_mode.hpp"
 
 namespace thinwall::app {
 
@@ -86,33 +84,6 @@ Component measured_part(const Case& source, const dynamics::FrequencyAxis& axis)
   Component part;
   part.response = measured_response(source.measured_part, axis);
   return part;
-}
-
-dynamics::SpatialModel robot_mode(const Robot& robot) {
-  const double k = *robot.stiffness;
-  robot::OneMode mode;
-  if (robot.mass) {
-    const double c =
-        robot.damping ? *robot.damping : 2.0 * robot.damping_ratio.value_or(0.0) * std::sqrt(k * *robot.mass);
-    mode = {*robot.mass, c, k, robot.direction};
-  } else {
-    mode = robot::one_mode(*robot.frequency_hz, robot.damping_ratio.value_or(0.0), k, robot.direction);
-  }
-  return robot::spatial_model({mode}, robot.point);
-}
-
-Component robot_component(const Case& source, const dynamics::FrequencyAxis& axis) {
-  const Robot& robot = *source.robot;
-  if (robot.model == "one_mode") return component(robot_mode(robot), axis);
-  if (robot.measured.size() != 1) {
-    throw core::InputError(
-        "a measured robot is described by one direct receptance along robot.direction; the case gives " +
-        std::to_string(robot.measured.size()) + " files");
-  }
-  Component result;
-  result.response = robot::measured_receptance(axis, io::resample(read_measured(robot.measured.front()), axis),
-                                               robot.point, robot.direction);
-  return result;
 }
 
 std::vector<coupling::Contact> contacts_of(const Case& source) {

@@ -16,12 +16,6 @@ namespace thinwall::app {
 /// The part from its measured FRFs.
 [[nodiscard]] Component measured_part(const Case& source, const dynamics::FrequencyAxis& axis);
 
-/// The robot's one mode as matrices.
-[[nodiscard]] dynamics::SpatialModel robot_mode(const Robot& robot);
-
-/// The robot as the case knows it.
-[[nodiscard]] Component robot_component(const Case& source, const dynamics::FrequencyAxis& axis);
-
 /// The contacts of the case.
 [[nodiscard]] std::vector<coupling::Contact> contacts_of(const Case& source);
 

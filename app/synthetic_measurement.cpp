@@ -5,6 +5,7 @@
 #include <random>
 #include <sstream>
 
+#include "app/robot_stage.hpp"
 #include "app/support_stage.hpp"
 #include "core/atomic_file.hpp"
 #include "reduction/full_response.hpp"
@@ -20,7 +21,8 @@ SyntheticMeasurement synthetic_measurement(const Case& source, const PartResult&
   result.part = dynamics::entry(full.response, point + ".x", point + ".x");
   result.relative_residual = full.max_relative_residual;
   const std::string tip = source.robot->point + ".x";
-  result.robot = dynamics::entry(robot_component(source, result.axis).response, tip, tip);
+  result.robot =
+      dynamics::entry(robot_component(source, result.axis, robot_posture(source).posture).response, tip, tip);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "app/least_squares.hpp"
 #include "app/part_evaluation.hpp"
 #include "app/part_stage.hpp"
+#include "app/robot_stage.hpp"
 #include "app/support_stage.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
@@ -41,7 +42,8 @@ double reduction_at(const Case& now, const UpdatingTarget& target, const Compone
   const dynamics::ResponseModel H = part.spatial->has_structural_damping()
                                         ? dynamics::direct_response(*part.spatial, line)
                                         : dynamics::to_response(*part.modal, line);
-  const auto G = coupling::couple(H, robot_component(now, line).response, contacts_of(now)).response.H.front();
+  const auto G = coupling::couple(H, robot_component(now, line, robot_posture(now).posture).response, contacts_of(now))
+                     .response.H.front();
   const auto row = static_cast<Eigen::Index>(dynamics::row_of(H.responses, target.point));
   return 1.0 - std::abs(G(row, row)) / std::abs(H.H.front()(row, row));
 }
@@ -53,8 +55,6 @@ void require_held(const dynamics::SpatialModel& part) {
 
 /// Modes of part and robot joined only if a target asks for them, and receptances likewise.
 Eigen::VectorXd evaluate_coupled(const Case& now, const Updating& updating, const dynamics::SpatialModel& reduced) {
-  if (now.robot->model != "one_mode")
-    throw core::InputError("updating on = \"coupled\" needs a robot of one mode, not a measured one");
   const auto is_frequency = [](const UpdatingTarget& target) { return target.quantity == "coupled_frequency"; };
   std::vector<reduction::IdentifiedMode> identified;
   Component part;
@@ -63,7 +63,7 @@ Eigen::VectorXd evaluate_coupled(const Case& now, const Updating& updating, cons
   if (!std::ranges::all_of(updating.targets, is_frequency)) part.modal = modes_of(*part.spatial);
   dynamics::ModalModel coupled;
   if (std::ranges::any_of(updating.targets, is_frequency))
-    coupled = modes_of(coupling::couple(*part.spatial, robot_mode(*now.robot), contacts_of(now)));
+    coupled = modes_of(coupling::couple(*part.spatial, robot_matrices(now), contacts_of(now)));
   Eigen::VectorXd values(static_cast<Eigen::Index>(updating.targets.size()));
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     const UpdatingTarget& target = updating.targets[static_cast<std::size_t>(i)];

@@ -137,9 +137,26 @@ std::optional<double> take_number(std::string_view& text) {
 }
 
 /// The kinds by which a dimension is named; a stiffness comes before anything else in N/m.
-constexpr std::array named_kinds{kind::number,  kind::length, kind::mass,      kind::time,     kind::angle,
-                                 kind::density, kind::stress, kind::frequency, kind::velocity, kind::stiffness,
-                                 kind::damping, kind::power,  kind::torque,    kind::memory,   kind::spindle_speed};
+constexpr std::array named_kinds{kind::number,
+                                 kind::length,
+                                 kind::mass,
+                                 kind::time,
+                                 kind::angle,
+                                 kind::density,
+                                 kind::stress,
+                                 kind::frequency,
+                                 kind::velocity,
+                                 kind::stiffness,
+                                 kind::damping,
+                                 kind::power,
+                                 kind::torque,
+                                 kind::memory,
+                                 kind::spindle_speed,
+                                 kind::force,
+                                 kind::acceleration,
+                                 kind::inertia,
+                                 kind::torsional_stiffness,
+                                 kind::torsional_damping};
 
 Quantity kind_unit(const QuantityKind& kind) {
   return kind.unit.empty() ? Quantity{1.0, {}} : parse_unit(kind.unit);

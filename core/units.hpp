@@ -50,6 +50,11 @@ inline constexpr QuantityKind damping{"damping", "N s/m", "200 N s/m"};
 inline constexpr QuantityKind rate{"rate", "1/s", "12 1/s"};
 inline constexpr QuantityKind power{"power", "W", "15 kW"};
 inline constexpr QuantityKind torque{"torque", "N m", "40 N m"};
+inline constexpr QuantityKind force{"force", "N", "80 N"};
+inline constexpr QuantityKind acceleration{"acceleration", "m/s^2", "9.81 m/s^2"};
+inline constexpr QuantityKind inertia{"moment of inertia", "kg m^2", "4.05 kg m^2"};
+inline constexpr QuantityKind torsional_stiffness{"torsional stiffness", "N m/rad", "3.9e6 N m/rad"};
+inline constexpr QuantityKind torsional_damping{"torsional damping", "N m s/rad", "1071 N m s/rad"};
 inline constexpr QuantityKind memory{"memory", "B", "4 GB"};
 }  // namespace kind
 

@@ -273,9 +273,9 @@ TEST(BadCase, AMeasuredRobotIsOneDrivingPointAlongItsDirection) {
   const std::string contact = "[[contacts]]\npart = \"P\"\n";
   expect_only_measured(robot + measured + frf("R.x", "R.x") + contact, "");
   expect_only_measured(robot + measured + frf("R.y", "R.y") + contact, "is not along robot.direction; give \"R.x\"");
-  expect_only_measured(robot + measured + frf("R.x", "R.y") + contact, "only a driving point");
+  expect_only_measured(robot + measured + frf("R.x", "R.y") + contact, "a single file is a driving point");
   expect_only_measured(robot + measured + frf("R.x", "R.x") + measured + frf("R.x", "R.x") + contact,
-                       "robot.measured[1]: one direct receptance");
+                       "robot.measured[1].response: the response of R.x to a force at R.x is there twice");
   expect_only_measured(
       robot + "direction = \"y\"\n" + measured + frf("R.y", "R.y") + contact + "directions = [\"y\"]\n",
       "point \"P\" is not known in all of these directions");

@@ -1,0 +1,190 @@
+#include "app/robot_checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "app/part_checks.hpp"
+#include "app/robot_stage.hpp"
+#include "robot/flexible_joints.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+/// Keys that one model alone reads.
+struct Belongs {
+  std::string_view key;
+  std::string_view model;
+};
+constexpr std::array belongings{
+    Belongs{"robot.frequency", "one_mode"},      Belongs{"robot.mass", "one_mode"},
+    Belongs{"robot.stiffness", "one_mode"},      Belongs{"robot.damping", "one_mode"},
+    Belongs{"robot.damping_ratio", "one_mode"},  Belongs{"robot.modes", "modes"},
+    Belongs{"robot.measured", "measured"},       Belongs{"robot.links", "flexible_joints"},
+    Belongs{"robot.base", "flexible_joints"},    Belongs{"robot.tip", "flexible_joints"},
+    Belongs{"robot.gravity", "flexible_joints"}, Belongs{"robot.counterbalances", "flexible_joints"},
+    Belongs{"robot.posture", "flexible_joints"}, Belongs{"robot.workspace", "flexible_joints"},
+};
+
+void check_belongings(const Case& source, Findings& findings) {
+  for (const Belongs& b : belongings) {
+    const std::string key(b.key);
+    const bool there = findings.given(key) || has_table(source.values, key) || array_size(source.values, key) > 0;
+    if (there && source.robot->model != b.model)
+      findings.report(key, "belongs to robot.model = \"" + std::string(b.model) + "\", but the model is \"" +
+                               source.robot->model + "\"");
+  }
+}
+
+void check_one_mode(const Robot& robot, Findings& findings) {
+  if (!robot.stiffness) findings.report("robot.stiffness", "missing; one mode needs its stiffness at the tip");
+  if (robot.mass.has_value() == robot.frequency_hz.has_value()) {
+    findings.report("robot.frequency", "give either frequency or mass beside the stiffness");
+  }
+  if (robot.damping.has_value() == robot.damping_ratio.has_value()) {
+    findings.report("robot.damping_ratio", "give either damping_ratio or damping");
+  }
+}
+
+/// One file is a driving point along robot.direction; several name the tip's axes.
+void check_measured_robot(const Robot& robot, Findings& findings) {
+  if (robot.measured.empty()) {
+    findings.report("robot.model", "measured needs [[robot.measured]] with a file");
+    return;
+  }
+  for (std::size_t i = 0; i < robot.measured.size(); ++i) {
+    const MeasuredFrf& frf = robot.measured[i];
+    for (std::size_t j = 0; j < i; ++j) {
+      if (robot.measured[j].response != frf.response || robot.measured[j].force != frf.force) continue;
+      findings.report("robot.measured[" + std::to_string(i) + "].response",
+                      "the response of " + frf.response + " to a force at " + frf.force + " is there twice");
+    }
+  }
+  if (robot.measured.size() > 1) return;
+  const MeasuredFrf& frf = robot.measured.front();
+  if (!frf.response.empty() && !frf.force.empty() && frf.response != frf.force) {
+    findings.report("robot.measured[0].force",
+                    "\"" + frf.force + "\" is not the DOF that moves; a single file is a driving point, force = \"" +
+                        frf.response + "\"");
+  }
+  const auto measured_along = direction_of(frf.response);
+  if (!measured_along || point_of(frf.response) != robot.point) return;
+  for (const auto* letter : {"x", "y", "z"}) {
+    const Eigen::Vector3d axis = *direction_of(robot.point + "." + letter);
+    if ((robot.direction - axis).norm() < 1e-9 && *measured_along != axis)
+      findings.report("robot.measured[0].response", "\"" + frf.response + "\" is not along robot.direction; give \"" +
+                                                        robot.point + "." + letter + "\"");
+  }
+}
+
+bool all_read(const robot::SerialArm& arm) {
+  const bool springs = std::ranges::all_of(arm.counterbalances, [](const robot::Counterbalance& s) {
+    return s.from_point.allFinite() && s.to_point.allFinite() && std::isfinite(s.length);
+  });
+  return springs && arm.base.matrix().allFinite() && arm.gravity.allFinite() &&
+         std::ranges::all_of(arm.links, [](const robot::Link& link) {
+           return std::isfinite(link.mass) && std::isfinite(link.joint.stiffness) && link.centre.allFinite() &&
+                  link.axis.allFinite() && link.placement.matrix().allFinite();
+         });
+}
+
+void check_counterbalances(const Case& source, Findings& findings) {
+  std::vector<std::string> known{"base"};
+  for (const robot::Link& link : source.robot->arm.links) {
+    if (!link.name.empty()) known.push_back(link.name);
+  }
+  for (std::size_t i = 0; i < source.robot->arm.counterbalances.size(); ++i) {
+    const std::string table = "robot.counterbalances[" + std::to_string(i) + "]";
+    for (const char* end : {".from", ".to"}) {
+      const CaseValue* name = find(source.values, table + end);
+      if (name != nullptr) findings.require_known(table + end, std::get<std::string>(name->value), known, "link");
+    }
+  }
+}
+
+/// How the arm is asked to stand.
+void check_posture_keys(const Robot& robot, Findings& findings) {
+  const PostureWish& wish = robot.posture;
+  const int ways = (findings.given("robot.posture.joints") ? 1 : 0) + (wish.pitch ? 1 : 0) + (wish.approach ? 1 : 0);
+  if (ways != 1) {
+    findings.report("robot.posture", "give either joints, or pitch (four-axis arms), or approach (any arm)");
+    return;
+  }
+  for (const auto& [key, list] :
+       {std::pair{"robot.posture.joints", &wish.joints}, std::pair{"robot.posture.start", &wish.start}}) {
+    if (list->empty() || list->size() == robot.arm.links.size()) continue;
+    findings.report(key, std::to_string(list->size()) + " angles for " + std::to_string(robot.arm.links.size()) +
+                             " joints; give one for each");
+  }
+}
+
+void check_arm(const Case& source, Findings& findings) {
+  const Robot& robot = *source.robot;
+  if (robot.arm.links.empty()) {
+    findings.report("robot.model", "flexible_joints needs [[robot.links]], from the base to the tip");
+    return;
+  }
+  const std::size_t before = findings.problems.size();
+  check_counterbalances(source, findings);
+  if (std::abs(robot.arm.base.linear().col(0).dot(robot.arm.base.linear().col(2))) > 1e-9)
+    findings.report("robot.base.x", "is not at a right angle to robot.base.z; a frame's axes are");
+  for (std::size_t i = 0; i < robot.arm.links.size(); ++i) {
+    const std::string key = "robot.links[" + std::to_string(i) + "].inertia";
+    const CaseValue* inertia = find(source.values, key);
+    const auto* list = inertia == nullptr ? nullptr : std::get_if<std::vector<double>>(&inertia->value);
+    if (list != nullptr && !list->empty() && list->size() != 3 && list->size() != 6)
+      findings.report(key, "must have three moments, xx, yy, zz, or these and xy, xz, yz");
+  }
+  check_posture_keys(robot, findings);
+  if (findings.problems.size() > before || !all_read(robot.arm)) return;
+  try {
+    robot::require_valid(robot.arm);
+  } catch (const core::InputError& error) {
+    findings.report("robot.links", error.what());
+    return;
+  }
+  if (!robot.workspace.empty()) return;  // places that are not reached are told by the survey
+  if (const std::string fault = fault_of_posture(source); !fault.empty()) findings.report("robot.posture", fault);
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> tip_directions(const Robot& robot) {
+  if (robot.model == "flexible_joints")
+    return {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+  std::vector<Eigen::Vector3d> directions;
+  if (robot.model == "modes") {
+    for (const TipMode& mode : robot.modes) directions.push_back(mode.direction);
+  } else if (robot.model == "measured" && robot.measured.size() > 1) {
+    for (const MeasuredFrf& frf : robot.measured) {
+      if (const auto d = direction_of(frf.response)) directions.push_back(*d);
+    }
+  } else {
+    directions.push_back(robot.direction);
+  }
+  return directions;
+}
+
+std::string fault_of_posture(const Case& source) {
+  if (source.robot->model != "flexible_joints") return "";
+  try {
+    (void)robot::linearised(source.robot->arm, robot_posture(source).posture, source.robot->point);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void check_robot(const Case& source, Findings& findings) {
+  const Robot& robot = *source.robot;
+  if (robot.model.empty()) return;  // reported by the reader
+  check_belongings(source, findings);
+  if (robot.model == "one_mode") check_one_mode(robot, findings);
+  if (robot.model == "modes" && robot.modes.empty())
+    findings.report("robot.model", "modes needs [[robot.modes]], at least one");
+  if (robot.model == "measured") check_measured_robot(robot, findings);
+  if (robot.model == "flexible_joints") check_arm(source, findings);
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,156 @@
+#include "app/robot_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "app/discretisation.hpp"
+#include "app/measured.hpp"
+#include "app/support_stage.hpp"
+#include "core/error.hpp"
+#include "dynamics/conversion.hpp"
+#include "robot/arm_kinematics.hpp"
+#include "robot/flexible_joints.hpp"
+#include "robot/inverse_kinematics.hpp"
+#include "robot/measured.hpp"
+#include "robot/one_mode.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+using Eigen::Vector3d;
+
+robot::OneMode single_mode(const Robot& robot) {
+  const double k = *robot.stiffness;
+  if (!robot.mass) return robot::one_mode(*robot.frequency_hz, robot.damping_ratio.value_or(0.0), k, robot.direction);
+  const double c =
+      robot.damping ? *robot.damping : 2.0 * robot.damping_ratio.value_or(0.0) * std::sqrt(k * *robot.mass);
+  return {*robot.mass, c, k, robot.direction};
+}
+
+std::vector<robot::OneMode> modes_of(const std::vector<TipMode>& list) {
+  std::vector<robot::OneMode> modes;
+  modes.reserve(list.size());
+  for (const TipMode& m : list)
+    modes.push_back(robot::one_mode(m.frequency_hz, m.damping_ratio, m.stiffness, m.direction));
+  return modes;
+}
+
+/// One file is along robot.direction, several are between the tip's axes.
+dynamics::ResponseModel measured_tip(const Robot& robot, const dynamics::FrequencyAxis& axis) {
+  if (robot.measured.size() > 1) return measured_response(robot.measured, axis);
+  return robot::measured_receptance(axis, io::resample(read_measured(robot.measured.front()), axis), robot.point,
+                                    robot.direction);
+}
+
+/// Where the tip is to be, in space.
+Vector3d wanted_place(const Case& source) {
+  if (source.robot->posture.tip) return *source.robot->posture.tip;
+  if (source.contacts.empty() || !source.part)
+    throw core::InputError("the place of the robot's tip is not known; give robot.posture.tip or a contact");
+  const Vector3d flat = position(*source.part, point(source, source.contacts.front().part_point));
+  return source.part->bend ? mesh::bent(bend_of(*source.part), flat) : flat;
+}
+
+/// The closed form's posture on the wanted side and with the wanted elbow.
+Eigen::VectorXd four_axis_posture(const Robot& robot, const Vector3d& place) {
+  const PostureWish& wish = robot.posture;
+  const Vector3d p = robot.arm.base.inverse() * place;
+  const double towards = std::atan2(p.y(), p.x());
+  for (const Eigen::Vector4d& q : robot::four_axis_postures(robot.arm, place, *wish.pitch)) {
+    const bool ahead = std::cos(q(0) - towards) >= 0.0;
+    if (ahead == wish.ahead && (q(2) >= 0.0) == wish.elbow_up) return q;
+  }
+  throw core::InputError(fmt::format("the place is reached with another elbow or facing only than \"{}\" and \"{}\"",
+                                     wish.elbow_up ? "up" : "down", wish.ahead ? "ahead" : "behind"));
+}
+
+/// z along the approach; x in the plane of it and the base's z, towards z, then turned by the angle.
+Eigen::Isometry3d tip_frame(const Robot& robot, const Vector3d& place) {
+  const Vector3d z = *robot.posture.approach;
+  const Eigen::Matrix3d base = robot.arm.base.linear();
+  Vector3d x = base.col(2) - base.col(2).dot(z) * z;
+  if (x.norm() < 1e-6) x = base.col(0) - base.col(0).dot(z) * z;  // approached along the base's axis
+  x.normalize();
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  frame.linear() << x, z.cross(x), z;
+  frame.linear() = Eigen::AngleAxisd(robot.posture.angle, z) * frame.linear();
+  frame.translation() = place;
+  return frame;
+}
+
+Eigen::VectorXd searched_posture(const Robot& robot, const Vector3d& place, const Eigen::VectorXd& start) {
+  const robot::Reached found = robot::reach(robot.arm, tip_frame(robot, place), start);
+  if (found.status != robot::ReachStatus::not_reached) return found.q;
+  throw core::InputError(fmt::format(
+      "the robot does not reach ({:.4g}, {:.4g}, {:.4g}) m: the search ends {:.3g} m and {:.3g} deg beside it; move "
+      "the "
+      "base, choose another approach or angle, or another start",
+      place.x(), place.y(), place.z(), found.position_error, found.rotation_error * 180.0 / std::numbers::pi));
+}
+
+Eigen::VectorXd joints_of(const Case& source, const std::optional<Eigen::VectorXd>& near) {
+  const Robot& robot = *source.robot;
+  const PostureWish& wish = robot.posture;
+  const auto as_vector = [](const std::vector<double>& list) -> Eigen::VectorXd {
+    return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
+  };
+  if (!wish.joints.empty()) return as_vector(wish.joints);
+  if (wish.pitch) return four_axis_posture(robot, wanted_place(source));
+  const Eigen::VectorXd start = wish.start.empty() ? Eigen::VectorXd::Zero(robot.arm.joints()) : as_vector(wish.start);
+  return searched_posture(robot, wanted_place(source), near.value_or(start));
+}
+
+/// Of the tip's Jacobian with 1 m a radian, smallest over largest.
+double smallest_singular(const robot::ArmPose& at) {
+  const Eigen::VectorXd s = Eigen::JacobiSVD<Eigen::MatrixXd>(robot::tip_jacobian(at)).singularValues();
+  return s(s.size() - 1) / s(0);
+}
+
+}  // namespace
+
+robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis) {
+  if (robot.model == "flexible_joints") return robot::flexible_joints(robot.arm, robot.point);
+  if (robot.model == "measured") return robot::in_one_posture(measured_tip(robot, axis));
+  const auto modes = robot.model == "modes" ? modes_of(robot.modes) : std::vector{single_mode(robot)};
+  return robot::in_one_posture(robot::spatial_model(modes, robot.point));
+}
+
+RobotPosture robot_posture(const Case& source, const std::optional<Eigen::VectorXd>& near) {
+  const Robot& robot = *source.robot;
+  RobotPosture result;
+  result.posture.preload = robot.preload;
+  if (robot.model != "flexible_joints") return result;
+  result.posture.q = joints_of(source, near);
+  const robot::ArmPose at = robot::pose(robot.arm, result.posture.q);
+  result.tip = at.tip.translation();
+  result.smallest_singular = smallest_singular(at);
+  return result;
+}
+
+Component robot_component(const Case& source, const dynamics::FrequencyAxis& axis, const robot::Posture& posture) {
+  robot::Tip tip = tip_model(*source.robot, axis)(posture);
+  if (auto* spatial = std::get_if<dynamics::SpatialModel>(&tip)) return component(std::move(*spatial), axis);
+  Component result;
+  if (auto* modal = std::get_if<dynamics::ModalModel>(&tip)) {
+    result.response = dynamics::to_response(*modal, axis);
+    result.modal = std::move(*modal);
+    return result;
+  }
+  result.response = std::get<dynamics::ResponseModel>(std::move(tip));
+  return result;
+}
+
+dynamics::SpatialModel robot_matrices(const Case& source) {
+  if (source.robot->model != "measured") {
+    robot::Tip tip = tip_model(*source.robot, {})(robot_posture(source).posture);
+    if (auto* spatial = std::get_if<dynamics::SpatialModel>(&tip)) return std::move(*spatial);
+  }
+  throw core::InputError("robot.model = \"" + source.robot->model + "\" has no matrices; take a modelled robot");
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,27 @@
+#pragma once
+// The robot as the case knows it: how it stands, and its tip as the coupling sees it.
+
+#include <optional>
+
+#include "app/case.hpp"
+#include "app/results.hpp"
+#include "robot/tip_model.hpp"
+
+namespace thinwall::app {
+
+/// The tip at any posture, by the model that the case names. Measured receptances are put on `axis`.
+[[nodiscard]] robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis);
+
+/// How the case's robot stands: its joints by the case's word, or by inverse kinematics for the place of its tip, from
+/// `near` on where a search is needed. For a model without posture only the preload is told. Throws InputError for a
+/// place out of reach, an arm that the closed form is not for, a search that ends beside the place.
+[[nodiscard]] RobotPosture robot_posture(const Case& source, const std::optional<Eigen::VectorXd>& near = {});
+
+/// The robot in that posture.
+[[nodiscard]] Component robot_component(const Case& source, const dynamics::FrequencyAxis& axis,
+                                        const robot::Posture& posture);
+
+/// The robot's matrices in the posture that the case asks for. Throws InputError for a robot that has none.
+[[nodiscard]] dynamics::SpatialModel robot_matrices(const Case& source);
+
+}  // namespace thinwall::app
