@@ -35,9 +35,8 @@ int direction_of_dof(const std::string& dof) {
   return dof.back() - 'x';
 }
 
-/// The tool's files as a matrix in part axes, on the lines of the first.
-milling::SampledReceptance measured_tip(const std::vector<MeasuredFrf>& files) {
-  const dynamics::FrequencyAxis axis = read_measured(files.front()).axis;
+/// The tool's files as a matrix in part axes, on `axis`.
+milling::SampledReceptance measured_tip(const std::vector<MeasuredFrf>& files, const dynamics::FrequencyAxis& axis) {
   milling::SampledReceptance tip{axis.hz, {}};
   tip.H.assign(static_cast<std::size_t>(axis.size()), Eigen::Matrix3cd::Zero());
   for (const MeasuredFrf& file : files) {
@@ -55,13 +54,12 @@ milling::SampledReceptance measured_tip(const std::vector<MeasuredFrf>& files) {
   return tip;
 }
 
-void warn_of_doubts(const milling::SampledReceptance& tip) {
+void warn_of_doubts(const milling::SampledReceptance& tip, const std::string& whose) {
   if (const auto doubt = milling::energy_given(tip)) {
     spdlog::warn(
-        "the tool's FRF along {0}{0} gives energy at {1:.1f} Hz (its imaginary part is {2:.2f} of its size and "
-        "positive, "
-        "a passive structure's is not): check sign convention, quantity and unit",
-        "xyz"[doubt->direction], doubt -> frequency_hz, doubt -> share);
+        "{3} FRF along {0}{0} gives energy at {1:.1f} Hz (its imaginary part is {2:.2f} of its size and positive, a "
+        "passive structure's is not): check sign convention, quantity and unit",
+        "xyz"[doubt->direction], doubt -> frequency_hz, doubt -> share, whose);
   }
   const auto resonances = milling::resonances(tip);
   if (resonances.empty()) return;
@@ -77,17 +75,41 @@ void warn_of_doubts(const milling::SampledReceptance& tip) {
   }
 }
 
+milling::SampledReceptance in_tool_axes(milling::SampledReceptance tip, const milling::ToolFrame& frame) {
+  const Eigen::Matrix3d R = frame.rotation();
+  for (Eigen::Matrix3cd& H : tip.H) H = (R.transpose() * H * R).eval();
+  return tip;
+}
+
 }  // namespace
+
+milling::SampledStructure sampled_structure(const Case& source, const milling::ToolFrame& frame,
+                                            const dynamics::ResponseModel& coupled) {
+  const dynamics::ResponseModel at_cut = dynamics::between(coupled, source.cutting->at, source.cutting->at);
+  Eigen::Matrix3Xd D(3, static_cast<Eigen::Index>(at_cut.responses.size()));
+  for (Eigen::Index i = 0; i < D.cols(); ++i) D.col(i) = at_cut.responses[static_cast<std::size_t>(i)].direction;
+  milling::SampledReceptance felt{coupled.axis.hz, {}};
+  felt.H.reserve(at_cut.H.size());
+  for (const Eigen::MatrixXcd& H : at_cut.H) felt.H.emplace_back(D * H * D.transpose());
+  warn_of_doubts(felt, "the supported part's");
+  std::optional<milling::RelativeStructure> tool;
+  if (!source.tool->measured.empty()) {
+    const milling::SampledReceptance tip = measured_tip(source.tool->measured, coupled.axis);
+    for (std::size_t line = 0; line < felt.H.size(); ++line) felt.H[line] += tip.H[line];
+  } else if (!source.tool->modes.empty()) {
+    tool = tool_modes(*source.tool);
+  }
+  return {in_tool_axes(std::move(felt), frame), tool};
+}
 
 CutStructure cut_structure(const Case& source, const milling::ToolFrame& frame, const dynamics::ModalModel* part) {
   std::optional<milling::RelativeStructure> modal;
   if (part != nullptr) modal = part_structure(source, *part);
   if (!source.tool->measured.empty()) {
-    milling::SampledReceptance tip = measured_tip(source.tool->measured);
-    warn_of_doubts(tip);
-    const Eigen::Matrix3d R = frame.rotation();
-    for (Eigen::Matrix3cd& H : tip.H) H = (R.transpose() * H * R).eval();
-    return milling::SampledStructure{std::move(tip), modal};
+    milling::SampledReceptance tip =
+        measured_tip(source.tool->measured, read_measured(source.tool->measured.front()).axis);
+    warn_of_doubts(tip, "the tool's");
+    return milling::SampledStructure{in_tool_axes(std::move(tip), frame), modal};
   }
   if (!source.tool->modes.empty())
     modal = modal ? milling::sum(*modal, tool_modes(*source.tool)) : tool_modes(*source.tool);

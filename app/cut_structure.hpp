@@ -5,6 +5,7 @@
 
 #include "app/case.hpp"
 #include "dynamics/modal_model.hpp"
+#include "dynamics/response_model.hpp"
 #include "milling/relative_structure.hpp"
 #include "milling/sampled_stability.hpp"
 #include "milling/tool.hpp"
@@ -21,5 +22,11 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::SampledSt
 /// DataError as io::read_frf and io::resample.
 [[nodiscard]] CutStructure cut_structure(const Case& source, const milling::ToolFrame& frame,
                                          const dynamics::ModalModel* part);
+
+/// The part as it is held by a robot that has no poles: samples of `coupled` (part axes) at the point that is cut, on
+/// its lines, and the tool: its modes as poles, or its measured receptance put on these lines. Warns as above. Throws
+/// DataError as io::resample.
+[[nodiscard]] milling::SampledStructure sampled_structure(const Case& source, const milling::ToolFrame& frame,
+                                                          const dynamics::ResponseModel& coupled);
 
 }  // namespace thinwall::app

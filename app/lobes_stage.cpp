@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <variant>
 
 #include "app/cut_structure.hpp"
@@ -165,11 +166,11 @@ milling::StabilityOptions stability_options(const LobesOptions& wanted) {
   return options;
 }
 
-NamedLobes compute_lobes(const Case& source, const std::string& name, const dynamics::ModalModel* part,
+NamedLobes compute_lobes(const Case& source, const std::string& name, CutStructure structure,
                          const std::vector<milling::OperatingPoint>& points) {
   const LobesOptions& wanted = *source.lobes;
   const milling::MillingProcess process = milling_process(source);
-  const Chart chart{cut_structure(source, process.frame, part), process, options_of(wanted),
+  const Chart chart{std::move(structure), process, options_of(wanted),
                     milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count), wanted.method == "direct"};
   NamedLobes result;
   result.name = name;
@@ -182,6 +183,11 @@ NamedLobes compute_lobes(const Case& source, const std::string& name, const dyna
   for (const auto& point : points) {
     result.points.push_back(stability_of(point, chart, wanted.method, result.lobes));
     result.points.back().forced = forced_at(source, result.points.back(), chart);
+  }
+  if (chart.poles() == nullptr) {
+    // What needs poles is refused for a measured tool by the checks; a measured robot's chart goes without.
+    add_pockets(source, process, result);
+    return result;
   }
   for (const auto& method : wanted.compare) add_compared(chart, method, result);
   if (wanted.map_depths) result.map = map_of(chart, result.lobes, *wanted.map_depths);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/case.hpp"
+#include "app/cut_structure.hpp"
 #include "app/results.hpp"
 
 namespace thinwall::app {
@@ -11,10 +12,9 @@ namespace thinwall::app {
 /// What [lobes] asks of the search at a speed.
 [[nodiscard]] milling::StabilityOptions stability_options(const LobesOptions& wanted);
 
-/// The chart of one structure at the case's cutting point, the tool added, and what it says of operating points.
-/// `structure` must hold that point; null: a rigid part, the tool alone.
-[[nodiscard]] NamedLobes compute_lobes(const Case& source, const std::string& name,
-                                       const dynamics::ModalModel* structure,
+/// The chart of what the cut feels, and what it says of operating points. From samples there are neither comparisons, a
+/// map, a robust chart nor sensitivities.
+[[nodiscard]] NamedLobes compute_lobes(const Case& source, const std::string& name, CutStructure structure,
                                        const std::vector<milling::OperatingPoint>& points);
 
 /// Throws InputError, before anything is computed, if operating points are asked of a case without a chart or lie

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/lobes_report.hpp"
+#include "app/robot_survey.hpp"
 
 namespace thinwall::app {
 
@@ -20,13 +21,15 @@ json finite(double value) {
 json position_summary(const Case& source, const PathLobes& path, std::size_t i) {
   const milling::Lobes& lobes = path.lobes[i];
   const Eigen::Vector3d& at = source.path->positions[i];
-  return {{"position", i + 1},
-          {"at_m", {at.x(), at.y(), at.z()}},
-          {"minimum_depth_m", lobes.minimum_depth_m},
-          {"at_spindle_speed_rpm", lobes.at_spindle_speed_rpm},
-          {"speeds_stable_to_depth_limit", lobes.rows_at_limit},
-          {"speeds_not_converged", lobes.rows_not_converged},
-          {"error_estimate_relative", finite(lobes.worst_error_estimate)}};
+  json result = {{"position", i + 1},
+                 {"at_m", {at.x(), at.y(), at.z()}},
+                 {"minimum_depth_m", lobes.minimum_depth_m},
+                 {"at_spindle_speed_rpm", lobes.at_spindle_speed_rpm},
+                 {"speeds_stable_to_depth_limit", lobes.rows_at_limit},
+                 {"speeds_not_converged", lobes.rows_not_converged},
+                 {"error_estimate_relative", finite(lobes.worst_error_estimate)}};
+  if (!path.robot.empty()) result["robot"] = posture_summary(path.robot[i]);
+  return result;
 }
 
 /// The position with the least depth at speed number i, the first of equals.

@@ -5,8 +5,10 @@
 #include <ctime>
 
 #include "app/case_reader.hpp"
+#include "app/cut_structure.hpp"
 #include "app/expectation.hpp"
 #include "app/lobes_stage.hpp"
+#include "app/milling_process.hpp"
 #include "app/part_stage.hpp"
 #include "app/path_stage.hpp"
 #include "app/result_files.hpp"
@@ -88,24 +90,35 @@ void run_responses(const Case& work, Results& results, Stages& stages) {
   }
 }
 
+/// The supported part where the robot has no poles. What cannot be charted from samples leaves the rest of the run.
+void add_sampled_chart(const Case& work, const milling::ToolFrame& frame,
+                       const std::vector<milling::OperatingPoint>& points, Results& results) {
+  try {
+    const auto structure = sampled_structure(work, frame, results.coupled->receptance.response);
+    results.lobes.push_back(compute_lobes(work, "supported", structure, points));
+  } catch (const core::InputError& error) {
+    spdlog::warn("no chart of the supported part, whose robot is known by its receptances only: {}", error.what());
+  }
+}
+
 void run_lobes(const Case& work, const std::vector<milling::OperatingPoint>& points, Results& results, Stages& stages) {
   if (!work.lobes || !work.cutting || !work.tool) return;
-  if (!work.part && work.measured_part.empty()) {
-    stages.begin("lobes");
-    results.lobes.push_back(compute_lobes(work, "tool", nullptr, points));
-    return;
-  }
+  const milling::ToolFrame frame = milling_process(work).frame;
+  const auto chart_of = [&](const std::string& name, const dynamics::ModalModel* part) {
+    results.lobes.push_back(compute_lobes(work, name, cut_structure(work, frame, part), points));
+  };
+  stages.begin("lobes");
+  if (!work.part && work.measured_part.empty()) return chart_of("tool", nullptr);
   if (!results.part || !results.part->modal) {
     throw core::InputError(
         "lobes need a part that is held and known as a model (part.shape with part.supports), not by measured "
         "receptances alone");
   }
-  stages.begin("lobes");
-  results.lobes.push_back(compute_lobes(work, "part", &*results.part->modal, points));
+  chart_of("part", &*results.part->modal);
   if (results.coupled && results.coupled->modal) {
-    results.lobes.push_back(compute_lobes(work, "supported", &*results.coupled->modal, points));
+    chart_of("supported", &*results.coupled->modal);
   } else if (results.coupled) {
-    spdlog::warn("no chart of the supported part: the robot is known by its receptance only, which has no poles");
+    add_sampled_chart(work, frame, points, results);
   }
   if (!work.path) return;
   stages.begin("lobes along the path");

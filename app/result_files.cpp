@@ -11,6 +11,7 @@
 #include "app/case_writer.hpp"
 #include "app/doctor.hpp"
 #include "app/lobes_files.hpp"
+#include "app/robot_survey.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -30,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array subfolders{"modes", "frf", "lobes", "models"};
+constexpr std::array subfolders{"modes", "frf", "robot", "lobes", "models"};
 
 std::string numbered(const std::string& stem, std::size_t number) {
   char text[16];
@@ -185,6 +186,7 @@ void write_results(const fs::path& folder, const Case& source, const Results& re
     if (results.coupled->spatial_response) add_frf("coupled_spatial", *results.coupled->spatial_response);
   }
   if (results.robot) files.emplace_back([&] { write_frf(folder / "frf", "robot", results.robot->response); });
+  if (results.robot) files.emplace_back([&] { write_survey(folder, source, survey(source)); });
   for (const auto& lobes : results.lobes) files.emplace_back([&] { write_lobes(folder / "lobes", lobes); });
   for (const auto& path : results.path) files.emplace_back([&] { write_path(folder / "lobes", source, path); });
   if (results.finite_elements) files.front()();  // alone: VTK's first objects set up what all share

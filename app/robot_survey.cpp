@@ -50,7 +50,9 @@ double stiffness_of(double compliance, double largest) {
 
 TipReport report_at(const Case& source, const std::optional<Eigen::VectorXd>& near) {
   const RobotPosture robot = robot_posture(source, near);
-  return tip_report(robot, robot_component(source, frequency_axis(source), robot.posture));
+  const bool measured = source.robot->model == "measured";
+  const dynamics::FrequencyAxis one_line{Eigen::VectorXd::Ones(1)};  // modes and stiffness need no more
+  return tip_report(robot, robot_component(source, measured ? frequency_axis(source) : one_line, robot.posture));
 }
 
 /// Adds the robot of `there`, or why it cannot stand so.
@@ -66,7 +68,7 @@ void add(const Case& there, const Eigen::Vector3d& place, RobotSurvey& survey) {
 
 std::string three(const Eigen::Vector3d& v, double unit, const char* format) {
   std::string text;
-  for (int i = 0; i < 3; ++i) text += fmt::format(fmt::runtime(format), v[i] * unit);
+  for (int i = 0; i < 3; ++i) text += fmt::format(fmt::runtime(format), v[i] * unit + 0.0);
   return text;
 }
 
@@ -183,6 +185,16 @@ RobotSurvey survey(const Case& source) {
   if (survey.tips.empty())
     throw core::InputError("the robot reaches none of the places; at the first, " + survey.out_of_reach.front().reason);
   return survey;
+}
+
+nlohmann::json posture_summary(const RobotPosture& robot) {
+  nlohmann::json result = nlohmann::json::object();
+  if (robot.posture.preload != Eigen::Vector3d::Zero()) result["preload_n"] = robot.posture.preload;
+  if (!robot.tip) return result;
+  result["joints_rad"] = robot.posture.q;
+  result["tip_m"] = *robot.tip;
+  result["smallest_singular_value"] = *robot.smallest_singular;
+  return result;
 }
 
 std::string survey_text(const RobotSurvey& survey) {

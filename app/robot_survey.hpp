@@ -2,6 +2,7 @@
 // What a robot's tip is like in one posture or in many: modes and stiffness over a workspace or along a path.
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ struct RobotSurvey {
 /// its one posture. Throws InputError for a case without robot, or if no place at all is reached. Cost O(joints³) a
 /// posture.
 [[nodiscard]] RobotSurvey survey(const Case& source);
+
+/// joints_rad, tip_m, smallest_singular_value of an arm, and preload_n where there is one, for summary.json.
+[[nodiscard]] nlohmann::json posture_summary(const RobotPosture& robot);
 
 /// A table for the terminal: place, joints, first modes, stiffness.
 [[nodiscard]] std::string survey_text(const RobotSurvey& survey);

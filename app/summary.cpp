@@ -5,6 +5,7 @@
 
 #include "app/lobes_summary.hpp"
 #include "app/path_report.hpp"
+#include "app/robot_survey.hpp"
 #include "app/support_stage.hpp"
 #include "milling/stability.hpp"
 
@@ -106,8 +107,17 @@ json modes_of(const dynamics::ModalModel& model) {
   return modes;
 }
 
-json robot_of(const Case& source, const Component& robot) {
-  return {{"model", source.robot->model}, {"modes", robot.modal ? modes_of(*robot.modal) : json::array()}};
+/// The tip as it stands; what the model does not tell is absent.
+json robot_of(const Case& source, const Component& robot, const RobotPosture& posture) {
+  json result = {{"model", source.robot->model}, {"modes", robot.modal ? modes_of(*robot.modal) : json::array()}};
+  result.update(posture_summary(posture));
+  const TipReport report = tip_report(posture, robot);
+  if (!report.stiffness) return result;
+  result["static_stiffness_n_per_m"] = json::array();
+  for (const double stiffness : *report.stiffness) result["static_stiffness_n_per_m"].push_back(finite(stiffness));
+  result["least_static_stiffness_n_per_m"] = finite(*report.least_stiffness);
+  result["softest_direction"] = report.softest;
+  return result;
 }
 
 json coupling_of(const Results& results) {
@@ -256,7 +266,7 @@ json summary_of(const Case& source, const Results& results) {
     summary["part"] = part_of(results);
     if (results.finite_elements->reduced) summary["reduction"] = reduction_of(*results.finite_elements);
   }
-  if (results.robot) summary["robot"] = robot_of(source, *results.robot);
+  if (results.robot) summary["robot"] = robot_of(source, *results.robot, *results.robot_posture);
   if (results.coupled) summary["coupling"] = coupling_of(results);
   summary["lobes"] = json::array();
   for (const auto& lobes : results.lobes) summary["lobes"].push_back(lobes_of(source, lobes));

@@ -28,7 +28,7 @@ for everything in ("python", "bench", "tests"):
 
 # Libraries with one owner: a pattern of their headers, and where it may appear.
 OWNERS = [
-    (re.compile(r"^vtk.*\.h$"), ("io/vtu.cpp", "io/vtp.cpp", "tests/io/")),
+    (re.compile(r"^vtk.*\.h$"), ("io/vtu.cpp", "io/vtp.cpp", "io/polyline_vtu.cpp", "tests/io/")),
     (re.compile(r"^matio\.h$"), ("io/mat.cpp",)),
     (re.compile(r"^openssl/"), ("io/manifest.cpp",)),
     (re.compile(r"^tetgen\.h$"), ("mesh/",)),

@@ -8,6 +8,7 @@
 #include "app/case_reader.hpp"
 #include "app/part_stage.hpp"
 #include "app/pipeline.hpp"
+#include "app/robot_stage.hpp"
 #include "app/stages.hpp"
 #include "app/support_stage.hpp"
 #include "app/synthetic_measurement.hpp"
@@ -41,7 +42,7 @@ TEST(MeasuredCase, NoiseFreeFilesGiveTheModelsPredictionWithinAThousandthOfThePe
   const app::PartResult part = app::compute_part(model, app::discretise(model), stages);
   const auto axis = app::frequency_axis(model);
   const app::Component part_component = app::component(*part.damped, axis);
-  const app::Component robot = app::robot_component(model, axis);
+  const app::Component robot = app::robot_component(model, axis, app::robot_posture(model).posture);
   const auto predicted = dynamics::entry(app::couple(model, part_component, robot).receptance.response, "P.x", "P.x");
 
   const auto files = app::synthetic_measurement(model, part, "P");
