@@ -150,7 +150,8 @@ struct Robot {
   std::optional<double> frequency_hz, damping_ratio, mass, stiffness, damping;
   std::vector<TipMode> modes;
   std::vector<MeasuredFrf> measured;
-  robot::SerialArm arm;  ///< world: the part's axes
+  robot::SerialArm arm;                ///< world: the part's axes
+  std::filesystem::path urdf, joints;  ///< that the arm was read from; empty: from the case
   PostureWish posture;
   Eigen::Vector3d preload = Eigen::Vector3d::Zero();  ///< N, on the tip
   std::vector<Eigen::Vector3d> workspace;             ///< places of the tip, m

@@ -288,7 +288,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
     bound.reduction.check_frequencies = root.integer("reduction.check_frequencies");
   bound.damping = bind_damping(root.table("damping"), folder);
   if (root.table("robot").exists()) {
-    bound.robot = bind_robot(root.table("robot"), bind_all_measured(root.tables("robot.measured"), folder));
+    bound.robot = bind_robot(root.table("robot"), bind_all_measured(root.tables("robot.measured"), folder), folder);
   }
   bound.contacts = bind_contacts(root.tables("contacts"));
   bound.response = bind_response(root.table("response"));

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "app/urdf_arm.hpp"
+#include "core/error.hpp"
+
 namespace thinwall::app {
 
 namespace {
@@ -38,8 +41,7 @@ robot::Link bind_link(const Table& table) {
   link.name = table.text("name");
   link.placement = bind_frame(table);
   link.axis = table.direction("axis");
-  link.joint = {table.number("stiffness"),  table.number("damping"),         table.number("motor_inertia"),
-                table.number("gear_ratio"), table.number("servo_stiffness"), table.number("servo_damping")};
+  link.joint = bind_joint(table);
   link.mass = table.number("mass");
   link.centre = table.vector("centre");
   link.inertia = bind_inertia(table.numbers("inertia"));
@@ -52,9 +54,8 @@ int link_number(const std::string& name, const std::vector<robot::Link>& links) 
   return static_cast<int>(std::ranges::find(links, name, &robot::Link::name) - links.begin());
 }
 
-robot::SerialArm bind_arm(const Table& table) {
-  robot::SerialArm arm;
-  for (const Table& link : table.tables("links")) arm.links.push_back(bind_link(link));
+/// Counterbalances, base and gravity: what the case tells of an arm wherever its links come from.
+void bind_surroundings(const Table& table, robot::SerialArm& arm) {
   for (const Table& spring : table.tables("counterbalances")) {
     arm.counterbalances.push_back({link_number(spring.text("from"), arm.links), spring.vector("from_point"),
                                    link_number(spring.text("to"), arm.links), spring.vector("to_point"),
@@ -65,8 +66,21 @@ robot::SerialArm bind_arm(const Table& table) {
     arm.base.linear() << x, z.cross(x), z;
     arm.base.translation() = base.vector("position");
   }
-  if (const Table tip = table.table("tip"); tip.exists()) arm.tip = bind_frame(tip);
+  if (const Table tip = table.table("tip"); tip.exists()) arm.tip = arm.tip * bind_frame(tip);
   arm.gravity = table.has("gravity") ? table.vector("gravity") : Eigen::Vector3d(-9.81 * arm.base.linear().col(2));
+}
+
+robot::SerialArm bind_arm(const Table& table, const std::filesystem::path& folder) {
+  if (table.has("urdf")) {
+    try {
+      return bind_urdf(table, folder);
+    } catch (const core::Error&) {
+      return {};
+    }
+  }
+  robot::SerialArm arm;
+  for (const Table& link : table.tables("links")) arm.links.push_back(bind_link(link));
+  bind_surroundings(table, arm);
   return arm;
 }
 
@@ -104,6 +118,18 @@ std::vector<Eigen::Vector3d> bind_workspace(const Table& table) {
 
 }  // namespace
 
+robot::Joint bind_joint(const Table& table) {
+  return {table.number("stiffness"),  table.number("damping"),         table.number("motor_inertia"),
+          table.number("gear_ratio"), table.number("servo_stiffness"), table.number("servo_damping")};
+}
+
+robot::SerialArm bind_urdf(const Table& robot, const std::filesystem::path& folder) {
+  robot::SerialArm arm = urdf_arm(folder / robot.text("urdf"), robot.text("urdf_base"), robot.text("urdf_tip"),
+                                  folder / robot.text("joints"));
+  bind_surroundings(robot, arm);
+  return arm;
+}
+
 std::vector<TipMode> bind_modes(const std::vector<Table>& tables) {
   std::vector<TipMode> modes;
   modes.reserve(tables.size());
@@ -114,7 +140,10 @@ std::vector<TipMode> bind_modes(const std::vector<Table>& tables) {
   return modes;
 }
 
-Robot bind_robot(const Table& table, std::vector<MeasuredFrf> measured) {
+Robot bind_robot(const Table& table, std::vector<MeasuredFrf> measured, const std::filesystem::path& folder) {
+  const auto file = [&](const char* key) {
+    return table.has(key) ? folder / table.text(key) : std::filesystem::path();
+  };
   return {table.text("model"),
           table.text("point"),
           table.direction("direction"),
@@ -125,7 +154,9 @@ Robot bind_robot(const Table& table, std::vector<MeasuredFrf> measured) {
           table.optional("damping"),
           bind_modes(table.tables("modes")),
           std::move(measured),
-          bind_arm(table),
+          bind_arm(table, folder),
+          file("urdf"),
+          file("joints"),
           bind_posture(table.table("posture")),
           table.vector("preload"),
           bind_workspace(table.table("workspace"))};

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "app/part_checks.hpp"
+#include "app/robot_binding.hpp"
 #include "app/robot_stage.hpp"
 #include "robot/flexible_joints.hpp"
 
@@ -24,6 +25,7 @@ constexpr std::array belongings{
     Belongs{"robot.measured", "measured"},       Belongs{"robot.links", "flexible_joints"},
     Belongs{"robot.base", "flexible_joints"},    Belongs{"robot.tip", "flexible_joints"},
     Belongs{"robot.gravity", "flexible_joints"}, Belongs{"robot.counterbalances", "flexible_joints"},
+    Belongs{"robot.urdf", "flexible_joints"},    Belongs{"robot.joints", "flexible_joints"},
     Belongs{"robot.posture", "flexible_joints"}, Belongs{"robot.workspace", "flexible_joints"},
 };
 
@@ -111,6 +113,11 @@ void check_posture_keys(const Robot& robot, Findings& findings) {
     findings.report("robot.posture", "give either joints, or pitch (four-axis arms), or approach (any arm)");
     return;
   }
+  const CaseValue* counts = find(findings.values, "robot.workspace.counts");
+  if (counts != nullptr && std::get<std::vector<double>>(counts->value).size() != 3)
+    findings.report("robot.workspace.counts", "must be three numbers, along x, y, z");
+  if (counts != nullptr && !wish.joints.empty())
+    findings.report("robot.workspace", "needs a posture by pitch or approach; joints hold the arm in one place");
   for (const auto& [key, list] :
        {std::pair{"robot.posture.joints", &wish.joints}, std::pair{"robot.posture.start", &wish.start}}) {
     if (list->empty() || list->size() == robot.arm.links.size()) continue;
@@ -119,10 +126,33 @@ void check_posture_keys(const Robot& robot, Findings& findings) {
   }
 }
 
+/// True if the files are read.
+bool check_urdf(const Case& source, Findings& findings) {
+  if (array_size(source.values, "robot.links") > 0) {
+    findings.report("robot.urdf", "an arm's links are in the case or in a URDF, not in both; remove one");
+    return false;
+  }
+  if (source.robot->joints.empty()) {
+    findings.report("robot.urdf", "needs robot.joints: a file with the stiffness of each joint, which no URDF tells");
+    return false;
+  }
+  try {
+    (void)bind_urdf({source.values, "robot"}, source.folder);
+  } catch (const core::Error& error) {
+    std::string text = error.what();
+    for (auto end = text.find('\n'); end != std::string::npos; end = text.find('\n', end)) text.replace(end, 1, "; ");
+    findings.report("robot.urdf", text);
+    return false;
+  }
+  return true;
+}
+
 void check_arm(const Case& source, Findings& findings) {
   const Robot& robot = *source.robot;
-  if (robot.arm.links.empty()) {
-    findings.report("robot.model", "flexible_joints needs [[robot.links]], from the base to the tip");
+  if (!robot.urdf.empty()) {
+    if (!check_urdf(source, findings)) return;
+  } else if (robot.arm.links.empty()) {
+    findings.report("robot.model", "flexible_joints needs [[robot.links]], from the base to the tip, or robot.urdf");
     return;
   }
   const std::size_t before = findings.problems.size();

@@ -197,6 +197,10 @@ constexpr std::array case_keys{
     Key{"robot.links[].gear_ratio", Type::quantity, kind::number, "1", any, "", "Turns of the rotor for one of the joint."},
     Key{"robot.links[].servo_stiffness", Type::quantity, kind::torsional_stiffness, "\"inf\"", {0.0, infinity, false, false, true, "\"inf\" for a locked motor"}, "", "Position gain at the joint; `inf` for a locked motor."},
     Key{"robot.links[].servo_damping", Type::quantity, kind::torsional_damping, "0", not_negative, "", "Speed gain at the joint."},
+    Key{"robot.urdf", Type::file, kind::number, "", any, "", "The links from a URDF file, in place of [[robot.links]]; it knows no stiffness: `joints` does."},
+    Key{"robot.urdf_base", Type::text, kind::number, "\"\"", any, "", "Name of the link that stands; the root if not given. `base` places it."},
+    Key{"robot.urdf_tip", Type::text, kind::number, "\"\"", any, "", "Name of the link that is the tip; the end of the only chain if not given."},
+    Key{"robot.joints", Type::file, kind::number, "", any, "", "TOML with a [[joints]] for each joint of the URDF."},
     Key{"robot.counterbalances[].from", Type::name, kind::number, "\"base\"", any, "", "Name of a link, or `base`."},
     Key{"robot.counterbalances[].from_point", Type::vector, kind::length, "", any, "", "In its frame.", required},
     Key{"robot.counterbalances[].to", Type::name, kind::number, "", any, "", "Name of another link.", required},
@@ -336,6 +340,18 @@ constexpr std::array case_keys{
     Key{"path.support", Type::choice, kind::number, "\"held\"", any, "held|follows", "`held`: the robot stays at its contacts. `follows`: they move with the cut and keep the distance that they have from `cutting.at`."},
 };
 
+constexpr std::array joint_sections{
+    Section{"joints[]", "What a URDF does not know of a joint that turns.", ""},
+};
+constexpr std::array joint_keys{
+    Key{"joints[].name", Type::text, kind::number, "", any, "", "Name of the joint in the URDF.", required},
+    Key{"joints[].stiffness", Type::quantity, kind::torsional_stiffness, "", positive, "", "Of the joint's gearbox.", required},
+    Key{"joints[].damping", Type::quantity, kind::torsional_damping, "0", not_negative, "", "Beside it."},
+    Key{"joints[].motor_inertia", Type::quantity, kind::inertia, "0", not_negative, "", "Of the rotor about its shaft."},
+    Key{"joints[].gear_ratio", Type::quantity, kind::number, "1", any, "", "Turns of the rotor for one of the joint."},
+    Key{"joints[].servo_stiffness", Type::quantity, kind::torsional_stiffness, "\"inf\"", {0.0, infinity, false, false, true, "\"inf\" for a locked motor"}, "", "Position gain at the joint; `inf` for a locked motor."},
+    Key{"joints[].servo_damping", Type::quantity, kind::torsional_damping, "0", not_negative, "", "Speed gain at the joint."},
+};
 constexpr std::array expectation_sections{
     Section{"expect[]", "One figure of summary.json: `value` with `tolerance` or `relative`, or a bound.", ""},
 };
@@ -356,6 +372,11 @@ constexpr std::array expectation_keys{
 
 const Schema& case_schema() {
   static constexpr Schema schema{case_sections, case_keys};
+  return schema;
+}
+
+const Schema& joints_schema() {
+  static constexpr Schema schema{joint_sections, joint_keys};
   return schema;
 }
 

@@ -73,6 +73,9 @@ struct Schema {
 /// Schema of expected.toml.
 [[nodiscard]] const Schema& expectation_schema();
 
+/// Schema of the file of joints beside a URDF.
+[[nodiscard]] const Schema& joints_schema();
+
 /// The key or section of that pattern; nullptr if there is none.
 [[nodiscard]] const Key* find_key(const Schema& schema, std::string_view pattern);
 [[nodiscard]] const Section* find_section(const Schema& schema, std::string_view pattern);

@@ -31,6 +31,7 @@ OWNERS = [
     (re.compile(r"^vtk.*\.h$"), ("io/vtu.cpp", "io/vtp.cpp", "io/polyline_vtu.cpp", "tests/io/")),
     (re.compile(r"^matio\.h$"), ("io/mat.cpp",)),
     (re.compile(r"^openssl/"), ("io/manifest.cpp",)),
+    (re.compile(r"^(urdf|console_bridge)"), ("io/urdf.cpp",)),
     (re.compile(r"^tetgen\.h$"), ("mesh/",)),
     (re.compile(r"^(suitesparse/)?cholmod\.h$"), ("linalg/", "tests/linalg/")),
 ]

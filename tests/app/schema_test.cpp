@@ -53,11 +53,13 @@ TEST(Schema, BoundsAreOpenOrClosedAsSaid) {
 TEST(Schema, TheDocumentedKeysAreTheKeysOfTheTable) {
   const std::filesystem::path page = std::filesystem::path(THINWALL_SOURCE_DIR) / "docs" / "case-file.md";
   const std::string begin = "<!-- keys of case.toml, printed from app/schema.cpp -->\n";
+  const std::string joints = "<!-- keys of the file of joints, printed from app/schema.cpp -->\n";
   const std::string middle = "<!-- keys of expected.toml, printed from app/schema.cpp -->\n";
   const std::string text = core::read_file(page);
   const auto start = text.find(begin);
   ASSERT_NE(start, std::string::npos);
   const std::string expected = text.substr(0, start) + begin + "\n" + schema_markdown(case_schema()) +
+                               "## Keys of `robot.joints`\n\n" + joints + "\n" + schema_markdown(joints_schema()) +
                                "## Keys of `expected.toml`\n\n" + middle + "\n" + schema_markdown(expectation_schema());
   if (std::getenv("THINWALL_WRITE_DOCS") != nullptr) core::write_file_atomically(page, expected);
   EXPECT_EQ(core::read_file(page), expected) << "run test_app with THINWALL_WRITE_DOCS=1";

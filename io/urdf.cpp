@@ -1,0 +1,183 @@
+#include "io/urdf.hpp"
+
+#include <console_bridge/console.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <algorithm>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/nearest_name.hpp"
+
+namespace thinwall::io {
+
+namespace {
+
+using core::DataError;
+
+Eigen::Isometry3d frame(const urdf::Pose& pose) {
+  double x = 0.0, y = 0.0, z = 0.0, w = 1.0;
+  pose.rotation.getQuaternion(x, y, z, w);
+  Eigen::Isometry3d T(Eigen::Quaterniond(w, x, y, z).normalized());
+  T.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
+  return T;
+}
+
+/// What the parser says goes into our message, not to the terminal.
+class Said : public console_bridge::OutputHandler {
+ public:
+  Said() { console_bridge::useOutputHandler(this); }
+  ~Said() override { console_bridge::restorePreviousOutputHandler(); }
+  Said(const Said&) = delete;
+  Said& operator=(const Said&) = delete;
+  void log(const std::string& text, console_bridge::LogLevel level, const char* /*file*/, int /*line*/) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && first.empty()) first = text;
+  }
+  std::string first;
+};
+
+urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& path) {
+  const std::string text = core::read_file(path);
+  Said said;
+  urdf::ModelInterfaceSharedPtr model;
+  try {
+    model = urdf::parseURDF(text);
+  } catch (const std::exception& error) {
+    said.first = error.what();
+  }
+  if (!model || !said.first.empty()) {
+    std::ranges::replace(said.first, '\n', ' ');
+    throw DataError(path.string() + ": no robot in URDF" + (said.first.empty() ? "" : ": " + said.first));
+  }
+  return model;
+}
+
+const urdf::Link& link_named(const urdf::ModelInterface& model, const std::filesystem::path& path,
+                             const std::string& name) {
+  const auto found = model.links_.find(name);
+  if (found != model.links_.end()) return *found->second;
+  std::vector<std::string> names;
+  for (const auto& [known, link] : model.links_) names.push_back(known);
+  throw DataError(path.string() + ": there is no link \"" + name + "\"" + core::did_you_mean(name, names));
+}
+
+/// The one link at the end of the only chain that leaves `base`.
+const urdf::Link& only_end(const urdf::Link& base, const std::filesystem::path& path) {
+  const urdf::Link* link = &base;
+  while (!link->child_links.empty()) {
+    if (link->child_links.size() > 1) {
+      throw DataError(path.string() + ": link \"" + link->name +
+                      "\" carries several; name the link that is the robot's tip");
+    }
+    link = link->child_links.front().get();
+  }
+  return *link;
+}
+
+/// The links from the base to the tip, both included.
+std::vector<const urdf::Link*> way(const urdf::Link& base, const urdf::Link& tip, const std::filesystem::path& path) {
+  std::vector<const urdf::Link*> links{&tip};
+  while (links.back() != &base) {
+    const auto parent = links.back()->getParent();
+    if (!parent) throw DataError(path.string() + ": link \"" + tip.name + "\" does not hang on \"" + base.name + "\"");
+    links.push_back(parent.get());
+  }
+  std::ranges::reverse(links);
+  return links;
+}
+
+std::string kind(const urdf::Joint& joint) {
+  switch (joint.type) {
+    case urdf::Joint::REVOLUTE:
+      return "revolute";
+    case urdf::Joint::CONTINUOUS:
+      return "continuous";
+    case urdf::Joint::PRISMATIC:
+      return "prismatic";
+    case urdf::Joint::FLOATING:
+      return "floating";
+    case urdf::Joint::PLANAR:
+      return "planar";
+    case urdf::Joint::FIXED:
+      return "fixed";
+    default:
+      return "unknown";
+  }
+}
+
+void require_supported(const urdf::Joint& joint, bool on_the_way, const std::filesystem::path& path) {
+  const std::string what = path.string() + ": joint \"" + joint.name + "\" is " + kind(joint);
+  if (!on_the_way && joint.type != urdf::Joint::FIXED)
+    throw DataError(what +
+                    " and lies beside the chain; only what is fixed may hang there: make it fixed, or remove it");
+  const bool turns = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
+  if (!turns && joint.type != urdf::Joint::FIXED)
+    throw DataError(what + "; an arm's joints are revolute, continuous or fixed");
+  if (turns && joint.mimic)
+    throw DataError(what + " and mimics another; a linkage is no serial chain: give the joint its own angle");
+}
+
+/// Adds a rigid body to a link, both in the link's frame (Steiner).
+void add_body(const urdf::Inertial& body, const Eigen::Isometry3d& at, const std::string& name,
+              const std::filesystem::path& path, UrdfLink& link) {
+  Eigen::Matrix3d I;
+  I << body.ixx, body.ixy, body.ixz, body.ixy, body.iyy, body.iyz, body.ixz, body.iyz, body.izz;
+  const Eigen::Isometry3d T = at * frame(body.origin);
+  if (!std::isfinite(body.mass) || body.mass < 0.0 || !I.allFinite() || !T.matrix().allFinite())
+    throw DataError(path.string() + ": link \"" + name + "\" has a mass or inertia that no body has");
+  const double mass = link.mass + body.mass;
+  if (mass == 0.0) return;
+  const Eigen::Vector3d centre = (link.mass * link.centre + body.mass * T.translation()) / mass;
+  const auto steiner = [&](double m, const Eigen::Vector3d& c) -> Eigen::Matrix3d {
+    const Eigen::Vector3d d = c - centre;
+    return m * (d.squaredNorm() * Eigen::Matrix3d::Identity() - d * d.transpose());
+  };
+  link.inertia +=
+      steiner(link.mass, link.centre) + T.linear() * I * T.linear().transpose() + steiner(body.mass, T.translation());
+  link.inertia = (0.5 * (link.inertia + link.inertia.transpose())).eval();
+  link.mass = mass;
+  link.centre = centre;
+}
+
+/// The body of `from` and of all that is fixed to it, but for what lies beyond `next`.
+void add_fixed(const urdf::Link& from, const urdf::Link* next, const Eigen::Isometry3d& at,
+               const std::filesystem::path& path, UrdfLink& link) {
+  if (from.inertial) add_body(*from.inertial, at, from.name, path, link);
+  for (const auto& child : from.child_links) {
+    if (child.get() == next) continue;
+    require_supported(*child->parent_joint, false, path);
+    add_fixed(*child, next, at * frame(child->parent_joint->parent_to_joint_origin_transform), path, link);
+  }
+}
+
+}  // namespace
+
+UrdfChain read_urdf(const std::filesystem::path& path, const std::string& base, const std::string& tip) {
+  const auto model = parse(path);
+  const urdf::Link& first = base.empty() ? *model->getRoot() : link_named(*model, path, base);
+  const auto links = way(first, tip.empty() ? only_end(first, path) : link_named(*model, path, tip), path);
+  UrdfChain chain;
+  UrdfLink ground;  // what is fixed to the base does not move
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (i > 0) {
+      const urdf::Joint& joint = *links[i]->parent_joint;
+      require_supported(joint, true, path);
+      chain.tip = chain.tip * frame(joint.parent_to_joint_origin_transform);
+      if (joint.type != urdf::Joint::FIXED) {
+        const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
+        if (!(axis.norm() > 1e-9))
+          throw DataError(path.string() + ": joint \"" + joint.name + "\" has an axis without direction");
+        chain.links.push_back({links[i]->name, joint.name, chain.tip, axis.normalized()});
+        chain.tip.setIdentity();
+      }
+    }
+    add_fixed(*links[i], i + 1 < links.size() ? links[i + 1] : nullptr, chain.tip, path,
+              chain.links.empty() ? ground : chain.links.back());
+  }
+  if (chain.links.empty())
+    throw DataError(path.string() + ": no joint moves between \"" + first.name + "\" and \"" + links.back()->name +
+                    "\"");
+  return chain;
+}
+
+}  // namespace thinwall::io

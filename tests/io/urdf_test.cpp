@@ -1,0 +1,107 @@
+#include "io/urdf.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <numbers>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "tests/io/scratch_folder.hpp"
+
+namespace thinwall::io {
+namespace {
+
+const std::string two_links = R"(<?xml version="1.0"?>
+<robot name="arm">
+  <link name="world"/>
+  <link name="shoulder"><inertial><origin xyz="0 0 0.3"/><mass value="40"/>
+    <inertia ixx="2" iyy="3" izz="4" ixy="0.1" ixz="0.2" iyz="0.3"/></inertial></link>
+  <link name="arm"><inertial><origin xyz="0.2 0 0" rpy="0 0 1.5707963267948966"/><mass value="10"/>
+    <inertia ixx="1" iyy="2" izz="2.5" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="flange"><inertial><origin xyz="0 0 0.1"/><mass value="5"/>
+    <inertia ixx="0" iyy="0" izz="0" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="cable"><inertial><mass value="1"/><inertia ixx="0" iyy="0" izz="0" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="j1" type="revolute"><parent link="world"/><child link="shoulder"/><origin xyz="0 0 0.5"/><axis xyz="0 0 2"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+  <joint name="j2" type="continuous"><parent link="shoulder"/><child link="arm"/><origin xyz="0 0 0.6" rpy="0 1.5707963267948966 0"/><axis xyz="0 1 0"/></joint>
+  <joint name="f" type="fixed"><parent link="arm"/><child link="flange"/><origin xyz="0.4 0 0"/></joint>
+  <joint name="c" type="fixed"><parent link="arm"/><child link="cable"/><origin xyz="0 1 0"/></joint>
+</robot>
+)";
+
+class Urdf : public test::ScratchFolder {
+ protected:
+  UrdfChain read(const std::string& text, const std::string& base, const std::string& tip) {
+    core::write_file_atomically(file, text);
+    return read_urdf(file, base, tip);
+  }
+  void expect_refused(const std::string& text, const std::string& part, const std::string& tip = "flange") {
+    try {
+      (void)read(text, "", tip);
+      ADD_FAILURE() << "accepted, though " << part;
+    } catch (const core::DataError& error) {
+      const std::string found = error.what();
+      EXPECT_NE(found.find(part), std::string::npos) << found;
+      EXPECT_EQ(found.find('\n'), std::string::npos) << found;
+    }
+  }
+  std::filesystem::path file = path("arm.urdf");
+};
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST_F(Urdf, JointsAndFramesAreThoseOfTheFile) {
+  const UrdfChain chain = read(two_links, "", "flange");
+  ASSERT_EQ(chain.links.size(), 2U);
+  EXPECT_EQ(chain.links[0].name, "shoulder");
+  EXPECT_EQ(chain.links[0].joint, "j1");
+  EXPECT_EQ(chain.links[0].axis, Eigen::Vector3d::UnitZ()) << "of unit length";
+  EXPECT_EQ(chain.links[0].placement.translation(), Eigen::Vector3d(0, 0, 0.5));
+  EXPECT_DOUBLE_EQ(chain.links[0].mass, 40.0);
+  EXPECT_DOUBLE_EQ(chain.links[0].inertia(1, 2), 0.3);
+  // Pitched by 90 degrees the child's x axis points down.
+  EXPECT_LT((chain.links[1].placement.linear().col(0) + Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+  EXPECT_LT((chain.tip.translation() - Eigen::Vector3d(0.4, 0, 0)).norm(), 1e-12);
+}
+
+// Arm, flange and cable are one body: 10 kg at (0.2, 0, 0) turned about z by 90 degrees, 5 kg at (0.4, 0, 0.1), 1 kg at
+// (0, 1, 0).
+TEST_F(Urdf, WhatIsFixedToALinkIsPartOfIt) {
+  const UrdfLink arm = read(two_links, "world", "flange").links[1];
+  EXPECT_DOUBLE_EQ(arm.mass, 16.0);
+  const Eigen::Vector3d places[] = {{0.2, 0, 0}, {0.4, 0, 0.1}, {0, 1, 0}};
+  const double masses[] = {10, 5, 1};
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) centre += masses[i] * places[i] / 16.0;
+  EXPECT_LT((arm.centre - centre).norm(), 1e-14);
+  Eigen::Matrix3d I = Eigen::Vector3d(2, 1, 2.5).asDiagonal();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d d = places[i] - centre;
+    I += masses[i] * (d.squaredNorm() * Eigen::Matrix3d::Identity() - d * d.transpose());
+  }
+  EXPECT_LT((arm.inertia - I).norm(), 1e-12);
+}
+
+TEST_F(Urdf, WhatAnArmCannotHaveIsRefusedByName) {
+  expect_refused("not xml", "no robot in URDF");
+  expect_refused(with(two_links, "type=\"continuous\">",
+                      "type=\"prismatic\"><limit lower=\"0\" upper=\"1\" effort=\"1\" velocity=\"1\"/>"),
+                 "\"j2\" is prismatic");
+  expect_refused(with(two_links, "name=\"c\" type=\"fixed\"", "name=\"c\" type=\"continuous\""), "beside the chain");
+  expect_refused(two_links, "there is no link \"flanges\" (did you mean \"flange\"?)", "flanges");
+  expect_refused(two_links, "carries several; name the link", "");
+  expect_refused(two_links.substr(0, two_links.find("<link name=\"shoulder")) + "</robot>", "no joint moves", "world");
+  expect_refused(with(two_links, "mass value=\"40\"", "mass value=\"-40\""), "mass or inertia that no body has");
+  expect_refused(with(two_links, "<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 1 0\"/><mimic joint=\"j1\"/>"), "mimics");
+  expect_refused(with(two_links, "xyz=\"0 0 2\"", "xyz=\"0 0 0\""), "j1");
+  EXPECT_THROW((void)read_urdf(path("none.urdf")), core::DataError);
+  EXPECT_THROW((void)read(two_links, "flange", "world"), core::DataError) << "the wrong way";
+}
+
+}  // namespace
+}  // namespace thinwall::io
