@@ -112,8 +112,10 @@ void check_nodes(const BeamFrame& frame, core::Faults& faults) {
     faults.require(frame.nodes[i].position_m.allFinite(), where, "has a position that is not a number");
     const auto is_end = [i](const BeamSegment& segment) { return segment.from == i || segment.to == i; };
     const auto is_here = [i](const NodeBody& body) { return body.node == i; };
+    const auto carries = [i](const Hinge& hinge) { return hinge.from == i; };
     faults.require(frame.nodes[i].clamped || std::any_of(frame.segments.begin(), frame.segments.end(), is_end) ||
-                       std::any_of(frame.bodies.begin(), frame.bodies.end(), is_here),
+                       std::any_of(frame.bodies.begin(), frame.bodies.end(), is_here) ||
+                       std::any_of(frame.hinges.begin(), frame.hinges.end(), carries),
                    where, "carries no mass: let a segment end there, or give it a body");
     if (!frame.nodes[i].name.empty()) names.push_back(frame.nodes[i].name);
   }
