@@ -328,6 +328,7 @@ Chain chain(const SerialArm& arm, const VectorXd& q) {
 ReducedTip reduced_tip(const std::vector<Chain>& chains) {
   require_valid(chains);
   std::vector<std::vector<Station>> stations;
+  stations.reserve(chains.size());
   for (const Chain& chain : chains) stations.push_back(placed(chain));
   const double size = size_of(stations);
   require_one_tip(stations, size);
@@ -337,6 +338,7 @@ ReducedTip reduced_tip(const std::vector<Chain>& chains) {
   Matrix6 K = Matrix6::Zero();
   Matrix6X forbidden(6, 0);
   std::vector<Statics> at_rest;
+  at_rest.reserve(chains.size());
   for (const auto& chain : stations) {
     at_rest.push_back(statics(jacobians(chain, scale.asDiagonal())));
     K += at_rest.back().K;
