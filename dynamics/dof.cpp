@@ -53,6 +53,13 @@ DofTable translations(const std::string& point) {
           {point, Eigen::Vector3d::UnitZ(), DofKind::translation}};
 }
 
+DofTable six_dofs(const std::string& point) {
+  DofTable table = translations(point);
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    table.push_back({point, Eigen::Vector3d::Unit(axis), DofKind::rotation});
+  return table;
+}
+
 Eigen::Vector3d axis(const std::string& letter) {
   const bool negative = !letter.empty() && letter.front() == '-';
   const std::string bare = negative ? letter.substr(1) : letter;

@@ -32,6 +32,9 @@ using DofTable = std::vector<Dof>;
 /// The three translations x, y, z of a point.
 [[nodiscard]] DofTable translations(const std::string& point);
 
+/// The three translations x, y, z of a point, then its rotations rx, ry, rz.
+[[nodiscard]] DofTable six_dofs(const std::string& point);
+
 /// Unit vector of "x", "-y", "z"; throws InputError for anything else.
 [[nodiscard]] Eigen::Vector3d axis(const std::string& letter);
 

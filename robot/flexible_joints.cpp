@@ -43,13 +43,6 @@ void require_massive(const SerialArm& arm, const Eigen::MatrixXd& M) {
                          ": give the links beyond that joint their mass and inertia");
 }
 
-dynamics::DofTable six_dofs(const std::string& point) {
-  dynamics::DofTable table = dynamics::translations(point);
-  for (Index axis = 0; axis < 3; ++axis)
-    table.push_back({point, Eigen::Vector3d::Unit(axis), dynamics::DofKind::rotation});
-  return table;
-}
-
 }  // namespace
 
 dynamics::SpatialModel linearised(const SerialArm& arm, const Posture& posture, const std::string& point) {
@@ -59,12 +52,8 @@ dynamics::SpatialModel linearised(const SerialArm& arm, const Posture& posture, 
   const Index links = arm.joints();
   const Index n = links + std::count_if(arm.links.begin(), arm.links.end(),
                                         [](const Link& link) { return !link.joint.motor_locked(); });
-  dynamics::SpatialModel model{Eigen::MatrixXd::Zero(n, n),
-                               Eigen::MatrixXd::Zero(n, n),
-                               Eigen::MatrixXd::Zero(n, n),
-                               Eigen::MatrixXd(),
-                               six_dofs(point),
-                               Eigen::MatrixXd::Zero(6, n)};
+  dynamics::SpatialModel model{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n),
+                               Eigen::MatrixXd(),           dynamics::six_dofs(point),   Eigen::MatrixXd::Zero(6, n)};
   model.M.topLeftCorner(links, links) = mass_matrix(arm, at);
   model.K.topLeftCorner(links, links) =
       gravity_stiffness(arm, at) + counterbalance_stiffness(arm, at) + load_stiffness(at, posture.preload);

@@ -1,62 +1,19 @@
 #include "robot/serial_arm.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
-#include <sstream>
+#include <string>
 
-#include "core/error.hpp"
+#include "core/faults.hpp"
+#include "dynamics/rigid_body.hpp"
 
 namespace thinwall::robot {
 
 namespace {
 
-/// What a body's inertia tensor violates; empty if a body may have it.
-std::string fault_of_inertia(const Eigen::Matrix3d& inertia) {
-  const double scale = inertia.cwiseAbs().maxCoeff();
-  if (!((inertia - inertia.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * scale)) return "is not symmetric";
-  const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();
-  std::ostringstream text;
-  if (moments(0) < -1e-9 * scale) {
-    text << "has the principal moment " << moments(0) << " kg m^2, which cannot be negative";
-  } else if (moments(2) > (moments(0) + moments(1)) * (1.0 + 1e-9)) {
-    text << "has the principal moment " << moments(2) << " kg m^2, more than the sum of the other two, "
-         << moments(0) + moments(1) << " kg m^2: no body has that";
-  }
-  return text.str();
-}
-
-bool is_frame(const Eigen::Isometry3d& frame) {
-  const Eigen::Matrix3d R = frame.linear();
-  return frame.matrix().allFinite() && R.determinant() > 0.0 &&
-         (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= 1e-9;
-}
-
-class Faults {
- public:
-  void require(bool holds, const std::string& where, const std::string& what) {
-    if (!holds) text_ += (text_.empty() ? "" : "; ") + where + " " + what;
-  }
-  void require_number(double value, bool holds, const std::string& where, const std::string& what,
-                      const std::string& bound) {
-    if (holds && std::isfinite(value)) return;
-    std::ostringstream text;
-    text << "has the " << what << " " << value << ": it must " << bound;
-    require(false, where, text.str());
-  }
-  void raise() const {
-    if (!text_.empty()) throw core::InputError("robot arm: " + text_);
-  }
-
- private:
-  std::string text_;
-};
-
-void check(const Link& link, const std::string& where, Faults& faults) {
+void check(const Link& link, const std::string& where, core::Faults& faults) {
   const Joint& joint = link.joint;
-  faults.require(link.centre.allFinite() && link.inertia.allFinite(), where,
-                 "has a centre or inertia that is not a number");
   faults.require(
-      is_frame(link.placement), where,
+      dynamics::is_frame(link.placement), where,
       "has a placement that is no frame: its axes must be of unit length, at right angles and right-handed, to "
       "nine digits");
   faults.require(std::abs(link.axis.norm() - 1.0) <= 1e-9, where, "has a joint axis that is not a unit vector");
@@ -74,10 +31,7 @@ void check(const Link& link, const std::string& where, Faults& faults) {
     faults.require_number(joint.motor_inertia, joint.motor_inertia > 0.0, where, "motor inertia (kg m^2)",
                           "be positive where a servo of finite stiffness holds the motor");
   }
-  faults.require_number(link.mass, link.mass >= 0.0, where, "mass (kg)", "not be negative");
-  if (!link.inertia.allFinite()) return;
-  const std::string fault = fault_of_inertia(link.inertia);
-  faults.require(fault.empty(), where, "has an inertia tensor that " + fault);
+  dynamics::check(dynamics::RigidBody{link.mass, link.centre, link.inertia}, where, faults);
 }
 
 void check(const Counterbalance& spring, Eigen::Index links, const std::string& where, Faults& faults) {
@@ -94,9 +48,9 @@ void check(const Counterbalance& spring, Eigen::Index links, const std::string& 
 }  // namespace
 
 void require_valid(const SerialArm& arm) {
-  Faults faults;
+  core::Faults faults;
   faults.require(!arm.links.empty(), "the arm", "has no link");
-  faults.require(is_frame(arm.base) && is_frame(arm.tip), "the arm",
+  faults.require(dynamics::is_frame(arm.base) && dynamics::is_frame(arm.tip), "the arm",
                  "has a base or a tip that is no frame: axes of unit length, at right angles and right-handed");
   faults.require(arm.gravity.allFinite(), "the arm", "has a gravity that is not a number");
   for (std::size_t i = 0; i < arm.links.size(); ++i) {
@@ -105,7 +59,7 @@ void require_valid(const SerialArm& arm) {
   }
   for (std::size_t i = 0; i < arm.counterbalances.size(); ++i)
     check(arm.counterbalances[i], arm.joints(), "counterbalance " + std::to_string(i + 1), faults);
-  faults.raise();
+  faults.raise("robot arm");
 }
 
 }  // namespace thinwall::robot
