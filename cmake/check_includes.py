@@ -23,7 +23,7 @@ ALLOWED = {
 }
 LIBRARY_FOLDERS = list(ALLOWED)
 ALLOWED["app"] = LIBRARY_FOLDERS
-for everything in ("python", "bench", "tests"):
+for everything in ("python", "bench", "tests", "fuzz"):
     ALLOWED[everything] = [*LIBRARY_FOLDERS, "app"]
 
 # Libraries with one owner: a pattern of their headers, and where it may appear.

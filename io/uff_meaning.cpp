@@ -40,7 +40,7 @@ Dof plain_dof(const UffDof& dof, const UffRecords& records) {
   Dof plain;
   plain.point = is_label(dof.entity) ? dof.entity + ":" + std::to_string(dof.node) : "node " + std::to_string(dof.node);
   plain.kind = axis > 3 ? DofKind::rotation : DofKind::translation;
-  if (axis > 0) plain.direction = (dof.direction > 0 ? 1.0 : -1.0) * Eigen::Vector3d::Unit((axis - 1) % 3);
+  if (axis > 0) plain.direction((axis - 1) % 3) = dof.direction > 0 ? 1.0 : -1.0;
   return plain;
 }
 
