@@ -29,7 +29,7 @@ for everything in ("python", "bench", "tests", "fuzz"):
 # Libraries with one owner: a pattern of their headers, and where it may appear.
 OWNERS = [
     (re.compile(r"^vtk.*\.h$"), ("io/vtu.cpp", "io/vtp.cpp", "tests/io/")),
-    (re.compile(r"^matio\.h$"), ("io/mat.cpp",)),
+    (re.compile(r"^matio\.h$"), ("io/mat_variables.cpp",)),
     (re.compile(r"^openssl/"), ("io/manifest.cpp",)),
     (re.compile(r"^tetgen\.h$"), ("mesh/",)),
     (re.compile(r"^(suitesparse/)?cholmod\.h$"), ("linalg/", "tests/linalg/")),
