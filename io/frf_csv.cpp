@@ -48,13 +48,13 @@ bool has_coherence_column(const CsvText& text) {
 
 }  // namespace
 
-MeasuredFrf read_frf(const std::filesystem::path& path, const FrfFormat& format) {
-  const CsvText text = read_csv_text(path);
+MeasuredFrf measured_frf(const CsvText& text, const FrfFormat& format) {
   const bool has_coherence = has_coherence_column(text);
   require_columns(text, has_coherence ? 4 : 3, "frequency, real part, imaginary part");
-  if (text.lines.size() < 2) throw core::DataError(path.string() + ": holds one line; a response needs two at least");
+  if (text.lines.size() < 2)
+    throw core::DataError(text.path.string() + ": holds one line; a response needs two at least");
   MeasuredFrf frf;
-  frf.source = path.string();
+  frf.source = text.path.string();
   const auto count = static_cast<Eigen::Index>(text.lines.size());
   frf.axis.hz.resize(count);
   frf.H.resize(count);
@@ -73,6 +73,10 @@ MeasuredFrf read_frf(const std::filesystem::path& path, const FrfFormat& format)
     before = &line;
   }
   return frf;
+}
+
+MeasuredFrf read_frf(const std::filesystem::path& path, const FrfFormat& format) {
+  return measured_frf(read_csv_text(path), format);
 }
 
 void add_coherence(MeasuredFrf& frf, const std::filesystem::path& path, double unit_in_hz) {

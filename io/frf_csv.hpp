@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "io/csv_text.hpp"
 #include "io/frf_quantity.hpp"
 #include "io/measured_response.hpp"
 
@@ -14,6 +15,9 @@ namespace thinwall::io {
 /// line for fewer than two lines, a wrong number of columns, text, decimal commas, NaN or infinity, negative, falling
 /// or duplicate frequencies, 0 Hz where the conversion divides by it, and a coherence outside of 0 to 1.
 [[nodiscard]] MeasuredFrf read_frf(const std::filesystem::path& path, const FrfFormat& format);
+
+/// The same from text that is split into fields already, whatever separated them.
+[[nodiscard]] MeasuredFrf measured_frf(const CsvText& text, const FrfFormat& format);
 
 /// Adds the coherence from a file of its own: two columns, frequency (times unit_in_hz) and coherence, on the axis of
 /// the FRF (relative 1e-12). Throws DataError with file and line as above, or if the axes differ.
