@@ -10,13 +10,27 @@
 
 #include "core/error.hpp"
 #include "io/uff.hpp"
+#include "io/uff_mesh.hpp"
+#include "io/uff_shapes.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+namespace {
+
+template <typename Read>
+void read(Read reader) {
   try {
-    static_cast<void>(thinwall::io::response_matrix(thinwall::io::uff_entries(bytes, "fuzz")));
+    static_cast<void>(reader());
   } catch (const thinwall::core::DataError&) {
   } catch (const thinwall::core::InputError&) {
   }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace thinwall::io;
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  read([bytes] { return response_matrix(uff_entries(bytes, "fuzz")); });
+  read([bytes] { return uff_mesh(bytes, "fuzz"); });
+  read([bytes] { return uff_shapes(bytes, "fuzz"); });
   return 0;
 }

@@ -120,20 +120,6 @@ void require_writable(const FrequencyAxis& axis, const Abscissa& abscissa, const
   }
 }
 
-std::string text_record(std::string_view words) {
-  return text_field(words, uff_record_width) + "\n";
-}
-
-/// Data sets 151 and 164. "NONE" stands for dates and times.
-std::string header_sets() {
-  const std::string no_date = text_field("NONE", 10) + text_field("NONE", 10);
-  std::string text = std::string(uff_delimiter) + "\n   151\n";
-  text += text_record("thinwall responses") + text_record("receptance, e^{+i omega t}") + text_record("thinwall");
-  text += no_date + integer_field(0, 10) + integer_field(0, 10) + integer_field(0, 10) + "\n";
-  text += no_date + "\n" + text_record("thinwall") + no_date + "\n" + std::string(uff_delimiter) + "\n";
-  return text + si_units_text();
-}
-
 /// Numbers the points from 1 on.
 std::map<std::string, long> nodes_of(const ResponseModel& model) {
   std::map<std::string, long> nodes;
@@ -326,7 +312,7 @@ void write_uff(const std::filesystem::path& path, const MeasuredResponse& measur
   const Abscissa abscissa = abscissa_of(model.axis);
   require_writable(model.axis, abscissa, form);
   const std::map<std::string, long> nodes = nodes_of(model);
-  std::string text = header_sets();
+  std::string text = header_sets("thinwall responses", "receptance, e^{+i omega t}");
   for (Eigen::Index row = 0; row < static_cast<Eigen::Index>(model.responses.size()); ++row) {
     for (Eigen::Index column = 0; column < static_cast<Eigen::Index>(model.forces.size()); ++column) {
       const UffFunction function = function_of(model, abscissa, nodes, row, column);

@@ -85,9 +85,15 @@ UffUnits read_units(const UffDataSet& set) {
   refuse(records, "units code " + std::to_string(units.code) + " where 1 to 10 is expected");
 }
 
-std::string si_units_text() {
-  const std::string one = "  1.00000000000000000D+00";  // D25.17
-  std::string text = std::string(uff_delimiter) + "\n   164\n";
+std::string header_sets(std::string_view name, std::string_view description) {
+  const auto record = [](std::string_view words) { return text_field(words, uff_record_width) + "\n"; };
+  const std::string no_date = text_field("NONE", 10) + text_field("NONE", 10);  // date and time
+  std::string text = std::string(uff_delimiter) + "\n   151\n";
+  text += record(name) + record(description) + record("thinwall");
+  text += no_date + integer_field(0, 10) + integer_field(0, 10) + integer_field(0, 10) + "\n";
+  text += no_date + "\n" + record("thinwall") + no_date + "\n" + std::string(uff_delimiter) + "\n";
+  const std::string one = "  1.00000000000000000D+00";  // D25.17, the factor from SI to SI
+  text += std::string(uff_delimiter) + "\n   164\n";
   text += integer_field(1, 10) + text_field("SI: Meter (newton)", 20) + integer_field(2, 10) + "\n";
   text += one + one + one + "\n  2.73149999999999977D+02\n";
   return text + std::string(uff_delimiter) + "\n";

@@ -22,8 +22,8 @@ struct UffUnits {
 /// that is not positive, and factors that contradict their code.
 [[nodiscard]] UffUnits read_units(const UffDataSet& set);
 
-/// Data set 164 of SI with its delimiters.
-[[nodiscard]] std::string si_units_text();
+/// Data sets 151 (header) and 164 (units: SI), which open every file of ours. There are no dates.
+[[nodiscard]] std::string header_sets(std::string_view name, std::string_view description);
 
 /// The unit that a label names, as a factor to SI with its dimension: what core::parse_unit takes, and "m/s2" for
 /// m/s^2, "lbf" or "lb" (pound force), "kgf", "Nm" and "N-m" for N m, and "g" for standard gravity, 9.80665 m/s^2,

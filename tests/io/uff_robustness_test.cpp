@@ -15,6 +15,8 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "io/uff.hpp"
+#include "io/uff_mesh.hpp"
+#include "io/uff_shapes.hpp"
 #include "scratch_folder.hpp"
 #include "uff_bytes.hpp"
 
@@ -34,14 +36,23 @@ std::vector<std::string> corpus_files() {
 }
 
 /// True if the bytes were read, false if they were refused; any other exception fails the test.
-bool reads(const std::string& bytes) {
+template <typename Read>
+bool reads_by(Read read) {
   try {
-    (void)response_matrix(uff_entries(bytes, "x"));
+    (void)read();
     return true;
   } catch (const core::DataError&) {
   } catch (const core::InputError&) {
   }
   return false;
+}
+
+/// As FRFs, geometry or mode shapes.
+bool reads(const std::string& bytes) {
+  const bool frfs = reads_by([&bytes] { return response_matrix(uff_entries(bytes, "x")); });
+  const bool mesh = reads_by([&bytes] { return uff_mesh(bytes, "x"); });
+  const bool shapes = reads_by([&bytes] { return uff_shapes(bytes, "x"); });
+  return frfs || mesh || shapes;
 }
 
 /// One to eight bytes changed, a piece cut out, doubled or moved, or the end cut off.
