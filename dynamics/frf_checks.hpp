@@ -71,8 +71,8 @@ enum class LowFrequencyCause { none, scatter, coherence, growth };
 
 /// Bounds of low_frequency_limit().
 struct LowFrequencyOptions {
-  double scatter = 0.2;    ///< standard deviation of a line relative to |H|; 0.2 is 10 % a part, real and imaginary
-  double coherence = 0.9;  ///< with fewer averages than ten the error of |H| is then above a tenth
+  double scatter = 0.2;    ///< standard deviation of a line, √E|noise|², relative to |H|
+  double coherence = 0.9;  ///< with five averages the random error of |H| is then a tenth
   bool supported = false;  ///< the structure stands on a support: its receptance levels out towards 0 Hz
 };
 
