@@ -15,6 +15,17 @@ namespace {
 
 using Complex = std::complex<double>;
 
+void require_measured(const ResponseModel& model) {
+  const auto rows = static_cast<Eigen::Index>(model.responses.size());
+  const auto columns = static_cast<Eigen::Index>(model.forces.size());
+  bool consistent = model.axis.size() == static_cast<Eigen::Index>(model.H.size());
+  for (const auto& H : model.H) consistent = consistent && H.rows() == rows && H.cols() == columns;
+  if (!consistent) throw core::InputError("the response's matrices do not match its frequencies and DOF tables");
+  for (const auto& H : model.H) {
+    if (!H.allFinite()) throw core::InputError("the response holds values that are not finite; leave those lines out");
+  }
+}
+
 /// First line at or above from_hz and above 0 Hz.
 Eigen::Index first_line(const FrequencyAxis& axis, double from_hz) {
   Eigen::Index line = 0;
@@ -193,6 +204,7 @@ std::vector<Collocated> driving_points(const ResponseModel& model) {
 }
 
 std::vector<DrivingPointSign> driving_point_signs(const ResponseModel& model, double from_hz) {
+  require_measured(model);
   std::vector<DrivingPointSign> signs;
   for (const Collocated& point : driving_points(model)) {
     signs.push_back(sign_of(model, point, first_line(model.axis, from_hz)));
@@ -201,6 +213,7 @@ std::vector<DrivingPointSign> driving_point_signs(const ResponseModel& model, do
 }
 
 std::optional<MatrixCheck> reciprocity(const ResponseModel& model, double from_hz, double bound) {
+  require_measured(model);
   const std::vector<Collocated> points = driving_points(model);
   if (points.size() < 2) return std::nullopt;
   const Eigen::Index first = first_line(model.axis, from_hz);
@@ -227,6 +240,7 @@ std::optional<MatrixCheck> reciprocity(const ResponseModel& model, double from_h
 }
 
 std::optional<MatrixCheck> passivity(const ResponseModel& model, double from_hz, double bound) {
+  require_measured(model);
   const std::vector<Collocated> points = driving_points(model);
   if (points.empty()) return std::nullopt;
   const Eigen::Index first = first_line(model.axis, from_hz);
@@ -267,6 +281,9 @@ LowFrequencyLimit low_frequency_limit(const FrequencyAxis& axis, const Eigen::Ve
   if (lines < least_lines) {
     throw core::InputError("a response on " + std::to_string(lines) + " lines above 0 Hz; " +
                            std::to_string(least_lines) + " are needed to tell noise from structure");
+  }
+  if (!H.allFinite() || !coherence.allFinite()) {
+    throw core::InputError("the response or its coherence holds values that are not finite; leave those lines out");
   }
   constexpr double rayleigh_median = 0.8325546111576977;  // √ln 2
   const Eigen::VectorXd hz = axis.hz.tail(lines);

@@ -1,6 +1,7 @@
 #pragma once
 // Does a measured FRF matrix look like a passive, reciprocal structure, and from which frequency on is it worth
-// anything? docs/theory/measured-frfs.md derives the figures.
+// anything? docs/theory/measured-frfs.md derives the figures. All checks throw InputError for a model whose shapes
+// disagree and for values that are not finite.
 
 #include <Eigen/Core>
 #include <optional>

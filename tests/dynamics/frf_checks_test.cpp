@@ -251,4 +251,19 @@ TEST(LowFrequencyLimit, NeedsEnoughLinesOfEqualNumber) {
   EXPECT_THROW((void)low_frequency_limit(more.axis, more.H, Eigen::VectorXd::Ones(3)), core::InputError);
 }
 
+TEST(FrfChecks, RefuseWhatIsNotFiniteOrDoesNotFit) {
+  ResponseModel hole = passive_matrix(40);
+  hole.H[7](0, 1) = std::nan("");
+  ResponseModel short_of_a_line = passive_matrix(40);
+  short_of_a_line.H.pop_back();
+  for (const ResponseModel& model : {hole, short_of_a_line}) {
+    EXPECT_THROW((void)driving_point_signs(model), core::InputError);
+    EXPECT_THROW((void)reciprocity(model), core::InputError);
+    EXPECT_THROW((void)passivity(model), core::InputError);
+  }
+  auto clean = measured(0.0, 0.0, 1, 40);
+  clean.H(3) = INFINITY;
+  EXPECT_THROW((void)low_frequency_limit(clean.axis, clean.H), core::InputError);
+}
+
 }  // namespace thinwall::dynamics::testing
