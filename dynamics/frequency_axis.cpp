@@ -38,6 +38,11 @@ FrequencyAxis logarithmic_axis(double from_hz, double to_hz, int lines) {
   return axis;
 }
 
+bool equal(const FrequencyAxis& a, const FrequencyAxis& b) {
+  return a.size() == b.size() &&
+         ((a.hz - b.hz).array().abs() <= 1e-12 * a.hz.array().abs().max(b.hz.array().abs())).all();
+}
+
 void require_equal(const FrequencyAxis& a, const FrequencyAxis& b) {
   std::ostringstream text;
   text.precision(12);

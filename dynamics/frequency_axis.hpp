@@ -19,6 +19,9 @@ struct FrequencyAxis {
 /// The same, evenly spaced in the logarithm; from_hz > 0.
 [[nodiscard]] FrequencyAxis logarithmic_axis(double from_hz, double to_hz, int lines);
 
+/// True if both axes are equal line by line (relative 1e-12).
+[[nodiscard]] bool equal(const FrequencyAxis& a, const FrequencyAxis& b);
+
 /// Throws InputError unless both axes are equal line by line (relative 1e-12): FRFs on different axes never meet.
 void require_equal(const FrequencyAxis& a, const FrequencyAxis& b);
 

@@ -34,7 +34,7 @@ void check(const Link& link, const std::string& where, core::Faults& faults) {
   dynamics::check(dynamics::RigidBody{link.mass, link.centre, link.inertia}, where, faults);
 }
 
-void check(const Counterbalance& spring, Eigen::Index links, const std::string& where, Faults& faults) {
+void check(const Counterbalance& spring, Eigen::Index links, const std::string& where, core::Faults& faults) {
   const auto known = [&](int link) { return link >= -1 && link < links; };
   faults.require(known(spring.from) && known(spring.to), where, "is fixed to a link that the arm does not have");
   faults.require(spring.from != spring.to, where, "has both ends on one link, where it does nothing");

@@ -176,4 +176,28 @@ TEST(ResampledFrf, NeverExtrapolates) {
   EXPECT_THROW((void)resample(frf, dynamics::linear_axis(99.9, 150.0, 11)), core::DataError);
 }
 
+TEST_F(MeasuredFrfFile, MayHaveItsCoherenceInAFourthColumnThatSaysSo) {
+  const std::string lines = "10,1e-6,-2e-7,0.5\n20,2e-6,-3e-7,1\n";
+  const MeasuredFrf frf = read_frf(write("frf.csv", "Hz,re,im,Coherence\n" + lines), metres_per_newton);
+  EXPECT_EQ(frf.coherence, Eigen::Vector2d(0.5, 1.0));
+  EXPECT_EQ(frf.H(1), Complex(2e-6, -3e-7));
+  EXPECT_EQ(read_frf(write("none.csv", "10,1e-6,0\n20,2e-6,0\n"), metres_per_newton).coherence.size(), 0);
+  for (const std::string& header : {std::string(), std::string("Hz,re,im,phase\n")}) {
+    const auto file = write("unnamed.csv", header + lines);
+    EXPECT_THROW((void)read_frf(file, metres_per_newton), core::DataError) << "a fourth column is not guessed";
+  }
+  const auto file = write("wrong.csv", "Hz,re,im,coherence\n10,1e-6,0,0.5\n20,2e-6,0,1.5\n");
+  const std::string message = message_of<core::DataError>([&] { (void)read_frf(file, metres_per_newton); });
+  EXPECT_NE(message.find("wrong.csv:3: the coherence 1.5 lies outside"), std::string::npos) << message;
+}
+
+TEST_F(MeasuredFrfFile, MayHaveItsCoherenceInAFileOfItsOwn) {
+  MeasuredFrf frf = read_frf(write("frf.csv", "10,1e-6,0\n20,2e-6,0\n"), metres_per_newton);
+  add_coherence(frf, write("coherence.csv", "f,gamma2\n0.01,0.5\n0.02,0.25\n"), 1e3);
+  EXPECT_EQ(frf.coherence, Eigen::Vector2d(0.5, 0.25));
+  for (const char* other : {"10,0.5\n", "10,0.5\n21,0.5\n", "10,0.5\n20,-0.5\n", "10,0.5,1\n20,0.5,1\n"}) {
+    EXPECT_THROW(add_coherence(frf, write("other.csv", other), 1.0), core::DataError) << other;
+  }
+}
+
 }  // namespace thinwall::io::test

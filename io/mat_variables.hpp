@@ -1,0 +1,59 @@
+#pragma once
+// MAT files of version 5 as plain variables: what MATLAB, Octave, SciPy and measuring programs exchange.
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "dynamics/dof.hpp"
+
+namespace thinwall::io {
+
+/// An array of numbers, first index fastest, or a cell array n × 1 of texts. `im` is empty where the array is real.
+struct MatVariable {
+  std::string name;
+  std::vector<std::size_t> size;
+  std::vector<double> re;
+  std::vector<double> im{};
+  std::vector<std::string> texts{};
+};
+
+/// Variables by name.
+using MatVariables = std::map<std::string, MatVariable>;
+
+/// Writes the variables in their order; `title` (100 bytes at most) opens the file behind "MATLAB 5.0 MAT-file, ". The
+/// bytes depend on the arguments only. Written in one step. Throws InputError if a value is not finite, a text is not
+/// UTF-8, or a variable exceeds the 2 GiB of the format; DataError if the file cannot be written.
+void write_mat_variables(const std::filesystem::path& path, const std::string& title,
+                         const std::vector<MatVariable>& variables);
+
+/// Those of the named variables that the file has: arrays of doubles or singles, cell arrays of texts. Throws DataError
+/// that names the file, and the variable if it is of another kind or holds NaN or infinity; a file of version 7.3
+/// (HDF5) or one that is cut short is refused.
+[[nodiscard]] MatVariables read_mat_variables(const std::filesystem::path& path, const std::vector<std::string>& names);
+
+/// The variable; throws DataError "path: has no variable name".
+[[nodiscard]] const MatVariable& variable(const MatVariables& variables, const std::string& name,
+                                          const std::filesystem::path& path);
+
+/// A variable from a real matrix.
+[[nodiscard]] MatVariable mat_matrix(const std::string& name, const Eigen::MatrixXd& matrix);
+
+/// The variable as a real matrix rows × columns (−1: any number); throws DataError if it is of another shape.
+[[nodiscard]] Eigen::MatrixXd matrix_of(const MatVariable& variable, const std::filesystem::path& path,
+                                        Eigen::Index rows = -1, Eigen::Index columns = -1);
+
+/// A table of DOFs as variables: cell arrays <prefix>_name ("P.x"), <prefix>_point, <prefix>_kind ("translation",
+/// "rotation", "modal"), <prefix>_unit, all n × 1, and <prefix>_direction, n × 3.
+[[nodiscard]] std::vector<MatVariable> dof_variables(const std::string& prefix, const dynamics::DofTable& dofs);
+
+/// The names of those variables, for read_mat_variables().
+[[nodiscard]] std::vector<std::string> dof_variable_names(const std::string& prefix);
+
+/// The table from its variables. Throws DataError if one is missing or has another number of rows than `count`.
+[[nodiscard]] dynamics::DofTable dofs_of(const MatVariables& variables, const std::string& prefix, Eigen::Index count,
+                                         const std::filesystem::path& path);
+
+}  // namespace thinwall::io

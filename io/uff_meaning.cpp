@@ -1,0 +1,202 @@
+#include "io/uff_meaning.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+namespace thinwall::io {
+
+namespace {
+
+using dynamics::Dof;
+using dynamics::DofKind;
+
+constexpr std::string_view remedy = "; state the quantity and its unit if you know them";
+
+/// What follows the words, if the text starts with them.
+std::optional<std::string_view> after(std::string_view text, std::string_view words) {
+  if (!text.starts_with(words) || text.size() == words.size()) return std::nullopt;
+  return text.substr(words.size());
+}
+
+Eigen::Vector3d vector_of(std::string_view text, const UffRecords& records) {
+  Eigen::Vector3d vector;
+  std::size_t start = 0;
+  for (double& component : vector) {
+    const std::size_t end = std::min(text.find(' ', start), text.size());
+    component = real(records, text, start, end - start);
+    start = std::min(end + 1, text.size());
+  }
+  return vector;
+}
+
+/// The DOF of record 6 alone.
+Dof plain_dof(const UffDof& dof, const UffRecords& records) {
+  const int axis = std::abs(dof.direction);
+  if (axis > 6) refuse(records, "direction " + std::to_string(dof.direction) + " where -6 to 6 is expected");
+  Dof plain;
+  plain.point = is_label(dof.entity) ? dof.entity + ":" + std::to_string(dof.node) : "node " + std::to_string(dof.node);
+  plain.kind = axis > 3 ? DofKind::rotation : DofKind::translation;
+  if (axis > 0) plain.direction((axis - 1) % 3) = dof.direction > 0 ? 1.0 : -1.0;
+  return plain;
+}
+
+void take_direction(Dof& dof, std::string_view words, int code, const UffRecords& records) {
+  dof.direction = vector_of(words, records);
+  if (direction_code(dof) != code || !(std::abs(dof.direction.norm() - 1.0) <= 1e-9)) {
+    refuse(records, "a direction in record 6 that agrees with ID lines 4 and 5 is expected; was the file edited?");
+  }
+}
+
+/// One side of the fraction: what it is called, its direction in record 6, its dimension where it is a translation or a
+/// rotation, its axis.
+struct Side {
+  const char* name;
+  int direction;
+  core::Dimension translation;
+  core::Dimension rotation;
+  bool is_acceleration;
+  const UffAxis& axis;
+};
+
+/// Direction 0 leaves the kind open.
+bool may_be(DofKind kind, int direction) {
+  return direction == 0 || (std::abs(direction) > 3) == (kind == DofKind::rotation);
+}
+
+/// The unit in SI by data set 164, whose factors divide.
+double unit_by_164(const core::Dimension& dimension, const UffUnits& units) {
+  // A moment is kg m²/s², a force kg m/s²: both have the mass of one force.
+  const int forces = dimension.mass;
+  const int lengths = dimension.length - forces;
+  return std::pow(units.force, -forces) * std::pow(units.length, -lengths);
+}
+
+double unit_by_label(const Side& side, const std::optional<UffUnits>& units, const UffRecords& records, Dof& dof,
+                     UffNotes& notes) {
+  const auto unit = unit_of_label(side.axis.unit, side.is_acceleration);
+  const std::string label = "the " + std::string(side.name) + "'s unit \"" + side.axis.unit + "\"";
+  if (!unit) refuse(records, label + " is unknown" + std::string(remedy));
+  const bool translates = unit->dimension == side.translation && may_be(DofKind::translation, side.direction);
+  const bool rotates = unit->dimension == side.rotation && may_be(DofKind::rotation, side.direction);
+  if (!translates && !rotates) {
+    refuse(records, label + " is not of the dimension that its type and direction ask for" + std::string(remedy));
+  }
+  dof.kind = translates ? DofKind::translation : DofKind::rotation;
+  if (units) {
+    const double other = unit_by_164(unit->dimension, *units);
+    if (std::abs(unit->value / other - 1.0) > 1e-3) {
+      note(notes, records, label + " is taken although data set 164 names another");
+    }
+  }
+  return unit->value;
+}
+
+double unit_in_si(const Side& side, const std::optional<UffUnits>& units, const UffRecords& records, Dof& dof,
+                  UffNotes& notes) {
+  if (is_label(side.axis.unit)) return unit_by_label(side, units, records, dof, notes);
+  const std::string what = "the unit of the " + std::string(side.name);
+  if (!units) refuse(records, what + " is told neither by a label nor by a data set 164" + std::string(remedy));
+  if (side.direction == 0) {
+    refuse(records, what + " is told by no label, and its direction is 0 (scalar)" + std::string(remedy));
+  }
+  return unit_by_164(dof.kind == DofKind::rotation ? side.rotation : side.translation, *units);
+}
+
+std::optional<FrfQuantity> quantity_of(int numerator_type) {
+  switch (numerator_type) {
+    case uff::displacement:
+      return FrfQuantity::receptance;
+    case uff::velocity:
+      return FrfQuantity::mobility;
+    case uff::acceleration:
+      return FrfQuantity::accelerance;
+    default:
+      return std::nullopt;
+  }
+}
+
+void note_contradiction(const UffFunction& function, const FrfFormat& stated, const UffRecords& records,
+                        UffNotes& notes) {
+  const auto told = quantity_of(function.numerator.type);
+  if (told == stated.quantity && function.denominator.type == uff::excitation_force) return;
+  note(notes, records,
+       "read as " + quantity_word(stated.quantity) + ", as stated; the file has data types " +
+           std::to_string(function.numerator.type) + " over " + std::to_string(function.denominator.type));
+}
+
+}  // namespace
+
+int direction_code(const Dof& dof) {
+  const int offset = dof.kind == DofKind::rotation ? 3 : 0;
+  for (int k = 0; k < 3; ++k) {
+    if (dof.direction == Eigen::Vector3d::Unit(k)) return k + 1 + offset;
+    if (dof.direction == -Eigen::Vector3d::Unit(k)) return -(k + 1 + offset);
+  }
+  return 0;
+}
+
+UffDofs dofs_of(const UffFunction& function, const UffRecords& records) {
+  UffDofs dofs{plain_dof(function.response, records), plain_dof(function.reference, records)};
+  const auto& words = function.type == uff::coherence ? uff::coherence_point_words : uff::response_point_words;
+  const auto response_point = after(function.id[0], words);
+  const auto force_point = after(function.id[1], uff::force_point_words);
+  const auto response = after(function.id[3], uff::response_direction_words);
+  const auto force = after(function.id[4], uff::force_direction_words);
+  if (!response_point || !force_point || !response || !force) return dofs;
+  dofs.response.point = *response_point;
+  dofs.force.point = *force_point;
+  take_direction(dofs.response, *response, function.response.direction, records);
+  take_direction(dofs.force, *force, function.reference.direction, records);
+  return dofs;
+}
+
+FrfFormat format_of(const UffFunction& function, const std::optional<UffUnits>& units,
+                    const std::optional<FrfFormat>& stated, const UffRecords& records, UffDofs& dofs, UffNotes& notes) {
+  if (stated) {
+    note_contradiction(function, *stated, records, notes);
+    return *stated;
+  }
+  const auto quantity = quantity_of(function.numerator.type);
+  if (!quantity) {
+    refuse(records, "specific data type " + std::to_string(function.numerator.type) +
+                        " where 8 (displacement), 11 (velocity) or 12 (acceleration) is expected" +
+                        std::string(remedy));
+  }
+  if (function.denominator.type != uff::excitation_force) {
+    refuse(records, "specific data type " + std::to_string(function.denominator.type) +
+                        " of the denominator where 13 (excitation force) is expected" + std::string(remedy));
+  }
+  const int derivative = static_cast<int>(*quantity);  // receptance 0, mobility 1, accelerance 2
+  const Side motion{"response",
+                    function.response.direction,
+                    core::Dimension{1, 0, -derivative, 0, 0},
+                    core::Dimension{0, 0, -derivative, 1, 0},
+                    derivative == 2,
+                    function.numerator};
+  const Side force{
+      "force", function.reference.direction, core::Dimension{1, 1, -2, 0, 0}, core::Dimension{2, 1, -2, 0, 0},
+      false,   function.denominator};
+  const double motion_unit = unit_in_si(motion, units, records, dofs.response, notes);
+  return {*quantity, motion_unit / unit_in_si(force, units, records, dofs.force, notes), 1.0};
+}
+
+double abscissa_in_hz(const UffFunction& function, const UffRecords& records) {
+  const UffAxis& axis = function.abscissa;
+  const bool unnamed = axis.type == uff::unknown_data || axis.type == uff::general_data;
+  if (axis.type != uff::frequency && !(unnamed && is_label(axis.unit))) {
+    refuse(records, "specific data type " + std::to_string(axis.type) +
+                        " of the abscissa where 18 (frequency) is "
+                        "expected");
+  }
+  if (!is_label(axis.unit)) return 1.0;
+  const auto unit = unit_of_label(axis.unit, false);
+  if (unit && unit->dimension == core::Dimension{0, 0, -1, 0, 0}) return unit->value;
+  if (unit && unit->dimension == core::Dimension{0, 0, -1, 1, 0}) return unit->value / (2.0 * std::numbers::pi);
+  refuse(records, "the abscissa's unit \"" + axis.unit + "\" is no frequency; write it in Hz");
+}
+
+}  // namespace thinwall::io

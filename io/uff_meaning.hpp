@@ -1,0 +1,51 @@
+#pragma once
+// What a data set 58 means: between which DOFs it was measured, of which quantity, in which units.
+
+#include <optional>
+
+#include "dynamics/dof.hpp"
+#include "io/frf_quantity.hpp"
+#include "io/uff_function.hpp"
+#include "io/uff_units.hpp"
+
+namespace thinwall::io {
+
+/// ID lines of our own: they keep the names of points, which the format numbers, and directions off the axes.
+namespace uff {
+constexpr std::string_view response_point_words = "receptance at ";
+constexpr std::string_view coherence_point_words = "coherence at ";
+constexpr std::string_view force_point_words = "force at ";
+constexpr std::string_view response_direction_words = "response ";
+constexpr std::string_view force_direction_words = "force ";
+}  // namespace uff
+
+/// Direction of record 6: ±1…±3, ±4…±6, or 0 where it is along none of the axes.
+[[nodiscard]] int direction_code(const dynamics::Dof& dof);
+
+/// The DOFs of a function.
+struct UffDofs {
+  dynamics::Dof response;
+  dynamics::Dof force;
+};
+
+/// DOFs by our ID lines where all four are there, else by record 6: points are "node 12", or "wing:12" with an entity
+/// name, directions along the axes; a direction 0 (scalar) stays zero. Throws DataError (about `records`) if ID lines
+/// contradict record 6 or a direction is none.
+[[nodiscard]] UffDofs dofs_of(const UffFunction& function, const UffRecords& records);
+
+/// Quantity and units of an FRF. The quantity follows from the numerator's type, 8 displacement, 11 velocity, 12
+/// acceleration, over the denominator's, 13 excitation force; the units from the axis labels, which by the format come
+/// before anything else, or where there is none from data set 164. A DOF in direction 0 is a rotation if its label
+/// says so, and is set to it in `dofs`.
+///
+/// What the caller states comes first and is noted where the file says otherwise. Otherwise throws DataError for
+/// another type, an unknown label, a label of another dimension, units that are not told: nothing is guessed.
+[[nodiscard]] FrfFormat format_of(const UffFunction& function, const std::optional<UffUnits>& units,
+                                  const std::optional<FrfFormat>& stated, const UffRecords& records, UffDofs& dofs,
+                                  UffNotes& notes);
+
+/// The unit of the abscissa in Hz: type 18 (frequency), or unknown and general types whose label is a frequency. Throws
+/// DataError for other types and labels.
+[[nodiscard]] double abscissa_in_hz(const UffFunction& function, const UffRecords& records);
+
+}  // namespace thinwall::io
