@@ -22,7 +22,8 @@ struct FrequencyAxis {
 /// True if both axes are equal line by line (relative 1e-12).
 [[nodiscard]] bool equal(const FrequencyAxis& a, const FrequencyAxis& b);
 
-/// Throws InputError unless both axes are equal line by line (relative 1e-12): FRFs on different axes never meet.
+/// Throws InputError unless both axes are equal line by line (relative 1e-12): FRFs on different axes never meet. The
+/// message says over which band the two overlap, if they do.
 void require_equal(const FrequencyAxis& a, const FrequencyAxis& b);
 
 }  // namespace thinwall::dynamics
