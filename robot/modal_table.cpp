@@ -174,8 +174,10 @@ ModalTable with_rotations(const ModalTable& table, const std::string& tip, const
       const ModalTableRow& row = table.rows[mode];
       const double S = row.place_m(j) - row.place_m(at_tip[static_cast<std::size_t>(i)]);
       if (!(S > 0.0)) {
-        throw core::InputError("table of modes: in mode " + row.mode + " point \"" + second +
-                               "\" does not lie up the tool from \"" + tip + "\"; exchange them, or give its place");
+        std::ostringstream text;
+        text << "table of modes: in mode " << row.mode << " point \"" << second << "\" lies " << 1e3 * S
+             << " mm up the tool from \"" << tip << "\", which must be positive; exchange them, or give its place";
+        throw core::InputError(text.str());
       }
       both.rows[mode].right(n + i) = sign * (row.right(j) - both.rows[mode].right(i)) / S;
       both.rows[mode].left(n + i) = sign * (row.left(j) - both.rows[mode].left(i)) / S;
