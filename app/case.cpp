@@ -105,7 +105,7 @@ std::vector<std::filesystem::path> input_files(const Case& source) {
   for (const auto& frf : source.measured_part) files.push_back(frf.file);
   if (source.robot) {
     for (const auto& frf : source.robot->measured) files.push_back(frf.file);
-    for (const auto& file : {source.robot->urdf, source.robot->joints}) {
+    for (const auto& file : {source.robot->table, source.robot->urdf, source.robot->joints}) {
       if (!file.empty()) files.push_back(file);
     }
   }

@@ -14,6 +14,7 @@
 #include "milling/machine_limits.hpp"
 #include "milling/sensitivity.hpp"
 #include "robot/serial_arm.hpp"
+#include "robot/virtual_joints.hpp"
 
 namespace thinwall::app {
 
@@ -144,13 +145,18 @@ struct PostureWish {
 /// What is known of the robot's tip. `one_mode`: stiffness with frequency and damping ratio, or mass with stiffness and
 /// damping (or damping ratio); what was not given is empty.
 struct Robot {
-  std::string model = "one_mode";  ///< one_mode, modes, measured, flexible_joints
+  std::string model = "one_mode";  ///< one_mode, modes, measured, modal_table, flexible_joints,
+                                   ///< virtual_joints
   std::string point = "R";
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
   std::optional<double> frequency_hz, damping_ratio, mass, stiffness, damping;
   std::vector<TipMode> modes;
   std::vector<MeasuredFrf> measured;
-  robot::SerialArm arm;                ///< world: the part's axes
+  robot::SerialArm arm;              ///< world: the part's axes
+  std::vector<robot::Chain> chains;  ///< of virtual_joints, world: the part's axes
+  std::filesystem::path table;       ///< of modal_table
+  std::string table_point, left_unit, right_unit;
+  bool cross_terms = true;
   std::filesystem::path urdf, joints;  ///< that the arm was read from; empty: from the case
   PostureWish posture;
   Eigen::Vector3d preload = Eigen::Vector3d::Zero();  ///< N, on the tip

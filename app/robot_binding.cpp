@@ -84,6 +84,23 @@ robot::SerialArm bind_arm(const Table& table, const std::filesystem::path& folde
   return arm;
 }
 
+robot::ChainElement bind_element(const Table& table) {
+  const std::string kind = table.text("kind");
+  if (kind == "offset") return robot::RigidLink{bind_frame(table)};
+  if (kind == "body")
+    return dynamics::RigidBody{table.number("mass"), table.vector("centre"), bind_inertia(table.numbers("inertia"))};
+  if (kind == "beam") {
+    const dynamics::Tube tube{table.number("outer_diameter"), table.number("inner_diameter"),
+                              table.number("youngs_modulus"), table.number("poisson_ratio"), table.number("density")};
+    return robot::BeamLink{dynamics::section(tube), table.number("length")};
+  }
+  const bool turns = kind == "rotation";
+  return robot::VirtualJoint{turns ? robot::VirtualJoint::Motion::rotation : robot::VirtualJoint::Motion::translation,
+                             table.direction("axis"), table.number(turns ? "angle" : "distance"),
+                             table.optional(turns ? "stiffness" : "linear_stiffness").value_or(0.0),
+                             table.number(turns ? "damping" : "linear_damping")};
+}
+
 PostureWish bind_posture(const Table& table) {
   PostureWish wish;
   if (!table.exists()) return wish;
@@ -130,6 +147,17 @@ robot::SerialArm bind_urdf(const Table& robot, const std::filesystem::path& fold
   return arm;
 }
 
+std::vector<robot::Chain> bind_chains(const Table& robot) {
+  std::vector<robot::Chain> chains;
+  const Eigen::Isometry3d base = bind_arm(robot, {}).base;
+  for (const Table& element : robot.tables("elements")) {
+    const auto number = static_cast<std::size_t>(std::max(element.integer("chain"), 1));
+    while (chains.size() < number) chains.push_back({base, {}});
+    chains[number - 1].elements.push_back(bind_element(element));
+  }
+  return chains;
+}
+
 std::vector<TipMode> bind_modes(const std::vector<Table>& tables) {
   std::vector<TipMode> modes;
   modes.reserve(tables.size());
@@ -141,6 +169,14 @@ std::vector<TipMode> bind_modes(const std::vector<Table>& tables) {
 }
 
 Robot bind_robot(const Table& table, std::vector<MeasuredFrf> measured, const std::filesystem::path& folder) {
+  // A section that no beam has is told by the checks, which bind the chains once more.
+  const auto chains = [&]() -> std::vector<robot::Chain> {
+    try {
+      return bind_chains(table);
+    } catch (const core::InputError&) {
+      return {};
+    }
+  };
   const auto file = [&](const char* key) {
     return table.has(key) ? folder / table.text(key) : std::filesystem::path();
   };
@@ -155,6 +191,12 @@ Robot bind_robot(const Table& table, std::vector<MeasuredFrf> measured, const st
           bind_modes(table.tables("modes")),
           std::move(measured),
           bind_arm(table, folder),
+          chains(),
+          file("table"),
+          table.text("table_point"),
+          table.text("left_unit"),
+          table.text("right_unit"),
+          table.flag("cross_terms"),
           file("urdf"),
           file("joints"),
           bind_posture(table.table("posture")),

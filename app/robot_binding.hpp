@@ -16,6 +16,9 @@ namespace thinwall::app {
 /// Stiffness, damping, motor and servo of a joint, from [[robot.links]] or [[joints]].
 [[nodiscard]] robot::Joint bind_joint(const Table& table);
 
+/// The chains of [[robot.elements]]. Throws InputError for a section that no beam has.
+[[nodiscard]] std::vector<robot::Chain> bind_chains(const Table& robot);
+
 /// The arm of robot.urdf where the case stands it. Errors as urdf_arm().
 [[nodiscard]] robot::SerialArm bind_urdf(const Table& robot, const std::filesystem::path& folder);
 

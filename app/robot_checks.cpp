@@ -13,29 +13,47 @@ namespace thinwall::app {
 
 namespace {
 
-/// Keys that one model alone reads.
+/// Keys that some models alone read, by their names.
 struct Belongs {
   std::string_view key;
-  std::string_view model;
+  std::string_view models;
 };
 constexpr std::array belongings{
-    Belongs{"robot.frequency", "one_mode"},      Belongs{"robot.mass", "one_mode"},
-    Belongs{"robot.stiffness", "one_mode"},      Belongs{"robot.damping", "one_mode"},
-    Belongs{"robot.damping_ratio", "one_mode"},  Belongs{"robot.modes", "modes"},
-    Belongs{"robot.measured", "measured"},       Belongs{"robot.links", "flexible_joints"},
-    Belongs{"robot.base", "flexible_joints"},    Belongs{"robot.tip", "flexible_joints"},
-    Belongs{"robot.gravity", "flexible_joints"}, Belongs{"robot.counterbalances", "flexible_joints"},
-    Belongs{"robot.urdf", "flexible_joints"},    Belongs{"robot.joints", "flexible_joints"},
-    Belongs{"robot.posture", "flexible_joints"}, Belongs{"robot.workspace", "flexible_joints"},
+    Belongs{"robot.frequency", "one_mode"},
+    Belongs{"robot.mass", "one_mode"},
+    Belongs{"robot.stiffness", "one_mode"},
+    Belongs{"robot.damping", "one_mode"},
+    Belongs{"robot.damping_ratio", "one_mode"},
+    Belongs{"robot.modes", "modes"},
+    Belongs{"robot.measured", "measured"},
+    Belongs{"robot.links", "flexible_joints"},
+    Belongs{"robot.base", "flexible_joints, virtual_joints or modal_table"},
+    Belongs{"robot.tip", "flexible_joints"},
+    Belongs{"robot.gravity", "flexible_joints"},
+    Belongs{"robot.counterbalances", "flexible_joints"},
+    Belongs{"robot.elements", "virtual_joints"},
+    Belongs{"robot.table", "modal_table"},
+    Belongs{"robot.urdf", "flexible_joints"},
+    Belongs{"robot.joints", "flexible_joints"},
+    Belongs{"robot.posture", "flexible_joints"},
+    Belongs{"robot.workspace", "flexible_joints"},
 };
+
+/// True if the list of models has this one, as a whole word.
+bool names(std::string_view models, std::string_view model) {
+  const auto at = models.find(model);
+  if (at == std::string_view::npos) return false;
+  const auto end = at + model.size();
+  return (at == 0 || models[at - 1] == ' ') && (end == models.size() || models[end] == ',' || models[end] == ' ');
+}
 
 void check_belongings(const Case& source, Findings& findings) {
   for (const Belongs& b : belongings) {
     const std::string key(b.key);
     const bool there = findings.given(key) || has_table(source.values, key) || array_size(source.values, key) > 0;
-    if (there && source.robot->model != b.model)
-      findings.report(key, "belongs to robot.model = \"" + std::string(b.model) + "\", but the model is \"" +
-                               source.robot->model + "\"");
+    if (!there || names(b.models, source.robot->model)) continue;
+    findings.report(key, "belongs to robot.model = \"" + std::string(b.models) + "\", but the model is \"" +
+                             source.robot->model + "\"");
   }
 }
 
@@ -178,11 +196,67 @@ void check_arm(const Case& source, Findings& findings) {
   if (const std::string fault = fault_of_posture(source); !fault.empty()) findings.report("robot.posture", fault);
 }
 
+void check_table(const Case& source, Findings& findings) {
+  if (source.robot->table.empty()) {
+    findings.report("robot.model", "modal_table needs robot.table, a CSV of modes");
+    return;
+  }
+  try {
+    (void)tip_model(*source.robot, {});
+  } catch (const core::Error& error) {
+    findings.report("robot.table", error.what());
+  }
+}
+
+/// Keys that an element must have beside its kind.
+void check_element(const Case& source, std::size_t i, Findings& findings) {
+  const std::string key = "robot.elements[" + std::to_string(i) + "]";
+  const CaseValue* found = find(source.values, key + ".kind");
+  const std::string kind = found == nullptr ? "" : std::get<std::string>(found->value);
+  const auto needs = [&](const char* name) {
+    if (!findings.given(key + name)) findings.report(key + name, "missing; a " + kind + " has one");
+  };
+  if (kind == "beam") needs(".length");
+  if (kind == "beam") needs(".outer_diameter");
+  if (kind == "body") needs(".mass");
+}
+
+void check_elements(const Case& source, Findings& findings) {
+  const auto count = static_cast<std::size_t>(array_size(source.values, "robot.elements"));
+  if (count == 0) findings.report("robot.model", "virtual_joints needs [[robot.elements]], from the base to the tip");
+  const std::size_t before = findings.problems.size();
+  for (std::size_t i = 0; i < count; ++i) check_element(source, i, findings);
+  if (count == 0 || findings.problems.size() > before) return;
+  try {
+    const auto chains = bind_chains({source.values, "robot"});
+    (void)robot::spatial_model(robot::reduced_tip(chains), source.robot->point);
+  } catch (const core::InputError& error) {
+    findings.report("robot.elements", error.what());
+  }
+}
+
+/// Directions of a tip whose table or chains can be read.
+std::vector<Eigen::Vector3d> modelled_directions(const Robot& robot) {
+  std::vector<Eigen::Vector3d> directions;
+  try {
+    const robot::Tip tip = tip_model(robot, {})({});
+    const auto* modal = std::get_if<dynamics::ModalModel>(&tip);
+    const auto* spatial = std::get_if<dynamics::SpatialModel>(&tip);
+    for (const dynamics::Dof& dof : modal != nullptr ? modal->dofs : spatial->dofs) {
+      if (dof.kind == dynamics::DofKind::translation) directions.push_back(dof.direction);
+    }
+  } catch (const core::Error&) {
+    directions.clear();  // said by the checks of the model
+  }
+  return directions;
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3d> tip_directions(const Robot& robot) {
   if (robot.model == "flexible_joints")
     return {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+  if (robot.model == "modal_table" || robot.model == "virtual_joints") return modelled_directions(robot);
   std::vector<Eigen::Vector3d> directions;
   if (robot.model == "modes") {
     for (const TipMode& mode : robot.modes) directions.push_back(mode.direction);
@@ -215,6 +289,8 @@ void check_robot(const Case& source, Findings& findings) {
     findings.report("robot.model", "modes needs [[robot.modes]], at least one");
   if (robot.model == "measured") check_measured_robot(robot, findings);
   if (robot.model == "flexible_joints") check_arm(source, findings);
+  if (robot.model == "modal_table") check_table(source, findings);
+  if (robot.model == "virtual_joints") check_elements(source, findings);
 }
 
 }  // namespace thinwall::app

@@ -12,10 +12,12 @@
 #include "app/support_stage.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
+#include "io/modal_table_csv.hpp"
 #include "robot/arm_kinematics.hpp"
 #include "robot/flexible_joints.hpp"
 #include "robot/inverse_kinematics.hpp"
 #include "robot/measured.hpp"
+#include "robot/modal_table.hpp"
 #include "robot/one_mode.hpp"
 
 namespace thinwall::app {
@@ -45,6 +47,20 @@ dynamics::ResponseModel measured_tip(const Robot& robot, const dynamics::Frequen
   if (robot.measured.size() > 1) return measured_response(robot.measured, axis);
   return robot::measured_receptance(axis, io::resample(read_measured(robot.measured.front()), axis), robot.point,
                                     robot.direction);
+}
+
+/// The tip's part of the table, its axes turned into the part's.
+dynamics::ModalModel tabled_tip(const Robot& robot) {
+  const io::ModalTableFormat format{
+      io::modal_unit(robot.left_unit), io::modal_unit(robot.right_unit), {{robot.table_point, {0.0}}}};
+  dynamics::ModalModel tip =
+      robot::modal_model(robot::at_point(io::read_modal_table(robot.table, format), robot.table_point));
+  if (!robot.cross_terms) tip = robot::without_cross_terms(tip);
+  for (dynamics::Dof& dof : tip.dofs) {
+    dof.point = robot.point;
+    dof.direction = robot.arm.base.linear() * dof.direction;
+  }
+  return tip;
 }
 
 /// Where the tip is to be, in space.
@@ -116,6 +132,9 @@ double smallest_singular(const robot::ArmPose& at) {
 robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis) {
   if (robot.model == "flexible_joints") return robot::flexible_joints(robot.arm, robot.point);
   if (robot.model == "measured") return robot::in_one_posture(measured_tip(robot, axis));
+  if (robot.model == "modal_table") return robot::in_one_posture(tabled_tip(robot));
+  if (robot.model == "virtual_joints")
+    return robot::in_one_posture(robot::spatial_model(robot::reduced_tip(robot.chains), robot.point));
   const auto modes = robot.model == "modes" ? modes_of(robot.modes) : std::vector{single_mode(robot)};
   return robot::in_one_posture(robot::spatial_model(modes, robot.point));
 }
@@ -146,7 +165,7 @@ Component robot_component(const Case& source, const dynamics::FrequencyAxis& axi
 }
 
 dynamics::SpatialModel robot_matrices(const Case& source) {
-  if (source.robot->model != "measured") {
+  if (source.robot->model != "measured" && source.robot->model != "modal_table") {
     robot::Tip tip = tip_model(*source.robot, {})(robot_posture(source).posture);
     if (auto* spatial = std::get_if<dynamics::SpatialModel>(&tip)) return std::move(*spatial);
   }

@@ -17,7 +17,7 @@ struct ModalTableRow {
   Eigen::VectorXcd right;
   Eigen::VectorXcd left;
   /// Where each DOF's point was when this mode was measured: so far up the tool from its tip, m. One sensor for the low
-  /// modes and another for the high ones may sit at two places under one name.
+  /// modes and another for the high ones may sit at two places under one name. NaN: not told.
   Eigen::VectorXd place_m;
 };
 

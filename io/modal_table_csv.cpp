@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -121,7 +122,7 @@ dynamics::ModalTableRow row_of_line(const CsvText& text, const CsvLine& line, co
   const auto n = static_cast<Index>(columns.dofs.size());
   row.left.resize(n);
   row.right.resize(n);
-  row.place_m = Eigen::VectorXd::Zero(n);
+  row.place_m = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
   for (Index i = 0; i < n; ++i) {
     const DofColumns& dof = columns.dofs[static_cast<std::size_t>(i)];
     row.left(i) = {format.left_unit * number(text, line, dof.left_re),
@@ -132,13 +133,10 @@ dynamics::ModalTableRow row_of_line(const CsvText& text, const CsvLine& line, co
   return row;
 }
 
-/// Writes the places of the points into the rows; each point needs one.
+/// Writes the places of the points into the rows; NaN where none is told.
 void set_places(dynamics::ModalTable& table, const std::vector<PointPlace>& places, const std::string& file) {
-  std::set<std::string> without;
-  for (const dynamics::Dof& dof : table.dofs) without.insert(dof.point);
   for (const PointPlace& given : places) {
     const std::vector<int> dofs = dynamics::rows_of_point(table.dofs, given.point);
-    without.erase(given.point);
     const std::size_t count = given.place_m.size();
     if (count != 1 && count != table.rows.size()) {
       throw core::InputError(file + ": point \"" + given.point + "\" has " + std::to_string(count) + " places for " +
@@ -151,10 +149,6 @@ void set_places(dynamics::ModalTable& table, const std::vector<PointPlace>& plac
       table.rows[mode].place_m(dofs).setConstant(place);
     }
   }
-  if (without.empty()) return;
-  throw core::InputError(file + ": where point \"" + *without.begin() +
-                         "\" lay is not told; give its distance up the tool from the tip (0 for the tip), one a mode "
-                         "if the sensors moved");
 }
 
 }  // namespace

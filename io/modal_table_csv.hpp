@@ -29,7 +29,8 @@ struct ModalTableFormat {
 /// damping_ratio, optionally mode, and for each DOF a point and one of X, Y, Z: L_1X_re, L_1X_im, R_1X_re, R_1X_im of
 /// point 1 along x. Throws DataError, with file and line, for columns that are missing (all are named), doubled or
 /// unknown, a frequency that is not positive, a damping ratio outside 0 to 1 (percent in a column of ratios), text,
-/// NaN; and InputError for a unit that is not positive, or places that do not fit points and lines.
+/// NaN; and InputError for a unit that is not positive, or places that do not fit points and lines. A point whose place
+/// is not told has NaN there, and no modal_model() but at_point() takes it.
 [[nodiscard]] dynamics::ModalTable read_modal_table(const std::filesystem::path& path, const ModalTableFormat& format);
 
 }  // namespace thinwall::io

@@ -27,8 +27,7 @@ void check(const ModalTableRow& row, Index dofs, core::Faults& faults) {
                         "lie between 0 and 1 (1 % is 0.01)");
   faults.require(row.right.size() == dofs && row.left.size() == dofs && row.place_m.size() == dofs, where,
                  "has not as many entries as the table has DOFs (" + std::to_string(dofs) + ")");
-  faults.require(row.right.allFinite() && row.left.allFinite() && row.place_m.allFinite(), where,
-                 "holds a number that is not finite");
+  faults.require(row.right.allFinite() && row.left.allFinite(), where, "holds a number that is not finite");
 }
 
 void require_valid(const ModalTable& table) {
@@ -62,6 +61,13 @@ void require_one_place_each(const ModalTable& table) {
   std::set<std::string> told;
   for (std::size_t i = 0; i < table.dofs.size(); ++i) {
     const auto dof = static_cast<Index>(i);
+    const bool known = std::all_of(table.rows.begin(), table.rows.end(),
+                                   [&](const ModalTableRow& row) { return std::isfinite(row.place_m(dof)); });
+    if (!known && told.insert(table.dofs[i].point).second) {
+      faults.require(false, "point \"" + table.dofs[i].point + "\"",
+                     "lay nobody tells how far up the tool from the tip; give its place (0 for the tip), one a mode if "
+                     "the sensors moved, or take the tip alone");
+    }
     const bool one = std::all_of(table.rows.begin(), table.rows.end(), [&](const ModalTableRow& row) {
       return std::abs(row.place_m(dof) - table.rows[0].place_m(dof)) <= 1e-9;
     });
@@ -109,6 +115,23 @@ std::pair<double, Dof> rotation(const Dof& along, const Eigen::Vector3d& up) {
 }
 
 }  // namespace
+
+dynamics::ModalModel without_cross_terms(const dynamics::ModalModel& model) {
+  const Index poles = model.poles.size(), n = model.right.rows();
+  dynamics::ModalModel direct;
+  direct.dofs = model.dofs;
+  direct.poles.resize(poles * n);
+  direct.scaling.resize(poles * n);
+  direct.right = direct.left = Eigen::MatrixXcd::Zero(n, poles * n);
+  for (Index i = 0; i < n; ++i) {
+    direct.poles.segment(i * poles, poles) = model.poles;
+    direct.scaling.segment(i * poles, poles) = model.scaling;
+    direct.right.block(i, i * poles, 1, poles) = model.right.row(i);
+    direct.left.block(i, i * poles, 1, poles) = model.left.row(i);
+  }
+  if (model.residual.size() > 0) direct.residual = model.residual.diagonal().asDiagonal();
+  return direct;
+}
 
 dynamics::ModalModel modal_model(const ModalTable& table, PointPlaces places) {
   require_valid(table);

@@ -24,6 +24,10 @@ enum class PointPlaces { one_each, may_differ };
 [[nodiscard]] dynamics::ModalModel modal_model(const dynamics::ModalTable& table,
                                                PointPlaces places = PointPlaces::one_each);
 
+/// The same direct receptances and no others: every pole once a DOF, its vectors zero elsewhere. What one direction
+/// measured without the other tells; to see what the cross terms do. Cost O(poles · DOFs²).
+[[nodiscard]] dynamics::ModalModel without_cross_terms(const dynamics::ModalModel& model);
+
 /// The table's part at one point, in rows and columns. That of the tip is always one point.
 [[nodiscard]] dynamics::ModalTable at_point(const dynamics::ModalTable& table, const std::string& point);
 

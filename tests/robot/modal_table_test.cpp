@@ -71,7 +71,21 @@ TEST(ModalTable, WithOnePointAtTwoPlacesIsRefusedUnlessAsked) {
   EXPECT_EQ(low.rows[0].mode, "3");
   EXPECT_NO_THROW((void)modal_model(low));
   EXPECT_THROW((void)with_point_at(mixed, "a", 0.03), core::InputError);
+  dynamics::ModalTable untold = mixed;
+  for (dynamics::ModalTableRow& row : untold.rows) row.place_m.setConstant(std::nan(""));
+  EXPECT_THROW((void)modal_model(untold), core::InputError) << "nobody tells where its points lay";
   EXPECT_THROW((void)at_point(mixed, "b"), core::InputError);
+}
+
+TEST(ModalTable, WithoutCrossTermsTheDirectOnesStayAsTheyAre) {
+  const dynamics::FrequencyAxis axis = dynamics::linear_axis(1.0, 200.0, 50);
+  const dynamics::ModalModel model = modal_model(at_point(two_modes(0.02, 0.02), "1"));
+  const auto all = dynamics::to_response(model, axis), direct = dynamics::to_response(without_cross_terms(model), axis);
+  for (std::size_t line = 0; line < all.H.size(); ++line) {
+    EXPECT_LT((direct.H[line].diagonal() - all.H[line].diagonal()).norm(), 1e-14 * all.H[line].norm());
+    EXPECT_EQ(direct.H[line](0, 1), 0.0);
+    EXPECT_NE(all.H[line](0, 1), 0.0);
+  }
 }
 
 TEST(ModalTable, OfTheTipIsPartOfTheWhole) {
