@@ -81,7 +81,7 @@ Measured measured(const ResponseModel& part, const ResponseModel& robot, const R
 /// Eq. 16; NaN where H − G or its S cannot be inverted.
 Eigen::MatrixXcd stiffness(const Measured& data, std::size_t line) {
   const Eigen::Index n = data.H_PP[line].rows();
-  const Eigen::MatrixXcd none = Eigen::MatrixXcd::Constant(n, n, Complex(nan, nan));
+  Eigen::MatrixXcd none = Eigen::MatrixXcd::Constant(n, n, Complex(nan, nan));
   const Eigen::FullPivLU<Eigen::MatrixXcd> E(data.H_ab[line] - data.G_ab[line]);
   if (!E.isInvertible()) return none;
   const Eigen::FullPivLU<Eigen::MatrixXcd> compliance(data.H_Pb[line] * E.solve(data.H_aP[line]) - data.H_PP[line] -
