@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
     const auto axis = dynamics::linear_axis(0.5, 5000.0, lines);
     const auto part = dynamics::to_response(structure("P", 30, 1.0, 0.3), axis);
     std::vector<dynamics::ModalModel> robots;
+    robots.reserve(static_cast<std::size_t>(postures));
     for (int i = 0; i < postures; ++i) robots.push_back(structure("R", 6, 50.0, 0.1 * i));
     std::printf("%d postures, %d lines, nine entries, %d threads\n", postures, lines, core::thread_count());
     for (const int directions : {1, 3}) {
