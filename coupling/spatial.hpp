@@ -3,29 +3,34 @@
 
 #include <vector>
 
-#include "coupling/contact.hpp"
+#include "coupling/joints.hpp"
 #include "dynamics/conversion.hpp"
 
 namespace thinwall::coupling {
 
-/// Part and robot as one structure, over independent coordinates y with x = T y, x the part's DOFs, then the robot's.
-/// Assembles (Barrios 2019, Eq. 16-18, any direction)
+/// Any number of components as one structure, over independent coordinates y with x = T y, x the DOFs of the components
+/// in their order. Assembles (Barrios 2019, Eq. 16-18, any direction; the primal assembly of de Klerk et al. 2008)
 ///
-///     M = blkdiag(M_P, M_R),   K = blkdiag(K_P, K_R) + Σ k b bᵀ,   C likewise with c,   D likewise with η k
+///     M = blkdiag(M_1, M_2, …),   K = blkdiag(K_1, K_2, …) + B K_z Bᵀ,   C and D likewise
 ///
-/// over the springs, b = +n at the part's point and −n at the robot's. A spring that outweighs the components (k_P + k
-/// in one entry keeps k_P to ε k only) is not added to their entries: its opening d = bᵀy becomes a coordinate in the
-/// place of another (one of the robot's where there is a choice), and k stands alone on the diagonal of d. With u the
-/// coordinates that stay and s those replaced, y_s = B_s⁻ᵀ (d − B_uᵀ u), which with the components' own T gives the
-/// whole's, and M ← TᵀMT and so on. A rigid spring is the same without its opening, d = 0: an elimination, not a
-/// penalty.
+/// over the joined directions, a column of B +n at point a and −n at point b (rotations times `length`), K_z the
+/// joints' stiffness, diagonal for springs. A direction that outweighs the components (k_P + k in one entry keeps k_P
+/// to ε k only) is not added to their entries: its opening d = bᵀy becomes a coordinate in the place of another (one of
+/// the last component's where there is a choice), and k stands alone on the diagonal of d. With u the coordinates that
+/// stay and s those replaced, y_s = B_s⁻ᵀ (d − B_uᵀ u), which with the components' own T gives the whole's, and
+/// M ← TᵀMT and so on. A rigid direction is the same without its opening, d = 0: an elimination, not a penalty.
 ///
-/// Errors: InputError for a faulty contact, an unknown point, points of one name in both components, or rigid
+/// Errors: InputError for a faulty contact, an unknown point, points of one name in two components, or rigid
 /// directions that depend on each other. Cost O(n³).
-[[nodiscard]] dynamics::SpatialModel couple(const dynamics::SpatialModel& part, const dynamics::SpatialModel& robot,
-                                            const std::vector<Contact>& contacts);
+[[nodiscard]] dynamics::SpatialModel couple(const std::vector<dynamics::SpatialModel>& components,
+                                            const std::vector<Contact>& contacts, double length = default_length);
 
-/// The spatial part against a robot that is known by its receptance only. The joint forces f stay as unknowns,
+/// The same for two.
+[[nodiscard]] dynamics::SpatialModel couple(const dynamics::SpatialModel& part, const dynamics::SpatialModel& robot,
+                                            const std::vector<Contact>& contacts, double length = default_length);
+
+/// The spatial part (points a of the contacts) against a robot that is known by its receptance only. The joint forces f
+/// stay as unknowns,
 ///
 ///     [ P(ω)  B_P ; B_Pᵀ  −W(ω) ] [ x ; f ] = [ F ; 0 ],     W = Z⁻¹ + B_Rᵀ H_R B_R,
 ///

@@ -97,16 +97,20 @@ int row_of(const DofTable& dofs, const std::string& dof_name) {
   return static_cast<int>(found - names.begin());
 }
 
-Eigen::VectorXd displacement_row(const DofTable& dofs, const std::string& point, const Eigen::Vector3d& n) {
+Eigen::VectorXd displacement_row(const DofTable& dofs, const std::string& point, const Eigen::Vector3d& n,
+                                 DofKind kind) {
   Eigen::VectorXd row = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(dofs.size()));
   bool any = false;
   for (const int i : rows_of_point(dofs, point)) {
     const Dof& dof = dofs[static_cast<std::size_t>(i)];
-    if (dof.kind != DofKind::translation) continue;
+    if (dof.kind != kind) continue;
     row(i) = n.dot(dof.direction);
     any = true;
   }
-  if (!any) throw core::InputError("point \"" + point + "\" has no translation");
+  if (!any) {
+    throw core::InputError("point \"" + point + "\" has no " +
+                           (kind == DofKind::rotation ? "rotation" : "translation") + " in its table");
+  }
   return row;
 }
 

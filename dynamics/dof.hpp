@@ -45,9 +45,10 @@ using DofTable = std::vector<Dof>;
 /// Row of the DOF named "P.x" (see name()); throws InputError with the nearest name if there is none.
 [[nodiscard]] int row_of(const DofTable& dofs, const std::string& dof_name);
 
-/// Row vector b with b·q = n·u_point: the displacement of `point` along n (unit vector), from the DOF amplitudes q.
-/// Shape: dofs.size(). Throws InputError if the point has no translation.
-[[nodiscard]] Eigen::VectorXd displacement_row(const DofTable& dofs, const std::string& point,
-                                               const Eigen::Vector3d& n);
+/// Row vector b with b·q = n·u_point: the displacement of `point` along n (unit vector), or its rotation about n where
+/// `kind` says so, from the DOF amplitudes q. Shape: dofs.size(). Throws InputError if the point has no DOF of that
+/// kind.
+[[nodiscard]] Eigen::VectorXd displacement_row(const DofTable& dofs, const std::string& point, const Eigen::Vector3d& n,
+                                               DofKind kind = DofKind::translation);
 
 }  // namespace thinwall::dynamics

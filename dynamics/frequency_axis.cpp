@@ -1,8 +1,10 @@
 #include "dynamics/frequency_axis.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
+#include <string>
 
 #include "core/error.hpp"
 
@@ -17,6 +19,20 @@ void require_range(double from_hz, double to_hz, int lines, bool from_zero) {
   text << "frequency axis from " << from_hz << " Hz to " << to_hz << " Hz with " << lines << " lines: give "
        << (from_zero ? "0 <= from < to" : "0 < from < to") << " and at least 2 lines";
   throw core::InputError(text.str());
+}
+
+/// "both cover 10 to 500 Hz", or that there is nothing to bring to one axis.
+std::string overlap(const FrequencyAxis& a, const FrequencyAxis& b) {
+  if (a.size() == 0 || b.size() == 0) return "one of them is empty";
+  const double from = std::max(a.hz(0), b.hz(0)), to = std::min(a.hz(a.size() - 1), b.hz(b.size() - 1));
+  std::ostringstream text;
+  text.precision(10);
+  if (from <= to) {
+    text << "bring both to one axis first; both cover " << from << " to " << to << " Hz";
+  } else {
+    text << "they do not overlap: one ends at " << to << " Hz, the other begins at " << from << " Hz";
+  }
+  return text.str();
 }
 
 }  // namespace
@@ -43,14 +59,14 @@ void require_equal(const FrequencyAxis& a, const FrequencyAxis& b) {
   text.precision(12);
   if (a.size() != b.size()) {
     text << "two responses with " << a.size() << " and " << b.size()
-         << " frequency lines cannot be joined: bring both to one axis first";
+         << " frequency lines cannot be joined: " << overlap(a, b);
     throw core::InputError(text.str());
   }
   for (Eigen::Index line = 0; line < a.size(); ++line) {
     const double bound = 1e-12 * std::max(std::abs(a.hz(line)), std::abs(b.hz(line)));
     if (std::abs(a.hz(line) - b.hz(line)) <= bound) continue;
     text << "two responses differ in frequency at line " << line + 1 << ": " << a.hz(line) << " Hz against "
-         << b.hz(line) << " Hz (relative bound 1e-12); bring both to one axis first";
+         << b.hz(line) << " Hz (relative bound 1e-12); " << overlap(a, b);
     throw core::InputError(text.str());
   }
 }

@@ -19,7 +19,8 @@ struct FrequencyAxis {
 /// The same, evenly spaced in the logarithm; from_hz > 0.
 [[nodiscard]] FrequencyAxis logarithmic_axis(double from_hz, double to_hz, int lines);
 
-/// Throws InputError unless both axes are equal line by line (relative 1e-12): FRFs on different axes never meet.
+/// Throws InputError unless both axes are equal line by line (relative 1e-12): FRFs on different axes never meet. The
+/// message says over which band the two overlap, if they do.
 void require_equal(const FrequencyAxis& a, const FrequencyAxis& b);
 
 }  // namespace thinwall::dynamics

@@ -1,5 +1,7 @@
 #include "dynamics/response_model.hpp"
 
+#include <sstream>
+
 #include "core/error.hpp"
 
 namespace thinwall::dynamics {
@@ -23,6 +25,29 @@ DofTable select(const DofTable& dofs, const std::vector<int>& rows) {
 }
 
 }  // namespace
+
+void require_complete(const ResponseModel& model) {
+  if (static_cast<Eigen::Index>(model.H.size()) != model.axis.size()) {
+    throw core::InputError("a response of " + std::to_string(model.H.size()) + " matrices on an axis of " +
+                           std::to_string(model.axis.size()) + " frequency lines");
+  }
+  const auto rows = static_cast<Eigen::Index>(model.responses.size());
+  const auto columns = static_cast<Eigen::Index>(model.forces.size());
+  for (std::size_t line = 0; line < model.H.size(); ++line) {
+    const Eigen::MatrixXcd& H = model.H[line];
+    const bool right_size = H.rows() == rows && H.cols() == columns;
+    if (right_size && H.allFinite()) continue;
+    std::ostringstream text;
+    text << "the response at " << model.axis.hz(static_cast<Eigen::Index>(line)) << " Hz ";
+    if (right_size) {
+      text << "holds a value that is not finite";
+    } else {
+      text << "is " << H.rows() << " x " << H.cols() << ", but its tables name " << rows << " responses and " << columns
+           << " forces";
+    }
+    throw core::InputError(text.str());
+  }
+}
 
 Eigen::VectorXcd entry(const ResponseModel& model, const std::string& response, const std::string& force) {
   const int row = row_of(model.responses, response);

@@ -32,8 +32,9 @@ Eigen::MatrixXd displacements(const SpatialModel& model) {
   return Eigen::MatrixXd::Identity(model.size(), model.size());
 }
 
-Eigen::VectorXd coordinate_row(const SpatialModel& model, const std::string& point, const Eigen::Vector3d& n) {
-  Eigen::VectorXd row = displacement_row(model.dofs, point, n);
+Eigen::VectorXd coordinate_row(const SpatialModel& model, const std::string& point, const Eigen::Vector3d& n,
+                               DofKind kind) {
+  Eigen::VectorXd row = displacement_row(model.dofs, point, n, kind);
   if (!model.has_own_coordinates()) return row;
   return model.T.transpose() * row;
 }

@@ -31,8 +31,9 @@ void require_consistent(const SpatialModel& model);
 /// T, or the identity where the DOFs are the coordinates: dofs × n.
 [[nodiscard]] Eigen::MatrixXd displacements(const SpatialModel& model);
 
-/// b with b·y = n·u_point, the displacement of `point` along n (unit vector): n long. Errors as displacement_row().
+/// b with b·y = n·u_point, the displacement of `point` along n (unit vector) or its rotation about n: as long as y.
+/// Errors as displacement_row().
 [[nodiscard]] Eigen::VectorXd coordinate_row(const SpatialModel& model, const std::string& point,
-                                             const Eigen::Vector3d& n);
+                                             const Eigen::Vector3d& n, DofKind kind = DofKind::translation);
 
 }  // namespace thinwall::dynamics

@@ -8,34 +8,23 @@
 #include "coupling/receptance.hpp"
 #include "coupling/route_difference.hpp"
 #include "coupling/spatial.hpp"
+#include "masses.hpp"
 
 namespace thinwall::coupling {
 namespace {
 
 using Complex = std::complex<double>;
-using dynamics::SpatialModel;
+using testing::Mass;
+using testing::model;
+using testing::response;
 const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
 constexpr double rigid = std::numeric_limits<double>::infinity();
 
-struct Mass {
-  double m, c, k;
-  /// k + iωc − ω²m
-  [[nodiscard]] Complex stiffness(double w) const { return {k - w * w * m, w * c}; }
-};
 constexpr Mass part_mass{0.8, 3.0, 1.4e6};
 constexpr Mass robot_mass{51.2, 373.0, 1.7e6};
 
-SpatialModel model(const Mass& mass, const std::string& point) {
-  const auto scalar = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
-  return {scalar(mass.m), scalar(mass.c), scalar(mass.k), {}, {{point, x, dynamics::DofKind::translation}}};
-}
-
 std::vector<Contact> contact(double K, double C = 0.0, double eta = 0.0) {
   return {{"P", "R", {{x, K, C, eta}}}};
-}
-
-dynamics::ResponseModel response(const Mass& mass, const std::string& point, const dynamics::FrequencyAxis& axis) {
-  return dynamics::to_response(dynamics::to_modal(model(mass, point)), axis);
 }
 
 CoupledResponse by_receptance(const dynamics::FrequencyAxis& axis, const std::vector<Contact>& contacts) {
@@ -175,7 +164,7 @@ TEST(Contact, EveryViolationIsReportedAtOnce) {
       EXPECT_NE(message.find(part), std::string::npos) << part << " in " << message;
     }
   }
-  EXPECT_THROW(require_valid({}), core::InputError);
+  EXPECT_THROW(require_valid(std::vector<Contact>{}), core::InputError);
   EXPECT_THROW(require_valid(contact(std::nan(""))), core::InputError);
   EXPECT_THROW(require_valid(contact(0.0)), core::InputError);
 }

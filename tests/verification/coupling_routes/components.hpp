@@ -99,4 +99,83 @@ inline Component random_component(int size, const std::vector<std::string>& poin
   return component;
 }
 
+/// x, y, z, rx, ry, rz of the points in turn.
+inline dynamics::DofTable six_components(const std::vector<std::string>& points) {
+  dynamics::DofTable dofs;
+  for (const std::string& point : points) {
+    for (const auto kind : {dynamics::DofKind::translation, dynamics::DofKind::rotation}) {
+      for (int axis = 0; axis < 3; ++axis) dofs.push_back({point, Eigen::Vector3d::Unit(axis), kind});
+    }
+  }
+  return dofs;
+}
+
+/// A turn of one radian counts as 50 mm: scales the rows of rotations so that units differ as they do in a machine.
+constexpr double turning_length = 0.05;
+
+inline Eigen::VectorXd unit_lengths(const dynamics::DofTable& dofs) {
+  Eigen::VectorXd lengths = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(dofs.size()));
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    if (dofs[i].kind == dynamics::DofKind::rotation) lengths(static_cast<Eigen::Index>(i)) = turning_length;
+  }
+  return lengths;
+}
+
+/// A component whose points turn, too: six DOFs a point and `more` modal amplitudes.
+inline dynamics::SpatialModel random_turning_component(const std::vector<std::string>& points, int more,
+                                                       Damping damping, double mass, std::mt19937& random) {
+  dynamics::DofTable dofs = six_components(points);
+  const int physical = static_cast<int>(dofs.size());
+  Component component = random_component(physical + more, points, damping, mass, random);
+  for (int i = 0; i < more; ++i) {
+    const std::string name = points.front() + " mode " + std::to_string(i);
+    dofs.push_back({name, Eigen::Vector3d::Zero(), dynamics::DofKind::modal});
+  }
+  const Eigen::VectorXd lengths = unit_lengths(dofs);
+  const auto scale = lengths.asDiagonal();
+  dynamics::SpatialModel model = component.model;
+  model.M = scale * model.M * scale;
+  model.C = scale * model.C * scale;
+  model.K = scale * model.K * scale;
+  if (model.has_structural_damping()) model.D = scale * model.D * scale;
+  model.dofs = dofs;
+  return model;
+}
+
+/// A component of fewer coordinates than its points have DOFs: its receptance has rank `size` at most.
+inline dynamics::SpatialModel random_rank_deficient_component(const std::vector<std::string>& points, int size,
+                                                              Damping damping, double mass, std::mt19937& random) {
+  dynamics::SpatialModel model = random_component(size, points, damping, mass, random).model;
+  model.dofs = six_components(points);
+  const Eigen::VectorXd per_length = unit_lengths(model.dofs).cwiseInverse();
+  model.T = per_length.asDiagonal() * random_matrix(static_cast<Eigen::Index>(model.dofs.size()), size, random);
+  return model;
+}
+
+/// Largest |G − G_other| over the largest |G| of the line, each of the four kinds of entries (m/N, m/(N m), rad/N,
+/// rad/(N m)) for itself.
+inline double difference_by_kind(const dynamics::ResponseModel& G, const dynamics::ResponseModel& other) {
+  double largest = 0.0;
+  const auto rows = [](const dynamics::DofTable& dofs, dynamics::DofKind kind) {
+    std::vector<Eigen::Index> of_kind;
+    for (std::size_t i = 0; i < dofs.size(); ++i) {
+      if (dofs[i].kind == kind) of_kind.push_back(static_cast<Eigen::Index>(i));
+    }
+    return of_kind;
+  };
+  for (const auto row_kind : {dynamics::DofKind::translation, dynamics::DofKind::rotation}) {
+    for (const auto column_kind : {dynamics::DofKind::translation, dynamics::DofKind::rotation}) {
+      const auto row = rows(G.responses, row_kind), column = rows(G.forces, column_kind);
+      if (row.empty() || column.empty()) continue;
+      for (std::size_t line = 0; line < G.H.size(); ++line) {
+        const Eigen::MatrixXcd block = G.H[line](row, column);
+        const Eigen::MatrixXcd difference = block - other.H[line](row, column);
+        const double relative = difference.cwiseAbs().maxCoeff() / block.cwiseAbs().maxCoeff();
+        if (!(relative <= largest)) largest = relative;  // a NaN stays
+      }
+    }
+  }
+  return largest;
+}
+
 }  // namespace thinwall::coupling::testing

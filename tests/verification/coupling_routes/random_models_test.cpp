@@ -253,8 +253,8 @@ dynamics::ResponseModel assembled_as_printed(const Assembly& assembly, const std
     for (const Contact& contact : contacts) {
       for (const ContactSpring& spring : contact.springs) {
         Eigen::VectorXd b(n);
-        b << dynamics::displacement_row(part.dofs, contact.part_point, spring.direction),
-            -dynamics::displacement_row(robot.dofs, contact.robot_point, spring.direction);
+        b << dynamics::displacement_row(part.dofs, contact.point_a, spring.direction),
+            -dynamics::displacement_row(robot.dofs, contact.point_b, spring.direction);
         const auto b_real = b.cast<std::complex<Real>>();
         const Real K = spring.stiffness;
         Z += std::complex<Real>(K, K * spring.loss_factor + w * spring.damping) * Matrix(b_real * b_real.transpose());
