@@ -41,13 +41,11 @@ void Kernel::regularised_inverse(const Eigen::MatrixXcd& S, KernelLine& line) {
 
 KernelLine Kernel::solve(const Eigen::MatrixXcd& S, const Eigen::MatrixXd& magnitude, const Eigen::MatrixXcd& R) {
   KernelLine line;
-  bool solvable = true;
   if (regularisation_ == Regularisation::none) {
     if (identity_.rows() != S.rows()) identity_.setIdentity(S.rows(), S.cols());
     lu_.compute(S);
     S_inverse_ = lu_.solve(identity_);
     X_ = lu_.solve(R);
-    solvable = lu_.isInvertible();
   } else {
     regularised_inverse(S, line);
     X_.noalias() = S_inverse_ * R;
@@ -57,10 +55,11 @@ KernelLine Kernel::solve(const Eigen::MatrixXcd& S, const Eigen::MatrixXd& magni
       const double size = R.col(j).norm();
       if (size > 0.0) line.compatibility_residual = std::max(line.compatibility_residual, gap_.col(j).norm() / size);
     }
-    solvable = line.dropped < S.rows() || S_inverse_.cwiseAbs().maxCoeff() > 0.0;
   }
-  line.condition =
-      solvable ? skeel_condition(S_inverse_, magnitude, row_sums_) : std::numeric_limits<double>::infinity();
+  line.condition = skeel_condition(S_inverse_, magnitude, row_sums_);
+  // a pivot of zero leaves no finite inverse; of a kernel of zeros nothing is left
+  if (!(line.condition > 0.0 && std::isfinite(line.condition)))
+    line.condition = std::numeric_limits<double>::infinity();
   return line;
 }
 

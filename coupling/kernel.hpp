@@ -20,7 +20,7 @@ struct KernelLine {
 };
 
 /// S X = R for one small kernel S (m × m) after another, in storage that stays. With the singular values σ of S = U Σ
-/// Vᴴ and the regularisation f(σ) in place of 1/σ, S⁺ = V f(Σ) Uᴴ; without one S⁺ = S⁻¹ by LU with full pivoting. All
+/// Vᴴ and the regularisation f(σ) in place of 1/σ, S⁺ = V f(Σ) Uᴴ; without one S⁺ = S⁻¹ by LU. All
 /// rows and columns must have one unit (coupling/joints.hpp).
 ///
 /// The condition is Skeel's, ‖ D⁻¹ |S⁺| magnitude D ‖_∞, magnitude the sum of the moduli of the terms that S is the sum
@@ -43,7 +43,7 @@ class Kernel {
 
   Regularisation regularisation_;
   double threshold_;
-  Eigen::FullPivLU<Eigen::MatrixXcd> lu_;
+  Eigen::PartialPivLU<Eigen::MatrixXcd> lu_;
   Eigen::JacobiSVD<Eigen::MatrixXcd> svd_;
   Eigen::MatrixXcd identity_, S_inverse_, X_, gap_;
   Eigen::VectorXd row_sums_;

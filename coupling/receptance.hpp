@@ -39,11 +39,11 @@ struct [[nodiscard]] CoupledResponse {
 ///
 ///     G = Y − Y B S⁻¹ Bᵀ Y,     S = Bᵀ Y B + Z⁻¹,     Z = K (1 + iη) + iωC,  Z⁻¹ = 0 for a rigid direction
 ///
-/// (the dual, Lagrange-multiplier form of de Klerk, Rixen & Voormeeren 2008, Eq. 31, with joints), or any symmetric Z
-/// over a contact's directions. For two components P and R its part-part block is
-/// G_ab = H_ab − H_aP B [Bᵀ (H_PP + H_RR) B + Z⁻¹]⁻¹ Bᵀ H_Pb for any a and b of the part (Barrios 2019, Eq. 6 and
-/// 12-14, generalised). No component's receptance is inverted, so each may be of any rank. All inputs in m/N (rad/N, …)
-/// on equal axes; a component may have other points as responses than as forces, but its contact points as both.
+/// (the dual, Lagrange-multiplier form of de Klerk, Rixen & Voormeeren 2008, with joints; docs/theory/coupling.md, Eq.
+/// 4-8), or any symmetric Z over a contact's directions. For two components P and R its part-part block is G_ab = H_ab
+/// − H_aP B [Bᵀ (H_PP + H_RR) B + Z⁻¹]⁻¹ Bᵀ H_Pb for any a and b of the part (Barrios 2019, Eq. 6 and 12-14,
+/// generalised). No component's receptance is inverted, so each may be of any rank. All inputs in m/N (rad/N, …) on
+/// equal axes; a component may have other points as responses than as forces, but its contact points as both.
 ///
 /// The condition reported is Skeel's (coupling/kernel.hpp) over the components' terms |B_cᵀ H_c B_c| and |Z⁻¹|. Its
 /// consequence: if every H_c,ij is off by no more than ε |H_c,ij|, then to first order

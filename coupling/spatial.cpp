@@ -35,6 +35,7 @@ Eigen::MatrixXd structural_damping(const SpatialModel& model) {
 SpatialModel side_by_side(const std::vector<SpatialModel>& components) {
   const auto joined = [&](const auto& matrix_of) {
     std::vector<Eigen::MatrixXd> blocks;
+    blocks.reserve(components.size());
     for (const SpatialModel& component : components) blocks.push_back(matrix_of(component));
     return block_diagonal(blocks);
   };

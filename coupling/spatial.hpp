@@ -9,7 +9,8 @@
 namespace thinwall::coupling {
 
 /// Any number of components as one structure, over independent coordinates y with x = T y, x the DOFs of the components
-/// in their order. Assembles (Barrios 2019, Eq. 16-18, any direction; the primal assembly of de Klerk et al. 2008)
+/// in their order. Assembles (Barrios 2019, Eq. 16-18, any direction; the primal assembly of de Klerk et al. 2008;
+/// docs/theory/coupling.md, Eq. 9-10)
 ///
 ///     M = blkdiag(M_1, M_2, …),   K = blkdiag(K_1, K_2, …) + B K_z Bᵀ,   C and D likewise
 ///
