@@ -1,8 +1,5 @@
 #include "coupling/sensitivity.hpp"
 
-#include <algorithm>
-#include <sstream>
-
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
@@ -81,10 +78,11 @@ CouplingSensitivity coupling_sensitivity(const std::vector<ResponseModel>& compo
     MatrixXcd S = to_joints * B_force;
     MatrixXd magnitude = S.cwiseAbs();
     add_compliance(all, coupled.response.axis.omega_rad_s(static_cast<Index>(line)), S, magnitude);
-    const Eigen::FullPivLU<MatrixXcd> lu(S);
-    MatrixXcd P = -from_joints * lu.solve(B_response.transpose().cast<std::complex<double>>());
+    Kernel kernel(Regularisation::none, 0.5);
+    (void)kernel.solve(S, magnitude, to_joints);  // its condition was judged by couple()
+    MatrixXcd P = -(from_joints * kernel.inverse()) * B_response.transpose();
     P.diagonal().array() += 1.0;
-    MatrixXcd Q = -B_force * lu.solve(to_joints);
+    MatrixXcd Q = -B_force * kernel.solution();
     Q.diagonal().array() += 1.0;
     sensitivity.P[line] = P(rows, Eigen::all);
     sensitivity.Q[line] = Q(Eigen::all, columns);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "coupling/decoupling.hpp"
 #include "machine.hpp"
 
 namespace thinwall::coupling {
@@ -72,6 +73,17 @@ TEST(ToolSwap, TheHolderIsTheMachineWithoutTool) {
   EXPECT_LT(difference(holder.receptance, exact), 1e-7);  // between two large terms, T^A_22 at 20 Hz is 1e4 times T^B
   EXPECT_EQ(dynamics::name(holder.receptance.responses[3]), "holder.ry");
   EXPECT_FALSE(holder.rank_deficient());
+}
+
+TEST(ToolSwap, TheHolderIsWhatDecouplingLeavesAtTheRoot) {
+  const std::vector<std::string> root{"1root.x", "1root.y", "1root.rx", "1root.ry"};
+  std::vector<std::string> of_tool = tip_1;
+  of_tool.insert(of_tool.end(), root.begin(), root.end());
+  const CoupledResponse rest = decouple(only(pair().C_1, tip_1), only(pair().tool_1.free, of_tool), {"1tip"},
+                                        {.regularisation = Regularisation::none});
+  HolderReceptance holder =
+      holder_receptance(only(pair().C_1, tip_1), {pair().tool_1.free, radial_contact("1root", "holder")});
+  EXPECT_LT(difference(holder.receptance, only(rest.response, root)), 1e-9);
 }
 
 TEST(ToolSwap, TheSameToolGivesBackWhatWasMeasured) {
