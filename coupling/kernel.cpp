@@ -1,5 +1,6 @@
 #include "coupling/kernel.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -17,7 +18,8 @@ double skeel_condition(const Eigen::MatrixXcd& S_inverse, const Eigen::MatrixXd&
     double sum = 0.0;
     for (Eigen::Index k = 0; k < magnitude.rows(); ++k) sum += std::abs(S_inverse(i, k)) * row_sums(k);
     sum *= root(i);
-    if (!(sum <= largest)) largest = sum;  // a NaN stays
+    if (!std::isfinite(sum)) return sum;
+    largest = std::max(largest, sum);
   }
   return largest;
 }

@@ -72,30 +72,29 @@ void require_usable(const SampledReceptance& r) {
   }
 }
 
-Eigen::Matrix3cd interpolated(const SampledReceptance& r, double omega_rad_s, const Continuation& beyond) {
-  const double hz = std::abs(omega_rad_s) / (2.0 * pi);
+LineWeights line_weights(const SampledReceptance& r, double hz, const Continuation& beyond) {
   const Index lines = r.frequency_hz.size();
   const double first_hz = r.frequency_hz(0);
   const double last_hz = r.frequency_hz(lines - 1);
-  const auto line = [&](Index i) -> const Eigen::Matrix3cd& { return r.H[static_cast<std::size_t>(i)]; };
   const auto ratio = [hz](double oscillator_hz, double end_hz) {
     const double square = oscillator_hz * oscillator_hz;
-    return (square - end_hz * end_hz) / (square - hz * hz);
+    return Eigen::VectorXd::Constant(1, (square - end_hz * end_hz) / (square - hz * hz));
   };
-  Eigen::Matrix3cd H;
   if (hz < first_hz) {
-    H = line(0).real().cast<complex<double>>();
-    if (beyond.below_hz > 0.0) H *= ratio(beyond.below_hz, first_hz);
-  } else if (hz >= last_hz) {
-    H = line(lines - 1) * ratio(beyond.above_hz, last_hz);
-  } else {
-    const auto* begin = r.frequency_hz.data();
-    const Index above = std::upper_bound(begin, begin + lines, hz) - begin;
-    const Index first = std::clamp<Index>(above - 3, 0, lines - 6);
-    const Eigen::VectorXd weight = lagrange_polynomials(r.frequency_hz.segment<6>(first), hz);
-    H.setZero();
-    for (Index i = 0; i < 6; ++i) H += weight(i) * line(first + i);
+    return {0, beyond.below_hz > 0.0 ? ratio(beyond.below_hz, first_hz) : Eigen::VectorXd::Ones(1), true};
   }
+  if (hz >= last_hz) return {lines - 1, ratio(beyond.above_hz, last_hz), false};
+  const auto* begin = r.frequency_hz.data();
+  const Index above = std::upper_bound(begin, begin + lines, hz) - begin;
+  const Index first = std::clamp<Index>(above - 3, 0, lines - 6);
+  return {first, lagrange_polynomials(r.frequency_hz.segment<6>(first), hz), false};
+}
+
+Eigen::Matrix3cd interpolated(const SampledReceptance& r, double omega_rad_s, const Continuation& beyond) {
+  const LineWeights of = line_weights(r, std::abs(omega_rad_s) / (2.0 * pi), beyond);
+  Eigen::Matrix3cd H = Eigen::Matrix3cd::Zero();
+  for (Index i = 0; i < of.weight.size(); ++i) H += of.weight(i) * r.H[static_cast<std::size_t>(of.first + i)];
+  if (of.real_part) H = H.real().cast<complex<double>>().eval();
   return omega_rad_s < 0.0 ? Eigen::Matrix3cd(H.conjugate()) : H;
 }
 
@@ -118,45 +117,100 @@ std::vector<Resonance> resonances(const SampledReceptance& r) {
   return found;
 }
 
+namespace {
+
+/// The sum over the harmonics at one angle: visit(ω, seen, force) for each, so that
+///
+///     Z = (1 − e^{−iθ})/T Σ seen H(ω) force
+class Harmonics {
+ public:
+  Harmonics(const SampledReceptance& receptance, const ContactGrid& grid, double spindle_speed_rpm, double reach)
+      : grid_(grid),
+        seconds_per_rad_(30.0 / (pi * spindle_speed_rpm)),
+        highest_(reach * 2.0 * pi * receptance.frequency_hz(receptance.frequency_hz.size() - 1)) {
+    for (const CutElement& e : grid.elements)
+      rules_.emplace_back(e.nodes, highest_ * (e.to_rad - e.from_rad) * seconds_per_rad_);
+  }
+
+  [[nodiscard]] double period_s() const { return grid_.period_rad * seconds_per_rad_; }
+
+  /// (1 − e^{−iθ})/T
+  [[nodiscard]] complex<double> factor(double theta) const {
+    return (1.0 - (theta == pi ? complex<double>(-1.0) : std::polar(1.0, -theta))) / period_s();
+  }
+
+  template <typename Visit>
+  void at(double theta, Visit visit) const {
+    const auto contacts = static_cast<Index>(grid_.contacts.size());
+    const double period = period_s();
+    Eigen::Matrix3Xcd force(3, contacts);
+    Eigen::MatrixX3cd seen(contacts, 3);
+    const int last = static_cast<int>(std::floor((highest_ * period - theta) / (2.0 * pi)));
+    // As many on the negative side, so that the sum is real where it has to be.
+    const int first = static_cast<int>(std::ceil((-highest_ * period - theta) / (2.0 * pi)));
+    for (int k = first; k <= last; ++k) {
+      const double omega = (theta + 2.0 * pi * k) / period;
+      const Eigen::VectorXcd moments = share_of(omega, highest_) * node_moments(grid_, rules_, seconds_per_rad_, omega);
+      for (Index j = 0; j < contacts; ++j) {
+        const Contact& c = grid_.contacts[static_cast<std::size_t>(j)];
+        force.col(j) = moments(c.node) * c.force;
+        seen.row(j) = std::polar(1.0, omega * grid_.node_rad(c.node) * seconds_per_rad_) * c.chip.transpose();
+      }
+      visit(omega, seen, force);
+    }
+  }
+
+ private:
+  const ContactGrid& grid_;
+  double seconds_per_rad_;
+  double highest_;
+  std::vector<ProductRule> rules_;
+};
+
+void require_one_delay(const ContactGrid& grid) {
+  if (grid.one_delay) return;
+  throw core::InputError(
+      "receptance at the cut: unequal teeth or process damping, all delays must be one period; take a modal model");
+}
+
+}  // namespace
+
 GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGrid& grid, double spindle_speed_rpm,
                            double reach, const Continuation& beyond) {
   require_usable(receptance);
-  if (!grid.one_delay) {
-    throw core::InputError(
-        "receptance at the cut: unequal teeth or process damping, all delays must be one period; take a modal model");
-  }
-  const double seconds_per_rad = 30.0 / (pi * spindle_speed_rpm);
-  const double period = grid.period_rad * seconds_per_rad;
-  const double highest = reach * 2.0 * pi * receptance.frequency_hz(receptance.frequency_hz.size() - 1);
-  std::vector<ProductRule> rules;
-  for (const CutElement& e : grid.elements)
-    rules.emplace_back(e.nodes, highest * (e.to_rad - e.from_rad) * seconds_per_rad);
+  require_one_delay(grid);
+  const Harmonics harmonics(receptance, grid, spindle_speed_rpm, reach);
   const auto contacts = static_cast<Index>(grid.contacts.size());
-  const auto gain = [&receptance, &grid, rules, seconds_per_rad, period, highest, contacts, beyond](double theta) {
+  const auto gain = [&receptance, harmonics, contacts, beyond](double theta) {
     Eigen::MatrixXcd Z = Eigen::MatrixXcd::Zero(contacts, contacts);
-    Eigen::Matrix3Xcd force(3, contacts);
-    Eigen::MatrixX3cd seen(contacts, 3);
-    const int last = static_cast<int>(std::floor((highest * period - theta) / (2.0 * pi)));
-    // As many on the negative side, so that the sum is real where it has to be.
-    const int first = static_cast<int>(std::ceil((-highest * period - theta) / (2.0 * pi)));
-    for (int k = first; k <= last; ++k) {
-      const double omega = (theta + 2.0 * pi * k) / period;
-      const Eigen::VectorXcd moments = share_of(omega, highest) * node_moments(grid, rules, seconds_per_rad, omega);
-      for (Index j = 0; j < contacts; ++j) {
-        const Contact& c = grid.contacts[static_cast<std::size_t>(j)];
-        force.col(j) = moments(c.node) * c.force;
-        seen.row(j) = std::polar(1.0, omega * grid.node_rad(c.node) * seconds_per_rad) * c.chip.transpose();
-      }
+    harmonics.at(theta, [&](double omega, const Eigen::MatrixX3cd& seen, const Eigen::Matrix3Xcd& force) {
       Z.noalias() += (seen * interpolated(receptance, omega, beyond)) * force;
-    }
-    const complex<double> past = theta == pi ? complex<double>(-1.0) : std::polar(1.0, -theta);
-    return Eigen::MatrixXcd((1.0 - past) / period * Z);
+    });
+    return Eigen::MatrixXcd(harmonics.factor(theta) * Z);
   };
   const auto slope = [gain](double theta) {
     constexpr double h = 1e-5;  // rad; the slope steers Newton's rule and need not be exact
     return Eigen::MatrixXcd((gain(theta + h) - gain(theta - h)) / (2.0 * h));
   };
-  return {contacts, gain, slope, stops_at_resonances(receptance, period)};
+  return {contacts, gain, slope, stops_at_resonances(receptance, harmonics.period_s())};
+}
+
+std::vector<Eigen::Matrix3cd> gain_gradient(const SampledReceptance& receptance, const ContactGrid& grid,
+                                            double spindle_speed_rpm, double reach, const Continuation& beyond,
+                                            double theta_rad, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r,
+                                            complex<double> factor) {
+  require_usable(receptance);
+  require_one_delay(grid);
+  const Harmonics harmonics(receptance, grid, spindle_speed_rpm, reach);
+  std::vector<Eigen::Matrix3cd> gradient(receptance.H.size(), Eigen::Matrix3cd::Zero());
+  harmonics.at(theta_rad, [&](double omega, const Eigen::MatrixX3cd& seen, const Eigen::Matrix3Xcd& force) {
+    const LineWeights of = line_weights(receptance, std::abs(omega) / (2.0 * pi), beyond);
+    Eigen::Matrix3cd g = factor * harmonics.factor(theta_rad) * (seen.transpose() * l) * (force * r).transpose();
+    if (omega < 0.0) g = g.conjugate().eval();  // Re(z̄) = Re(z)
+    if (of.real_part) g = g.real().cast<complex<double>>().eval();
+    for (Index i = 0; i < of.weight.size(); ++i) gradient[static_cast<std::size_t>(of.first + i)] += of.weight(i) * g;
+  });
+  return gradient;
 }
 
 }  // namespace thinwall::milling

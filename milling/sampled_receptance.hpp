@@ -36,6 +36,15 @@ struct Continuation {
 [[nodiscard]] Eigen::Matrix3cd interpolated(const SampledReceptance& receptance, double omega_rad_s,
                                             const Continuation& beyond = {});
 
+/// interpolated() as a sum over lines: H(ω) = Σ weight_i H_(first + i), of the lines' real parts where `real_part`.
+struct LineWeights {
+  Eigen::Index first = 0;
+  Eigen::VectorXd weight;
+  bool real_part = false;
+};
+
+[[nodiscard]] LineWeights line_weights(const SampledReceptance& receptance, double hz, const Continuation& beyond = {});
+
 /// A peak of ‖H‖ (Frobenius) that falls to half its power on both sides before anything higher is met: noise on a flank
 /// has none.
 struct Resonance {
@@ -58,5 +67,17 @@ struct Resonance {
 /// arguments must outlive the result. Cost of a value: harmonics × contacts².
 [[nodiscard]] GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGrid& grid,
                                          double spindle_speed_rpm, double reach = 6.0, const Continuation& beyond = {});
+
+/// How a value of that gain follows the samples: g, one 3 × 3 a line, with
+///
+///     Re (factor · lᵀ dZ(e^{iθ}) r) = Re Σ_lines Σ_ij g_ij dH_ij
+///
+/// for independent changes of real and imaginary parts (H(−ω) is conjugate, so that Z does not depend on H
+/// analytically). Arguments and errors as harmonic_gain(). Cost: harmonics × contacts.
+[[nodiscard]] std::vector<Eigen::Matrix3cd> gain_gradient(const SampledReceptance& receptance, const ContactGrid& grid,
+                                                          double spindle_speed_rpm, double reach,
+                                                          const Continuation& beyond, double theta_rad,
+                                                          const Eigen::VectorXcd& l, const Eigen::VectorXcd& r,
+                                                          std::complex<double> factor);
 
 }  // namespace thinwall::milling

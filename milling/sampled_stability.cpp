@@ -177,6 +177,7 @@ class SampledGrids : public SearchGrids {
       : cut_(cut), next_(first), most_nodes_(most_nodes) {}
 
   const ContactGrid& operator[](std::size_t level) { return made(level).cut.grid; }
+  [[nodiscard]] double reach(std::size_t level) { return made(level).reach; }
   [[nodiscard]] const GainOnCircle& gain(std::size_t level) override { return made(level).gain; }
   [[nodiscard]] int nodes(std::size_t level) override { return static_cast<int>((*this)[level].node_rad.size()); }
   [[nodiscard]] bool more_after(std::size_t level) override { return level < 2 || 3 * nodes(level) < 2 * most_nodes_; }
@@ -269,7 +270,48 @@ LobeRow row_of(const SampledCut& cut, const StabilityOptions& options) {
   }
 }
 
+/// A crossing on the first of some grids whose depth agrees with it; no level if none does.
+struct FoundAgain {
+  Crossing crossing;
+  std::optional<std::size_t> level{};
+};
+
+FoundAgain found_again(SampledGrids& grids, const LobePoint& point, double period_s, double tolerance) {
+  for (std::size_t level = 0; true; ++level) {
+    FoundAgain found{{point.depth_m, multiplier_angle_rad(point, period_s), 0, {}}};
+    const bool kept = refine(grids.gain(level), found.crossing);
+    if (kept && std::abs(found.crossing.depth_m / point.depth_m - 1.0) <= tolerance) found.level = level;
+    if (found.level || !grids.more_after(level)) return found;
+  }
+}
+
 }  // namespace
+
+std::vector<Eigen::Matrix3cd> depth_gradient(const SampledStructure& structure, const MillingProcess& process,
+                                             double spindle_speed_rpm, const LobePoint& point,
+                                             const StabilityOptions& options) {
+  require_usable(process, options, spindle_speed_rpm);
+  require_range(structure.samples, process, spindle_speed_rpm);
+  SampledCut cut = sampled_cut(structure, process, spindle_speed_rpm);
+  cut.yielding = Eigen::Matrix3d::Identity();  // a change may move what did not move so far
+  if (cut.by_poles) cut.by_poles->yielding = cut.yielding;
+  SampledGrids grids(cut, finer(resolving(cut, point.depth_m)), options.most_nodes);
+  const FoundAgain found = found_again(grids, point, tooth_period_s(process.cutter, spindle_speed_rpm),
+                                       10.0 * std::max(point.error_estimate, options.error_tolerance));
+  if (!found.level) {
+    std::ostringstream text;
+    text << "gradient of a depth: no crossing at " << point.depth_m * 1e3 << " mm and " << spindle_speed_rpm
+         << " rpm; give a crossing of the same structure and process";
+    throw core::NumericalError(text.str());
+  }
+  const double theta = found.crossing.theta_rad, w = found.crossing.depth_m;
+  const Eigenpair pair = eigenpair_near(grids.gain(*found.level), theta, 1.0 / w);
+  const bool at_end = theta == 0.0 || theta == pi;
+  const complex<double> along(1.0, at_end ? 0.0 : pair.slope.real() / pair.slope.imag());
+  const complex<double> factor = w * w * along / (pair.left.transpose() * pair.right).value();
+  return gain_gradient(structure.samples, grids[*found.level], spindle_speed_rpm, grids.reach(*found.level),
+                       {cut.resonance_hz, cut.resonance_hz}, theta, pair.left, pair.right, factor);
+}
 
 void require_range(const SampledReceptance& receptance, const MillingProcess& process, double spindle_speed_rpm) {
   require_usable(receptance);

@@ -44,6 +44,20 @@ struct SampledStructure {
 [[nodiscard]] Lobes stability_lobes(const SampledStructure& structure, const MillingProcess& process,
                                     const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options);
 
+/// How a critical depth w follows the samples: g, one 3 × 3 a line (N, tool axes), with dw = Re Σ_lines Σ_ij g_ij dH_ij
+/// for independent changes of real and imaginary parts. At a crossing 1/w is an eigenvalue ν of −Z(e^{iθ}) with vectors
+/// l and r; from dν + ν_θ dθ = −dw/w², dθ and dw real (sensitivity.hpp),
+///
+///     dw = −w² Re [ (1 + i Re ν_θ/Im ν_θ) dν ],     dν = −lᵀ dZ r / lᵀ r
+///
+/// and Re dν alone at a flip. What continues H beyond its lines is kept as it is. Scaling all samples by 1 + ε gives
+/// dw = −ε w: Re Σ g_ij H_ij = −w where nothing else moves. `point` is one of limiting_depth()'s crossings for the same
+/// arguments. Errors as limiting_depth(), and NumericalError if the crossing is not found again. Cost: some ten values
+/// of Z.
+[[nodiscard]] std::vector<Eigen::Matrix3cd> depth_gradient(const SampledStructure& structure,
+                                                           const MillingProcess& process, double spindle_speed_rpm,
+                                                           const LobePoint& point, const StabilityOptions& options);
+
 /// What must be measured: the highest resonance f with its neighbours at the distance of a tooth passing, f + z n/60
 /// and |f − z n/60|, the harmonics that chatter at f has beside it; a first line of up to f/2 may stand for what is
 /// below it. This is the least: the estimate tells what a range costs. Throws InputError that names the harmonic that

@@ -168,6 +168,16 @@ TEST(Regularisation, AWellConditionedKernelIsLeftAsItIs) {
   EXPECT_LT(truncated.compatibility_residual.maxCoeff(), 1e-10);
 }
 
+TEST(Kernel, ARowOfZerosIsSingularWhereverItStands) {
+  for (Eigen::Index zero = 0; zero < 3; ++zero) {
+    Eigen::MatrixXcd S = Eigen::Matrix3cd::Random() + 3.0 * Eigen::Matrix3cd::Identity();
+    S.row(zero).setZero();
+    S.col(zero).setZero();
+    Kernel kernel(Regularisation::none, 0.5);
+    EXPECT_TRUE(std::isinf(kernel.solve(S, S.cwiseAbs(), Eigen::Matrix3cd::Identity()).condition)) << zero;
+  }
+}
+
 TEST(Regularisation, FaultyOptionsAreAllReportedAtOnce) {
   const CouplingOptions faulty{.length = 0.0, .threshold = 1.0, .component_error = -1.0};
   try {
