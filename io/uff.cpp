@@ -229,9 +229,10 @@ struct Contents {
   std::map<int, int> passed_over;  ///< function types and how many of each
 };
 
-/// The frequencies of a function in Hz, from the first one on that has a receptance.
-std::vector<double> frequencies(const UffFunction& function, const UffRecords& at) {
-  const double in_hz = abscissa_in_hz(function, at);
+/// The frequencies of a function in Hz.
+std::vector<double> frequencies(const UffFunction& function, const UffReading& reading, const UffRecords& at,
+                                UffNotes& notes) {
+  const double in_hz = abscissa_in_hz(function, reading.stated, at, notes);
   std::vector<double> hz(function.x);
   for (std::size_t i = 0; i < hz.size(); ++i) {
     hz[i] *= in_hz;
@@ -246,8 +247,8 @@ void add_entry(const UffFunction& function, const UffRecords& at, const UffReadi
                UffNotes& notes) {
   UffDofs dofs = dofs_of(function, at);
   const FunctionKey key = key_of(function, dofs);
-  FrfFormat format = format_of(function, contents.units, reading.stated, at, dofs, notes);
-  const std::vector<double> hz = frequencies(function, at);
+  const FrfFormat format = format_of(function, contents.units, reading.stated, at, dofs, notes);
+  const std::vector<double> hz = frequencies(function, reading, at, notes);
   std::size_t first = 0;
   if (hz.front() == 0.0 && format.quantity != FrfQuantity::receptance) {
     note(notes, at, "the line at 0 Hz has no receptance and is left out");
@@ -270,8 +271,9 @@ void add_entry(const UffFunction& function, const UffRecords& at, const UffReadi
   contents.keys.push_back(key);
 }
 
-void add_coherence(const UffFunction& function, const UffRecords& at, Contents& contents, UffNotes& notes) {
-  Coherence coherence{at, frequencies(function, at), {}};
+void add_coherence(const UffFunction& function, const UffRecords& at, const UffReading& reading, Contents& contents,
+                   UffNotes& notes) {
+  Coherence coherence{at, frequencies(function, reading, at, notes), {}};
   for (const std::complex<double>& value : function.values) {
     // Values in single precision may lie a rounding above 1.
     if (!(value.real() >= 0.0 && value.real() <= 1.0 + 1e-6) || value.imag() != 0.0) {
@@ -338,7 +340,7 @@ MeasuredEntries uff_entries(std::string_view bytes, const std::string& source, c
     if (function.type == uff::frequency_response_function) {
       add_entry(function, set.records, reading, contents, measured.notes);
     } else if (function.type == uff::coherence) {
-      add_coherence(function, set.records, contents, measured.notes);
+      add_coherence(function, set.records, reading, contents, measured.notes);
     } else {
       ++contents.passed_over[function.type];
     }

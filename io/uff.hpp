@@ -41,7 +41,8 @@ void write_uff(const std::filesystem::path& path, const dynamics::ResponseModel&
 /// "coherence at <point>".
 void write_uff(const std::filesystem::path& path, const MeasuredResponse& measured, const UffForm& form = {});
 
-/// What the caller knows of the FRFs in a file. Quantity and unit count where they are stated, whatever the file says.
+/// What the caller knows of the FRFs in a file. Quantity and units, that of the frequencies too, count where they are
+/// stated, whatever the file says, which is noted where it differs.
 struct UffReading {
   std::optional<FrfFormat> stated;
 };

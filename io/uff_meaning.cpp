@@ -128,6 +128,17 @@ void note_contradiction(const UffFunction& function, const FrfFormat& stated, co
            std::to_string(function.numerator.type) + " over " + std::to_string(function.denominator.type));
 }
 
+/// The unit of an axis of frequencies in Hz; empty if it is none.
+std::optional<double> frequency_unit(const UffAxis& axis) {
+  const bool unnamed = axis.type == uff::unknown_data || axis.type == uff::general_data;
+  if (axis.type != uff::frequency && !unnamed) return std::nullopt;
+  if (!is_label(axis.unit)) return unnamed ? std::nullopt : std::optional(1.0);
+  const auto unit = unit_of_label(axis.unit, false);
+  if (unit && unit->dimension == core::Dimension{0, 0, -1, 0, 0}) return unit->value;
+  if (unit && unit->dimension == core::Dimension{0, 0, -1, 1, 0}) return unit->value / (2.0 * std::numbers::pi);
+  return std::nullopt;
+}
+
 }  // namespace
 
 int direction_code(const Dof& dof) {
@@ -184,19 +195,22 @@ FrfFormat format_of(const UffFunction& function, const std::optional<UffUnits>& 
   return {*quantity, motion_unit / unit_in_si(force, units, records, dofs.force, notes), 1.0};
 }
 
-double abscissa_in_hz(const UffFunction& function, const UffRecords& records) {
+double abscissa_in_hz(const UffFunction& function, const std::optional<FrfFormat>& stated, const UffRecords& records,
+                      UffNotes& notes) {
   const UffAxis& axis = function.abscissa;
-  const bool unnamed = axis.type == uff::unknown_data || axis.type == uff::general_data;
-  if (axis.type != uff::frequency && !(unnamed && is_label(axis.unit))) {
-    refuse(records, "specific data type " + std::to_string(axis.type) +
-                        " of the abscissa where 18 (frequency) is "
-                        "expected");
+  const auto told = frequency_unit(axis);
+  if (stated) {
+    const bool agrees = told && std::abs(*told / stated->unit_in_hz - 1.0) <= 1e-9;
+    if (!agrees) {
+      note(notes, records,
+           "the frequencies are taken in the unit that is stated; the file has data type " + std::to_string(axis.type) +
+               " in \"" + axis.unit + "\"");
+    }
+    return stated->unit_in_hz;
   }
-  if (!is_label(axis.unit)) return 1.0;
-  const auto unit = unit_of_label(axis.unit, false);
-  if (unit && unit->dimension == core::Dimension{0, 0, -1, 0, 0}) return unit->value;
-  if (unit && unit->dimension == core::Dimension{0, 0, -1, 1, 0}) return unit->value / (2.0 * std::numbers::pi);
-  refuse(records, "the abscissa's unit \"" + axis.unit + "\" is no frequency; write it in Hz");
+  if (told) return *told;
+  refuse(records, "specific data type " + std::to_string(axis.type) + " of the abscissa in \"" + axis.unit +
+                      "\" where 18 (frequency) is expected" + std::string(remedy));
 }
 
 }  // namespace thinwall::io

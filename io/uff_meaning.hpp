@@ -44,8 +44,10 @@ struct UffDofs {
                                   const std::optional<FrfFormat>& stated, const UffRecords& records, UffDofs& dofs,
                                   UffNotes& notes);
 
-/// The unit of the abscissa in Hz: type 18 (frequency), or unknown and general types whose label is a frequency. Throws
-/// DataError for other types and labels.
-[[nodiscard]] double abscissa_in_hz(const UffFunction& function, const UffRecords& records);
+/// The unit of the abscissa in Hz: what the caller states, noted where the file says otherwise; else that of type 18
+/// (frequency), or of an unknown or general type whose label is a frequency. Throws DataError for other types and
+/// labels.
+[[nodiscard]] double abscissa_in_hz(const UffFunction& function, const std::optional<FrfFormat>& stated,
+                                    const UffRecords& records, UffNotes& notes);
 
 }  // namespace thinwall::io

@@ -159,7 +159,7 @@ TEST_F(ForeignUniversalFile, OfAnUnknownQuantityOrUnitIsRefused) {
   expect_refused(units_set(1, 1.0, 1.0) + frf_set(words), "its direction is 0 (scalar)");
   words = {};
   words.abscissa_unit = "m";
-  expect_refused(frf_set(words), "the abscissa's unit \"m\" is no frequency");
+  expect_refused(frf_set(words), "specific data type 18 of the abscissa in \"m\"");
   expect_refused(units_set(5, 1.0, 1.0) + frf_set(), "not those of units code 5");
   expect_refused(units_set(12, 1.0, 1.0) + frf_set(), "units code 12");
   expect_refused(units_set(9, -1.0, 1.0) + frf_set(), "must be positive");
@@ -179,6 +179,13 @@ TEST_F(ForeignUniversalFile, IsReadAsTheCallerStatesAndThatIsNoted) {
   EXPECT_NE(measured.notes[0].find("read as accelerance, as stated; the file has data types 15 over 0"),
             std::string::npos);
   EXPECT_TRUE(entries(frf_set(), {frf_format("receptance", "m/N", "Hz")}).notes.empty());
+  const MeasuredEntries slower = entries(frf_set(), {frf_format("receptance", "m/N", "rad/s")});
+  EXPECT_NEAR(slower.entries.at(0).frf.axis.hz(0), 10.0 / (2.0 * pi), 1e-12);
+  ASSERT_EQ(slower.notes.size(), 1U);
+  EXPECT_NE(slower.notes[0].find("taken in the unit that is stated"), std::string::npos);
+  words = {};
+  words.abscissa_unit = "rad/s";
+  EXPECT_NEAR(entries(frf_set(words)).entries.at(0).frf.axis.hz(2), 30.0 / (2.0 * pi), 1e-12);
 }
 
 // 1.0D+00 and 1.0+000, which Fortran writes where the exponent needs three digits; filled columns leave no blank.
