@@ -19,9 +19,9 @@ struct CouplingSensitivity {
 ///
 ///     dG = dY − dY B S⁻¹BᵀY − Y B S⁻¹Bᵀ dY + Y B S⁻¹Bᵀ dY B S⁻¹BᵀY = (I − Y B S⁻¹Bᵀ) dY (I − B S⁻¹BᵀY) = P dY Q
 ///
-/// (the dual form of de Klerk, Rixen & Voormeeren 2008, differentiated). With rigid joints P and Q are projectors: P takes out
-/// what the joints would feel, PY = YQ = G. A regularised kernel is refused (InputError); other errors as couple().
-/// Cost lines · (n² m + m³), n: all DOFs, not the wanted ones only.
+/// (the dual form of de Klerk, Rixen & Voormeeren 2008, differentiated). With rigid joints P and Q are projectors: P
+/// takes out what the joints would feel, PY = YQ = G. A regularised kernel is refused (InputError); other errors as
+/// couple(). Cost lines · (n² m + m³), n: all DOFs, not the wanted ones only.
 [[nodiscard]] CouplingSensitivity coupling_sensitivity(const std::vector<dynamics::ResponseModel>& components,
                                                        const std::vector<Contact>& contacts,
                                                        const CouplingOptions& options = {});
