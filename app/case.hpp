@@ -77,14 +77,15 @@ struct Part {
   std::vector<Support> supports;  ///< none: a free part
 };
 
-/// One measured FRF in a CSV file, converted by io/ to receptance.
+/// One measured FRF in a file, converted by io/ to receptance.
 struct MeasuredFrf {
   std::string response;  ///< DOF name, "P.x"
   std::string force;
   std::filesystem::path file;  ///< absolute, or relative to the working directory
-  std::string quantity;        ///< receptance, mobility, accelerance
-  std::string unit;            ///< of the FRF, "um/N"
+  std::string quantity;        ///< receptance, mobility, accelerance; empty: the file says it
+  std::string unit;            ///< of the FRF, "um/N"; empty: the file says it
   std::string frequency_unit;  ///< "Hz", "rad/s"
+  std::optional<int> record;   ///< number of the FRF in the file, from 1; none: its only one
 };
 
 /// A named point of the part: a fraction of the box along x, y, z or a position, then an offset.

@@ -11,6 +11,7 @@
 #include "app/cutting_checks.hpp"
 #include "app/findings.hpp"
 #include "app/lobes_checks.hpp"
+#include "app/measured.hpp"
 #include "app/part_checks.hpp"
 #include "app/path_checks.hpp"
 #include "app/robot_checks.hpp"
@@ -82,6 +83,11 @@ void require_direction(const std::string& key, const std::string& dof, Findings&
 
 /// Dimension of an FRF per newton: m/N has s²/kg, a mobility s/kg, an accelerance 1/kg.
 void check_measured(const std::string& key, const MeasuredFrf& frf, Findings& findings) {
+  const bool tells_itself = frf_file_kind(frf.file) != FrfFileKind::csv;
+  if (frf.quantity.empty() && !findings.given(key + ".quantity") && !tells_itself)
+    findings.report(key + ".quantity", "missing; say what was measured: receptance, mobility or accelerance");
+  if (frf.unit.empty() && !findings.given(key + ".unit") && !tells_itself)
+    findings.report(key + ".unit", "missing; say its unit, for example \"m/s^2/N\"");
   const int time = frf.quantity == "receptance" ? 2 : frf.quantity == "mobility" ? 1 : 0;
   if (!frf.unit.empty() && !frf.quantity.empty()) {
     try {

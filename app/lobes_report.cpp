@@ -62,6 +62,12 @@ std::string depth_margin_text(const json& p) {
                      estimate_text(p["depth_error_estimate_relative"]));
 }
 
+std::string contact_text(const json& contact) {
+  return fmt::format("    contact: {:.3g} to {:.3g} N of {:.3g} N preload{}\n", contact["least_force_n"].get<double>(),
+                     contact["largest_force_n"].get<double>(), contact["preload_n"].get<double>(),
+                     contact["lost"].get<bool>() ? ": it is lost; press harder, or cut less" : "");
+}
+
 std::string forced_text(const json& forced) {
   std::string text = "    forced: ";
   if (const json& error = forced["surface_location_error_m"]; !error.is_null()) {
@@ -89,6 +95,7 @@ std::string point_text(const json& p) {
                       speed_text(p["boundary_below_rpm"], rpm, "from the chart's lowest"),
                       speed_text(p["boundary_above_rpm"], rpm, "the chart's highest"));
   if (const json& forced = p["forced_vibration"]; !forced.is_null()) text += forced_text(forced);
+  if (p.contains("contact")) text += contact_text(p["contact"]);
   return text + sensitivities_text(p["sensitivities"]);
 }
 

@@ -1,12 +1,21 @@
 #include "app/measured.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
+#include "dynamics/frf_checks.hpp"
+#include "io/frf_csv.hpp"
+#include "io/frf_cutpro.hpp"
+#include "io/mat_response.hpp"
+#include "io/uff.hpp"
 #include "reduction/damping.hpp"
 
 namespace thinwall::app {
@@ -22,10 +31,66 @@ dynamics::Dof dof_of(const std::string& name) {
   return {name.substr(0, dot), dynamics::axis(name.substr(dot + 1)), dynamics::DofKind::translation};
 }
 
+std::optional<io::FrfFormat> stated_format(const MeasuredFrf& measured) {
+  if (measured.quantity.empty() && measured.unit.empty()) return std::nullopt;
+  return io::frf_format(measured.quantity, measured.unit, measured.frequency_unit);
+}
+
+/// The FRFs of our own MAT file, row by row.
+io::MeasuredEntries entries_of(const io::MeasuredResponse& measured, const MeasuredFrf& file) {
+  io::MeasuredEntries list;
+  const dynamics::ResponseModel& model = measured.response;
+  for (std::size_t i = 0; i < model.responses.size(); ++i) {
+    for (std::size_t j = 0; j < model.forces.size(); ++j) {
+      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
+      Eigen::VectorXcd H(model.axis.size());
+      for (Eigen::Index line = 0; line < H.size(); ++line)
+        H(line) = model.H[static_cast<std::size_t>(line)](row, column);
+      list.entries.push_back({model.responses[i],
+                              model.forces[j],
+                              {model.axis, H, file.file.string(), io::coherence_of(measured, row, column)}});
+    }
+  }
+  return list;
+}
+
+/// The FRF that the case names; what was odd in the file is logged.
+io::MeasuredFrf record_of(const io::MeasuredEntries& file, const MeasuredFrf& measured) {
+  for (const std::string& note : file.notes) spdlog::info("{}: {}", measured.file.string(), note);
+  const std::size_t count = file.entries.size();
+  const auto wanted = static_cast<std::size_t>(measured.record.value_or(1));
+  if (wanted <= count && (measured.record || count == 1)) return file.entries[wanted - 1].frf;
+  std::string list;
+  constexpr std::size_t most = 12;
+  for (std::size_t i = 0; i < std::min(count, most); ++i) {
+    const io::MeasuredEntry& entry = file.entries[i];
+    list += (i == 0 ? "" : ", ") + std::to_string(i + 1) + " " + dynamics::name(entry.response) + "/" +
+            dynamics::name(entry.force);
+  }
+  if (count > most) list += ", …";
+  throw core::InputError("\"" + measured.file.string() + "\" holds " + std::to_string(count) + " FRFs (" + list +
+                         "): say which one by record");
+}
+
 }  // namespace
 
+FrfFileKind frf_file_kind(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (extension == ".frf") return FrfFileKind::cutpro;
+  if (extension == ".uff" || extension == ".unv") return FrfFileKind::universal;
+  return extension == ".mat" ? FrfFileKind::mat : FrfFileKind::csv;
+}
+
 io::MeasuredFrf read_measured(const MeasuredFrf& measured) {
-  return io::read_frf(measured.file, io::frf_format(measured.quantity, measured.unit, measured.frequency_unit));
+  const std::optional<io::FrfFormat> stated = stated_format(measured);
+  const FrfFileKind kind = frf_file_kind(measured.file);
+  if (kind == FrfFileKind::cutpro) return io::read_cutpro_frf(measured.file, stated);
+  if (kind == FrfFileKind::universal) return record_of(io::read_uff_entries(measured.file, {stated}), measured);
+  if (kind == FrfFileKind::mat) return record_of(entries_of(io::read_mat_response(measured.file), measured), measured);
+  if (!stated)
+    throw core::InputError("\"" + measured.file.string() + "\" does not say what it holds: give quantity and unit");
+  return io::read_frf(measured.file, *stated);
 }
 
 dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files, const dynamics::FrequencyAxis& axis) {
@@ -58,6 +123,36 @@ dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files,
     }
   }
   return model;
+}
+
+void warn_of_doubts(const dynamics::ResponseModel& measured, const std::string& whose) {
+  for (const dynamics::DrivingPointSign& sign : dynamics::driving_point_signs(measured)) {
+    if (sign.verdict == dynamics::SignVerdict::passive) continue;
+    const char* cause = sign.verdict == dynamics::SignVerdict::turned
+                            ? "a sensor or a force counts in the other direction"
+                        : sign.verdict == dynamics::SignVerdict::conjugated ? "its phase is that of e^(-iwt)"
+                                                                            : "noise, or points that are not one";
+    spdlog::warn("{} FRF at {}: its imaginary part is not that of a passive structure ({})", whose,
+                 dynamics::name(measured.responses[static_cast<std::size_t>(sign.entry.row)]), cause);
+  }
+  if (const auto check = dynamics::reciprocity(measured); check && !check->holds) {
+    spdlog::warn("{} FRFs are not reciprocal: they differ by {:.0f} % of the largest at {:.1f} Hz", whose,
+                 check->figure * 100.0, check->frequency_hz);
+  }
+  if (const auto check = dynamics::passivity(measured); check && !check->holds) {
+    spdlog::warn("{} FRFs are not passive: they give energy at {:.1f} Hz, by {:.0f} % of their size", whose,
+                 check->frequency_hz, check->figure * 100.0);
+  }
+  if (measured.axis.size() < 26) return;
+  for (const dynamics::Collocated& at : dynamics::driving_points(measured)) {
+    Eigen::VectorXcd H(measured.axis.size());
+    for (Eigen::Index line = 0; line < H.size(); ++line)
+      H(line) = measured.H[static_cast<std::size_t>(line)](at.row, at.column);
+    const auto limit = dynamics::low_frequency_limit(measured.axis, H);
+    if (limit.cause == dynamics::LowFrequencyCause::none) continue;
+    spdlog::warn("{} FRF at {} is worth little below {:.1f} Hz: its lines scatter as an integrated accelerometer's do",
+                 whose, dynamics::name(measured.responses[static_cast<std::size_t>(at.row)]), limit.from_hz);
+  }
 }
 
 std::vector<double> matched_ratios(const dynamics::SpatialModel& reduced,

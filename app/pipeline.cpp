@@ -5,9 +5,11 @@
 #include <ctime>
 
 #include "app/case_reader.hpp"
+#include "app/contact_force.hpp"
 #include "app/cut_structure.hpp"
 #include "app/expectation.hpp"
 #include "app/lobes_stage.hpp"
+#include "app/measured.hpp"
 #include "app/milling_process.hpp"
 #include "app/part_stage.hpp"
 #include "app/path_stage.hpp"
@@ -79,6 +81,8 @@ void run_responses(const Case& work, Results& results, Stages& stages) {
     results.robot_posture = robot_posture(work);
     results.robot = robot_component(work, axis, results.robot_posture->posture);
   }
+  if (!work.measured_part.empty()) warn_of_doubts(results.part->response, "the part's");
+  if (work.robot && work.robot->model == "measured") warn_of_doubts(results.robot->response, "the robot's");
   if (!part || !work.robot || work.contacts.empty()) return;
   stages.begin("coupling");
   results.coupled = couple(work, *results.part, *results.robot);
@@ -101,6 +105,17 @@ void add_sampled_chart(const Case& work, const milling::ToolFrame& frame,
   }
 }
 
+/// What the contact bears at the operating points of the supported part.
+void flag_contacts(const Case& work, Results& results) {
+  for (PointStability& point : results.lobes.back().points) {
+    if (results.lobes.back().name != "supported" || !point.forced) continue;
+    point.contact = contact_force(work, *results.part, *results.robot, *point.forced);
+    if (!point.contact->lost) continue;
+    spdlog::warn("at {:.0f} rpm the cut pulls the contact open: its force falls to {:.3g} N of {:.3g} N preload",
+                 point.point.spindle_speed_rpm, point.contact->least_n, point.contact->preload_n);
+  }
+}
+
 void run_lobes(const Case& work, const std::vector<milling::OperatingPoint>& points, Results& results, Stages& stages) {
   if (!work.lobes || !work.cutting || !work.tool) return;
   const milling::ToolFrame frame = milling_process(work).frame;
@@ -120,6 +135,7 @@ void run_lobes(const Case& work, const std::vector<milling::OperatingPoint>& poi
   } else if (results.coupled) {
     add_sampled_chart(work, frame, points, results);
   }
+  if (results.coupled && work.robot->preload != Eigen::Vector3d::Zero()) flag_contacts(work, results);
   if (!work.path) return;
   stages.begin("lobes along the path");
   results.path = lobes_along_path(work, results);

@@ -83,6 +83,14 @@ struct ParameterSensitivity {
   double value = 0.0;
 };
 
+/// The force of the part on the tip along the preload while the cutter cuts, N: pressing while positive.
+struct ContactForce {
+  double preload_n = 0.0;
+  double least_n = 0.0;
+  double largest_n = 0.0;
+  bool lost = false;  ///< least_n < 0: the contact opens, and what is linear here no longer holds
+};
+
 /// What a chart says of one operating point.
 struct PointStability {
   milling::OperatingPoint point;
@@ -92,6 +100,7 @@ struct PointStability {
   milling::SpeedMargin speed;
   milling::StabilityStatus status = milling::StabilityStatus::converged;
   std::optional<milling::ForcedVibration> forced;   ///< of a stable point where poles and the feed are known
+  std::optional<ContactForce> contact;              ///< of the supported part with a preload, where `forced` is known
   std::vector<ParameterSensitivity> sensitivities;  ///< of the boundary in depth, largest first; by the direct method
 };
 

@@ -234,6 +234,12 @@ json point_of(const std::string& chart, const PointStability& found) {
       !frequency ? json(nullptr) : json(milling::name(by_poles ? found.multiplier->kind : boundary.kind));
   result["depth_error_estimate_relative"] = found.depth.at_limit ? json(nullptr) : finite(boundary.error_estimate);
   result["forced_vibration"] = found.forced ? forced_of(*found.forced) : json(nullptr);
+  if (found.contact) {
+    result["contact"] = {{"preload_n", found.contact->preload_n},
+                         {"least_force_n", found.contact->least_n},
+                         {"largest_force_n", found.contact->largest_n},
+                         {"lost", found.contact->lost}};
+  }
   result["sensitivities"] = sensitivities_summary(found.sensitivities);
   return result;
 }

@@ -1,0 +1,92 @@
+#include "app/contact_force.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "app/milling_process.hpp"
+#include "app/support_stage.hpp"
+#include "core/error.hpp"
+#include "coupling/sensitivity.hpp"
+#include "dynamics/conversion.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+
+constexpr Index harmonics = 64;
+
+/// F_k of the force on the part, part axes, k = 0 … harmonics: columns. Trapezoids over the samples, which begin and
+/// end a period.
+Eigen::Matrix3Xcd force_harmonics(const milling::ForcedVibration& cut, const Eigen::Matrix3d& R) {
+  const Index n = cut.rotation_rad.size();
+  const Eigen::ArrayXd share =
+      (cut.rotation_rad.array() - cut.rotation_rad(0)) / (cut.rotation_rad(n - 1) - cut.rotation_rad(0));
+  Eigen::ArrayXd weight = Eigen::ArrayXd::Zero(n);
+  weight.head(n - 1) += 0.5 * (share.tail(n - 1) - share.head(n - 1));
+  weight.tail(n - 1) += 0.5 * (share.tail(n - 1) - share.head(n - 1));
+  const Eigen::Matrix3Xd force = -(R * cut.force_n) * weight.matrix().asDiagonal();
+  Eigen::Matrix3Xcd F(3, harmonics + 1);
+  for (Index k = 0; k <= harmonics; ++k) {
+    const Eigen::ArrayXd phase = 2.0 * std::numbers::pi * static_cast<double>(k) * share;
+    const Eigen::VectorXcd turn = phase.cos() - Complex(0.0, 1.0) * phase.sin();
+    F.col(k) = force * turn * (k > 0 ? 2.0 : 1.0);  // both signs of the frequency
+  }
+  return F;
+}
+
+/// Rows of the translations of a point, turned into x, y, z: 3 × dofs.
+Eigen::Matrix3Xd directions(const dynamics::DofTable& dofs, const std::string& point) {
+  Eigen::Matrix3Xd D = Eigen::Matrix3Xd::Zero(3, static_cast<Index>(dofs.size()));
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    if (dofs[i].point == point && dofs[i].kind == dynamics::DofKind::translation)
+      D.col(static_cast<Index>(i)) = dofs[i].direction;
+  }
+  return D;
+}
+
+dynamics::ResponseModel response_on(const Component& known, const dynamics::FrequencyAxis& axis) {
+  if (known.spatial) return dynamics::direct_response(*known.spatial, axis);
+  if (known.modal) return dynamics::to_response(*known.modal, axis);
+  throw core::InputError("the force on a contact needs a part and a robot that are known by models");
+}
+
+}  // namespace
+
+ContactForce contact_force(const Case& source, const Component& part, const Component& tip,
+                           const milling::ForcedVibration& cut) {
+  const double preload = source.robot->preload.norm();
+  if (!(preload > 0.0)) throw core::InputError("the force on a contact is compared with robot.preload, which is zero");
+  const Eigen::Vector3d n = source.robot->preload / preload;
+  dynamics::FrequencyAxis axis{Eigen::VectorXd::LinSpaced(harmonics + 1, 0.0, static_cast<double>(harmonics)) /
+                               cut.period_s};
+  axis.hz(0) = 1e-3 * axis.hz(1);
+  const std::vector<dynamics::ResponseModel> both{response_on(part, axis), response_on(tip, axis)};
+  const coupling::CouplingSensitivity sensitivity = coupling::coupling_sensitivity(both, contacts_of(source));
+  dynamics::DofTable forces = both[0].forces;
+  forces.insert(forces.end(), both[1].forces.begin(), both[1].forces.end());
+  const Eigen::Matrix3Xd at_tip = directions(forces, source.robot->point);
+  const Eigen::Matrix3Xd at_cut = directions(sensitivity.forces, source.cutting->at);
+  const Eigen::Matrix3Xcd F = force_harmonics(cut, milling_process(source).frame.rotation());
+  ContactForce result{preload, preload, preload, false};
+  constexpr int samples = 512;
+  Eigen::VectorXd force = Eigen::VectorXd::Constant(samples, preload);
+  for (Index k = 0; k <= harmonics; ++k) {
+    // Forces on the DOFs of the cut that add up to F: its directions are a basis.
+    const Eigen::VectorXcd on_dofs =
+        at_cut.completeOrthogonalDecomposition().solve(Eigen::MatrixXd::Identity(3, 3)) * F.col(k);
+    const Complex along = n.cast<Complex>().dot(at_tip * (sensitivity.Q[static_cast<std::size_t>(k)] * on_dofs));
+    for (int i = 0; i < samples; ++i)
+      force(i) += (along * std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>(k * i) / samples)).real();
+  }
+  result.least_n = force.minCoeff();
+  result.largest_n = force.maxCoeff();
+  result.lost = result.least_n < 0.0;
+  return result;
+}
+
+}  // namespace thinwall::app
