@@ -6,6 +6,7 @@
 
 #include "app/part_checks.hpp"
 #include "app/path.hpp"
+#include "app/robot_checks.hpp"
 
 namespace thinwall::app {
 
@@ -91,7 +92,11 @@ bool check_position(const Case& source, std::size_t i, Findings& findings) {
     }
     return false;
   }
-  return true;
+  if (!source.path->robot_follows || !source.robot) return true;
+  const std::string fault = fault_of_posture(there);
+  if (fault.empty()) return true;
+  findings.report("path.support", fmt::format("at {} {}", number, fault));
+  return false;
 }
 
 bool points_known(const Case& source) {

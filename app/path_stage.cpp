@@ -1,5 +1,7 @@
 #include "app/path_stage.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <optional>
 #include <utility>
 #include <variant>
@@ -89,6 +91,8 @@ std::vector<PathLobes> lobes_along_path(const Case& source, const Results& resul
   const milling::MillingProcess process = milling_process(source);
   const StructuresAlongPath structures = structures_along_path(source, results, process.frame);
   const std::string& method = results.lobes.front().lobes.method;
+  if (structures.supported.empty() && results.coupled)
+    spdlog::warn("no charts of the supported part along the path: the robot is known by its receptances only");
   std::vector<PathLobes> all{charts(source, "part", method, process, structures.part)};
   if (!structures.supported.empty()) {
     all.push_back(charts(source, "supported", method, process, structures.supported));

@@ -66,9 +66,11 @@ void add(const Case& there, const Eigen::Vector3d& place, RobotSurvey& survey) {
   }
 }
 
+/// Round-off is shown as zero.
 std::string three(const Eigen::Vector3d& v, double unit, const char* format) {
   std::string text;
-  for (int i = 0; i < 3; ++i) text += fmt::format(fmt::runtime(format), v[i] * unit + 0.0);
+  for (int i = 0; i < 3; ++i)
+    text += fmt::format(fmt::runtime(format), std::abs(v[i] * unit) > 1e-9 ? v[i] * unit : 0.0);
   return text;
 }
 

@@ -158,6 +158,12 @@ constexpr std::array named_kinds{kind::number,
                                  kind::torsional_stiffness,
                                  kind::torsional_damping};
 
+/// "a length", "an angle".
+std::string with_article(const std::string& name) {
+  const bool vowel = !name.empty() && std::string_view("aeiou").find(name.front()) != std::string_view::npos;
+  return (vowel ? "an " : "a ") + name;
+}
+
 Quantity kind_unit(const QuantityKind& kind) {
   return kind.unit.empty() ? Quantity{1.0, {}} : parse_unit(kind.unit);
 }
@@ -217,8 +223,9 @@ double parse_quantity(std::string_view text, const QuantityKind& kind) {
   if (trimmed(rest).empty()) return bare_number(quantity.value, kind);
   const Quantity unit = kind_unit(kind);
   if (quantity.dimension != unit.dimension) {
-    throw InputError("\"" + std::string(text) + "\" is a " + dimension_name(quantity.dimension) + ", but a " +
-                     std::string(kind.name) + " is expected; write for example \"" + std::string(kind.example) + "\"");
+    throw InputError("\"" + std::string(text) + "\" is " + with_article(dimension_name(quantity.dimension)) + ", but " +
+                     with_article(std::string(kind.name)) + " is expected; write for example \"" +
+                     std::string(kind.example) + "\"");
   }
   // A quantity already in the kind's unit must come back to the last bit, so the number is scaled once only.
   std::string_view number = trimmed(text);
@@ -226,9 +233,9 @@ double parse_quantity(std::string_view text, const QuantityKind& kind) {
 }
 
 double bare_number(double value, const QuantityKind& kind) {
-  if (!std::isfinite(value)) throw InputError("a " + std::string(kind.name) + " must be a finite number");
+  if (!std::isfinite(value)) throw InputError(with_article(std::string(kind.name)) + " must be a finite number");
   if (!kind.bare_number) {
-    throw InputError("a " + std::string(kind.name) + " needs its unit; write \"" + number_text(value) + " " +
+    throw InputError(with_article(std::string(kind.name)) + " needs its unit; write \"" + number_text(value) + " " +
                      std::string(kind.unit) + "\"");
   }
   return value;
