@@ -111,6 +111,9 @@ std::vector<std::filesystem::path> input_files(const Case& source) {
   }
   if (source.tool) {
     for (const auto& frf : source.tool->measured) files.push_back(frf.file);
+    if (source.tool->swap) {
+      for (const auto& frf : source.tool->swap->measured) files.push_back(frf.file);
+    }
   }
   if (source.damping.from_frf) files.push_back(source.damping.from_frf->file);
   return files;

@@ -201,6 +201,22 @@ struct Updating {
   std::vector<UpdatingTarget> targets;
 };
 
+/// A cylinder of a tool, in order from the tip to the root.
+struct ToolStep {
+  double length = 0.0;                                ///< m
+  double outer_diameter = 0.0, inner_diameter = 0.0;  ///< m
+  double youngs_modulus = 0.0, poisson_ratio = 0.0, density = 0.0;
+};
+
+/// The tip of a tool from FRFs that were measured with another in its place.
+struct ToolSwap {
+  std::vector<MeasuredFrf> measured;  ///< between two directions of two points
+  std::string tip, up;                ///< names of the points
+  double distance = 0.0;              ///< m, of `up` from the tip
+  std::string rotations = "none";     ///< none, second_difference, corrected, rank_one
+  std::vector<ToolStep> reference, target;
+};
+
 struct Tool {
   int teeth = 0;
   double diameter = 0.0;                           ///< m
@@ -214,6 +230,7 @@ struct Tool {
   double tip_angle = 0.0, taper = 0.0;             ///< rad
   std::vector<TipMode> modes;
   std::vector<MeasuredFrf> measured;  ///< DOFs "tool.x", "tool.y", "tool.z"
+  std::optional<ToolSwap> swap;
 };
 
 /// What turning tells of a material: coefficients follow by the tool's helix.

@@ -210,6 +210,25 @@ std::vector<Updating> bind_updating(const std::vector<Table>& tables) {
   return list;
 }
 
+std::vector<ToolStep> bind_steps(const std::vector<Table>& tables) {
+  std::vector<ToolStep> steps;
+  for (const Table& step : tables) {
+    steps.push_back({step.number("length"), step.number("outer_diameter"), step.number("inner_diameter"),
+                     step.number("youngs_modulus"), step.number("poisson_ratio"), step.number("density")});
+  }
+  return steps;
+}
+
+ToolSwap bind_swap(const Table& table, const std::filesystem::path& folder) {
+  return {bind_all_measured(table.tables("measured"), folder),
+          table.text("tip"),
+          table.text("up"),
+          table.number("distance"),
+          table.text("rotations"),
+          bind_steps(table.tables("reference")),
+          bind_steps(table.tables("target"))};
+}
+
 Tool bind_tool(const Table& table, const std::filesystem::path& folder) {
   Tool tool;
   tool.teeth = table.integer("teeth");
@@ -227,6 +246,7 @@ Tool bind_tool(const Table& table, const std::filesystem::path& folder) {
   if (tool.helices.size() == 1) tool.helices.resize(static_cast<std::size_t>(tool.teeth), tool.helices.front());
   tool.modes = bind_modes(table.tables("modes"));
   tool.measured = bind_all_measured(table.tables("measured"), folder);
+  if (const Table swap = table.table("swap"); swap.exists()) tool.swap = bind_swap(swap, folder);
   for (MeasuredFrf& frf : tool.measured) {
     for (std::string* dof : {&frf.response, &frf.force}) {
       if (!dof->empty()) *dof = "tool." + *dof;

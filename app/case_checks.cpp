@@ -28,7 +28,8 @@ std::string indexed(const std::string& table, std::size_t index) {
 }
 
 void check_something_to_do(const Case& source, Findings& findings) {
-  const bool moves = source.tool && (!source.tool->modes.empty() || !source.tool->measured.empty());
+  const bool moves =
+      source.tool && (!source.tool->modes.empty() || !source.tool->measured.empty() || source.tool->swap.has_value());
   const bool tool_alone = moves && source.lobes;
   if (source.part || !source.measured_part.empty() || tool_alone || source.robot || has_table(source.values, "part"))
     return;
@@ -129,6 +130,10 @@ void check_all_measured(const Case& source, Findings& findings) {
   if (source.tool) {
     for (std::size_t i = 0; i < source.tool->measured.size(); ++i)
       check_measured(indexed("tool.measured", i), source.tool->measured[i], findings);
+    if (source.tool->swap) {
+      for (std::size_t i = 0; i < source.tool->swap->measured.size(); ++i)
+        check_measured(indexed("tool.swap.measured", i), source.tool->swap->measured[i], findings);
+    }
   }
   if (!source.robot) return;
   for (std::size_t i = 0; i < source.robot->measured.size(); ++i) {
@@ -353,7 +358,7 @@ void check_cutting(const Case& source, Findings& findings) {
 
 void check_lobes(const Case& source, Findings& findings) {
   const LobesOptions& lobes = *source.lobes;
-  if (source.tool && !source.tool->measured.empty()) check_measured_tool(*source.tool, findings);
+  if (source.tool && (!source.tool->measured.empty() || source.tool->swap)) check_measured_tool(*source.tool, findings);
   if (!source.cutting) findings.report("lobes", "there is no cut; add [cutting]");
   check_chart_choices(source, findings);
   if (source.part ? source.part->supports.empty() : !source.measured_part.empty()) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/measured.hpp"
+#include "app/tool_swap.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 #include "milling/passivity.hpp"
@@ -75,6 +76,16 @@ void warn_of_doubts(const milling::SampledReceptance& tip, const std::string& wh
   }
 }
 
+/// The swapped tip, with a warning where digits were lost.
+milling::SampledReceptance swapped(const Case& source) {
+  SwappedTip result = swapped_tip(source);
+  if (result.status == coupling::SwapStatus::ill_conditioned)
+    spdlog::warn("the tool swap lost more than half of its digits (condition {:.1e} at {:.1f} Hz): expect errors there",
+                 result.worst_condition, result.at_frequency_hz);
+  warn_of_doubts(result.tip, "the swapped tool's");
+  return std::move(result.tip);
+}
+
 milling::SampledReceptance in_tool_axes(milling::SampledReceptance tip, const milling::ToolFrame& frame) {
   const Eigen::Matrix3d R = frame.rotation();
   for (Eigen::Matrix3cd& H : tip.H) H = (R.transpose() * H * R).eval();
@@ -92,6 +103,7 @@ milling::SampledStructure sampled_structure(const Case& source, const milling::T
   felt.H.reserve(at_cut.H.size());
   for (const Eigen::MatrixXcd& H : at_cut.H) felt.H.emplace_back(D * H * D.transpose());
   warn_of_doubts(felt, "the supported part's");
+  if (source.tool->swap) throw core::InputError("a swapped tool has lines of its own; give the tool by modes");
   std::optional<milling::RelativeStructure> tool;
   if (!source.tool->measured.empty()) {
     const milling::SampledReceptance tip = measured_tip(source.tool->measured, coupled.axis);
@@ -105,6 +117,7 @@ milling::SampledStructure sampled_structure(const Case& source, const milling::T
 CutStructure cut_structure(const Case& source, const milling::ToolFrame& frame, const dynamics::ModalModel* part) {
   std::optional<milling::RelativeStructure> modal;
   if (part != nullptr) modal = part_structure(source, *part);
+  if (source.tool->swap) return milling::SampledStructure{in_tool_axes(swapped(source), frame), modal};
   if (!source.tool->measured.empty()) {
     milling::SampledReceptance tip =
         measured_tip(source.tool->measured, read_measured(source.tool->measured.front()).axis);

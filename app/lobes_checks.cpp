@@ -49,7 +49,7 @@ milling::MillingProcess outline_of(const Case& source) {
 
 void check_method(const Case& source, const std::string& key, const std::string& method, Findings& findings) {
   if (method.empty() || method == "direct") return;  // an unknown one was reported
-  if (source.tool && !source.tool->measured.empty()) {
+  if (source.tool && (!source.tool->measured.empty() || source.tool->swap)) {
     findings.report(key, "\"" + method + "\" needs poles, tool.measured has none; take \"direct\", or give tool.modes");
     return;
   }
@@ -96,7 +96,7 @@ void check_chart_choices(const Case& source, Findings& findings) {
   check_method_keys(lobes, findings);
   check_method(source, "lobes.method", lobes.method, findings);
   check_compared(source, findings);
-  if (source.tool && !source.tool->measured.empty()) {
+  if (source.tool && (!source.tool->measured.empty() || source.tool->swap)) {
     for (const char* key : {"lobes.map_depths", "lobes.uncertainty"}) {
       if (findings.given(key) || has_table(findings.values, key))
         findings.report(key, "needs poles, tool.measured has none; remove it, or give tool.modes");

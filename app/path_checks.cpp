@@ -37,7 +37,7 @@ bool check_needs(const Case& source, Findings& findings) {
     findings.report("path", "a path needs [tool], [cutting] and [lobes]; add what is missing, or remove [path]");
   if (source.path->robot_follows && (!source.robot || source.contacts.empty()))
     findings.report("path.support", "there is no robot to follow the cut; add [robot] and [[contacts]]");
-  if (source.tool && !source.tool->measured.empty())
+  if (source.tool && (!source.tool->measured.empty() || source.tool->swap))
     findings.report("path",
                     "lobes along a path need a tool known by its modes; give tool.modes in place of measured FRFs");
   const bool known_method = source.lobes && !source.lobes->method.empty();  // another was reported by the reader

@@ -6,8 +6,32 @@
 
 namespace thinwall::app {
 
+namespace {
+
+void check_swap(const Tool& tool, Findings& findings) {
+  if (!tool.modes.empty() || !tool.measured.empty())
+    findings.report("tool.swap", "stands in place of tool.modes and tool.measured; remove them");
+  if (tool.swap->reference.empty())
+    findings.report("tool.swap", "needs [[tool.swap.reference]], the tool that was measured");
+  if (tool.swap->target.empty()) findings.report("tool.swap", "needs [[tool.swap.target]], the tool that cuts");
+  if (tool.swap->measured.empty()) {
+    findings.report("tool.swap", "needs [[tool.swap.measured]], the FRFs with the reference tool");
+    return;
+  }
+  for (const std::string& point : {tool.swap->tip, tool.swap->up}) {
+    const bool there = std::ranges::any_of(
+        tool.swap->measured, [&](const MeasuredFrf& frf) { return frf.response.starts_with(point + "."); });
+    if (!there)
+      findings.report("tool.swap", "no FRF of tool.swap.measured is of point \"" + point + "\"; measure there too");
+  }
+}
+
+}  // namespace
+
 void check_measured_tool(const Tool& tool, Findings& findings) {
-  if (!tool.modes.empty()) findings.report("tool.measured", "give either tool.modes or tool.measured, not both");
+  if (tool.swap) check_swap(tool, findings);
+  if (!tool.modes.empty() && !tool.measured.empty())
+    findings.report("tool.measured", "give either tool.modes or tool.measured, not both");
   const bool helix = std::ranges::any_of(tool.helices, [](double angle) { return angle != 0.0; });
   const bool equal = std::ranges::adjacent_find(tool.pitches, std::not_equal_to<>()) == tool.pitches.end();
   if (helix)

@@ -1,0 +1,137 @@
+// A case whose tool is another than the one that was measured, against the assembled machine with that tool.
+
+#include "app/tool_swap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "app/case_reader.hpp"
+#include "app/pipeline.hpp"
+#include "app/problem.hpp"
+#include "io/uff.hpp"
+#include "tests/verification/tool_swap/machine.hpp"
+
+namespace thinwall::app {
+namespace {
+
+namespace fs = std::filesystem;
+namespace machine = coupling::testing;
+using Eigen::Vector3d;
+
+constexpr double S = 0.02;
+
+/// Steel of 16 mm, 90 mm out, measured at the tip and 20 mm up; carbide of 12 mm, 65 mm out. The elements are those of
+/// the case's own beams, so that only the swap is between them.
+dynamics::ResponseModel with_reference(const dynamics::FrequencyAxis& axis) {
+  const auto tool = fem::tool_beam({{S, machine::steel(0.016), 8}, {0.09 - S, machine::steel(0.016), 8}},
+                                   {"1", "1a", "root"}, Vector3d::UnitZ());
+  return machine::only(machine::assembled(tool, coupling::radial_contact("root", "holder"), axis),
+                       {"1.x", "1.y", "1a.x", "1a.y"});
+}
+
+dynamics::ResponseModel with_target(const dynamics::FrequencyAxis& axis) {
+  const auto tool = fem::tool_beam({{0.065, machine::carbide(0.012), 8}}, {"1", "root"}, Vector3d::UnitZ());
+  return machine::only(machine::assembled(tool, coupling::radial_contact("root", "holder"), axis), {"1.x", "1.y"});
+}
+
+std::string swap_case() {
+  std::string text = R"([tool]
+teeth = 2
+diameter = "12 mm"
+length = "20 mm"
+[tool.swap]
+distance = "20 mm"
+[[tool.swap.reference]]
+length = "90 mm"
+outer_diameter = "16 mm"
+youngs_modulus = "210 GPa"
+poisson_ratio = 0.3
+density = "7850 kg/m^3"
+[[tool.swap.target]]
+length = "65 mm"
+outer_diameter = "12 mm"
+youngs_modulus = "580 GPa"
+density = "14400 kg/m^3"
+)";
+  const char* const dofs[] = {"1.x", "1.y", "1a.x", "1a.y"};
+  for (int i = 0; i < 16; ++i) {
+    text += std::string("[[tool.swap.measured]]\nresponse = \"") + dofs[i / 4] + "\"\nforce = \"" + dofs[i % 4] +
+            "\"\nfile = \"reference.uff\"\nrecord = " + std::to_string(i + 1) + "\n";
+  }
+  return text +
+         "[cutting]\nradial_depth = \"1 mm\"\nKt = \"800 N/mm^2\"\nKr = \"240 N/mm^2\"\n"
+         "[lobes]\nfrom = \"8000 rpm\"\nto = \"20000 rpm\"\ncount = 4\n";
+}
+
+fs::path measured_folder(const dynamics::FrequencyAxis& axis) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "tool_swap_case";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  io::UffForm form;
+  form.binary = true;
+  io::write_uff(folder / "reference.uff", with_reference(axis), form);
+  return folder;
+}
+
+TEST(ToolSwapCase, TheTipIsThatOfTheAssembledMachineWithTheOtherTool) {
+  const dynamics::FrequencyAxis axis = dynamics::linear_axis(50.0, 5000.0, 199);
+  const SwappedTip found = swapped_tip(parse_case(swap_case(), measured_folder(axis)));
+  EXPECT_EQ(found.status, coupling::SwapStatus::done);
+  const dynamics::ResponseModel expected = with_target(axis);
+  double worst = 0.0;
+  for (std::size_t line = 0; line < expected.H.size(); ++line) {
+    const Eigen::Matrix2cd difference = found.tip.H[line].topLeftCorner<2, 2>() - expected.H[line];
+    worst = std::max(worst, difference.norm() / expected.H[line].norm());
+    EXPECT_EQ(found.tip.H[line](2, 2), 0.0) << "along its axis nothing is known";
+  }
+  std::printf("swapped tip against the assembled machine: %.1e\n", worst);
+  EXPECT_LT(worst, 1e-7) << "the file holds doubles; frequencies to the last bit";
+}
+
+TEST(ToolSwapCase, ItsChartIsThatOfTheMeasuredTip) {
+  const dynamics::FrequencyAxis axis = dynamics::linear_axis(5.0, 8000.0, 1600);
+  const fs::path folder = measured_folder(axis);
+  const auto swapped = run_case(parse_case(swap_case(), folder), {folder / "swap", true, -1, false}).summary;
+  io::UffForm form;
+  form.binary = true;
+  io::write_uff(folder / "target.uff", with_target(axis), form);
+  std::string text = swap_case();
+  text.replace(text.find("[tool.swap]"), text.find("[cutting]") - text.find("[tool.swap]"), "");
+  int record = 0;
+  std::string files;
+  for (const char* response : {"x", "y"}) {
+    for (const char* force : {"x", "y"}) {
+      files += std::string("[[tool.measured]]\nresponse = \"") + response + "\"\nforce = \"" + force +
+               "\"\nfile = \"target.uff\"\nrecord = " + std::to_string(++record) + "\n";
+    }
+  }
+  text.insert(text.find("[cutting]"), files);
+  const auto measured = run_case(parse_case(text, folder), {folder / "direct", true, -1, false}).summary;
+  EXPECT_NEAR(
+      swapped["lobes"][0]["minimum_depth_m"].get<double>() / measured["lobes"][0]["minimum_depth_m"].get<double>(), 1.0,
+      1e-4);
+}
+
+TEST(ToolSwapCase, WhatIsMissingIsSaid) {
+  const fs::path folder = measured_folder(dynamics::linear_axis(50.0, 5000.0, 20));
+  const auto refused = [&](std::string text, const std::string& from, const std::string& to, const std::string& part) {
+    text.replace(text.find(from), from.size(), to);
+    try {
+      (void)swapped_tip(parse_case(text, folder));
+      ADD_FAILURE() << "accepted, though " << part;
+    } catch (const core::Error& error) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  };
+  refused(swap_case(), "distance = \"20 mm\"", "distance = \"95 mm\"", "beyond the overhang");
+  refused(swap_case(), "distance = \"20 mm\"", "distance = \"0 mm\"", "above 0");
+  refused(swap_case(), "length = \"65 mm\"", "length = \"0 mm\"", "above 0");
+  refused(swap_case(), "distance = \"20 mm\"", "distance = \"20 mm\"\nup = \"2\"", "point \"2\"");
+  refused(swap_case(), "[[tool.swap.target]]", "[[tool.swap.reference]]", "needs [[tool.swap.target]]");
+  refused(swap_case(), "record = 3\n", "", "holds 16 FRFs");
+}
+
+}  // namespace
+}  // namespace thinwall::app
