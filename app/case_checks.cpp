@@ -18,6 +18,7 @@
 #include "app/schema.hpp"
 #include "app/tool_checks.hpp"
 #include "core/units.hpp"
+#include "io/frf_quantity.hpp"
 
 namespace thinwall::app {
 
@@ -82,6 +83,16 @@ void require_direction(const std::string& key, const std::string& dof, Findings&
   findings.report(key, "\"" + dof + "\" names no direction; write for example \"" + point_of(dof) + ".x\"");
 }
 
+/// True for every unit that the readers take, "g/N" among them.
+bool is_frf_unit(const std::string& quantity, const std::string& unit) {
+  try {
+    (void)io::frf_format(quantity, unit, "Hz");
+    return true;
+  } catch (const core::InputError&) {
+    return false;
+  }
+}
+
 /// Dimension of an FRF per newton: m/N has s²/kg, a mobility s/kg, an accelerance 1/kg.
 void check_measured(const std::string& key, const MeasuredFrf& frf, Findings& findings) {
   const bool tells_itself = frf_file_kind(frf.file) != FrfFileKind::csv;
@@ -90,7 +101,7 @@ void check_measured(const std::string& key, const MeasuredFrf& frf, Findings& fi
   if (frf.unit.empty() && !findings.given(key + ".unit") && !tells_itself)
     findings.report(key + ".unit", "missing; say its unit, for example \"m/s^2/N\"");
   const int time = frf.quantity == "receptance" ? 2 : frf.quantity == "mobility" ? 1 : 0;
-  if (!frf.unit.empty() && !frf.quantity.empty()) {
+  if (!frf.unit.empty() && !frf.quantity.empty() && !is_frf_unit(frf.quantity, frf.unit)) {
     try {
       if (core::parse_unit(frf.unit).dimension != core::Dimension{0, -1, time, 0, 0}) {
         findings.report(key + ".unit", "\"" + frf.unit + "\" is no unit of a " + frf.quantity +
@@ -307,7 +318,7 @@ void check_target(const Case& source, const std::string& on, const std::string& 
 void check_coupled_fit(const Case& source, const std::string& key, Findings& findings) {
   if (!source.robot || source.contacts.empty() || source.points.empty())
     findings.report(key + ".on", "\"coupled\" needs [robot], [[contacts]] and [points]");
-  if (source.robot && source.robot->model == "measured")
+  if (source.robot && (source.robot->model == "measured" || source.robot->model == "modal_table"))
     findings.report(key + ".on", "\"coupled\" needs a robot that is modelled, not a measured one; set robot.model");
   if (source.part->supports.empty())
     findings.report(key + ".on", "\"coupled\" needs a part that is held; add [[part.supports]]");

@@ -76,7 +76,10 @@ ExitCode robot(const Arguments& arguments, std::ostream& out) {
   const RobotSurvey found = survey(source);
   const ResultFolder folder(arguments.out.empty() ? default_result_folder(source)
                                                   : std::filesystem::path(arguments.out));
+  log_to_file(folder.path() / "run.log");  // marks the folder as ours
   write_survey(folder.path(), source, found);
+  if (found.tips.empty())
+    throw core::InputError("the robot reaches none of the places; at the first, " + found.out_of_reach.front().reason);
   if (!source.title.empty()) out << source.title << '\n';
   out << survey_text(found) << "  tables: " << (folder.path() / "robot").string() << '\n';
   return ExitCode::done;

@@ -54,12 +54,32 @@ io::MeasuredEntries entries_of(const io::MeasuredResponse& measured, const Measu
   return list;
 }
 
+/// The FRF with its signs: a sensor or hammer along −x turns it. One along another axis than the case names is warned
+/// of, for the axes of a test need not be the part's.
+io::MeasuredFrf along_named_axes(const io::MeasuredEntry& entry, const MeasuredFrf& measured) {
+  io::MeasuredFrf frf = entry.frf;
+  for (const auto& [dof, name] : {std::pair{&entry.response, &measured.response}, {&entry.force, &measured.force}}) {
+    const double along = dof->direction.dot(dof_of(*name).direction);
+    const bool axis = dof->direction.cwiseAbs().maxCoeff() > 0.999;  // zero or slanted: the case knows better
+    if (axis && along < -0.999) {
+      frf.H = -frf.H;
+      spdlog::info("{}: {} points against {}: the FRF is turned", measured.file.string(), dynamics::name(*dof), *name);
+    } else if (axis && along < 0.999) {
+      spdlog::warn("{}: the file says {}, the case {}; check record and axes", measured.file.string(),
+                   dynamics::name(*dof), *name);
+    }
+  }
+  return frf;
+}
+
 /// The FRF that the case names; what was odd in the file is logged.
 io::MeasuredFrf record_of(const io::MeasuredEntries& file, const MeasuredFrf& measured) {
-  for (const std::string& note : file.notes) spdlog::info("{}: {}", measured.file.string(), note);
+  const bool stated = !measured.quantity.empty() || !measured.unit.empty();
+  const auto level = stated ? spdlog::level::warn : spdlog::level::info;  // a statement may go over what the file says
+  for (const std::string& note : file.notes) spdlog::log(level, "{}: {}", measured.file.string(), note);
   const std::size_t count = file.entries.size();
   const auto wanted = static_cast<std::size_t>(measured.record.value_or(1));
-  if (wanted <= count && (measured.record || count == 1)) return file.entries[wanted - 1].frf;
+  if (wanted <= count && (measured.record || count == 1)) return along_named_axes(file.entries[wanted - 1], measured);
   std::string list;
   constexpr std::size_t most = 12;
   for (std::size_t i = 0; i < std::min(count, most); ++i) {
@@ -87,6 +107,9 @@ io::MeasuredFrf read_measured(const MeasuredFrf& measured) {
   const FrfFileKind kind = frf_file_kind(measured.file);
   if (kind == FrfFileKind::cutpro) return io::read_cutpro_frf(measured.file, stated);
   if (kind == FrfFileKind::universal) return record_of(io::read_uff_entries(measured.file, {stated}), measured);
+  if (kind == FrfFileKind::mat && stated &&
+      (stated->quantity != io::FrfQuantity::receptance || stated->unit_in_si != 1.0))
+    throw core::InputError("\"" + measured.file.string() + "\" holds receptances in m/N: leave out quantity and unit");
   if (kind == FrfFileKind::mat) return record_of(entries_of(io::read_mat_response(measured.file), measured), measured);
   if (!stated)
     throw core::InputError("\"" + measured.file.string() + "\" does not say what it holds: give quantity and unit");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "app/part_checks.hpp"
 #include "app/path.hpp"
@@ -37,6 +38,11 @@ bool check_needs(const Case& source, Findings& findings) {
     findings.report("path", "a path needs [tool], [cutting] and [lobes]; add what is missing, or remove [path]");
   if (source.path->robot_follows && (!source.robot || source.contacts.empty()))
     findings.report("path.support", "there is no robot to follow the cut; add [robot] and [[contacts]]");
+  if (source.path->robot_follows && source.robot &&
+      (!source.robot->posture.joints.empty() || source.robot->posture.tip))
+    findings.report("path.support",
+                    "the robot cannot follow with robot.posture.joints or tip, which hold it in one "
+                    "place; give its posture by pitch or approach");
   if (source.tool && (!source.tool->measured.empty() || source.tool->swap))
     findings.report("path",
                     "lobes along a path need a tool known by its modes; give tool.modes in place of measured FRFs");
@@ -72,7 +78,7 @@ std::string fault_at(const Case& there, const Point& p) {
 }
 
 /// The first position that does not do; true if all do.
-bool check_position(const Case& source, std::size_t i, Findings& findings) {
+bool check_position(const Case& source, std::size_t i, std::optional<Eigen::VectorXd>& near, Findings& findings) {
   const std::string number =
       "position " + std::to_string(i + 1) + " of " + std::to_string(source.path->positions.size());
   const Case there = at_position(source, i);
@@ -93,7 +99,7 @@ bool check_position(const Case& source, std::size_t i, Findings& findings) {
     return false;
   }
   if (!source.path->robot_follows || !source.robot) return true;
-  const std::string fault = fault_of_posture(there);
+  const std::string fault = fault_of_posture(there, near);
   if (fault.empty()) return true;
   findings.report("path.support", fmt::format("at {} {}", number, fault));
   return false;
@@ -116,8 +122,9 @@ void check_path(const Case& source, Findings& findings) {
   if (!finite(source.path->positions)) return;  // reported by the reader
   check_length(*source.path, findings);
   if (!complete || !points_known(source)) return;
+  std::optional<Eigen::VectorXd> near;
   for (std::size_t i = 0; i < source.path->positions.size(); ++i) {
-    if (!check_position(source, i, findings)) return;
+    if (!check_position(source, i, near, findings)) return;
   }
 }
 

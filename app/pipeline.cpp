@@ -16,6 +16,7 @@
 #include "app/result_files.hpp"
 #include "app/results.hpp"
 #include "app/robot_stage.hpp"
+#include "app/robot_survey.hpp"
 #include "app/stages.hpp"
 #include "app/summary.hpp"
 #include "app/support_stage.hpp"
@@ -80,6 +81,8 @@ void run_responses(const Case& work, Results& results, Stages& stages) {
   if (work.robot) {
     results.robot_posture = robot_posture(work);
     results.robot = robot_component(work, axis, results.robot_posture->posture);
+    results.survey = survey(work);
+    if (results.survey->tips.empty()) spdlog::warn("the robot reaches no place of its workspace");
   }
   if (!work.measured_part.empty()) warn_of_doubts(results.part->response, "the part's");
   if (work.robot && work.robot->model == "measured") warn_of_doubts(results.robot->response, "the robot's");
@@ -100,7 +103,9 @@ void add_sampled_chart(const Case& work, const milling::ToolFrame& frame,
   try {
     const auto structure = sampled_structure(work, frame, results.coupled->receptance.response);
     results.lobes.push_back(compute_lobes(work, "supported", structure, points));
-  } catch (const core::InputError& error) {
+  } catch (const core::Interrupted&) {
+    throw;
+  } catch (const core::Error& error) {
     spdlog::warn("no chart of the supported part, whose robot is known by its receptances only: {}", error.what());
   }
 }

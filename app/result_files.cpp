@@ -11,6 +11,7 @@
 #include "app/case_writer.hpp"
 #include "app/doctor.hpp"
 #include "app/lobes_files.hpp"
+#include "app/result_folder.hpp"
 #include "app/robot_survey.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -30,8 +31,6 @@ namespace thinwall::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::array subfolders{"modes", "frf", "robot", "lobes", "models"};
 
 std::string numbered(const std::string& stem, std::size_t number) {
   char text[16];
@@ -169,7 +168,7 @@ nlohmann::json records(const std::vector<io::FileRecord>& files) {
 }  // namespace
 
 void write_results(const fs::path& folder, const Case& source, const Results& results) {
-  for (const char* name : subfolders) fs::create_directories(folder / name);
+  for (const char* name : result_subfolders) fs::create_directories(folder / name);
   Files files;
   if (results.finite_elements) {
     write_part_modes(files, folder / "modes", results);
@@ -186,7 +185,7 @@ void write_results(const fs::path& folder, const Case& source, const Results& re
     if (results.coupled->spatial_response) add_frf("coupled_spatial", *results.coupled->spatial_response);
   }
   if (results.robot) files.emplace_back([&] { write_frf(folder / "frf", "robot", results.robot->response); });
-  if (results.robot) files.emplace_back([&] { write_survey(folder, source, survey(source)); });
+  if (results.survey) files.emplace_back([&] { write_survey(folder, source, *results.survey); });
   for (const auto& lobes : results.lobes) files.emplace_back([&] { write_lobes(folder / "lobes", lobes); });
   for (const auto& path : results.path) files.emplace_back([&] { write_path(folder / "lobes", source, path); });
   if (results.finite_elements) files.front()();  // alone: VTK's first objects set up what all share
@@ -198,7 +197,7 @@ void publish(const fs::path& staging, const fs::path& folder) {
   const fs::path earlier = core::partial_path(folder / "earlier");
   try {
     fs::create_directory(earlier);
-    for (const char* name : subfolders) {
+    for (const char* name : result_subfolders) {
       if (fs::exists(folder / name)) fs::rename(folder / name, earlier / name);
       fs::rename(staging / name, folder / name);
     }

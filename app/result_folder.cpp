@@ -33,7 +33,7 @@ void make_folder(const std::filesystem::path& folder) {
 /// Folders that a run replaces must be a run's own.
 void refuse_foreign_content(const std::filesystem::path& folder) {
   if (std::filesystem::exists(folder / "run.log") || std::filesystem::exists(folder / "manifest.json")) return;
-  for (const char* name : {"modes", "frf", "lobes", "models"}) {
+  for (const char* name : result_subfolders) {
     if (std::filesystem::exists(folder / name)) {
       refuse(folder, std::string("it has a \"") + name +
                          "\" that no run of thinwall left there and that this run would replace");

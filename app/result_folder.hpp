@@ -1,11 +1,15 @@
 #pragma once
 // Where a run leaves its results: one run at a time, and nothing that is not whole.
 
+#include <array>
 #include <filesystem>
 
 #include "app/case.hpp"
 
 namespace thinwall::app {
+
+/// Folders of a result folder, which a run replaces whole.
+inline constexpr std::array result_subfolders{"modes", "frf", "robot", "lobes", "models"};
 
 /// results/<case>/ below the working directory.
 [[nodiscard]] std::filesystem::path default_result_folder(const Case& source);

@@ -58,6 +58,28 @@ struct RobotPosture {
   std::optional<double> smallest_singular;  ///< of the tip's Jacobian, 1 m a radian, over its largest
 };
 
+/// The tip in one posture. Stiffnesses are static, N/m: force over displacement along the same direction with the other
+/// forces zero, 1/H_nn(0); infinite where the tip does not move. None of a robot known by measured receptances.
+struct TipReport {
+  RobotPosture robot;
+  std::vector<dynamics::ModeSummary> modes;
+  std::optional<Eigen::Vector3d> stiffness;           ///< along x, y, z of the part
+  std::optional<double> least_stiffness;              ///< over all directions
+  Eigen::Vector3d softest = Eigen::Vector3d::Zero();  ///< the direction of that, a unit vector
+};
+
+/// A place that the arm does not take, and why.
+struct OutOfReach {
+  Eigen::Vector3d place;
+  std::string reason;
+};
+
+struct RobotSurvey {
+  std::string over = "posture";  ///< posture, path, workspace
+  std::vector<TipReport> tips;
+  std::vector<OutOfReach> out_of_reach;
+};
+
 /// Part and robot joined by both routes.
 struct CouplingResult {
   coupling::CoupledResponse receptance;
@@ -157,6 +179,7 @@ struct Results {
   std::optional<Component> part;
   std::optional<RobotPosture> robot_posture;
   std::optional<Component> robot;
+  std::optional<RobotSurvey> survey;
   std::optional<CouplingResult> coupled;
   std::vector<AmplitudeReduction> reductions;
   std::vector<NamedLobes> lobes;

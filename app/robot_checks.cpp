@@ -138,7 +138,7 @@ void check_posture_keys(const Robot& robot, Findings& findings) {
     findings.report("robot.workspace", "needs a posture by pitch or approach; joints hold the arm in one place");
   for (const auto& [key, list] :
        {std::pair{"robot.posture.joints", &wish.joints}, std::pair{"robot.posture.start", &wish.start}}) {
-    if (list->empty() || list->size() == robot.arm.links.size()) continue;
+    if (!findings.given(key) || list->size() == robot.arm.links.size()) continue;
     findings.report(key, std::to_string(list->size()) + " angles for " + std::to_string(robot.arm.links.size()) +
                              " joints; give one for each");
   }
@@ -175,8 +175,6 @@ void check_arm(const Case& source, Findings& findings) {
   }
   const std::size_t before = findings.problems.size();
   check_counterbalances(source, findings);
-  if (std::abs(robot.arm.base.linear().col(0).dot(robot.arm.base.linear().col(2))) > 1e-9)
-    findings.report("robot.base.x", "is not at a right angle to robot.base.z; a frame's axes are");
   for (std::size_t i = 0; i < robot.arm.links.size(); ++i) {
     const std::string key = "robot.links[" + std::to_string(i) + "].inertia";
     const CaseValue* inertia = find(source.values, key);
@@ -192,8 +190,10 @@ void check_arm(const Case& source, Findings& findings) {
     findings.report("robot.links", error.what());
     return;
   }
-  if (!robot.workspace.empty()) return;  // places that are not reached are told by the survey
-  if (const std::string fault = fault_of_posture(source); !fault.empty()) findings.report("robot.posture", fault);
+  // Places of a workspace that are not reached are told by the survey; what the coupling needs must be.
+  if (!robot.workspace.empty() && source.contacts.empty() && !robot.posture.tip) return;
+  std::optional<Eigen::VectorXd> near;
+  if (const std::string fault = fault_of_posture(source, near); !fault.empty()) findings.report("robot.posture", fault);
 }
 
 void check_table(const Case& source, Findings& findings) {
@@ -270,10 +270,12 @@ std::vector<Eigen::Vector3d> tip_directions(const Robot& robot) {
   return directions;
 }
 
-std::string fault_of_posture(const Case& source) {
+std::string fault_of_posture(const Case& source, std::optional<Eigen::VectorXd>& near) {
   if (source.robot->model != "flexible_joints") return "";
   try {
-    (void)robot::linearised(source.robot->arm, robot_posture(source).posture, source.robot->point);
+    const RobotPosture stands = robot_posture(source, near);
+    (void)robot::linearised(source.robot->arm, stands.posture, source.robot->point);
+    near = stands.posture.q;
   } catch (const core::InputError& error) {
     return error.what();
   }
@@ -284,6 +286,10 @@ void check_robot(const Case& source, Findings& findings) {
   const Robot& robot = *source.robot;
   if (robot.model.empty()) return;  // reported by the reader
   check_belongings(source, findings);
+  if (std::abs(robot.arm.base.linear().col(0).dot(robot.arm.base.linear().col(2))) > 1e-9) {
+    findings.report("robot.base.x", "is not at a right angle to robot.base.z; a frame's axes are");
+    return;
+  }
   if (robot.model == "one_mode") check_one_mode(robot, findings);
   if (robot.model == "modes" && robot.modes.empty())
     findings.report("robot.model", "modes needs [[robot.modes]], at least one");

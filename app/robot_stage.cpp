@@ -28,7 +28,11 @@ using Eigen::Vector3d;
 
 robot::OneMode single_mode(const Robot& robot) {
   const double k = *robot.stiffness;
-  if (!robot.mass) return robot::one_mode(*robot.frequency_hz, robot.damping_ratio.value_or(0.0), k, robot.direction);
+  if (!robot.mass) {
+    robot::OneMode mode = robot::one_mode(*robot.frequency_hz, robot.damping_ratio.value_or(0.0), k, robot.direction);
+    if (robot.damping) mode.damping = *robot.damping;
+    return mode;
+  }
   const double c =
       robot.damping ? *robot.damping : 2.0 * robot.damping_ratio.value_or(0.0) * std::sqrt(k * *robot.mass);
   return {*robot.mass, c, k, robot.direction};
@@ -117,6 +121,8 @@ Eigen::VectorXd joints_of(const Case& source, const std::optional<Eigen::VectorX
   };
   if (!wish.joints.empty()) return as_vector(wish.joints);
   if (wish.pitch) return four_axis_posture(robot, wanted_place(source));
+  if (!wish.approach)
+    throw core::InputError("how the robot stands is not known; give robot.posture by joints, pitch or approach");
   const Eigen::VectorXd start = wish.start.empty() ? Eigen::VectorXd::Zero(robot.arm.joints()) : as_vector(wish.start);
   return searched_posture(robot, wanted_place(source), near.value_or(start));
 }

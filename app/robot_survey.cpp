@@ -34,6 +34,7 @@ Eigen::Matrix3Xd translations_of(const dynamics::DofTable& dofs) {
 
 /// Re H(0) between the tip's translations, m/N; none without a model.
 std::optional<Eigen::Matrix3d> static_compliance(const Component& tip) {
+  if (tip.spatial && !tip.modal) return std::nullopt;  // it moves without any force
   if (tip.spatial) {
     const Eigen::MatrixXd T = translations_of(tip.spatial->dofs) * dynamics::displacements(*tip.spatial);
     return T * tip.spatial->K.ldlt().solve(T.transpose());
@@ -144,6 +145,20 @@ void write_arms(const std::filesystem::path& path, const robot::SerialArm& arm, 
   io::write_polylines(path, lines, numbers);
 }
 
+void write_out_of_reach(const std::filesystem::path& below, const RobotSurvey& survey) {
+  if (survey.out_of_reach.empty()) return;
+  std::vector<double> x, y, z;
+  std::vector<std::string> reasons;
+  for (const OutOfReach& out : survey.out_of_reach) {
+    x.push_back(out.place.x());
+    y.push_back(out.place.y());
+    z.push_back(out.place.z());
+    reasons.push_back(out.reason);
+  }
+  std::ranges::for_each(reasons, [](std::string& reason) { std::ranges::replace(reason, ',', ';'); });
+  io::write_csv(below / "out_of_reach.csv", {{"x_m", x}, {"y_m", y}, {"z_m", z}, {"reason", reasons}});
+}
+
 }  // namespace
 
 TipReport tip_report(const RobotPosture& robot, const Component& tip) {
@@ -172,8 +187,9 @@ RobotSurvey survey(const Case& source) {
   RobotSurvey survey;
   if (!source.robot->workspace.empty()) {
     survey.over = "workspace";
+    Case there = source;
+    there.robot->workspace.clear();
     for (const Eigen::Vector3d& place : source.robot->workspace) {
-      Case there = source;
       there.robot->posture.tip = place;
       add(there, place, survey);
     }
@@ -184,8 +200,6 @@ RobotSurvey survey(const Case& source) {
   } else {
     survey.tips.push_back(report_at(source, {}));
   }
-  if (survey.tips.empty())
-    throw core::InputError("the robot reaches none of the places; at the first, " + survey.out_of_reach.front().reason);
   return survey;
 }
 
@@ -235,21 +249,13 @@ std::string survey_text(const RobotSurvey& survey) {
 
 void write_survey(const std::filesystem::path& folder, const Case& source, const RobotSurvey& survey) {
   const std::filesystem::path below = folder / "robot";
+  std::filesystem::remove_all(below);  // tables of an earlier survey
   std::filesystem::create_directories(below);
+  write_out_of_reach(below, survey);
+  if (survey.tips.empty()) return;
   const io::Table table = columns(survey);
   io::write_csv(below / "postures.csv", table, {"tip of the robot, part axes; stiffness: static, 1/H_nn(0)"});
   if (source.robot->model == "flexible_joints") write_arms(below / "postures.vtu", source.robot->arm, survey, table);
-  if (survey.out_of_reach.empty()) return;
-  std::vector<double> x, y, z;
-  std::vector<std::string> reasons;
-  for (const OutOfReach& out : survey.out_of_reach) {
-    x.push_back(out.place.x());
-    y.push_back(out.place.y());
-    z.push_back(out.place.z());
-    reasons.push_back(out.reason);
-  }
-  std::ranges::for_each(reasons, [](std::string& reason) { std::ranges::replace(reason, ',', ';'); });
-  io::write_csv(below / "out_of_reach.csv", {{"x_m", x}, {"y_m", y}, {"z_m", z}, {"reason", reasons}});
 }
 
 }  // namespace thinwall::app

@@ -12,33 +12,11 @@
 
 namespace thinwall::app {
 
-/// The tip in one posture. Stiffnesses are static, N/m: force over displacement along the same direction with the other
-/// forces zero, 1/H_nn(0); infinite where the tip does not move. None of a robot known by measured receptances.
-struct TipReport {
-  RobotPosture robot;
-  std::vector<dynamics::ModeSummary> modes;
-  std::optional<Eigen::Vector3d> stiffness;           ///< along x, y, z of the part
-  std::optional<double> least_stiffness;              ///< over all directions
-  Eigen::Vector3d softest = Eigen::Vector3d::Zero();  ///< the direction of that, a unit vector
-};
-
-/// A place that the arm does not take, and why.
-struct OutOfReach {
-  Eigen::Vector3d place;
-  std::string reason;
-};
-
-struct RobotSurvey {
-  std::string over = "posture";  ///< posture, path, workspace
-  std::vector<TipReport> tips;
-  std::vector<OutOfReach> out_of_reach;
-};
-
 /// The tip as the coupling sees it, in that posture.
 [[nodiscard]] TipReport tip_report(const RobotPosture& robot, const Component& tip);
 
 /// The robot over its workspace where the case has one, else along its path where the robot follows the cut, else in
-/// its one posture. Throws InputError for a case without robot, or if no place at all is reached. Cost O(joints³) a
+/// its one posture. No tip at all is an answer, too. Throws InputError for a case without robot. Cost O(joints³) a
 /// posture.
 [[nodiscard]] RobotSurvey survey(const Case& source);
 
