@@ -6,9 +6,11 @@
 #include <numbers>
 
 #include "app/case_reader.hpp"
+#include "app/measured.hpp"
 #include "app/problem.hpp"
 #include "app/robot_stage.hpp"
 #include "core/atomic_file.hpp"
+#include "io/uff.hpp"
 #include "robot/arm_kinematics.hpp"
 #include "temporary_folder.hpp"
 
@@ -88,6 +90,8 @@ TEST(RobotCase, WhatAnArmCannotBeIsSaid) {
   expect_problem(arm, "robot.posture", "give either joints, or pitch");
   expect_problem(arm + reaching + "joints = [0, 0, 0, 0]\n", "robot.posture", "give either joints, or pitch");
   expect_problem(arm + "[robot.posture]\njoints = [0, 0]\n", "robot.posture.joints", "2 angles for 4 joints");
+  expect_problem(arm + "[robot.posture]\njoints = []\ntip = [1, 0, 1]\n", "robot.posture.joints",
+                 "0 angles for 4 joints");
   expect_problem(arm + with(reaching, "1.2 m", "9 m"), "robot.posture", "is out of reach");
   expect_problem(with(arm, "inertia = [1, 1, 0.5]", "inertia = [1, 1]") + reaching, "robot.links[0].inertia",
                  "three moments");
@@ -125,6 +129,23 @@ TEST(RobotCase, SeveralModesHoldInTheirDirectionsOnly) {
   expect_problem("[robot]\nmodel = \"modes\"\n", "robot.model", "modes needs [[robot.modes]]");
   expect_problem(robot + "[robot.posture]\njoints = [0]\n", "robot.posture",
                  "belongs to robot.model = \"flexible_joints\"");
+}
+
+// A hammer along −x turns the sign of the receptance, which the file tells and the case need not.
+TEST(RobotCase, SignsOfAFilesDirectionsCount) {
+  const TemporaryFolder folder;
+  dynamics::ResponseModel tip;
+  tip.axis = dynamics::linear_axis(1.0, 100.0, 12);
+  tip.responses = {{"R", Eigen::Vector3d::UnitX()}};
+  tip.forces = {{"R", -Eigen::Vector3d::UnitX()}};
+  for (int line = 0; line < 12; ++line)
+    tip.H.emplace_back(Eigen::MatrixXcd::Constant(1, 1, {-1e-6, 1e-7 * (line + 1)}));
+  io::write_uff(folder.path / "tip.uff", tip);
+  const MeasuredFrf named{"R.x", "R.x", folder.path / "tip.uff", "", "", "Hz", {}};
+  EXPECT_NEAR(read_measured(named).H(3).real(), 1e-6, 1e-18);
+  EXPECT_NEAR(read_measured(named).H(3).imag(), -4e-7, 1e-18);
+  const MeasuredFrf second{"R.x", "R.x", folder.path / "tip.uff", "", "", "Hz", 2};
+  EXPECT_THROW((void)read_measured(second), core::InputError);
 }
 
 const std::string urdf = R"(<robot name="two"><link name="base"/>
