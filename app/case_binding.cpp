@@ -212,6 +212,7 @@ std::vector<Updating> bind_updating(const std::vector<Table>& tables) {
 
 std::vector<ToolStep> bind_steps(const std::vector<Table>& tables) {
   std::vector<ToolStep> steps;
+  steps.reserve(tables.size());
   for (const Table& step : tables) {
     steps.push_back({step.number("length"), step.number("outer_diameter"), step.number("inner_diameter"),
                      step.number("youngs_modulus"), step.number("poisson_ratio"), step.number("density")});
