@@ -71,6 +71,16 @@ void run_coupled_updating(Case& work, Results& results, Stages& stages) {
   }
 }
 
+/// An arm that stands by its joints may stand elsewhere than at its contact.
+void warn_of_distance(const Case& work, const RobotPosture& robot) {
+  const auto place = contact_place(work);
+  if (!robot.tip || !place || (*robot.tip - *place).norm() <= 1e-3) return;
+  spdlog::warn(
+      "the robot's tip stands {:.1f} mm from its contact at \"{}\": it is joined as if it touched; check "
+      "robot.base and robot.posture",
+      (*robot.tip - *place).norm() * 1e3, work.contacts.front().part_point);
+}
+
 void run_responses(const Case& work, Results& results, Stages& stages) {
   const bool reduced = results.finite_elements && results.finite_elements->damped;
   const bool part = reduced || !work.measured_part.empty();
@@ -81,6 +91,7 @@ void run_responses(const Case& work, Results& results, Stages& stages) {
   if (work.robot) {
     results.robot_posture = robot_posture(work);
     results.robot = robot_component(work, axis, results.robot_posture->posture);
+    warn_of_distance(work, *results.robot_posture);
     results.survey = survey(work);
     if (results.survey->tips.empty()) spdlog::warn("the robot reaches no place of its workspace");
   }

@@ -70,10 +70,8 @@ dynamics::ModalModel tabled_tip(const Robot& robot) {
 /// Where the tip is to be, in space.
 Vector3d wanted_place(const Case& source) {
   if (source.robot->posture.tip) return *source.robot->posture.tip;
-  if (source.contacts.empty() || !source.part)
-    throw core::InputError("the place of the robot's tip is not known; give robot.posture.tip or a contact");
-  const Vector3d flat = position(*source.part, point(source, source.contacts.front().part_point));
-  return source.part->bend ? mesh::bent(bend_of(*source.part), flat) : flat;
+  if (const auto place = contact_place(source)) return *place;
+  throw core::InputError("the place of the robot's tip is not known; give robot.posture.tip or a contact");
 }
 
 /// The closed form's posture on the wanted side and with the wanted elbow.
@@ -134,6 +132,12 @@ double smallest_singular(const robot::ArmPose& at) {
 }
 
 }  // namespace
+
+std::optional<Vector3d> contact_place(const Case& source) {
+  if (source.contacts.empty() || !source.part) return std::nullopt;
+  const Vector3d flat = position(*source.part, point(source, source.contacts.front().part_point));
+  return source.part->bend ? mesh::bent(bend_of(*source.part), flat) : flat;
+}
 
 robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis) {
   if (robot.model == "flexible_joints") return robot::flexible_joints(robot.arm, robot.point);

@@ -9,6 +9,9 @@
 
 namespace thinwall::app {
 
+/// Where the first contact is on the part, in space, m; none without a contact or a modelled part.
+[[nodiscard]] std::optional<Eigen::Vector3d> contact_place(const Case& source);
+
 /// The tip at any posture, by the model that the case names. Measured receptances are put on `axis`.
 [[nodiscard]] robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis);
 
