@@ -75,10 +75,10 @@ ContactForce contact_force(const Case& source, const Component& part, const Comp
   ContactForce result{preload, preload, preload, false};
   constexpr int samples = 512;
   Eigen::VectorXd force = Eigen::VectorXd::Constant(samples, preload);
+  // Forces on the DOFs of the cut that add up to F: their directions are a basis.
+  const Eigen::MatrixXd to_dofs = at_cut.completeOrthogonalDecomposition().pseudoInverse();
   for (Index k = 0; k <= harmonics; ++k) {
-    // Forces on the DOFs of the cut that add up to F: its directions are a basis.
-    const Eigen::VectorXcd on_dofs =
-        at_cut.completeOrthogonalDecomposition().solve(Eigen::MatrixXd::Identity(3, 3)) * F.col(k);
+    const Eigen::VectorXcd on_dofs = to_dofs * F.col(k);
     const Complex along = n.cast<Complex>().dot(at_tip * (sensitivity.Q[static_cast<std::size_t>(k)] * on_dofs));
     for (int i = 0; i < samples; ++i)
       force(i) += (along * std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>(k * i) / samples)).real();

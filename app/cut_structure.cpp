@@ -8,21 +8,18 @@
 #include <utility>
 
 #include "app/measured.hpp"
+#include "app/robot_stage.hpp"
 #include "app/tool_swap.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 #include "milling/passivity.hpp"
-#include "robot/one_mode.hpp"
 
 namespace thinwall::app {
 
 namespace {
 
 milling::RelativeStructure tool_modes(const Tool& tool) {
-  std::vector<robot::OneMode> modes;
-  for (const TipMode& m : tool.modes)
-    modes.push_back(robot::one_mode(m.frequency_hz, m.damping_ratio, m.stiffness, m.direction));
-  return milling::relative_structure(dynamics::to_modal(robot::spatial_model(modes, "tool")), "tool");
+  return milling::relative_structure(dynamics::to_modal(robot::spatial_model(one_modes(tool.modes), "tool")), "tool");
 }
 
 milling::RelativeStructure part_structure(const Case& source, const dynamics::ModalModel& part) {

@@ -38,14 +38,6 @@ robot::OneMode single_mode(const Robot& robot) {
   return {*robot.mass, c, k, robot.direction};
 }
 
-std::vector<robot::OneMode> modes_of(const std::vector<TipMode>& list) {
-  std::vector<robot::OneMode> modes;
-  modes.reserve(list.size());
-  for (const TipMode& m : list)
-    modes.push_back(robot::one_mode(m.frequency_hz, m.damping_ratio, m.stiffness, m.direction));
-  return modes;
-}
-
 /// One file is along robot.direction, several are between the tip's axes.
 dynamics::ResponseModel measured_tip(const Robot& robot, const dynamics::FrequencyAxis& axis) {
   if (robot.measured.size() > 1) return measured_response(robot.measured, axis);
@@ -139,13 +131,21 @@ std::optional<Vector3d> contact_place(const Case& source) {
   return source.part->bend ? mesh::bent(bend_of(*source.part), flat) : flat;
 }
 
+std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list) {
+  std::vector<robot::OneMode> modes;
+  modes.reserve(list.size());
+  for (const TipMode& m : list)
+    modes.push_back(robot::one_mode(m.frequency_hz, m.damping_ratio, m.stiffness, m.direction));
+  return modes;
+}
+
 robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis) {
   if (robot.model == "flexible_joints") return robot::flexible_joints(robot.arm, robot.point);
   if (robot.model == "measured") return robot::in_one_posture(measured_tip(robot, axis));
   if (robot.model == "modal_table") return robot::in_one_posture(tabled_tip(robot));
   if (robot.model == "virtual_joints")
     return robot::in_one_posture(robot::spatial_model(robot::reduced_tip(robot.chains), robot.point));
-  const auto modes = robot.model == "modes" ? modes_of(robot.modes) : std::vector{single_mode(robot)};
+  const auto modes = robot.model == "modes" ? one_modes(robot.modes) : std::vector{single_mode(robot)};
   return robot::in_one_posture(robot::spatial_model(modes, robot.point));
 }
 

@@ -5,12 +5,16 @@
 
 #include "app/case.hpp"
 #include "app/results.hpp"
+#include "robot/one_mode.hpp"
 #include "robot/tip_model.hpp"
 
 namespace thinwall::app {
 
 /// Where the first contact is on the part, in space, m; none without a contact or a modelled part.
 [[nodiscard]] std::optional<Eigen::Vector3d> contact_place(const Case& source);
+
+/// The modes of a robot's tip or a tool's, as the case lists them. Errors as robot::one_mode().
+[[nodiscard]] std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list);
 
 /// The tip at any posture, by the model that the case names. Measured receptances are put on `axis`.
 [[nodiscard]] robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis);

@@ -45,8 +45,9 @@ std::optional<Eigen::Matrix3d> static_compliance(const Component& tip) {
   return D * dynamics::to_response(*tip.modal, at_rest).H.front().real() * D.transpose();
 }
 
+/// Infinite where nothing moves; negative, and seen as such, where a table of modes says so of rest.
 double stiffness_of(double compliance, double largest) {
-  return compliance > 1e-12 * largest ? 1.0 / compliance : infinity;
+  return std::abs(compliance) > 1e-12 * largest ? 1.0 / compliance : infinity;
 }
 
 TipReport report_at(const Case& source, const std::optional<Eigen::VectorXd>& near) {
@@ -172,9 +173,9 @@ TipReport tip_report(const RobotPosture& robot, const Component& tip) {
   if (!compliance) return report;
   const Eigen::Matrix3d S = 0.5 * (*compliance + compliance->transpose());
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(S);
-  const double largest = principal.eigenvalues()(2);
+  const double largest = principal.eigenvalues().cwiseAbs().maxCoeff();
   report.stiffness = S.diagonal().unaryExpr([&](double c) { return stiffness_of(c, largest); });
-  report.least_stiffness = stiffness_of(largest, largest);
+  report.least_stiffness = stiffness_of(principal.eigenvalues()(2), largest);
   report.softest = principal.eigenvectors().col(2);
   Eigen::Index main = 0;
   report.softest.cwiseAbs().maxCoeff(&main);
