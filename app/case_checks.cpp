@@ -100,6 +100,9 @@ void check_measured(const std::string& key, const MeasuredFrf& frf, Findings& fi
     findings.report(key + ".quantity", "missing; say what was measured: receptance, mobility or accelerance");
   if (frf.unit.empty() && !findings.given(key + ".unit") && !tells_itself)
     findings.report(key + ".unit", "missing; say its unit, for example \"m/s^2/N\"");
+  if (tells_itself && frf.quantity.empty() != frf.unit.empty())
+    findings.report(key + (frf.unit.empty() ? ".unit" : ".quantity"),
+                    "missing; give quantity and unit together, or neither where the file says them");
   const int time = frf.quantity == "receptance" ? 2 : frf.quantity == "mobility" ? 1 : 0;
   if (!frf.unit.empty() && !frf.quantity.empty() && !is_frf_unit(frf.quantity, frf.unit)) {
     try {
