@@ -111,40 +111,61 @@ Eigen::MatrixXcd gain_by(Coefficient which, const CutAtSpeed& cut, const Found& 
   return -Z.topRightCorner(contacts, others) * Z.bottomLeftCorner(others, contacts) / f.pair.nu;
 }
 
+/// A crossing found again, and how its depth follows the gain.
+class DepthFollower {
+ public:
+  DepthFollower(const CutAtSpeed& cut, const LobePoint& point, const StabilityOptions& options)
+      : cut_(cut), found_(found_again(cut, point, options)), by_depth_(own_change(cut, found_)) {
+    by_depth_ += 1.0 / (found_.crossing.depth_m * found_.crossing.depth_m);
+  }
+
+  [[nodiscard]] const Found& found() const { return found_; }
+
+  /// Z of any structure in tool axes, on the crossing's grid and at its place on the circle.
+  [[nodiscard]] Eigen::MatrixXcd gain(const RelativeStructure& structure) const {
+    return loop_gain(regenerative_loop(structure, found_.d.grid, cut_.spindle_speed_rpm),
+                     on_circle(found_.crossing.theta_rad));
+  }
+
+  /// d ln w of a change dZ of the gain.
+  [[nodiscard]] double relative_change(const Eigen::MatrixXcd& dZ) const {
+    const Eigenpair& pair = found_.pair;
+    const double w = found_.crossing.depth_m;
+    const complex<double> nu_p =
+        -(pair.left.transpose() * dZ * pair.right).value() / (pair.left.transpose() * pair.right).value();
+    const bool at_end = found_.crossing.theta_rad == 0.0 || found_.crossing.theta_rad == pi;
+    if (at_end) return -nu_p.real() / by_depth_.real() / w;
+    Eigen::Matrix2d rows;
+    rows << pair.slope.real(), by_depth_.real(), pair.slope.imag(), by_depth_.imag();
+    return (rows(1, 0) * nu_p.real() - rows(0, 0) * nu_p.imag()) / rows.determinant() / w;
+  }
+
+ private:
+  const CutAtSpeed& cut_;
+  Found found_;
+  complex<double> by_depth_;
+};
+
 }  // namespace
 
 DepthSensitivity depth_sensitivity(const RelativeStructure& structure, const MillingProcess& process,
                                    double spindle_speed_rpm, const LobePoint& point, const StabilityOptions& options) {
   require_usable(process, options);
   const CutAtSpeed cut = cut_at_speed(structure, process, spindle_speed_rpm);
-  const Found f = found_again(cut, point, options);
-  const double w = f.crossing.depth_m;
-  const bool at_end = f.crossing.theta_rad == 0.0 || f.crossing.theta_rad == pi;
-  const complex<double> by_depth = own_change(cut, f) + 1.0 / (w * w);
-  // d ln w of a relative change dZ of the gain.
-  const auto relative_change = [&](const Eigen::MatrixXcd& dZ) {
-    const complex<double> nu_p =
-        -(f.pair.left.transpose() * dZ * f.pair.right).value() / (f.pair.left.transpose() * f.pair.right).value();
-    if (at_end) return -nu_p.real() / by_depth.real() / w;
-    Eigen::Matrix2d rows;
-    rows << f.pair.slope.real(), by_depth.real(), f.pair.slope.imag(), by_depth.imag();
-    const double determinant = rows.determinant();
-    return (rows(1, 0) * nu_p.real() - rows(0, 0) * nu_p.imag()) / determinant / w;
+  const DepthFollower follower(cut, point, options);
+  const auto to = [&](Coefficient which) {
+    return follower.relative_change(gain_by(which, cut, follower.found(), point.depth_m));
   };
-  const auto gain_of_structure = [&](const RelativeStructure& s) {
-    return loop_gain(regenerative_loop(s, f.d.grid, spindle_speed_rpm), on_circle(f.crossing.theta_rad));
-  };
-  const auto to = [&](Coefficient which) { return relative_change(gain_by(which, cut, f, point.depth_m)); };
   const Index poles = cut.structure.poles.size();
   DepthSensitivity result{Eigen::VectorXd(poles), Eigen::VectorXd::Zero(poles), Eigen::VectorXd(poles)};
   for (Index k = 0; k < poles; ++k) {
     constexpr double h = 1e-5;
     const RelativeStructure mode = alone(cut.structure, k);
     const complex<double> pole = mode.poles(0);
-    result.to_mass(k) = relative_change(-gain_of_structure(mode));
+    result.to_mass(k) = follower.relative_change(-follower.gain(mode));
     const auto by = [&](complex<double> up, complex<double> down) {
-      return relative_change((gain_of_structure(with_pole(mode, up)) - gain_of_structure(with_pole(mode, down))) /
-                             (2.0 * h));
+      return follower.relative_change((follower.gain(with_pole(mode, up)) - follower.gain(with_pole(mode, down))) /
+                                      (2.0 * h));
     };
     result.to_frequency(k) = by(pole * (1.0 + h), pole * (1.0 - h));
     if (pole.imag() == 0.0) continue;
@@ -156,6 +177,15 @@ DepthSensitivity depth_sensitivity(const RelativeStructure& structure, const Mil
   result.to_K_r = to(&CuttingCoefficients::K_r);
   result.to_K_a = to(&CuttingCoefficients::K_a);
   return result;
+}
+
+double relative_depth_change(const RelativeStructure& structure, const RelativeStructure& other,
+                             const MillingProcess& process, double spindle_speed_rpm, const LobePoint& point,
+                             const StabilityOptions& options) {
+  require_usable(process, options);
+  const CutAtSpeed cut = cut_at_speed(structure, process, spindle_speed_rpm);
+  const DepthFollower follower(cut, point, options);
+  return follower.relative_change(follower.gain(in_tool_axes(other, process.frame)) - follower.gain(cut.structure));
 }
 
 std::vector<std::string> validate(const Uncertainty& u) {

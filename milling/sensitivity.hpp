@@ -34,6 +34,17 @@ struct DepthSensitivity {
                                                  double spindle_speed_rpm, const LobePoint& point,
                                                  const StabilityOptions& options);
 
+/// The relative change of a critical depth, dw/w, where `structure` becomes `other`: first order in dZ = Z_other − Z,
+/// exact in what the modes themselves become, which may also be more or fewer,
+///
+///     dw = −Re[…] of dν = −lᵀ dZ r / lᵀ r   as above
+///
+/// `point`, errors: as depth_sensitivity(). What is wrong by a share e of itself leaves e² of it. Cost: some values of
+/// Z.
+[[nodiscard]] double relative_depth_change(const RelativeStructure& structure, const RelativeStructure& other,
+                                           const MillingProcess& process, double spindle_speed_rpm,
+                                           const LobePoint& point, const StabilityOptions& options);
+
 /// Standard uncertainties, relative, of every mode and coefficient alike.
 struct Uncertainty {
   double frequency = 0.0;

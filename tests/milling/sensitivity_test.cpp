@@ -92,6 +92,28 @@ TEST_P(Sensitivity, IsThatOfTheLimitItself) {
   EXPECT_NEAR(s.to_K_a, with(&CuttingCoefficients::K_a), 2e-5);
 }
 
+TEST_P(Sensitivity, FollowsAnotherStructureToFirstOrder) {
+  const auto& [what, radial_share, rpm, helices] = GetParam();
+  const MillingProcess process = process_of(radial_share, helices);
+  const LobeRow row = limiting_depth(structure_of(three_modes), process, rpm, exact());
+  ASSERT_FALSE(row.crossings.empty());
+  // All modes move and a fourth comes in; what first order leaves is a quarter of itself at half the change.
+  const auto left_over = [&](double share) {
+    Modes other = three_modes;
+    for (testing::Mode& mode : other) {
+      mode.frequency_hz *= 1.0 - 0.3 * share;
+      mode.mass_kg *= 1.0 + share;
+    }
+    other.push_back({2200.0, 0.02, 0.05 / share, Eigen::Vector3d(0.6, 0.8, 0.0)});
+    const double change = relative_depth_change(structure_of(three_modes), structure_of(other), process, rpm,
+                                                row.crossings.front(), exact());
+    EXPECT_NE(change, 0.0);
+    return limit(other, process, rpm) / row.limiting_depth_m - 1.0 - change;
+  };
+  const double whole = left_over(1e-3), half = left_over(5e-4);
+  EXPECT_NEAR(half / whole, 0.25, 0.02) << whole << " " << half;
+}
+
 INSTANTIATE_TEST_SUITE_P(Cuts, Sensitivity,
                          ::testing::Values(Cut{"short cut, Hopf", 0.1, 6000.0, {}},
                                            Cut{"short cut, other lobe", 0.1, 15500.0, {}},
