@@ -81,11 +81,13 @@ struct Part {
 struct MeasuredFrf {
   std::string response;  ///< DOF name, "P.x"
   std::string force;
-  std::filesystem::path file;  ///< absolute, or relative to the working directory
-  std::string quantity;        ///< receptance, mobility, accelerance; empty: the file says it
-  std::string unit;            ///< of the FRF, "um/N"; empty: the file says it
-  std::string frequency_unit;  ///< "Hz", "rad/s"
-  std::optional<int> record;   ///< number of the FRF in the file, from 1; none: its only one
+  std::filesystem::path file;     ///< absolute, or relative to the working directory
+  std::string quantity;           ///< receptance, mobility, accelerance; empty: the file says it
+  std::string unit;               ///< of the FRF, "um/N"; empty: the file says it
+  std::string frequency_unit;     ///< "Hz", "rad/s"
+  std::optional<int> record;      ///< number of the FRF in the file, from 1; none: its only one
+  std::optional<double> noise{};  ///< standard deviation of real and imaginary part alike, relative to |H|
+  std::optional<int> averages{};  ///< that the file's coherence belongs to, in place of `noise`
 };
 
 /// A named point of the part: a fraction of the box along x, y, z or a position, then an offset.
@@ -276,6 +278,8 @@ struct LobesOptions {
   std::optional<int> steps_per_period, harmonics;  ///< none: milling::MethodOptions' own
   std::optional<int> map_depths;                   ///< none: no map
   std::optional<RobustOptions> robust;
+  std::optional<int> noise_samples;  ///< draws of what is measured, at the case's own speed; none: first order only
+  int seed = 1;                      ///< of these
 };
 
 /// Where the cut goes along the part, and what the robot does meanwhile.

@@ -22,13 +22,12 @@ int axis_index(const std::string& letter) {
 
 MeasuredFrf bind_measured(const Table& table, const std::filesystem::path& folder) {
   const std::string file = table.text("file");
-  return {table.text("response"),
-          table.text("force"),
-          file.empty() ? std::filesystem::path() : folder / file,
-          table.text("quantity"),
-          table.text("unit"),
-          table.text("frequency_unit"),
-          table.has("record") ? std::optional(table.integer("record")) : std::nullopt};
+  const auto integer = [&](const char* key) {
+    return table.has(key) ? std::optional(table.integer(key)) : std::nullopt;
+  };
+  return {table.text("response"), table.text("force"),     file.empty() ? std::filesystem::path() : folder / file,
+          table.text("quantity"), table.text("unit"),      table.text("frequency_unit"),
+          integer("record"),      table.optional("noise"), integer("averages")};
 }
 
 std::vector<MeasuredFrf> bind_all_measured(const std::vector<Table>& tables, const std::filesystem::path& folder) {

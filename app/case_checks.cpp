@@ -118,6 +118,7 @@ void check_measured(const std::string& key, const MeasuredFrf& frf, Findings& fi
       findings.report(key + ".unit", error.what());
     }
   }
+  if (frf.noise && frf.averages) findings.report(key + ".averages", "the noise is given; keep one of the two");
   require_direction(key + ".response", frf.response, findings);
   require_direction(key + ".force", frf.force, findings);
   std::error_code ignored;

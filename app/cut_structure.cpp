@@ -28,11 +28,6 @@ milling::RelativeStructure part_structure(const Case& source, const dynamics::Mo
   return milling::relative_structure(kept, source.cutting->at);
 }
 
-/// 0, 1, 2 of "tool.x", "tool.y", "tool.z".
-int direction_of_dof(const std::string& dof) {
-  return dof.back() - 'x';
-}
-
 /// The tool's files as a matrix in part axes, on `axis`.
 milling::SampledReceptance measured_tip(const std::vector<MeasuredFrf>& files, const dynamics::FrequencyAxis& axis) {
   milling::SampledReceptance tip{axis.hz, {}};
@@ -41,8 +36,7 @@ milling::SampledReceptance measured_tip(const std::vector<MeasuredFrf>& files, c
     const Eigen::VectorXcd H = io::resample(read_measured(file), axis);
     const int i = direction_of_dof(file.response);
     const int j = direction_of_dof(file.force);
-    const bool reverse_given = std::ranges::any_of(
-        files, [&](const MeasuredFrf& other) { return other.response == file.force && other.force == file.response; });
+    const bool reverse_given = gives_reverse(files, file);
     for (Eigen::Index line = 0; line < axis.size(); ++line) {
       auto& matrix = tip.H[static_cast<std::size_t>(line)];
       matrix(i, j) = H(line);
@@ -91,6 +85,22 @@ milling::SampledReceptance in_tool_axes(milling::SampledReceptance tip, const mi
 
 }  // namespace
 
+int direction_of_dof(const std::string& dof) {
+  return dof.back() - 'x';
+}
+
+bool gives_reverse(const std::vector<MeasuredFrf>& files, const MeasuredFrf& file) {
+  return std::ranges::any_of(
+      files, [&](const MeasuredFrf& other) { return other.response == file.force && other.force == file.response; });
+}
+
+std::optional<milling::RelativeStructure> cut_poles(const Case& source, const dynamics::ModalModel* part) {
+  std::optional<milling::RelativeStructure> poles;
+  if (part != nullptr) poles = part_structure(source, *part);
+  if (source.tool->modes.empty()) return poles;
+  return poles ? milling::sum(*poles, tool_modes(*source.tool)) : tool_modes(*source.tool);
+}
+
 milling::SampledStructure sampled_structure(const Case& source, const milling::ToolFrame& frame,
                                             const dynamics::ResponseModel& coupled) {
   const dynamics::ResponseModel at_cut = dynamics::between(coupled, source.cutting->at, source.cutting->at);
@@ -112,8 +122,7 @@ milling::SampledStructure sampled_structure(const Case& source, const milling::T
 }
 
 CutStructure cut_structure(const Case& source, const milling::ToolFrame& frame, const dynamics::ModalModel* part) {
-  std::optional<milling::RelativeStructure> modal;
-  if (part != nullptr) modal = part_structure(source, *part);
+  const std::optional<milling::RelativeStructure> modal = cut_poles(source, part);
   if (source.tool->swap) return milling::SampledStructure{in_tool_axes(swapped(source), frame), modal};
   if (!source.tool->measured.empty()) {
     milling::SampledReceptance tip =
@@ -121,8 +130,6 @@ CutStructure cut_structure(const Case& source, const milling::ToolFrame& frame, 
     warn_of_doubts(tip, "the tool's");
     return milling::SampledStructure{in_tool_axes(std::move(tip), frame), modal};
   }
-  if (!source.tool->modes.empty())
-    modal = modal ? milling::sum(*modal, tool_modes(*source.tool)) : tool_modes(*source.tool);
   if (!modal) throw core::InputError("lobes need something that moves: a part, tool.modes or tool.measured");
   return *modal;
 }

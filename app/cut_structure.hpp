@@ -1,7 +1,10 @@
 #pragma once
 // What the cut of a case feels: the part at the point that is cut, and the tool.
 
+#include <optional>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "app/case.hpp"
 #include "dynamics/modal_model.hpp"
@@ -15,6 +18,16 @@ namespace thinwall::app {
 /// Poles where everything is known by its modes (part axes); samples, with the part's poles beside them, where the tool
 /// tip is measured.
 using CutStructure = std::variant<milling::RelativeStructure, milling::SampledStructure>;
+
+/// What of the cut is known by its modes: the part (null: a rigid one), and the tool where it is given by modes. None
+/// if nothing is.
+[[nodiscard]] std::optional<milling::RelativeStructure> cut_poles(const Case& source, const dynamics::ModalModel* part);
+
+/// 0, 1, 2 of "tool.x", "tool.y", "tool.z".
+[[nodiscard]] int direction_of_dof(const std::string& dof);
+
+/// Whether one of the files is the transpose of `file`, an entry off the diagonal.
+[[nodiscard]] bool gives_reverse(const std::vector<MeasuredFrf>& files, const MeasuredFrf& file);
 
 /// Part and tool together; `frame` is the cut's, `part` must hold the point that is cut, null: a rigid part. Samples
 /// lie on the lines of the first measured file; what speaks against them is logged as a warning: a driving point that

@@ -43,6 +43,20 @@ std::string robust_text(const json& robust) {
   return text + pockets_text(robust["best_pockets"], "pockets");
 }
 
+/// What errors of the structure make of the limits; a reduction below a thousandth is not worth a line.
+std::string error_budget_text(const json& budget) {
+  std::string text;
+  if (const json& reduction = budget["largest_truncation_relative"];
+      !reduction.is_null() && reduction.get<double>() >= 1e-3) {
+    text += fmt::format("    the part's reduction moves limits by up to {:.2g} %; more modes (reduction) lower that\n",
+                        reduction.get<double>() * 100.0);
+  }
+  if (const json& noise = budget["largest_noise_relative"]; !noise.is_null())
+    text += fmt::format("    noise of measured FRFs: limits are known to {:.2g} % at worst (one standard deviation)\n",
+                        noise.get<double>() * 100.0);
+  return text;
+}
+
 }  // namespace
 
 std::string pockets_text(const json& pockets, std::string label) {
@@ -72,6 +86,7 @@ std::string sensitivities_text(const json& sensitivities) {
 
 std::string asked_text(const json& chart) {
   std::string text;
+  if (!chart["error_budget"].is_null()) text += error_budget_text(chart["error_budget"]);
   if (chart.contains("robust")) text += robust_text(chart["robust"]);
   if (chart.contains("compared")) {
     for (const json& other : chart["compared"]) {

@@ -18,6 +18,8 @@ LobesOptions bind_lobes(const Table& table, const std::optional<Tool>& tool) {
   lobes.steps_per_period = integer("steps_per_period");
   lobes.harmonics = integer("harmonics");
   lobes.map_depths = integer("map_depths");
+  lobes.noise_samples = integer("noise_samples");
+  lobes.seed = table.integer("seed");
   if (const Table u = table.table("uncertainty"); u.exists()) {
     lobes.robust = RobustOptions{
         {u.number("frequency"), u.number("damping_ratio"), u.number("receptance"), u.number("coefficients")},

@@ -103,6 +103,8 @@ void check_chart_choices(const Case& source, Findings& findings) {
     }
   }
   if (lobes.robust) check_robust(lobes, findings);
+  if (lobes.noise_samples && source.cutting && !source.cutting->spindle_speed_rpm)
+    findings.report("lobes.noise_samples", "draws are made at the case's own speed; give cutting.spindle_speed");
 }
 
 void check_machine(const Case& source, Findings& findings) {

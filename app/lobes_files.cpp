@@ -1,5 +1,7 @@
 #include "app/lobes_files.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -37,8 +39,18 @@ void write_crossings(const fs::path& folder, const NamedLobes& named) {
                  "that return. A cut is stable where the sum of those below its depth is 0"});
 }
 
-/// Limits of one method; with what is robust of them, if that is known.
-void write_chart(const fs::path& file, const milling::Lobes& lobes, const milling::RobustLobes* robust) {
+/// A column of errors that are known of some row at least; inf stands for one that is not.
+void add_error_column(io::Table& table, const std::string& name, const std::vector<DepthError>& errors,
+                      std::optional<double> DepthError::*which) {
+  if (std::ranges::none_of(errors, [&](const DepthError& e) { return (e.*which).has_value(); })) return;
+  std::vector<double> values;
+  for (const DepthError& error : errors) values.push_back((error.*which).value_or(HUGE_VAL));
+  table.push_back({name, values});
+}
+
+/// Limits of one method; with what is robust of them, and what they are off by, where that is known.
+void write_chart(const fs::path& file, const milling::Lobes& lobes, const milling::RobustLobes* robust,
+                 const std::vector<DepthError>& errors) {
   std::vector<double> speed, depth, chatter, error, uncertainty, robust_depth;
   std::vector<std::string> kind, status;
   for (const milling::LobeRow& row : lobes.rows) {
@@ -65,6 +77,13 @@ void write_chart(const fs::path& file, const milling::Lobes& lobes, const millin
         "relative_uncertainty: standard, of the limiting depth, first order; 0 where the cut is stable as far "
         "as was looked. robust_depth_m: docs/theory/lobes.md; 0 where the cut is not robust at any depth");
   }
+  add_error_column(table, "truncation_m", errors, &DepthError::truncation_m);
+  add_error_column(table, "noise_deviation_m", errors, &DepthError::noise_m);
+  if (!errors.empty()) {
+    comments.emplace_back(
+        "truncation_m: this depth less that with what the part's reduction leaves out. noise_deviation_m: standard, by "
+        "the noise of what was measured. First order; inf where it is not known");
+  }
   io::write_csv(file, table, comments);
 }
 
@@ -84,10 +103,10 @@ void write_map(const fs::path& file, const milling::StabilityMap& map) {
 }  // namespace
 
 void write_lobes(const fs::path& folder, const NamedLobes& named) {
-  write_chart(folder / (named.name + ".csv"), named.lobes, named.robust ? &*named.robust : nullptr);
+  write_chart(folder / (named.name + ".csv"), named.lobes, named.robust ? &*named.robust : nullptr, named.errors);
   write_crossings(folder, named);
   for (const ComparedLobes& other : named.compared)
-    write_chart(folder / (named.name + "_" + other.method + ".csv"), other.lobes, nullptr);
+    write_chart(folder / (named.name + "_" + other.method + ".csv"), other.lobes, nullptr, {});
   if (named.map) write_map(folder / (named.name + "_map.csv"), *named.map);
 }
 

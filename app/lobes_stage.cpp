@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <variant>
 
@@ -11,6 +12,7 @@
 #include "app/lobe_sensitivity.hpp"
 #include "app/milling_process.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "milling/sampled_stability.hpp"
 #include "milling/stability.hpp"
@@ -60,6 +62,25 @@ struct Chart {
     return parameter_sensitivities(*poles(), process, rpm, point, options.stability);
   }
 };
+
+/// Errors of the limiting depths, and at the case's own speed; the rows share out among the threads.
+void add_errors(const Case& source, const Chart& chart, const StructureErrors& errors, NamedLobes& result) {
+  if (errors.none()) return;
+  const auto at = [&](const milling::LobeRow& row) {
+    if (row.crossings.empty()) return DepthError{};
+    return depth_error(chart.structure, errors, chart.process, row.spindle_speed_rpm, row.crossings.front(),
+                       chart.options.stability);
+  };
+  result.errors.resize(result.lobes.rows.size());
+  core::parallel_for(result.errors.size(), [&](std::size_t i) { result.errors[i] = at(result.lobes.rows[i]); });
+  if (!result.at_spindle_speed) return;
+  result.error_at_spindle_speed = at(*result.at_spindle_speed);
+  const auto* sampled = std::get_if<milling::SampledStructure>(&chart.structure);
+  if (!source.lobes->noise_samples || sampled == nullptr || errors.noise.empty()) return;
+  result.scatter = milling::sampled_depths(*sampled, chart.process, result.at_spindle_speed->spindle_speed_rpm,
+                                           chart.options.stability, errors.noise, *source.lobes->noise_samples,
+                                           static_cast<std::uint64_t>(source.lobes->seed));
+}
 
 /// Of a stable point; none without poles or a feed. What the library does not model is a warning.
 std::optional<milling::ForcedVibration> forced_at(const Case& source, const PointStability& found, const Chart& chart) {
@@ -167,7 +188,7 @@ milling::StabilityOptions stability_options(const LobesOptions& wanted) {
 }
 
 NamedLobes compute_lobes(const Case& source, const std::string& name, CutStructure structure,
-                         const std::vector<milling::OperatingPoint>& points) {
+                         const StructureErrors& errors, const std::vector<milling::OperatingPoint>& points) {
   const LobesOptions& wanted = *source.lobes;
   const milling::MillingProcess process = milling_process(source);
   const Chart chart{std::move(structure), process, options_of(wanted),
@@ -180,6 +201,7 @@ NamedLobes compute_lobes(const Case& source, const std::string& name, CutStructu
     if (!result.at_spindle_speed->crossings.empty())
       result.sensitivities = chart.sensitivities(*rpm, result.at_spindle_speed->crossings.front());
   }
+  add_errors(source, chart, errors, result);
   for (const auto& point : points) {
     result.points.push_back(stability_of(point, chart, wanted.method, result.lobes));
     result.points.back().forced = forced_at(source, result.points.back(), chart);

@@ -6,15 +6,17 @@
 #include "app/case.hpp"
 #include "app/cut_structure.hpp"
 #include "app/results.hpp"
+#include "app/structure_errors.hpp"
 
 namespace thinwall::app {
 
 /// What [lobes] asks of the search at a speed.
 [[nodiscard]] milling::StabilityOptions stability_options(const LobesOptions& wanted);
 
-/// The chart of what the cut feels, and what it says of operating points. From samples there are neither comparisons, a
-/// map, a robust chart nor sensitivities.
+/// The chart of what the cut feels, what `errors` of the structure make of its depths, and what it says of operating
+/// points. From samples there are neither comparisons, a map, a robust chart nor sensitivities.
 [[nodiscard]] NamedLobes compute_lobes(const Case& source, const std::string& name, CutStructure structure,
+                                       const StructureErrors& errors,
                                        const std::vector<milling::OperatingPoint>& points);
 
 /// Throws InputError, before anything is computed, if operating points are asked of a case without a chart or lie

@@ -7,6 +7,7 @@
 #include "app/case_reader.hpp"
 #include "app/contact_force.hpp"
 #include "app/cut_structure.hpp"
+#include "app/error_budget.hpp"
 #include "app/expectation.hpp"
 #include "app/lobes_stage.hpp"
 #include "app/measured.hpp"
@@ -81,6 +82,17 @@ void warn_of_distance(const Case& work, const RobotPosture& robot) {
       (*robot.tip - *place).norm() * 1e3, work.contacts.front().part_point);
 }
 
+void run_coupling(const Case& work, Results& results, Stages& stages) {
+  stages.begin("coupling");
+  results.coupled = couple(work, *results.part, *results.robot);
+  results.reductions = reductions(work, *results.part, *results.coupled);
+  if (results.coupled->receptance.status == coupling::KernelStatus::ill_conditioned) {
+    spdlog::warn(
+        "the coupling's kernel is ill-conditioned at some line (condition up to {:.1e}): expect lost digits there",
+        results.coupled->receptance.kernel_condition.maxCoeff());
+  }
+}
+
 void run_responses(const Case& work, Results& results, Stages& stages) {
   const bool reduced = results.finite_elements && results.finite_elements->damped;
   const bool part = reduced || !work.measured_part.empty();
@@ -97,15 +109,9 @@ void run_responses(const Case& work, Results& results, Stages& stages) {
   }
   if (!work.measured_part.empty()) warn_of_doubts(results.part->response, "the part's");
   if (work.robot && work.robot->model == "measured") warn_of_doubts(results.robot->response, "the robot's");
-  if (!part || !work.robot || work.contacts.empty()) return;
-  stages.begin("coupling");
-  results.coupled = couple(work, *results.part, *results.robot);
-  results.reductions = reductions(work, *results.part, *results.coupled);
-  if (results.coupled->receptance.status == coupling::KernelStatus::ill_conditioned) {
-    spdlog::warn(
-        "the coupling's kernel is ill-conditioned at some line (condition up to {:.1e}): expect lost digits there",
-        results.coupled->receptance.kernel_condition.maxCoeff());
-  }
+  if (part && work.robot && !work.contacts.empty()) run_coupling(work, results, stages);
+  stages.begin("error budget");
+  results.errors = error_budget(work, results);
 }
 
 /// The supported part where the robot has no poles. What cannot be charted from samples leaves the rest of the run.
@@ -113,7 +119,8 @@ void add_sampled_chart(const Case& work, const milling::ToolFrame& frame,
                        const std::vector<milling::OperatingPoint>& points, Results& results) {
   try {
     const auto structure = sampled_structure(work, frame, results.coupled->receptance.response);
-    results.lobes.push_back(compute_lobes(work, "supported", structure, points));
+    const StructureErrors errors = sampled_structure_errors(work, frame, results);
+    results.lobes.push_back(compute_lobes(work, "supported", structure, errors, points));
   } catch (const core::Interrupted&) {
     throw;
   } catch (const core::Error& error) {
@@ -135,19 +142,26 @@ void flag_contacts(const Case& work, Results& results) {
 void run_lobes(const Case& work, const std::vector<milling::OperatingPoint>& points, Results& results, Stages& stages) {
   if (!work.lobes || !work.cutting || !work.tool) return;
   const milling::ToolFrame frame = milling_process(work).frame;
-  const auto chart_of = [&](const std::string& name, const dynamics::ModalModel* part) {
-    results.lobes.push_back(compute_lobes(work, name, cut_structure(work, frame, part), points));
+  const auto chart_of = [&](const std::string& name, const dynamics::ModalModel* part,
+                            const dynamics::ModalModel* richer) {
+    const CutStructure structure = cut_structure(work, frame, part);
+    const StructureErrors errors = structure_errors(work, frame, structure, richer);
+    results.lobes.push_back(compute_lobes(work, name, structure, errors, points));
+  };
+  const auto modal = [](const std::optional<Component>& component) {
+    return component && component->modal ? &*component->modal : nullptr;
   };
   stages.begin("lobes");
-  if (!work.part && work.measured_part.empty()) return chart_of("tool", nullptr);
+  if (!work.part && work.measured_part.empty()) return chart_of("tool", nullptr, nullptr);
   if (!results.part || !results.part->modal) {
     throw core::InputError(
         "lobes need a part that is held and known as a model (part.shape with part.supports), not by measured "
         "receptances alone");
   }
-  chart_of("part", &*results.part->modal);
+  chart_of("part", &*results.part->modal, modal(results.errors.richer_part));
   if (results.coupled && results.coupled->modal) {
-    chart_of("supported", &*results.coupled->modal);
+    const auto& richer = results.errors.richer_coupled;
+    chart_of("supported", &*results.coupled->modal, richer ? &*richer : nullptr);
   } else if (results.coupled) {
     add_sampled_chart(work, frame, points, results);
   }

@@ -10,6 +10,7 @@
 
 #include "app/case_writer.hpp"
 #include "app/doctor.hpp"
+#include "app/error_summary.hpp"
 #include "app/lobes_files.hpp"
 #include "app/result_folder.hpp"
 #include "app/robot_survey.hpp"
@@ -184,6 +185,16 @@ void write_results(const fs::path& folder, const Case& source, const Results& re
     add_frf("coupled_receptance", results.coupled->receptance.response);
     if (results.coupled->spatial_response) add_frf("coupled_spatial", *results.coupled->spatial_response);
   }
+  const auto add_errors = [&](const std::string& name, const dynamics::ResponseModel& response,
+                              const ResponseErrors& errors) {
+    if (errors.noise.empty() && errors.truncation.empty()) return;
+    files.emplace_back([&, name] {
+      write_response_errors(folder / "frf" / (name + "_error.csv"), response, errors, source.response.points);
+    });
+  };
+  if (results.part) add_errors("part", results.part->response, results.errors.part);
+  if (results.robot) add_errors("robot", results.robot->response, results.errors.robot);
+  if (results.coupled) add_errors("coupled", results.coupled->receptance.response, results.errors.coupled);
   if (results.robot) files.emplace_back([&] { write_frf(folder / "frf", "robot", results.robot->response); });
   if (results.survey) files.emplace_back([&] { write_survey(folder, source, *results.survey); });
   for (const auto& lobes : results.lobes) files.emplace_back([&] { write_lobes(folder / "lobes", lobes); });
@@ -235,7 +246,8 @@ void write_summary(const fs::path& folder, const Case& source, const Case& fitte
   if (fs::exists(expected)) {
     manifest["inputs"].push_back({{"name", expected.string()}, {"sha256", io::sha256_of_file(expected)}});
   }
-  manifest["seeds"] = nlohmann::json::array();  // nothing here is drawn at random
+  manifest["seeds"] = nlohmann::json::array();
+  if (source.lobes && source.lobes->noise_samples) manifest["seeds"].push_back(source.lobes->seed);
   auto files = io::file_records(folder);
   std::erase_if(files, [](const auto& file) { return file.name == "manifest.json" || file.name == "run.log"; });
   manifest["outputs"] = records(files);

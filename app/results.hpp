@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "coupling/frf_noise.hpp"
 #include "coupling/receptance.hpp"
 #include "coupling/route_difference.hpp"
 #include "coupling/spatial.hpp"
@@ -20,6 +21,7 @@
 #include "milling/operating_point.hpp"
 #include "milling/pockets.hpp"
 #include "milling/robust_lobes.hpp"
+#include "milling/sampled_uncertainty.hpp"
 #include "milling/stability_map.hpp"
 #include "reduction/craig_bampton.hpp"
 #include "reduction/identification.hpp"
@@ -90,6 +92,25 @@ struct CouplingResult {
   std::vector<reduction::IdentifiedMode> identified;  ///< peaks of the coupled receptance where there is no modal model
 };
 
+/// What a response is off by, in its shape, one matrix a line; empty where nothing is known to be wrong.
+struct ResponseErrors {
+  coupling::Deviations noise{};                ///< standard deviation of real and imaginary part alike
+  std::vector<Eigen::MatrixXcd> truncation{};  ///< signed: this model less that with what its reduction left out
+};
+
+/// The same of all components, and the models with what was left out.
+struct ErrorBudget {
+  ResponseErrors part, robot, coupled;
+  std::optional<Component> richer_part;
+  std::optional<dynamics::ModalModel> richer_coupled;
+};
+
+/// What a limiting depth is off by, m; none where it is not known: no limit there, or not found again.
+struct DepthError {
+  std::optional<double> truncation_m;  ///< signed: this depth less that with what the part's reduction left out
+  std::optional<double> noise_m;       ///< standard deviation by the noise of what was measured, first order
+};
+
 /// How much smaller the coupled receptance is at a resonance of the part.
 struct AmplitudeReduction {
   std::string dof;
@@ -145,6 +166,9 @@ struct NamedLobes {
   std::optional<milling::StabilityMap> map;
   std::optional<milling::RobustLobes> robust;
   std::vector<milling::Pocket> robust_pockets;
+  std::vector<DepthError> errors;                    ///< of every row; empty: nothing is known to be wrong
+  std::optional<DepthError> error_at_spindle_speed;  ///< at the case's own speed
+  std::optional<milling::DepthScatter> scatter;      ///< of drawn samples, at the case's own speed
 };
 
 /// Charts of one structure at the positions of the path.
@@ -182,6 +206,7 @@ struct Results {
   std::optional<RobotSurvey> survey;
   std::optional<CouplingResult> coupled;
   std::vector<AmplitudeReduction> reductions;
+  ErrorBudget errors;
   std::vector<NamedLobes> lobes;
   std::vector<PathLobes> path;
   std::vector<std::pair<std::string, double>> timings_s;  ///< stage, seconds, in the order they ran

@@ -1,7 +1,5 @@
 #include "app/schema.hpp"
 
-#include <array>
-
 namespace thinwall::app {
 
 namespace {
@@ -36,7 +34,9 @@ constexpr auto methods =
 
 constexpr bool required = true;
 
-constexpr std::array case_sections{
+// Built-in arrays: clang stops counting the arguments from which a std::array would find its size at 256.
+
+constexpr Section case_sections[] = {
     Section{"", "The case as a whole.", ""},
     Section{"part", "A box with one corner at the origin, or a prism; as it stands or bent.", ""},
     Section{"part.axes", "Which axis each extent runs along.", "part.thickness"},
@@ -109,7 +109,7 @@ constexpr std::array case_sections{
 };
 
 // clang-format off
-constexpr std::array case_keys{
+constexpr Key case_keys[] = {
     Key{"title", Type::text, kind::number, "\"\"", any, "", "What the case is, in a line."},
 
     Key{"part.shape", Type::choice, kind::number, "", any, "box|prism", "`box`: length, height, thickness. `prism`: an outline in the x-y plane, thick along z."},
@@ -146,6 +146,8 @@ constexpr std::array case_keys{
     Key{"part.measured[].unit", Type::text, kind::number, "", any, "", "Unit of the FRF: `m/N`, `um/N`, `m/s/N`, `m/s^2/N` …"},
     Key{"part.measured[].frequency_unit", Type::choice, kind::number, "\"Hz\"", any, "Hz|rad/s", "Unit of the first column."},
     Key{"part.measured[].record", Type::integer, kind::number, "", {1, 1e6, false, false, false, "FRFs are numbered from 1"}, "", "Of a file with several FRFs: which one, in their order; not needed where one is there."},
+    Key{"part.measured[].noise", Type::quantity, kind::number, "", uncertainty, "", "Standard deviation of its real and imaginary part, relative to its size: what the error budget starts from."},
+    Key{"part.measured[].averages", Type::integer, kind::number, "", {1, 1e6, false, false, false, "an average is of one measurement or more"}, "", "In place of `noise`: the number of averages behind the file's coherence, from which the noise follows."},
 
     Key{"selections.*.plane.point", Type::vector, kind::length, "", any, "", "A point of the plane.", required},
     Key{"selections.*.plane.normal", Type::direction, kind::number, "", any, "", "Its normal.", required},
@@ -270,6 +272,8 @@ constexpr std::array case_keys{
     Key{"robot.measured[].unit", Type::text, kind::number, "", any, "", "Unit of the FRF."},
     Key{"robot.measured[].frequency_unit", Type::choice, kind::number, "\"Hz\"", any, "Hz|rad/s", "Unit of the first column."},
     Key{"robot.measured[].record", Type::integer, kind::number, "", {1, 1e6, false, false, false, "FRFs are numbered from 1"}, "", "Of a file with several FRFs: which one, in their order; not needed where one is there."},
+    Key{"robot.measured[].noise", Type::quantity, kind::number, "", uncertainty, "", "Standard deviation of its real and imaginary part, relative to its size: what the error budget starts from."},
+    Key{"robot.measured[].averages", Type::integer, kind::number, "", {1, 1e6, false, false, false, "an average is of one measurement or more"}, "", "In place of `noise`: the number of averages behind the file's coherence, from which the noise follows."},
 
     Key{"contacts[].part", Type::name, kind::number, "", any, "", "Point of the part.", required},
     Key{"contacts[].robot", Type::name, kind::number, "\"R\"", any, "", "Point of the robot."},
@@ -321,6 +325,8 @@ constexpr std::array case_keys{
     Key{"tool.measured[].unit", Type::text, kind::number, "", any, "", "Unit of the FRF: `m/N`, `um/N`, `m/s/N`, `m/s^2/N` …"},
     Key{"tool.measured[].frequency_unit", Type::choice, kind::number, "\"Hz\"", any, "Hz|rad/s", "Unit of the first column."},
     Key{"tool.measured[].record", Type::integer, kind::number, "", {1, 1e6, false, false, false, "FRFs are numbered from 1"}, "", "Of a file with several FRFs: which one, in their order; not needed where one is there."},
+    Key{"tool.measured[].noise", Type::quantity, kind::number, "", uncertainty, "", "Standard deviation of its real and imaginary part, relative to its size: what the error budget starts from."},
+    Key{"tool.measured[].averages", Type::integer, kind::number, "", {1, 1e6, false, false, false, "an average is of one measurement or more"}, "", "In place of `noise`: the number of averages behind the file's coherence, from which the noise follows."},
 
     Key{"tool.swap.tip", Type::text, kind::number, "\"1\"", any, "", "Name of the tip in the measured FRFs."},
     Key{"tool.swap.up", Type::text, kind::number, "\"1a\"", any, "", "Name of the point up the tool."},
@@ -384,6 +390,8 @@ constexpr std::array case_keys{
     Key{"lobes.steps_per_period", Type::integer, kind::number, "", {3, 2000, false, false, false, "40 is customary, 200 better"}, "", "Steps a tooth period of semi- and full-discretization; 40 if not given."},
     Key{"lobes.harmonics", Type::integer, kind::number, "", {0, 500, false, false, false, "16 is usual"}, "", "Harmonics of the cut in `multi_frequency`, and in the error estimate of `zeroth_order`; 16 if not given."},
     Key{"lobes.map_depths", Type::integer, kind::number, "", {1, 2000, false, false, false, "200 draws a fine map"}, "", "Number of depths, up to the chart's largest, of a map of the largest Floquet multiplier's modulus: `lobes/<name>_map.csv`. By collocation, from poles."},
+    Key{"lobes.noise_samples", Type::integer, kind::number, "", {2, 1e5, false, false, false, "100 tell a deviation to 7 %"}, "", "Draws of noisy FRFs: limiting depths at `cutting.spindle_speed` beside the first-order deviation."},
+    Key{"lobes.seed", Type::integer, kind::number, "1", {0, 1e9, false, false, false, ""}, "", "Seed of these draws."},
     Key{"lobes.uncertainty.frequency", Type::quantity, kind::number, "0", uncertainty, "", "Of every natural frequency, at constant modal mass."},
     Key{"lobes.uncertainty.damping_ratio", Type::quantity, kind::number, "0", uncertainty, "", "Of every damping ratio."},
     Key{"lobes.uncertainty.receptance", Type::quantity, kind::number, "0", uncertainty, "", "Of every mode's height in the receptance (its modal mass), frequency and damping apart."},
@@ -404,10 +412,10 @@ constexpr std::array case_keys{
     Key{"path.support", Type::choice, kind::number, "\"held\"", any, "held|follows", "`held`: the robot stays at its contacts. `follows`: they move with the cut and keep the distance that they have from `cutting.at`."},
 };
 
-constexpr std::array joint_sections{
+constexpr Section joint_sections[] = {
     Section{"joints[]", "What a URDF does not know of a joint that turns.", ""},
 };
-constexpr std::array joint_keys{
+constexpr Key joint_keys[] = {
     Key{"joints[].name", Type::text, kind::number, "", any, "", "Name of the joint in the URDF.", required},
     Key{"joints[].stiffness", Type::quantity, kind::torsional_stiffness, "", positive, "", "Of the joint's gearbox.", required},
     Key{"joints[].damping", Type::quantity, kind::torsional_damping, "0", not_negative, "", "Beside it."},
@@ -416,10 +424,10 @@ constexpr std::array joint_keys{
     Key{"joints[].servo_stiffness", Type::quantity, kind::torsional_stiffness, "\"inf\"", {0.0, infinity, false, false, true, "\"inf\" for a locked motor"}, "", "Position gain at the joint; `inf` for a locked motor."},
     Key{"joints[].servo_damping", Type::quantity, kind::torsional_damping, "0", not_negative, "", "Speed gain at the joint."},
 };
-constexpr std::array expectation_sections{
+constexpr Section expectation_sections[] = {
     Section{"expect[]", "One figure of summary.json: `value` with `tolerance` or `relative`, or a bound.", ""},
 };
-constexpr std::array expectation_keys{
+constexpr Key expectation_keys[] = {
     Key{"expect[].name", Type::text, kind::number, "", any, "", "What it is, for people.", required},
     Key{"expect[].quantity", Type::text, kind::number, "", any, "", "Path into summary.json, `coupling.modes[0].frequency_hz`.", required},
     Key{"expect[].value", Type::quantity, kind::number, "", any, "", "The expected number, in the unit of the summary."},

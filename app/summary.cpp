@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/error_summary.hpp"
 #include "app/lobes_summary.hpp"
 #include "app/path_report.hpp"
 #include "app/robot_survey.hpp"
@@ -189,10 +190,13 @@ json lobes_of(const Case& source, const NamedLobes& named) {
                  {"speeds_not_converged", lobes.rows_not_converged}};
   result["best_pockets"] = pockets_summary(source, named.pockets);
   add_what_was_asked(result, source, named);
+  result["error_budget"] = chart_errors_summary(named);
   if (named.at_spindle_speed) {
     json row = row_of(*named.at_spindle_speed);
     for (const auto& point : named.at_spindle_speed->crossings) row["crossings"].push_back(crossing_of(point));
     row["sensitivities"] = sensitivities_summary(named.sensitivities);
+    if (named.error_at_spindle_speed)
+      row["error_budget"] = row_errors_summary(*named.error_at_spindle_speed, named.scatter, source.lobes->seed);
     result["at_case_speed"] = std::move(row);
   }
   return result;
@@ -274,6 +278,7 @@ json summary_of(const Case& source, const Results& results) {
   }
   if (results.robot) summary["robot"] = robot_of(source, *results.robot, *results.robot_posture);
   if (results.coupled) summary["coupling"] = coupling_of(results);
+  summary["error_budget"] = error_budget_summary(results);
   summary["lobes"] = json::array();
   for (const auto& lobes : results.lobes) summary["lobes"].push_back(lobes_of(source, lobes));
   for (const auto& path : results.path) summary["path"].push_back(path_summary(source, path));

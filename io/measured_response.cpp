@@ -112,6 +112,27 @@ std::vector<Place> places_of(const std::vector<MeasuredEntry>& entries, GrowingT
   return places;
 }
 
+/// By polynomials through `points` neighbours.
+Eigen::VectorXcd interpolated(const MeasuredFrf& frf, const Eigen::VectorXcd& values,
+                              const dynamics::FrequencyAxis& axis, std::size_t points) {
+  const std::span<const double> x(frf.axis.hz.data(), static_cast<std::size_t>(frf.axis.size()));
+  const std::span<const Complex> y(values.data(), x.size());
+  const double slack = 1e-9 * x.back();
+  if (axis.hz.minCoeff() < x.front() - slack || axis.hz.maxCoeff() > x.back() + slack) {
+    throw core::DataError(frf.source + ": measured from " + range_text(x.front(), x.back()) + ", asked for " +
+                          range_text(axis.hz.minCoeff(), axis.hz.maxCoeff()) +
+                          "; narrow the frequency range of the case or measure further");
+  }
+  points = std::min(points, x.size());
+  Eigen::VectorXcd on_axis(axis.size());
+  for (Eigen::Index line = 0; line < axis.size(); ++line) {
+    const auto above = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), axis.hz(line)) - x.begin());
+    const std::size_t first = std::min(above - std::min(above, points / 2), x.size() - points);
+    on_axis(line) = interpolate(x.subspan(first, points), y.subspan(first, points), axis.hz(line));
+  }
+  return on_axis;
+}
+
 }  // namespace
 
 Eigen::VectorXd coherence_of(const MeasuredResponse& measured, Eigen::Index row, Eigen::Index column) {
@@ -147,22 +168,12 @@ MeasuredResponse response_matrix(const MeasuredEntries& measured) {
 
 Eigen::VectorXcd resample(const MeasuredFrf& frf, const dynamics::FrequencyAxis& axis) {
   if (equal(frf.axis, axis)) return frf.H;
-  const std::span<const double> x(frf.axis.hz.data(), static_cast<std::size_t>(frf.axis.size()));
-  const std::span<const Complex> y(frf.H.data(), x.size());
-  const double slack = 1e-9 * x.back();
-  if (axis.hz.minCoeff() < x.front() - slack || axis.hz.maxCoeff() > x.back() + slack) {
-    throw core::DataError(frf.source + ": measured from " + range_text(x.front(), x.back()) + ", asked for " +
-                          range_text(axis.hz.minCoeff(), axis.hz.maxCoeff()) +
-                          "; narrow the frequency range of the case or measure further");
-  }
-  const std::size_t points = std::min<std::size_t>(4, x.size());
-  Eigen::VectorXcd H(axis.size());
-  for (Eigen::Index line = 0; line < axis.size(); ++line) {
-    const auto above = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), axis.hz(line)) - x.begin());
-    const std::size_t first = std::min(above - std::min(above, points / 2), x.size() - points);
-    H(line) = interpolate(x.subspan(first, points), y.subspan(first, points), axis.hz(line));
-  }
-  return H;
+  return interpolated(frf, frf.H, axis, 4);
+}
+
+Eigen::VectorXd coherence_on(const MeasuredFrf& frf, const dynamics::FrequencyAxis& axis) {
+  if (frf.coherence.size() == 0 || equal(frf.axis, axis)) return frf.coherence;
+  return interpolated(frf, frf.coherence.cast<Complex>(), axis, 2).real();
 }
 
 }  // namespace thinwall::io

@@ -60,4 +60,8 @@ struct MeasuredResponse {
 /// ranges, if the axis goes beyond the measured one: nothing is extrapolated.
 [[nodiscard]] Eigen::VectorXcd resample(const MeasuredFrf& frf, const dynamics::FrequencyAxis& axis);
 
+/// The coherence on another axis, straight between its lines; equal lines pass untouched. Empty if there is none.
+/// Throws DataError as resample().
+[[nodiscard]] Eigen::VectorXd coherence_on(const MeasuredFrf& frf, const dynamics::FrequencyAxis& axis);
+
 }  // namespace thinwall::io

@@ -1,0 +1,72 @@
+#include "app/error_budget.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "app/measured_noise.hpp"
+#include "app/part_stage.hpp"
+#include "app/support_stage.hpp"
+#include "core/error.hpp"
+#include "coupling/error_budget.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+/// Model less truth, line by line.
+std::vector<Eigen::MatrixXcd> difference(const dynamics::ResponseModel& model, const dynamics::ResponseModel& truth) {
+  std::vector<Eigen::MatrixXcd> list;
+  list.reserve(model.H.size());
+  for (std::size_t line = 0; line < model.H.size(); ++line) list.emplace_back(model.H[line] - truth.H[line]);
+  return list;
+}
+
+/// Noise of both components into the coupled response; empty if neither is noisy.
+coupling::Deviations coupled_noise(const Case& source, const Results& results, const ErrorBudget& budget) {
+  if (budget.part.noise.empty() && budget.robot.noise.empty()) return {};
+  try {
+    return coupling::error_budget({results.part->response, results.robot->response}, contacts_of(source),
+                                  {{budget.part.noise}, {budget.robot.noise}})
+        .noise;
+  } catch (const core::InputError& error) {
+    spdlog::warn("no noise of the coupled response: {}", error.what());
+    return {};
+  }
+}
+
+void add_coupled_truncation(const Case& source, const Results& results, ErrorBudget& budget) {
+  const Component& richer = *budget.richer_part;
+  const auto contacts = contacts_of(source);
+  budget.coupled.truncation = difference(results.coupled->receptance.response,
+                                         coupling::couple(richer.response, results.robot->response, contacts).response);
+  if (results.coupled->modal)
+    budget.richer_coupled = modes_of(coupling::couple(*richer.spatial, *results.robot->spatial, contacts));
+}
+
+}  // namespace
+
+std::optional<Component> richer_part(const Case& source, const Results& results, const dynamics::FrequencyAxis& axis) {
+  if (!results.finite_elements || !results.finite_elements->damped) return std::nullopt;
+  const reduction::CraigBampton& reduced = *results.finite_elements->reduced;
+  const dynamics::SpatialModel richer = reduction::with_left_out(reduced.model, reduced.truncation);
+  if (richer.size() == reduced.model.size()) return std::nullopt;
+  auto identified = results.finite_elements->identified;
+  return component(damped(source, richer, identified), axis);
+}
+
+ErrorBudget error_budget(const Case& source, const Results& results) {
+  ErrorBudget budget;
+  if (results.part) {
+    budget.richer_part = richer_part(source, results, results.part->response.axis);
+    if (budget.richer_part) budget.part.truncation = difference(results.part->response, budget.richer_part->response);
+    budget.part.noise = measured_deviations(source.measured_part, results.part->response);
+  }
+  if (results.robot) budget.robot.noise = measured_deviations(source.robot->measured, results.robot->response);
+  if (!results.coupled) return budget;
+  budget.coupled.noise = coupled_noise(source, results, budget);
+  if (budget.richer_part) add_coupled_truncation(source, results, budget);
+  return budget;
+}
+
+}  // namespace thinwall::app
