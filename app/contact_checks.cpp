@@ -1,5 +1,7 @@
 #include "app/contact_checks.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -131,12 +133,13 @@ void check_measured_end(const Case& source, const std::string& key, const Contac
   std::vector<Eigen::Vector3d> seen;
   for (std::size_t i = 0; i < contact.measured.size(); ++i) {
     const std::string dof = end(contact.measured[i]);
-    const std::string item = key + ".measured[" + std::to_string(i) + "]" + (response ? ".response" : ".force");
+    const std::string item = fmt::format("{}.measured[{}].{}", key, i, response ? "response" : "force");
     if (const auto direction = direction_of(dof)) seen.push_back(*direction);
     findings.require_known(item, point_of(dof), points, "point");
     if (point_of(dof) != point)
-      findings.report(item, "\"" + dof + "\" is of another point than \"" + point +
-                                "\"; a joint is found between one point that moves and one that is excited");
+      findings.report(item, fmt::format("\"{}\" is of another point than \"{}\"; a joint is found between one point "
+                                        "that moves and one that is excited",
+                                        dof, point));
   }
   if (std::ranges::find(points, point) == points.end()) return;
   if (source.part && std::ranges::count(source.reduction.interface, point) == 0)

@@ -82,9 +82,9 @@ json contact_of(const JoinedContact& joined) {
 std::string direction_text(const json& direction) {
   const Eigen::Vector3d n(direction[0].get<double>(), direction[1].get<double>(), direction[2].get<double>());
   for (int axis = 0; axis < 3; ++axis) {
-    const std::string letter(1, static_cast<char>('x' + axis));
-    if (n == Eigen::Vector3d::Unit(axis)) return letter;
-    if (n == -Eigen::Vector3d::Unit(axis)) return "-" + letter;
+    const char letter = static_cast<char>('x' + axis);
+    if (n == Eigen::Vector3d::Unit(axis)) return {letter};
+    if (n == -Eigen::Vector3d::Unit(axis)) return {'-', letter};
   }
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", n.x(), n.y(), n.z());
 }
@@ -127,7 +127,7 @@ std::string identified_text(const json& contact) {
                           interval(found, "stiffness_n_per_m", "stiffness_half_width_n_per_m", i, j));
       if (found["damping_half_width_n_s_per_m"][i][j] != 0.0)
         text += ", " + interval(found, "damping_n_s_per_m", "damping_half_width_n_s_per_m", i, j) + " N s/m";
-      if (!found["loss_factor"].is_null())
+      if (i == j && !found["loss_factor"].is_null())  // between directions K may be zero
         text += ", loss factor " + interval(found, "loss_factor", "loss_factor_half_width", i, j);
       text += fmt::format(" (95 %), {:.0f} of {} lines\n", found["lines_used"][i][j].get<double>(),
                           found["lines"].get<int>());

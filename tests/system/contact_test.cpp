@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <cstdio>
 #include <filesystem>
 
@@ -121,6 +122,24 @@ TEST(Contact, ASpringIsFoundAgainFromTheAssemblyThatWasComputedWithIt) {
   const std::string text = terminal_report(summary, "results");
   EXPECT_NE(text.find("contact     P-R: x 2e+06 N/m"), std::string::npos) << text;
   EXPECT_NE(text.find("found along x: 2e+06 ±"), std::string::npos) << text;
+}
+
+// With Z⁻¹ = … − H_R an error of the robot alone moves Z by Z² δH_R: its real part has half that variance, and K is the
+// weighted mean over all lines.
+TEST(Contact, TheIntervalIsThatOfTheNoiseThatTheCaseGivesTheRobot) {
+  const fs::path known = scratch("contact_noise_known"), seen = scratch("contact_noise_found");
+  (void)run(wall + robot + contact("stiffness = \"2e6 N/m\"\ndamping = \"80 N s/m\"\n"), known);
+  const auto summary =
+      run(wall + robot + contact("noise = [1e-12, 1e-12, 1e-4]\n") + held(known, seen, "P.x", "P.x"), seen);
+  const dynamics::ResponseModel tip = io::read_response(known / "frf" / "robot.csv");
+  const Eigen::VectorXcd H = dynamics::entry(tip, "R.x", "R.x");
+  double weights = 0.0;
+  for (Eigen::Index line = 0; line < H.size(); ++line) {
+    const double Z = std::abs(std::complex<double>(2e6, 2.0 * M_PI * tip.axis.hz(line) * 80.0));
+    weights += 2.0 / std::pow(Z * Z * 1e-4 * std::abs(H(line)), 2);
+  }
+  EXPECT_NEAR(found(summary, "stiffness_half_width_n_per_m") * std::sqrt(weights) / 1.959964, 1.0, 1e-4);
+  EXPECT_EQ(found(summary, "lines_used"), 637.0);
 }
 
 TEST(Contact, TwoDirectionsAreFoundAsAMatrixSeenFromBesideTheContact) {
