@@ -145,7 +145,7 @@ void add_sampled_chart(const Case& work, const milling::ToolFrame& frame,
   } catch (const core::Interrupted&) {
     throw;
   } catch (const core::Error& error) {
-    spdlog::warn("no chart of the supported part, whose robot is known by its receptances only: {}", error.what());
+    spdlog::warn("no chart of the supported part, which is known by its receptances only: {}", error.what());
   }
 }
 
