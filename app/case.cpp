@@ -109,6 +109,10 @@ std::vector<std::filesystem::path> input_files(const Case& source) {
       if (!file.empty()) files.push_back(file);
     }
   }
+  for (const Contact& contact : source.contacts) {
+    if (!contact.table.empty()) files.push_back(contact.table);
+    for (const auto& frf : contact.measured) files.push_back(frf.file);
+  }
   if (source.tool) {
     for (const auto& frf : source.tool->measured) files.push_back(frf.file);
     if (source.tool->swap) {

@@ -154,15 +154,38 @@ std::vector<double> spread(std::vector<double> list, std::size_t count) {
   return list.size() == 1 ? std::vector<double>(count, list.front()) : list;
 }
 
-std::vector<Contact> bind_contacts(const std::vector<Table>& tables) {
+ContactBall bind_ball(const Table& table) {
+  return {table.number("radius"),
+          {table.number("youngs_modulus"), table.number("poisson_ratio")},
+          table.has("supports") ? std::optional(table.integer("supports")) : std::nullopt,
+          table.optional("support_radius"),
+          table.optional("support_angle")};
+}
+
+Contact bind_contact(const Table& table, const std::filesystem::path& folder) {
+  Contact contact;
+  contact.part_point = table.text("part");
+  contact.robot_point = table.text("robot");
+  contact.directions = table.directions("directions");
+  contact.stiffness = spread(table.numbers("stiffness"), contact.directions.size());
+  contact.damping = spread(table.numbers("damping"), contact.directions.size());
+  contact.loss_factor = table.number("loss_factor");
+  contact.model = table.text("model");
+  contact.preload = table.optional("preload");
+  if (const std::string file = table.text("table"); !file.empty()) contact.table = folder / file;
+  if (const Table ball = table.table("ball"); ball.exists()) contact.ball = bind_ball(ball);
+  if (const Table surface = table.table("surface"); surface.exists())
+    contact.surface = {surface.number("youngs_modulus"), surface.number("poisson_ratio")};
+  contact.measured = bind_all_measured(table.tables("measured"), folder);
+  contact.damping_model = table.text("damping_model");
+  contact.noise = spread(table.numbers("noise"), 3);
+  return contact;
+}
+
+std::vector<Contact> bind_contacts(const std::vector<Table>& tables, const std::filesystem::path& folder) {
   std::vector<Contact> list;
-  for (const auto& table : tables) {
-    Contact contact{table.text("part"), table.text("robot"), table.directions("directions"), {}, {}, 0.0};
-    contact.stiffness = spread(table.numbers("stiffness"), contact.directions.size());
-    contact.damping = spread(table.numbers("damping"), contact.directions.size());
-    contact.loss_factor = table.number("loss_factor");
-    list.push_back(std::move(contact));
-  }
+  list.reserve(tables.size());
+  for (const auto& table : tables) list.push_back(bind_contact(table, folder));
   return list;
 }
 
@@ -315,7 +338,9 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   if (root.table("robot").exists()) {
     bound.robot = bind_robot(root.table("robot"), bind_all_measured(root.tables("robot.measured"), folder), folder);
   }
-  bound.contacts = bind_contacts(root.tables("contacts"));
+  bound.contacts = bind_contacts(root.tables("contacts"), folder);
+  if (root.table("coupling").exists())
+    bound.coupling = {root.text("coupling.regularisation"), root.number("coupling.threshold")};
   bound.response = bind_response(root.table("response"));
   if (bound.response.points.empty()) bound.response.points = bound.reduction.interface;
   bound.updating = bind_updating(root.tables("updating"));

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "app/contact_checks.hpp"
 #include "app/cutting_checks.hpp"
 #include "app/findings.hpp"
 #include "app/lobes_checks.hpp"
@@ -142,6 +143,11 @@ void check_all_measured(const Case& source, Findings& findings) {
     findings.require_known("damping.from_frf.response", point_of(frf->response), part_points(source), "point");
     require_driving_point("damping.from_frf", *frf, findings);
   }
+  for (std::size_t i = 0; i < source.contacts.size(); ++i) {
+    const auto& measured = source.contacts[i].measured;
+    for (std::size_t j = 0; j < measured.size(); ++j)
+      check_measured(indexed(indexed("contacts", i) + ".measured", j), measured[j], findings);
+  }
   if (source.tool) {
     for (std::size_t i = 0; i < source.tool->measured.size(); ++i)
       check_measured(indexed("tool.measured", i), source.tool->measured[i], findings);
@@ -249,6 +255,19 @@ void require_effect(const std::string& on, const std::string& key, const Updatin
   }
 }
 
+/// Reports a stiffness that the contact does not read because it follows from the preload.
+bool unread_stiffness(const Case& source, const std::string& key, const UpdatingParameter& parameter,
+                      Findings& findings) {
+  for (std::size_t i = 0; i < source.contacts.size(); ++i) {
+    const std::string& model = source.contacts[i].model;
+    if (model == "springs" || !parameter.key.starts_with(indexed("contacts", i) + ".stiffness")) continue;
+    findings.report(key + ".key", parameter.key + " is not read with model = \"" + model +
+                                      "\"; fit the contact's preload or ball, or take \"springs\"");
+    return true;
+  }
+  return false;
+}
+
 void check_parameter(const Case& source, const std::string& on, const std::string& key,
                      const UpdatingParameter& parameter, Findings& findings) {
   double start = 0.0;
@@ -259,6 +278,7 @@ void check_parameter(const Case& source, const std::string& on, const std::strin
     return;
   }
   require_effect(on, key, parameter, findings);
+  if (unread_stiffness(source, key, parameter, findings)) return;
   const Key* described = find_key(case_schema(), pattern_of(case_schema(), parameter.key));
   for (const auto* bound : {".lower", ".upper"}) {
     const CaseValue* written = find(source.values, key + bound);
@@ -401,6 +421,8 @@ std::vector<Problem> check_case(const Case& source) {
   check_all_measured(source, findings);
   if (source.robot) check_robot(source, findings);
   check_contacts(source, findings);
+  check_contact_models(source, findings);
+  check_coupling(source, findings);
   check_response(source, findings);
   check_updating(source, findings);
   if (source.tool) check_tool(*source.tool, findings);

@@ -27,7 +27,7 @@ coupling::Deviations coupled_noise(const Case& source, const Results& results, c
   if (budget.part.noise.empty() && budget.robot.noise.empty()) return {};
   try {
     return coupling::error_budget({results.part->response, results.robot->response}, contacts_of(source),
-                                  {{budget.part.noise}, {budget.robot.noise}})
+                                  {{budget.part.noise}, {budget.robot.noise}}, coupling_options(source))
         .noise;
   } catch (const core::InputError& error) {
     spdlog::warn("no noise of the coupled response: {}", error.what());
@@ -38,8 +38,9 @@ coupling::Deviations coupled_noise(const Case& source, const Results& results, c
 void add_coupled_truncation(const Case& source, const Results& results, ErrorBudget& budget) {
   const Component& richer = *budget.richer_part;
   const auto contacts = contacts_of(source);
-  budget.coupled.truncation = difference(results.coupled->receptance.response,
-                                         coupling::couple(richer.response, results.robot->response, contacts).response);
+  budget.coupled.truncation = difference(
+      results.coupled->receptance.response,
+      coupling::couple(richer.response, results.robot->response, contacts, coupling_options(source)).response);
   if (results.coupled->modal)
     budget.richer_coupled = modes_of(coupling::couple(*richer.spatial, *results.robot->spatial, contacts));
 }

@@ -31,7 +31,7 @@ struct StructuresAlongPath {
 
 StructuresAlongPath structures_along_path(const Case& source, const Results& results, const milling::ToolFrame& frame) {
   const auto& models = results.finite_elements->along_path;
-  const bool supported = results.robot && results.robot->spatial && !source.contacts.empty();
+  const bool supported = results.coupled && results.coupled->model;
   StructuresAlongPath structures;
   structures.part.reserve(models.size());
   structures.supported.reserve(models.size());
@@ -92,7 +92,7 @@ std::vector<PathLobes> lobes_along_path(const Case& source, const Results& resul
   const StructuresAlongPath structures = structures_along_path(source, results, process.frame);
   const std::string& method = results.lobes.front().lobes.method;
   if (structures.supported.empty() && results.coupled)
-    spdlog::warn("no charts of the supported part along the path: the robot is known by its receptances only");
+    spdlog::warn("no charts of the supported part along the path: part and robot are not joined by matrices");
   std::vector<PathLobes> all{charts(source, "part", method, process, structures.part)};
   if (!structures.supported.empty()) {
     all.push_back(charts(source, "supported", method, process, structures.supported));

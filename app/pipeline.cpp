@@ -6,6 +6,8 @@
 
 #include "app/case_reader.hpp"
 #include "app/contact_force.hpp"
+#include "app/contact_identification.hpp"
+#include "app/contact_model.hpp"
 #include "app/cut_structure.hpp"
 #include "app/error_budget.hpp"
 #include "app/expectation.hpp"
@@ -82,18 +84,44 @@ void warn_of_distance(const Case& work, const RobotPosture& robot) {
       (*robot.tip - *place).norm() * 1e3, work.contacts.front().part_point);
 }
 
-void run_coupling(const Case& work, Results& results, Stages& stages) {
-  stages.begin("coupling");
-  results.coupled = couple(work, *results.part, *results.robot);
-  results.reductions = reductions(work, *results.part, *results.coupled);
-  if (results.coupled->receptance.status == coupling::KernelStatus::ill_conditioned) {
-    spdlog::warn(
-        "the coupling's kernel is ill-conditioned at some line (condition up to {:.1e}): expect lost digits there",
-        results.coupled->receptance.kernel_condition.maxCoeff());
-  }
+/// A joint that is to be found takes its place in `work`, so that whatever joins the contact later has it.
+void find_contact(Case& work, Results& results, Stages& stages) {
+  if (work.contacts.front().measured.empty()) return;
+  stages.begin("contact");
+  results.identification = identify_contact(work, *results.part, *results.robot);
+  warn_of_misfit(work, *results.identification);
+  work.contacts.front().identified = results.identification->joined;
 }
 
-void run_responses(const Case& work, Results& results, Stages& stages) {
+void warn_of_kernel(const Case& work, const CouplingResult& coupled) {
+  const coupling::CoupledResponse& receptance = coupled.receptance;
+  if (receptance.status == coupling::KernelStatus::ill_conditioned) {
+    spdlog::warn(
+        "the coupling's kernel is ill-conditioned at some line (condition up to {:.1e}): expect lost digits there",
+        receptance.kernel_condition.maxCoeff());
+  }
+  if (receptance.status == coupling::KernelStatus::regularised) {
+    spdlog::warn(
+        "coupling.regularisation = \"{}\" dropped singular values of the kernel at {} of {} lines; a joint is left "
+        "open "
+        "by up to {:.2g} of its opening",
+        work.coupling.regularisation, (receptance.dropped.array() > 0).count(), receptance.dropped.size(),
+        receptance.compatibility_residual.maxCoeff());
+  }
+  if (!coupled.no_spatial_route.empty())
+    spdlog::warn("no spatial route, so no modes of part and robot together: {}", coupled.no_spatial_route);
+}
+
+void run_coupling(Case& work, Results& results, Stages& stages) {
+  find_contact(work, results, stages);
+  stages.begin("coupling");
+  results.contacts = joined_contacts(work);
+  results.coupled = couple(work, *results.part, *results.robot);
+  results.reductions = reductions(work, *results.part, *results.coupled);
+  warn_of_kernel(work, *results.coupled);
+}
+
+void run_responses(Case& work, Results& results, Stages& stages) {
   const bool reduced = results.finite_elements && results.finite_elements->damped;
   const bool part = reduced || !work.measured_part.empty();
   if (!part && !work.robot) return;
@@ -124,12 +152,13 @@ void add_sampled_chart(const Case& work, const milling::ToolFrame& frame,
   } catch (const core::Interrupted&) {
     throw;
   } catch (const core::Error& error) {
-    spdlog::warn("no chart of the supported part, whose robot is known by its receptances only: {}", error.what());
+    spdlog::warn("no chart of the supported part, which is known by its receptances only: {}", error.what());
   }
 }
 
-/// What the contact bears at the operating points of the supported part.
+/// What the contact bears at the operating points of the supported part; not told of a regularised kernel.
 void flag_contacts(const Case& work, Results& results) {
+  if (work.coupling.regularisation != "none") return;
   for (PointStability& point : results.lobes.back().points) {
     if (results.lobes.back().name != "supported" || !point.forced) continue;
     point.contact = contact_force(work, *results.part, *results.robot, *point.forced);

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "coupling/frf_noise.hpp"
+#include "coupling/hertz_contact.hpp"
+#include "coupling/joint_identification.hpp"
 #include "coupling/receptance.hpp"
 #include "coupling/route_difference.hpp"
 #include "coupling/spatial.hpp"
@@ -82,6 +84,23 @@ struct RobotSurvey {
   std::vector<OutOfReach> out_of_reach;
 };
 
+/// A contact as it is joined, and what its stiffness comes from.
+struct JoinedContact {
+  std::string model;  ///< springs, table, hertz, caster, identified
+  coupling::Contact contact;
+  std::optional<double> preload_n;            ///< of table, hertz and caster
+  std::optional<coupling::HertzState> hertz;  ///< where a ball touches the part
+};
+
+/// A contact that was found from FRFs of the assembly.
+struct ContactIdentification {
+  coupling::IdentifiedJoint found;
+  coupling::JointMatrices joined;     ///< what was found, damping that gives energy taken as none
+  Eigen::Index lines = 0;             ///< that were compared
+  double from_hz = 0.0, to_hz = 0.0;  ///< the first of them and the last
+  bool damping_raised = false;        ///< `joined` has more damping than was found
+};
+
 /// Part and robot joined by both routes.
 struct CouplingResult {
   coupling::CoupledResponse receptance;
@@ -90,6 +109,7 @@ struct CouplingResult {
   std::optional<dynamics::ResponseModel> spatial_response;  ///< between the part's DOFs
   std::optional<coupling::RouteDifference> difference;      ///< none if both components are measured
   std::vector<reduction::IdentifiedMode> identified;  ///< peaks of the coupled receptance where there is no modal model
+  std::string no_spatial_route;  ///< why matrices that are known were not joined; empty: nothing hindered it
 };
 
 /// What a response is off by, in its shape, one matrix a line; empty where nothing is known to be wrong.
@@ -204,6 +224,8 @@ struct Results {
   std::optional<RobotPosture> robot_posture;
   std::optional<Component> robot;
   std::optional<RobotSurvey> survey;
+  std::optional<ContactIdentification> identification;  ///< of the only contact, where it was asked for
+  std::vector<JoinedContact> contacts;                  ///< in the order of the case
   std::optional<CouplingResult> coupled;
   std::vector<AmplitudeReduction> reductions;
   ErrorBudget errors;

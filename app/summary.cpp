@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/contact_report.hpp"
 #include "app/error_summary.hpp"
 #include "app/lobes_summary.hpp"
 #include "app/path_report.hpp"
@@ -121,7 +122,7 @@ json robot_of(const Case& source, const Component& robot, const RobotPosture& po
   return result;
 }
 
-json coupling_of(const Results& results) {
+json coupling_of(const Case& source, const Results& results) {
   const CouplingResult& coupled = *results.coupled;
   json result;
   result["modes"] = coupled.modal ? modes_of(*coupled.modal) : json::array();
@@ -143,6 +144,9 @@ json coupling_of(const Results& results) {
   } else {
     result["route_difference"] = nullptr;
   }
+  if (!coupled.no_spatial_route.empty()) result["no_spatial_route"] = coupled.no_spatial_route;
+  result["regularisation"] =
+      regularisation_summary(source.coupling.regularisation, source.coupling.threshold, coupled.receptance);
   result["kernel_condition_max"] = finite(coupled.receptance.kernel_condition.maxCoeff());
   result["reductions"] = json::array();
   for (const AmplitudeReduction& r : results.reductions) {
@@ -277,7 +281,8 @@ json summary_of(const Case& source, const Results& results) {
     if (results.finite_elements->reduced) summary["reduction"] = reduction_of(*results.finite_elements);
   }
   if (results.robot) summary["robot"] = robot_of(source, *results.robot, *results.robot_posture);
-  if (results.coupled) summary["coupling"] = coupling_of(results);
+  summary["contacts"] = contacts_summary(results);
+  if (results.coupled) summary["coupling"] = coupling_of(source, results);
   summary["error_budget"] = error_budget_summary(results);
   summary["lobes"] = json::array();
   for (const auto& lobes : results.lobes) summary["lobes"].push_back(lobes_of(source, lobes));

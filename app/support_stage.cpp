@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/contact_model.hpp"
 #include "app/measured.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
@@ -57,6 +58,18 @@ double peak_near(const dynamics::FrequencyAxis& axis, const Eigen::VectorXcd& H,
   return largest;
 }
 
+/// As far as matrices are known: the coupled model with its modes and response, or the part's response alone.
+void add_spatial_route(const Component& part, const Component& robot, const std::vector<coupling::Contact>& contacts,
+                       const dynamics::FrequencyAxis& axis, CouplingResult& result) {
+  if (part.spatial && robot.spatial) {
+    result.model = coupling::couple(*part.spatial, *robot.spatial, contacts);
+    result.modal = modes_of(*result.model);
+    result.spatial_response = part_block(dynamics::direct_response(*result.model, axis), part.response);
+  } else if (part.spatial) {
+    result.spatial_response = coupling::direct_response(*part.spatial, robot.response, contacts, axis);
+  }
+}
+
 }  // namespace
 
 dynamics::FrequencyAxis frequency_axis(const Case& source) {
@@ -88,14 +101,17 @@ Component measured_part(const Case& source, const dynamics::FrequencyAxis& axis)
 
 std::vector<coupling::Contact> contacts_of(const Case& source) {
   std::vector<coupling::Contact> contacts;
-  for (const Contact& c : source.contacts) {
-    coupling::Contact contact{c.part_point, c.robot_point, {}};
-    for (std::size_t i = 0; i < c.directions.size(); ++i) {
-      contact.springs.push_back({c.directions[i], c.stiffness[i], c.damping[i], c.loss_factor});
-    }
-    contacts.push_back(std::move(contact));
-  }
+  contacts.reserve(source.contacts.size());
+  for (JoinedContact& joined : joined_contacts(source)) contacts.push_back(std::move(joined.contact));
   return contacts;
+}
+
+coupling::CouplingOptions coupling_options(const Case& source) {
+  coupling::CouplingOptions options;
+  if (source.coupling.regularisation == "truncated") options.regularisation = coupling::Regularisation::truncated;
+  if (source.coupling.regularisation == "tikhonov") options.regularisation = coupling::Regularisation::tikhonov;
+  options.threshold = source.coupling.threshold;
+  return options;
 }
 
 dynamics::ModalModel modes_of(const dynamics::SpatialModel& model) {
@@ -105,13 +121,14 @@ dynamics::ModalModel modes_of(const dynamics::SpatialModel& model) {
 CouplingResult couple(const Case& source, const Component& part, const Component& robot) {
   const auto contacts = contacts_of(source);
   const dynamics::FrequencyAxis& axis = part.response.axis;
-  CouplingResult result{coupling::couple(part.response, robot.response, contacts), {}, {}, {}, {}, {}};
-  if (part.spatial && robot.spatial) {
-    result.model = coupling::couple(*part.spatial, *robot.spatial, contacts);
-    result.modal = modes_of(*result.model);
-    result.spatial_response = part_block(dynamics::direct_response(*result.model, axis), part.response);
-  } else if (part.spatial) {
-    result.spatial_response = coupling::direct_response(*part.spatial, robot.response, contacts, axis);
+  const coupling::CouplingOptions options = coupling_options(source);
+  CouplingResult result{coupling::couple(part.response, robot.response, contacts, options), {}, {}, {}, {}, {}, {}};
+  try {
+    add_spatial_route(part, robot, contacts, axis, result);
+  } catch (const core::InputError& error) {
+    if (options.regularisation == coupling::Regularisation::none) throw;
+    result.model.reset();
+    result.no_spatial_route = error.what();
   }
   if (result.spatial_response) {
     const std::string& point = source.contacts.front().part_point;

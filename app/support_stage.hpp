@@ -16,13 +16,18 @@ namespace thinwall::app {
 /// The part from its measured FRFs.
 [[nodiscard]] Component measured_part(const Case& source, const dynamics::FrequencyAxis& axis);
 
-/// The contacts of the case.
+/// The contacts of the case. Errors as joined_contacts() (app/contact_model.hpp).
 [[nodiscard]] std::vector<coupling::Contact> contacts_of(const Case& source);
+
+/// What [coupling] says of the receptance route.
+[[nodiscard]] coupling::CouplingOptions coupling_options(const Case& source);
 
 /// Modes of a component's matrices, structural damping taken as equivalent viscous. Errors as dynamics::to_modal.
 [[nodiscard]] dynamics::ModalModel modes_of(const dynamics::SpatialModel& model);
 
-/// Both routes and their difference. Throws NumericalError if the kernel cannot be solved.
+/// Both routes and their difference. Throws NumericalError if the kernel cannot be solved. With a regularised kernel a
+/// spatial model that cannot be assembled, as of rigid directions that depend on each other, is left out with its
+/// reason; without one it is an error.
 [[nodiscard]] CouplingResult couple(const Case& source, const Component& part, const Component& robot);
 
 /// A mode that a DOF feels: its frequency, and its share φ²/ω² of the static receptance there.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "app/contact_report.hpp"
 #include "app/lobes_answers.hpp"
 #include "app/lobes_report.hpp"
 #include "app/path_report.hpp"
@@ -115,6 +116,29 @@ void updating(std::string& out, const json& summary) {
   }
 }
 
+/// The difference of both routes. Where a kernel was regularised they differ by what that changed, and are not called
+/// agreeing.
+void routes(std::string& out, const json& coupling) {
+  const json& difference = coupling["route_difference"];
+  const json& regularised = coupling["regularisation"];
+  const bool changed = !regularised.is_null() &&
+                       (regularised["lines_with_dropped"].get<int>() > 0 || regularised["method"] == "tikhonov");
+  if (difference.is_null()) {
+    out += coupling.contains("no_spatial_route") ? "  routes      receptance only: the matrices cannot be joined so\n"
+                                                 : "  routes      receptance only: neither component has matrices\n";
+  } else {
+    out += fmt::format("  routes      spatial and receptance coupling {} {:.1e} (largest at {:.1f} Hz, entry {})\n",
+                       changed ? "differ by" : "agree to", difference["max_relative"].get<double>(),
+                       difference["at_frequency_hz"].get<double>(), difference["entry"].get<std::string>());
+  }
+  if (regularised.is_null()) return;
+  out +=
+      fmt::format("  kernel      {}: {} of {} lines with dropped values, up to {}; gaps up to {:.2g} of an opening\n",
+                  regularised["method"].get<std::string>(), regularised["lines_with_dropped"].get<int>(),
+                  regularised["lines"].get<int>(), regularised["most_dropped"].get<int>(),
+                  regularised["compatibility_residual_max"].get<double>());
+}
+
 void trust(std::string& out, const json& summary) {
   if (summary.contains("mesh")) {
     out += fmt::format("  mesh        {} tetrahedra of order {}, {} degrees of freedom, lowest quality {:.2f}\n",
@@ -131,16 +155,7 @@ void trust(std::string& out, const json& summary) {
     out += r["max_relative_receptance_error"].is_null() ? " of the full model; receptances not checked\n"
                                                         : " of the full model\n";
   }
-  if (summary.contains("coupling")) {
-    const json& d = summary["coupling"]["route_difference"];
-    if (d.is_null()) {
-      out += "  routes      receptance only: neither component has matrices\n";
-    } else {
-      out += fmt::format(
-          "  routes      spatial and receptance coupling agree to {:.1e} (largest at {:.1f} Hz, entry {})\n",
-          d["max_relative"].get<double>(), d["at_frequency_hz"].get<double>(), d["entry"].get<std::string>());
-    }
-  }
+  if (summary.contains("coupling")) routes(out, summary["coupling"]);
 }
 
 void checks(std::string& out, const json& summary) {
@@ -174,6 +189,7 @@ std::string terminal_report(const json& summary, const std::string& result_folde
   if (const std::string path = path_text(summary); !path.empty()) out += path + '\n';
   if (const std::string points = operating_points_text(summary); !points.empty()) out += points + '\n';
   updating(out, summary);
+  out += contacts_text(summary);
   trust(out, summary);
   checks(out, summary);
   out += fmt::format("\n  {:.1f} s; results in {}\n", summary["timings_s"].value("total", 0.0), result_folder);

@@ -42,7 +42,8 @@ double reduction_at(const Case& now, const UpdatingTarget& target, const Compone
   const dynamics::ResponseModel H = part.spatial->has_structural_damping()
                                         ? dynamics::direct_response(*part.spatial, line)
                                         : dynamics::to_response(*part.modal, line);
-  const auto G = coupling::couple(H, robot_component(now, line, robot_posture(now).posture).response, contacts_of(now))
+  const auto G = coupling::couple(H, robot_component(now, line, robot_posture(now).posture).response, contacts_of(now),
+                                  coupling_options(now))
                      .response.H.front();
   const auto row = static_cast<Eigen::Index>(dynamics::row_of(H.responses, target.point));
   return 1.0 - std::abs(G(row, row)) / std::abs(H.H.front()(row, row));

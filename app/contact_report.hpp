@@ -1,0 +1,22 @@
+#pragma once
+// The contacts in summary.json and on the terminal: what was joined, and what was found of it.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/results.hpp"
+
+namespace thinwall::app {
+
+/// One entry a contact, N/m and N s/m a direction, null for a rigid one; with its preload, what a ball makes of it, and
+/// the identified joint with half widths of 95 % intervals, where there are any.
+[[nodiscard]] nlohmann::json contacts_summary(const Results& results);
+
+/// What a regularised kernel dropped; null without a regularisation.
+[[nodiscard]] nlohmann::json regularisation_summary(const std::string& regularisation, double threshold,
+                                                    const coupling::CoupledResponse& receptance);
+
+/// A line a contact, more where it was found from FRFs; from a summary. Empty without a contact.
+[[nodiscard]] std::string contacts_text(const nlohmann::json& summary);
+
+}  // namespace thinwall::app
