@@ -178,12 +178,16 @@ Component robot_component(const Case& source, const dynamics::FrequencyAxis& axi
   return result;
 }
 
-dynamics::SpatialModel robot_matrices(const Case& source) {
-  if (source.robot->model != "measured" && source.robot->model != "modal_table") {
-    robot::Tip tip = tip_model(*source.robot, {})(robot_posture(source).posture);
+dynamics::SpatialModel robot_matrices(const Robot& robot, const robot::Posture& posture) {
+  if (robot.model != "measured" && robot.model != "modal_table") {
+    robot::Tip tip = tip_model(robot, {})(posture);
     if (auto* spatial = std::get_if<dynamics::SpatialModel>(&tip)) return std::move(*spatial);
   }
-  throw core::InputError("robot.model = \"" + source.robot->model + "\" has no matrices; take a modelled robot");
+  throw core::InputError("robot.model = \"" + robot.model + "\" has no matrices; take a modelled robot");
+}
+
+dynamics::SpatialModel robot_matrices(const Case& source) {
+  return robot_matrices(*source.robot, robot_posture(source).posture);
 }
 
 }  // namespace thinwall::app

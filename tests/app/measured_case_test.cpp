@@ -9,15 +9,19 @@
 #include <fstream>
 #include <numbers>
 #include <random>
+#include <sstream>
 
 #include "app/case_reader.hpp"
+#include "app/command_line.hpp"
 #include "app/measured.hpp"
 #include "app/measured_layout.hpp"
+#include "app/pipeline.hpp"
 #include "app/problem.hpp"
 #include "app/robot_stage.hpp"
 #include "app/sensor_mass.hpp"
 #include "app/support_stage.hpp"
 #include "case_text.hpp"
+#include "core/atomic_file.hpp"
 #include "dynamics/conversion.hpp"
 #include "io/uff.hpp"
 #include "temporary_folder.hpp"
@@ -284,6 +288,25 @@ TEST(MeasuredCase, AFileIsNotReadAsSomethingElseThanItSays) {
   const std::string text = "[robot]\nmodel = \"measured\"\n" + lines +
                            entry("robot", "R.x", "R.x", "tip.uff", "record = 1\nfrequency_unit = \"rad/s\"\n");
   expect_problem(text, "robot.measured[0].frequency_unit", "beside quantity and unit only", folder.path);
+}
+
+TEST(MeasuredCase, ARobotsFilesAreReadOnceInARun) {
+  const TemporaryFolder folder;
+  const std::string robot = robot_by_universal_file(
+      folder.path, dynamics::direct_response(loaded(body({"R"}, 6), "R", 0.1), measured_axis()));
+  const std::string part =
+      part_by_accelerances(folder.path, dynamics::direct_response(body({"P"}, 7), measured_axis()));
+  core::write_file_atomically(folder.path / "case.toml", part + robot + sensor("robot", "R", "100 g") + lines +
+                                                             "[[contacts]]\npart = \"P\"\nstiffness = \"1e6 N/m\"\n");
+  const std::string file = folder.path / "case.toml", results = folder.path / "results";
+  const char* const argv[] = {"thinwall", "run", file.c_str(), "--out", results.c_str()};
+  std::ostringstream text, errors;
+  ASSERT_EQ(run_command_line(5, argv, run_case, text, errors), 0) << errors.str();
+  const std::string log = core::read_file(folder.path / "results" / "run.log"), said = "the robot's sensor of 0.1 kg";
+  const auto first = log.find(said);
+  ASSERT_NE(first, std::string::npos) << log;
+  EXPECT_EQ(log.find(said, first + 1), std::string::npos) << log;
+  EXPECT_TRUE(fs::exists(folder.path / "results" / "robot" / "postures.csv"));
 }
 
 }  // namespace
