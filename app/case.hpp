@@ -92,6 +92,12 @@ struct MeasuredFrf {
   std::optional<int> averages{};  ///< that the file's coherence belongs to, in place of `noise`
 };
 
+/// An accelerometer that sat on a component while its FRFs were measured.
+struct Sensor {
+  std::string point;
+  double mass = 0.0;  ///< kg
+};
+
 /// A named point of the part: a fraction of the box along x, y, z or a position, then an offset.
 struct Point {
   std::string name;
@@ -166,6 +172,7 @@ struct Robot {
   PostureWish posture;
   Eigen::Vector3d preload = Eigen::Vector3d::Zero();  ///< N, on the tip
   std::vector<Eigen::Vector3d> workspace;             ///< places of the tip, m
+  std::vector<Sensor> sensors = {};                   ///< during all of `measured`
 };
 
 /// The ball by which a robot touches; the supports are a caster's.
@@ -321,6 +328,7 @@ struct Case {
   std::string source;            ///< text of the file, as read
   std::optional<Part> part;
   std::vector<MeasuredFrf> measured_part;
+  std::vector<Sensor> part_sensors;  ///< during all of `measured_part`
   std::vector<Selection> selections;
   std::vector<Point> points;
   Modes modes;

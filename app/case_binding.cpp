@@ -37,6 +37,13 @@ std::vector<MeasuredFrf> bind_all_measured(const std::vector<Table>& tables, con
   return list;
 }
 
+std::vector<Sensor> bind_sensors(const std::vector<Table>& tables) {
+  std::vector<Sensor> sensors;
+  sensors.reserve(tables.size());
+  for (const Table& table : tables) sensors.push_back({table.text("at"), table.number("mass")});
+  return sensors;
+}
+
 mesh::Polygon bind_polygon(const Table& table) {
   const auto list = table.numbers("outline");
   mesh::Polygon polygon;
@@ -326,6 +333,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
     bound.part = bind_part(root.table("part"));
   }
   bound.measured_part = bind_all_measured(root.tables("part.measured"), folder);
+  bound.part_sensors = bind_sensors(root.tables("part.sensors"));
   bound.selections = bind_selections(root.table("selections"));
   bound.points = bind_points(root.table("points"));
   bound.modes = {bind_range(root.table("modes"), "count", 10), root.flag("modes.verify_count")};
@@ -337,6 +345,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   bound.damping = bind_damping(root.table("damping"), folder);
   if (root.table("robot").exists()) {
     bound.robot = bind_robot(root.table("robot"), bind_all_measured(root.tables("robot.measured"), folder), folder);
+    bound.robot->sensors = bind_sensors(root.tables("robot.sensors"));
   }
   bound.contacts = bind_contacts(root.tables("contacts"), folder);
   if (root.table("coupling").exists())

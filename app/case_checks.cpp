@@ -13,6 +13,7 @@
 #include "app/findings.hpp"
 #include "app/lobes_checks.hpp"
 #include "app/measured.hpp"
+#include "app/measured_checks.hpp"
 #include "app/part_checks.hpp"
 #include "app/path_checks.hpp"
 #include "app/robot_checks.hpp"
@@ -104,6 +105,9 @@ void check_measured(const std::string& key, const MeasuredFrf& frf, Findings& fi
   if (tells_itself && frf.quantity.empty() != frf.unit.empty())
     findings.report(key + (frf.unit.empty() ? ".unit" : ".quantity"),
                     "missing; give quantity and unit together, or neither where the file says them");
+  if (tells_itself && frf.quantity.empty() && frf.unit.empty() && frf.frequency_unit != "Hz" &&
+      !frf.frequency_unit.empty())
+    findings.report(key + ".frequency_unit", "counts beside quantity and unit only; give these too, or remove it");
   const int time = frf.quantity == "receptance" ? 2 : frf.quantity == "mobility" ? 1 : 0;
   if (!frf.unit.empty() && !frf.quantity.empty() && !is_frf_unit(frf.quantity, frf.unit)) {
     try {
@@ -138,6 +142,7 @@ void check_all_measured(const Case& source, Findings& findings) {
   for (std::size_t i = 0; i < source.measured_part.size(); ++i) {
     check_measured(indexed("part.measured", i), source.measured_part[i], findings);
   }
+  check_measured_part(source, findings);
   if (const auto& frf = source.damping.from_frf) {
     check_measured("damping.from_frf", *frf, findings);
     findings.require_known("damping.from_frf.response", point_of(frf->response), part_points(source), "point");

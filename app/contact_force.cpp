@@ -39,16 +39,6 @@ Eigen::Matrix3Xcd force_harmonics(const milling::ForcedVibration& cut, const Eig
   return F;
 }
 
-/// Rows of the translations of a point, turned into x, y, z: 3 × dofs.
-Eigen::Matrix3Xd directions(const dynamics::DofTable& dofs, const std::string& point) {
-  Eigen::Matrix3Xd D = Eigen::Matrix3Xd::Zero(3, static_cast<Index>(dofs.size()));
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    if (dofs[i].point == point && dofs[i].kind == dynamics::DofKind::translation)
-      D.col(static_cast<Index>(i)) = dofs[i].direction;
-  }
-  return D;
-}
-
 dynamics::ResponseModel response_on(const Component& known, const dynamics::FrequencyAxis& axis) {
   if (known.spatial) return dynamics::direct_response(*known.spatial, axis);
   if (known.modal) return dynamics::to_response(*known.modal, axis);
@@ -69,8 +59,8 @@ ContactForce contact_force(const Case& source, const Component& part, const Comp
   const coupling::CouplingSensitivity sensitivity = coupling::coupling_sensitivity(both, contacts_of(source));
   dynamics::DofTable forces = both[0].forces;
   forces.insert(forces.end(), both[1].forces.begin(), both[1].forces.end());
-  const Eigen::Matrix3Xd at_tip = directions(forces, source.robot->point);
-  const Eigen::Matrix3Xd at_cut = directions(sensitivity.forces, source.cutting->at);
+  const Eigen::Matrix3Xd at_tip = dynamics::displacement_matrix(forces, source.robot->point);
+  const Eigen::Matrix3Xd at_cut = dynamics::displacement_matrix(sensitivity.forces, source.cutting->at);
   const Eigen::Matrix3Xcd F = force_harmonics(cut, milling_process(source).frame.rotation());
   ContactForce result{preload, preload, preload, false};
   constexpr int samples = 512;

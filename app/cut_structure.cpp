@@ -104,8 +104,7 @@ std::optional<milling::RelativeStructure> cut_poles(const Case& source, const dy
 milling::SampledStructure sampled_structure(const Case& source, const milling::ToolFrame& frame,
                                             const dynamics::ResponseModel& coupled) {
   const dynamics::ResponseModel at_cut = dynamics::between(coupled, source.cutting->at, source.cutting->at);
-  Eigen::Matrix3Xd D(3, static_cast<Eigen::Index>(at_cut.responses.size()));
-  for (Eigen::Index i = 0; i < D.cols(); ++i) D.col(i) = at_cut.responses[static_cast<std::size_t>(i)].direction;
+  const Eigen::Matrix3Xd D = dynamics::displacement_matrix(at_cut.responses, source.cutting->at);
   milling::SampledReceptance felt{coupled.axis.hz, {}};
   felt.H.reserve(at_cut.H.size());
   for (const Eigen::MatrixXcd& H : at_cut.H) felt.H.emplace_back(D * H * D.transpose());

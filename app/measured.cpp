@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <optional>
 
+#include "app/measured_layout.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 #include "dynamics/frf_checks.hpp"
@@ -21,15 +21,6 @@
 namespace thinwall::app {
 
 namespace {
-
-/// "P.x" as a DOF.
-dynamics::Dof dof_of(const std::string& name) {
-  const auto dot = name.rfind('.');
-  if (dot == std::string::npos || dot == 0) {
-    throw core::InputError("\"" + name + "\" names no degree of freedom; write it as POINT.x, POINT.y or POINT.z");
-  }
-  return {name.substr(0, dot), dynamics::axis(name.substr(dot + 1)), dynamics::DofKind::translation};
-}
 
 std::optional<io::FrfFormat> stated_format(const MeasuredFrf& measured) {
   if (measured.quantity.empty() && measured.unit.empty()) return std::nullopt;
@@ -72,11 +63,9 @@ io::MeasuredFrf along_named_axes(const io::MeasuredEntry& entry, const MeasuredF
   return frf;
 }
 
-/// The FRF that the case names; what was odd in the file is logged.
+/// The FRF that the case names; what was odd in the file, or filled in by the case, is logged.
 io::MeasuredFrf record_of(const io::MeasuredEntries& file, const MeasuredFrf& measured) {
-  const bool stated = !measured.quantity.empty() || !measured.unit.empty();
-  const auto level = stated ? spdlog::level::warn : spdlog::level::info;  // a statement may go over what the file says
-  for (const std::string& note : file.notes) spdlog::log(level, "{}: {}", measured.file.string(), note);
+  for (const std::string& note : file.notes) spdlog::info("{}: {}", measured.file.string(), note);
   const std::size_t count = file.entries.size();
   const auto wanted = static_cast<std::size_t>(measured.record.value_or(1));
   if (wanted <= count && (measured.record || count == 1)) return along_named_axes(file.entries[wanted - 1], measured);
@@ -117,33 +106,20 @@ io::MeasuredFrf read_measured(const MeasuredFrf& measured) {
 }
 
 dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files, const dynamics::FrequencyAxis& axis) {
-  std::map<std::pair<std::string, std::string>, Eigen::VectorXcd> entries;
-  std::vector<std::string> names;
-  for (const MeasuredFrf& file : files) {
-    entries[{file.response, file.force}] = io::resample(read_measured(file), axis);
-    for (const auto& name : {file.response, file.force}) {
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    }
-  }
+  if (const LayoutFault fault = fault_of_layout(files); !fault.text.empty()) throw core::InputError(fault.text);
+  const MeasuredLayout layout = measured_layout(files);
+  std::vector<Eigen::VectorXcd> values;
+  values.reserve(files.size());
+  for (const MeasuredFrf& file : files) values.push_back(io::resample(read_measured(file), axis));
   dynamics::ResponseModel model;
   model.axis = axis;
-  for (const auto& name : names) model.responses.push_back(dof_of(name));
+  for (const auto& name : layout.dofs) model.responses.push_back(dof_of(name));
   model.forces = model.responses;
-  const auto n = static_cast<Eigen::Index>(names.size());
-  model.H.assign(static_cast<std::size_t>(axis.size()), Eigen::MatrixXcd(n, n));
-  for (Eigen::Index a = 0; a < n; ++a) {
-    for (Eigen::Index b = 0; b < n; ++b) {
-      auto found = entries.find({names[static_cast<std::size_t>(a)], names[static_cast<std::size_t>(b)]});
-      if (found == entries.end())
-        found = entries.find({names[static_cast<std::size_t>(b)], names[static_cast<std::size_t>(a)]});
-      if (found == entries.end()) {
-        throw core::InputError("no file gives the response of " + names[static_cast<std::size_t>(a)] +
-                               " to a force at " + names[static_cast<std::size_t>(b)] +
-                               ", nor the reverse: add one, or leave the others out");
-      }
-      for (Eigen::Index line = 0; line < axis.size(); ++line)
-        model.H[static_cast<std::size_t>(line)](a, b) = found->second(line);
-    }
+  const Eigen::Index n = layout.file.rows();
+  for (Eigen::Index line = 0; line < axis.size(); ++line) {
+    model.H.emplace_back(Eigen::MatrixXcd::NullaryExpr(n, n, [&](Eigen::Index a, Eigen::Index b) {
+      return values[static_cast<std::size_t>(layout.file(a, b))](line);
+    }));
   }
   return model;
 }

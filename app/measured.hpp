@@ -22,8 +22,8 @@ enum class FrfFileKind { csv, cutpro, universal, mat };
 [[nodiscard]] io::MeasuredFrf read_measured(const MeasuredFrf& measured);
 
 /// The files of one component as an FRF matrix on `axis`: rows and columns are the DOFs that the files name; an entry
-/// that only its transpose gives is taken from there (reciprocity). Throws InputError for an entry that no file gives,
-/// DataError as io::resample.
+/// that only its transpose gives is taken from there (reciprocity). Throws InputError for files that make no matrix
+/// (app/measured_layout.hpp), DataError as read_measured() and io::resample.
 [[nodiscard]] dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files,
                                                         const dynamics::FrequencyAxis& axis);
 

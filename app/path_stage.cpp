@@ -29,14 +29,29 @@ struct StructuresAlongPath {
   std::vector<RobotPosture> robot;
 };
 
+/// How the robot stands at each position: as it was surveyed along the path, or in its one posture.
+std::vector<RobotPosture> postures_along_path(const Case& source, const Results& results) {
+  const std::size_t count = source.path->positions.size();
+  const bool surveyed = results.survey && results.survey->over == "path";
+  if (!source.path->robot_follows) return std::vector<RobotPosture>(count, *results.robot_posture);
+  if (surveyed && !results.survey->out_of_reach.empty())
+    throw core::InputError(results.survey->out_of_reach.front().reason);
+  std::vector<RobotPosture> postures;
+  std::optional<Eigen::VectorXd> near;
+  for (std::size_t i = 0; i < count; ++i) {
+    postures.push_back(surveyed ? results.survey->tips[i].robot : robot_posture(at_position(source, i), near));
+    near = postures.back().posture.q;
+  }
+  return postures;
+}
+
 StructuresAlongPath structures_along_path(const Case& source, const Results& results, const milling::ToolFrame& frame) {
   const auto& models = results.finite_elements->along_path;
   const bool supported = results.coupled && results.coupled->model;
   StructuresAlongPath structures;
   structures.part.reserve(models.size());
   structures.supported.reserve(models.size());
-  const dynamics::FrequencyAxis one_line{Eigen::VectorXd::Ones(1)};  // a path needs matrices alone
-  std::optional<Eigen::VectorXd> near;
+  if (supported) structures.robot = postures_along_path(source, results);
   for (std::size_t i = 0; i < models.size(); ++i) {
     const Case there = at_position(source, i);
     std::vector<reduction::IdentifiedMode> identified;
@@ -46,10 +61,8 @@ StructuresAlongPath structures_along_path(const Case& source, const Results& res
     };
     structures.part.push_back(felt(modes_of(part)));
     if (!supported) continue;
-    structures.robot.push_back(robot_posture(there, near));
-    near = structures.robot.back().posture.q;
-    const Component robot = robot_component(there, one_line, structures.robot.back().posture);
-    structures.supported.push_back(felt(modes_of(coupling::couple(part, *robot.spatial, contacts_of(there)))));
+    const dynamics::SpatialModel robot = robot_matrices(*there.robot, structures.robot[i].posture);
+    structures.supported.push_back(felt(modes_of(coupling::couple(part, robot, contacts_of(there)))));
   }
   return structures;
 }

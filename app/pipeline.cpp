@@ -132,7 +132,7 @@ void run_responses(Case& work, Results& results, Stages& stages) {
     results.robot_posture = robot_posture(work);
     results.robot = robot_component(work, axis, results.robot_posture->posture);
     warn_of_distance(work, *results.robot_posture);
-    results.survey = survey(work);
+    results.survey = survey(work, tip_report(*results.robot_posture, *results.robot));
     if (results.survey->tips.empty()) spdlog::warn("the robot reaches no place of its workspace");
   }
   if (!work.measured_part.empty()) warn_of_doubts(results.part->response, "the part's");

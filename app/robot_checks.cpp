@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "app/measured_checks.hpp"
 #include "app/part_checks.hpp"
 #include "app/robot_binding.hpp"
 #include "app/robot_stage.hpp"
@@ -26,6 +27,7 @@ constexpr std::array belongings{
     Belongs{"robot.damping_ratio", "one_mode"},
     Belongs{"robot.modes", "modes"},
     Belongs{"robot.measured", "measured"},
+    Belongs{"robot.sensors", "measured"},
     Belongs{"robot.links", "flexible_joints"},
     Belongs{"robot.base", "flexible_joints, virtual_joints or modal_table"},
     Belongs{"robot.tip", "flexible_joints"},
@@ -73,15 +75,11 @@ void check_measured_robot(const Robot& robot, Findings& findings) {
     findings.report("robot.model", "measured needs [[robot.measured]] with a file");
     return;
   }
-  for (std::size_t i = 0; i < robot.measured.size(); ++i) {
-    const MeasuredFrf& frf = robot.measured[i];
-    for (std::size_t j = 0; j < i; ++j) {
-      if (robot.measured[j].response != frf.response || robot.measured[j].force != frf.force) continue;
-      findings.report("robot.measured[" + std::to_string(i) + "].response",
-                      "the response of " + frf.response + " to a force at " + frf.force + " is there twice");
-    }
+  check_sensors("robot.sensors", robot.sensors, {robot.point}, findings);
+  if (robot.measured.size() > 1) {
+    check_layout("robot.measured", robot.measured, findings);
+    return;
   }
-  if (robot.measured.size() > 1) return;
   const MeasuredFrf& frf = robot.measured.front();
   if (!frf.response.empty() && !frf.force.empty() && frf.response != frf.force) {
     findings.report("robot.measured[0].force",

@@ -9,6 +9,7 @@
 
 #include "app/discretisation.hpp"
 #include "app/measured.hpp"
+#include "app/sensor_mass.hpp"
 #include "app/support_stage.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
@@ -38,11 +39,14 @@ robot::OneMode single_mode(const Robot& robot) {
   return {*robot.mass, c, k, robot.direction};
 }
 
-/// One file is along robot.direction, several are between the tip's axes.
+/// One file is along robot.direction, several are between the tip's axes; less the sensors.
 dynamics::ResponseModel measured_tip(const Robot& robot, const dynamics::FrequencyAxis& axis) {
-  if (robot.measured.size() > 1) return measured_response(robot.measured, axis);
-  return robot::measured_receptance(axis, io::resample(read_measured(robot.measured.front()), axis), robot.point,
-                                    robot.direction);
+  dynamics::ResponseModel tip =
+      robot.measured.size() > 1
+          ? measured_response(robot.measured, axis)
+          : robot::measured_receptance(axis, io::resample(read_measured(robot.measured.front()), axis), robot.point,
+                                       robot.direction);
+  return without_sensors(std::move(tip), robot.sensors, "the robot's");
 }
 
 /// The tip's part of the table, its axes turned into the part's.
@@ -174,12 +178,16 @@ Component robot_component(const Case& source, const dynamics::FrequencyAxis& axi
   return result;
 }
 
-dynamics::SpatialModel robot_matrices(const Case& source) {
-  if (source.robot->model != "measured" && source.robot->model != "modal_table") {
-    robot::Tip tip = tip_model(*source.robot, {})(robot_posture(source).posture);
+dynamics::SpatialModel robot_matrices(const Robot& robot, const robot::Posture& posture) {
+  if (robot.model != "measured" && robot.model != "modal_table") {
+    robot::Tip tip = tip_model(robot, {})(posture);
     if (auto* spatial = std::get_if<dynamics::SpatialModel>(&tip)) return std::move(*spatial);
   }
-  throw core::InputError("robot.model = \"" + source.robot->model + "\" has no matrices; take a modelled robot");
+  throw core::InputError("robot.model = \"" + robot.model + "\" has no matrices; take a modelled robot");
+}
+
+dynamics::SpatialModel robot_matrices(const Case& source) {
+  return robot_matrices(*source.robot, robot_posture(source).posture);
 }
 
 }  // namespace thinwall::app

@@ -28,7 +28,10 @@ namespace thinwall::app {
 [[nodiscard]] Component robot_component(const Case& source, const dynamics::FrequencyAxis& axis,
                                         const robot::Posture& posture);
 
-/// The robot's matrices in the posture that the case asks for. Throws InputError for a robot that has none.
+/// The robot's matrices in that posture. Throws InputError for a robot that has none.
+[[nodiscard]] dynamics::SpatialModel robot_matrices(const Robot& robot, const robot::Posture& posture);
+
+/// The same in the posture that the case asks for.
 [[nodiscard]] dynamics::SpatialModel robot_matrices(const Case& source);
 
 }  // namespace thinwall::app

@@ -23,13 +23,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// u = D q of the translations of a point: 3 × dofs.
+/// D of u_tip = D q; a tip's table holds one point alone.
 Eigen::Matrix3Xd translations_of(const dynamics::DofTable& dofs) {
-  Eigen::Matrix3Xd D = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(dofs.size()));
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    if (dofs[i].kind == dynamics::DofKind::translation) D.col(static_cast<Eigen::Index>(i)) = dofs[i].direction;
-  }
-  return D;
+  return dynamics::displacement_matrix(dofs, dofs.front().point);
 }
 
 /// Re H(0) between the tip's translations, m/N; none without a model.
@@ -183,8 +179,9 @@ TipReport tip_report(const RobotPosture& robot, const Component& tip) {
   return report;
 }
 
-RobotSurvey survey(const Case& source) {
+RobotSurvey survey(const Case& source, const std::optional<TipReport>& as_it_stands) {
   if (!source.robot) throw core::InputError("the case has no robot; add [robot]");
+  const auto own_tip = [&] { return as_it_stands ? *as_it_stands : report_at(source, {}); };
   RobotSurvey survey;
   if (!source.robot->workspace.empty()) {
     survey.over = "workspace";
@@ -196,10 +193,14 @@ RobotSurvey survey(const Case& source) {
     }
   } else if (source.path && source.path->robot_follows && source.part) {
     survey.over = "path";
+    if (source.robot->model != "flexible_joints") {
+      survey.tips.assign(source.path->positions.size(), own_tip());
+      return survey;
+    }
     for (std::size_t i = 0; i < source.path->positions.size(); ++i)
       add(at_position(source, i), source.path->positions[i], survey);
   } else {
-    survey.tips.push_back(report_at(source, {}));
+    survey.tips.push_back(own_tip());
   }
   return survey;
 }

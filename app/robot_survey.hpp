@@ -16,9 +16,10 @@ namespace thinwall::app {
 [[nodiscard]] TipReport tip_report(const RobotPosture& robot, const Component& tip);
 
 /// The robot over its workspace where the case has one, else along its path where the robot follows the cut, else in
-/// its one posture. No tip at all is an answer, too. Throws InputError for a case without robot. Cost O(joints³) a
-/// posture.
-[[nodiscard]] RobotSurvey survey(const Case& source);
+/// its one posture, whose report is `as_it_stands` where it was made already. A robot that has no joints is the same at
+/// every position of a path. No tip at all is an answer, too. Throws InputError for a case without robot. Cost
+/// O(joints³) a posture, and the files of a measured robot once.
+[[nodiscard]] RobotSurvey survey(const Case& source, const std::optional<TipReport>& as_it_stands = {});
 
 /// joints_rad, tip_m, smallest_singular_value of an arm, and preload_n where there is one, for summary.json.
 [[nodiscard]] nlohmann::json posture_summary(const RobotPosture& robot);

@@ -12,6 +12,7 @@ constexpr Bounds positive{0.0, infinity, true, false, false, ""};
 constexpr Bounds not_negative{0.0, infinity, false, false, false, ""};
 constexpr Bounds at_least_one{1.0, 1e6, false, false, false, ""};
 constexpr Bounds fraction{0.0, 1.0, false, false, false, "a fraction of the box, 0 at one face and 1 at the other"};
+constexpr Bounds sensor_mass{0.0, 1.0, true, false, false, "for grams write the unit: \"5 g\""};
 constexpr Bounds damping_ratio{0.0, 1.0, false, true, false, "a ratio to critical damping: 1 % is 0.01"};
 constexpr Bounds density_bounds{100.0, 25000.0, false, false, false, "for g/cm^3 write the unit: \"7.85 g/cm^3\""};
 constexpr Bounds modulus_bounds{1e6, 2e12, false, false, false, "for GPa write the unit: \"210 GPa\""};
@@ -47,6 +48,10 @@ constexpr Section case_sections[] = {
     Section{"part.bend", "Bends the part about a cylinder: a curved wall, a cylinder sector.", ""},
     Section{"part.supports[]", "Directions held at zero; none makes the part free.", ""},
     Section{"part.measured[]", "FRFs of a measured part; they take the place of the box.", ""},
+    Section{"part.sensors[]",
+            "Accelerometers that sat on the measured part during all of its FRFs; their mass is taken off "
+            "(docs/theory/measured-frfs.md).",
+            ""},
     Section{"selections.*", "A named set of boundary points: exactly one of plane, box, sphere.", ""},
     Section{"selections.*.plane", "All points of a plane.", ""},
     Section{"selections.*.box", "All points in a box along the axes.", ""},
@@ -63,6 +68,7 @@ constexpr Section case_sections[] = {
             "FRFs of a measured robot (`model = \"measured\"`): one along `direction`, or several between the tip's x, "
             "y, z.",
             ""},
+    Section{"robot.sensors[]", "Accelerometers on the measured robot, likewise.", ""},
     Section{"robot.links[]",
             "An arm's links from the base to the tip, each with the joint that carries it (`model = "
             "\"flexible_joints\"`). At angle 0 a link's frame is its joint's.",
@@ -159,6 +165,8 @@ constexpr Key case_keys[] = {
     Key{"part.measured[].record", Type::integer, kind::number, "", {1, 1e6, false, false, false, "FRFs are numbered from 1"}, "", "Of a file with several FRFs: which one, in their order; not needed where one is there."},
     Key{"part.measured[].noise", Type::quantity, kind::number, "", uncertainty, "", "Standard deviation of its real and imaginary part, relative to its size: what the error budget starts from."},
     Key{"part.measured[].averages", Type::integer, kind::number, "", {1, 1e6, false, false, false, "an average is of one measurement or more"}, "", "In place of `noise`: the number of averages behind the file's coherence, from which the noise follows."},
+    Key{"part.sensors[].at", Type::name, kind::number, "", any, "", "Measured point, `P`: excited as well as measured.", required},
+    Key{"part.sensors[].mass", Type::quantity, kind::mass, "", sensor_mass, "", "Its mass, with what holds it on and moves with it.", required},
 
     Key{"selections.*.plane.point", Type::vector, kind::length, "", any, "", "A point of the plane.", required},
     Key{"selections.*.plane.normal", Type::direction, kind::number, "", any, "", "Its normal.", required},
@@ -285,6 +293,8 @@ constexpr Key case_keys[] = {
     Key{"robot.measured[].record", Type::integer, kind::number, "", {1, 1e6, false, false, false, "FRFs are numbered from 1"}, "", "Of a file with several FRFs: which one, in their order; not needed where one is there."},
     Key{"robot.measured[].noise", Type::quantity, kind::number, "", uncertainty, "", "Standard deviation of its real and imaginary part, relative to its size: what the error budget starts from."},
     Key{"robot.measured[].averages", Type::integer, kind::number, "", {1, 1e6, false, false, false, "an average is of one measurement or more"}, "", "In place of `noise`: the number of averages behind the file's coherence, from which the noise follows."},
+    Key{"robot.sensors[].at", Type::name, kind::number, "", any, "", "Measured point, `R`.", required},
+    Key{"robot.sensors[].mass", Type::quantity, kind::mass, "", sensor_mass, "", "Its mass, with what holds it on and moves with it.", required},
 
     Key{"contacts[].part", Type::name, kind::number, "", any, "", "Point of the part.", required},
     Key{"contacts[].robot", Type::name, kind::number, "\"R\"", any, "", "Point of the robot."},

@@ -6,6 +6,7 @@
 
 #include "app/contact_model.hpp"
 #include "app/measured.hpp"
+#include "app/sensor_mass.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 
@@ -95,7 +96,7 @@ Component component(dynamics::SpatialModel model, const dynamics::FrequencyAxis&
 
 Component measured_part(const Case& source, const dynamics::FrequencyAxis& axis) {
   Component part;
-  part.response = measured_response(source.measured_part, axis);
+  part.response = without_sensors(measured_response(source.measured_part, axis), source.part_sensors, "the part's");
   return part;
 }
 

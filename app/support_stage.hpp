@@ -13,7 +13,7 @@ namespace thinwall::app {
 /// structural damping the receptances come from the matrices directly.
 [[nodiscard]] Component component(dynamics::SpatialModel model, const dynamics::FrequencyAxis& axis);
 
-/// The part from its measured FRFs.
+/// The part from its measured FRFs, less its sensors. Errors as measured_response() and without_sensors().
 [[nodiscard]] Component measured_part(const Case& source, const dynamics::FrequencyAxis& axis);
 
 /// The contacts of the case. Errors as joined_contacts() (app/contact_model.hpp).

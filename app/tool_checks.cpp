@@ -4,6 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "app/measured_checks.hpp"
+
 namespace thinwall::app {
 
 namespace {
@@ -24,6 +26,7 @@ void check_swap(const Tool& tool, Findings& findings) {
     if (!there)
       findings.report("tool.swap", "no FRF of tool.swap.measured is of point \"" + point + "\"; measure there too");
   }
+  check_layout("tool.swap.measured", tool.swap->measured, findings);
 }
 
 }  // namespace

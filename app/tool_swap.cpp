@@ -130,10 +130,9 @@ SwappedTip swapped_tip(const Case& source) {
   }
   result.tip.frequency_hz = lines.hz;
   const dynamics::ResponseModel tip = dynamics::between(swapped.coupled.response, swap.tip, swap.tip);
-  Eigen::Matrix3Xd D = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(tip.responses.size()));
-  for (Eigen::Index i = 0; i < D.cols(); ++i) {
-    const Vector3d& d = tip.responses[static_cast<std::size_t>(i)].direction;
-    if (std::abs(d.dot(axis)) < 1e-6) D.col(i) = d;  // along its axis nothing holds the tool here
+  Eigen::Matrix3Xd D = dynamics::displacement_matrix(tip.responses, swap.tip);
+  for (auto d : D.colwise()) {
+    if (!(std::abs(d.dot(axis)) < 1e-6)) d.setZero();  // along its axis nothing holds the tool here
   }
   for (const Eigen::MatrixXcd& H : tip.H) result.tip.H.emplace_back(D * H * D.transpose());
   return result;

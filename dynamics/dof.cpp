@@ -114,4 +114,13 @@ Eigen::VectorXd displacement_row(const DofTable& dofs, const std::string& point,
   return row;
 }
 
+Eigen::Matrix3Xd displacement_matrix(const DofTable& dofs, const std::string& point) {
+  Eigen::Matrix3Xd D = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(dofs.size()));
+  for (const int i : rows_of_point(dofs, point)) {
+    const Dof& dof = dofs[static_cast<std::size_t>(i)];
+    if (dof.kind == DofKind::translation) D.col(i) = dof.direction;
+  }
+  return D;
+}
+
 }  // namespace thinwall::dynamics

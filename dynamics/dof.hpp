@@ -51,4 +51,9 @@ using DofTable = std::vector<Dof>;
 [[nodiscard]] Eigen::VectorXd displacement_row(const DofTable& dofs, const std::string& point, const Eigen::Vector3d& n,
                                                DofKind kind = DofKind::translation);
 
+/// D of u_point = D q: column i holds the direction of DOF i where that is a translation of `point`, zeros elsewhere.
+/// Shape: 3 × dofs.size(); its rows are displacement_row() along x, y, z. A point that has rotations only does not
+/// move: D = 0. Throws InputError (naming the nearest point) if no DOF belongs to the point.
+[[nodiscard]] Eigen::Matrix3Xd displacement_matrix(const DofTable& dofs, const std::string& point);
+
 }  // namespace thinwall::dynamics

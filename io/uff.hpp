@@ -41,8 +41,8 @@ void write_uff(const std::filesystem::path& path, const dynamics::ResponseModel&
 /// "coherence at <point>".
 void write_uff(const std::filesystem::path& path, const MeasuredResponse& measured, const UffForm& form = {});
 
-/// What the caller knows of the FRFs in a file. Quantity and units, that of the frequencies too, count where they are
-/// stated, whatever the file says, which is noted where it differs.
+/// What the caller knows of the FRFs in a file. Quantity and units, that of the frequencies too, fill in what the file
+/// leaves open, which is noted; a file that says otherwise is refused (io/uff_meaning.hpp).
 struct UffReading {
   std::optional<FrfFormat> stated;
 };

@@ -20,6 +20,7 @@ constexpr int coherence = 6;
 constexpr int unknown_data = 0;
 constexpr int general_data = 1;
 constexpr int displacement = 8;
+constexpr int reaction_force = 9;
 constexpr int velocity = 11;
 constexpr int acceleration = 12;
 constexpr int excitation_force = 13;

@@ -38,15 +38,18 @@ struct UffDofs {
 /// before anything else, or where there is none from data set 164. A DOF in direction 0 is a rotation if its label
 /// says so, and is set to it in `dofs`.
 ///
-/// What the caller states comes first and is noted where the file says otherwise. Otherwise throws DataError for
-/// another type, an unknown label, a label of another dimension, units that are not told: nothing is guessed.
+/// What the caller states fills in what the file leaves open, which is noted: data types 0 (unknown) and 1 (general),
+/// a reaction force (9) for a force, a unit that no known label and no data set 164 tells. It goes over nothing: throws
+/// DataError, with what is stated, what the file says and its records, for another quantity, a label of another
+/// dimension, another scale (relative 1e-3). Without a statement throws DataError for another type, an unknown label, a
+/// label of another dimension, units that are not told: nothing is guessed.
 [[nodiscard]] FrfFormat format_of(const UffFunction& function, const std::optional<UffUnits>& units,
                                   const std::optional<FrfFormat>& stated, const UffRecords& records, UffDofs& dofs,
                                   UffNotes& notes);
 
-/// The unit of the abscissa in Hz: what the caller states, noted where the file says otherwise; else that of type 18
-/// (frequency), or of an unknown or general type whose label is a frequency. Throws DataError for other types and
-/// labels.
+/// The unit of the abscissa in Hz: that of type 18 (frequency), or of an unknown or general type whose label is a
+/// frequency. What the caller states must agree (relative 1e-9), or fills in, noted, where such a type has no label or
+/// an unknown one. Throws DataError for other types and labels.
 [[nodiscard]] double abscissa_in_hz(const UffFunction& function, const std::optional<FrfFormat>& stated,
                                     const UffRecords& records, UffNotes& notes);
 

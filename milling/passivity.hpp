@@ -11,12 +11,14 @@ namespace thinwall::milling {
 struct GivesEnergy {
   int direction = 0;  ///< 0, 1, 2: the entry on the diagonal
   double frequency_hz = 0.0;
-  double share = 0.0;  ///< Im H / |H| there, above 0
+  double share = 0.0;  ///< Im H / |H| that the line and both its neighbours reach, above 0
 };
 
-/// The line with the largest Im H_ii of those where Im H_ii exceeds a tenth of |H_ii| on three lines in a row and
-/// |H_ii| a hundredth of its largest: phase noise of a good measurement does neither, a wrong sign, quantity or time
-/// base does both. Empty if there is none. Axes of any frame. Cost O(lines).
+/// dynamics::passivity() of each driving point by itself, for a sampled receptance has cross entries of zero where no
+/// file gave one: the direction with the largest share Im H/|H| that three lines in a row reach, if that is above a
+/// tenth on lines where |H| is a hundredth of its largest. Phase noise of a good measurement does neither, a wrong
+/// sign, quantity or time base does both. Empty if there is none. Axes of any frame. Throws InputError for values that
+/// are not finite. Cost O(lines).
 [[nodiscard]] std::optional<GivesEnergy> energy_given(const SampledReceptance& receptance);
 
 }  // namespace thinwall::milling

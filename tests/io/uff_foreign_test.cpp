@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -168,24 +169,78 @@ TEST_F(ForeignUniversalFile, OfAnUnknownQuantityOrUnitIsRefused) {
   expect_refused(frf_set(words), "no data set 58 of function type 4");
 }
 
-TEST_F(ForeignUniversalFile, IsReadAsTheCallerStatesAndThatIsNoted) {
+TEST_F(ForeignUniversalFile, LeavesOpenWhatTheCallerStatesAndThatIsNoted) {
+  for (const auto& [numerator, denominator] : {std::pair{0, 0}, {0, 13}, {1, 1}, {12, 0}, {12, 9}}) {
+    FrfWords words;
+    words.numerator = numerator;
+    words.numerator_unit = "counts";
+    words.denominator = denominator;
+    const MeasuredEntries measured = entries(frf_set(words), {frf_format("accelerance", "g/N", "Hz")});
+    expect_receptance(measured.entries.at(0), 9.80665, 2);
+    ASSERT_EQ(measured.notes.size(), 1U);
+    EXPECT_NE(measured.notes[0].find("read as accelerance in 9.80665 m/s^2/N, as stated; the file has data types " +
+                                     std::to_string(numerator) + " over " + std::to_string(denominator)),
+              std::string::npos)
+        << measured.notes[0];
+  }
   FrfWords words;
-  words.numerator = 15;
-  words.numerator_unit = "counts";
-  words.denominator = 0;
-  const MeasuredEntries measured = entries(frf_set(words), {frf_format("accelerance", "g/N", "Hz")});
-  expect_receptance(measured.entries.at(0), 9.80665, 2);
-  ASSERT_EQ(measured.notes.size(), 1U);
-  EXPECT_NE(measured.notes[0].find("read as accelerance, as stated; the file has data types 15 over 0"),
-            std::string::npos);
-  EXPECT_TRUE(entries(frf_set(), {frf_format("receptance", "m/N", "Hz")}).notes.empty());
-  const MeasuredEntries slower = entries(frf_set(), {frf_format("receptance", "m/N", "rad/s")});
+  words.numerator_unit = "NONE";  // and no data set 164: no unit
+  expect_receptance(entries(frf_set(words), {frf_format("receptance", "um/N", "Hz")}).entries.at(0), 1e-6, 0);
+  words = {};
+  words.abscissa_unit = "NONE";
+  const MeasuredEntries slower = entries(frf_set(words), {frf_format("receptance", "m/N", "rad/s")});
   EXPECT_NEAR(slower.entries.at(0).frf.axis.hz(0), 10.0 / (2.0 * pi), 1e-12);
   ASSERT_EQ(slower.notes.size(), 1U);
   EXPECT_NE(slower.notes[0].find("taken in the unit that is stated"), std::string::npos);
-  words = {};
   words.abscissa_unit = "rad/s";
   EXPECT_NEAR(entries(frf_set(words)).entries.at(0).frf.axis.hz(2), 30.0 / (2.0 * pi), 1e-12);
+}
+
+TEST_F(ForeignUniversalFile, ThatSaysWhatTheCallerStatesIsReadWithoutANote) {
+  EXPECT_TRUE(entries(frf_set(), {frf_format("receptance", "m/N", "Hz")}).notes.empty());
+  FrfWords words;
+  words.numerator_unit = "mm";
+  EXPECT_TRUE(entries(frf_set(words), {frf_format("receptance", "mm/N", "Hz")}).notes.empty());
+  words.numerator_unit = words.denominator_unit = "NONE";
+  const std::string in_inches = units_set(7, 1.0 / 0.0254, 1.0 / (0.45359237 * 9.80665)) + frf_set(words);
+  EXPECT_TRUE(
+      entries(in_inches, {FrfFormat{FrfQuantity::receptance, 0.0254 / (0.45359237 * 9.80665), 1.0}}).notes.empty());
+}
+
+TEST_F(ForeignUniversalFile, ThatSaysAnotherQuantityOrUnitThanTheCallerIsRefused) {
+  const auto refused = [this](const std::string& bytes, const FrfFormat& stated, const std::string& part) {
+    const std::string text = message_of<core::DataError>([&] { (void)entries(bytes, {stated}); });
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+    EXPECT_EQ(text.find("analyser.uff:"), 0U) << text;
+  };
+  const FrfFormat receptance = frf_format("receptance", "m/N", "Hz");
+  FrfWords words;
+  for (const int type : {2, 11, 12, 15}) {
+    words.numerator = type;
+    refused(frf_set(words), receptance,
+            "receptance in m/N is stated, but the file says data type " + std::to_string(type) +
+                " over 13 (data set 58, records 9 and 10)");
+  }
+  refused(frf_set(words), receptance, "leave out quantity and unit, or correct the one that is wrong");
+  words = {};
+  words.denominator = 12;  // a transmissibility
+  refused(frf_set(words), receptance, "data type 8 over 12");
+  refused(frf_set(), frf_format("receptance", "um/N", "Hz"),
+          "receptance in 1e-06 m/N is stated, but the file says receptance in m/N");
+  words = {};
+  words.numerator = 0;  // open, but not its label
+  words.numerator_unit = "m/s^2";
+  refused(frf_set(words), receptance, "the unit \"m/s^2\" of the response (data set 58, record 9)");
+  words = {};
+  words.numerator_unit = words.denominator_unit = "NONE";
+  refused(units_set(5, 1000.0, 1000.0) + frf_set(words), frf_format("receptance", "mm/N", "Hz"),
+          "receptance in m/N (data set 164)");
+  refused(frf_set(), frf_format("receptance", "m/N", "rad/s"), "data type 18 in \"Hz\" (data set 58, record 8)");
+  words = {};
+  words.abscissa_unit = "s";
+  std::string over_time = frf_set(words);
+  over_time.replace(over_time.find("        18    0"), 10, "        17");
+  refused(over_time, receptance, "data type 17 in \"s\"");
 }
 
 // 1.0D+00 and 1.0+000, which Fortran writes where the exponent needs three digits; filled columns leave no blank.

@@ -94,6 +94,18 @@ TEST(UniversalFileBytes, OfTheCorpusAreReadOrRefused) {
   EXPECT_GE(read, 5U) << "a corpus of files that are refused reaches nothing";
 }
 
+// What is mutated and cut below has values as bytes, too, of either order.
+TEST(UniversalFileBytes, OfTheCorpusHaveBinarySetsOfEitherByteOrder) {
+  std::size_t little = 0, big = 0;
+  for (const std::string& bytes : corpus_files()) {
+    if (!reads(bytes)) continue;
+    little += bytes.find("\n    58b     1") != std::string::npos ? 1 : 0;
+    big += bytes.find("\n    58b     2") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_GE(little, 2U);
+  EXPECT_GE(big, 2U);
+}
+
 TEST(UniversalFileBytes, MutatedFiftyThousandTimesAreReadOrRefusedInTime) {
   const std::vector<std::string> files = corpus_files();
   std::mt19937 random(58);
