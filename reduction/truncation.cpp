@@ -57,10 +57,11 @@ dynamics::SpatialModel with_left_out(const dynamics::SpatialModel& reduced, cons
   const double lowest = n > nb ? reduced.K.diagonal().tail(n - nb).minCoeff() : 0.0;
   const VectorXd own = lowest > 0.0 ? VectorXd(reduced.M.diagonal().head(nb) / lowest) : truncation.A.diagonal();
   const MatrixXd V = whitening(truncation.A, own);
+  if (V.cols() == 0) return reduced;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(symmetric_part(V.transpose() * truncation.B * V));
   const Index added = V.cols();
   // Round-off of a direction in which hardly anything was left out must not make its frequency infinite.
-  const double least = added > 0 ? 1e-8 * eigen.eigenvalues().maxCoeff() : 0.0;
+  const double least = 1e-8 * eigen.eigenvalues().maxCoeff();
   const VectorXd omega = eigen.eigenvalues().cwiseMax(least).cwiseSqrt().cwiseInverse();
   const MatrixXd L = truncation.A * V * eigen.eigenvectors() * omega.asDiagonal();
   dynamics::SpatialModel model = reduced;
