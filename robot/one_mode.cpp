@@ -40,26 +40,44 @@ OneMode one_mode(double frequency_hz, double damping_ratio, double stiffness_n_m
   return mode;
 }
 
+namespace {
+
+/// The directions that differ; x, y, z where two of them are neither parallel nor at right angles, for the amplitude of
+/// such a DOF would not be the displacement along it.
+std::vector<Eigen::Vector3d> tip_directions(const std::vector<OneMode>& modes) {
+  std::vector<Eigen::Vector3d> directions;
+  for (const OneMode& mode : modes) {
+    bool known = false;
+    for (const Eigen::Vector3d& d : directions) {
+      const double along = std::abs(d.dot(mode.direction));
+      if (along > 1e-12 && along < 1.0 - 1e-12)
+        return {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+      known = known || along >= 1.0 - 1e-12;
+    }
+    if (!known) directions.push_back(mode.direction);
+  }
+  return directions;
+}
+
+}  // namespace
+
 dynamics::SpatialModel spatial_model(const std::vector<OneMode>& modes, const std::string& point) {
   if (modes.empty()) throw core::InputError("robot \"" + point + "\" has no mode: give at least one");
+  for (const OneMode& mode : modes) require_valid(mode);
+  const std::vector<Eigen::Vector3d> directions = tip_directions(modes);
   const auto n = static_cast<Eigen::Index>(modes.size());
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(n, n);
   dynamics::SpatialModel model{
-      Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd(), {},
-      Eigen::MatrixXd::Zero(n, n)};
+      zero, zero, zero, Eigen::MatrixXd(), {}, Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(directions.size()), n)};
+  for (const Eigen::Vector3d& d : directions) model.dofs.push_back({point, d, dynamics::DofKind::translation});
   for (Eigen::Index i = 0; i < n; ++i) {
     const OneMode& mode = modes[static_cast<std::size_t>(i)];
-    require_valid(mode);
     model.M(i, i) = mode.mass;
     model.C(i, i) = mode.damping;
     model.K(i, i) = mode.stiffness;
-    const auto along = std::find_if(model.dofs.begin(), model.dofs.end(), [&](const dynamics::Dof& dof) {
-      return std::abs(dof.direction.dot(mode.direction)) > 1.0 - 1e-12;
-    });
-    const auto row = along - model.dofs.begin();
-    model.T(row, i) = along == model.dofs.end() || along->direction.dot(mode.direction) > 0.0 ? 1.0 : -1.0;
-    if (along == model.dofs.end()) model.dofs.push_back({point, mode.direction, dynamics::DofKind::translation});
+    for (std::size_t row = 0; row < directions.size(); ++row)
+      model.T(static_cast<Eigen::Index>(row), i) = directions[row].dot(mode.direction);
   }
-  model.T.conservativeResize(static_cast<Eigen::Index>(model.dofs.size()), Eigen::NoChange);
   return model;
 }
 

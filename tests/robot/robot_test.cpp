@@ -48,6 +48,27 @@ TEST(OneMode, SeveralAlongOneDirectionAddTheirReceptances) {
   }
 }
 
+TEST(OneMode, SeveralObliqueToEachOtherAreSeenAlongTheAxes) {
+  const Eigen::Vector3d d(0.6, 0.8, 0.0), e(1.0, 0.0, 0.0);
+  const auto a = one_mode(29.0, 0.02, 1.7e6, d), b = one_mode(47.0, 0.05, 4e6, e);
+  const dynamics::FrequencyAxis axis = dynamics::linear_axis(10.0, 80.0, 50);
+  const auto together = dynamics::direct_response(spatial_model({a, b}, "R"), axis);
+  const auto alone = [&](const OneMode& mode, const std::string& dof) {
+    return dynamics::entry(dynamics::direct_response(spatial_model({mode}, "R"), axis), dof, dof);
+  };
+  OneMode along = a;
+  along.direction = e;
+  const Eigen::VectorXcd H_a = alone(along, "R.x"), H_b = alone(b, "R.x");
+  const auto expect_equal = [&](const char* response, const char* force, const Eigen::VectorXcd& expected) {
+    const Eigen::VectorXcd found = dynamics::entry(together, response, force);
+    EXPECT_LT((found - expected).norm(), 1e-12 * H_a.norm()) << response << "/" << force;
+  };
+  expect_equal("R.x", "R.x", 0.36 * H_a + H_b);
+  expect_equal("R.x", "R.y", 0.48 * H_a);
+  expect_equal("R.y", "R.y", 0.64 * H_a);
+  expect_equal("R.z", "R.z", 0.0 * H_a);
+}
+
 TEST(OneMode, RefusesWhatNoPassiveModeHas) {
   EXPECT_THROW((void)one_mode(0.0, 0.02, 1.7e6, x), core::InputError);
   EXPECT_THROW((void)one_mode(29.0, 1.0, 1.7e6, x), core::InputError);
