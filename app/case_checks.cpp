@@ -14,6 +14,7 @@
 #include "app/lobes_checks.hpp"
 #include "app/measured.hpp"
 #include "app/measured_checks.hpp"
+#include "app/measured_noise.hpp"
 #include "app/part_checks.hpp"
 #include "app/path_checks.hpp"
 #include "app/robot_checks.hpp"
@@ -129,6 +130,8 @@ void check_measured(const std::string& key, const MeasuredFrf& frf, Findings& fi
   std::error_code ignored;
   if (!frf.file.empty() && !std::filesystem::is_regular_file(frf.file, ignored)) {
     findings.report(key + ".file", "there is no file \"" + frf.file.string() + "\"");
+  } else if (frf.averages) {
+    if (const std::string fault = fault_of_coherence(frf); !fault.empty()) findings.report(key + ".averages", fault);
   }
 }
 

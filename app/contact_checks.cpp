@@ -192,9 +192,15 @@ void check_contact_models(const Case& source, Findings& findings) {
       findings.report(key + ".noise", "give one value, or three: of the assembly, of the part, of the robot");
     if (!contact.measured.empty()) {
       check_identification(source, key, contact, findings);
-    } else if (contact.model != "springs") {
-      check_preloaded(source, key, contact, findings);
+      continue;
     }
+    const std::vector<double> usual(3, 0.01);
+    if (contact.noise.size() == 3 && contact.noise != usual)
+      findings.report(key + ".noise", "is that of [[contacts.measured]], which are not there; remove it, or add them");
+    if (contact.damping_model != "viscous" && !contact.damping_model.empty())
+      findings.report(key + ".damping_model",
+                      "is what [[contacts.measured]] are searched for, which are not there; remove it, or add them");
+    if (contact.model != "springs") check_preloaded(source, key, contact, findings);
   }
 }
 
@@ -204,6 +210,15 @@ void check_coupling(const Case& source, Findings& findings) {
     findings.report("coupling.threshold", "there is nothing to regularise; give coupling.regularisation, or remove it");
   if (choice.regularisation != "none" && source.contacts.empty())
     findings.report("coupling.regularisation", "nothing is coupled; add [[contacts]], or remove it");
+  if (choice.regularisation == "none") return;
+  for (std::size_t i = 0; i < source.updating.size(); ++i) {
+    if (std::ranges::any_of(source.updating[i].targets,
+                            [](const UpdatingTarget& target) { return target.quantity == "coupled_frequency"; }))
+      findings.report(
+          "updating[" + std::to_string(i) + "]",
+          "coupled_frequency joins matrices, which coupling.regularisation does not reach; take reduction_at, "
+          "or remove the regularisation");
+  }
 }
 
 }  // namespace thinwall::app

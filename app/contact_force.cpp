@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 #include "app/milling_process.hpp"
 #include "app/support_stage.hpp"
@@ -45,13 +46,25 @@ dynamics::ResponseModel response_on(const Component& known, const dynamics::Freq
   throw core::InputError("the force on a contact needs a part and a robot that are known by models");
 }
 
+/// What presses the contact, N, and along which unit vector: that of the only contact where it states one, else
+/// robot.preload.
+std::pair<double, Eigen::Vector3d> pressing_force(const Case& source) {
+  const Eigen::Vector3d& on_tip = source.robot->preload;
+  const Contact& first = source.contacts.front();
+  if (source.contacts.size() == 1 && first.preload) {
+    const Eigen::Vector3d& normal = first.directions.front();
+    return {*first.preload, on_tip.dot(normal) < 0.0 ? Eigen::Vector3d(-normal) : normal};
+  }
+  if (!(on_tip.norm() > 0.0))
+    throw core::InputError("the force on a contact is compared with its preload, which is zero; give robot.preload");
+  return {on_tip.norm(), on_tip.normalized()};
+}
+
 }  // namespace
 
 ContactForce contact_force(const Case& source, const Component& part, const Component& tip,
                            const milling::ForcedVibration& cut) {
-  const double preload = source.robot->preload.norm();
-  if (!(preload > 0.0)) throw core::InputError("the force on a contact is compared with robot.preload, which is zero");
-  const Eigen::Vector3d n = source.robot->preload / preload;
+  const auto [preload, n] = pressing_force(source);
   dynamics::FrequencyAxis axis{Eigen::VectorXd::LinSpaced(harmonics + 1, 0.0, static_cast<double>(harmonics)) /
                                cut.period_s};
   axis.hz(0) = 1e-3 * axis.hz(1);

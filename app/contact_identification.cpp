@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "app/measured.hpp"
 #include "app/part_checks.hpp"
@@ -97,7 +98,10 @@ coupling::IdentificationOptions options_of(const Contact& contact) {
   coupling::IdentificationOptions options;
   options.response_point = point_of(contact.measured.front().response);
   options.force_point = point_of(contact.measured.front().force);
-  const auto level = [&](std::size_t which) { return Eigen::VectorXd::Constant(1, contact.noise[which]); };
+  // The case states the deviation of real and imaginary part, the library takes that of both together.
+  const auto level = [&](std::size_t which) {
+    return Eigen::VectorXd::Constant(1, std::numbers::sqrt2 * contact.noise[which]);
+  };
   options.noise = {level(1), level(2), level(0)};
   options.viscous = contact.damping_model != "structural";
   options.structural = contact.damping_model != "viscous";

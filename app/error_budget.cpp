@@ -22,6 +22,14 @@ std::vector<Eigen::MatrixXcd> difference(const dynamics::ResponseModel& model, c
   return list;
 }
 
+/// What the files' noise makes of a component; none where a sensor's mass was taken off, which changes the noise, too.
+coupling::Deviations noise_of(const std::string& whose, const std::vector<MeasuredFrf>& files,
+                              const std::vector<Sensor>& sensors, const dynamics::ResponseModel& response) {
+  if (sensors.empty() || !any_noise(files)) return measured_deviations(files, response);
+  spdlog::warn("the noise of the {}'s FRFs is not followed: a sensor's mass was taken off them", whose);
+  return {};
+}
+
 /// Noise of both components into the coupled response; empty if neither is noisy.
 coupling::Deviations coupled_noise(const Case& source, const Results& results, const ErrorBudget& budget) {
   if (budget.part.noise.empty() && budget.robot.noise.empty()) return {};
@@ -61,12 +69,14 @@ ErrorBudget error_budget(const Case& source, const Results& results) {
   if (results.part) {
     budget.richer_part = richer_part(source, results, results.part->response.axis);
     if (budget.richer_part) budget.part.truncation = difference(results.part->response, budget.richer_part->response);
-    budget.part.noise = measured_deviations(source.measured_part, results.part->response);
+    budget.part.noise = noise_of("part", source.measured_part, source.part_sensors, results.part->response);
   }
-  if (results.robot) budget.robot.noise = measured_deviations(source.robot->measured, results.robot->response);
+  if (results.robot)
+    budget.robot.noise = noise_of("robot", source.robot->measured, source.robot->sensors, results.robot->response);
   if (!results.coupled) return budget;
   budget.coupled.noise = coupled_noise(source, results, budget);
-  if (budget.richer_part) add_coupled_truncation(source, results, budget);
+  const bool regularised = coupling_options(source).regularisation != coupling::Regularisation::none;
+  if (budget.richer_part && !regularised) add_coupled_truncation(source, results, budget);
   return budget;
 }
 

@@ -95,10 +95,11 @@ json chart_errors_summary(const NamedLobes& named) {
 json row_errors_summary(const DepthError& error, const std::optional<milling::DepthScatter>& scatter, int seed) {
   json result = {{"truncation_m", known(error.truncation_m)}, {"noise_deviation_m", known(error.noise_m)}};
   if (!scatter) return result;
+  const int with_limit = static_cast<int>(scatter->depth_m.size()) - scatter->without_limit;
   result["sampled"] = {{"draws", scatter->depth_m.size()},
                        {"seed", seed},
-                       {"mean_m", scatter->mean_m},
-                       {"deviation_m", scatter->deviation_m},
+                       {"mean_m", with_limit > 0 ? json(scatter->mean_m) : json(nullptr)},
+                       {"deviation_m", with_limit > 1 ? json(scatter->deviation_m) : json(nullptr)},
                        {"without_limit", scatter->without_limit}};
   return result;
 }

@@ -43,17 +43,19 @@ std::string robust_text(const json& robust) {
   return text + pockets_text(robust["best_pockets"], "pockets");
 }
 
-/// What errors of the structure make of the limits; a reduction below a thousandth is not worth a line.
-std::string error_budget_text(const json& budget) {
+/// What errors of the structure make of the least depth; a reduction below a thousandth is not worth a line.
+std::string error_budget_text(const json& budget, double least_depth_m) {
   std::string text;
-  if (const json& reduction = budget["largest_truncation_relative"];
-      !reduction.is_null() && reduction.get<double>() >= 1e-3) {
-    text += fmt::format("    the part's reduction moves limits by up to {:.2g} %; more modes (reduction) lower that\n",
-                        reduction.get<double>() * 100.0);
+  if (!budget.contains("at_minimum")) return text;
+  const json &reduction = budget["at_minimum"]["truncation_m"], &noise = budget["at_minimum"]["noise_deviation_m"];
+  if (!reduction.is_null() && std::abs(reduction.get<double>()) >= 1e-3 * least_depth_m) {
+    text +=
+        fmt::format("    the part's reduction moves the least depth by {:.2g} %; more modes (reduction) lower that\n",
+                    std::abs(reduction.get<double>()) / least_depth_m * 100.0);
   }
-  if (const json& noise = budget["largest_noise_relative"]; !noise.is_null())
-    text += fmt::format("    noise of measured FRFs: limits are known to {:.2g} % at worst (one standard deviation)\n",
-                        noise.get<double>() * 100.0);
+  if (!noise.is_null())
+    text += fmt::format("    noise of measured FRFs: the least depth is known to {:.2g} % (one standard deviation)\n",
+                        noise.get<double>() / least_depth_m * 100.0);
   return text;
 }
 
@@ -86,7 +88,8 @@ std::string sensitivities_text(const json& sensitivities) {
 
 std::string asked_text(const json& chart) {
   std::string text;
-  if (!chart["error_budget"].is_null()) text += error_budget_text(chart["error_budget"]);
+  if (!chart["error_budget"].is_null())
+    text += error_budget_text(chart["error_budget"], chart["minimum_depth_m"].get<double>());
   if (chart.contains("robust")) text += robust_text(chart["robust"]);
   if (chart.contains("compared")) {
     for (const json& other : chart["compared"]) {

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "app/measured_noise.hpp"
 #include "app/milling_process.hpp"
 #include "milling/lobe_method.hpp"
 #include "milling/robust_lobes.hpp"
@@ -89,6 +90,16 @@ void check_robust(const LobesOptions& lobes, Findings& findings) {
   }
 }
 
+void check_noise_samples(const Case& source, Findings& findings) {
+  if (source.cutting && !source.cutting->spindle_speed_rpm)
+    findings.report("lobes.noise_samples", "draws are made at the case's own speed; give cutting.spindle_speed");
+  const bool noisy = (source.tool && any_noise(source.tool->measured)) || any_noise(source.measured_part) ||
+                     (source.robot && any_noise(source.robot->measured));
+  if (!noisy)
+    findings.report("lobes.noise_samples",
+                    "nothing is noisy; give noise or averages of measured FRFs of tool, part or robot, or remove it");
+}
+
 }  // namespace
 
 void check_chart_choices(const Case& source, Findings& findings) {
@@ -103,8 +114,7 @@ void check_chart_choices(const Case& source, Findings& findings) {
     }
   }
   if (lobes.robust) check_robust(lobes, findings);
-  if (lobes.noise_samples && source.cutting && !source.cutting->spindle_speed_rpm)
-    findings.report("lobes.noise_samples", "draws are made at the case's own speed; give cutting.spindle_speed");
+  if (lobes.noise_samples) check_noise_samples(source, findings);
 }
 
 void check_machine(const Case& source, Findings& findings) {

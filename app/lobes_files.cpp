@@ -44,6 +44,7 @@ void add_error_column(io::Table& table, const std::string& name, const std::vect
                       std::optional<double> DepthError::*which) {
   if (std::ranges::none_of(errors, [&](const DepthError& e) { return (e.*which).has_value(); })) return;
   std::vector<double> values;
+  values.reserve(errors.size());
   for (const DepthError& error : errors) values.push_back((error.*which).value_or(HUGE_VAL));
   table.push_back({name, values});
 }

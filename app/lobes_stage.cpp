@@ -65,7 +65,7 @@ struct Chart {
 
 /// Errors of the limiting depths, and at the case's own speed; the rows share out among the threads.
 void add_errors(const Case& source, const Chart& chart, const StructureErrors& errors, NamedLobes& result) {
-  if (errors.none()) return;
+  if (errors.none() || (chart.poles() != nullptr && !chart.direct)) return;  // crossings of other methods are their own
   const auto at = [&](const milling::LobeRow& row) {
     if (row.crossings.empty()) return DepthError{};
     return depth_error(chart.structure, errors, chart.process, row.spindle_speed_rpm, row.crossings.front(),

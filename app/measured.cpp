@@ -50,6 +50,10 @@ io::MeasuredEntries entries_of(const io::MeasuredResponse& measured, const Measu
 io::MeasuredFrf along_named_axes(const io::MeasuredEntry& entry, const MeasuredFrf& measured) {
   io::MeasuredFrf frf = entry.frf;
   for (const auto& [dof, name] : {std::pair{&entry.response, &measured.response}, {&entry.force, &measured.force}}) {
+    if (dof->kind == dynamics::DofKind::rotation) {
+      throw core::InputError("\"" + measured.file.string() + "\" says " + dynamics::name(*dof) +
+                             ", a turn, where the case says " + *name + ": choose another record");
+    }
     const double along = dof->direction.dot(dof_of(*name).direction);
     const bool axis = dof->direction.cwiseAbs().maxCoeff() > 0.999;  // zero or slanted: the case knows better
     if (axis && along < -0.999) {

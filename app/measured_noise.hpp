@@ -2,6 +2,8 @@
 // How far the measured FRFs of a case scatter, by what the case says of them.
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/case.hpp"
 #include "coupling/frf_noise.hpp"
@@ -18,5 +20,11 @@ namespace thinwall::app {
 /// transpose scatters as that does, an entry without a statement not at all. Empty if no file has one.
 [[nodiscard]] coupling::Deviations measured_deviations(const std::vector<MeasuredFrf>& files,
                                                        const dynamics::ResponseModel& response);
+
+/// Whether the case states the noise of one of them.
+[[nodiscard]] bool any_noise(const std::vector<MeasuredFrf>& files);
+
+/// Why `averages` of this file tell no noise: no coherence, or one of 0 at some line; empty if they do. Reads the file.
+[[nodiscard]] std::string fault_of_coherence(const MeasuredFrf& file);
 
 }  // namespace thinwall::app

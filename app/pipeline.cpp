@@ -87,6 +87,12 @@ void warn_of_distance(const Case& work, const RobotPosture& robot) {
 /// A joint that is to be found takes its place in `work`, so that whatever joins the contact later has it.
 void find_contact(Case& work, Results& results, Stages& stages) {
   if (work.contacts.front().measured.empty()) return;
+  if (!work.part_sensors.empty()) {
+    spdlog::warn(
+        "the part's FRFs were freed of a sensor's mass, those of the assembly were not: if the sensor sat there, too, "
+        "the "
+        "contact that is found bears its inertia");
+  }
   stages.begin("contact");
   results.identification = identify_contact(work, *results.part, *results.robot);
   warn_of_misfit(work, *results.identification);
@@ -102,9 +108,8 @@ void warn_of_kernel(const Case& work, const CouplingResult& coupled) {
   }
   if (receptance.status == coupling::KernelStatus::regularised) {
     spdlog::warn(
-        "coupling.regularisation = \"{}\" dropped singular values of the kernel at {} of {} lines; a joint is left "
-        "open "
-        "by up to {:.2g} of its opening",
+        "coupling.regularisation = \"{}\" changed the kernel, singular values below the threshold at {} of {} lines; a "
+        "joint is left open by up to {:.2g} of its opening",
         work.coupling.regularisation, (receptance.dropped.array() > 0).count(), receptance.dropped.size(),
         receptance.compatibility_residual.maxCoeff());
   }
@@ -139,7 +144,13 @@ void run_responses(Case& work, Results& results, Stages& stages) {
   if (work.robot && work.robot->model == "measured") warn_of_doubts(results.robot->response, "the robot's");
   if (part && work.robot && !work.contacts.empty()) run_coupling(work, results, stages);
   stages.begin("error budget");
-  results.errors = error_budget(work, results);
+  try {
+    results.errors = error_budget(work, results);
+  } catch (const core::Interrupted&) {
+    throw;
+  } catch (const core::Error& error) {
+    spdlog::warn("no error budget: {}", error.what());
+  }
 }
 
 /// The supported part where the robot has no poles. What cannot be charted from samples leaves the rest of the run.
@@ -194,7 +205,9 @@ void run_lobes(const Case& work, const std::vector<milling::OperatingPoint>& poi
   } else if (results.coupled) {
     add_sampled_chart(work, frame, points, results);
   }
-  if (results.coupled && work.robot->preload != Eigen::Vector3d::Zero()) flag_contacts(work, results);
+  const bool pressed = results.coupled && (work.robot->preload != Eigen::Vector3d::Zero() ||
+                                           (work.contacts.size() == 1 && work.contacts.front().preload));
+  if (pressed) flag_contacts(work, results);
   if (!work.path) return;
   stages.begin("lobes along the path");
   results.path = lobes_along_path(work, results);

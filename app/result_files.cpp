@@ -247,7 +247,11 @@ void write_summary(const fs::path& folder, const Case& source, const Case& fitte
     manifest["inputs"].push_back({{"name", expected.string()}, {"sha256", io::sha256_of_file(expected)}});
   }
   manifest["seeds"] = nlohmann::json::array();
-  if (source.lobes && source.lobes->noise_samples) manifest["seeds"].push_back(source.lobes->seed);
+  const auto drawn = [](const nlohmann::json& chart) {
+    return chart.contains("at_case_speed") && chart["at_case_speed"].contains("error_budget") &&
+           chart["at_case_speed"]["error_budget"].contains("sampled");
+  };
+  if (std::ranges::any_of(summary["lobes"], drawn)) manifest["seeds"].push_back(source.lobes->seed);
   auto files = io::file_records(folder);
   std::erase_if(files, [](const auto& file) { return file.name == "manifest.json" || file.name == "run.log"; });
   manifest["outputs"] = records(files);

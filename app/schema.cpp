@@ -306,7 +306,7 @@ constexpr Key case_keys[] = {
     Key{"contacts[].preload", Type::quantity, kind::force, "", {0.0, infinity, true, false, false, "without a preload there is no contact"}, "", "Force that presses both together at rest. Of the only contact: the part of `robot.preload` along the first direction if not given."},
     Key{"contacts[].table", Type::file, kind::number, "", any, "", "CSV with the columns `preload_n`, `stiffness_n_per_m`, `damping_n_s_per_m` (`model = \"table\"`): monotone cubics between its rows, nothing outside."},
     Key{"contacts[].damping_model", Type::choice, kind::number, "\"viscous\"", any, "viscous|structural|both", "With `measured`: C, the loss factor, or both are sought."},
-    Key{"contacts[].noise", Type::quantities, kind::number, "0.01", {0.0, 1.0, true, true, false, "relative: 1 % is 0.01"}, "", "With `measured`: relative standard deviation of an FRF's lines, for weights and confidence. One, or three: of the assembly, of the part, of the robot."},
+    Key{"contacts[].noise", Type::quantities, kind::number, "0.01", {0.0, 1.0, true, true, false, "relative: 1 % is 0.01"}, "", "With `measured`: standard deviation of real and imaginary part of an FRF, relative to its size, for weights and confidence. One, or three: of the assembly, of the part, of the robot."},
     Key{"contacts[].ball.radius", Type::quantity, kind::length, "", positive, "", "Radius of the ball that touches.", required},
     Key{"contacts[].ball.youngs_modulus", Type::quantity, kind::stress, "\"210 GPa\"", modulus_bounds, "", "Of the ball; of a caster, of its cup and carrying balls too."},
     Key{"contacts[].ball.poisson_ratio", Type::quantity, kind::number, "0.3", poisson_bounds, "", "Likewise."},

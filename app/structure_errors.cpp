@@ -120,7 +120,9 @@ StructureErrors sampled_structure_errors(const Case& source, const milling::Tool
         {{results.errors.part.noise}, {results.errors.robot.noise}}, at_cut.names, at_cut.names);
     for (const Eigen::MatrixXcd& of : covariance) errors.noise.emplace_back(turn * of * turn.transpose());
   }
-  add_tool_noise(source, frame, coupled.axis, errors.noise);
+  const bool coupled_noise_unknown = results.errors.coupled.noise.empty() &&
+                                     !(results.errors.part.noise.empty() && results.errors.robot.noise.empty());
+  if (!coupled_noise_unknown) add_tool_noise(source, frame, coupled.axis, errors.noise);
   return errors;
 }
 

@@ -32,8 +32,9 @@ Eigen::MatrixXd error_bound(const CoupledLine& work, const std::vector<Interface
   return bound;
 }
 
-KernelStatus status_of(const CoupledResponse& coupled) {
-  if (coupled.dropped.any()) return KernelStatus::regularised;
+KernelStatus status_of(const CoupledResponse& coupled, Regularisation regularisation) {
+  // Tikhonov's changes every singular value, those above its bound a little.
+  if (coupled.dropped.any() || regularisation == Regularisation::tikhonov) return KernelStatus::regularised;
   if (coupled.kernel_condition.maxCoeff() > ill_conditioned_above) return KernelStatus::ill_conditioned;
   return KernelStatus::well_conditioned;
 }
@@ -64,7 +65,7 @@ CoupledResponse couple(const Components& components, const std::vector<Contact>&
       if (options.component_error > 0.0) coupled.error[i] = error_bound(work, parts, i, options.component_error);
     }
   });
-  coupled.status = status_of(coupled);
+  coupled.status = status_of(coupled, options.regularisation);
   return coupled;
 }
 

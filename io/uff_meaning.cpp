@@ -194,9 +194,11 @@ FrfFormat agreed(const FrfFormat& stated, const UffFunction& function, const Sid
   require_agreeing_types(function, stated, records);
   const auto motion_unit = told_unit(motion, units, dofs.response.kind, stated, records);
   const auto force_unit = told_unit(force, units, dofs.force.kind, stated, records);
-  if (motion_unit && force_unit && std::abs(*motion_unit / *force_unit / stated.unit_in_si - 1.0) > 1e-3) {
+  // A motion in a unit that is told is over newtons where the force's is not.
+  const double told_in_si = motion_unit.value_or(1.0) / force_unit.value_or(1.0);
+  if (motion_unit && std::abs(told_in_si / stated.unit_in_si - 1.0) > 1e-3) {
     const bool labelled = is_label(motion.axis.unit) || is_label(force.axis.unit);
-    const FrfFormat told{stated.quantity, *motion_unit / *force_unit, 1.0};
+    const FrfFormat told{stated.quantity, told_in_si, 1.0};
     refuse_statement(records, format_text(stated),
                      format_text(told) + (labelled ? " (data set 58, records 9 and 10)" : " (data set 164)"));
   }

@@ -42,7 +42,17 @@ OneMode one_mode(double frequency_hz, double damping_ratio, double stiffness_n_m
 
 namespace {
 
-/// The directions that differ; x, y, z where two of them are neither parallel nor at right angles, for the amplitude of
+/// Those of x, y, z along which something moves.
+std::vector<Eigen::Vector3d> moving_axes(const std::vector<OneMode>& modes) {
+  std::vector<Eigen::Vector3d> axes;
+  for (int i = 0; i < 3; ++i) {
+    if (std::ranges::any_of(modes, [i](const OneMode& mode) { return std::abs(mode.direction(i)) > 1e-12; }))
+      axes.emplace_back(Eigen::Vector3d::Unit(i));
+  }
+  return axes;
+}
+
+/// The directions that differ; axes where two of them are neither parallel nor at right angles, for the amplitude of
 /// such a DOF would not be the displacement along it.
 std::vector<Eigen::Vector3d> tip_directions(const std::vector<OneMode>& modes) {
   std::vector<Eigen::Vector3d> directions;
@@ -50,8 +60,7 @@ std::vector<Eigen::Vector3d> tip_directions(const std::vector<OneMode>& modes) {
     bool known = false;
     for (const Eigen::Vector3d& d : directions) {
       const double along = std::abs(d.dot(mode.direction));
-      if (along > 1e-12 && along < 1.0 - 1e-12)
-        return {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+      if (along > 1e-12 && along < 1.0 - 1e-12) return moving_axes(modes);
       known = known || along >= 1.0 - 1e-12;
     }
     if (!known) directions.push_back(mode.direction);

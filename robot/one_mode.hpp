@@ -23,9 +23,9 @@ struct OneMode {
                                const Eigen::Vector3d& direction);
 
 /// The modes side by side at one point, u = Σ dᵢ qᵢ, in their amplitudes qᵢ. The DOFs are the point's translations
-/// along the directions that differ, {point, d}, or along x, y, z where these are not at right angles; modes that share
-/// a direction add up. Throws InputError for an empty list, a
-/// direction that is not a unit vector, or a mass, stiffness or damping that no passive mode has.
+/// along the directions that differ, {point, d}, or along those of x, y, z that they have where these are not at right
+/// angles; modes that share a direction add up. Throws InputError for an empty list, a direction that is not a unit
+/// vector, or a mass, stiffness or damping that no passive mode has.
 [[nodiscard]] dynamics::SpatialModel spatial_model(const std::vector<OneMode>& modes, const std::string& point);
 
 }  // namespace thinwall::robot

@@ -237,6 +237,10 @@ TEST_F(ForeignUniversalFile, ThatSaysAnotherQuantityOrUnitThanTheCallerIsRefused
           "receptance in m/N (data set 164)");
   refused(frf_set(), frf_format("receptance", "m/N", "rad/s"), "data type 18 in \"Hz\" (data set 58, record 8)");
   words = {};
+  words.numerator_unit = "mm";
+  words.denominator_unit = "NONE";  // newtons, as long as nothing says otherwise
+  refused(frf_set(words), receptance, "receptance in 0.001 m/N");
+  words = {};
   words.abscissa_unit = "s";
   std::string over_time = frf_set(words);
   over_time.replace(over_time.find("        18    0"), 10, "        17");

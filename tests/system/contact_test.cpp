@@ -124,8 +124,8 @@ TEST(Contact, ASpringIsFoundAgainFromTheAssemblyThatWasComputedWithIt) {
   EXPECT_NE(text.find("found along x: 2e+06 ±"), std::string::npos) << text;
 }
 
-// With Z⁻¹ = … − H_R an error of the robot alone moves Z by Z² δH_R: its real part has half that variance, and K is the
-// weighted mean over all lines.
+// With Z⁻¹ = … − H_R an error of the robot alone moves Z by Z² δH_R, its real part by as much as δH_R has in real and
+// imaginary part each, and K is the weighted mean over all lines.
 TEST(Contact, TheIntervalIsThatOfTheNoiseThatTheCaseGivesTheRobot) {
   const fs::path known = scratch("contact_noise_known"), seen = scratch("contact_noise_found");
   (void)run(wall + robot + contact("stiffness = \"2e6 N/m\"\ndamping = \"80 N s/m\"\n"), known);
@@ -136,7 +136,7 @@ TEST(Contact, TheIntervalIsThatOfTheNoiseThatTheCaseGivesTheRobot) {
   double weights = 0.0;
   for (Eigen::Index line = 0; line < H.size(); ++line) {
     const double Z = std::abs(std::complex<double>(2e6, 2.0 * M_PI * tip.axis.hz(line) * 80.0));
-    weights += 2.0 / std::pow(Z * Z * 1e-4 * std::abs(H(line)), 2);
+    weights += 1.0 / std::pow(Z * Z * 1e-4 * std::abs(H(line)), 2);
   }
   EXPECT_NEAR(found(summary, "stiffness_half_width_n_per_m") * std::sqrt(weights) / 1.959964, 1.0, 1e-4);
   EXPECT_EQ(found(summary, "lines_used"), 637.0);

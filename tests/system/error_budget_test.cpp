@@ -212,6 +212,69 @@ TEST(ErrorBudget, DrawnSamplesScatterAsFirstOrderSays) {
   EXPECT_EQ(error["sampled"]["seed"], 7);
 }
 
+/// A tool's tip of one mode, the same along x and y.
+void write_tool(const fs::path& file) {
+  std::ostringstream text;
+  text.precision(17);
+  for (int i = 0; i < 1200; ++i) {
+    const double hz = 200.0 + 4.0 * i, r = hz / 2100.0;
+    const complex<double> H = 1.0 / (2e7 * complex<double>(1.0 - r * r, 0.06 * r));
+    text << hz << "," << H.real() << "," << H.imag() << "\n";
+  }
+  core::write_file_atomically(file, text.str());
+}
+
+std::string measured_tool(const std::string& noise) {
+  std::string text;
+  for (const char* dof : {"x", "y"}) {
+    text += std::string("[[tool.measured]]\nresponse = \"") + dof + "\"\nforce = \"" + dof +
+            "\"\nfile = \"tool.csv\"\nquantity = \"receptance\"\nunit = \"m/N\"\n" + noise;
+  }
+  return text;
+}
+
+TEST(ErrorBudget, NoiseOfAToolAndTruncationOfThePartBesideIt) {
+  const fs::path out = scratch("budget_tool"), more = scratch("budget_tool_more");
+  write_tool(out / "tool.csv");
+  write_tool(more / "tool.csv");
+  const std::string cut = chart(4, "1e-4") + "noise_samples = 40\nseed = 3\n";
+  const auto summary = run(wall(24) + cut + measured_tool("noise = 0.01\n"), out);
+  static_cast<void>(run(wall(150) + chart(4, "1e-4") + measured_tool(""), more));
+  const auto& error = summary["lobes"][0]["at_case_speed"]["error_budget"];
+  const double first_order = error["noise_deviation_m"].get<double>();
+  EXPECT_NEAR(error["sampled"]["deviation_m"].get<double>(), first_order, 0.4 * first_order);
+  EXPECT_GT(first_order, 0.0);
+  const auto depth = column(out / "lobes" / "part.csv", "limiting_depth_m");
+  const auto truth = column(more / "lobes" / "part.csv", "limiting_depth_m");
+  const auto told = column(out / "lobes" / "part.csv", "truncation_m");
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const double off = depth[i] - truth[i];
+    if (!std::isfinite(told[i])) continue;
+    EXPECT_NEAR(told[i], off, 0.2 * std::abs(off) + 3e-4 * depth[i]) << "row " << i;
+  }
+}
+
+TEST(ErrorBudget, NoiseOfEntriesThatCountAgainstAnAxis) {
+  const fs::path out = scratch("budget_turned");
+  write_robot(out / "robot.csv", 1.0);
+  std::string robot = "[robot]\nmodel = \"measured\"\n";
+  for (const auto& [response, force] : {std::pair{"R.-x", "R.-x"}, {"R.y", "R.-x"}, {"R.y", "R.y"}}) {
+    robot += std::string("[[robot.measured]]\nresponse = \"") + response + "\"\nforce = \"" + force +
+             "\"\nfile = \"robot.csv\"\nquantity = \"receptance\"\nunit = \"m/N\"\nnoise = 0.05\n";
+  }
+  static_cast<void>(run(wall(20) + robot + contact, out));
+  const auto H = io::read_response(out / "frf" / "robot.csv");
+  const fs::path file = out / "frf" / "robot_error.csv";
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t j = 0; j < 2; ++j) {
+      const auto told =
+          column(file, "noise_deviation " + dynamics::name(H.responses[i]) + "/" + dynamics::name(H.forces[j]));
+      const complex<double> entry = H.H[7](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      EXPECT_NEAR(told[7], 0.05 * std::abs(entry), 1e-12 * std::abs(entry)) << i << j;
+    }
+  }
+}
+
 TEST(ErrorBudget, SaysWhatDoesNotFit) {
   const fs::path out = scratch("budget_bad");
   write_robot(out / "robot.csv", 1.0);
@@ -225,6 +288,11 @@ TEST(ErrorBudget, SaysWhatDoesNotFit) {
   };
   EXPECT_NE(message(wall(20) + measured_robot("noise = 0.02\naverages = 5\n") + contact).find("keep one of the two"),
             std::string::npos);
+  EXPECT_NE(message(wall(20) + chart(2, "1e-3") + "noise_samples = 9\n" + measured_robot("") + contact)
+                .find("nothing is noisy"),
+            std::string::npos);
+  write_robot(out / "robot.csv", 0.0);
+  EXPECT_NE(message(wall(20) + measured_robot("averages = 5\n") + contact).find("coherence is 0"), std::string::npos);
   core::write_file_atomically(out / "robot.csv", "f,re,im\n10,1e-6,-1e-8\n5000,1e-6,-1e-8\n");
   EXPECT_NE(message(wall(20) + measured_robot("averages = 5\n") + contact).find("has no coherence"), std::string::npos);
 }
