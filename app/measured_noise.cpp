@@ -13,7 +13,7 @@ namespace {
 
 /// The file's coherence on `axis`; throws unless there is one that a noise follows from.
 Eigen::VectorXd coherence_of(const MeasuredFrf& file, const dynamics::FrequencyAxis& axis) {
-  const Eigen::VectorXd coherence = io::coherence_on(read_measured(file), axis);
+  Eigen::VectorXd coherence = io::coherence_on(read_measured(file), axis);
   if (coherence.size() == 0) {
     throw core::InputError("\"" + file.file.string() +
                            "\" has no coherence: give noise in place of averages, or a file with coherence");
