@@ -58,7 +58,7 @@ void add_coupled_truncation(const Case& source, const Results& results, ErrorBud
 std::optional<Component> richer_part(const Case& source, const Results& results, const dynamics::FrequencyAxis& axis) {
   if (!results.finite_elements || !results.finite_elements->damped) return std::nullopt;
   const reduction::CraigBampton& reduced = *results.finite_elements->reduced;
-  const dynamics::SpatialModel richer = reduction::with_left_out(reduced.model, reduced.truncation);
+  const dynamics::SpatialModel richer = reduction::with_left_out(reduced.model, *results.finite_elements->truncation);
   if (richer.size() == reduced.model.size()) return std::nullopt;
   auto identified = results.finite_elements->identified;
   return component(damped(source, richer, identified), axis);

@@ -33,17 +33,21 @@ void require_held_by_interface(const PartResult& part) {
       " of them: add a support, or a point off the line of the others; without points, modes alone are computed");
 }
 
-reduction::CraigBampton reduce(const Case& source, const PartResult& part, const fem::Factored& factored) {
+/// The reduced model and what it leaves out.
+void reduce(const Case& source, PartResult& part, const fem::Factored& factored) {
   const reduction::CraigBamptonOptions options{source.reduction.fixed_interface.count.value_or(30),
                                                source.reduction.fixed_interface.up_to_hz};
-  if (factored.sigma == 0.0)
-    return reduction::craig_bampton(part.model.K, part.model.M, fem::inverse_of(factored), part.interface, options);
+  const auto by = [&](const linalg::ShiftedInverse& inverse) {
+    part.reduced = reduction::craig_bampton(part.model.K, part.model.M, inverse, part.interface, options);
+    part.truncation = reduction::truncation(*part.reduced, part.model.M, inverse, part.interface);
+  };
+  if (factored.sigma == 0.0) return by(fem::inverse_of(factored));
   // A free part: the interface itself restrains it, if its points hold all rigid-body motions.
   require_held_by_interface(part);
   const linalg::SparseCholesky held(reduction::restrained(part.model.K, part.interface), part.model.node_of_row);
   const linalg::ShiftedInverse inverse{[&held](const Eigen::Ref<const Eigen::MatrixXd>& B) { return held.solve(B); },
                                        0.0};
-  return reduction::craig_bampton(part.model.K, part.model.M, inverse, part.interface, options);
+  by(inverse);
 }
 
 void require_solved(double relative_residual) {
@@ -181,7 +185,7 @@ PartResult compute_part(const Case& source, Discretisation discretisation, Stage
   if (source.reduction.interface.empty()) return part;
   stages.begin("reduction");
   part.interface = part_interface(source, part.model);
-  part.reduced = reduce(source, part, factored);
+  reduce(source, part, factored);
   if (part.reduced->status != linalg::EigenStatus::converged) {
     throw core::NumericalError("the fixed-interface modes of the reduction did not converge (" +
                                std::to_string(part.reduced->fixed_interface_hz.size()) +

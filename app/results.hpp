@@ -27,6 +27,7 @@
 #include "milling/stability_map.hpp"
 #include "reduction/craig_bampton.hpp"
 #include "reduction/identification.hpp"
+#include "reduction/truncation.hpp"
 #include "robot/tip_model.hpp"
 
 namespace thinwall::app {
@@ -41,6 +42,7 @@ struct PartResult {
   double mass_difference = 0.0;           ///< mass, centre, inertia: matrix against geometry, relative
   reduction::Interface interface;
   std::optional<reduction::CraigBampton> reduced;     ///< none without an interface
+  std::optional<reduction::Truncation> truncation;    ///< of what it leaves out
   double frequency_error = 0.0;                       ///< of the reduced model, largest relative
   std::optional<double> receptance_error;             ///< against direct solves of the full model, largest relative
   std::vector<reduction::IdentifiedMode> identified;  ///< damping found in a measured FRF

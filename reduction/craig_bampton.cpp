@@ -94,9 +94,7 @@ CraigBampton craig_bampton(const linalg::SparseMatrix& K, const linalg::SparseMa
   result.fixed_interface_hz = inner.lambda.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
   // Φᵀ M Φ = I, Ψᵀ K Φ = 0 and Φᵀ K Φ = ω² hold exactly for exact modes; round-off in them would only disturb the low
   // modes.
-  const Eigen::MatrixXd M_Psi = linalg::symmetric_product(M, constraint.Psi);
-  const Eigen::MatrixXd with_interface = linalg::tall_gram(result.T, M_Psi);
-  result.truncation = truncation(M, M_Psi, inner, constraint.inner_inverse);
+  const Eigen::MatrixXd with_interface = linalg::tall_gram(result.T, linalg::symmetric_product(M, constraint.Psi));
   result.model.M = Eigen::MatrixXd::Identity(nb + nm, nb + nm);
   result.model.M.leftCols(nb) = with_interface;
   result.model.M.topRows(nb) = with_interface.transpose();

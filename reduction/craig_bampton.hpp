@@ -7,7 +7,6 @@
 #include "dynamics/spatial_model.hpp"
 #include "linalg/eigenpairs.hpp"
 #include "reduction/interface.hpp"
-#include "reduction/truncation.hpp"
 
 namespace thinwall::reduction {
 
@@ -23,7 +22,6 @@ struct [[nodiscard]] CraigBampton {
   Eigen::MatrixXd T;                   ///< full × (interface + modes): [Ψ Φ]
   Eigen::VectorXd fixed_interface_hz;  ///< frequencies of the kept modes
   linalg::EigenStatus status = linalg::EigenStatus::converged;
-  Truncation truncation;  ///< of the modes that were not kept
 };
 
 /// Reduction of Craig and Bampton (1968) for an interface of weighted averages Wᵀu. With S the inverse of K_s = K + s W
@@ -38,7 +36,7 @@ struct [[nodiscard]] CraigBampton {
 /// For an interface of single nodes this is the textbook partition, K_ii being K with the interface struck out; the
 /// factor behind S serves both kinds of mode. K, M: free × free; `inverse` the action of S (its sigma must be 0).
 /// Throws InputError if the interface DOFs depend on each other or the modes asked for outnumber the inner DOFs; status
-/// as of the eigen-solver. Small models that ask for most of their modes are solved densely. Cost: two solves of
+/// as of the eigen-solver. Small models that ask for most of their modes are solved densely. Cost: one solve of
 /// interface-many right-hand sides beside the eigen-solution.
 CraigBampton craig_bampton(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M,
                            const linalg::ShiftedInverse& inverse, const Interface& interface,

@@ -36,12 +36,20 @@ MatrixXd extended(const MatrixXd& matrix, Index size) {
 
 }  // namespace
 
-Truncation truncation(const linalg::SparseMatrix& M, const MatrixXd& M_Psi, const linalg::Eigenpairs& inner,
-                      const linalg::ShiftedInverse& inner_inverse) {
-  MatrixXd X = inner_inverse.apply(M_Psi);
-  if (inner.lambda.size() > 0) {
-    const MatrixXd Lt = linalg::tall_gram(inner.Phi, M_Psi);
-    linalg::tall_subtract(X, inner.Phi, inner.lambda.cwiseInverse().asDiagonal() * Lt);
+Truncation truncation(const CraigBampton& reduced, const linalg::SparseMatrix& M, const linalg::ShiftedInverse& inverse,
+                      const Interface& interface) {
+  const Index nb = interface.W.cols(), nm = reduced.fixed_interface_hz.size();
+  if (reduced.T.rows() != M.rows() || reduced.T.cols() != nb + nm || interface.W.rows() != M.rows()) {
+    throw core::InputError("truncation: a reduced model of " + std::to_string(reduced.T.cols()) +
+                           " DOFs does not belong to an interface of " + std::to_string(nb) + " and these matrices");
+  }
+  const auto Psi = reduced.T.leftCols(nb), Phi = reduced.T.rightCols(nm);
+  const MatrixXd M_Psi = linalg::symmetric_product(M, Psi);
+  MatrixXd X = inverse.apply(M_Psi);
+  linalg::tall_subtract(X, Psi, interface.W.transpose() * X);  // S₀ = S − Ψ Wᵀ S
+  if (nm > 0) {
+    const VectorXd lambda = reduced.model.K.diagonal().tail(nm);
+    linalg::tall_subtract(X, Phi, lambda.cwiseInverse().asDiagonal() * linalg::tall_gram(Phi, M_Psi));
   }
   return {symmetric_part(linalg::tall_gram(M_Psi, X)),
           symmetric_part(linalg::tall_gram(X, linalg::symmetric_product(M, X)))};

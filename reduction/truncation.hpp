@@ -5,6 +5,8 @@
 
 #include "dynamics/spatial_model.hpp"
 #include "linalg/eigenpairs.hpp"
+#include "reduction/craig_bampton.hpp"
+#include "reduction/interface.hpp"
 
 namespace thinwall::reduction {
 
@@ -23,10 +25,10 @@ struct Truncation {
 ///
 ///     X = S₀ MΨ − Φ ω⁻² Lᵀ,     A = (MΨ)ᵀ X,     B = Xᵀ M X
 ///
-/// Psi: full × interface; M_Psi = M Ψ; inner: the kept modes (λ = ω², Φ); inner_inverse: the action of S₀. Cost: one
-/// solve of interface-many right-hand sides.
-[[nodiscard]] Truncation truncation(const linalg::SparseMatrix& M, const Eigen::MatrixXd& M_Psi,
-                                    const linalg::Eigenpairs& inner, const linalg::ShiftedInverse& inner_inverse);
+/// M: free × free; `inverse`: the action of the S that made `reduced`, `interface` its interface. Throws InputError if
+/// the three do not fit. Cost: one solve of interface-many right-hand sides.
+[[nodiscard]] Truncation truncation(const CraigBampton& reduced, const linalg::SparseMatrix& M,
+                                    const linalg::ShiftedInverse& inverse, const Interface& interface);
 
 /// The reduced model (interface DOFs first) with as many modes more as the interface has DOFs, of the moments A and B:
 ///

@@ -28,6 +28,9 @@ struct Part {
   [[nodiscard]] CraigBampton reduced(int modes) const {
     return craig_bampton(model.K, model.M, inverse.action(), interface, {.modes = modes, .up_to_hz = {}});
   }
+  [[nodiscard]] Truncation left_out(const CraigBampton& model_reduced) const {
+    return truncation(model_reduced, model.M, inverse.action(), interface);
+  }
   [[nodiscard]] MatrixXd full_receptance(double omega) const {
     const MatrixXd W = interface.W;
     return W.transpose() * (MatrixXd(model.K) - omega * omega * MatrixXd(model.M)).partialPivLu().solve(W);
@@ -52,8 +55,9 @@ TEST(Truncation, IsTheSumOverTheModesThatWereLeftOut) {
     const MatrixXd Lo = L.rightCols(out);
     const MatrixXd A = Lo * lambda.cwiseInverse().asDiagonal() * Lo.transpose();
     const MatrixXd B = Lo * lambda.cwiseAbs2().cwiseInverse().asDiagonal() * Lo.transpose();
-    EXPECT_LT((reduced.truncation.A - A).norm(), 1e-9 * A.norm()) << kept;
-    EXPECT_LT((reduced.truncation.B - B).norm(), 1e-9 * B.norm()) << kept;
+    const Truncation found = part.left_out(reduced);
+    EXPECT_LT((found.A - A).norm(), 1e-9 * A.norm()) << kept;
+    EXPECT_LT((found.B - B).norm(), 1e-9 * B.norm()) << kept;
   }
 }
 
@@ -61,7 +65,7 @@ TEST(Truncation, TellsTheErrorOfAReceptanceWithoutTheFullModel) {
   const Part part;
   for (const int kept : {3, 10, 30}) {
     const CraigBampton reduced = part.reduced(kept);
-    const dynamics::SpatialModel better = with_left_out(reduced.model, reduced.truncation);
+    const dynamics::SpatialModel better = with_left_out(reduced.model, part.left_out(reduced));
     const double first_left_out = std::sqrt(part.inner.lambda(kept));
     double worst = 0.0;
     for (const double share : {0.05, 0.13, 0.21, 0.3, 0.4, 0.5}) {
@@ -83,7 +87,7 @@ TEST(Truncation, AddsARitzModelBetweenTheReducedAndTheFull) {
   const Eigen::VectorXd full = frequencies(dense(part.model.K, part.model.M)).head(6);
   const CraigBampton reduced = part.reduced(8);
   const Eigen::VectorXd before = frequencies(reduced.model).head(6);
-  const dynamics::SpatialModel better = with_left_out(reduced.model, reduced.truncation);
+  const dynamics::SpatialModel better = with_left_out(reduced.model, part.left_out(reduced));
   const Eigen::VectorXd after = frequencies(better).head(6);
   EXPECT_EQ(better.size(), reduced.model.size() + 6);
   for (Eigen::Index k = 0; k < 6; ++k) {
@@ -103,7 +107,8 @@ TEST(Truncation, OfAFreePartIsSeenThroughItsInterface) {
   const StaticInverse inverse(restrained(model.K, interface), model.node_of_row);
   const CraigBampton reduced =
       craig_bampton(model.K, model.M, inverse.action(), interface, {.modes = 10, .up_to_hz = {}});
-  const dynamics::SpatialModel better = with_left_out(reduced.model, reduced.truncation);
+  const dynamics::SpatialModel better =
+      with_left_out(reduced.model, truncation(reduced, model.M, inverse.action(), interface));
   const double omega = 2.0 * pi * 0.4 * reduced.fixed_interface_hz(9);
   const MatrixXd W = interface.W;
   const MatrixXd full = W.transpose() * (MatrixXd(model.K) - omega * omega * MatrixXd(model.M)).partialPivLu().solve(W);
@@ -115,15 +120,17 @@ TEST(Truncation, OfAllModesIsNothing) {
   const Part part;
   const int all = static_cast<int>(part.inner.lambda.size());
   const CraigBampton reduced = part.reduced(all);
-  EXPECT_EQ(with_left_out(reduced.model, reduced.truncation).size(), reduced.model.size());
+  EXPECT_EQ(with_left_out(reduced.model, part.left_out(reduced)).size(), reduced.model.size());
 }
 
 TEST(Truncation, OfAnotherModelIsRefused) {
   const Part part;
   const CraigBampton reduced = part.reduced(4);
-  Truncation other = reduced.truncation;
+  Truncation other = part.left_out(reduced);
   other.B.resize(3, 3);
   EXPECT_THROW((void)with_left_out(reduced.model, other), core::InputError);
+  const Interface one = interface_at(part.model, {{"P", {0.3, 0.11, 0.05}, 0.03, xyz}});
+  EXPECT_THROW((void)truncation(reduced, part.model.M, part.inverse.action(), one), core::InputError);
 }
 
 }  // namespace
