@@ -14,7 +14,7 @@
 #include "mesh/facet_repair.hpp"
 #include "mesh/hole_filling.hpp"
 #include "mesh/orientation.hpp"
-#include "mesh/wall_thickness.hpp"
+#include "mesh/thin_walls.hpp"
 
 namespace thinwall::mesh {
 
@@ -206,13 +206,12 @@ void turn_outwards(Bench& bench, const SurfaceRepairOptions& options) {
 }
 
 void require_thick_enough(SurfaceRepair& result, double thinnest_m) {
-  const auto thickness = wall_thickness(result.surface, TriangleTree(result.surface));
-  result.thinnest_wall_m = *std::min_element(thickness.begin(), thickness.end());
+  const ThinWalls walls = thin_walls(result.surface, thinnest_m);
+  result.thinnest_wall_m = walls.thinnest_m;
   SurfaceFinding thin{.what = "facets above a wall thinner than " + number(1e3 * thinnest_m) + " mm, the thinnest " +
-                              number(1e3 * result.thinnest_wall_m) + " mm",
+                              number(1e3 * walls.thinnest_m) + " mm",
                       .remedy = "thicken it, lower the tolerance, or correct the unit"};
-  for (std::size_t t = 0; t < thickness.size(); ++t)
-    if (thickness[t] < thinnest_m) thin.add(centroid(result.surface, static_cast<int>(t)));
+  for (const int t : walls.triangles) thin.add(centroid(result.surface, t));
   refuse_if_any({thin}, result.moved_by);
 }
 

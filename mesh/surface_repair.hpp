@@ -17,7 +17,7 @@ struct SurfaceRepairOptions {
   int largest_hole_edges = 0;      ///< holes with at most so many edges are filled, 0 to 100; 0: none
   double largest_movement =
       1e-4;                      ///< a repair that moves a point by more than this of the diagonal is refused, 0 to 0.1
-  double thinnest_wall_m = 0.0;  ///< walls below are refused (mesh::wall_thickness); 0: not measured, it costs most
+  double thinnest_wall_m = 0.0;  ///< walls below are refused (mesh::thin_walls); 0: not measured
   double far_diagonals = 100.0;  ///< farther from the origin than so many diagonals: moved to the centre, 1 to 1e8
   ProcessLimits limits;          ///< of the search for crossings and of filling holes, each
 };
@@ -30,7 +30,7 @@ struct SurfaceRepair {
       Eigen::Vector3d::Zero();      ///< added to all coordinates of the file, m; zero unless far away
   double largest_movement_m = 0.0;  ///< of a point that was merged; nothing else moves the surface
   double volume_m3 = 0.0;
-  double thinnest_wall_m = 0.0;  ///< measured if options.thinnest_wall_m > 0
+  double thinnest_wall_m = 0.0;  ///< if options.thinnest_wall_m > 0; infinite if no two faces lie opposite
 };
 
 /// Merges points, drops collapsed and double facets, splits neighbours of facets without area, fills small holes if

@@ -29,29 +29,20 @@ struct KeyHash {
   }
 };
 
-/// Finds the first earlier point that is equal, or within the tolerance.
-class EarlierPoints {
+/// Finds the first earlier point that is equal: a table of point numbers with open addressing, at most half full.
+class EqualPoints {
  public:
-  EarlierPoints(const std::vector<Eigen::Vector3d>& points, double tolerance_m)
-      : points_(points), tolerance_(tolerance_m) {}
+  EqualPoints(const std::vector<Eigen::Vector3d>& points, std::size_t most)
+      : points_(points), slots_(std::bit_ceil(2 * most + 1), none) {}
 
   /// The number of the point that x becomes; `own` if there is no earlier one, which is then remembered.
   int find_or_add(const Eigen::Vector3d& x, int own) {
-    if (tolerance_ == 0.0) return heads_.try_emplace(bits(x), own).first->second;
-    const Key cell = cell_of(x);
-    int found = std::numeric_limits<int>::max();
-    for (std::int64_t i = -1; i <= 1; ++i)
-      for (std::int64_t j = -1; j <= 1; ++j)
-        for (std::int64_t k = -1; k <= 1; ++k)
-          found = std::min(found, first_in({cell[0] + i, cell[1] + j, cell[2] + k}, x));
-    if (found != std::numeric_limits<int>::max()) return found;
-    const auto [entry, is_new] = heads_.try_emplace(cell, own);
-    next_.emplace(own, is_new ? none : entry->second);
-    entry->second = own;
-    return own;
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t slot = KeyHash()(bits(x)) & mask;; slot = (slot + 1) & mask) {
+      if (slots_[slot] == none) return slots_[slot] = own;
+      if (points_[static_cast<std::size_t>(slots_[slot])] == x) return slots_[slot];
+    }
   }
-
-  void reserve(std::size_t count) { heads_.reserve(count); }
 
  private:
   static constexpr int none = -1;
@@ -61,8 +52,33 @@ class EarlierPoints {
     return {std::bit_cast<std::int64_t>(y(0)), std::bit_cast<std::int64_t>(y(1)), std::bit_cast<std::int64_t>(y(2))};
   }
 
+  const std::vector<Eigen::Vector3d>& points_;
+  std::vector<int> slots_;
+};
+
+/// Finds the first earlier point within a tolerance above 0.
+class NearPoints {
+ public:
+  NearPoints(const std::vector<Eigen::Vector3d>& points, double tolerance_m)
+      : points_(points), tolerance_(tolerance_m) {}
+
+  /// As EqualPoints::find_or_add.
+  int find_or_add(const Eigen::Vector3d& x, int own) {
+    constexpr int no_point = std::numeric_limits<int>::max();
+    const Key cell = cell_of(x);
+    int found = no_point;
+    for (std::int64_t i = -1; i <= 1; ++i)
+      for (std::int64_t j = -1; j <= 1; ++j)
+        for (std::int64_t k = -1; k <= 1; ++k)
+          found = std::min(found, first_in({cell[0] + i, cell[1] + j, cell[2] + k}, x));
+    if (found != no_point) return found;
+    in_cell_[cell].push_back(own);
+    return own;
+  }
+
+ private:
   /// Cells are as wide as the tolerance; coordinates beyond 2^62 cells meet in the last one.
-  Key cell_of(const Eigen::Vector3d& x) const {
+  [[nodiscard]] Key cell_of(const Eigen::Vector3d& x) const {
     Key key{};
     for (int k = 0; k < 3; ++k) {
       key[static_cast<std::size_t>(k)] =
@@ -71,18 +87,17 @@ class EarlierPoints {
     return key;
   }
 
-  int first_in(const Key& cell, const Eigen::Vector3d& x) const {
-    int first = std::numeric_limits<int>::max();
-    const auto head = heads_.find(cell);
-    for (int p = head == heads_.end() ? none : head->second; p != none; p = next_.at(p))
-      if ((points_[static_cast<std::size_t>(p)] - x).norm() <= tolerance_) first = std::min(first, p);
-    return first;
+  [[nodiscard]] int first_in(const Key& cell, const Eigen::Vector3d& x) const {
+    const auto found = in_cell_.find(cell);
+    if (found == in_cell_.end()) return std::numeric_limits<int>::max();
+    for (const int p : found->second)
+      if ((points_[static_cast<std::size_t>(p)] - x).norm() <= tolerance_) return p;
+    return std::numeric_limits<int>::max();
   }
 
   const std::vector<Eigen::Vector3d>& points_;
   double tolerance_;
-  std::unordered_map<Key, int, KeyHash> heads_;  ///< the last point of a cell
-  std::unordered_map<int, int> next_;            ///< the one before it in the same cell
+  std::unordered_map<Key, std::vector<int>, KeyHash> in_cell_;  ///< ascending; few, they are a tolerance apart
 };
 
 void require_point(const TriangleSoup& soup, std::size_t triangle, int point) {
@@ -97,6 +112,38 @@ void require_point(const TriangleSoup& soup, std::size_t triangle, int point) {
   }
 }
 
+/// Goes through the triangles' points in turn; `earlier` looks into result.soup.points.
+template <class Finder>
+void merge(const TriangleSoup& soup, Finder earlier, MergedPoints& result) {
+  constexpr int unseen = -1;
+  std::vector<int> number(soup.points.size(), unseen);
+  const auto number_of = [&](std::size_t p) {
+    const int own = static_cast<int>(result.soup.points.size());
+    const int found = earlier.find_or_add(soup.points[p], own);
+    if (found == own) {
+      result.soup.points.push_back(soup.points[p]);
+      return own;
+    }
+    if (result.merged++ == 0) result.first_merged = soup.points[p];
+    const double way = (soup.points[p] - result.soup.points[static_cast<std::size_t>(found)]).norm();
+    result.largest_way = std::max(result.largest_way, way);
+    return found;
+  };
+  result.soup.triangles.reserve(soup.triangles.size());
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    std::array<int, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      require_point(soup, t, soup.triangles[t][k]);
+      const auto p = static_cast<std::size_t>(soup.triangles[t][k]);
+      if (number[p] == unseen) number[p] = number_of(p);
+      corners[k] = number[p];
+    }
+    result.soup.triangles.push_back(corners);
+  }
+  for (std::size_t p = 0; p < number.size(); ++p)
+    if (number[p] == unseen && result.unused++ == 0) result.first_unused = soup.points[p];
+}
+
 }  // namespace
 
 TriangleSoup soup(const TriangleSurface& surface) {
@@ -109,33 +156,11 @@ MergedPoints merged_points(const TriangleSoup& soup, double tolerance_m) {
                            " m; give 0 or a positive length");
   }
   MergedPoints result;
-  constexpr int unseen = -1;
-  std::vector<int> number(soup.points.size(), unseen);
-  EarlierPoints earlier(result.soup.points, tolerance_m);
-  earlier.reserve(soup.points.size());
-  result.soup.triangles.reserve(soup.triangles.size());
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-    std::array<int, 3> corners{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      require_point(soup, t, soup.triangles[t][k]);
-      const auto p = static_cast<std::size_t>(soup.triangles[t][k]);
-      if (number[p] == unseen) {
-        const int own = static_cast<int>(result.soup.points.size());
-        number[p] = earlier.find_or_add(soup.points[p], own);
-        if (number[p] == own) {
-          result.soup.points.push_back(soup.points[p]);
-        } else {
-          if (result.merged++ == 0) result.first_merged = soup.points[p];
-          const double way = (soup.points[p] - result.soup.points[static_cast<std::size_t>(number[p])]).norm();
-          result.largest_way = std::max(result.largest_way, way);
-        }
-      }
-      corners[k] = number[p];
-    }
-    result.soup.triangles.push_back(corners);
+  if (tolerance_m == 0.0) {
+    merge(soup, EqualPoints(result.soup.points, soup.points.size()), result);
+  } else {
+    merge(soup, NearPoints(result.soup.points, tolerance_m), result);
   }
-  for (std::size_t p = 0; p < number.size(); ++p)
-    if (number[p] == unseen && result.unused++ == 0) result.first_unused = soup.points[p];
   return result;
 }
 

@@ -111,6 +111,14 @@ TEST(SurfaceRefusal, AWallBelowTheToleranceIsNamedWithItsThickness) {
   expect_refused(soup(plate), "a wall thinner than 1 mm, the thinnest 0.5 mm", "mm", options);
   options.thinnest_wall_m = 4e-4;
   EXPECT_NEAR(repaired_surface(soup(plate), options).thinnest_wall_m, 5e-4, 1e-15);
+  // The rib's floor is 2/1024 m, its walls 4/1024 m, everything else thicker.
+  options.thinnest_wall_m = 1.99 / 1024;
+  EXPECT_NEAR(repaired_surface(soup(pocketed_rib()), options).thinnest_wall_m, 2.0 / 1024, 1e-15);
+  options.thinnest_wall_m = 2.01 / 1024;
+  expect_refused(soup(pocketed_rib()), "the thinnest 1.95 mm", "mm", options);
+  // Small facets in the corners of a cube are near other faces, but there is no wall.
+  options.thinnest_wall_m = 0.09;
+  EXPECT_NEAR(repaired_surface(soup(block_surface({0.1, 0.1, 0.1}, 0.005)), options).thinnest_wall_m, 0.1, 1e-15);
   // What encloses nothing at all is refused without being asked.
   EXPECT_NE(refusal(soup(block_surface({0.1, 0.1, 1e-12}, 0.1))), "no error");
 }
