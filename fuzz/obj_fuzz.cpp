@@ -1,4 +1,4 @@
-// Bytes as OBJ: built and run as fuzz/uff_fuzz.cpp says, with the corpus fuzz/corpus/obj.
+// Bytes as OBJ: built and run by fuzz/run, with the corpus fuzz/corpus/obj.
 
 #include "fuzz/surface_fuzz.hpp"
 #include "io/obj.hpp"

@@ -1,4 +1,4 @@
-// Bytes as OFF: built and run as fuzz/uff_fuzz.cpp says, with the corpus fuzz/corpus/off.
+// Bytes as OFF: built and run by fuzz/run, with the corpus fuzz/corpus/off.
 
 #include "fuzz/surface_fuzz.hpp"
 #include "io/off.hpp"

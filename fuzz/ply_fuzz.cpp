@@ -1,4 +1,4 @@
-// Bytes as PLY: built and run as fuzz/uff_fuzz.cpp says, with the corpus fuzz/corpus/ply.
+// Bytes as PLY: built and run by fuzz/run, with the corpus fuzz/corpus/ply.
 
 #include "fuzz/surface_fuzz.hpp"
 #include "io/ply.hpp"

@@ -1,4 +1,4 @@
-// Bytes as STL: built and run as fuzz/uff_fuzz.cpp says, with the corpus fuzz/corpus/stl.
+// Bytes as STL: built and run by fuzz/run, with the corpus fuzz/corpus/stl.
 
 #include "fuzz/surface_fuzz.hpp"
 #include "io/stl.hpp"

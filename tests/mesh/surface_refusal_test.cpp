@@ -3,11 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <limits>
+#include <random>
 #include <string>
 
 #include "core/error.hpp"
+#include "mesh/closed_surface.hpp"
 #include "mesh/surface_repair.hpp"
 #include "solid_shapes.hpp"
 
@@ -159,6 +163,68 @@ TEST(SurfaceRefusal, NumbersThatAreNoneAndPointsThatAreNotThereAreNamed) {
   options = {};
   options.merge_tolerance_m = -1.0;
   expect_refused(soup(cube), "merge_tolerance_m", "0 to", options);
+}
+
+/// True if the soup was mended, and then soundly; false if it was refused.
+bool is_mended(const TriangleSoup& soup, const SurfaceRepairOptions& options) {
+  SurfaceRepair repair;
+  try {
+    repair = repaired_surface(soup, options);
+  } catch (const core::InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return false;
+  }
+  EXPECT_NO_THROW(require_closed(repair.surface));
+  return true;
+}
+
+// On a grid of 27 points triangles coincide, degenerate, cross and touch in every way.
+TEST(SurfaceRefusal, TrianglesAtRandomOnAFewPointsAreMendedSoundlyOrRefused) {
+  std::mt19937 random(27);
+  SurfaceRepairOptions options;
+  int mended = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    TriangleSoup soup;
+    for (int p = 0; p < 27; ++p) soup.points.emplace_back(p % 3, p / 3 % 3, p / 9);
+    std::shuffle(soup.points.begin(), soup.points.end(), random);
+    const int points = 4 + static_cast<int>(random() % (trial % 2 == 0 ? 2 : 24));
+    const int triangles = 4 + static_cast<int>(random() % 40);
+    for (int t = 0; t < triangles; ++t) {
+      std::array<int, 3> corners{};
+      for (int& p : corners) p = static_cast<int>(random()) & 0x7fffffff;
+      for (int& p : corners) p %= points;
+      soup.triangles.push_back(corners);
+    }
+    options.largest_hole_edges = static_cast<int>(random() % 2) * 12;
+    options.merge_tolerance_m = random() % 4 == 0 ? 1e-4 : 0.0;
+    mended += is_mended(soup, options) ? 1 : 0;
+  }
+  std::printf("%d of 3000 soups became surfaces\n", mended);
+  EXPECT_GT(mended, 100);
+}
+
+// Columns of three heights, which may touch in an edge; facets removed, doubled, turned, moved.
+TEST(SurfaceRefusal, ShapesDamagedAtRandomAreMendedSoundlyOrRefused) {
+  std::mt19937 random(28);
+  SurfaceRepairOptions options;
+  int mended = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    const unsigned int present = random();
+    const GridLines lines{divided(0, 1, 3), divided(0, 1, 3), divided(0, 1, 3)};
+    const auto is_filled = [&](int i, int j, int k) {
+      return k <= static_cast<int>((present >> (6 * i + 2 * j)) & 3U);
+    };
+    TriangleSoup soup = mesh::soup(grid_surface(lines, is_filled));
+    const auto any = [&] { return random() % soup.triangles.size(); };
+    for (unsigned int k = random() % 3; k > 0; --k) soup.triangles.push_back(soup.triangles[any()]);
+    for (unsigned int k = random() % 8; k > 0; --k) std::swap(soup.triangles[any()][0], soup.triangles[any()][1]);
+    if (random() % 3 == 0) soup.triangles.erase(soup.triangles.begin() + static_cast<std::ptrdiff_t>(any()));
+    if (random() % 4 == 0) soup.triangles[any()][random() % 3] = soup.triangles[any()][random() % 3];
+    options.largest_hole_edges = static_cast<int>(random() % 2) * 8;
+    mended += is_mended(soup, options) ? 1 : 0;
+  }
+  std::printf("%d of 500 shapes became surfaces\n", mended);
+  EXPECT_GT(mended, 20);
 }
 
 TEST(SurfaceRefusal, ASurfaceThatCoversItselfEverywhereComesBackInTime) {
