@@ -38,6 +38,7 @@ constexpr std::array units{
     NamedUnit{"μm", 1e-6, length},
     NamedUnit{"nm", 1e-9, length},
     NamedUnit{"in", 0.0254, length},
+    NamedUnit{"inch", 0.0254, length},
     NamedUnit{"kg", 1.0, mass},
     NamedUnit{"g", 1e-3, mass},
     NamedUnit{"t", 1e3, mass},

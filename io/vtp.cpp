@@ -1,12 +1,17 @@
 #include "io/vtp.hpp"
 
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataWriter.h>
+
+#include <algorithm>
+#include <cmath>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -56,6 +61,33 @@ void require_sound(const NodeVectors& field, Eigen::Index nodes) {
   if (!field.values.allFinite()) throw core::NumericalError("the field \"" + field.name + "\" holds NaN or infinity");
 }
 
+/// Appended base64 data, UInt64 headers, zlib.
+void write(const std::filesystem::path& path, vtkPolyData& surface) {
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(&surface);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOn();
+  writer->SetHeaderTypeToUInt64();
+  writer->SetCompressorTypeToZLib();
+  writer->SetCompressionLevel(1);  // speed before size
+  writer->WriteToOutputStringOn();
+  if (writer->Write() == 0) throw core::DataError("VTK could not encode the surface");
+  core::write_file_atomically(path, writer->GetOutputString());
+}
+
+vtkNew<vtkDoubleArray> on_triangles(const TriangleNumbers& field, std::size_t triangles) {
+  if (field.values.size() != triangles) {
+    throw core::InputError("the field \"" + field.name + "\" has " + std::to_string(field.values.size()) +
+                           " values for " + std::to_string(triangles) + " triangles");
+  }
+  if (!std::all_of(field.values.begin(), field.values.end(), [](double value) { return std::isfinite(value); }))
+    throw core::NumericalError("the field \"" + field.name + "\" holds NaN or infinity");
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(field.name.c_str());
+  for (const double value : field.values) array->InsertNextValue(value);
+  return array;
+}
+
 }  // namespace
 
 void write_vtp(const std::filesystem::path& path, const mesh::LagrangeNodes& nodes,
@@ -76,16 +108,25 @@ void write_vtp(const std::filesystem::path& path, const mesh::LagrangeNodes& nod
     surface->GetPointData()->AddArray(single_precision(field.values, used, field.name.c_str()).Get());
   }
   if (!vectors.empty()) surface->GetPointData()->SetActiveVectors(vectors.front().name.c_str());
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputData(surface);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOn();
-  writer->SetHeaderTypeToUInt64();
-  writer->SetCompressorTypeToZLib();
-  writer->SetCompressionLevel(1);  // speed before size
-  writer->WriteToOutputStringOn();
-  if (writer->Write() == 0) throw core::DataError("VTK could not encode the surface");
-  core::write_file_atomically(path, writer->GetOutputString());
+  write(path, *surface);
+}
+
+void write_vtp(const std::filesystem::path& path, const mesh::TriangleSurface& surface,
+               const std::vector<TriangleNumbers>& numbers) {
+  vtkNew<vtkPolyData> data;
+  vtkNew<vtkPoints> points;
+  for (const auto& x : surface.vertices) points->InsertNextPoint(x.data());
+  data->SetPoints(points);
+  vtkNew<vtkCellArray> cells;
+  for (const auto& triangle : surface.triangles) {
+    cells->InsertNextCell(3);
+    for (const int vertex : triangle) cells->InsertCellPoint(vertex);
+  }
+  data->SetPolys(cells);
+  for (const TriangleNumbers& field : numbers)
+    data->GetCellData()->AddArray(on_triangles(field, surface.triangles.size()).Get());
+  if (!numbers.empty()) data->GetCellData()->SetActiveScalars(numbers.front().name.c_str());
+  write(path, *data);
 }
 
 }  // namespace thinwall::io

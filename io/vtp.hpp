@@ -3,9 +3,11 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "io/vtu.hpp"
+#include "mesh/faceted_surface.hpp"
 #include "mesh/lagrange_nodes.hpp"
 
 namespace thinwall::io {
@@ -16,5 +18,17 @@ namespace thinwall::io {
 /// Throws as write_vtu().
 void write_vtp(const std::filesystem::path& path, const mesh::LagrangeNodes& nodes,
                const std::vector<std::array<int, 3>>& triangles, const std::vector<NodeVectors>& vectors);
+
+/// A number of every triangle, such as mesh::wall_thickness in m.
+struct TriangleNumbers {
+  std::string name;
+  std::vector<double> values;
+};
+
+/// Writes a surface, positions in single precision, with numbers on its triangles in double precision. Written in one
+/// step. Throws InputError if numbers are not as many as triangles, NumericalError if one is not finite, DataError if
+/// the file cannot be written. Cost O(triangles).
+void write_vtp(const std::filesystem::path& path, const mesh::TriangleSurface& surface,
+               const std::vector<TriangleNumbers>& numbers);
 
 }  // namespace thinwall::io

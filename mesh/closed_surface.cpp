@@ -4,14 +4,16 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
-#include <map>
+#include <span>
 #include <string>
 
 #include "core/error.hpp"
+#include "mesh/edge_uses.hpp"
 #include "mesh/pieces.hpp"
 
 namespace thinwall::mesh {
@@ -40,10 +42,7 @@ void require_triangles(const TriangleSurface& surface) {
   }
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
     const auto& v = surface.triangles[static_cast<std::size_t>(t)];
-    double longest = 0.0;
-    for (std::size_t k = 0; k < 3; ++k)
-      longest = std::max(longest, (vertex(surface, v[k]) - vertex(surface, v[(k + 1) % 3])).squaredNorm());
-    if (!(area_vector(surface, t).norm() > smallest_relative_area * longest)) {
+    if (!has_area(vertex(surface, v[0]), vertex(surface, v[1]), vertex(surface, v[2]))) {
       throw core::InputError("the surface has a triangle without area at " + millimetres(centroid(surface, t)) +
                              "; remove it and join its neighbours");
     }
@@ -52,21 +51,18 @@ void require_triangles(const TriangleSurface& surface) {
 
 /// Each directed edge once, its opposite once.
 void require_edges_paired(const TriangleSurface& surface) {
-  std::map<std::array<int, 2>, int> uses;
-  for (const auto& t : surface.triangles)
-    for (std::size_t k = 0; k < 3; ++k) ++uses[{t[k], t[(k + 1) % 3]}];
-  for (const auto& [edge, count] : uses) {
-    const Eigen::Vector3d middle = 0.5 * (vertex(surface, edge[0]) + vertex(surface, edge[1]));
-    const auto opposite = uses.find({edge[1], edge[0]});
-    const int back = opposite == uses.end() ? 0 : opposite->second;
-    if (count == 1 && back == 1) continue;
-    const std::string where = " at the edge around " + millimetres(middle);
-    if (count + back == 1) throw core::InputError("the surface is open" + where + "; close it");
-    if (count == 2 && back == 0)
+  for_each_edge(sorted_edges(surface.triangles), [&](std::span<const EdgeUse> uses) {
+    const auto& ends = uses[0].ends;
+    const auto forward = std::count_if(uses.begin(), uses.end(), [](const EdgeUse& use) { return use.is_forward; });
+    if (uses.size() == 2 && forward == 1) return;
+    const std::string where =
+        " at the edge around " + millimetres(0.5 * (vertex(surface, ends[0]) + vertex(surface, ends[1])));
+    if (uses.size() == 1) throw core::InputError("the surface is open" + where + "; close it");
+    if (uses.size() == 2)
       throw core::InputError("the surface changes its orientation" + where + "; turn all normals outwards");
-    throw core::InputError(std::to_string(count + back) + " triangles meet" + where +
+    throw core::InputError(std::to_string(uses.size()) + " triangles meet" + where +
                            "; a closed surface has two at every edge");
-  }
+  });
 }
 
 void require_one_piece(const TriangleSurface& surface) {
@@ -97,7 +93,12 @@ void require_outwards(const TriangleSurface& surface) {
 
 }  // namespace
 
-std::vector<std::array<int, 2>> self_intersections(const TriangleSurface& surface) {
+bool has_area(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return 0.5 * (b - a).cross(c - a).norm() > smallest_relative_area * longest;
+}
+
+std::vector<std::array<int, 2>> self_intersections(const TriangleSurface& surface, int most) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
   Mesh mesh;
@@ -111,18 +112,23 @@ std::vector<std::array<int, 2>> self_intersections(const TriangleSurface& surfac
     }
   }
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> found;
-  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(found));
+  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(found),
+                                                    CGAL::parameters::maximum_number(static_cast<unsigned int>(most)));
   std::vector<std::array<int, 2>> result;
   result.reserve(found.size());
   for (const auto& [a, b] : found) result.push_back({static_cast<int>(a.idx()), static_cast<int>(b.idx())});
   return result;
 }
 
-void require_closed(const TriangleSurface& surface) {
+void require_closed_shell(const TriangleSurface& surface) {
   require_triangles(surface);
   require_edges_paired(surface);
   require_one_piece(surface);
   require_outwards(surface);
+}
+
+void require_closed(const TriangleSurface& surface) {
+  require_closed_shell(surface);
   const auto crossings = self_intersections(surface);
   if (!crossings.empty()) {
     throw core::InputError("the surface intersects itself in " + std::to_string(crossings.size()) +

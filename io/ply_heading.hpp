@@ -1,0 +1,41 @@
+#pragma once
+// The heading of a PLY file: which elements follow, how many, of which properties.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/surface_text.hpp"
+
+namespace thinwall::io {
+
+enum class PlyFormat { ascii, little_endian, big_endian };
+
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+/// Bytes of a value in a binary file.
+[[nodiscard]] std::size_t size_of(PlyType type);
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::float32;
+  bool is_list = false;
+  PlyType count_type = PlyType::uint8;  ///< of a list
+};
+
+struct PlyElement {
+  std::string name;
+  std::int64_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+struct PlyHeading {
+  PlyFormat format = PlyFormat::ascii;
+  std::vector<PlyElement> elements;
+};
+
+/// Reads the heading from "ply" to the line end after "end_header"; `text` then stands at the first value. Throws
+/// DataError with file and line for whatever does not belong there. Cost O(bytes of the heading).
+[[nodiscard]] PlyHeading read_ply_heading(SurfaceText& text);
+
+}  // namespace thinwall::io
