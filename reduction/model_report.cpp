@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "core/error.hpp"
 #include "reduction/band.hpp"
@@ -41,9 +42,10 @@ MatrixState state_of(const std::string& name, const MatrixXd& A, const VectorXd&
 Vector3d mean_point(const dynamics::DofTable& dofs, const Positions& positions) {
   Vector3d sum = Vector3d::Zero();
   double count = 0.0;
+  std::set<std::string> named;
+  for (const dynamics::Dof& dof : dofs) named.insert(dof.point);
   for (const auto& [point, position] : positions) {
-    const bool used = std::any_of(dofs.begin(), dofs.end(), [&](const auto& dof) { return dof.point == point; });
-    if (!used) continue;
+    if (!named.contains(point)) continue;
     sum += position;
     count += 1.0;
   }
