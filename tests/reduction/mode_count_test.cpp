@@ -128,6 +128,19 @@ TEST(ModeCount, TheModelThatIsCutIsTheModelOfSoManyModes) {
   EXPECT_LT((chosen.reduced.model.K - expected.model.K).norm(), 1e-9 * expected.model.K.norm());
 }
 
+/// More than 600 rows: Lanczos for the modes, a sparse factorisation for the direct solves.
+TEST(ModeCount, OfALargerPartIsVerifiedToo) {
+  for (const bool held : {true, false}) {
+    const Reducible part = larger_part(held);
+    const Band band = band_of(part);
+    const ChosenModes chosen = modes_for_tolerance(part.full, part.interface, {.tolerance = 0.02, .band = band});
+    ASSERT_EQ(chosen.status, ModeCountStatus::met);
+    const double error = max_receptance_error(chosen.reduced.model, band_truth(part.full, part.interface, band));
+    EXPECT_LE(error, 2.0 * 0.02);
+    EXPECT_GE(error, 0.5 * chosen.estimated_error);
+  }
+}
+
 TEST(ModeCount, BadInputIsRefusedAndAnUnreachableToleranceIsAStatus) {
   const Reducible part = random_part(0);
   const Band band = band_of(part);
