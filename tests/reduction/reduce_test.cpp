@@ -175,6 +175,48 @@ TEST(Comparison, FreeInterfaceMethodsAtEqualSizeAreWithinTenTimesTheBest) {
   }
 }
 
+/// A line of nine nodes: all 27 amplitudes are Craig-Bampton, fewer a Ritz model in it, whose frequencies fall towards
+/// Craig-Bampton's as amplitudes are added.
+TEST(CharacteristicConstraintModes, OfALineOfPointsFallTowardsCraigBamptonFromAbove) {
+  const fem::Model model = block({0.3, 0.2, 0.03}, {6, 4, 1}, 2, true);
+  std::vector<fem::NamedPoint> line;
+  for (int i = 0; i <= 8; ++i) line.push_back({"L" + std::to_string(i), {0.3, 0.025 * i, 0.03}, 0.0, xyz});
+  const Reducible part = reducible(model, line);
+  const auto hz = [&](Method method, int characteristic) -> Eigen::VectorXd {
+    const Reduction reduced =
+        reduce(method, part.full, part.interface, {.modes = 20, .characteristic = characteristic});
+    return natural_frequencies_hz(reduced.model, 0, 2000.0).head(4);
+  };
+  const Eigen::VectorXd whole = hz(Method::craig_bampton, 1);
+  Eigen::VectorXd before = Eigen::VectorXd::Constant(4, 1e12);
+  for (const int amplitudes : {2, 4, 8, 16, 27}) {
+    const Eigen::VectorXd found = hz(Method::characteristic_constraint_modes, amplitudes);
+    EXPECT_TRUE((found.array() <= before.array() * (1.0 + 1e-9)).all()) << amplitudes;
+    EXPECT_TRUE((found.array() >= whole.array() * (1.0 - 1e-9)).all()) << amplitudes;
+    std::printf("line of 27 DOFs, %2d amplitudes: four frequencies within %.1e of Craig-Bampton's\n", amplitudes,
+                (found.array() / whole.array() - 1.0).abs().maxCoeff());
+    before = found;
+  }
+  EXPECT_LT((before.array() / whole.array() - 1.0).abs().maxCoeff(), 1e-9);
+}
+
+/// Metres and radians: an interface with rotations is measured in one unit.
+TEST(Band, RotationsAreBroughtToTheSizeOfTranslations) {
+  dynamics::DofTable dofs = dynamics::six_dofs("A");
+  dofs.resize(4);  // x, y, z, rx
+  MatrixXcd H = MatrixXcd::Zero(4, 4);
+  H.diagonal() << 1e-6, 2e-6, 3e-6, 3e-2;
+  const Eigen::VectorXd units = common_units(dofs, {H});
+  EXPECT_NEAR(units(0), 1.0, 1e-15);
+  EXPECT_NEAR(units(3), 1e-2, 1e-12);
+  MatrixXcd other = H;
+  other(3, 3) *= 1.5;
+  EXPECT_NEAR(relative_error(other, H, units), 0.5, 1e-12);
+  other = H;
+  other(0, 0) *= 1.5;
+  EXPECT_NEAR(relative_error(other, H, units), 0.5 / 3.0, 1e-12);
+}
+
 TEST(Comparison, ATruthIsTheDirectSolutionOfTheDampedFullModel) {
   for (const bool held : {true, false}) {
     const Reducible part = small_part(held);
