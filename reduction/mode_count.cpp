@@ -115,6 +115,7 @@ Estimates estimates(const CraigBampton& reduced, const dynamics::SpatialModel& b
   peaks << result.natural_hz, reduced.fixed_interface_hz;
   const std::vector<Complex> z = squares(band, peaks);
   std::vector<MatrixXcd> H;
+  H.reserve(z.size());
   for (const Complex each : z) H.push_back(reference.receptance(each));
   const dynamics::DofTable dofs(reduced.model.dofs.begin(), reduced.model.dofs.begin() + nb);
   result.units = common_units(dofs, H);
