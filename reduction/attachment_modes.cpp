@@ -1,6 +1,5 @@
 #include "reduction/attachment_modes.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <string>
 
@@ -21,9 +20,7 @@ Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& A) {
   return 0.5 * (A + A.transpose());
 }
 
-void require_independent(const Eigen::MatrixXd& R, const Eigen::MatrixXd& flexibility, const Interface& interface) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(R, Eigen::EigenvaluesOnly);
-  if (spectrum.eigenvalues().minCoeff() > 1e-12 * flexibility.diagonal().maxCoeff()) return;
+[[noreturn]] void refuse_dependent(const Interface& interface) {
   std::string names;
   for (const auto& dof : interface.dofs) names += (names.empty() ? "" : ", ") + dynamics::name(dof);
   throw core::InputError("the degrees of freedom " + names +
@@ -51,41 +48,9 @@ PartModes part_modes(const CraigBampton& reduced, const linalg::SparseMatrix& M,
 
 dynamics::SpatialModel with_attachment_modes(const PartModes& modes, const linalg::SparseMatrix& M,
                                              const linalg::ShiftedInverse& inverse, const Interface& interface) {
-  require_static(inverse);
-  const Eigen::Index nm = modes.lambda.size();
-  const Eigen::Index nb = interface.W.cols();
-  const Eigen::MatrixXd SW = inverse.apply(Eigen::MatrixXd(interface.W));
-  const Eigen::MatrixXd seen = interface.W.transpose() * modes.Phi;  // pᵀ
-  const Eigen::MatrixXd flexibility = interface.W.transpose() * SW;
-  Eigen::MatrixXd A = SW;
-  linalg::tall_subtract(A, modes.Phi, modes.lambda.cwiseInverse().asDiagonal() * seen.transpose());
-  const Eigen::MatrixXd R = symmetric_part(interface.W.transpose() * A);
-  require_independent(R, flexibility, interface);
-
-  Eigen::MatrixXd mass = Eigen::MatrixXd::Identity(nm + nb, nm + nb);
-  const Eigen::MatrixXd MA = linalg::symmetric_product(M, A);
-  mass.topRightCorner(nm, nb) = linalg::tall_gram(modes.Phi, MA);
-  mass.bottomLeftCorner(nb, nm) = mass.topRightCorner(nm, nb).transpose();
-  mass.bottomRightCorner(nb, nb) = linalg::tall_gram(A, MA);
-  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(nm + nb, nm + nb);
-  stiffness.diagonal().head(nm) = modes.lambda;
-  stiffness.bottomRightCorner(nb, nb) = R;
-
-  Eigen::MatrixXd to_modal = Eigen::MatrixXd::Zero(nm + nb, nb + nm);  // (x, η) → (η, f)
-  to_modal.topRightCorner(nm, nm).setIdentity();
-  to_modal.bottomLeftCorner(nb, nb) = R.llt().solve(Eigen::MatrixXd::Identity(nb, nb));
-  to_modal.bottomRightCorner(nb, nm) = -to_modal.bottomLeftCorner(nb, nb) * seen;
-  const auto transformed = [&](const Eigen::MatrixXd& X) -> Eigen::MatrixXd {
-    return symmetric_part(to_modal.transpose() * X * to_modal);
-  };
-  dynamics::SpatialModel model;
-  model.M = transformed(mass);
-  model.K = transformed(stiffness);
-  model.C = Eigen::MatrixXd::Zero(nb + nm, nb + nm);
-  model.dofs = interface.dofs;
-  model.dofs.reserve(static_cast<std::size_t>(nb + nm));
-  for (Eigen::Index k = 0; k < nm; ++k)
-    model.dofs.push_back({"mode " + std::to_string(k + 1), Eigen::Vector3d::Zero(), dynamics::DofKind::modal});
+  const FreeInterface part = free_interface(modes, M, inverse, interface);
+  dynamics::SpatialModel model = in_interface_coordinates(part, ResidualInertia::kept);
+  if (model.has_own_coordinates()) refuse_dependent(interface);
   return model;
 }
 

@@ -1,20 +1,13 @@
 #pragma once
 // Reduced models at points that move: the part's modes once, static shapes of unit forces for each place.
 
-#include <Eigen/Core>
-
 #include "dynamics/spatial_model.hpp"
 #include "linalg/eigenpairs.hpp"
 #include "reduction/craig_bampton.hpp"
+#include "reduction/free_interface.hpp"
 #include "reduction/interface.hpp"
 
 namespace thinwall::reduction {
-
-/// Modes of a part over its full model, the same wherever it is loaded: ΦᵀMΦ = I, ΦᵀKΦ = diag(λ).
-struct PartModes {
-  Eigen::VectorXd lambda;  ///< rad²/s², ascending
-  Eigen::MatrixXd Phi;     ///< full × modes
-};
 
 /// The lowest modes of a reduced model, as many as it has fixed-interface modes, carried back to the full model and
 /// freed from the interface that was reduced by a step of subspace iteration, X = S M Φ, and Rayleigh and Ritz in it
@@ -25,17 +18,12 @@ struct PartModes {
                                    const linalg::ShiftedInverse& inverse);
 
 /// The part at an interface of its own, in the coordinates (x, η), x = Wᵀu: free modes and residual attachment modes
-/// (Rubin 1975; in interface coordinates as Martinez, Carne, Gregory & Miller 1984). With S = K⁻¹ and p = Φᵀ W,
-///
-///     A = S W − Φ λ⁻¹ p,   R = Wᵀ A             residual attachment modes and flexibility
-///     u = Φ η + A f,       f = R⁻¹ (x − pᵀ η)
-///     K_ηf = diag(λ, R),   M_ηf = [ I  ΦᵀMA ; AᵀMΦ  AᵀMA ]
-///
-/// and M_r, K_r follow from (η, f) to (x, η). Static receptances at the interface are exact; where the interface is the
-/// one that was reduced the model agrees with Craig-Bampton's up to what either leaves out. M: free × free; `inverse`
-/// the action of S (its sigma must be 0). C is zero; DOFs: the interface, then "mode 1" …. Throws InputError if the
-/// interface DOFs depend on each other, NumericalError for a shifted inverse. Cost: a solve of interface-many
-/// right-hand sides and O(full · modes · interface): no eigen-solution of the full model.
+/// (Rubin 1975; in interface coordinates as Martinez, Carne, Gregory & Miller 1984; docs/theory/reductions.md, Eq. 6, 8
+/// and 9). Static receptances at the interface are exact; where the interface is the one that was reduced the model
+/// agrees with Craig-Bampton's up to what either leaves out. M: free × free; `inverse` the action of K⁻¹ (its sigma
+/// must be 0). C is zero; DOFs: the interface, then "mode 1" …. Throws InputError if the interface DOFs depend on each
+/// other or the modes leave nothing out at one of them, NumericalError for a shifted inverse. Cost: a solve of
+/// interface-many right-hand sides and O(full · modes · interface): no eigen-solution of the full model.
 [[nodiscard]] dynamics::SpatialModel with_attachment_modes(const PartModes& modes, const linalg::SparseMatrix& M,
                                                            const linalg::ShiftedInverse& inverse,
                                                            const Interface& interface);

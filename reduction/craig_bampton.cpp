@@ -56,6 +56,7 @@ linalg::Eigenpairs fixed_interface_modes(const linalg::SparseMatrix& K, const li
     throw core::InputError("asked for " + std::to_string(options.modes) + " fixed-interface modes; the model has " +
                            std::to_string(inner) + " inner degrees of freedom");
   }
+  if (!options.up_to_hz && options.modes == 0) return {};
   const double omega_max = 2.0 * std::numbers::pi * options.up_to_hz.value_or(0.0);
   if (K.rows() <= 600) {
     linalg::Eigenpairs all = linalg::dense_eigenpairs(K, M, interface.W);
@@ -67,7 +68,6 @@ linalg::Eigenpairs fixed_interface_modes(const linalg::SparseMatrix& K, const li
     return all;
   }
   if (options.up_to_hz) return linalg::eigenpairs_up_to(K, M, inner_inverse, omega_max * omega_max);
-  if (options.modes == 0) return {};
   return linalg::lowest_eigenpairs(K, M, inner_inverse, options.modes);
 }
 

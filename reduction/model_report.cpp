@@ -1,0 +1,223 @@
+#include "reduction/model_report.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "core/error.hpp"
+#include "reduction/band.hpp"
+#include "reduction/comparison.hpp"
+
+namespace thinwall::reduction {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+MatrixState state_of(const std::string& name, const MatrixXd& A, const VectorXd& floor, double bound) {
+  MatrixState state;
+  state.name = name;
+  const double largest = A.cwiseAbs().maxCoeff();
+  if (largest == 0.0) {
+    state.zero = static_cast<int>(A.rows());
+    return state;
+  }
+  const VectorXd own = A.diagonal().cwiseAbs().cwiseMax(floor.cwiseAbs()).cwiseMax(1e-14 * largest);
+  const VectorXd scale = own.cwiseSqrt().cwiseInverse();
+  const MatrixXd S = scale.asDiagonal() * A * scale.asDiagonal();
+  state.asymmetry = (S - S.transpose()).cwiseAbs().maxCoeff() / S.cwiseAbs().maxCoeff();
+  const VectorXd values =
+      Eigen::SelfAdjointEigenSolver<MatrixXd>(0.5 * (S + S.transpose()), Eigen::EigenvaluesOnly).eigenvalues();
+  state.least = values.minCoeff();
+  state.negative = static_cast<int>((values.array() < -bound).count());
+  state.zero = static_cast<int>((values.array().abs() <= bound).count());
+  return state;
+}
+
+Vector3d mean_point(const dynamics::DofTable& dofs, const Positions& positions) {
+  Vector3d sum = Vector3d::Zero();
+  double count = 0.0;
+  std::set<std::string> named;
+  for (const dynamics::Dof& dof : dofs) named.insert(dof.point);
+  for (const auto& [point, position] : positions) {
+    if (!named.contains(point)) continue;
+    sum += position;
+    count += 1.0;
+  }
+  return count > 0.0 ? Vector3d(sum / count) : sum;
+}
+
+/// Mass, centre and inertia from YᵀMY about the reference.
+dynamics::RigidBody body_of(const dynamics::Matrix6& mass, const Vector3d& reference) {
+  dynamics::RigidBody body;
+  body.mass_kg = mass.topLeftCorner<3, 3>().trace() / 3.0;
+  const Eigen::Matrix3d moment = mass.bottomLeftCorner<3, 3>() / body.mass_kg;  // [c]ₓ
+  const Vector3d c =
+      0.5 * Vector3d(moment(2, 1) - moment(1, 2), moment(0, 2) - moment(2, 0), moment(1, 0) - moment(0, 1));
+  body.centre_m = reference + c;
+  const Eigen::Matrix3d about_reference = mass.bottomRightCorner<3, 3>();
+  body.inertia_kg_m2 =
+      about_reference - body.mass_kg * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+  return body;
+}
+
+double mass_disagreement(const MatrixXd& M, const RigidSets& sets, double mass) {
+  double worst = 0.0;
+  for (const MatrixXd* set : {&sets.geometry, &sets.stiffness, &sets.eigen}) {
+    if (set->cols() != 6) continue;
+    const VectorXd each = (set->transpose() * M * *set).diagonal().head(3);
+    worst = std::max(worst, (each.array() / mass - 1.0).abs().maxCoeff());
+  }
+  return worst;
+}
+
+RigidBodyState rigid_body_state(const dynamics::SpatialModel& model, const ReportOptions& options, double lowest_hz) {
+  RigidBodyState state;
+  state.reference = options.reference ? *options.reference : mean_point(model.dofs, options.positions);
+  state.sets = rigid_sets(model, options.positions, state.reference);
+  if (state.sets.seen < 6) return state;
+  const MatrixXd& Y = state.sets.geometry;
+  state.grounding_stiffness = (Y.transpose() * model.K * Y).diagonal();
+  state.mass = Y.transpose() * model.M * Y;
+  const VectorXd lambda = state.grounding_stiffness.cwiseQuotient(state.mass.diagonal());
+  state.grounding_hz = lambda.cwiseAbs().cwiseSqrt() / (2.0 * std::numbers::pi);
+  state.free_motions = static_cast<int>((state.grounding_hz.array() <= options.grounding * lowest_hz).count());
+  state.body = body_of(state.mass, state.reference);
+  const std::vector<int> rows = physical_rows(model.dofs);
+  state.effective = effective_mass(model.K, model.M, dynamics::displacements(model)(rows, Eigen::all), Y);
+  // What is held is bent by stiffness and modes: only geometry's set is a rigid motion.
+  RigidSets comparable = state.sets;
+  if (state.sets.without_energy != 6) comparable.stiffness = comparable.eigen = MatrixXd();
+  state.mass_disagreement = mass_disagreement(model.M, comparable, state.body.mass_kg);
+  return state;
+}
+
+/// Receptances of the matrices as they are, symmetric or not, where they say something: between the natural
+/// frequencies, with a loss factor that passive matrices turn into lost power.
+void check_receptances(const dynamics::SpatialModel& model, ReducedModelReport& report) {
+  const auto& hz = report.frequencies_hz;
+  if (hz.empty()) return;
+  dynamics::SpatialModel seen = model;
+  const std::vector<int> rows = physical_rows(model.dofs);
+  seen.T = dynamics::displacements(model)(rows, Eigen::all);
+  seen.dofs.clear();
+  for (const int row : rows) seen.dofs.push_back(model.dofs[static_cast<std::size_t>(row)]);
+  const Band band{0.3 * hz.front(), 1.1 * hz.back(), 5, 0.02};
+  std::vector<Eigen::MatrixXcd> lines;
+  for (const auto z : squares(band, {}))
+    lines.push_back(receptance_at(seen, std::ssize(rows), z) / std::complex<double>(1.0, band.loss_factor));
+  const VectorXd units = common_units(seen.dofs, lines);
+  for (const Eigen::MatrixXcd& line : lines) {
+    const Eigen::MatrixXcd H = units.asDiagonal() * line * units.asDiagonal();
+    const double size = H.cwiseAbs().maxCoeff();
+    report.reciprocity = std::max(report.reciprocity, (H - H.transpose()).cwiseAbs().maxCoeff() / size);
+    const Eigen::MatrixXcd lost = std::complex<double>(0.0, 0.5) * (H - H.adjoint());  // −(H − Hᴴ)/2i
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> power(lost, Eigen::EigenvaluesOnly);
+    report.least_power = std::min(report.least_power, power.eigenvalues().minCoeff() / size);
+  }
+}
+
+std::vector<double> lowest_frequencies(const dynamics::SpatialModel& model, int rigid) {
+  const double middle = model.K.diagonal().cwiseAbs().sum() / model.M.diagonal().cwiseAbs().sum();
+  if (!(middle > 0.0)) return {};
+  VectorXd hz = natural_frequencies_hz(model, rigid, 0.01 * std::sqrt(middle) / (2.0 * std::numbers::pi));
+  // A second time about what was found: accurate for the lowest.
+  if (hz.size() > 0) hz = natural_frequencies_hz(model, rigid, hz(0));
+  return {hz.begin(), hz.begin() + std::min<Index>(20, hz.size())};
+}
+
+void find_in_matrices(const ReportOptions& options, ReducedModelReport& report) {
+  for (const MatrixState& matrix : report.matrices) {
+    report.findings.push_back(
+        {"symmetry of " + matrix.name, matrix.asymmetry, options.symmetry, matrix.asymmetry <= options.symmetry,
+         "both triangles must be there and equal: export the full matrix, or mirror the one given"});
+    const bool definite = matrix.negative == 0;
+    const char* advice = matrix.name == "M"   ? "a negative mass: a sign or a wrong row of the DOF table"
+                         : matrix.name == "K" ? "negative stiffness; dual Craig-Bampton's has it by construction"
+                                              : "it gives energy: a part alone cannot";
+    report.findings.push_back(
+        {"least eigenvalue of " + matrix.name, matrix.least, -options.definiteness, definite, advice});
+  }
+}
+
+void find_in_rigid_body(const ReportOptions& options, ReducedModelReport& report) {
+  if (!report.rigid) return;
+  const RigidBodyState& rigid = *report.rigid;
+  const auto add = [&](const std::string& name, double value, double bound, bool ok, const std::string& advice) {
+    report.findings.push_back({name, value, bound, ok, advice});
+  };
+  if (rigid.sets.seen < 6) {
+    add("rigid motions that the DOFs can show", rigid.sets.seen, 6, false,
+        "mass, centre and inertia need three points that do not lie on one line, or rotations");
+    return;
+  }
+  if (options.rigid_motions)
+    add("free rigid motions", rigid.free_motions, *options.rigid_motions, rigid.free_motions == *options.rigid_motions,
+        "a support that is not meant or is missing, or a position or direction that is wrong");
+  add("rigid motions by geometry", rigid.sets.geometry_misfit, options.rigid_motion,
+      rigid.sets.geometry_misfit <= options.rigid_motion, "the model's coordinates cannot move its points so");
+  if (rigid.free_motions == 6)
+    add("modes without energy", rigid.sets.without_energy, 6, rigid.sets.without_energy == 6,
+        "more: a mechanism, or M is not of this K");
+  if (rigid.sets.without_energy == 6) {
+    add("rigid motions by stiffness", rigid.sets.stiffness_disagreement, options.rigid_motion,
+        rigid.sets.stiffness_disagreement <= options.rigid_motion,
+        "a position, a direction or a row is not what K knows");
+    add("rigid motions by modes", rigid.sets.eigen_disagreement, options.rigid_motion,
+        rigid.sets.eigen_disagreement <= options.rigid_motion, "M and K do not belong together");
+    add("mass along the axes and by the sets", rigid.mass_disagreement, options.rigid_motion,
+        rigid.mass_disagreement <= options.rigid_motion, "mass is missing in some direction, or units differ");
+  }
+  if (rigid.effective.available)
+    add("sum of effective masses", rigid.effective.closure, options.effective_mass,
+        rigid.effective.closure <= options.effective_mass, "M is ill-conditioned at the interface");
+}
+
+ReducedModelReport counted(const dynamics::SpatialModel& model) {
+  ReducedModelReport result;
+  result.coordinates = static_cast<int>(model.size());
+  for (const dynamics::Dof& dof : model.dofs) {
+    if (dof.kind == dynamics::DofKind::translation) ++result.translations;
+    if (dof.kind == dynamics::DofKind::rotation) ++result.rotations;
+    if (dof.kind == dynamics::DofKind::modal) ++result.amplitudes;
+  }
+  if (result.translations + result.rotations == 0)
+    throw core::InputError("the DOF table names amplitudes only: a report needs a displacement of a point");
+  return result;
+}
+
+}  // namespace
+
+bool ReducedModelReport::trustworthy() const {
+  return std::all_of(findings.begin(), findings.end(), [](const Finding& finding) { return finding.ok; });
+}
+
+ReducedModelReport report(const dynamics::SpatialModel& model, const ReportOptions& options) {
+  dynamics::require_consistent(model);
+  ReducedModelReport result = counted(model);
+  result.frequencies_hz = lowest_frequencies(model, modes_without_energy(model));
+  const double lowest = result.frequencies_hz.empty() ? 0.0 : result.frequencies_hz.front();
+  const double lambda = std::pow(2.0 * std::numbers::pi * lowest, 2);
+  const VectorXd none = VectorXd::Zero(model.size());
+  result.matrices.push_back(state_of("M", model.M, none, options.definiteness));
+  result.matrices.push_back(state_of("C", model.C, none, options.definiteness));
+  result.matrices.push_back(state_of("K", model.K, lambda * model.M.diagonal(), options.definiteness));
+  if (model.has_structural_damping())
+    result.matrices.push_back(state_of("D", model.D, lambda * model.M.diagonal(), options.definiteness));
+  if (!options.positions.empty()) result.rigid = rigid_body_state(model, options, lowest);
+  check_receptances(model, result);
+  find_in_matrices(options, result);
+  find_in_rigid_body(options, result);
+  result.findings.push_back({"reciprocity", result.reciprocity, options.reciprocity,
+                             result.reciprocity <= options.reciprocity, "see the symmetry of the matrices"});
+  result.findings.push_back({"least power lost over |H|", result.least_power, -1e-9, result.least_power >= -1e-9,
+                             "the model gives energy: see the eigenvalues of the matrices"});
+  return result;
+}
+
+}  // namespace thinwall::reduction

@@ -1,0 +1,183 @@
+#include "reduction/model_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cstdio>
+
+#include "core/error.hpp"
+#include "reduction/reduce.hpp"
+#include "tests/reduction/reducible_part.hpp"
+
+namespace thinwall::reduction {
+namespace {
+
+using Eigen::MatrixXd;
+
+const Eigen::Vector3d size(0.3, 0.2, 0.06);
+
+/// The points of small_part().
+const Positions positions{{"P", {0.3, 0.11, 0.03}}, {"Q", {0.1, 0.2, 0.03}}, {"R", {0.2, 0.05, 0.06}}};
+
+dynamics::SpatialModel reduced(bool held, Method method, int modes) {
+  const Reducible part = small_part(held);
+  return std::get<dynamics::SpatialModel>(
+      reduce(method, part.full, part.interface, {.modes = modes, .characteristic = 9}).model);
+}
+
+std::string what_is_wrong(const ReducedModelReport& report) {
+  std::string names;
+  for (const Finding& each : report.findings) {
+    if (!each.ok) names += (names.empty() ? "" : ", ") + each.name;
+  }
+  return names;
+}
+
+/// The block in closed form: ρV, its middle, m (b² + c²)/12.
+void expect_block(const dynamics::RigidBody& body, double tolerance) {
+  const fem::MassProperties exact = fem::box_mass_properties(size, steel.density_kg_m3);
+  EXPECT_NEAR(body.mass_kg / exact.mass_kg, 1.0, tolerance);
+  EXPECT_LT((body.centre_m - exact.centre_m).norm(), tolerance * size.norm());
+  EXPECT_LT((body.inertia_kg_m2 - exact.inertia_kg_m2).norm(), tolerance * exact.inertia_kg_m2.norm());
+}
+
+TEST(ModelReport, OfEveryReductionOfAFreeBlockHasItsMassCentreAndInertia) {
+  for (const Method method : {Method::guyan, Method::craig_bampton, Method::characteristic_constraint_modes,
+                              Method::rubin, Method::macneal, Method::craig_chang}) {
+    const ReducedModelReport found = report(reduced(false, method, 12), {.positions = positions, .rigid_motions = 6});
+    EXPECT_TRUE(found.trustworthy()) << name(method) << ": " << what_is_wrong(found) << "\n" << text(found);
+    ASSERT_TRUE(found.rigid);
+    expect_block(found.rigid->body, 1e-6);
+    EXPECT_EQ(found.rigid->free_motions, 6);
+    EXPECT_EQ(found.translations, 9);
+    std::printf("%-31s sets disagree by %.1e (stiffness), %.1e (modes), mass by %.1e, grounding %.1e Hz\n",
+                name(method).c_str(), found.rigid->sets.stiffness_disagreement, found.rigid->sets.eigen_disagreement,
+                found.rigid->mass_disagreement, found.rigid->grounding_hz.maxCoeff());
+  }
+}
+
+TEST(ModelReport, EffectiveMassesOfAllModesAreTheRigidBodysButForTheInterfacesOwn) {
+  const Reducible part = small_part(false);
+  const int all = static_cast<int>(part.full.K.rows() - part.interface.W.cols());
+  const ReducedModelReport found =
+      report(reduced(false, Method::craig_bampton, all), {.positions = positions, .reference = size / 2});
+  ASSERT_TRUE(found.rigid && found.rigid->effective.available);
+  const EffectiveMass& effective = found.rigid->effective;
+  ASSERT_EQ(effective.mass.rows(), all);
+  // The interface's own, from the full mass matrix alone.
+  const MatrixXd W = part.interface.W;
+  const MatrixXd mobility = W.transpose() * MatrixXd(part.full.M).llt().solve(W);
+  const MatrixXd r = rigid_motions_of(part.interface.dofs, physical_rows(part.interface.dofs), positions, size / 2);
+  const Eigen::VectorXd own = (r.transpose() * mobility.llt().solve(r)).diagonal();
+  const fem::MassProperties exact = fem::box_mass_properties(size, steel.density_kg_m3);
+  Eigen::VectorXd rigid(6);
+  rigid << Eigen::Vector3d::Constant(exact.mass_kg), exact.inertia_kg_m2.diagonal();
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    const double sum = effective.mass.col(k).sum() + own(k);
+    std::printf("direction %td: effective mass of all modes and the interface over the block's: 1 %+.1e\n", k,
+                sum / rigid(k) - 1.0);
+    EXPECT_NEAR(sum / rigid(k), 1.0, 1e-6) << k;
+    EXPECT_GT(effective.mass.col(k).sum(), 0.5 * rigid(k)) << "most of it is the modes'";
+  }
+  EXPECT_LT(effective.closure, 1e-6);
+}
+
+TEST(ModelReport, OfAnImportedFullModelNeedsNoReduction) {
+  const fem::Model block_model = block(size, {2, 1, 1}, 1, false);
+  dynamics::SpatialModel model = dense(block_model.K, block_model.M);
+  Positions nodes;
+  for (std::size_t row = 0; row < model.dofs.size(); ++row) {
+    const int node = block_model.free_rows[row] / 3, axis = block_model.free_rows[row] % 3;
+    model.dofs[row] = {"N" + std::to_string(node), Eigen::Vector3d::Unit(axis), dynamics::DofKind::translation};
+    nodes["N" + std::to_string(node)] = block_model.nodes.positions.row(node).transpose();
+  }
+  const ReducedModelReport found = report(model, {.positions = nodes, .rigid_motions = 6});
+  EXPECT_TRUE(found.trustworthy()) << what_is_wrong(found);
+  expect_block(found.rigid->body, 1e-9);
+  EXPECT_NE(text(found).find("nothing found against this model"), std::string::npos);
+  EXPECT_NE(text(found).find("mass 28.26 kg"), std::string::npos) << text(found);
+}
+
+TEST(ModelReport, AHeldPartHasNoFreeMotions) {
+  const auto model = reduced(true, Method::craig_bampton, 12);
+  const ReducedModelReport held = report(model, {.positions = positions, .rigid_motions = 0});
+  EXPECT_TRUE(held.trustworthy()) << what_is_wrong(held);
+  EXPECT_EQ(held.rigid->free_motions, 0);
+  EXPECT_EQ(held.rigid->sets.without_energy, 0);
+  EXPECT_EQ(what_is_wrong(report(model, {.positions = positions, .rigid_motions = 6})), "free rigid motions");
+}
+
+TEST(ModelReport, FindsWhatIsWrong) {
+  const dynamics::SpatialModel good = reduced(false, Method::craig_bampton, 12);
+  const auto wrong = [&](const auto& spoil) {
+    dynamics::SpatialModel model = good;
+    Positions moved = positions;
+    spoil(model, moved);
+    return what_is_wrong(report(model, {.positions = moved, .rigid_motions = 6}));
+  };
+  const auto contains = [](const std::string& found, const std::string& name) {
+    EXPECT_NE(found.find(name), std::string::npos) << name << " not in: " << found;
+  };
+  EXPECT_EQ(wrong([](auto&, auto&) {}), "");
+  const std::string asymmetric = wrong([](auto& model, auto&) { model.K(0, 4) *= 1.01; });
+  contains(asymmetric, "symmetry of K");
+  contains(asymmetric, "reciprocity");
+  contains(wrong([](auto& model, auto&) { model.M.diagonal()(2) *= -1.0; }), "least eigenvalue of M");
+  contains(wrong([](auto& model, auto&) { model.K.diagonal()(11) *= -1.0; }), "least eigenvalue of K");
+  contains(wrong([](auto& model, auto&) { model.K.diagonal()(11) *= -1.0; }), "least power");
+  contains(wrong([](auto& model, auto&) { model.C(3, 3) = -1.0; }), "least eigenvalue of C");
+  contains(wrong([](auto& model, auto&) { std::swap(model.dofs[0], model.dofs[4]); }), "rigid motions by stiffness");
+  contains(wrong([](auto&, auto& moved) { moved.at("Q").x() += 0.005; }), "free rigid motions");
+  contains(wrong([](auto& model, auto&) { model.K(0, 0) *= 1.001; }), "free rigid motions");
+  contains(wrong([](auto& model, auto&) { model.M.row(0) *= 1.1, model.M.col(0) *= 1.1; }), "mass along the axes");
+}
+
+TEST(ModelReport, PassivityIsLostWhereStiffnessGivesEnergy) {
+  dynamics::SpatialModel model = reduced(false, Method::craig_bampton, 12);
+  EXPECT_GE(report(model).least_power, -1e-9);
+  model.D = -0.01 * model.K;
+  EXPECT_EQ(what_is_wrong(report(model)), "least eigenvalue of D");
+}
+
+TEST(ModelReport, OfOnePointSaysWhichQuestionsItCannotAnswer) {
+  const Reducible part = small_part(true, 1);
+  const auto model =
+      std::get<dynamics::SpatialModel>(reduce(Method::craig_bampton, part.full, part.interface, {.modes = 5}).model);
+  const ReducedModelReport found = report(model, {.positions = positions});
+  EXPECT_EQ(what_is_wrong(found), "rigid motions that the DOFs can show");
+  EXPECT_EQ(found.rigid->sets.seen, 3);
+  EXPECT_TRUE(report(model).trustworthy()) << "without positions nothing is asked about rigid motions";
+}
+
+/// A point with rotations shows all six; a beam's ends do, too.
+TEST(ModelReport, RotationsCountAsMotionsOfAPoint) {
+  dynamics::RigidBody body{2.0, {0.1, 0.0, -0.2}, Eigen::Vector3d(0.02, 0.03, 0.04).asDiagonal()};
+  dynamics::SpatialModel model{
+      dynamics::mass_matrix(body), MatrixXd::Zero(6, 6), MatrixXd::Zero(6, 6), {}, dynamics::six_dofs("A")};
+  const Eigen::Vector3d at(1.0, 2.0, 3.0);
+  const ReducedModelReport found = report(model, {.positions = {{"A", at}}});
+  ASSERT_EQ(found.rigid->sets.seen, 6);
+  EXPECT_NEAR(found.rigid->body.mass_kg, 2.0, 1e-12);
+  EXPECT_LT((found.rigid->body.centre_m - at - body.centre_m).norm(), 1e-12);
+  EXPECT_LT((found.rigid->body.inertia_kg_m2 - body.inertia_kg_m2).norm(), 1e-12);
+  EXPECT_EQ(found.rotations, 3);
+}
+
+TEST(ModelReport, BadInputIsRefused) {
+  const dynamics::SpatialModel model = reduced(false, Method::craig_bampton, 3);
+  try {
+    (void)report(model, {.positions = {{"P", {0, 0, 0}}}});
+    FAIL() << "Q has no position";
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("\"Q\""), std::string::npos) << error.what();
+  }
+  dynamics::SpatialModel short_table = model;
+  short_table.dofs.pop_back();
+  EXPECT_THROW((void)report(short_table), core::InputError);
+  dynamics::SpatialModel nameless = model;
+  for (auto& dof : nameless.dofs) dof.kind = dynamics::DofKind::modal;
+  EXPECT_THROW((void)report(nameless), core::InputError);
+}
+
+}  // namespace
+}  // namespace thinwall::reduction
