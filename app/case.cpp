@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/case_binding.hpp"
+#include "app/imported_part.hpp"
 #include "app/schema.hpp"
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
@@ -57,6 +58,7 @@ double* number_behind(CaseValues& values, const std::string& key) {
 
 Eigen::AlignedBox3d bounds(const Part& part) {
   Eigen::AlignedBox3d box;
+  if (from_file(part)) return part.imported ? part.imported->box : box;
   if (part.shape == "prism") {
     for (const auto& corner : part.prism.outline)
       box.extend(Eigen::Vector3d(corner.x(), corner.y(), part.prism.bottom));
@@ -102,6 +104,7 @@ bool contains(const Selection& selection, const Eigen::Vector3d& p, double toler
 
 std::vector<std::filesystem::path> input_files(const Case& source) {
   std::vector<std::filesystem::path> files;
+  if (source.part && from_file(*source.part)) files.push_back(source.part->file.path);
   for (const auto& frf : source.measured_part) files.push_back(frf.file);
   if (source.robot) {
     for (const auto& frf : source.robot->measured) files.push_back(frf.file);
@@ -141,6 +144,7 @@ void set_value(Case& target, const std::string& key, double value) {
   }
   *number = value;
   Case bound = bind_case(std::move(values), target.folder);
+  if (bound.part && target.part) bound.part->imported = target.part->imported;
   bound.name = target.name;
   bound.file = target.file;
   bound.source = target.source;

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "coupling/contact.hpp"
 #include "coupling/hertz_contact.hpp"
 #include "mesh/prism.hpp"
+#include "mesh/surface_repair.hpp"
 #include "milling/machine_limits.hpp"
 #include "milling/sensitivity.hpp"
 #include "robot/serial_arm.hpp"
@@ -67,13 +69,25 @@ struct Bend {
   std::optional<int> along;  ///< 0, 1, 2 for x, y, z
 };
 
-/// A box with one corner at the origin, or a prism.
+struct ImportedPart;
+
+/// A file that a part's shape comes from, and how it is read.
+struct PartFile {
+  std::filesystem::path path;
+  std::string unit;                                  ///< of length; no default
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< m: the point of the file where the part's axes begin
+  mesh::SurfaceRepairOptions repair;                 ///< of a surface
+};
+
+/// A box with one corner at the origin, a prism, or what a file holds.
 struct Part {
-  std::string shape = "box";                                 ///< box, prism
+  std::string shape = "box";                                 ///< box, prism, surface
   double length = 0.0, height = 0.0, thickness = 0.0;        ///< m
   int length_axis = 1, height_axis = 2, thickness_axis = 0;  ///< 0, 1, 2 for x, y, z
   mesh::Prism prism;                                         ///< of shape prism: outline in x, y; height along z
   std::optional<Bend> bend;
+  PartFile file;                                 ///< of shape surface
+  std::shared_ptr<const ImportedPart> imported;  ///< what the file holds, once it is read (app/imported_part.hpp)
   Material material;
   MeshOptions mesh;
   std::vector<Support> supports;  ///< none: a free part

@@ -1,10 +1,13 @@
 #include "app/case_binding.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "app/case_table.hpp"
+#include "app/imported_part.hpp"
 #include "app/lobes_binding.hpp"
 #include "app/robot_binding.hpp"
 #include "app/schema.hpp"
@@ -15,6 +18,10 @@ namespace thinwall::app {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Any of these makes a modelled part.
+constexpr std::array geometry_keys{"part.length",  "part.height", "part.thickness",
+                                   "part.outline", "part.file",   "part.shape"};
 
 int axis_index(const std::string& letter) {
   return letter == "x" ? 0 : letter == "y" ? 1 : letter == "z" ? 2 : -1;
@@ -63,9 +70,24 @@ mesh::Prism bind_prism(const Table& table) {
   return prism;
 }
 
-Part bind_part(const Table& table) {
+PartFile bind_part_file(const Table& table, const std::filesystem::path& folder) {
+  PartFile file;
+  if (const std::string name = table.text("file"); !name.empty()) file.path = folder / name;
+  file.unit = table.text("unit");
+  if (table.has("origin")) file.origin = table.vector("origin");
+  const Table repair = table.table("repair");
+  mesh::SurfaceRepairOptions& options = file.repair;
+  options.merge_tolerance_m = repair.optional("merge_tolerance").value_or(0.0);
+  options.largest_hole_edges = repair.has("largest_hole") ? repair.integer("largest_hole") : 0;
+  options.largest_movement = repair.optional("largest_movement").value_or(options.largest_movement);
+  options.thinnest_wall_m = repair.optional("thinnest_wall").value_or(0.0);
+  return file;
+}
+
+Part bind_part(const Table& table, const std::filesystem::path& folder) {
   Part part;
-  part.shape = table.text("shape") == "prism" ? "prism" : "box";
+  part.file = bind_part_file(table, folder);
+  part.shape = table.has("shape") ? table.text("shape") : table.has("file") ? shape_of_file(part.file.path) : "box";
   if (part.shape == "prism") part.prism = bind_prism(table);
   if (const Table bend = table.table("bend"); bend.exists()) {
     part.bend = Bend{bend.number("radius"), {}};
@@ -329,9 +351,8 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   Case bound;
   bound.folder = folder;
   bound.title = root.text("title");
-  if (root.has("part.length") || root.has("part.height") || root.has("part.thickness") || root.has("part.outline")) {
-    bound.part = bind_part(root.table("part"));
-  }
+  const auto has = [&](const char* key) { return root.has(key); };
+  if (std::ranges::any_of(geometry_keys, has)) bound.part = bind_part(root.table("part"), folder);
   bound.measured_part = bind_all_measured(root.tables("part.measured"), folder);
   bound.part_sensors = bind_sensors(root.tables("part.sensors"));
   bound.selections = bind_selections(root.table("selections"));

@@ -6,6 +6,7 @@
 
 #include "app/case_binding.hpp"
 #include "app/case_checks.hpp"
+#include "app/imported_part.hpp"
 #include "app/schema.hpp"
 #include "app/toml_values.hpp"
 #include "core/atomic_file.hpp"
@@ -29,6 +30,10 @@ Case parse_case(const std::string& text, const std::filesystem::path& folder, co
   result.source = text;
   auto problems = std::move(read.problems);
   std::ranges::move(check_case(result), std::back_inserter(problems));
+  if (!problems.empty()) throw CaseError(name, std::move(problems));
+  if (!result.part || result.part->file.path.empty()) return result;
+  result.part->imported = read_part_file(*result.part);
+  problems = check_case(result);  // what could not be told before its size was known
   if (!problems.empty()) throw CaseError(name, std::move(problems));
   return result;
 }

@@ -12,6 +12,7 @@
 #include "app/case_template.hpp"
 #include "app/compare.hpp"
 #include "app/doctor.hpp"
+#include "app/imported_part.hpp"
 #include "app/lobes_input.hpp"
 #include "app/lobes_report.hpp"
 #include "app/log.hpp"
@@ -90,6 +91,7 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
   const auto expectations = read_expectations(source.file);
   out << source.file.string() << ": no errors\n";
   if (!source.title.empty()) out << "  " << source.title << '\n';
+  if (source.part && source.part->imported) out << "  part      " << source.part->imported->said << '\n';
   if (source.part) {
     const SizeEstimate size = estimate_size(source);
     const auto rounded = [](double value) { return core::readable_text(value, core::kind::number); };

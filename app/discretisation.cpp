@@ -7,11 +7,13 @@
 #include <limits>
 #include <numbers>
 
+#include "app/imported_part.hpp"
 #include "app/path.hpp"
 #include "core/memory.hpp"
 #include "mesh/bend.hpp"
 #include "mesh/prism_mesh.hpp"
 #include "mesh/selection.hpp"
+#include "mesh/surface_to_volume.hpp"
 #include "mesh/tetgen.hpp"
 
 namespace thinwall::app {
@@ -106,6 +108,25 @@ int along_axis(const Part& part, int through) {
   return longest;
 }
 
+/// A mesh of the closed surface of a file, one element through the wall; the coarsest is level 0.
+mesh::TetMesh surface_mesh(const Case& source, int level) {
+  const MeshOptions& wanted = source.part->mesh;
+  mesh::SurfaceMeshOptions options;
+  options.size.size_m = wanted.element_size.value_or(0.0);
+  options.size.scale = std::pow(1.5, -level);
+  options.size.layers = 1 + level;
+  for (const Point& p : source.points) {
+    if (p.patch_radius > 0.0)
+      options.size.refined.emplace_back(mesh::SphereRegion{position(*source.part, p), p.patch_radius});
+  }
+  options.limits = {wanted.time_limit, wanted.memory_limit};
+  mesh::SurfaceMeshed meshed = mesh::mesh_closed_surface(source.part->imported->surface->surface, options);
+  for (const auto& failure : meshed.failures) spdlog::info("a mesher failed and the next was tried: {}", failure);
+  spdlog::info("{}: volume off by {:.1e} relative, surface by up to {:.2g} mm", meshed.mesher,
+               meshed.volume_error_relative, 1e3 * meshed.surface_distance_m);
+  return std::move(meshed.mesh);
+}
+
 /// Where the tolerance on receptances is to hold: at the interface, and at both ends and the middle of the path.
 std::vector<fem::NamedPoint> watched_points(const Case& source) {
   std::vector<fem::NamedPoint> points;
@@ -121,14 +142,16 @@ std::vector<fem::NamedPoint> watched_points(const Case& source) {
 
 Discretisation refined_to_tolerance(const Case& source) {
   const MeshOptions& wanted = source.part->mesh;
-  fem::SolidPart part{[&](int level) { return graded_mesh(source, level); }, shaping(*source.part),
-                      material_of(*source.part), supports_of(source)};
+  const auto mesh_at = [&](int level) {
+    return from_file(*source.part) ? surface_mesh(source, level) : graded_mesh(source, level);
+  };
+  fem::SolidPart part{mesh_at, shaping(*source.part), material_of(*source.part), supports_of(source)};
   fem::ToleranceOptions options;
   options.tolerance = wanted.tolerance;
   options.modes = mode_options(source);
   options.modes.verify_count = false;
   options.memory_limit_bytes = core::available_memory_bytes();
-  options.reentrant_edges = mesh::has_reentrant_edge(planar(*source.part).prism);
+  options.reentrant_edges = from_file(*source.part) || mesh::has_reentrant_edge(planar(*source.part).prism);
   if (options.reentrant_edges) options.levels = 2;  // more bring little: across a rib one element remains
   options.points = watched_points(source);
   if (wanted.order) {
@@ -192,6 +215,7 @@ fem::Shaping shaping(const Part& part) {
 }
 
 double mass(const Part& part, const mesh::TetMesh& flat) {
+  if (from_file(part)) return part.material.density * part.imported->surface->volume_m3;
   if (!part.bend) return part.material.density * mesh::volume(planar(part).prism);
   const mesh::Bend bend = bend_of(part);
   double volume = 0.0;
@@ -232,6 +256,7 @@ Discretisation discretise(const Case& source) {
   }
   if (!part.mesh.element_size) return refined_to_tolerance(source);
   const int order = part.mesh.order.value_or(2);
+  if (from_file(part)) return {surface_mesh(source, 0), order, {}, {}};
   if (part.shape == "box" && !part.bend) return {tetgen_mesh(source), order, {}, {}};
   return {graded_mesh(source, 0), order, {}, {}};
 }

@@ -8,9 +8,11 @@
 
 #include "app/case_checks.hpp"
 #include "app/discretisation.hpp"
+#include "app/imported_part.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "dynamics/dof.hpp"
+#include "io/surface_unit.hpp"
 #include "mesh/bend.hpp"
 
 namespace thinwall::app {
@@ -32,6 +34,7 @@ bool axes_differ(const Part& part) {
 }
 
 bool geometry_known(const Part& part) {
+  if (from_file(part)) return part.imported != nullptr;
   if (part.shape == "prism") return mesh::violations(part.prism).empty();
   return axes_differ(part) && std::isfinite(part.length) && std::isfinite(part.height) && std::isfinite(part.thickness);
 }
@@ -47,10 +50,51 @@ bool on_face(const Part& part, const std::string& face, const Eigen::Vector3d& p
   return std::abs(p[axis] - coordinate) <= tolerance(part);
 }
 
-void check_prism(const Part& part, Findings& findings) {
-  for (const auto* key : {"part.length", "part.height"}) {
-    if (findings.given(key)) findings.report(key, "a prism has an outline and a thickness along z; remove this key");
+/// Keys of other shapes than the part's.
+void check_belonging(const Part& part, Findings& findings) {
+  struct Belonging {
+    const char* key;
+    std::vector<std::string> shapes;
+  };
+  const std::vector<Belonging> all{{"part.length", {"box"}},
+                                   {"part.height", {"box"}},
+                                   {"part.thickness", {"box", "prism"}},
+                                   {"part.outline", {"prism"}},
+                                   {"part.holes[0].outline", {"prism"}},
+                                   {"part.zones[0].outline", {"prism"}},
+                                   {"part.bend.radius", {"box", "prism"}},
+                                   {"part.file", {"surface"}},
+                                   {"part.unit", {"surface"}},
+                                   {"part.origin", {"surface"}},
+                                   {"part.repair.merge_tolerance", {"surface"}}};
+  for (const auto& [key, shapes] : all) {
+    if (!findings.given(key) || std::ranges::find(shapes, part.shape) != shapes.end()) continue;
+    std::string list;
+    for (const auto& shape : shapes) list += (list.empty() ? "\"" : " or \"") + shape + "\"";
+    findings.report(key, "belongs to a part of shape " + list + ", this one is a \"" + part.shape +
+                             "\"; set part.shape, or remove it");
   }
+}
+
+void check_part_file(const Part& part, Findings& findings) {
+  if (part.shape.empty()) {
+    findings.report("part.file", "\"" + part.file.path.filename().string() +
+                                     "\" has an ending that is not read; take a .stl, .off, .obj or .ply");
+    return;
+  }
+  if (!findings.given("part.file")) findings.report("part.file", "missing; the surface of the part");
+  if (!findings.given("part.unit")) {
+    findings.report("part.unit", "missing; the file does not tell its unit of length: \"mm\", \"m\", \"inch\"");
+  } else {
+    try {
+      (void)io::metres_per_unit(part.file.unit, part.file.path.filename().string());
+    } catch (const core::InputError& error) {
+      findings.report("part.unit", error.what());
+    }
+  }
+}
+
+void check_prism(const Part& part, Findings& findings) {
   for (const auto* key : {"part.outline", "part.thickness"}) {
     if (!findings.given(key)) findings.report(key, "missing; a prism has an outline and a thickness along z");
   }
@@ -63,7 +107,7 @@ void check_prism(const Part& part, Findings& findings) {
 }
 
 void check_bend(const Part& part, Findings& findings) {
-  if (!part.bend || !geometry_known(part) || !std::isfinite(part.bend->radius)) return;
+  if (!part.bend || from_file(part) || !geometry_known(part) || !std::isfinite(part.bend->radius)) return;
   const int through = planar(part).axes[2];
   const Eigen::AlignedBox3d box = bounds(part);
   if (part.bend->along && *part.bend->along == through) {
@@ -76,20 +120,16 @@ void check_bend(const Part& part, Findings& findings) {
     findings.report("part.bend.radius", violation);
 }
 
-void check_box(const Case& source, Findings& findings) {
+void check_shape(const Case& source, Findings& findings) {
   const Part& part = *source.part;
   if (!source.measured_part.empty()) {
     findings.report("part.measured", "a part is either modelled (part.length …) or measured; remove one of the two");
   }
-  if (part.shape == "prism") {
-    check_prism(part, findings);
-    return;
-  }
+  if (!part.shape.empty()) check_belonging(part, findings);
+  if (part.shape.empty() || from_file(part)) return check_part_file(part, findings);
+  if (part.shape == "prism") return check_prism(part, findings);
   for (const auto* extent : {"part.length", "part.height", "part.thickness"}) {
     if (!findings.given(extent)) findings.report(extent, "missing; a box has a length, a height and a thickness");
-  }
-  for (const auto* key : {"part.outline", "part.holes[0].outline", "part.zones[0].outline"}) {
-    if (findings.given(key)) findings.report(key, "belongs to a part of shape \"prism\"; set part.shape, or remove it");
   }
   if (findings.given("part.axes.length") && !axes_differ(part)) {
     findings.report("part.axes.length", "length, height and thickness must run along three different axes");
@@ -142,6 +182,21 @@ double tets_in(const Eigen::AlignedBox3d& cell, const Grading& grading) {
   Eigen::AlignedBox3d lower = cell, upper = cell;
   lower.max()[longest] = upper.min()[longest] = cell.center()[longest];
   return tets_in(lower, grading) + tets_in(upper, grading);
+}
+
+/// Twice as many as an even layer of triangles of the usual size (mesh::SurfaceSize) on both sides of a wall, three
+/// tetrahedra for two triangles, as edges are lined with layers.
+double elements_in_surface(const Part& part) {
+  const mesh::SurfaceRepair& imported = *part.imported->surface;
+  double area = 0.0;
+  for (const auto& t : imported.surface.triangles) {
+    const auto& x = imported.surface.vertices;
+    const auto vertex = [&](int k) { return x[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])]; };
+    area += 0.5 * (vertex(1) - vertex(0)).cross(vertex(2) - vertex(0)).norm();
+  }
+  const double wall = 2.0 * imported.volume_m3 / area;
+  const double size = part.mesh.element_size.value_or(std::min(9.0 * wall, part.imported->box.diagonal().norm() / 8.0));
+  return 2.0 * 1.5 * area / (0.433 * size * size);
 }
 
 /// What is too much, and the size or order that would do; a uniform mesh grows with the cube of its fineness.
@@ -239,7 +294,8 @@ SizeEstimate estimate_size(const Case& source) {
   const Part& part = *source.part;
   SizeEstimate size;
   size.order = part.mesh.order.value_or(part.mesh.element_size ? 2 : 5);
-  size.elements = by_tetgen(part)
+  size.elements = from_file(part) ? elements_in_surface(part)
+                  : by_tetgen(part)
                       ? std::max(6.0, tets_in({Eigen::Vector3d::Zero(), box_size(part)}, grading_of(source)))
                       : static_cast<double>(graded_mesh(source, 0).tets.size());
   // A tetrahedral mesh of a thin wall has about 0.3 vertices, 1.6 edges and 2.3 faces an element.
@@ -262,7 +318,7 @@ bool independent(const std::vector<Eigen::Vector3d>& directions) {
 
 void check_part(const Case& source, Findings& findings) {
   if (source.part) {
-    check_box(source, findings);
+    check_shape(source, findings);
     check_bend(*source.part, findings);
     if (geometry_known(*source.part)) check_mesh_size(source, findings);
     check_supports(source, findings);

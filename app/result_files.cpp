@@ -11,6 +11,7 @@
 #include "app/case_writer.hpp"
 #include "app/doctor.hpp"
 #include "app/error_summary.hpp"
+#include "app/imported_part.hpp"
 #include "app/lobes_files.hpp"
 #include "app/result_folder.hpp"
 #include "app/robot_survey.hpp"
@@ -26,6 +27,7 @@
 #include "io/vtp.hpp"
 #include "io/vtu.hpp"
 #include "mesh/tessellation.hpp"
+#include "mesh/wall_thickness.hpp"
 
 namespace thinwall::app {
 
@@ -41,6 +43,11 @@ std::string numbered(const std::string& stem, std::size_t number) {
 
 /// Files to be written side by side, each by one call; what they refer to must outlive them.
 using Files = std::vector<std::function<void()>>;
+
+/// The part's own surface with the thickness of the wall beneath each triangle.
+void write_wall_thickness(const fs::path& file, const mesh::TriangleSurface& surface) {
+  io::write_vtp(file, surface, {{"wall_thickness_m", mesh::wall_thickness(surface, mesh::TriangleTree(surface))}});
+}
 
 /// One shape a file, and the collection that names them in order.
 struct ShapeSeries {
@@ -174,6 +181,11 @@ void write_results(const fs::path& folder, const Case& source, const Results& re
   if (results.finite_elements) {
     write_part_modes(files, folder / "modes", results);
     if (results.coupled && results.coupled->modal) write_coupled_modes(files, folder / "modes", results);
+    if (const auto& imported = source.part->imported; imported && imported->surface) {
+      files.emplace_back([&surface = imported->surface->surface, path = folder / "modes" / "wall_thickness.vtp"] {
+        write_wall_thickness(path, surface);
+      });
+    }
   }
   if (results.finite_elements && results.finite_elements->damped)
     files.emplace_back([&] { io::write_mat(folder / "models" / "part.mat", *results.finite_elements->damped); });

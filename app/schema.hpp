@@ -55,7 +55,8 @@ struct Key {
   bool required = false;  ///< wherever its table stands
 };
 
-/// A table of the file. `implied_by` names a key whose presence brings the table in with its defaults.
+/// A table of the file. `implied_by` names a key whose presence brings the table in with its defaults, or several,
+/// separated by '|', of which one is enough.
 struct Section {
   std::string_view path;
   std::string_view meaning;
@@ -91,8 +92,9 @@ struct Schema {
 /// tables left out between them ("part.element_size" → "part.mesh.element_size"); else `path`.
 [[nodiscard]] std::string full_path(const Schema& schema, const std::string& path);
 
-/// Choices of a key as separate words.
+/// Choices of a key, and keys that imply a section, as separate words.
 [[nodiscard]] std::vector<std::string> choices(const Key& key);
+[[nodiscard]] std::vector<std::string> implying_keys(const Section& section);
 
 /// "0 < ν < 0.5" as text: "above 0, below 0.5"; "" if unbounded.
 [[nodiscard]] std::string bounds_text(const Key& key);

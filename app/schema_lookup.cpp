@@ -21,6 +21,14 @@ std::string_view last_name(std::string_view path) {
   return dot == std::string_view::npos ? path : path.substr(dot + 1);
 }
 
+/// What stands between '|'.
+std::vector<std::string> words(std::string_view list) {
+  std::vector<std::string> words;
+  std::istringstream text{std::string(list)};
+  for (std::string word; std::getline(text, word, '|');) words.push_back(word);
+  return words;
+}
+
 std::string_view without_index(std::string_view name) {
   return name.substr(0, name.find('['));
 }
@@ -146,10 +154,11 @@ std::string full_path(const Schema& schema, const std::string& path) {
 }
 
 std::vector<std::string> choices(const Key& key) {
-  std::vector<std::string> words;
-  std::istringstream text{std::string(key.choices)};
-  for (std::string word; std::getline(text, word, '|');) words.push_back(word);
-  return words;
+  return words(key.choices);
+}
+
+std::vector<std::string> implying_keys(const Section& section) {
+  return words(section.implied_by);
 }
 
 std::string bounds_text(const Key& key) {
@@ -179,7 +188,10 @@ std::string schema_markdown(const Schema& schema) {
   std::ostringstream text;
   for (const auto& section : schema.sections) {
     text << "### " << title_text(section) << "\n\n" << section.meaning;
-    if (!section.implied_by.empty()) text << " Filled with its defaults where `" << section.implied_by << "` is given.";
+    const auto implying = implying_keys(section);
+    for (std::size_t i = 0; i < implying.size(); ++i)
+      text << (i == 0 ? " Filled with its defaults where `" : "` or `") << implying[i];
+    text << (implying.empty() ? "" : "` is given.");
     text << "\n\n| key | what it takes | default | bounds | meaning |\n|---|---|---|---|---|\n";
     for (const auto& key : schema.keys) {
       const std::string_view name = last_name(key.path);

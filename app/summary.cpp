@@ -5,6 +5,7 @@
 
 #include "app/contact_report.hpp"
 #include "app/error_summary.hpp"
+#include "app/imported_part.hpp"
 #include "app/lobes_summary.hpp"
 #include "app/path_report.hpp"
 #include "app/robot_survey.hpp"
@@ -275,6 +276,7 @@ json summary_of(const Case& source, const Results& results) {
   json summary = {{"schema", 1}, {"case", source.name}, {"title", source.title}, {"status", "ok"}};
   summary["updating"] = json::array();
   for (const auto& fit : results.updating) summary["updating"].push_back(updating_of(fit));
+  if (source.part && source.part->imported) summary["geometry"] = geometry_summary(*source.part);
   if (results.finite_elements) {
     summary["mesh"] = mesh_of(*results.finite_elements);
     summary["part"] = part_of(results);

@@ -140,6 +140,11 @@ void routes(std::string& out, const json& coupling) {
 }
 
 void trust(std::string& out, const json& summary) {
+  if (summary.contains("geometry")) {
+    const json& geometry = summary["geometry"];
+    out +=
+        fmt::format("  part        {}: {}\n", geometry["file"].get<std::string>(), geometry["read"].get<std::string>());
+  }
   if (summary.contains("mesh")) {
     out += fmt::format("  mesh        {} tetrahedra of order {}, {} degrees of freedom, lowest quality {:.2f}\n",
                        summary["mesh"]["elements"].get<int>(), summary["mesh"]["order"].get<int>(),

@@ -330,7 +330,8 @@ class Walk {
     const std::string_view parent = dot == std::string_view::npos ? std::string_view() : section.path.substr(0, dot);
     const std::string_view name = dot == std::string_view::npos ? section.path : section.path.substr(dot + 1);
     if (section.implied_by.empty() || parent != pattern || table.contains(name)) return;
-    if (find(values, section.implied_by) == nullptr && !has_table(values, section.implied_by)) return;
+    const auto there = [&](const std::string& key) { return find(values, key) != nullptr || has_table(values, key); };
+    if (std::ranges::none_of(implying_keys(section), there)) return;
     table_place_ = table.source().begin;
     this->table(toml::table{}, join(path, name), join(pattern, name));
   }

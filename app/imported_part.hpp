@@ -1,0 +1,36 @@
+#pragma once
+// A part whose shape comes from a file: read once, when the case is read.
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "app/case.hpp"
+#include "mesh/surface_repair.hpp"
+
+namespace thinwall::app {
+
+/// What the file of a part holds, in m, in the part's axes.
+struct ImportedPart {
+  std::optional<mesh::SurfaceRepair> surface;
+  Eigen::AlignedBox3d box;
+  std::string said;  ///< what was read and mended, for people
+};
+
+/// The shape that a file's ending tells: "surface"; empty for an ending that no reader knows.
+[[nodiscard]] std::string shape_of_file(const std::filesystem::path& file);
+
+/// Whether the part's shape is one that a file holds.
+[[nodiscard]] bool from_file(const Part& part);
+
+/// Reads the part's file. Throws DataError for one that cannot be read, InputError, with the file's name, for a unit
+/// that is none and for what mesh::repaired_surface refuses. Cost: that of reading and repair.
+[[nodiscard]] std::shared_ptr<const ImportedPart> read_part_file(const Part& part);
+
+/// What summary.json tells of it: file, unit, size, counts, what was mended. The part must have been read.
+[[nodiscard]] nlohmann::json geometry_summary(const Part& part);
+
+}  // namespace thinwall::app

@@ -1,0 +1,107 @@
+// A part whose shape comes from a file: what the case may say about it, and what reading it refuses.
+
+#include <gtest/gtest.h>
+
+#include "app/case_checks.hpp"
+#include "app/case_reader.hpp"
+#include "app/imported_part.hpp"
+#include "core/atomic_file.hpp"
+#include "io/stl.hpp"
+#include "mesh/box.hpp"
+#include "mesh/shapes.hpp"
+#include "temporary_folder.hpp"
+
+namespace thinwall::app {
+namespace {
+
+/// A plate 100 x 60 x 4 mm with a corner at `corner` (m), in mm, with its first facets left out.
+void write_plate(const std::filesystem::path& file, const Eigen::Vector3d& corner = Eigen::Vector3d::Zero(),
+                 int left_out = 0) {
+  mesh::TriangleSoup soup = mesh::soup(mesh::triangulated(mesh::surface(mesh::Box{{0.1, 0.06, 0.004}})));
+  for (auto& x : soup.points) x += corner;
+  soup.triangles.erase(soup.triangles.begin(), soup.triangles.begin() + left_out);
+  io::write_stl(file, soup, 1e-3);
+}
+
+std::string surface_case(const std::string& keys) {
+  return "[part]\n" + keys +
+         "\n[part.material]\nyoungs_modulus = \"71 GPa\"\npoisson_ratio = 0.33\ndensity = \"2810 kg/m^3\"\n";
+}
+
+std::string problem_of(const std::string& keys, const std::filesystem::path& folder) {
+  try {
+    (void)parse_case(surface_case(keys), folder);
+  } catch (const CaseError& error) {
+    EXPECT_EQ(error.problems.size(), 1U) << error.what();
+    return error.problems.front().text;
+  } catch (const core::Error& error) {
+    return error.what();
+  }
+  return "no problem";
+}
+
+void expect_problem(const std::string& keys, const std::filesystem::path& folder, const std::string& part) {
+  const std::string problem = problem_of(keys, folder);
+  EXPECT_NE(problem.find(part), std::string::npos) << problem;
+  EXPECT_EQ(problem.find('\n'), std::string::npos) << problem;
+}
+
+TEST(PartFile, ASurfaceIsReadInItsUnitAndPlaced) {
+  const TemporaryFolder folder;
+  write_plate(folder.path / "plate.stl", {0.5, 0.5, 0.5});
+  const Case plain = parse_case(surface_case("file = \"plate.stl\"\nunit = \"mm\""), folder.path);
+  ASSERT_TRUE(plain.part->imported);
+  EXPECT_EQ(plain.part->shape, "surface");
+  EXPECT_LT((bounds(*plain.part).min() - Eigen::Vector3d::Constant(0.5)).norm(), 1e-7);
+  EXPECT_LT((box_size(*plain.part) - Eigen::Vector3d(0.1, 0.06, 0.004)).norm(), 1e-7);
+  const Case inch = parse_case(
+      surface_case("file = \"plate.stl\"\nunit = \"inch\"\norigin = [\"500 inch\", \"500 inch\", \"500 inch\"]"),
+      folder.path);
+  EXPECT_LT((box_size(*inch.part) - 25.4 * Eigen::Vector3d(0.1, 0.06, 0.004)).norm(), 1e-6);
+  EXPECT_LT(bounds(*inch.part).min().norm(), 1e-6);
+  EXPECT_EQ(geometry_summary(*inch.part)["read"].get<std::string>().find("2540 x 1524 x 101.6 mm"), 0U);
+  EXPECT_EQ(input_files(inch).front(), folder.path / "plate.stl");
+  const Case scaled = [&] {
+    Case copy = plain;
+    set_value(copy, "part.material.density", 2700.0);
+    return copy;
+  }();
+  EXPECT_EQ(scaled.part->imported, plain.part->imported) << "a fit does not read the file again";
+}
+
+TEST(PartFile, KeysThatDoNotBelongAreRefused) {
+  const TemporaryFolder folder;
+  write_plate(folder.path / "plate.stl");
+  const std::string good = "file = \"plate.stl\"\nunit = \"mm\"\n";
+  EXPECT_EQ(problem_of(good, folder.path), "no problem");
+  expect_problem("file = \"plate.stl\"", folder.path, "part.unit: missing; the file does not tell its unit");
+  expect_problem("file = \"plate.stl\"\nunit = \"kg\"", folder.path, "part.unit: ");
+  expect_problem("file = \"plate.stp2\"\nunit = \"mm\"", folder.path, "has an ending that is not read");
+  expect_problem("shape = \"surface\"\nunit = \"mm\"\nthickness = \"4 mm\"\nfile = \"plate.stl\"", folder.path,
+                 "part.thickness: belongs to a part of shape \"box\" or \"prism\"");
+  expect_problem("shape = \"surface\"\nunit = \"mm\"\n", folder.path, "part.file: missing");
+  expect_problem(good + "length = \"100 mm\"", folder.path, "part.length: belongs to a part of shape \"box\"");
+  expect_problem("file = \"plate.stl\"\nshape = \"prism\"\noutline = [[0, 0], [1, 0], [0, 1]]\nthickness = 0.1",
+                 folder.path, "part.file: belongs to a part of shape \"surface\"");
+  expect_problem(good + "[part.bend]\nradius = \"1 m\"", folder.path, "part.bend.radius: belongs to");
+  expect_problem(good + "[points.P]\nposition = [\"200 mm\", 0, 0]", folder.path, "lies outside the part");
+  expect_problem(good + "[part.repair]\nlargest_hole = 200", folder.path, "part.repair.largest_hole");
+}
+
+TEST(PartFile, WhatTheFileHoldsIsRefusedWithItsNameAndPlace) {
+  const TemporaryFolder folder;
+  write_plate(folder.path / "open.stl", Eigen::Vector3d::Zero(), 1);
+  write_plate(folder.path / "far.stl", {1000.0, 0.0, 0.0});
+  core::write_file_atomically(folder.path / "broken.stl", "solid nothing\nfacet normal 0 0\n");
+  expect_problem("file = \"open.stl\"\nunit = \"mm\"", folder.path, "3 edges with one triangle: the surface is open");
+  expect_problem("file = \"open.stl\"\nunit = \"mm\"", folder.path, "open.stl: ");
+  expect_problem("file = \"absent.stl\"\nunit = \"mm\"", folder.path, "absent.stl");
+  expect_problem("file = \"broken.stl\"\nunit = \"mm\"", folder.path, "broken.stl:3");
+  expect_problem("file = \"far.stl\"\nunit = \"mm\"", folder.path, "set part.origin to a place on it");
+  EXPECT_EQ(problem_of("file = \"far.stl\"\nunit = \"mm\"\norigin = [\"1000 m\", 0, 0]", folder.path), "no problem");
+  EXPECT_EQ(problem_of("file = \"open.stl\"\nunit = \"mm\"\n[part.repair]\nlargest_hole = 3", folder.path),
+            "no problem");
+}
+
+}  // namespace
+}  // namespace thinwall::app
