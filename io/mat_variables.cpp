@@ -74,13 +74,15 @@ std::size_t count_of(const std::vector<std::size_t>& size) {
 
 void require_writable(const MatVariable& variable) {
   constexpr std::size_t largest = (std::size_t{1} << 31U) - 4096;  // with tags and names
-  if (8 * (variable.re.size() + variable.im.size()) > largest) {
+  const auto entries = static_cast<std::size_t>(variable.sparse.nonZeros());
+  if (8 * (variable.re.size() + variable.im.size()) + 12 * entries > largest) {
     throw core::InputError("the variable " + variable.name +
                            " exceeds the 2 GiB that a MAT file of version 5 holds; write fewer lines or DOFs");
   }
   const auto is_finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(variable.re.begin(), variable.re.end(), is_finite) ||
-      !std::all_of(variable.im.begin(), variable.im.end(), is_finite)) {
+      !std::all_of(variable.im.begin(), variable.im.end(), is_finite) ||
+      !std::all_of(variable.sparse.valuePtr(), variable.sparse.valuePtr() + entries, is_finite)) {
     throw core::InputError("the variable " + variable.name + " is not finite");
   }
 }
@@ -104,6 +106,24 @@ Variable encoded_texts(const MatVariable& variable) {
   return cells;
 }
 
+/// Compressed columns, as the format has them.
+Variable encoded_sparse(MatVariable variable) {
+  variable.sparse.makeCompressed();
+  mat_sparse_t parts{};
+  const auto entries = static_cast<mat_uint32_t>(variable.sparse.nonZeros());
+  std::vector<mat_uint32_t> rows(variable.sparse.innerIndexPtr(), variable.sparse.innerIndexPtr() + entries);
+  std::vector<mat_uint32_t> starts(variable.sparse.outerIndexPtr(),
+                                   variable.sparse.outerIndexPtr() + variable.sparse.cols() + 1);
+  parts.nzmax = entries;
+  parts.ir = rows.data();
+  parts.nir = entries;
+  parts.jc = starts.data();
+  parts.njc = static_cast<mat_uint32_t>(starts.size());
+  parts.ndata = entries;
+  parts.data = variable.sparse.valuePtr();
+  return Variable(Mat_VarCreate(variable.name.c_str(), MAT_C_SPARSE, MAT_T_DOUBLE, 2, variable.size.data(), &parts, 0));
+}
+
 Variable encoded_numbers(MatVariable variable) {  // a copy: matio's interface is not const
   const auto rank = static_cast<int>(variable.size.size());
   if (variable.im.empty()) {
@@ -113,6 +133,11 @@ Variable encoded_numbers(MatVariable variable) {  // a copy: matio's interface i
   mat_complex_split_t parts{variable.re.data(), variable.im.data()};
   return Variable(Mat_VarCreate(variable.name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, rank, variable.size.data(), &parts,
                                 MAT_F_COMPLEX));
+}
+
+Variable encoded(const MatVariable& variable) {
+  if (variable.is_sparse) return encoded_sparse(variable);
+  return variable.texts.empty() ? encoded_numbers(variable) : encoded_texts(variable);
 }
 
 // ---- Reading ----
@@ -183,10 +208,38 @@ void take_numbers(const matvar_t& stored, const std::filesystem::path& path, Mat
   variable.im = numbers_of<Number>(parts->Im, count, path, variable.name);
 }
 
+/// The parts of a sparse matrix, each index checked: matio takes them as the file has them.
+Eigen::SparseMatrix<double> sparse_numbers(const matvar_t& stored, const std::string& name,
+                                           const std::filesystem::path& path) {
+  const auto* parts = static_cast<const mat_sparse_t*>(stored.data);
+  if (parts == nullptr || stored.isComplex != 0 || stored.data_type != MAT_T_DOUBLE || stored.rank != 2)
+    fail(path, "the variable " + name + " is no real sparse matrix of doubles");
+  const std::size_t rows = stored.dims[0], columns = stored.dims[1];
+  const auto* values = static_cast<const double*>(parts->data);
+  const bool whole = parts->jc != nullptr && parts->njc == columns + 1 && parts->jc[0] == 0 &&
+                     std::is_sorted(parts->jc, parts->jc + parts->njc) && parts->jc[columns] <= parts->nir &&
+                     parts->jc[columns] <= parts->ndata && rows < std::size_t{1} << 31U;
+  if (!whole) fail(path, "the sparse variable " + name + " is not whole: write it again");
+  std::vector<Eigen::Triplet<double>> triplets;
+  for (std::size_t column = 0; column < columns; ++column) {
+    for (std::size_t k = parts->jc[column]; k < parts->jc[column + 1]; ++k) {
+      if (parts->ir[k] >= rows) fail(path, "the sparse variable " + name + " has an entry beyond its rows");
+      if (!std::isfinite(values[k])) fail(path, "the variable " + name + " holds NaN or infinity");
+      triplets.emplace_back(static_cast<int>(parts->ir[k]), static_cast<int>(column), values[k]);
+    }
+  }
+  Eigen::SparseMatrix<double> sparse(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
+  sparse.setFromTriplets(triplets.begin(), triplets.end());
+  return sparse;
+}
+
 MatVariable decoded(const matvar_t& stored, const std::string& name, const std::filesystem::path& path) {
   MatVariable variable{name, {stored.dims, stored.dims + stored.rank}, {}};
   if (stored.class_type == MAT_C_CELL) {
     variable.texts = texts_of(stored, path, name);
+  } else if (stored.class_type == MAT_C_SPARSE) {
+    variable.is_sparse = true;
+    variable.sparse = sparse_numbers(stored, name, path);
   } else if (stored.class_type == MAT_C_DOUBLE && stored.data_type == MAT_T_DOUBLE) {
     take_numbers<double>(stored, path, variable);
   } else if (stored.class_type == MAT_C_SINGLE && stored.data_type == MAT_T_SINGLE) {
@@ -221,8 +274,8 @@ void write_mat_variables(const std::filesystem::path& path, const std::string& t
     if (!file) throw core::DataError("matio cannot create a MAT file in memory");
     for (const MatVariable& variable : variables) {
       require_writable(variable);
-      const Variable encoded = variable.texts.empty() ? encoded_numbers(variable) : encoded_texts(variable);
-      if (!encoded || Mat_VarWrite(file.get(), encoded.get(), MAT_COMPRESSION_NONE) != 0) {
+      const Variable stored = encoded(variable);
+      if (!stored || Mat_VarWrite(file.get(), stored.get(), MAT_COMPRESSION_NONE) != 0) {
         throw core::DataError("matio cannot encode the variable " + variable.name);
       }
     }
@@ -254,10 +307,29 @@ MatVariable mat_matrix(const std::string& name, const Eigen::MatrixXd& matrix) {
           {matrix.data(), matrix.data() + matrix.size()}};
 }
 
+MatVariable mat_sparse(const std::string& name, const Eigen::SparseMatrix<double>& matrix) {
+  MatVariable result{name, {static_cast<std::size_t>(matrix.rows()), static_cast<std::size_t>(matrix.cols())}, {}};
+  result.is_sparse = true;
+  result.sparse = matrix;
+  result.sparse.makeCompressed();
+  return result;
+}
+
+Eigen::SparseMatrix<double> sparse_of(const MatVariable& variable, const std::filesystem::path& path) {
+  Eigen::SparseMatrix<double> sparse;
+  if (variable.is_sparse) {
+    sparse = variable.sparse;
+  } else {
+    sparse = matrix_of(variable, path).sparseView(0.0, 0.0);
+  }
+  sparse.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });
+  return sparse;
+}
+
 Eigen::MatrixXd matrix_of(const MatVariable& variable, const std::filesystem::path& path, Eigen::Index rows,
                           Eigen::Index columns) {
   const std::string name = "the variable " + variable.name;
-  if (variable.size.size() != 2 || !variable.im.empty() || !variable.texts.empty()) {
+  if (variable.size.size() != 2 || !variable.im.empty() || !variable.texts.empty() || variable.is_sparse) {
     fail(path, name + " is not a full real matrix");
   }
   const auto found_rows = static_cast<Eigen::Index>(variable.size[0]);

@@ -2,6 +2,7 @@
 // MAT files of version 5 as plain variables: what MATLAB, Octave, SciPy and measuring programs exchange.
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -11,13 +12,16 @@
 
 namespace thinwall::io {
 
-/// An array of numbers, first index fastest, or a cell array n × 1 of texts. `im` is empty where the array is real.
+/// An array of numbers, first index fastest, a cell array n × 1 of texts, or a real sparse matrix (`re` is then empty).
+/// `im` is empty where the array is real.
 struct MatVariable {
   std::string name;
   std::vector<std::size_t> size;
   std::vector<double> re;
   std::vector<double> im{};
   std::vector<std::string> texts{};
+  bool is_sparse = false;
+  Eigen::SparseMatrix<double> sparse{};
 };
 
 /// Variables by name.
@@ -29,7 +33,8 @@ using MatVariables = std::map<std::string, MatVariable>;
 void write_mat_variables(const std::filesystem::path& path, const std::string& title,
                          const std::vector<MatVariable>& variables);
 
-/// Those of the named variables that the file has: arrays of doubles or singles, cell arrays of texts. Throws DataError
+/// Those of the named variables that the file has: arrays of doubles or singles, real sparse matrices of doubles, cell
+/// arrays of texts. Throws DataError
 /// that names the file, and the variable if it is of another kind or holds NaN or infinity; a file of version 7.3
 /// (HDF5) or one that is cut short is refused.
 [[nodiscard]] MatVariables read_mat_variables(const std::filesystem::path& path, const std::vector<std::string>& names);
@@ -40,6 +45,12 @@ void write_mat_variables(const std::filesystem::path& path, const std::string& t
 
 /// A variable from a real matrix.
 [[nodiscard]] MatVariable mat_matrix(const std::string& name, const Eigen::MatrixXd& matrix);
+
+/// A variable from a sparse matrix.
+[[nodiscard]] MatVariable mat_sparse(const std::string& name, const Eigen::SparseMatrix<double>& matrix);
+
+/// The variable, sparse or full, as a sparse matrix without zeros; throws DataError if it is of another kind.
+[[nodiscard]] Eigen::SparseMatrix<double> sparse_of(const MatVariable& variable, const std::filesystem::path& path);
 
 /// The variable as a real matrix rows × columns (−1: any number); throws DataError if it is of another shape.
 [[nodiscard]] Eigen::MatrixXd matrix_of(const MatVariable& variable, const std::filesystem::path& path,

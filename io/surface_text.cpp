@@ -85,7 +85,7 @@ double SurfaceText::number(std::string_view word, const char* what) const {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || end != digits.data() + digits.size())
     fail(quoted(word) + " where " + what + " belongs, a number");
-  if (!std::isfinite(value)) fail(std::string(what) + " is " + quoted(word) + ", not finite; export the surface again");
+  if (!std::isfinite(value)) fail(std::string(what) + " is " + quoted(word) + ", not finite; export it again");
   return value;
 }
 
