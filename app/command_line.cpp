@@ -13,9 +13,11 @@
 #include "app/compare.hpp"
 #include "app/doctor.hpp"
 #include "app/imported_part.hpp"
+#include "app/inspect_command.hpp"
 #include "app/lobes_input.hpp"
 #include "app/lobes_report.hpp"
 #include "app/log.hpp"
+#include "app/reduce_command.hpp"
 #include "app/result_folder.hpp"
 #include "app/robot_survey.hpp"
 #include "app/terminal_report.hpp"
@@ -34,6 +36,8 @@ struct Arguments {
   std::string case_path, out, template_name = "plate", folder, left, right;
   std::vector<std::string> overrides, points;
   LobesInput lobes;
+  ReduceRequest reduce;
+  InspectRequest inspect;
   bool fresh = false, quiet = false, verbose = false;
   int threads = 0;
   double tolerance = 1e-9;
@@ -84,6 +88,18 @@ ExitCode robot(const Arguments& arguments, std::ostream& out) {
   if (!source.title.empty()) out << source.title << '\n';
   out << survey_text(found) << "  tables: " << (folder.path() / "robot").string() << '\n';
   return ExitCode::done;
+}
+
+ExitCode reduce(const Arguments& arguments, std::ostream& out) {
+  log_to_terminal(arguments.quiet ? -1 : 0);
+  out << reduce_part(read_case(arguments.case_path, arguments.overrides), arguments.reduce);
+  return ExitCode::done;
+}
+
+ExitCode inspect(const Arguments& arguments, std::ostream& out) {
+  const Inspection inspection = inspect(arguments.inspect);
+  out << inspection.text;
+  return inspection.trustworthy ? ExitCode::done : ExitCode::expectation;
 }
 
 ExitCode check(const Arguments& arguments, std::ostream& out) {
@@ -165,6 +181,50 @@ void describe_lobes(CLI::App& app, Arguments& arguments) {
   add_run_arguments(*command, arguments);
 }
 
+void describe_reduce(CLI::App& app, Arguments& arguments) {
+  ReduceRequest& reduce = arguments.reduce;
+  auto* command = app.add_subcommand("reduce", "the part of a case as a small model, its error and a report on it");
+  add_case_arguments(*command, arguments);
+  command->add_option("-o,--out", reduce.out, "folder for the model (default: model)")->type_name("DIR");
+  command
+      ->add_option("--method", reduce.method,
+                   "guyan, craig_bampton (default), characteristic_constraint_modes, rubin, macneal, craig_chang, "
+                   "dual_craig_bampton")
+      ->type_name("NAME");
+  auto* modes = command->add_option("--modes", reduce.modes, "elastic modes kept")->check(CLI::Range(0, 2000));
+  command
+      ->add_option("--tolerance", reduce.tolerance,
+                   "as many modes as the receptance of the points needs, relative, over the band (default: 0.01)")
+      ->excludes(modes);
+  command->add_option("--from", reduce.from_hz, "lower end of the band, Hz (default: response.from)");
+  command->add_option("--to", reduce.to_hz, "upper end of the band, Hz (default: response.to)");
+  command->add_option("--characteristic", reduce.characteristic, "amplitudes of a reduced interface")
+      ->check(CLI::Range(1, 2000));
+  command->add_flag("--compare", reduce.compare, "a table of all methods at this size");
+  command->add_flag("-q,--quiet", arguments.quiet, "log warnings only");
+}
+
+void describe_inspect(CLI::App& app, Arguments& arguments) {
+  InspectRequest& inspect = arguments.inspect;
+  io::MatrixFiles& files = inspect.files;
+  auto* command = app.add_subcommand("inspect", "may a reduced or imported model be trusted? (exit 6: it may not)");
+  auto* model = command->add_option("MODEL", inspect.model, "a folder of \"thinwall reduce\", or a MAT file in SI");
+  command
+      ->add_option("--stiffness", files.stiffness,
+                   "K in place of MODEL: Matrix Market, .sti of CalculiX, Abaqus, DMIG, MAT (docs/matrices.md)")
+      ->type_name("FILE")
+      ->excludes(model);
+  command->add_option("--mass", files.mass, "M, where it is in a file of its own")->type_name("FILE");
+  command->add_option("--damping", files.damping, "C, likewise")->type_name("FILE");
+  command->add_option("--dofs", files.dofs, "which row is which: .dof of CalculiX, or CSV")->type_name("FILE");
+  command->add_option("--positions", files.positions, "where the nodes are: .inp, or CSV")->type_name("FILE");
+  command->add_option("--unit", files.length_unit, "unit of length of the files: mm, m")->type_name("UNIT");
+  command->add_option("--mass-unit", files.mass_unit, "unit of mass of the files: t, kg")->type_name("UNIT");
+  command->add_option("--rigid-motions", inspect.rigid_motions, "how many must be free: 0 held, 6 free")
+      ->check(CLI::Range(0, 6));
+  command->add_option("--json", inspect.json, "the report as JSON")->type_name("FILE");
+}
+
 void describe(CLI::App& app, Arguments& arguments) {
   app.require_subcommand(1);
   app.set_version_flag("--version", "thinwall " + program_version());
@@ -178,6 +238,8 @@ void describe(CLI::App& app, Arguments& arguments) {
   add_case_arguments(*robot_command, arguments);
   robot_command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
   add_case_arguments(*app.add_subcommand("check", "report every error of a case, and sizes to expect"), arguments);
+  describe_reduce(app, arguments);
+  describe_inspect(app, arguments);
   auto* init = app.add_subcommand("init", "write a commented case to start from");
   init->add_option("--template", arguments.template_name, "plate or wall")->type_name("NAME");
   init->add_option("DIR", arguments.folder, "folder for the case (default: the template's name)");
@@ -192,6 +254,8 @@ ExitCode execute(const CLI::App& app, const Arguments& arguments, const RunCase&
   if (app.got_subcommand("run")) return run(arguments, run_case, out);
   if (app.got_subcommand("lobes")) return lobes(arguments, run_case, out);
   if (app.got_subcommand("robot")) return robot(arguments, out);
+  if (app.got_subcommand("reduce")) return reduce(arguments, out);
+  if (app.got_subcommand("inspect")) return inspect(arguments, out);
   if (app.got_subcommand("check")) return check(arguments, out);
   if (app.got_subcommand("compare")) return compare(arguments, out);
   if (app.got_subcommand("init")) {

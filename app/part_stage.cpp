@@ -145,28 +145,25 @@ void check_mass(const Case& source, PartResult& part) {
                              (part.model.curved_elements > 0 ? ": use smaller elements or a higher order" : ""));
 }
 
-/// Model, factor and modes: as the tolerance or a fit left them, or computed now.
-fem::Factored solve_part(const Case& source, Discretisation& discretisation, PartResult& part, Stages& stages) {
-  if (discretisation.solved) {
-    Solution& solved = *discretisation.solved;
-    part.model = std::move(solved.model);
-    part.modes = std::move(solved.modes);
-    return std::move(solved.factored);
-  }
-  stages.begin("assembly");
-  part.model = part_model(source, std::move(discretisation.mesh), discretisation.order);
-  stages.begin("modes");
-  fem::Factored factored = fem::factorise(part.model, core::available_memory_bytes());
-  part.modes = fem::modes(part.model, factored, mode_options(source));
-  return factored;
-}
-
 }  // namespace
+
+Solution solved_part(const Case& source, Discretisation discretisation, Stages& stages) {
+  if (discretisation.solved) return std::move(*discretisation.solved);
+  stages.begin("assembly");
+  fem::Model model = part_model(source, std::move(discretisation.mesh), discretisation.order);
+  stages.begin("modes");
+  fem::Factored factored = fem::factorise(model, core::available_memory_bytes());
+  fem::Modes modes = fem::modes(model, factored, mode_options(source));
+  return {std::move(model), std::move(factored), std::move(modes)};
+}
 
 PartResult compute_part(const Case& source, Discretisation discretisation, Stages& stages) {
   PartResult part;
   part.estimate = discretisation.estimate;
-  const fem::Factored factored = solve_part(source, discretisation, part, stages);
+  Solution solved = solved_part(source, std::move(discretisation), stages);
+  part.model = std::move(solved.model);
+  part.modes = std::move(solved.modes);
+  const fem::Factored factored = std::move(solved.factored);
   check_mass(source, part);
   if (part.modes.round_off > 1e-4) {
     spdlog::warn(

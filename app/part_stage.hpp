@@ -24,6 +24,9 @@ namespace thinwall::app {
 [[nodiscard]] dynamics::SpatialModel damped(const Case& source, const dynamics::SpatialModel& reduced,
                                             std::vector<reduction::IdentifiedMode>& identified);
 
+/// Model, factor and modes: as the tolerance or a fit left them, or computed now.
+[[nodiscard]] Solution solved_part(const Case& source, Discretisation discretisation, Stages& stages);
+
 /// Factor, modes, reduction, damping, with their checks. The discretisation must fit the part of the case.
 [[nodiscard]] PartResult compute_part(const Case& source, Discretisation discretisation, Stages& stages);
 

@@ -94,6 +94,15 @@ std::vector<double> telling_frequencies(const VectorXd& natural, const Band& ban
   return lines;
 }
 
+double against_truth(const CountedReceptance& reference, const BandTruth& truth) {
+  double worst = 0.0;
+  for (std::size_t k = 0; k < truth.z.size(); ++k) {
+    const double error = relative_error(reference.receptance(truth.z[k]), truth.H[k], truth.units);
+    if (!(error <= worst)) worst = error;
+  }
+  return worst;
+}
+
 /// The largest error of the reference against direct solves of the full model.
 double against_direct_solves(const CountedReceptance& reference, const FullModel& full, const Interface& interface,
                              const std::vector<double>& lines, const VectorXd& units) {
@@ -139,13 +148,17 @@ Estimates estimates(const CraigBampton& reduced, const dynamics::SpatialModel& b
 
 /// The least count of one reduction, and what direct solves say about what it was chosen by.
 ChosenModes chosen_from(const CraigBampton& all, const Truncation& left_out, const FullModel& full,
-                        const Interface& interface, const ModeCountOptions& options) {
+                        const Interface& interface, const ModeCountOptions& options, const BandTruth* truth) {
   const dynamics::SpatialModel better = with_left_out(all.model, left_out);
   Estimates estimate = estimates(all, better, options.band);
   ChosenModes result;
-  const auto lines = telling_frequencies(estimate.natural_hz, options.band, options.verified_lines);
+  const CountedReceptance reference(better, interface_size(all));
   result.reference_error =
-      against_direct_solves(CountedReceptance(better, interface_size(all)), full, interface, lines, estimate.units);
+      truth != nullptr
+          ? against_truth(reference, *truth)
+          : against_direct_solves(reference, full, interface,
+                                  telling_frequencies(estimate.natural_hz, options.band, options.verified_lines),
+                                  estimate.units);
   const auto first = std::find_if(estimate.errors.begin(), estimate.errors.end(),
                                   [&](double error) { return error <= options.tolerance; });
   const bool met = first != estimate.errors.end();
@@ -157,6 +170,22 @@ ChosenModes chosen_from(const CraigBampton& all, const Truncation& left_out, con
   result.truncation = cut(left_out, all, result.modes);
   const bool verified = result.reference_error <= 0.1 * options.tolerance;
   result.status = !met ? ModeCountStatus::not_met : verified ? ModeCountStatus::met : ModeCountStatus::not_verified;
+  return result;
+}
+
+ChosenModes chosen_modes(const FullModel& full, const Interface& interface, const ModeCountOptions& options,
+                         const BandTruth* truth) {
+  validate(options);
+  const linalg::SparseCholesky factor = held_by_interface(full, interface);
+  const linalg::ShiftedInverse inverse{
+      [&factor](const Eigen::Ref<const MatrixXd>& B) -> MatrixXd { return factor.solve(B); }, 0.0};
+  ChosenModes result;
+  double up_to_hz = 1.5 * options.band.to_hz;
+  for (int round = 0; round < options.rounds; ++round, up_to_hz *= 1.6) {
+    const CraigBampton all = craig_bampton(full.K, full.M, inverse, interface, {.modes = 0, .up_to_hz = up_to_hz});
+    result = chosen_from(all, truncation(all, full.M, inverse, interface), full, interface, options, truth);
+    if (result.status == ModeCountStatus::met) break;
+  }
   return result;
 }
 
@@ -178,18 +207,12 @@ std::vector<double> truncation_errors(const CraigBampton& reduced, const Truncat
 }
 
 ChosenModes modes_for_tolerance(const FullModel& full, const Interface& interface, const ModeCountOptions& options) {
-  validate(options);
-  const linalg::SparseCholesky factor = held_by_interface(full, interface);
-  const linalg::ShiftedInverse inverse{
-      [&factor](const Eigen::Ref<const MatrixXd>& B) -> MatrixXd { return factor.solve(B); }, 0.0};
-  ChosenModes result;
-  double up_to_hz = 1.5 * options.band.to_hz;
-  for (int round = 0; round < options.rounds; ++round, up_to_hz *= 1.6) {
-    const CraigBampton all = craig_bampton(full.K, full.M, inverse, interface, {.modes = 0, .up_to_hz = up_to_hz});
-    result = chosen_from(all, truncation(all, full.M, inverse, interface), full, interface, options);
-    if (result.status == ModeCountStatus::met) break;
-  }
-  return result;
+  return chosen_modes(full, interface, options, nullptr);
+}
+
+ChosenModes modes_for_tolerance(const FullModel& full, const Interface& interface, const ModeCountOptions& options,
+                                const BandTruth& truth) {
+  return chosen_modes(full, interface, options, &truth);
 }
 
 }  // namespace thinwall::reduction

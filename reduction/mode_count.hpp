@@ -14,7 +14,7 @@ namespace thinwall::reduction {
 struct ModeCountOptions {
   double tolerance = 0.01;  ///< relative_error() of Eq. 13, the largest of the band; 1e-8 … 1: a model sees no less
   Band band;
-  int verified_lines = 3;  ///< frequencies of direct solves, ≥ 1; each costs a slow factorisation
+  int verified_lines = 3;  ///< frequencies of direct solves, ≥ 1; each costs a slow factorisation; without a truth
   int rounds = 10;  ///< ≥ 1: how often modes up to 1.6 times the frequency may be taken, 100 times the band in all
 };
 
@@ -30,7 +30,7 @@ struct [[nodiscard]] ChosenModes {
   Truncation truncation;         ///< of those that are not
   int modes = 0;                 ///< kept
   double estimated_error = 0.0;  ///< of the kept model against the reference, over the band
-  double reference_error = 0.0;  ///< of the reference against direct solves of the full model, the largest
+  double reference_error = 0.0;  ///< of the reference against the full model, the largest
   int reference_modes = 0;       ///< in the reference, beside what its truncation adds
   std::vector<double> errors;    ///< estimate for 0, 1, 2 … reference_modes modes
   ModeCountStatus status = ModeCountStatus::not_met;
@@ -57,5 +57,10 @@ void validate(const ModeCountOptions& options);
 /// them, and from_hz > 0. Throws as validate() and craig_bampton(). Cost: Craig-Bampton once a round and
 /// `verified_lines` simplicial factorisations.
 ChosenModes modes_for_tolerance(const FullModel& full, const Interface& interface, const ModeCountOptions& options);
+
+/// The same with a truth that is there already (band_truth() of the same part and band) in place of direct solves: at
+/// all of its lines, whose residual in the full model's equations is known, and without further factorisations.
+ChosenModes modes_for_tolerance(const FullModel& full, const Interface& interface, const ModeCountOptions& options,
+                                const BandTruth& truth);
 
 }  // namespace thinwall::reduction

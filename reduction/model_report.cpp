@@ -86,7 +86,8 @@ RigidBodyState rigid_body_state(const dynamics::SpatialModel& model, const Repor
   state.mass = Y.transpose() * model.M * Y;
   const VectorXd lambda = state.grounding_stiffness.cwiseQuotient(state.mass.diagonal());
   state.grounding_hz = lambda.cwiseAbs().cwiseSqrt() / (2.0 * std::numbers::pi);
-  state.free_motions = static_cast<int>((state.grounding_hz.array() <= options.grounding * lowest_hz).count());
+  state.free_motions =
+      static_cast<int>((state.grounding_hz.array() <= std::sqrt(options.grounding) * lowest_hz).count());
   state.body = body_of(state.mass, state.reference);
   const std::vector<int> rows = physical_rows(model.dofs);
   state.effective = effective_mass(model.K, model.M, dynamics::displacements(model)(rows, Eigen::all), Y);
@@ -152,8 +153,9 @@ void find_in_rigid_body(const ReportOptions& options, ReducedModelReport& report
     report.findings.push_back({name, value, bound, ok, advice});
   };
   if (rigid.sets.seen < 6) {
-    add("rigid motions that the DOFs can show", rigid.sets.seen, 6, false,
-        "mass, centre and inertia need three points that do not lie on one line, or rotations");
+    if (options.rigid_motions.value_or(0) > 0)
+      add("rigid motions that the DOFs can show", rigid.sets.seen, 6, false,
+          "whether they are free needs three points that do not lie on one line, or rotations");
     return;
   }
   if (options.rigid_motions)

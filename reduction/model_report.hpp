@@ -21,7 +21,7 @@ struct ReportOptions {
   double symmetry = 1e-9;              ///< largest |A − Aᵀ| over the largest |A|
   double definiteness = 1e-9;          ///< least eigenvalue over that of a unit diagonal may be minus this
   double rigid_motion = 1e-4;          ///< disagreement of the three sets; of mass along the axes
-  double grounding = 1e-6;             ///< force against a rigid motion, of that on DOFs moved one by one
+  double grounding = 1e-6;             ///< yᵀKy / yᵀMy of a free rigid motion over λ of the lowest elastic mode
   double effective_mass = 1e-6;        ///< closure of the sum over all modes
   double reciprocity = 1e-9;           ///< |H − Hᵀ| over |H|
 };

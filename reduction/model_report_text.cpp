@@ -78,6 +78,10 @@ std::string text(const ReducedModelReport& report) {
     text += buffer;
   }
   text += " Hz\n";
+  if (report.rigid && report.rigid->sets.seen < 6)
+    text +=
+        line("rigid body not judged: the DOFs show %d of 6 motions; three points that do not lie on one line show all",
+             report.rigid->sets.seen);
   if (report.rigid && report.rigid->sets.seen == 6)
     text += "rigid body\n" + body_text(*report.rigid) + effective_text(report.rigid->effective);
   return text;

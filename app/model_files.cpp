@@ -1,0 +1,70 @@
+#include "app/model_files.hpp"
+
+#include "core/error.hpp"
+#include "dynamics/sparse_spatial.hpp"
+#include "io/dof_table_csv.hpp"
+#include "io/mat.hpp"
+#include "io/mat_sparse.hpp"
+#include "io/matrix_files.hpp"
+#include "io/matrix_market.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_matrices(const fs::path& folder, const PlacedModel& placed_model) {
+  dynamics::SparseModel sparse = dynamics::sparse_model(placed_model.model);
+  for (const auto& dof : sparse.dofs) {
+    const auto found = placed_model.positions.find(dynamics::point_name(sparse, dof));
+    if (dof.component > 0 && found != placed_model.positions.end()) sparse.positions[dof.node] = found->second;
+  }
+  io::write_matrix_market(folder / "stiffness.mtx", sparse.K);
+  io::write_matrix_market(folder / "mass.mtx", sparse.M);
+  if (sparse.has_damping()) io::write_matrix_market(folder / "damping.mtx", sparse.C);
+  io::write_dof_table(folder / "dofs.csv", sparse);
+}
+
+}  // namespace
+
+PlacedModel placed(const dynamics::SparseModel& sparse) {
+  PlacedModel result{dynamics::spatial_model(sparse), {}};
+  for (const auto& dof : sparse.dofs) {
+    const auto found = sparse.positions.find(dof.node);
+    if (dof.component > 0 && found != sparse.positions.end())
+      result.positions[dynamics::point_name(sparse, dof)] = found->second;
+  }
+  return result;
+}
+
+std::string write_model(const fs::path& folder, const PlacedModel& model) {
+  fs::create_directories(folder);
+  for (const char* name : {"stiffness.mtx", "mass.mtx", "damping.mtx", "dofs.csv"}) fs::remove(folder / name);
+  io::write_mat(folder / "model.mat", model.model);
+  try {
+    write_matrices(folder, model);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+PlacedModel read_model(const fs::path& path) {
+  if (!fs::is_directory(path)) return placed(io::read_sparse_mat(path));
+  if (fs::exists(path / "stiffness.mtx")) {
+    const auto optional = [&](const char* name) { return fs::exists(path / name) ? path / name : fs::path(); };
+    return placed(io::read_matrices({.stiffness = path / "stiffness.mtx",
+                                     .mass = path / "mass.mtx",
+                                     .damping = optional("damping.mtx"),
+                                     .dofs = path / "dofs.csv",
+                                     .length_unit = "m",
+                                     .mass_unit = "kg"})
+                      .model);
+  }
+  if (fs::exists(path / "model.mat")) return {io::read_mat(path / "model.mat"), {}};
+  throw core::DataError(path.string() +
+                        ": neither stiffness.mtx nor model.mat is there; \"thinwall reduce\" writes both");
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,173 @@
+#include "app/reduce_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/discretisation.hpp"
+#include "app/model_files.hpp"
+#include "app/model_report_json.hpp"
+#include "app/part_stage.hpp"
+#include "app/results.hpp"
+#include "app/stages.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "reduction/comparison.hpp"
+#include "reduction/damping.hpp"
+#include "reduction/mode_count.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+using reduction::Method;
+
+/// A reduced model, how it was asked for, and what is known of its error.
+struct ReducedPart {
+  reduction::Reduction reduction;
+  std::string chosen;  ///< why so many modes; "" where they were given
+};
+
+void require_reducible(const Case& source) {
+  if (!source.part) throw core::InputError("there is no modelled part to reduce; describe it in [part]");
+  if (source.reduction.interface.empty())
+    throw core::InputError("the part has no points to be reduced to; name them in [points]");
+}
+
+reduction::Band band_of(const Case& source, const ReduceRequest& request) {
+  reduction::Band band;
+  band.from_hz = request.from_hz.value_or(source.response.from_hz);
+  band.to_hz = request.to_hz.value_or(source.response.to_hz);
+  if (source.damping.model == "modal" && source.damping.ratio > 0.0) band.loss_factor = 2.0 * source.damping.ratio;
+  reduction::validate(band);
+  return band;
+}
+
+reduction::FullModel full_model(const Solution& part) {
+  return {part.model.K, part.model.M, part.model.node_of_row, part.modes.pairs.Phi.leftCols(part.modes.rigid_motions)};
+}
+
+void require_solved(const reduction::BandTruth& truth) {
+  if (truth.max_relative_residual < 1e-6) return;
+  throw core::NumericalError("the full model's receptance over the band was not solved (residual " +
+                             fmt::format("{:.1e}", truth.max_relative_residual) + "); take a narrower band");
+}
+
+/// Elastic modes that the case names, if it names any.
+std::optional<int> modes_of_case(const Case& source) {
+  const auto* given = find(source.values, "reduction.modes");
+  return given == nullptr ? std::nullopt : source.reduction.fixed_interface.count;
+}
+
+ReducedPart by_tolerance(const reduction::FullModel& full, const reduction::Interface& interface,
+                         const reduction::Band& band, const reduction::BandTruth& truth, double tolerance) {
+  const reduction::ModeCountOptions options{.tolerance = tolerance, .band = band};
+  reduction::ChosenModes chosen = reduction::modes_for_tolerance(full, interface, options, truth);
+  const std::string found = fmt::format(
+      "{} modes: by estimate {:.2g} off where {:.2g} is allowed; the estimate's reference is {:.1e} off the full model",
+      chosen.modes, chosen.estimated_error, tolerance, chosen.reference_error);
+  if (chosen.status != reduction::ModeCountStatus::met) {
+    throw core::NumericalError(
+        "the tolerance on the receptance is " +
+        std::string(chosen.status == reduction::ModeCountStatus::not_met ? "not met" : "not verified") + " with " +
+        found + "; take a narrower band, a larger tolerance or --modes");
+  }
+  ReducedPart result;
+  result.reduction.model = std::move(chosen.reduced.model);
+  result.reduction.modes = chosen.modes;
+  result.reduction.status = chosen.reduced.status;
+  result.chosen = found;
+  return result;
+}
+
+ReducedPart reduced_part(const Case& source, const ReduceRequest& request, const reduction::FullModel& full,
+                         const reduction::Interface& interface, const reduction::Band& band,
+                         const reduction::BandTruth& truth) {
+  const Method method = reduction::method_named(request.method);
+  const std::optional<int> modes = request.modes ? request.modes : modes_of_case(source);
+  if (request.tolerance && method != Method::craig_bampton)
+    throw core::InputError("a tolerance chooses the modes of craig_bampton; give --modes with --method " +
+                           request.method);
+  if (request.tolerance || (!modes && method == Method::craig_bampton))
+    return by_tolerance(full, interface, band, truth, request.tolerance.value_or(0.01));
+  reduction::ReductionOptions options;
+  options.modes = modes.value_or(options.modes);
+  options.characteristic =
+      std::min(request.characteristic.value_or(options.characteristic), static_cast<int>(interface.W.cols()));
+  options.damping_ratio = source.damping.ratio;
+  return {reduction::reduce(method, full, interface, options), ""};
+}
+
+/// Where the report finds the points: where the interface's weights have their centre.
+reduction::Positions positions_of(const Case& source) {
+  reduction::Positions positions;
+  for (const std::string& name : source.reduction.interface)
+    positions[name] = position(*source.part, point(source, name));
+  return positions;
+}
+
+/// Methods whose M is positive definite take the damping of the case.
+bool takes_damping(Method method) {
+  return method != Method::macneal && method != Method::dual_craig_bampton;
+}
+
+std::string error_text(const reduction::ComparisonRow& row, const reduction::Band& band) {
+  return fmt::format(
+      "  error       frequencies {:.1e}, receptance of the interface {:.1e} of the full model's, {:g} to {:g} Hz, loss "
+      "factor {:g}\n",
+      row.max_relative_frequency_error, row.max_relative_receptance_error, band.from_hz, band.to_hz, band.loss_factor);
+}
+
+/// The files, and what is to be said of them.
+std::string written(const Case& source, const ReduceRequest& request, const ReducedPart& reduced, bool held) {
+  const auto* spatial = std::get_if<dynamics::SpatialModel>(&reduced.reduction.model);
+  if (spatial == nullptr)
+    throw core::InputError("modal_truncation gives poles, no matrices to write; \"thinwall run\" writes them as modes");
+  PlacedModel model{*spatial, positions_of(source)};
+  if (takes_damping(reduced.reduction.method)) {
+    std::vector<reduction::IdentifiedMode> identified;
+    model.model = damped(source, model.model, identified);
+  }
+  const std::string left_out = write_model(request.out, model);
+  const reduction::ReducedModelReport report = reduction::report(
+      model.model, {.positions = model.positions, .rigid_motions = held ? std::nullopt : std::optional(6)});
+  core::write_file_atomically(request.out / "report.json", report_json(report).dump(2) + "\n");
+  core::write_file_atomically(request.out / "report.txt", reduction::text(report));
+  std::string text = reduction::text(report) + "\n";
+  if (!left_out.empty()) text += "  model.mat only: " + left_out + "\n";
+  return text + "  model in " + request.out.string() + "\n";
+}
+
+}  // namespace
+
+std::string reduce_part(const Case& source, const ReduceRequest& request) {
+  require_reducible(source);
+  const reduction::Band band = band_of(source, request);
+  Stages stages(false);
+  stages.begin("mesh, order and modes");
+  const Solution part = solved_part(source, discretise(source), stages);
+  const reduction::Interface interface = part_interface(source, part.model);
+  const reduction::FullModel full = full_model(part);
+  stages.begin("receptance of the full model");
+  const reduction::BandTruth truth = reduction::band_truth(full, interface, band);
+  require_solved(truth);
+  stages.begin("reduction");
+  const ReducedPart reduced = reduced_part(source, request, full, interface, band, truth);
+  if (reduced.reduction.status != linalg::EigenStatus::converged)
+    throw core::NumericalError("the modes of the reduction did not converge: ask for fewer, or mesh more evenly");
+  const reduction::ComparisonRow row = reduction::compared(reduced.reduction, truth, band);
+  std::string text = (source.title.empty() ? source.name : source.title) + "\n\n";
+  text += fmt::format("  full model  {} degrees of freedom, {} rigid motions free\n", full.K.rows(),
+                      part.modes.rigid_motions);
+  text += fmt::format("  reduced     {}: {} coordinates, {} of them interface, {} modes\n",
+                      reduction::name(reduced.reduction.method), row.size, interface.W.cols(), row.modes);
+  if (!reduced.chosen.empty()) text += "  tolerance   " + reduced.chosen + "\n";
+  text += error_text(row, band);
+  if (request.compare) {
+    stages.begin("comparison");
+    text += "\n" + reduction::text(reduction::compare(full, interface, band, row.size)) + "\n";
+  }
+  return text + written(source, request, reduced, part.modes.rigid_motions == 0);
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,30 @@
+#pragma once
+// `thinwall reduce`: the part of a case as a small model, with what it is off by and whether it can be trusted.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/case.hpp"
+
+namespace thinwall::app {
+
+/// What `thinwall reduce` is asked for beside the case.
+struct ReduceRequest {
+  std::filesystem::path out = "model";   ///< folder
+  std::string method = "craig_bampton";  ///< a name of reduction::Method
+  std::optional<int> modes;              ///< elastic modes kept
+  std::optional<double> tolerance;       ///< on the interface's receptance over the band; craig_bampton only
+  std::optional<double> from_hz, to_hz;  ///< the band; the case's response if not given
+  std::optional<int> characteristic;     ///< amplitudes of a reduced interface
+  bool compare = false;                  ///< all methods side by side, at the size of this one
+};
+
+/// Meshes and reduces the part to its points, measures the error of the interface's receptance over the band against
+/// the full model, writes the model (app/model_files.hpp), report.json and report.txt into the folder, and returns the
+/// text for the terminal. With neither modes nor tolerance: what the case's [reduction] says, or else a tolerance of 1
+/// %. Throws InputError for a case without part or points, and what the method refuses; NumericalError where the mode
+/// count does not meet the tolerance.
+[[nodiscard]] std::string reduce_part(const Case& source, const ReduceRequest& request);
+
+}  // namespace thinwall::app

@@ -1,0 +1,171 @@
+// `thinwall reduce` and `thinwall inspect`: a small model of a part, on disk and back, and what is said of it.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "app/case_reader.hpp"
+#include "app/command_line.hpp"
+#include "app/model_files.hpp"
+#include "app/pipeline.hpp"
+#include "app/reduce_command.hpp"
+#include "core/atomic_file.hpp"
+#include "io/mat.hpp"
+
+namespace thinwall::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double density = 2810.0;
+
+/// A plate 120 x 80 x 6 mm with three patches that do not lie on one line.
+std::string plate(const std::string& supports) {
+  return R"([part]
+length = "120 mm"
+height = "80 mm"
+thickness = "6 mm"
+[part.axes]
+length = "x"
+height = "y"
+thickness = "z"
+[part.material]
+youngs_modulus = "71 GPa"
+poisson_ratio = 0.33
+density = 2810
+[part.mesh]
+element_size = "20 mm"
+order = 3
+)" + supports +
+         R"([points.A]
+position = ["40 mm", "40 mm", "6 mm"]
+patch_radius = "5 mm"
+[points.B]
+position = ["110 mm", "20 mm", "6 mm"]
+patch_radius = "5 mm"
+[points.C]
+position = ["100 mm", "65 mm", 0]
+patch_radius = "5 mm"
+[damping]
+ratio = 0.01
+[response]
+to = "4000 Hz"
+)";
+}
+
+fs::path scratch(const std::string& name) {
+  const fs::path folder = fs::path(::testing::TempDir()) / name;
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+struct Answer {
+  int code = 0;
+  std::string out, err;
+};
+
+Answer command(const std::vector<std::string>& words) {
+  std::vector<const char*> argv{"thinwall"};
+  for (const auto& word : words) argv.push_back(word.c_str());
+  std::ostringstream out, err;
+  const int code = run_command_line(static_cast<int>(argv.size()), argv.data(), run_case, out, err);
+  return {code, out.str(), err.str()};
+}
+
+fs::path written_case(const fs::path& folder, const std::string& supports) {
+  core::write_file_atomically(folder / "case.toml", plate(supports));
+  return folder / "case.toml";
+}
+
+/// A free plate by Craig-Bampton to a tolerance: the folder reads back bit by bit, the report finds the plate's own
+/// mass and inertia in it, and nothing against it.
+TEST(Reduce, AFreePlateIsWrittenReadBackAndTrusted) {
+  const fs::path folder = scratch("reduce_free");
+  const std::string file = written_case(folder, "").string();
+  const Answer reduced = command({"reduce", file, "-o", (folder / "model").string(), "--from", "100", "-q"});
+  ASSERT_EQ(reduced.code, 0) << reduced.err;
+  EXPECT_NE(reduced.out.find("nothing found against this model"), std::string::npos) << reduced.out;
+  const PlacedModel model = read_model(folder / "model");
+  const dynamics::SpatialModel dense = io::read_mat(folder / "model" / "model.mat");
+  EXPECT_EQ(model.model.K, dense.K);
+  EXPECT_EQ(model.model.M, dense.M);
+  EXPECT_EQ(model.model.C, dense.C);
+  ASSERT_EQ(model.positions.size(), 3U);
+  EXPECT_EQ(model.positions.at("A"), Eigen::Vector3d(0.04, 0.04, 0.006));
+  const Answer inspected = command(
+      {"inspect", (folder / "model").string(), "--rigid-motions", "6", "--json", (folder / "inspected.json").string()});
+  EXPECT_EQ(inspected.code, 0) << inspected.out << inspected.err;
+  const auto report = nlohmann::json::parse(core::read_file(folder / "inspected.json"));
+  const auto& body = report["rigid_body"];
+  const double mass = density * 0.12 * 0.08 * 0.006;
+  EXPECT_NEAR(body["mass_kg"].get<double>() / mass, 1.0, 1e-8);
+  EXPECT_NEAR(body["centre_m"][0].get<double>(), 0.06, 1e-8);
+  EXPECT_NEAR(body["centre_m"][2].get<double>(), 0.003, 1e-8);
+  EXPECT_NEAR(body["inertia_about_centre_kg_m2"][2][2].get<double>() / (mass * (0.12 * 0.12 + 0.08 * 0.08) / 12.0), 1.0,
+              1e-6);
+  EXPECT_EQ(body["free_motions"], 6);
+  EXPECT_LT(body["effective_mass"]["closure_relative"].get<double>(), 1e-6);
+}
+
+/// Tighter tolerances keep more modes, and the error that is printed is below the tolerance.
+TEST(Reduce, AToleranceChoosesTheModes) {
+  const fs::path folder = scratch("reduce_tolerance");
+  const Case held = parse_case(plate("[[part.supports]]\non = \"x_min\"\n"), folder);
+  Eigen::Index last = 0;
+  for (const double tolerance : {0.1, 0.01, 0.001}) {
+    ReduceRequest request;
+    request.out = folder / "model";
+    request.tolerance = tolerance;
+    const std::string text = reduce_part(held, request);
+    double error = 0.0;
+    const auto place = text.find("receptance of the interface ");
+    ASSERT_NE(place, std::string::npos) << text;
+    std::istringstream(text.substr(place + 28)) >> error;
+    EXPECT_LE(error, 2.0 * tolerance);
+    EXPECT_GT(error, 0.1 * tolerance);
+    const Eigen::Index size = read_model(folder / "model").model.size();
+    EXPECT_GT(size, last);
+    last = size;
+  }
+}
+
+/// Every method that has matrices writes them, and its model has the frequencies of the part.
+TEST(Reduce, EveryMethodWithMatricesIsWritten) {
+  const fs::path folder = scratch("reduce_methods");
+  const std::string file = written_case(folder, "[[part.supports]]\non = \"x_min\"\n").string();
+  for (const std::string method : {"guyan", "craig_bampton", "characteristic_constraint_modes", "rubin", "macneal",
+                                   "craig_chang", "dual_craig_bampton"}) {
+    const Answer reduced = command(
+        {"reduce", file, "-o", (folder / method).string(), "--method", method, "--modes", "12", "--to", "2000", "-q"});
+    EXPECT_EQ(reduced.code, 0) << method << reduced.err;
+    EXPECT_TRUE(fs::exists(folder / method / "model.mat")) << method;
+    EXPECT_GE(read_model(folder / method).model.size(), 9) << method;
+  }
+}
+
+TEST(Reduce, WhatCannotBeReducedOrInspectedIsSaid) {
+  const fs::path folder = scratch("reduce_bad");
+  const std::string file = written_case(folder, "").string();
+  const auto refused = [&](const std::vector<std::string>& words, int code, const std::string& part) {
+    const Answer answer = command(words);
+    EXPECT_EQ(answer.code, code) << answer.err;
+    EXPECT_NE(answer.err.find(part), std::string::npos) << answer.err;
+  };
+  refused({"reduce", file, "--method", "rubbin"}, 3, "rubin");
+  refused({"reduce", file, "--method", "rubin", "--tolerance", "0.01"}, 3, "chooses the modes of craig_bampton");
+  refused({"reduce", file, "--from", "100", "--to", "50"}, 3, "band");
+  refused({"reduce", file, "--modes", "4", "--tolerance", "0.1"}, 2, "excludes");
+  refused({"inspect", (folder / "nothing").string()}, 4, "nothing");
+  refused({"inspect", folder.string()}, 4, "neither stiffness.mtx nor model.mat");
+  refused({"inspect"}, 3, "nothing to inspect");
+  core::write_file_atomically(folder / "k.mtx", "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 5\n");
+  refused({"inspect", "--stiffness", (folder / "k.mtx").string(), "--mass", (folder / "k.mtx").string(), "--mass-unit",
+           "kg"},
+          3, "unit");
+}
+
+}  // namespace
+}  // namespace thinwall::app
