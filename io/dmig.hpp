@@ -40,9 +40,9 @@ struct DmigFile {
 
 /// Writes the matrices of a model as KAAX, MAAX and BAAX in large fields, symmetric ones (bit by bit) as form 6, with a
 /// GRID entry for each node that has a position and SPOINT for amplitudes. A field has 16 columns: returns the largest
-/// relative rounding of a matrix entry, 0 if all were exact, no more than 5e-13. Throws InputError as
-/// require_consistent() and for a node number that Nastran cannot have (1 to 100000000), DataError if the file cannot
-/// be written.
+/// relative rounding of a matrix entry, 0 if all were exact (io/nastran_cards.hpp); 5e-12 for entries within 1e±9.
+/// Throws InputError as require_consistent() and for a node number that Nastran cannot have (1 to 100000000), DataError
+/// if the file cannot be written.
 double write_dmig(const std::filesystem::path& path, const dynamics::SparseModel& model);
 
 }  // namespace thinwall::io

@@ -63,6 +63,29 @@ std::string compact(std::string_view scientific) {
   return text + std::string(exponent);
 }
 
+/// "-0.25" as "-.25", "3" as "3.".
+std::string without_zero(std::string_view fixed) {
+  std::string text(fixed);
+  if (text.find('.') == std::string::npos) text += '.';
+  const std::size_t first = text.starts_with('-') ? 1 : 0;
+  if (text.substr(first, 2) == "0." && text.size() > first + 2) text.erase(first, 1);
+  return text;
+}
+
+/// The number in one of both forms with as many digits as sixteen columns hold; empty if they hold none of it.
+std::string sixteen_columns(double value, std::chars_format format) {
+  constexpr std::size_t width = 16;
+  std::array<char, 400> buffer{};
+  const auto shown = [&](auto... how) {
+    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, format, how...);
+    const std::string_view text(buffer.data(), static_cast<std::size_t>(result.ptr - buffer.data()));
+    return format == std::chars_format::fixed ? without_zero(text) : compact(text);
+  };
+  std::string text = shown();
+  for (int digits = 15; text.size() > width && digits >= 0; --digits) text = shown(digits);
+  return text.size() <= width ? text : "";
+}
+
 }  // namespace
 
 void for_each_card(std::string_view bytes, const std::function<bool(std::string_view)>& wanted,
@@ -119,18 +142,10 @@ int nastran_integer(std::string_view field, const char* what, int least, int mos
 }
 
 std::string nastran_real_text(double value) {
-  constexpr std::size_t width = 16;
-  std::array<char, 400> buffer{};
-  const auto shown = [&](auto... how) {
-    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, how...);
-    return std::string_view(buffer.data(), static_cast<std::size_t>(result.ptr - buffer.data()));
-  };
-  std::string text(shown(std::chars_format::fixed));
-  if (text.find('.') == std::string::npos) text += '.';
-  if (text.size() <= width) return text;
-  text = compact(shown(std::chars_format::scientific));
-  for (int digits = 15; text.size() > width; --digits) text = compact(shown(std::chars_format::scientific, digits));
-  return text;
+  std::string best = sixteen_columns(value, std::chars_format::fixed);
+  const std::string other = sixteen_columns(value, std::chars_format::scientific);
+  const auto miss = [value](const std::string& text) { return std::abs(nastran_real(text, "", 0) - value); };
+  return best.empty() || miss(other) < miss(best) ? other : best;
 }
 
 }  // namespace thinwall::io

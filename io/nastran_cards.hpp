@@ -30,9 +30,9 @@ void for_each_card(std::string_view bytes, const std::function<bool(std::string_
 [[nodiscard]] int nastran_integer(std::string_view field, const char* what, int least, int most,
                                   const std::string& name, int line);
 
-/// A finite number in at most 16 characters, "1.2345678901234+5": the same number where that is possible, which is so
-/// for all that were read from such a field, else rounded to 13 digits or more (12 of a negative one with an exponent
-/// of two digits), relative error 5e-13.
+/// A finite number in at most 16 characters, "175579830.638123" or "1.2345678901234+9": the same number where that is
+/// possible, which is so for all that were read from such a field, else the nearer form, with 14 digits or more between
+/// 0.1 and 1e13 and 11 at worst (a negative number with an exponent of three digits 10).
 [[nodiscard]] std::string nastran_real_text(double value);
 
 }  // namespace thinwall::io
