@@ -76,12 +76,17 @@ Eigen::AlignedBox3d bounds(const Part& part) {
   return box;
 }
 
+bool may_be_held(const Part& part) {
+  return !part.supports.empty() || part.shape == "matrices";
+}
+
 Eigen::Vector3d box_size(const Part& part) {
   return bounds(part).sizes();
 }
 
 Eigen::Vector3d position(const Part& part, const Point& point) {
   if (point.position) return *point.position + point.offset;
+  if (point.node) return node_position(part, *point.node);
   return bounds(part).min() + point.at->cwiseProduct(box_size(part)) + point.offset;
 }
 
@@ -104,7 +109,13 @@ bool contains(const Selection& selection, const Eigen::Vector3d& p, double toler
 
 std::vector<std::filesystem::path> input_files(const Case& source) {
   std::vector<std::filesystem::path> files;
-  if (source.part && from_file(*source.part)) files.push_back(source.part->file.path);
+  if (source.part && from_file(*source.part)) {
+    const io::MatrixFiles& matrices = source.part->file.matrices;
+    for (const auto& file : {source.part->file.path, matrices.stiffness, matrices.mass, matrices.damping, matrices.dofs,
+                             matrices.positions}) {
+      if (!file.empty()) files.push_back(file);
+    }
+  }
   for (const auto& frf : source.measured_part) files.push_back(frf.file);
   if (source.robot) {
     for (const auto& frf : source.robot->measured) files.push_back(frf.file);

@@ -13,6 +13,7 @@
 #include "app/case_values.hpp"
 #include "coupling/contact.hpp"
 #include "coupling/hertz_contact.hpp"
+#include "io/matrix_files.hpp"
 #include "mesh/prism.hpp"
 #include "mesh/surface_repair.hpp"
 #include "milling/machine_limits.hpp"
@@ -77,16 +78,17 @@ struct PartFile {
   std::string unit;                                  ///< of length; no default
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< m: the point of the file where the part's axes begin
   mesh::SurfaceRepairOptions repair;                 ///< of a surface
+  io::MatrixFiles matrices;                          ///< of shape matrices; `path` is empty then
 };
 
 /// A box with one corner at the origin, a prism, or what a file holds.
 struct Part {
-  std::string shape = "box";                                 ///< box, prism, surface
+  std::string shape = "box";                                 ///< box, prism, surface, matrices
   double length = 0.0, height = 0.0, thickness = 0.0;        ///< m
   int length_axis = 1, height_axis = 2, thickness_axis = 0;  ///< 0, 1, 2 for x, y, z
   mesh::Prism prism;                                         ///< of shape prism: outline in x, y; height along z
   std::optional<Bend> bend;
-  PartFile file;                                 ///< of shape surface
+  PartFile file;                                 ///< of shape surface and matrices
   std::shared_ptr<const ImportedPart> imported;  ///< what the file holds, once it is read (app/imported_part.hpp)
   Material material;
   MeshOptions mesh;
@@ -117,6 +119,7 @@ struct Point {
   std::string name;
   std::optional<Eigen::Vector3d> at;
   std::optional<Eigen::Vector3d> position;           ///< m
+  std::optional<int> node;                           ///< number of a node
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< m
   double patch_radius = 0.0;                         ///< m; 0: the nearest node alone
   std::vector<Eigen::Vector3d> directions;           ///< unit vectors
@@ -141,7 +144,7 @@ struct Reduction {
 };
 
 struct Damping {
-  std::string model = "modal";  ///< modal, rayleigh, structural
+  std::string model = "modal";  ///< modal, rayleigh, structural, matrices
   double ratio = 0.0;           ///< of every mode that `ratios` does not name
   std::vector<double> ratios;   ///< of the first modes
   std::optional<MeasuredFrf> from_frf;
@@ -363,6 +366,9 @@ struct Case {
 
 /// The block around the part, before it is bent, m.
 [[nodiscard]] Eigen::AlignedBox3d bounds(const Part& part);
+
+/// Whether something holds the part, as far as the case tells: matrices may be those of a held part.
+[[nodiscard]] bool may_be_held(const Part& part);
 
 /// Its extents along x, y, z, m.
 [[nodiscard]] Eigen::Vector3d box_size(const Part& part);

@@ -20,8 +20,13 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Any of these makes a modelled part.
-constexpr std::array geometry_keys{"part.length",  "part.height", "part.thickness",
-                                   "part.outline", "part.file",   "part.shape"};
+constexpr std::array geometry_keys{"part.matrices.stiffness",
+                                   "part.length",
+                                   "part.height",
+                                   "part.thickness",
+                                   "part.outline",
+                                   "part.file",
+                                   "part.shape"};
 
 int axis_index(const std::string& letter) {
   return letter == "x" ? 0 : letter == "y" ? 1 : letter == "z" ? 2 : -1;
@@ -75,6 +80,18 @@ PartFile bind_part_file(const Table& table, const std::filesystem::path& folder)
   if (const std::string name = table.text("file"); !name.empty()) file.path = folder / name;
   file.unit = table.text("unit");
   if (table.has("origin")) file.origin = table.vector("origin");
+  const Table matrices = table.table("matrices");
+  const auto matrix = [&](const char* key) {
+    const std::string name = matrices.text(key);
+    return name.empty() ? std::filesystem::path() : folder / name;
+  };
+  file.matrices.stiffness = matrix("stiffness");
+  file.matrices.mass = matrix("mass");
+  file.matrices.damping = matrix("damping");
+  file.matrices.dofs = matrix("dofs");
+  file.matrices.positions = matrix("positions");
+  file.matrices.length_unit = file.unit;
+  file.matrices.mass_unit = table.text("mass_unit");
   const Table repair = table.table("repair");
   mesh::SurfaceRepairOptions& options = file.repair;
   options.merge_tolerance_m = repair.optional("merge_tolerance").value_or(0.0);
@@ -87,7 +104,10 @@ PartFile bind_part_file(const Table& table, const std::filesystem::path& folder)
 Part bind_part(const Table& table, const std::filesystem::path& folder) {
   Part part;
   part.file = bind_part_file(table, folder);
-  part.shape = table.has("shape") ? table.text("shape") : table.has("file") ? shape_of_file(part.file.path) : "box";
+  part.shape = table.has("shape")                ? table.text("shape")
+               : table.has("matrices.stiffness") ? "matrices"
+               : table.has("file")               ? shape_of_file(part.file.path)
+                                                 : "box";
   if (part.shape == "prism") part.prism = bind_prism(table);
   if (const Table bend = table.table("bend"); bend.exists()) {
     part.bend = Bend{bend.number("radius"), {}};
@@ -148,6 +168,7 @@ std::vector<Point> bind_points(const Table& table) {
     bound.name = name;
     if (point.has("at")) bound.at = point.vector("at");
     if (point.has("position")) bound.position = point.vector("position");
+    if (point.has("node")) bound.node = point.integer("node");
     bound.offset = point.vector("offset");
     bound.patch_radius = point.number("patch_radius");
     bound.directions = point.directions("directions");

@@ -352,7 +352,7 @@ void check_coupled_fit(const Case& source, const std::string& key, Findings& fin
     findings.report(key + ".on", "\"coupled\" needs [robot], [[contacts]] and [points]");
   if (source.robot && (source.robot->model == "measured" || source.robot->model == "modal_table"))
     findings.report(key + ".on", "\"coupled\" needs a robot that is modelled, not a measured one; set robot.model");
-  if (source.part->supports.empty())
+  if (!may_be_held(*source.part))
     findings.report(key + ".on", "\"coupled\" needs a part that is held; add [[part.supports]]");
 }
 
@@ -360,7 +360,7 @@ void check_updating(const Case& source, Findings& findings) {
   for (std::size_t i = 0; i < source.updating.size(); ++i) {
     const std::string key = indexed("updating", i);
     const Updating& updating = source.updating[i];
-    if (!source.part) {
+    if (!source.part || (updating.on == "part" && source.part->shape == "matrices")) {
       findings.report(key, "there is no modelled part to fit; add part.length, part.height, part.thickness");
       continue;
     }
@@ -404,7 +404,7 @@ void check_lobes(const Case& source, Findings& findings) {
   if (source.tool && (!source.tool->measured.empty() || source.tool->swap)) check_measured_tool(*source.tool, findings);
   if (!source.cutting) findings.report("lobes", "there is no cut; add [cutting]");
   check_chart_choices(source, findings);
-  if (source.part ? source.part->supports.empty() : !source.measured_part.empty()) {
+  if (source.part ? !may_be_held(*source.part) : !source.measured_part.empty()) {
     findings.report("lobes", "lobes need a part that is held and modelled; " +
                                  std::string(source.part ? "add [[part.supports]]" : "describe it (part.length …)") +
                                  ", or remove [lobes]");

@@ -31,7 +31,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& folder, co
   auto problems = std::move(read.problems);
   std::ranges::move(check_case(result), std::back_inserter(problems));
   if (!problems.empty()) throw CaseError(name, std::move(problems));
-  if (!result.part || result.part->file.path.empty()) return result;
+  if (!result.part || !from_file(*result.part)) return result;
   result.part->imported = read_part_file(*result.part);
   problems = check_case(result);  // what could not be told before its size was known
   if (!problems.empty()) throw CaseError(name, std::move(problems));

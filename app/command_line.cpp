@@ -111,12 +111,13 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
   if (source.part) {
     const SizeEstimate size = estimate_size(source);
     const auto rounded = [](double value) { return core::readable_text(value, core::kind::number); };
-    out << "  elements  about " << rounded(size.elements) << " of order " << size.order << ", "
-        << (source.part->mesh.element_size
-                ? "size " + core::readable_text(*source.part->mesh.element_size, core::kind::length)
-                : "size and order from the tolerance of " + rounded(source.part->mesh.tolerance))
-        << '\n'
-        << "  DOFs      about " << rounded(size.dofs) << '\n'
+    if (size.elements > 0.0)
+      out << "  elements  about " << rounded(size.elements) << " of order " << size.order << ", "
+          << (source.part->mesh.element_size
+                  ? "size " + core::readable_text(*source.part->mesh.element_size, core::kind::length)
+                  : "size and order from the tolerance of " + rounded(source.part->mesh.tolerance))
+          << '\n';
+    out << "  DOFs      about " << rounded(size.dofs) << '\n'
         << "  time      about " << core::readable_text(std::max(1.0, size.seconds), core::kind::time)
         << " for mesh, modes and reduction on two cores\n";
   }

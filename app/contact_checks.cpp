@@ -97,8 +97,9 @@ void try_contact(const Case& source, const std::string& key, const Contact& cont
   std::vector<double> numbers{preload_of(source, contact).value_or(0.0), contact.loss_factor};
   const coupling::Elastic surface =
       contact.surface ? *contact.surface
-      : source.part   ? coupling::Elastic{source.part->material.youngs_modulus, source.part->material.poisson_ratio}
-                      : coupling::Elastic{};
+      : source.part && source.part->shape != "matrices"
+          ? coupling::Elastic{source.part->material.youngs_modulus, source.part->material.poisson_ratio}
+          : coupling::Elastic{};
   if (rolls(contact)) {
     const ContactBall& ball = *contact.ball;
     for (const double number : {ball.radius, ball.steel.E, ball.steel.nu, ball.support_radius.value_or(0.0),

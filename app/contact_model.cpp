@@ -18,7 +18,8 @@ double required_preload(const Case& source, const Contact& contact) {
 
 coupling::Elastic surface_of(const Case& source, const Contact& contact) {
   if (contact.surface) return *contact.surface;
-  if (source.part) return {source.part->material.youngs_modulus, source.part->material.poisson_ratio};
+  if (source.part && source.part->shape != "matrices")
+    return {source.part->material.youngs_modulus, source.part->material.poisson_ratio};
   throw core::InputError("what the ball touches is not known: give [contacts.surface]");
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "app/imported_part.hpp"
+#include "app/matrix_part.hpp"
 #include "app/path.hpp"
 #include "core/memory.hpp"
 #include "mesh/bend.hpp"
@@ -250,6 +251,11 @@ fem::ModeOptions mode_options(const Case& source) {
 
 Discretisation discretise(const Case& source) {
   const Part& part = *source.part;
+  if (part.shape == "matrices") {
+    Discretisation result;
+    result.solved.emplace(matrix_solution(source));
+    return result;
+  }
   if (part.shape == "box" && part.thickness > std::max(part.length, part.height)) {
     spdlog::warn("the part is {:g} m thick, more than it is long or high; a number without a unit is in metres",
                  part.thickness);

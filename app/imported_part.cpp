@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "io/matrix_files.hpp"
 #include "io/surface_file.hpp"
 
 namespace thinwall::app {
@@ -26,6 +27,11 @@ std::string as_origin(const Eigen::Vector3d& x) {
   return list + "]";
 }
 
+/// The file that people know the part by.
+const std::filesystem::path& main_file(const Part& part) {
+  return part.shape == "matrices" ? part.file.matrices.stiffness : part.file.path;
+}
+
 ImportedPart read_surface_part(const PartFile& file) {
   mesh::TriangleSoup soup = io::read_surface(file.path, file.unit);
   for (auto& x : soup.points) x -= file.origin;
@@ -42,6 +48,31 @@ ImportedPart read_surface_part(const PartFile& file) {
   return part;
 }
 
+ImportedPart read_matrix_part(const PartFile& file) {
+  io::ImportedMatrices imported = io::read_matrices(file.matrices);
+  dynamics::require_consistent(imported.model);
+  dynamics::require_plausible(imported.model);
+  ImportedPart part;
+  for (auto& [node, x] : imported.model.positions) part.box.extend(x -= file.origin);
+  part.said = imported.format + ", " + std::to_string(imported.model.size()) + " rows";
+  for (const auto& note : imported.notes) part.said += "; " + note;
+  part.matrices = std::move(imported.model);
+  return part;
+}
+
+nlohmann::json vector_json(const Eigen::Vector3d& x) {
+  return {x.x(), x.y(), x.z()};
+}
+
+void add_surface(nlohmann::json& result, const mesh::SurfaceRepair& surface) {
+  result["triangles"] = surface.surface.triangles.size();
+  result["volume_m3"] = surface.volume_m3;
+  result["largest_movement_m"] = surface.largest_movement_m;
+  result["mended"] = nlohmann::json::array();
+  for (const auto& found : surface.mended)
+    result["mended"].push_back({{"what", found.what}, {"count", found.count}, {"first_m", vector_json(found.first_m)}});
+}
+
 }  // namespace
 
 std::string shape_of_file(const std::filesystem::path& file) {
@@ -49,33 +80,44 @@ std::string shape_of_file(const std::filesystem::path& file) {
 }
 
 bool from_file(const Part& part) {
-  return part.shape == "surface";
+  return part.shape == "surface" || part.shape == "matrices";
+}
+
+Eigen::Vector3d node_position(const Part& part, int node) {
+  const Eigen::Vector3d unknown = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (!part.imported || !part.imported->matrices) return unknown;
+  const auto& positions = part.imported->matrices->positions;
+  const auto found = positions.find(node);
+  return found == positions.end() ? unknown : found->second;
+}
+
+std::vector<int> node_numbers(const ImportedPart& part) {
+  std::vector<int> nodes;
+  if (part.matrices) {
+    for (const auto& dof : part.matrices->dofs) {
+      if (dof.component > 0) nodes.push_back(dof.node);
+    }
+  }
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
 }
 
 std::shared_ptr<const ImportedPart> read_part_file(const Part& part) {
   try {
-    return std::make_shared<ImportedPart>(read_surface_part(part.file));
+    return std::make_shared<ImportedPart>(part.shape == "matrices" ? read_matrix_part(part.file)
+                                                                   : read_surface_part(part.file));
   } catch (const core::InputError& error) {
-    throw core::InputError("part.file " + part.file.path.string() + ": " + error.what());
+    throw core::InputError(main_file(part).string() + ": " + error.what());
   }
 }
 
 nlohmann::json geometry_summary(const Part& part) {
   const ImportedPart& imported = *part.imported;
-  const Eigen::Vector3d size = imported.box.sizes();
-  nlohmann::json result = {{"file", part.file.path.filename().string()},
-                           {"unit", part.file.unit},
-                           {"size_m", {size.x(), size.y(), size.z()}},
-                           {"read", imported.said}};
-  const mesh::SurfaceRepair& surface = *imported.surface;
-  result["triangles"] = surface.surface.triangles.size();
-  result["volume_m3"] = surface.volume_m3;
-  result["largest_movement_m"] = surface.largest_movement_m;
-  result["mended"] = nlohmann::json::array();
-  for (const auto& found : surface.mended) {
-    const Eigen::Vector3d& x = found.first_m;
-    result["mended"].push_back({{"what", found.what}, {"count", found.count}, {"first_m", {x.x(), x.y(), x.z()}}});
-  }
+  nlohmann::json result = {
+      {"file", main_file(part).filename().string()}, {"unit", part.file.unit}, {"read", imported.said}};
+  result["size_m"] = imported.box.isEmpty() ? nlohmann::json(nullptr) : vector_json(imported.box.sizes());
+  if (imported.surface) add_surface(result, *imported.surface);
   return result;
 }
 

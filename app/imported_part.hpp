@@ -9,13 +9,15 @@
 #include <string>
 
 #include "app/case.hpp"
+#include "dynamics/sparse_model.hpp"
 #include "mesh/surface_repair.hpp"
 
 namespace thinwall::app {
 
 /// What the file of a part holds, in m, in the part's axes.
 struct ImportedPart {
-  std::optional<mesh::SurfaceRepair> surface;
+  std::optional<mesh::SurfaceRepair> surface;     ///< of shape surface
+  std::optional<dynamics::SparseModel> matrices;  ///< of shape matrices
   Eigen::AlignedBox3d box;
   std::string said;  ///< what was read and mended, for people
 };
@@ -26,8 +28,15 @@ struct ImportedPart {
 /// Whether the part's shape is one that a file holds.
 [[nodiscard]] bool from_file(const Part& part);
 
+/// Where the numbered node of an imported part lies, m; NaN where no file says it.
+[[nodiscard]] Eigen::Vector3d node_position(const Part& part, int node);
+
+/// Numbers of the nodes that can move, ascending; empty for parts without numbered nodes.
+[[nodiscard]] std::vector<int> node_numbers(const ImportedPart& part);
+
 /// Reads the part's file. Throws DataError for one that cannot be read, InputError, with the file's name, for a unit
-/// that is none and for what mesh::repaired_surface refuses. Cost: that of reading and repair.
+/// that is none, for what mesh::repaired_surface refuses and for matrices that cannot be (require_plausible). Cost:
+/// that of reading and repair.
 [[nodiscard]] std::shared_ptr<const ImportedPart> read_part_file(const Part& part);
 
 /// What summary.json tells of it: file, unit, size, counts, what was mended. The part must have been read.

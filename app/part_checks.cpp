@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "dynamics/dof.hpp"
+#include "dynamics/unit_system.hpp"
 #include "io/surface_unit.hpp"
 #include "mesh/bend.hpp"
 
@@ -64,8 +65,13 @@ void check_belonging(const Part& part, Findings& findings) {
                                    {"part.zones[0].outline", {"prism"}},
                                    {"part.bend.radius", {"box", "prism"}},
                                    {"part.file", {"surface"}},
-                                   {"part.unit", {"surface"}},
-                                   {"part.origin", {"surface"}},
+                                   {"part.unit", {"surface", "matrices"}},
+                                   {"part.mass_unit", {"matrices"}},
+                                   {"part.matrices.stiffness", {"matrices"}},
+                                   {"part.origin", {"surface", "matrices"}},
+                                   {"part.supports[0].on", {"box", "prism", "surface"}},
+                                   {"part.material.density", {"box", "prism", "surface"}},
+                                   {"part.mesh.tolerance", {"box", "prism", "surface"}},
                                    {"part.repair.merge_tolerance", {"surface"}}};
   for (const auto& [key, shapes] : all) {
     if (!findings.given(key) || std::ranges::find(shapes, part.shape) != shapes.end()) continue;
@@ -76,7 +82,18 @@ void check_belonging(const Part& part, Findings& findings) {
   }
 }
 
+void check_matrices(const Part& part, Findings& findings) {
+  if (!findings.given("part.matrices.stiffness"))
+    return findings.report("part.matrices.stiffness", "missing; the file of K");
+  try {
+    (void)dynamics::unit_system(part.file.unit, part.file.matrices.mass_unit);
+  } catch (const core::InputError& error) {
+    findings.report("part.matrices", std::string(error.what()) + "; set part.unit and part.mass_unit");
+  }
+}
+
 void check_part_file(const Part& part, Findings& findings) {
+  if (part.shape == "matrices") return check_matrices(part, findings);
   if (part.shape.empty()) {
     findings.report("part.file", "\"" + part.file.path.filename().string() +
                                      "\" has an ending that is not read; take a .stl, .off, .obj or .ply");
@@ -266,8 +283,26 @@ std::string text(const Eigen::Vector3d& p) {
   return "(" + list + ")";
 }
 
+void check_node(const Case& source, const Point& point, bool numbered, Findings& findings) {
+  const std::string key = "points." + point.name;
+  if (!numbered) return findings.report(key + ".node", "this part has no numbered nodes; give at or position");
+  if (!point.node || point.at || point.position)
+    return findings.report(key, "matrices know nodes, no places; give node = its number, and neither at nor position");
+  if (!independent(point.directions))
+    findings.report(key + ".directions", "the directions must be independent, three at most");
+  if (!source.part->imported) return;
+  const std::vector<int> known = node_numbers(*source.part->imported);
+  if (std::ranges::binary_search(known, *point.node)) return;
+  findings.report(key + ".node", "the matrices have no node " + std::to_string(*point.node) + "; their " +
+                                     std::to_string(known.size()) + " nodes are numbered from " +
+                                     std::to_string(known.empty() ? 0 : known.front()) + " to " +
+                                     std::to_string(known.empty() ? 0 : known.back()));
+}
+
 void check_point(const Case& source, const Point& point, Findings& findings) {
   const std::string key = "points." + point.name;
+  const bool numbered = source.part && source.part->shape == "matrices";
+  if (numbered || point.node) return check_node(source, point, numbered, findings);
   if (point.at.has_value() == point.position.has_value()) {
     findings.report(key, "give either at = [fractions of the box] or position = [lengths]");
     return;
@@ -293,6 +328,11 @@ bool holds(const Case& source, const Support& support, const Eigen::Vector3d& p)
 SizeEstimate estimate_size(const Case& source) {
   const Part& part = *source.part;
   SizeEstimate size;
+  if (part.shape == "matrices") {
+    size.dofs = static_cast<double>(part.imported->matrices->size());
+    size.seconds = 3.0 * std::pow(size.dofs / 4e4, 1.3);
+    return size;
+  }
   size.order = part.mesh.order.value_or(part.mesh.element_size ? 2 : 5);
   size.elements = from_file(part) ? elements_in_surface(part)
                   : by_tetgen(part)
@@ -320,7 +360,7 @@ void check_part(const Case& source, Findings& findings) {
   if (source.part) {
     check_shape(source, findings);
     check_bend(*source.part, findings);
-    if (geometry_known(*source.part)) check_mesh_size(source, findings);
+    if (geometry_known(*source.part) && source.part->shape != "matrices") check_mesh_size(source, findings);
     check_supports(source, findings);
   }
   for (const auto& selection : source.selections) check_selection(selection, findings);

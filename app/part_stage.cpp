@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "app/imported_part.hpp"
+#include "app/matrix_part.hpp"
 #include "app/measured.hpp"
 #include "app/path_stage.hpp"
 #include "core/error.hpp"
@@ -103,6 +104,7 @@ fem::Model part_model(const Case& source, mesh::TetMesh mesh, int order) {
 }
 
 reduction::Interface part_interface(const Case& source, const fem::Model& model) {
+  if (source.part->shape == "matrices") return matrix_interface(source);
   reduction::Interface interface;
   std::vector<Eigen::Triplet<double>> entries;
   for (const std::string& name : source.reduction.interface) {
@@ -123,6 +125,7 @@ reduction::Interface part_interface(const Case& source, const fem::Model& model)
 dynamics::SpatialModel damped(const Case& source, const dynamics::SpatialModel& reduced,
                               std::vector<reduction::IdentifiedMode>& identified) {
   const Damping& damping = source.damping;
+  if (damping.model == "matrices") return reduced;
   if (damping.model == "rayleigh") return reduction::with_rayleigh_damping(reduced, damping.alpha, damping.beta);
   if (damping.model == "structural") return reduction::with_structural_damping(reduced, damping.loss_factor);
   if (!damping.from_frf) return reduction::with_modal_damping(reduced, damping.ratios, damping.ratio);
@@ -132,6 +135,26 @@ dynamics::SpatialModel damped(const Case& source, const dynamics::SpatialModel& 
 }
 
 namespace {
+
+/// C of the part's file on the reduced coordinates, TᵀCT.
+void take_damping_of_file(const Case& source, PartResult& part) {
+  if (source.part->shape != "matrices" || !source.part->imported->matrices->has_damping()) return;
+  if (source.damping.model == "matrices") {
+    const Eigen::MatrixXd C_T = source.part->imported->matrices->C * part.reduced->T;
+    part.reduced->model.C = part.reduced->T.transpose() * C_T;
+  } else {
+    spdlog::warn("the part's damping matrix is not used; set damping.model = \"matrices\" to take it");
+  }
+}
+
+/// What a mesh costs in quality.
+void look_at_mesh(PartResult& part) {
+  part.min_quality = 1.0;
+  for (int tet = 0; tet < static_cast<int>(part.model.mesh.tets.size()); ++tet) {
+    part.min_quality = std::min(part.min_quality, mesh::mean_ratio(part.model.mesh, tet));
+  }
+  part.quality = mesh::quality(part.model.mesh);
+}
 
 /// The matrix's mass against the geometry's: exact for straight elements, to the accuracy of the curve for bent ones.
 void check_mass(const Case& source, PartResult& part) {
@@ -164,18 +187,15 @@ PartResult compute_part(const Case& source, Discretisation discretisation, Stage
   part.model = std::move(solved.model);
   part.modes = std::move(solved.modes);
   const fem::Factored factored = std::move(solved.factored);
-  check_mass(source, part);
+  const bool meshed = !part.model.mesh.tets.empty();
+  if (meshed) check_mass(source, part);
   if (part.modes.round_off > 1e-4) {
     spdlog::warn(
         "round-off may change the lowest frequency by {:.0e} of it, for the part is very thin: a lower order or "
         "larger elements lose less",
         part.modes.round_off);
   }
-  part.min_quality = 1.0;
-  for (int tet = 0; tet < static_cast<int>(part.model.mesh.tets.size()); ++tet) {
-    part.min_quality = std::min(part.min_quality, mesh::mean_ratio(part.model.mesh, tet));
-  }
-  part.quality = mesh::quality(part.model.mesh);
+  if (meshed) look_at_mesh(part);
   if (source.modes.verify_count && !part.modes.count_verified)
     part.modes.count_verified = fem::none_missed(part.model, part.modes.pairs);
   if (part.modes.count_verified && !*part.modes.count_verified) {
@@ -190,6 +210,7 @@ PartResult compute_part(const Case& source, Discretisation discretisation, Stage
                                std::to_string(part.reduced->fixed_interface_hz.size()) +
                                " found): ask for fewer in reduction.modes, or mesh more evenly");
   }
+  take_damping_of_file(source, part);
   part.damped = damped(source, part.reduced->model, part.identified);
   if (source.path) {
     stages.begin("path");

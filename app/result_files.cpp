@@ -82,6 +82,7 @@ void write_part_surface(const fs::path& file, const PartResult& part) {
 
 void write_part_modes(Files& files, const fs::path& folder, const Results& results) {
   const PartResult& part = *results.finite_elements;
+  const bool meshed = !part.model.mesh.tets.empty();
   ShapeSeries series{folder, "part_mode", {}};
   std::vector<double> ratios;
   if (results.part && results.part->modal) {
@@ -96,14 +97,16 @@ void write_part_modes(Files& files, const fs::path& folder, const Results& resul
     const auto elastic = static_cast<std::size_t>(std::max<Eigen::Index>(0, k - part.modes.rigid_motions));
     const double zeta = k >= part.modes.rigid_motions && elastic < ratios.size() ? ratios[elastic] : 0.0;
     const auto shape = [&part, k]() -> Eigen::VectorXd { return part.modes.pairs.Phi.col(k); };
-    series.add(files, part.model, shape, part.modes.frequency_hz(k), zeta);
+    if (meshed) series.add(files, part.model, shape, part.modes.frequency_hz(k), zeta);
     number.push_back(static_cast<double>(k + 1));
     frequency.push_back(part.modes.frequency_hz(k));
     damping.push_back(zeta);
     residual.push_back(part.modes.residual(k));
   }
-  io::write_pvd(folder / "part.pvd", series.entries);
-  files.emplace_back([path = folder / "part_surface.vtp", &part] { write_part_surface(path, part); });
+  if (meshed) {
+    io::write_pvd(folder / "part.pvd", series.entries);
+    files.emplace_back([path = folder / "part_surface.vtp", &part] { write_part_surface(path, part); });
+  }
   io::write_csv(
       folder / "modes.csv",
       {{"mode", number}, {"frequency_hz", frequency}, {"damping_ratio", damping}, {"relative_residual", residual}});
@@ -116,6 +119,7 @@ void write_coupled_modes(Files& files, const fs::path& folder, const Results& re
   const dynamics::ModalModel& modal = *results.coupled->modal;
   const Eigen::MatrixXd& T = part.reduced->T;
   const double highest = 2.0 * std::numbers::pi * part.modes.frequency_hz.maxCoeff();
+  const bool meshed = !part.model.mesh.tets.empty();
   ShapeSeries series{folder, "coupled_mode", {}};
   std::vector<double> number;
   std::vector<double> frequency;
@@ -131,12 +135,12 @@ void write_coupled_modes(Files& files, const fs::path& folder, const Results& re
       return u / u.cwiseAbs().maxCoeff();
     };
     const auto summary = dynamics::summarise(modal.poles(k));
-    series.add(files, part.model, shape, summary.frequency_hz, summary.damping_ratio);
+    if (meshed) series.add(files, part.model, shape, summary.frequency_hz, summary.damping_ratio);
     number.push_back(static_cast<double>(number.size() + 1));
     frequency.push_back(summary.frequency_hz);
     damping.push_back(summary.damping_ratio);
   }
-  io::write_pvd(folder / "coupled.pvd", series.entries);
+  if (meshed) io::write_pvd(folder / "coupled.pvd", series.entries);
   io::write_csv(folder / "coupled_modes.csv",
                 {{"mode", number}, {"frequency_hz", frequency}, {"damping_ratio", damping}});
 }
@@ -211,8 +215,8 @@ void write_results(const fs::path& folder, const Case& source, const Results& re
   if (results.survey) files.emplace_back([&] { write_survey(folder, source, *results.survey); });
   for (const auto& lobes : results.lobes) files.emplace_back([&] { write_lobes(folder / "lobes", lobes); });
   for (const auto& path : results.path) files.emplace_back([&] { write_path(folder / "lobes", source, path); });
-  if (results.finite_elements) files.front()();  // alone: VTK's first objects set up what all share
-  const std::size_t done = results.finite_elements ? 1 : 0;
+  const std::size_t done = files.empty() ? 0 : 1;
+  if (done > 0) files.front()();  // alone: VTK's first objects set up what all share
   core::parallel_for(files.size() - done, [&](std::size_t i) { files[done + i](); });
 }
 

@@ -132,6 +132,7 @@ double smallest_singular(const robot::ArmPose& at) {
 std::optional<Vector3d> contact_place(const Case& source) {
   if (source.contacts.empty() || !source.part) return std::nullopt;
   const Vector3d flat = position(*source.part, point(source, source.contacts.front().part_point));
+  if (!flat.allFinite()) return std::nullopt;  // a node of matrices whose place no file tells
   return source.part->bend ? mesh::bent(bend_of(*source.part), flat) : flat;
 }
 

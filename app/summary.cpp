@@ -97,6 +97,7 @@ json reduction_of(const PartResult& part) {
           {"interface_dofs", part.interface.W.cols()},
           {"kept_modes", part.reduced->fixed_interface_hz.size()},
           {"size", part.reduced->model.size()},
+          {"full_dofs", part.model.K.rows()},
           {"max_relative_frequency_error", part.frequency_error},
           {"max_relative_receptance_error", part.receptance_error ? json(*part.receptance_error) : json(nullptr)}};
 }
@@ -278,7 +279,7 @@ json summary_of(const Case& source, const Results& results) {
   for (const auto& fit : results.updating) summary["updating"].push_back(updating_of(fit));
   if (source.part && source.part->imported) summary["geometry"] = geometry_summary(*source.part);
   if (results.finite_elements) {
-    summary["mesh"] = mesh_of(*results.finite_elements);
+    if (!results.finite_elements->model.mesh.tets.empty()) summary["mesh"] = mesh_of(*results.finite_elements);
     summary["part"] = part_of(results);
     if (results.finite_elements->reduced) summary["reduction"] = reduction_of(*results.finite_elements);
   }

@@ -152,9 +152,9 @@ void trust(std::string& out, const json& summary) {
   }
   if (summary.contains("reduction")) {
     const json& r = summary["reduction"];
-    out += fmt::format("  reduction   {} to {} degrees of freedom, frequencies within {:.1e}",
-                       summary["mesh"]["dofs"].get<int>(), r["size"].get<int>(),
-                       r["max_relative_frequency_error"].get<double>());
+    out +=
+        fmt::format("  reduction   {} to {} degrees of freedom, frequencies within {:.1e}", r["full_dofs"].get<int>(),
+                    r["size"].get<int>(), r["max_relative_frequency_error"].get<double>());
     if (!r["max_relative_receptance_error"].is_null())
       out += fmt::format(", receptances within {:.1e}", r["max_relative_receptance_error"].get<double>());
     out += r["max_relative_receptance_error"].is_null() ? " of the full model; receptances not checked\n"

@@ -1,0 +1,89 @@
+#include "app/matrix_part.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "app/imported_part.hpp"
+#include "core/error.hpp"
+#include "core/memory.hpp"
+#include "fem/modes.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+constexpr int most_rigid = 12;
+
+fem::Model model_of(const dynamics::SparseModel& matrices) {
+  fem::Model model;
+  model.K = matrices.K;
+  model.M = matrices.M;
+  std::map<int, int> index;  // amplitudes stand by themselves
+  int next = 0;
+  for (const auto& dof : matrices.dofs) {
+    const int node = dof.component == 0 ? next++ : index.try_emplace(dof.node, next).first->second;
+    if (node == next) ++next;
+    model.free_rows.push_back(static_cast<int>(model.free_rows.size()));
+    model.node_of_row.push_back(node);
+  }
+  return model;
+}
+
+/// How many of the lowest λ lie below 1e-6 of the next one; none where there is no such gap.
+int rigid_count(const Eigen::VectorXd& lambda) {
+  for (Eigen::Index k = std::min<Eigen::Index>(most_rigid, lambda.size() - 1); k > 0; --k) {
+    if (lambda.head(k).cwiseAbs().maxCoeff() < 1e-6 * lambda(k)) return static_cast<int>(k);
+  }
+  return 0;
+}
+
+/// Sets how many motions are free: by the lowest modes of a shifted K, which is definite whatever is free.
+void count_rigid_motions(fem::Model& model) {
+  model.rigid_motions = 1;  // so that it is shifted
+  const fem::Factored shifted = fem::factorise(model, core::available_memory_bytes());
+  const int wanted = static_cast<int>(std::min<Eigen::Index>(most_rigid + 4, model.K.rows() - 1));
+  const auto lowest = linalg::lowest_eigenpairs(model.K, model.M, fem::inverse_of(shifted), wanted);
+  if (lowest.status != linalg::EigenStatus::converged)
+    throw core::NumericalError("the lowest modes of the matrices did not converge: \"thinwall inspect\" tells more");
+  model.rigid_motions = rigid_count(lowest.lambda);
+  for (int k = 0; k < model.rigid_motions; ++k) model.free_motions.push_back("mode " + std::to_string(k + 1));
+}
+
+}  // namespace
+
+Solution matrix_solution(const Case& source) {
+  fem::Model model = model_of(*source.part->imported->matrices);
+  count_rigid_motions(model);
+  fem::Factored factored = fem::factorise(model, core::available_memory_bytes());
+  fem::Modes modes = fem::modes(model, factored, mode_options(source));
+  return {std::move(model), std::move(factored), std::move(modes)};
+}
+
+reduction::Interface matrix_interface(const Case& source) {
+  const dynamics::SparseModel& matrices = *source.part->imported->matrices;
+  std::map<dynamics::NodeDof, int> row_of;
+  for (std::size_t i = 0; i < matrices.dofs.size(); ++i) row_of[matrices.dofs[i]] = static_cast<int>(i);
+  reduction::Interface interface;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const std::string& name : source.reduction.interface) {
+    const Point& p = point(source, name);
+    for (const Eigen::Vector3d& n : p.directions) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (n[axis] == 0.0) continue;
+        const auto row = row_of.find({*p.node, axis + 1});
+        if (row == row_of.end()) {
+          throw core::InputError("point \"" + name + "\": node " + std::to_string(*p.node) + " has no row along " +
+                                 "xyz"[axis] + ": leave the direction out of points." + name + ".directions");
+        }
+        entries.emplace_back(row->second, static_cast<int>(interface.dofs.size()), n[axis]);
+      }
+      interface.dofs.push_back({p.name, n, dynamics::DofKind::translation});
+    }
+  }
+  interface.W.resize(matrices.K.rows(), static_cast<Eigen::Index>(interface.dofs.size()));
+  interface.W.setFromTriplets(entries.begin(), entries.end());
+  return interface;
+}
+
+}  // namespace thinwall::app
