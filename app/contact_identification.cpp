@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -12,6 +11,7 @@
 #include "app/measured.hpp"
 #include "app/measured_layout.hpp"
 #include "app/part_checks.hpp"
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "io/measured_response.hpp"
 

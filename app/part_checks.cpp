@@ -1,6 +1,5 @@
 #include "app/part_checks.hpp"
 
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 
 #include "app/case_checks.hpp"
 #include "app/discretisation.hpp"
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "dynamics/dof.hpp"

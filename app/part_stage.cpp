@@ -2,12 +2,12 @@
 
 #include <spdlog/spdlog.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 
 #include "app/measured.hpp"
 #include "app/path_stage.hpp"
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/memory.hpp"
 #include "fem/free_motions.hpp"
