@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "app/contact_model.hpp"
 #include "app/milling_process.hpp"
 #include "app/support_stage.hpp"
 #include "core/error.hpp"
@@ -46,14 +47,14 @@ dynamics::ResponseModel response_on(const Component& known, const dynamics::Freq
   throw core::InputError("the force on a contact needs a part and a robot that are known by models");
 }
 
-/// What presses the contact, N, and along which unit vector: that of the only contact where it states one, else
-/// robot.preload.
+/// What presses the contact, N, and the unit vector along which it presses the tip: the normal of an only contact with
+/// a preload along it (preload_of()), turned to the side from which robot.preload comes; else robot.preload.
 std::pair<double, Eigen::Vector3d> pressing_force(const Case& source) {
   const Eigen::Vector3d& on_tip = source.robot->preload;
   const Contact& first = source.contacts.front();
-  if (source.contacts.size() == 1 && first.preload) {
+  if (const auto preload = preload_of(source, first); preload && source.contacts.size() == 1) {
     const Eigen::Vector3d& normal = first.directions.front();
-    return {*first.preload, on_tip.dot(normal) < 0.0 ? Eigen::Vector3d(-normal) : normal};
+    return {*preload, on_tip.dot(normal) < 0.0 ? Eigen::Vector3d(-normal) : normal};
   }
   if (!(on_tip.norm() > 0.0))
     throw core::InputError("the force on a contact is compared with its preload, which is zero; give robot.preload");

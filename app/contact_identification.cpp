@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "app/measured.hpp"
+#include "app/measured_layout.hpp"
 #include "app/part_checks.hpp"
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "io/measured_response.hpp"
 
@@ -64,24 +66,18 @@ void add_name(std::vector<std::string>& names, const std::string& name) {
 }
 
 /// Which file gives the entry, or else its transpose.
-std::size_t file_of(const std::vector<MeasuredFrf>& files, const std::string& response, const std::string& force) {
-  const auto gives = [&](const std::string& row, const std::string& column) {
-    return std::ranges::find_if(files, [&](const MeasuredFrf& f) { return f.response == row && f.force == column; });
+std::size_t file_of(const MeasuredLayout& layout, const std::string& response, const std::string& force) {
+  const auto place = [&](const std::string& name) {
+    return std::ranges::find(layout.dofs, name) - layout.dofs.begin();
   };
-  auto found = gives(response, force);
-  if (found == files.end()) found = gives(force, response);
-  if (found != files.end()) return static_cast<std::size_t>(found - files.begin());
+  if (const int file = layout.file(place(response), place(force)); file >= 0) return static_cast<std::size_t>(file);
   throw core::InputError("no file gives the response of " + response + " to a force at " + force +
                          " while the robot holds the part: add one to contacts.measured");
 }
 
 dynamics::DofTable dofs_of(const std::vector<std::string>& names) {
   dynamics::DofTable dofs;
-  for (const std::string& name : names) {
-    const auto direction = direction_of(name);
-    if (!direction) throw core::InputError("\"" + name + "\" names no direction; write it as POINT.x");
-    dofs.push_back({point_of(name), *direction, dynamics::DofKind::translation});
-  }
+  std::ranges::transform(names, std::back_inserter(dofs), dof_of);
   return dofs;
 }
 
@@ -139,6 +135,7 @@ dynamics::ResponseModel assembly_response(const std::vector<MeasuredFrf>& files,
   }
   if (one_point) forces = responses;
   dynamics::ResponseModel model{common_axis(frfs, axis), dofs_of(responses), dofs_of(forces), {}};
+  const MeasuredLayout layout = measured_layout(files);
   const auto rows = static_cast<Eigen::Index>(responses.size()), columns = static_cast<Eigen::Index>(forces.size());
   model.H.assign(static_cast<std::size_t>(model.axis.size()), Eigen::MatrixXcd(rows, columns));
   std::vector<Eigen::VectorXcd> lines;
@@ -147,7 +144,7 @@ dynamics::ResponseModel assembly_response(const std::vector<MeasuredFrf>& files,
   for (Eigen::Index i = 0; i < rows; ++i) {
     for (Eigen::Index j = 0; j < columns; ++j) {
       const Eigen::VectorXcd& H =
-          lines[file_of(files, responses[static_cast<std::size_t>(i)], forces[static_cast<std::size_t>(j)])];
+          lines[file_of(layout, responses[static_cast<std::size_t>(i)], forces[static_cast<std::size_t>(j)])];
       for (Eigen::Index line = 0; line < H.size(); ++line) model.H[static_cast<std::size_t>(line)](i, j) = H(line);
     }
   }

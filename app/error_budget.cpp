@@ -2,8 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <utility>
-
 #include "app/measured_noise.hpp"
 #include "app/part_stage.hpp"
 #include "app/support_stage.hpp"
@@ -30,17 +28,23 @@ coupling::Deviations noise_of(const std::string& whose, const std::vector<Measur
   return {};
 }
 
-/// Noise of both components into the coupled response; empty if neither is noisy.
+/// Noise of both components into the coupled response, whose kernel is not regularised; empty if neither is noisy.
 coupling::Deviations coupled_noise(const Case& source, const Results& results, const ErrorBudget& budget) {
   if (budget.part.noise.empty() && budget.robot.noise.empty()) return {};
-  try {
-    return coupling::error_budget({results.part->response, results.robot->response}, contacts_of(source),
-                                  {{budget.part.noise}, {budget.robot.noise}}, coupling_options(source))
-        .noise;
-  } catch (const core::InputError& error) {
-    spdlog::warn("no noise of the coupled response: {}", error.what());
-    return {};
-  }
+  return coupling::error_budget({results.part->response, results.robot->response}, contacts_of(source),
+                                {{budget.part.noise}, {budget.robot.noise}})
+      .noise;
+}
+
+/// The part with what its reduction left out (reduction/truncation.hpp), damped as the part is. None of a measured
+/// part, or where nothing was left out.
+std::optional<Component> richer_part(const Case& source, const Results& results, const dynamics::FrequencyAxis& axis) {
+  if (!results.finite_elements || !results.finite_elements->damped) return std::nullopt;
+  const reduction::CraigBampton& reduced = *results.finite_elements->reduced;
+  const dynamics::SpatialModel richer = reduction::with_left_out(reduced.model, *results.finite_elements->truncation);
+  if (richer.size() == reduced.model.size()) return std::nullopt;
+  auto identified = results.finite_elements->identified;
+  return component(damped(source, richer, identified), axis);
 }
 
 void add_coupled_truncation(const Case& source, const Results& results, ErrorBudget& budget) {
@@ -55,15 +59,6 @@ void add_coupled_truncation(const Case& source, const Results& results, ErrorBud
 
 }  // namespace
 
-std::optional<Component> richer_part(const Case& source, const Results& results, const dynamics::FrequencyAxis& axis) {
-  if (!results.finite_elements || !results.finite_elements->damped) return std::nullopt;
-  const reduction::CraigBampton& reduced = *results.finite_elements->reduced;
-  const dynamics::SpatialModel richer = reduction::with_left_out(reduced.model, *results.finite_elements->truncation);
-  if (richer.size() == reduced.model.size()) return std::nullopt;
-  auto identified = results.finite_elements->identified;
-  return component(damped(source, richer, identified), axis);
-}
-
 ErrorBudget error_budget(const Case& source, const Results& results) {
   ErrorBudget budget;
   if (results.part) {
@@ -73,10 +68,14 @@ ErrorBudget error_budget(const Case& source, const Results& results) {
   }
   if (results.robot)
     budget.robot.noise = noise_of("robot", source.robot->measured, source.robot->sensors, results.robot->response);
-  if (!results.coupled) return budget;
+  const bool exact = !budget.richer_part && budget.part.noise.empty() && budget.robot.noise.empty();
+  if (!results.coupled || exact) return budget;
+  if (coupling_options(source).regularisation != coupling::Regularisation::none) {
+    spdlog::warn("no error budget of the coupled response: its kernel is regularised");
+    return budget;
+  }
   budget.coupled.noise = coupled_noise(source, results, budget);
-  const bool regularised = coupling_options(source).regularisation != coupling::Regularisation::none;
-  if (budget.richer_part && !regularised) add_coupled_truncation(source, results, budget);
+  if (budget.richer_part) add_coupled_truncation(source, results, budget);
   return budget;
 }
 

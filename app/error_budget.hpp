@@ -6,14 +6,10 @@
 
 namespace thinwall::app {
 
-/// The part with what its reduction left out (reduction/truncation.hpp), damped as the part is. None of a measured
-/// part, or where nothing was left out.
-[[nodiscard]] std::optional<Component> richer_part(const Case& source, const Results& results,
-                                                   const dynamics::FrequencyAxis& axis);
-
 /// Of the responses in `results`: noise as the case states it, carried into the coupled response to first order
 /// (coupling/error_budget.hpp); truncation as the difference of the models with and without what was left out, coupled
-/// anew: no expansion. Warns where the noise cannot be carried over (a regularised kernel).
+/// anew: no expansion. With a regularised kernel the coupled response has neither, which is logged as a warning, as is
+/// noise that a sensor's mass hides. Errors as coupling::error_budget() and coupling::couple().
 [[nodiscard]] ErrorBudget error_budget(const Case& source, const Results& results);
 
 }  // namespace thinwall::app

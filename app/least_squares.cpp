@@ -1,8 +1,9 @@
 #include "app/least_squares.hpp"
 
-#include <Eigen/QR>
 #include <utility>
 #include <vector>
+
+#include "core/dense_factorisations.hpp"
 
 namespace thinwall::app {
 

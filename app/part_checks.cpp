@@ -1,6 +1,5 @@
 #include "app/part_checks.hpp"
 
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include "app/case_checks.hpp"
 #include "app/discretisation.hpp"
 #include "app/imported_part.hpp"
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "dynamics/dof.hpp"

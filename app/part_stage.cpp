@@ -2,7 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 
@@ -10,6 +9,7 @@
 #include "app/matrix_part.hpp"
 #include "app/measured.hpp"
 #include "app/path_stage.hpp"
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/memory.hpp"
 #include "fem/free_motions.hpp"

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "app/measured.hpp"
 #include "app/sensor_mass.hpp"
 #include "app/support_stage.hpp"
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 #include "io/modal_table_csv.hpp"

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +10,7 @@
 #include "app/path.hpp"
 #include "app/robot_stage.hpp"
 #include "app/support_stage.hpp"
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 #include "io/csv_table.hpp"

@@ -1,5 +1,8 @@
 #include "app/structure_errors.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <numbers>
 #include <unsupported/Eigen/KroneckerProduct>
 
@@ -48,23 +51,21 @@ void add_tool_noise(const Case& source, const milling::ToolFrame& frame, const d
   for (std::size_t line = 0; line < tool.size(); ++line) noise[line] += turn * tool[line] * turn.transpose();
 }
 
-/// Names and directions (columns) of the coupled response's DOFs at the point that is cut.
-struct CutDofs {
+/// Of the coupled response at the point that is cut, tool axes.
+milling::SampleCovariance coupled_noise(const Case& source, const milling::ToolFrame& frame, const Results& results) {
+  const std::string& at = source.cutting->at;
+  const dynamics::DofTable dofs = dynamics::between(results.coupled->receptance.response, at, at).responses;
   std::vector<std::string> names;
-  std::vector<Index> rows;
-  Eigen::Matrix3Xd directions;
-};
-
-CutDofs cut_dofs(const Case& source, const dynamics::DofTable& table) {
-  CutDofs dofs;
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    if (table[i].point != source.cutting->at || table[i].kind != dynamics::DofKind::translation) continue;
-    dofs.names.push_back(dynamics::name(table[i]));
-    dofs.rows.push_back(static_cast<Index>(i));
-    dofs.directions.conservativeResize(3, dofs.directions.cols() + 1);
-    dofs.directions.rightCols(1) = table[i].direction;
-  }
-  return dofs;
+  std::ranges::transform(dofs, std::back_inserter(names), dynamics::name);
+  const auto covariance =
+      coupling::entry_covariance({results.part->response, results.robot->response}, contacts_of(source),
+                                 {{results.errors.part.noise}, {results.errors.robot.noise}}, names, names);
+  const Eigen::Matrix3Xd E = frame.rotation().transpose() * dynamics::displacement_matrix(dofs, at);
+  const Eigen::MatrixXd turn = Eigen::kroneckerProduct(E, E);
+  milling::SampleCovariance turned;
+  turned.reserve(covariance.size());
+  for (const Eigen::MatrixXcd& of : covariance) turned.emplace_back(turn * of * turn.transpose());
+  return turned;
 }
 
 /// Re Σ g dH over the samples' lines, dH of the samples and of the poles.
@@ -84,14 +85,18 @@ double depth_change(const std::vector<Matrix3cd>& gradient, const milling::Sampl
   return change;
 }
 
+std::optional<double> if_finite(double value) {
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
 DepthError sampled_error(const milling::SampledStructure& structure, const StructureErrors& errors,
                          const milling::MillingProcess& process, double rpm, const milling::LobePoint& point,
                          const milling::StabilityOptions& options) {
   const auto gradient = milling::depth_gradient(structure, process, rpm, point, options);
   DepthError result;
   if (errors.richer || !errors.truncation.empty())
-    result.truncation_m = depth_change(gradient, structure, errors, process.frame);
-  if (!errors.noise.empty()) result.noise_m = milling::depth_deviation_m(gradient, errors.noise);
+    result.truncation_m = if_finite(depth_change(gradient, structure, errors, process.frame));
+  if (!errors.noise.empty()) result.noise_m = if_finite(milling::depth_deviation_m(gradient, errors.noise));
   return result;
 }
 
@@ -109,17 +114,11 @@ StructureErrors structure_errors(const Case& source, const milling::ToolFrame& f
 StructureErrors sampled_structure_errors(const Case& source, const milling::ToolFrame& frame, const Results& results) {
   StructureErrors errors;
   const dynamics::ResponseModel& coupled = results.coupled->receptance.response;
-  const CutDofs at_cut = cut_dofs(source, coupled.responses);
-  const Eigen::Matrix3Xd E = frame.rotation().transpose() * at_cut.directions;
+  const Eigen::Matrix3Xd E =
+      frame.rotation().transpose() * dynamics::displacement_matrix(coupled.responses, source.cutting->at);
   for (const Eigen::MatrixXcd& off : results.errors.coupled.truncation)
-    errors.truncation.emplace_back(E * off(at_cut.rows, at_cut.rows) * E.transpose());
-  if (!results.errors.coupled.noise.empty()) {
-    const Eigen::MatrixXd turn = Eigen::kroneckerProduct(E, E);
-    const auto covariance = coupling::entry_covariance(
-        {results.part->response, results.robot->response}, contacts_of(source),
-        {{results.errors.part.noise}, {results.errors.robot.noise}}, at_cut.names, at_cut.names);
-    for (const Eigen::MatrixXcd& of : covariance) errors.noise.emplace_back(turn * of * turn.transpose());
-  }
+    errors.truncation.emplace_back(E * off * E.transpose());
+  if (!results.errors.coupled.noise.empty()) errors.noise = coupled_noise(source, frame, results);
   const bool coupled_noise_unknown = results.errors.coupled.noise.empty() &&
                                      !(results.errors.part.noise.empty() && results.errors.robot.noise.empty());
   if (!coupled_noise_unknown) add_tool_noise(source, frame, coupled.axis, errors.noise);
@@ -135,7 +134,7 @@ DepthError depth_error(const CutStructure& structure, const StructureErrors& err
     if (!errors.richer) return {};
     const double change = milling::relative_depth_change(std::get<milling::RelativeStructure>(structure),
                                                          *errors.richer, process, spindle_speed_rpm, point, options);
-    return {-change * point.depth_m, std::nullopt};
+    return {if_finite(-change * point.depth_m), std::nullopt};
   } catch (const core::NumericalError&) {
     return {};  // the crossing was not found again
   }

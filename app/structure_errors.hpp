@@ -31,7 +31,8 @@ struct StructureErrors {
                                                        const Results& results);
 
 /// Of one crossing of a chart, first order in both (milling/sensitivity.hpp, milling/sampled_uncertainty.hpp). Where
-/// the crossing is not found again nothing is known. Errors as theirs otherwise.
+/// the crossing is not found again, or stands where its depth has no derivative, nothing is known. Errors as theirs
+/// otherwise.
 [[nodiscard]] DepthError depth_error(const CutStructure& structure, const StructureErrors& errors,
                                      const milling::MillingProcess& process, double spindle_speed_rpm,
                                      const milling::LobePoint& point, const milling::StabilityOptions& options);

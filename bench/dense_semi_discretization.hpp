@@ -1,11 +1,12 @@
 #pragma once
 // Semi-discretization of order 0 written straight from the literature, as the other side of a ratio.
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <unsupported/Eigen/MatrixFunctions>
+
+#include "core/dense_eigenvalues.hpp"
 
 namespace thinwall::bench {
 

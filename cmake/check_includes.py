@@ -28,6 +28,8 @@ for everything in ("python", "bench", "tests", "fuzz"):
 
 # Libraries with one owner: a pattern of their headers, and where it may appear.
 OWNERS = [
+    (re.compile(r"^Eigen/(Eigenvalues|Cholesky|Dense|QR|SVD)$"),
+     ("core/dense_eigenvalues.hpp", "core/dense_factorisations.hpp")),
     (re.compile(r"^vtk.*\.h$"), ("io/vtu.cpp", "io/vtp.cpp", "io/polyline_vtu.cpp", "tests/io/")),
     (re.compile(r"^matio\.h$"), ("io/mat_variables.cpp",)),
     (re.compile(r"^openssl/"), ("io/manifest.cpp",)),

@@ -1,9 +1,9 @@
 #include "coupling/contact.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <sstream>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 
 namespace thinwall::coupling {

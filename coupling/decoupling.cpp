@@ -1,10 +1,10 @@
 #include "coupling/decoupling.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 
 namespace thinwall::coupling {

@@ -1,6 +1,5 @@
 #include "coupling/joint_identification.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 
 namespace thinwall::coupling {

@@ -1,8 +1,7 @@
 #pragma once
 // The kernel of the receptance route, solved line by line, and what solving it cost.
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
+#include "core/dense_factorisations.hpp"
 
 namespace thinwall::coupling {
 

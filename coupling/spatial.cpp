@@ -1,8 +1,8 @@
 #include "coupling/spatial.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 
 namespace thinwall::coupling {

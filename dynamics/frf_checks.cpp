@@ -1,12 +1,12 @@
 #include "dynamics/frf_checks.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
+#include "core/dense_eigenvalues.hpp"
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 
 namespace thinwall::dynamics {

@@ -1,7 +1,8 @@
 #include "dynamics/rigid_body.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <sstream>
+
+#include "core/dense_eigenvalues.hpp"
 
 namespace thinwall::dynamics {
 

@@ -1,4 +1,3 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 

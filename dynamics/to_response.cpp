@@ -1,8 +1,8 @@
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "dynamics/conversion.hpp"

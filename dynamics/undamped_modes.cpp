@@ -1,9 +1,8 @@
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 

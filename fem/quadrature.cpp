@@ -1,8 +1,9 @@
 #include "fem/quadrature.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cassert>
 #include <cmath>
+
+#include "core/dense_eigenvalues.hpp"
 
 namespace thinwall::fem {
 

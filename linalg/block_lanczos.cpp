@@ -1,6 +1,5 @@
 #include "linalg/block_lanczos.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "linalg/inverse_iteration.hpp"
@@ -34,7 +34,7 @@ Orthonormal orthonormal(const MatrixXd& G, double shortest) {
   const VectorXd length = G.diagonal().cwiseMax(0.0).cwiseSqrt();
   const VectorXd scale = length.unaryExpr([&](double l) { return l > shortest ? 1.0 / l : 0.0; });
   const MatrixXd scaled = scale.asDiagonal() * G * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(0.5 * (scaled + scaled.transpose()));
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(0.5 * (scaled + scaled.transpose())));
   const VectorXd& squares = eigen.eigenvalues();  // ascending
   const Index kept = (squares.array() > dependent).count();
   const auto U = eigen.eigenvectors().rightCols(kept);

@@ -2,11 +2,10 @@
 
 #include <Spectra/SymGEigsShiftSolver.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 
+#include "core/dense_eigenvalues.hpp"
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "linalg/block_lanczos.hpp"

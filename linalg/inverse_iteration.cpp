@@ -1,8 +1,7 @@
 #include "linalg/inverse_iteration.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
+#include "core/dense_eigenvalues.hpp"
+#include "core/dense_factorisations.hpp"
 #include "linalg/tall.hpp"
 
 namespace thinwall::linalg {

@@ -1,11 +1,11 @@
 #include "milling/contact_grid.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
+#include "core/dense_factorisations.hpp"
 #include "milling/cut_cycle.hpp"
 #include "milling/edge.hpp"
 #include "milling/product_rule.hpp"

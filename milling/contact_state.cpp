@@ -1,10 +1,10 @@
 #include "milling/contact_state.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <complex>
 #include <vector>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 
 namespace thinwall::milling {

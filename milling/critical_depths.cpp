@@ -1,6 +1,5 @@
 #include "milling/critical_depths.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -8,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "milling/complex_eigenvalues.hpp"
 
@@ -29,7 +29,7 @@ void require_found(bool found) {
 /// Eigenvalues of −Z.
 Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXcd& Z, double theta) {
   if (theta == 0.0 || theta == pi) {
-    const Eigen::EigenSolver<Eigen::MatrixXd> eigen(Z.real(), false);
+    const Eigen::EigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(Z.real()), false);
     require_found(eigen.info() == Eigen::Success);
     return -eigen.eigenvalues();
   }

@@ -1,11 +1,11 @@
 #include "milling/crossing.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 
 namespace thinwall::milling {

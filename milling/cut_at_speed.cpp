@@ -1,12 +1,12 @@
 #include "milling/cut_at_speed.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "core/dense_eigenvalues.hpp"
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "milling/chatter_frequency.hpp"
 #include "milling/edge.hpp"

@@ -1,11 +1,12 @@
 #include "milling/dominant_eigenvalue.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include "core/dense_eigenvalues.hpp"
+#include "core/dense_factorisations.hpp"
 
 namespace thinwall::milling {
 

@@ -1,12 +1,12 @@
 #include "milling/forced_vibration.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 #include <utility>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "milling/cut_at_speed.hpp"
 #include "milling/cutting_load.hpp"

@@ -1,6 +1,5 @@
 #include "milling/regenerative_loop.hpp"
 
-#include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -8,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/dense_factorisations.hpp"
 #include "milling/product_rule.hpp"
 
 namespace thinwall::milling {

@@ -1,11 +1,11 @@
 #include "milling/relative_structure.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 #include <vector>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 
 namespace thinwall::milling {

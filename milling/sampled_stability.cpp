@@ -1,6 +1,5 @@
 #include "milling/sampled_stability.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -11,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "milling/chatter_frequency.hpp"
@@ -236,7 +236,7 @@ class SampledGrids : public SearchGrids {
 void describe_depth_limit(const SampledCut& cut, SampledGrids& grids, double depth_limit_m, LobeRow& row) {
   double nearest = INFINITY;
   for (const double theta : grids.gain(0).stops) {
-    const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> eigen(-depth_limit_m * grids.gain(0).Z(theta));
+    const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> eigen(Eigen::MatrixXcd(-depth_limit_m * grids.gain(0).Z(theta)));
     Index at = 0;
     const double distance = (eigen.eigenvalues().array() - 1.0).abs().minCoeff(&at);
     if (distance >= nearest) continue;

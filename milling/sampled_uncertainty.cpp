@@ -1,10 +1,10 @@
 #include "milling/sampled_uncertainty.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <random>
 #include <string>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 

@@ -1,6 +1,5 @@
 #include "milling/uniform_step_map.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -8,6 +7,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 #include <utility>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "milling/product_rule.hpp"
 

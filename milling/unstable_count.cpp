@@ -1,12 +1,12 @@
 #include "milling/unstable_count.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <numbers>
 #include <utility>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 
 namespace thinwall::milling {

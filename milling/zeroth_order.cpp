@@ -1,11 +1,11 @@
 #include "milling/zeroth_order.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "milling/bracketed_root.hpp"
 #include "milling/multi_frequency.hpp"

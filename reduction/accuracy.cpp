@@ -1,10 +1,10 @@
 #include "reduction/accuracy.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/dense_factorisations.hpp"
 #include "core/interrupt.hpp"
 #include "dynamics/conversion.hpp"
 #include "linalg/sparse_indefinite.hpp"

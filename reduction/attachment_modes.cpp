@@ -1,8 +1,8 @@
 #include "reduction/attachment_modes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <string>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 #include "linalg/tall.hpp"

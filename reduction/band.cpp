@@ -1,11 +1,11 @@
 #include "reduction/band.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/faults.hpp"
 #include "core/interrupt.hpp"

@@ -1,9 +1,9 @@
 #include "reduction/characteristic_constraint_modes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <numbers>
 #include <string>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 
 namespace thinwall::reduction {

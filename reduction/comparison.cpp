@@ -1,13 +1,13 @@
 #include "reduction/comparison.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <numbers>
+
+#include "core/dense_eigenvalues.hpp"
+#include "core/dense_factorisations.hpp"
 
 namespace thinwall::reduction {
 
@@ -32,7 +32,7 @@ std::vector<double> inverse_eigenvalues(const dynamics::SpatialModel& model, dou
     }
     return mu;
   }
-  const Eigen::EigenSolver<MatrixXd> eigen(B.partialPivLu().solve(M), false);
+  const Eigen::EigenSolver<MatrixXd> eigen(MatrixXd(B.partialPivLu().solve(M)), false);
   for (const std::complex<double> value : eigen.eigenvalues()) {
     if (std::abs(value) > zero && std::abs(value.imag()) <= 1e-6 * std::abs(value)) mu.push_back(value.real());
   }

@@ -1,10 +1,10 @@
 #include "reduction/craig_bampton.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <numbers>
 #include <string>
 
+#include "core/dense_eigenvalues.hpp"
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "linalg/tall.hpp"
 

@@ -1,9 +1,9 @@
 #include "reduction/effective_mass.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <numbers>
+
+#include "core/dense_eigenvalues.hpp"
+#include "core/dense_factorisations.hpp"
 
 namespace thinwall::reduction {
 
@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 bool positive(const MatrixXd& A) {
   if (!(A.diagonal().minCoeff() > 0.0)) return false;
   const VectorXd scale = A.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<MatrixXd> factor(scale.asDiagonal() * A * scale.asDiagonal());
+  const Eigen::LLT<MatrixXd> factor(MatrixXd(scale.asDiagonal() * A * scale.asDiagonal()));
   return factor.info() == Eigen::Success && factor.matrixLLT().diagonal().minCoeff() > 1e-7;
 }
 

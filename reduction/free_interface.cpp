@@ -1,10 +1,10 @@
 #include "reduction/free_interface.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numbers>
 #include <string>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "linalg/tall.hpp"
 
@@ -27,7 +27,7 @@ struct Scaled {
 };
 Scaled scaled_spectrum(const MatrixXd& A, const VectorXd& own) {
   const VectorXd scale = own.cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scale.asDiagonal() * A * scale.asDiagonal());
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(scale.asDiagonal() * A * scale.asDiagonal()));
   return {scale, eigen.eigenvalues(), eigen.eigenvectors()};
 }
 

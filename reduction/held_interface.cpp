@@ -1,8 +1,8 @@
 #include "reduction/held_interface.hpp"
 
-#include <Eigen/QR>
 #include <string>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "reduction/craig_bampton.hpp"
 

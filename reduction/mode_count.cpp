@@ -1,10 +1,10 @@
 #include "reduction/mode_count.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/dense_factorisations.hpp"
 #include "core/faults.hpp"
 #include "core/interrupt.hpp"
 #include "dynamics/conversion.hpp"

@@ -1,11 +1,11 @@
 #include "reduction/model_report.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "reduction/band.hpp"
 #include "reduction/comparison.hpp"
@@ -32,7 +32,8 @@ MatrixState state_of(const std::string& name, const MatrixXd& A, const VectorXd&
   const MatrixXd S = scale.asDiagonal() * A * scale.asDiagonal();
   state.asymmetry = (S - S.transpose()).cwiseAbs().maxCoeff() / S.cwiseAbs().maxCoeff();
   const VectorXd values =
-      Eigen::SelfAdjointEigenSolver<MatrixXd>(0.5 * (S + S.transpose()), Eigen::EigenvaluesOnly).eigenvalues();
+      Eigen::SelfAdjointEigenSolver<MatrixXd>(MatrixXd(0.5 * (S + S.transpose())), Eigen::EigenvaluesOnly)
+          .eigenvalues();
   state.least = values.minCoeff();
   state.negative = static_cast<int>((values.array() < -bound).count());
   state.zero = static_cast<int>((values.array().abs() <= bound).count());

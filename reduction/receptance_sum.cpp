@@ -1,10 +1,10 @@
 #include "reduction/receptance_sum.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "linalg/tall.hpp"
 
@@ -33,7 +33,7 @@ struct Basis {
 MatrixXd normalising(const MatrixXd& G, double noise) {
   const VectorXd scale =
       G.diagonal().unaryExpr([noise](double square) { return square > noise ? 1.0 / std::sqrt(square) : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scale.asDiagonal() * G * scale.asDiagonal());
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(scale.asDiagonal() * G * scale.asDiagonal()));
   const Eigen::Index kept = (eigen.eigenvalues().array() > 1e-16).count();
   const VectorXd length = eigen.eigenvalues().tail(kept).cwiseSqrt();
   return scale.asDiagonal() * eigen.eigenvectors().rightCols(kept) * length.cwiseInverse().asDiagonal();
@@ -80,7 +80,7 @@ linalg::Eigenpairs rest_of_the_model(const linalg::SparseMatrix& K, const linalg
   }
   const auto V = basis.V.middleCols(Phi.cols(), basis.columns - Phi.cols());
   const MatrixXd Kr = linalg::tall_gram(V, linalg::symmetric_product(K, V));
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(0.5 * (Kr + Kr.transpose()));
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(MatrixXd(0.5 * (Kr + Kr.transpose())));
   linalg::Eigenpairs rest;
   rest.lambda = ritz.eigenvalues();
   rest.Phi = linalg::tall_product(V, ritz.eigenvectors());

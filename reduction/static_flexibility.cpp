@@ -1,11 +1,10 @@
 #include "reduction/static_flexibility.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <string>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "linalg/tall.hpp"
 
@@ -21,7 +20,7 @@ MatrixXd mass_orthonormal(const linalg::SparseMatrix& M, MatrixXd R) {
   for (int pass = 0; pass < 2; ++pass) {
     const MatrixXd gram = linalg::tall_gram(R, linalg::symmetric_product(M, R));
     const Eigen::VectorXd scale = gram.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::LLT<MatrixXd> factor(scale.asDiagonal() * gram * scale.asDiagonal());
+    const Eigen::LLT<MatrixXd> factor(MatrixXd(scale.asDiagonal() * gram * scale.asDiagonal()));
     if (factor.info() != Eigen::Success || !(factor.matrixLLT().diagonal().minCoeff() > 1e-7))
       throw core::InputError("the rigid motions of a free part depend on each other: give one column for each");
     const MatrixXd to_unit =

@@ -1,8 +1,8 @@
 #include "reduction/truncation.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <string>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "linalg/tall.hpp"
 
@@ -21,7 +21,7 @@ MatrixXd symmetric_part(const MatrixXd& A) {
 /// The directions of the interface in which something was left out: VᵀAV = I. `own` measures round-off.
 MatrixXd whitening(const MatrixXd& A, const VectorXd& own) {
   const VectorXd scale = own.cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scale.asDiagonal() * A * scale.asDiagonal());
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(scale.asDiagonal() * A * scale.asDiagonal()));
   const Index kept = (eigen.eigenvalues().array() > 1e-12).count();
   const VectorXd root = eigen.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse();
   return scale.asDiagonal() * eigen.eigenvectors().rightCols(kept) * root.asDiagonal();

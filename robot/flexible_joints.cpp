@@ -1,10 +1,10 @@
 #include "robot/flexible_joints.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <sstream>
 #include <utility>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "robot/arm_dynamics.hpp"
 

@@ -1,12 +1,12 @@
 #include "robot/inverse_kinematics.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "robot/arm_kinematics.hpp"
 

@@ -79,6 +79,19 @@ TEST(ContactForce, IsWhatTheSpringBetweenTwoMassesBears) {
   }
 }
 
+// Of a robot that presses askew the normal's share presses the contact, as summary.json's contacts[] has it.
+TEST(ContactForce, APreloadAskewPressesByItsShareAlongTheNormal) {
+  Case source = touching(100.0);
+  source.robot->preload = {-60.0, 0.0, 80.0};
+  const Eigen::Matrix3d R = milling::ToolFrame{source.cutting->feed_direction, source.cutting->tool_axis}.rotation();
+  const ContactForce found = contact_force(source, known(mass_on_spring("P", m1, c1, k1)),
+                                           known(mass_on_spring("R", m2, c2, k2)), cosine(0.0, 50.0, 130.0, R));
+  EXPECT_NEAR(found.preload_n, 60.0, 1e-12);
+  const double swing = 50.0 * std::abs(transmitted(130.0));
+  EXPECT_NEAR(found.least_n, 60.0 - swing, 2e-4 * 60.0);
+  EXPECT_NEAR(found.largest_n, 60.0 + swing, 2e-4 * 60.0);
+}
+
 TEST(ContactForce, IsLostWhereTheCutPullsHarderThanTheRobotPresses) {
   const Eigen::Matrix3d R = milling::ToolFrame{Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()}.rotation();
   const auto at = [&](double preload) {

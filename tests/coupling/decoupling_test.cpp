@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <iostream>
 #include <limits>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "coupling/spatial.hpp"
 #include "masses.hpp"

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 

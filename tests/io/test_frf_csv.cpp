@@ -176,6 +176,16 @@ TEST(ResampledFrf, NeverExtrapolates) {
   EXPECT_THROW((void)resample(frf, dynamics::linear_axis(99.9, 150.0, 11)), core::DataError);
 }
 
+TEST(ResampledCoherence, IsStraightBetweenItsLines) {
+  MeasuredFrf frf = measured(10.0, 10.0, 2);
+  EXPECT_EQ(coherence_on(frf, {Eigen::VectorXd::Constant(1, 15.0)}).size(), 0) << "it has none";
+  frf.coherence = Eigen::Vector2d(0.8, 1.0);
+  EXPECT_EQ(coherence_on(frf, frf.axis), frf.coherence);
+  const Eigen::VectorXd between = coherence_on(frf, {Eigen::Vector3d(10.0, 12.5, 15.0)});
+  EXPECT_LT((between - Eigen::Vector3d(0.8, 0.85, 0.9)).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_THROW((void)coherence_on(frf, {Eigen::Vector2d(15.0, 21.0)}), core::DataError);
+}
+
 TEST_F(MeasuredFrfFile, MayHaveItsCoherenceInAFourthColumnThatSaysSo) {
   const std::string lines = "10,1e-6,-2e-7,0.5\n20,2e-6,-3e-7,1\n";
   const MeasuredFrf frf = read_frf(write("frf.csv", "Hz,re,im,Coherence\n" + lines), metres_per_newton);

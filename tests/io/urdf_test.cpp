@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <numbers>
 
 #include "core/atomic_file.hpp"
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "tests/io/scratch_folder.hpp"
 

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <random>
 #include <string>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "linalg/eigenpairs.hpp"
 #include "linalg/sparse_indefinite.hpp"

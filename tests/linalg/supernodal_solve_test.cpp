@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 #include <optional>
 #include <random>
 
+#include "core/dense_factorisations.hpp"
 #include "linalg/sparse_cholesky.hpp"
 #include "tests/linalg/grid_problem.hpp"
 #include "tests/linalg/thread_count.hpp"

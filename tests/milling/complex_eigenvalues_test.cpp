@@ -2,12 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <numbers>
 #include <utility>
+
+#include "core/dense_eigenvalues.hpp"
 
 namespace thinwall::milling {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "core/dense_eigenvalues.hpp"
+#include "core/dense_factorisations.hpp"
 #include "milling/stability.hpp"
 #include "tests/milling/single_mode.hpp"
 

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "milling/stability.hpp"
 #include "milling/uniform_step_stability.hpp"

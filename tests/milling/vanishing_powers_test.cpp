@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+
+#include "core/dense_eigenvalues.hpp"
 
 namespace thinwall::milling {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 #include "tests/reduction/solid_part.hpp"

@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "core/dense_factorisations.hpp"
 #include "dynamics/conversion.hpp"
 #include "linalg/sparse_cholesky.hpp"
 #include "reduction/craig_bampton.hpp"

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cstdio>
 #include <numbers>
 #include <tuple>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 #include "tests/reduction/solid_part.hpp"

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <cstdio>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "reduction/reduce.hpp"
 #include "tests/reduction/reducible_part.hpp"

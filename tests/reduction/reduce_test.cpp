@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cstdio>
 #include <numbers>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "reduction/band.hpp"
 #include "reduction/comparison.hpp"

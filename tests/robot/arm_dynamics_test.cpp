@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <functional>
 #include <numbers>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "tests/robot/arms.hpp"
 #include "tests/robot/differences.hpp"

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <kdl/chaindynparam.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
+#include "core/dense_eigenvalues.hpp"
 #include "robot/arm_dynamics.hpp"
 #include "robot/flexible_joints.hpp"
 #include "tests/robot/arms.hpp"

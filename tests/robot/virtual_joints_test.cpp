@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "core/dense_eigenvalues.hpp"
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 #include "robot/arm_kinematics.hpp"

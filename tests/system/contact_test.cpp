@@ -8,25 +8,17 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "app/case_reader.hpp"
-#include "app/pipeline.hpp"
 #include "app/synthetic_measurement.hpp"
 #include "app/terminal_report.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "io/response_csv.hpp"
+#include "tests/system/run_in_folder.hpp"
 
 namespace thinwall::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path scratch(const std::string& name) {
-  const fs::path folder = fs::path(::testing::TempDir()) / name;
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
-}
 
 /// A wall on its foot, a robot of a mode along x and one along y.
 const std::string wall = R"([part]
@@ -73,10 +65,6 @@ std::string with(std::string text, const std::string& from, const std::string& t
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return text.replace(at, from.size(), to);
-}
-
-nlohmann::json run(const std::string& text, const fs::path& out) {
-  return run_case(parse_case(text, out), {out, true, -1, false}).summary;
 }
 
 /// An entry of a run's FRFs as a file, and the table of the case that names it.

@@ -10,33 +10,16 @@
 #include <filesystem>
 #include <sstream>
 
-#include "app/case_reader.hpp"
-#include "app/pipeline.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "io/csv_table.hpp"
 #include "io/response_csv.hpp"
+#include "tests/system/run_in_folder.hpp"
 
 namespace thinwall::app {
 namespace {
 
 namespace fs = std::filesystem;
 using std::complex;
-
-fs::path scratch(const std::string& name) {
-  const fs::path folder = fs::path(::testing::TempDir()) / name;
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
-}
-
-nlohmann::json run(const std::string& text, const fs::path& out) {
-  return run_case(parse_case(text, out), {out, true, -1, false}).summary;
-}
-
-std::vector<double> column(const fs::path& file, const std::string& name) {
-  return io::numbers(io::read_csv(file), name, file);
-}
 
 /// A wall that is cut at P and held behind it at B. Its damping does not depend on how many modes are kept.
 std::string wall(int modes) {
@@ -133,7 +116,8 @@ TEST(ErrorBudget, OfAReductionIsWhatMoreModesShow) {
   const Eigen::VectorXcd off = dynamics::entry(G, "P.x", "P.x") - dynamics::entry(truth, "P.x", "P.x");
   double largest = 0.0;
   for (Eigen::Index line = 0; line < off.size(); ++line) {
-    EXPECT_NEAR(told[static_cast<std::size_t>(line)], std::abs(off(line)), 0.08 * std::abs(off(line)) + 1e-13)
+    // Told to a share (ω/ω_25)⁴ of itself (reduction/truncation.hpp); and the reference of 150 modes leaves out, too.
+    EXPECT_NEAR(told[static_cast<std::size_t>(line)], std::abs(off(line)), 0.02 * std::abs(off(line)) + 1e-13)
         << G.axis.hz(line) << " Hz";
     largest = std::max(largest, std::abs(off(line)));
   }
@@ -179,6 +163,17 @@ TEST(ErrorBudget, NoiseOfARobotReachesThePointThroughTheContact) {
     const double expected = std::abs(at("P.x", "B.x") * at("B.x", "P.x") / (S * S)) * 0.02 * std::abs(H_R);
     ASSERT_NEAR(told[static_cast<std::size_t>(line)], expected, 1e-9 * expected) << part.axis.hz(line) << " Hz";
   }
+}
+
+TEST(ErrorBudget, OfARegularisedKernelIsThatOfTheComponentsAlone) {
+  const fs::path out = scratch("budget_regularised");
+  write_robot(out / "robot.csv", 1.0);
+  const auto budget = run(wall(20) + measured_robot("noise = 0.02\n") + contact +
+                              "[coupling]\nregularisation = \"tikhonov\"\nthreshold = 1e-3\n",
+                          out)["error_budget"];
+  EXPECT_NEAR(budget["robot"]["noise"]["largest_relative"].get<double>(), 0.02, 1e-9);
+  EXPECT_GT(budget["part"]["truncation"]["largest_relative"].get<double>(), 0.0);
+  EXPECT_FALSE(budget.contains("coupled"));
 }
 
 TEST(ErrorBudget, CoherenceAndAveragesTellTheNoise) {
@@ -242,6 +237,7 @@ TEST(ErrorBudget, NoiseOfAToolAndTruncationOfThePartBesideIt) {
   static_cast<void>(run(wall(150) + chart(4, "1e-4") + measured_tool(""), more));
   const auto& error = summary["lobes"][0]["at_case_speed"]["error_budget"];
   const double first_order = error["noise_deviation_m"].get<double>();
+  // 40 draws know a deviation to 1/√80 = 11 %; three times that, and what is not of first order.
   EXPECT_NEAR(error["sampled"]["deviation_m"].get<double>(), first_order, 0.4 * first_order);
   EXPECT_GT(first_order, 0.0);
   const auto depth = column(out / "lobes" / "part.csv", "limiting_depth_m");

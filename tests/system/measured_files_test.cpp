@@ -13,6 +13,7 @@
 #include "app/support_stage.hpp"
 #include "app/synthetic_measurement.hpp"
 #include "io/response_csv.hpp"
+#include "tests/system/run_in_folder.hpp"
 
 namespace thinwall {
 namespace {
@@ -20,13 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path cases = fs::path(THINWALL_SOURCE_DIR) / "cases";
-
-fs::path scratch(const std::string& name) {
-  const fs::path folder = fs::path(::testing::TempDir()) / name;
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
-}
 
 std::string text_of(const fs::path& path) {
   std::ifstream file(path);
@@ -47,12 +41,12 @@ TEST(MeasuredCase, NoiseFreeFilesGiveTheModelsPredictionWithinAThousandthOfThePe
 
   const auto files = app::synthetic_measurement(model, part, "P");
   EXPECT_LT(files.relative_residual, 1e-7) << "the full model is solved, not approximated";
-  const fs::path folder = scratch("measured_noise_free");
+  const fs::path folder = app::scratch("measured_noise_free");
   std::ofstream(folder / "case.toml") << text_of(cases / "barrios-2019-measured" / "case.toml");
   app::write_measurement(folder / "part_xx.csv", "# noise-free\n", files.axis, files.part);
   app::write_measurement(folder / "robot_xx.csv", "# noise-free\n", files.axis, files.robot);
   const app::Case measured = app::read_case(folder, {});
-  const fs::path out = scratch("measured_noise_free_out");
+  const fs::path out = app::scratch("measured_noise_free_out");
   static_cast<void>(app::run_case(measured, {out, true, -1, false}));
   const auto G = dynamics::entry(io::read_response(out / "frf" / "coupled_receptance.csv"), "P.x", "P.x");
   ASSERT_EQ(G.size(), predicted.size());
@@ -68,7 +62,7 @@ TEST(MeasuredCase, TheCommittedFilesSayWhatTheyAreAndMeetTheCasesExpectations) {
     EXPECT_NE(text.find("seed"), std::string::npos) << name;
   }
   const app::RunResult run = app::run_case(app::read_case(cases / "barrios-2019-measured", {}),
-                                           {scratch("measured_committed"), true, -1, false});
+                                           {app::scratch("measured_committed"), true, -1, false});
   EXPECT_TRUE(run.expectations_hold) << run.summary["checks"].dump(2);
 }
 

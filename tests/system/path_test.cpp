@@ -8,9 +8,7 @@
 #include <filesystem>
 #include <map>
 
-#include "app/case_reader.hpp"
-#include "app/pipeline.hpp"
-#include "io/csv_table.hpp"
+#include "tests/system/run_in_folder.hpp"
 
 namespace thinwall::app {
 namespace {
@@ -82,21 +80,6 @@ const std::string exact_rows = "count = 3\ntolerance = 1e-8\n";
 std::string path(double from_mm, double to_mm, int positions, const std::string& support) {
   return "[path]\nfrom = " + at("1 mm", from_mm, "40 mm") + "\nto = " + at("1 mm", to_mm, "40 mm") +
          "\npositions = " + std::to_string(positions) + "\nsupport = \"" + support + "\"\n";
-}
-
-/// Runs a case into a folder of that name and returns its summary.
-nlohmann::json run(const std::string& text, const fs::path& out) {
-  fs::remove_all(out);
-  fs::create_directories(out);
-  return run_case(parse_case(text, "."), {out, true, -1, false}).summary;
-}
-
-fs::path scratch(const std::string& name) {
-  return fs::path(::testing::TempDir()) / name;
-}
-
-std::vector<double> column(const fs::path& file, const std::string& name) {
-  return io::numbers(io::read_csv(file), name, file);
 }
 
 /// Limiting depths of a path's chart: a list for each position.

@@ -7,31 +7,14 @@
 #include <filesystem>
 #include <sstream>
 
-#include "app/case_reader.hpp"
 #include "app/command_line.hpp"
-#include "app/pipeline.hpp"
 #include "core/atomic_file.hpp"
-#include "io/csv_table.hpp"
+#include "tests/system/run_in_folder.hpp"
 
 namespace thinwall::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path scratch(const std::string& name) {
-  const fs::path folder = fs::path(::testing::TempDir()) / name;
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
-}
-
-nlohmann::json run(const std::string& text, const fs::path& out) {
-  return run_case(parse_case(text, out), {out, true, -1, false}).summary;
-}
-
-std::vector<double> column(const fs::path& file, const std::string& name) {
-  return io::numbers(io::read_csv(file), name, file);
-}
 
 /// The four-axis arm of Huynh et al. 2017, tables 1 and 2.
 const std::string huynh_arm = R"([robot]

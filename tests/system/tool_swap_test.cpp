@@ -12,6 +12,7 @@
 #include "app/pipeline.hpp"
 #include "app/problem.hpp"
 #include "io/uff.hpp"
+#include "tests/system/run_in_folder.hpp"
 #include "tests/verification/tool_swap/machine.hpp"
 
 namespace thinwall::app {
@@ -67,9 +68,7 @@ density = "14400 kg/m^3"
 }
 
 fs::path measured_folder(const dynamics::FrequencyAxis& axis) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "tool_swap_case";
-  fs::remove_all(folder);
-  fs::create_directories(folder);
+  const fs::path folder = scratch("tool_swap_case");
   io::UffForm form;
   form.binary = true;
   io::write_uff(folder / "reference.uff", with_reference(axis), form);

@@ -2,12 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <cmath>
 #include <iostream>
 #include <numbers>
 
+#include "core/dense_factorisations.hpp"
 #include "coupling/receptance.hpp"
 #include "coupling/route_difference.hpp"
 #include "coupling/spatial.hpp"

@@ -1,14 +1,13 @@
 #pragma once
 // Component models whose modes are known because the matrices are made from them.
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "core/dense_factorisations.hpp"
 #include "dynamics/response_model.hpp"
 #include "dynamics/spatial_model.hpp"
 

@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <iostream>
 
 #include "components.hpp"
+#include "core/dense_factorisations.hpp"
 #include "coupling/receptance.hpp"
 #include "coupling/route_difference.hpp"
 #include "coupling/spatial.hpp"

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -15,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "core/dense_eigenvalues.hpp"
 #include "fem/modes.hpp"
 #include "fem/reference_element.hpp"
 #include "io/inp.hpp"

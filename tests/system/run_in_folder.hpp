@@ -1,0 +1,35 @@
+#pragma once
+// A case run in a folder of its own, and what it leaves there.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/case_reader.hpp"
+#include "app/pipeline.hpp"
+#include "io/csv_table.hpp"
+
+namespace thinwall::app {
+
+/// An empty folder of that name among the test's temporary files.
+inline std::filesystem::path scratch(const std::string& name) {
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / name;
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+/// Runs the case of that text, whose files and results are in `folder`; returns its summary.
+inline nlohmann::json run(const std::string& text, const std::filesystem::path& folder) {
+  return run_case(parse_case(text, folder), {folder, true, -1, false}).summary;
+}
+
+/// A column of a CSV.
+inline std::vector<double> column(const std::filesystem::path& file, const std::string& name) {
+  return io::numbers(io::read_csv(file), name, file);
+}
+
+}  // namespace thinwall::app
