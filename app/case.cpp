@@ -86,7 +86,7 @@ Eigen::Vector3d box_size(const Part& part) {
 
 Eigen::Vector3d position(const Part& part, const Point& point) {
   if (point.position) return *point.position + point.offset;
-  if (point.node) return node_position(part, *point.node);
+  if (part.shape == "matrices") return node_position(part, node_of(*part.imported, point).value_or(-1));
   return bounds(part).min() + point.at->cwiseProduct(box_size(part)) + point.offset;
 }
 

@@ -107,7 +107,10 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
   const auto expectations = read_expectations(source.file);
   out << source.file.string() << ": no errors\n";
   if (!source.title.empty()) out << "  " << source.title << '\n';
-  if (source.part && source.part->imported) out << "  part      " << source.part->imported->said << '\n';
+  if (source.part && source.part->imported) {
+    out << "  part      " << source.part->imported->said << '\n';
+    for (const auto& note : source.part->imported->notes) out << "            " << note << '\n';
+  }
   if (source.part) {
     const SizeEstimate size = estimate_size(source);
     const auto rounded = [](double value) { return core::readable_text(value, core::kind::number); };

@@ -55,7 +55,7 @@ ImportedPart read_matrix_part(const PartFile& file) {
   ImportedPart part;
   for (auto& [node, x] : imported.model.positions) part.box.extend(x -= file.origin);
   part.said = imported.format + ", " + std::to_string(imported.model.size()) + " rows";
-  for (const auto& note : imported.notes) part.said += "; " + note;
+  part.notes = std::move(imported.notes);
   part.matrices = std::move(imported.model);
   return part;
 }
@@ -91,6 +91,14 @@ Eigen::Vector3d node_position(const Part& part, int node) {
   return found == positions.end() ? unknown : found->second;
 }
 
+std::optional<int> node_of(const ImportedPart& part, const Point& point) {
+  if (point.node || !part.matrices) return point.node;
+  for (const auto& [node, name] : part.matrices->names) {
+    if (name == point.name) return node;
+  }
+  return std::nullopt;
+}
+
 std::vector<int> node_numbers(const ImportedPart& part) {
   std::vector<int> nodes;
   if (part.matrices) {
@@ -117,6 +125,7 @@ nlohmann::json geometry_summary(const Part& part) {
   nlohmann::json result = {
       {"file", main_file(part).filename().string()}, {"unit", part.file.unit}, {"read", imported.said}};
   result["size_m"] = imported.box.isEmpty() ? nlohmann::json(nullptr) : vector_json(imported.box.sizes());
+  result["notes"] = imported.notes;
   if (imported.surface) add_surface(result, *imported.surface);
   return result;
 }

@@ -19,7 +19,8 @@ struct ImportedPart {
   std::optional<mesh::SurfaceRepair> surface;     ///< of shape surface
   std::optional<dynamics::SparseModel> matrices;  ///< of shape matrices
   Eigen::AlignedBox3d box;
-  std::string said;  ///< what was read and mended, for people
+  std::string said;                ///< what was read and mended, for people
+  std::vector<std::string> notes;  ///< what a reader noticed, a line each
 };
 
 /// The shape that a file's ending tells: "surface"; empty for an ending that no reader knows.
@@ -27,6 +28,9 @@ struct ImportedPart {
 
 /// Whether the part's shape is one that a file holds.
 [[nodiscard]] bool from_file(const Part& part);
+
+/// The node that a point stands for: by its number, or, where it has none, by its name in the part's DOF table.
+[[nodiscard]] std::optional<int> node_of(const ImportedPart& part, const Point& point);
 
 /// Where the numbered node of an imported part lies, m; NaN where no file says it.
 [[nodiscard]] Eigen::Vector3d node_position(const Part& part, int node);

@@ -68,12 +68,13 @@ reduction::Interface matrix_interface(const Case& source) {
   std::vector<Eigen::Triplet<double>> entries;
   for (const std::string& name : source.reduction.interface) {
     const Point& p = point(source, name);
+    const int node = node_of(*source.part->imported, p).value();
     for (const Eigen::Vector3d& n : p.directions) {
       for (int axis = 0; axis < 3; ++axis) {
         if (n[axis] == 0.0) continue;
-        const auto row = row_of.find({*p.node, axis + 1});
+        const auto row = row_of.find({node, axis + 1});
         if (row == row_of.end()) {
-          throw core::InputError("point \"" + name + "\": node " + std::to_string(*p.node) + " has no row along " +
+          throw core::InputError("point \"" + name + "\": node " + std::to_string(node) + " has no row along " +
                                  "xyz"[axis] + ": leave the direction out of points." + name + ".directions");
         }
         entries.emplace_back(row->second, static_cast<int>(interface.dofs.size()), n[axis]);

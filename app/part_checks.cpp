@@ -286,17 +286,19 @@ std::string text(const Eigen::Vector3d& p) {
 void check_node(const Case& source, const Point& point, bool numbered, Findings& findings) {
   const std::string key = "points." + point.name;
   if (!numbered) return findings.report(key + ".node", "this part has no numbered nodes; give at or position");
-  if (!point.node || point.at || point.position)
+  if (point.at || point.position)
     return findings.report(key, "matrices know nodes, no places; give node = its number, and neither at nor position");
   if (!independent(point.directions))
     findings.report(key + ".directions", "the directions must be independent, three at most");
   if (!source.part->imported) return;
   const std::vector<int> known = node_numbers(*source.part->imported);
-  if (std::ranges::binary_search(known, *point.node)) return;
-  findings.report(key + ".node", "the matrices have no node " + std::to_string(*point.node) + "; their " +
-                                     std::to_string(known.size()) + " nodes are numbered from " +
-                                     std::to_string(known.empty() ? 0 : known.front()) + " to " +
-                                     std::to_string(known.empty() ? 0 : known.back()));
+  const std::optional<int> node = node_of(*source.part->imported, point);
+  if (node && std::ranges::binary_search(known, *node)) return;
+  const std::string which = node ? "node " + std::to_string(*node) : "point of this name; give its node";
+  const std::string range =
+      known.empty() ? "none" : std::to_string(known.front()) + " to " + std::to_string(known.back());
+  findings.report(node ? key + ".node" : key,
+                  "the DOF table of the matrices has no " + which + " (nodes are numbered " + range + ")");
 }
 
 void check_point(const Case& source, const Point& point, Findings& findings) {

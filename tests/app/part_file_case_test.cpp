@@ -103,5 +103,65 @@ TEST(PartFile, WhatTheFileHoldsIsRefusedWithItsNameAndPlace) {
             "no problem");
 }
 
+/// Two masses on springs, the first to ground, as Matrix Market in mm and t.
+void write_matrices(const std::filesystem::path& folder) {
+  core::write_file_atomically(folder / "k.mtx",
+                              "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 200\n2 1 -100\n2 2 100\n");
+  core::write_file_atomically(folder / "m.mtx",
+                              "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 0.001\n2 2 0.001\n");
+  core::write_file_atomically(folder / "dofs.csv", "node,component,point\n3,x,A\n8,x,B\n");
+}
+
+const std::string two_masses =
+    "mass_unit = \"t\"\nunit = \"mm\"\n[part.matrices]\nstiffness = \"k.mtx\"\n"
+    "mass = \"m.mtx\"\ndofs = \"dofs.csv\"\n";
+
+std::string matrix_problem(const std::string& keys, const std::filesystem::path& folder) {
+  try {
+    (void)parse_case("[part]\n" + keys, folder);
+  } catch (const CaseError& error) {
+    EXPECT_EQ(error.problems.size(), 1U) << error.what();
+    return error.problems.front().text;
+  } catch (const core::Error& error) {
+    return error.what();
+  }
+  return "no problem";
+}
+
+TEST(PartFile, MatricesAreReadInTheirUnitsAndTheirNodesNamed) {
+  const TemporaryFolder folder;
+  write_matrices(folder.path);
+  const Case source = parse_case("[part]\n" + two_masses + "[points.B]\ndirections = \"x\"\n", folder.path);
+  ASSERT_TRUE(source.part->imported);
+  EXPECT_EQ(source.part->shape, "matrices");
+  EXPECT_EQ(source.part->imported->matrices->K.coeff(0, 0), 200.0 * 1000.0);  // t/s² = N/mm
+  EXPECT_EQ(source.part->imported->matrices->M.coeff(1, 1), 1.0);
+  EXPECT_EQ(node_of(*source.part->imported, source.points.front()), 8);
+  EXPECT_EQ(input_files(source).size(), 3U);
+}
+
+TEST(PartFile, WhatMatricesDoNotTellIsRefused) {
+  const TemporaryFolder folder;
+  write_matrices(folder.path);
+  const auto expect = [&](const std::string& keys, const std::string& part) {
+    const std::string problem = matrix_problem(keys, folder.path);
+    EXPECT_NE(problem.find(part), std::string::npos) << problem;
+  };
+  expect(two_masses + "[points.C]\ndirections = \"x\"\n", "no point of this name; give its node");
+  expect(two_masses + "[points.C]\nnode = 4\ndirections = \"x\"\n",
+         "points.C.node: the DOF table of the matrices has no node 4");
+  expect(two_masses + "[points.C]\nat = [0, 0, 0]\n", "matrices know nodes, no places");
+  expect(two_masses + "[[part.supports]]\non = \"x_min\"\n", "part.supports[0].on: belongs to");
+  expect("unit = \"mm\"\n[part.matrices]\nstiffness = \"k.mtx\"\nmass = \"m.mtx\"\n",
+         "set part.unit and part.mass_unit");
+  expect("unit = \"mm\"\nmass_unit = \"s\"\n[part.matrices]\nstiffness = \"k.mtx\"\nmass = \"m.mtx\"\n",
+         "part.matrices: ");
+  expect("unit = \"mm\"\nmass_unit = \"t\"\n[part.matrices]\nstiffness = \"k.mtx\"\nmass = \"m.mtx\"\n", "k.mtx");
+  core::write_file_atomically(
+      folder.path / "k.mtx",
+      "%%MatrixMarket matrix coordinate real general\n2 2 4\n1 1 200\n1 2 -100\n2 1 -90\n2 2 100\n");
+  expect(two_masses, "A.x");
+}
+
 }  // namespace
 }  // namespace thinwall::app
