@@ -4,28 +4,37 @@
 #include "app/model_report_json.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "reduction/sparse_report.hpp"
 
 namespace thinwall::app {
 
 namespace {
 
-PlacedModel model_of(const InspectRequest& request, std::string& notes) {
-  if (!request.model.empty()) return read_model(request.model);
+constexpr Eigen::Index largest_dense = 1500;  // rows; a dense report takes some ten seconds there
+
+/// Of matrices from files: dense where they are small enough, which tells more.
+reduction::ReducedModelReport report_of(const InspectRequest& request, std::string& notes) {
   if (request.files.stiffness.empty())
     throw core::InputError("nothing to inspect: name a model, or matrices with --stiffness and --mass");
   const io::ImportedMatrices imported = io::read_matrices(request.files);
   notes = "read as " + imported.format + "\n";
   for (const auto& note : imported.notes) notes += note + "\n";
-  return placed(imported.model);
+  if (imported.model.size() > largest_dense)
+    return reduction::sparse_report(imported.model, {.positions = {}, .rigid_motions = request.rigid_motions});
+  const PlacedModel model = placed(imported.model);
+  return reduction::report(model.model, {.positions = model.positions, .rigid_motions = request.rigid_motions});
+}
+
+reduction::ReducedModelReport report_of_model(const InspectRequest& request) {
+  const PlacedModel model = read_model(request.model);
+  return reduction::report(model.model, {.positions = model.positions, .rigid_motions = request.rigid_motions});
 }
 
 }  // namespace
 
 Inspection inspect(const InspectRequest& request) {
   std::string notes;
-  const PlacedModel model = model_of(request, notes);
-  const reduction::ReducedModelReport report =
-      reduction::report(model.model, {.positions = model.positions, .rigid_motions = request.rigid_motions});
+  const auto report = request.model.empty() ? report_of(request, notes) : report_of_model(request);
   if (request.json) core::write_file_atomically(*request.json, report_json(report).dump(2) + "\n");
   return {notes + reduction::text(report), report.trustworthy()};
 }

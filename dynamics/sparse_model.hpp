@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <compare>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,7 +15,10 @@ namespace thinwall::dynamics {
 struct NodeDof {
   int node = 0;
   int component = 0;  ///< 1, 2, 3: translation along x, y, z; 4, 5, 6: rotation about them; 0: amplitude of a mode
-  friend auto operator<=>(const NodeDof&, const NodeDof&) = default;
+  friend bool operator==(const NodeDof&, const NodeDof&) = default;
+  friend bool operator<(const NodeDof& a, const NodeDof& b) {
+    return a.node < b.node || (a.node == b.node && a.component < b.component);
+  }
 };
 
 /// An imported component, n × n, both triangles stored. In SI once dynamics::in_si() has converted it.

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "reduction/band.hpp"
 #include "reduction/comparison.hpp"
+#include "reduction/report_parts.hpp"
 
 namespace thinwall::reduction {
 
@@ -38,33 +38,6 @@ MatrixState state_of(const std::string& name, const MatrixXd& A, const VectorXd&
   state.negative = static_cast<int>((values.array() < -bound).count());
   state.zero = static_cast<int>((values.array().abs() <= bound).count());
   return state;
-}
-
-Vector3d mean_point(const dynamics::DofTable& dofs, const Positions& positions) {
-  Vector3d sum = Vector3d::Zero();
-  double count = 0.0;
-  std::set<std::string> named;
-  for (const dynamics::Dof& dof : dofs) named.insert(dof.point);
-  for (const auto& [point, position] : positions) {
-    if (!named.contains(point)) continue;
-    sum += position;
-    count += 1.0;
-  }
-  return count > 0.0 ? Vector3d(sum / count) : sum;
-}
-
-/// Mass, centre and inertia from YᵀMY about the reference.
-dynamics::RigidBody body_of(const dynamics::Matrix6& mass, const Vector3d& reference) {
-  dynamics::RigidBody body;
-  body.mass_kg = mass.topLeftCorner<3, 3>().trace() / 3.0;
-  const Eigen::Matrix3d moment = mass.bottomLeftCorner<3, 3>() / body.mass_kg;  // [c]ₓ
-  const Vector3d c =
-      0.5 * Vector3d(moment(2, 1) - moment(1, 2), moment(0, 2) - moment(2, 0), moment(1, 0) - moment(0, 1));
-  body.centre_m = reference + c;
-  const Eigen::Matrix3d about_reference = mass.bottomRightCorner<3, 3>();
-  body.inertia_kg_m2 =
-      about_reference - body.mass_kg * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
-  return body;
 }
 
 double mass_disagreement(const MatrixXd& M, const RigidSets& sets, double mass) {
@@ -133,20 +106,6 @@ std::vector<double> lowest_frequencies(const dynamics::SpatialModel& model, int 
   return {hz.begin(), hz.begin() + std::min<Index>(20, hz.size())};
 }
 
-void find_in_matrices(const ReportOptions& options, ReducedModelReport& report) {
-  for (const MatrixState& matrix : report.matrices) {
-    report.findings.push_back(
-        {"symmetry of " + matrix.name, matrix.asymmetry, options.symmetry, matrix.asymmetry <= options.symmetry,
-         "both triangles must be there and equal: export the full matrix, or mirror the one given"});
-    const bool definite = matrix.negative == 0;
-    const char* advice = matrix.name == "M"   ? "a negative mass: a sign or a wrong row of the DOF table"
-                         : matrix.name == "K" ? "negative stiffness; dual Craig-Bampton's has it by construction"
-                                              : "it gives energy: a part alone cannot";
-    report.findings.push_back(
-        {"least eigenvalue of " + matrix.name, matrix.least, -options.definiteness, definite, advice});
-  }
-}
-
 void find_in_rigid_body(const ReportOptions& options, ReducedModelReport& report) {
   if (!report.rigid) return;
   const RigidBodyState& rigid = *report.rigid;
@@ -181,19 +140,6 @@ void find_in_rigid_body(const ReportOptions& options, ReducedModelReport& report
         rigid.effective.closure <= options.effective_mass, "M is ill-conditioned at the interface");
 }
 
-ReducedModelReport counted(const dynamics::SpatialModel& model) {
-  ReducedModelReport result;
-  result.coordinates = static_cast<int>(model.size());
-  for (const dynamics::Dof& dof : model.dofs) {
-    if (dof.kind == dynamics::DofKind::translation) ++result.translations;
-    if (dof.kind == dynamics::DofKind::rotation) ++result.rotations;
-    if (dof.kind == dynamics::DofKind::modal) ++result.amplitudes;
-  }
-  if (result.translations + result.rotations == 0)
-    throw core::InputError("the DOF table names amplitudes only: a report needs a displacement of a point");
-  return result;
-}
-
 }  // namespace
 
 bool ReducedModelReport::trustworthy() const {
@@ -202,7 +148,8 @@ bool ReducedModelReport::trustworthy() const {
 
 ReducedModelReport report(const dynamics::SpatialModel& model, const ReportOptions& options) {
   dynamics::require_consistent(model);
-  ReducedModelReport result = counted(model);
+  ReducedModelReport result = counted(model.dofs);
+  result.coordinates = static_cast<int>(model.size());
   result.frequencies_hz = lowest_frequencies(model, modes_without_energy(model));
   const double lowest = result.frequencies_hz.empty() ? 0.0 : result.frequencies_hz.front();
   const double lambda = std::pow(2.0 * std::numbers::pi * lowest, 2);

@@ -34,6 +34,7 @@ struct MatrixState {
   double least = 0.0;      ///< eigenvalue of the symmetric part, as scaled
   int negative = 0;        ///< eigenvalues below −bound
   int zero = 0;            ///< eigenvalues within ±bound: for K, rigid motions and massless mechanisms
+  std::string place{};     ///< the DOF, or pair, that shows it; of sparse models where something is wrong
 };
 
 /// What moving the model as a rigid body costs and weighs.
@@ -43,6 +44,7 @@ struct RigidBodyState {
   Eigen::Matrix<double, 6, 1> grounding_stiffness = Eigen::Matrix<double, 6, 1>::Zero();  ///< N/m, N m/rad: YᵀKY
   Eigen::Matrix<double, 6, 1> grounding_hz = Eigen::Matrix<double, 6, 1>::Zero();         ///< √(YᵀKY / YᵀMY)/2π
   int free_motions = 0;                                ///< with grounding in the bound
+  std::vector<std::string> in_words;                   ///< the free ones, of sparse models (dynamics/motion_words.hpp)
   dynamics::Matrix6 mass = dynamics::Matrix6::Zero();  ///< YᵀMY about the reference
   double mass_disagreement = 0.0;  ///< of the three sets' and of the masses along x, y, z, over the mean
   dynamics::RigidBody body;        ///< centre from the origin of the positions

@@ -20,7 +20,7 @@ std::string findings_text(const ReducedModelReport& report) {
   for (const Finding& finding : report.findings) {
     text += line("  %-4s %-38s %10.2e  bound %9.2e", finding.ok ? "ok" : "NOT", finding.name.c_str(), finding.value,
                  finding.bound);
-    if (!finding.ok) text += line("       %s", finding.advice.c_str());
+    if (!finding.ok) text += "       " + finding.advice + "\n";
   }
   return text;
 }
@@ -34,6 +34,7 @@ std::string body_text(const RigidBodyState& rigid) {
   const dynamics::RigidBody& body = rigid.body;
   std::string text;
   text += line("  free rigid motions %d of 6, modes without energy %d", rigid.free_motions, rigid.sets.without_energy);
+  for (const std::string& motion : rigid.in_words) text += "  free: " + motion + "\n";
   text += line("  mass %.6g kg, centre (%.6g, %.6g, %.6g) m", body.mass_kg, body.centre_m.x(), body.centre_m.y(),
                body.centre_m.z());
   const Eigen::Matrix3d& I = body.inertia_kg_m2;
@@ -83,7 +84,8 @@ std::string text(const ReducedModelReport& report) {
         line("rigid body not judged: the DOFs show %d of 6 motions; three points that do not lie on one line show all",
              report.rigid->sets.seen);
   if (report.rigid && report.rigid->sets.seen == 6)
-    text += "rigid body\n" + body_text(*report.rigid) + effective_text(report.rigid->effective);
+    text += "rigid body\n" + body_text(*report.rigid) +
+            (report.rigid->effective.total.size() > 0 ? effective_text(report.rigid->effective) : "");
   return text;
 }
 

@@ -165,7 +165,8 @@ TEST_F(MatrixFile, OfDmigIsReadInAllFields) {
 }
 
 TEST(NastranReal, FitsSixteenColumnsAndComesBack) {
-  for (const double value : {1.0, -1.0, 0.1, 123456789012345.0, -2.5e-7, 1e300, -1e-300, 7.25e2, 0.0, -0.25, 0.30000000000001}) {
+  for (const double value :
+       {1.0, -1.0, 0.1, 123456789012345.0, -2.5e-7, 1e300, -1e-300, 7.25e2, 0.0, -0.25, 0.30000000000001}) {
     const std::string text = nastran_real_text(value);
     EXPECT_LE(text.size(), 16U);
     EXPECT_NE(text.find('.'), std::string::npos) << text;
