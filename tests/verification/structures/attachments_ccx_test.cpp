@@ -55,7 +55,7 @@ std::string material(const std::string& name, const std::string& elements, const
   return text.str();
 }
 
-/// The deck after nodes, elements and node sets.
+/// The deck after nodes, elements and node sets. A spring constant is read only with a decimal point.
 std::string rest_of_deck(const mesh::LagrangeNodes& nodes, const std::vector<int>& of_tet, bool springs) {
   const auto reference = nodes.positions.rows() + 1;
   auto element = nodes.elements.rows() + 1;
@@ -75,11 +75,11 @@ std::string rest_of_deck(const mesh::LagrangeNodes& nodes, const std::vector<int
     text << "*ELEMENT, TYPE=SPRING1, ELSET=T" << axis << '\n'
          << element++ << ", " << reference << "\n*SPRING, ELSET=T" << axis << '\n'
          << axis + 1 << '\n'
-         << k(axis) << '\n';
+         << std::to_string(k(axis)) << '\n';
     text << "*ELEMENT, TYPE=SPRING1, ELSET=R" << axis << '\n'
          << element++ << ", " << reference + 1 << "\n*SPRING, ELSET=R" << axis << '\n'
          << axis + 1 << '\n'
-         << k_turn(axis) << '\n';
+         << std::to_string(k_turn(axis)) << '\n';
   }
   text << "*RIGID BODY, NSET=TIP, REF NODE=" << reference << ", ROT NODE=" << reference + 1
        << "\n*BOUNDARY\nFOOT, 1, 3\n*STEP\n*FREQUENCY\n3\n*END STEP\n";
