@@ -65,7 +65,7 @@ struct Model {
 /// Rows 3·node + axis of the given nodes in the given axes (0…2).
 [[nodiscard]] std::vector<int> rows_of(const std::vector<int>& nodes, const std::vector<int>& axes);
 
-/// The factor of K − σM that all later stages share. σ = 0 for a held part; one that is free, or only softly sprung, gets a
+/// The factor of K − σM that all later stages share. σ = 0 for a held part; a free or softly sprung one gets a
 /// negative shift σ = −1e-8 tr K / tr M of its elements, which scales with units, size and material. The round-off of a
 /// solve grows with λ_max/|σ|, so that a smaller shift costs accuracy, and a much larger one slows the iteration. On
 /// the free 450 × 100 × 6 mm plate with 6 mm elements of order 2 it is 0.9 of the first elastic eigenvalue; the inverse
