@@ -186,11 +186,29 @@ void store(const Lists& graph, const Numbering& rows, int node, const NodeColumn
   }
 }
 
+/// Lamé's constants and density of an element.
+struct Constants {
+  Lame lame;
+  double density_kg_m3 = 0.0;
+};
+
+/// Of each tetrahedron; one entry where all are of one material.
+struct ElementConstants {
+  std::vector<Constants> list;
+  const std::vector<int>* of_tet;
+
+  explicit ElementConstants(const Materials& materials) : of_tet(&materials.of_tet) {
+    for (const Material& m : materials.list) list.push_back({lame(m), m.density_kg_m3});
+  }
+  [[nodiscard]] const Constants& of(Eigen::Index tet) const {
+    return of_tet->empty() ? list.front() : list[static_cast<std::size_t>((*of_tet)[static_cast<std::size_t>(tet)])];
+  }
+};
+
 /// Sums the straight elements around the nodes first … last − 1.
-void assemble_nodes(const mesh::LagrangeNodes& nodes, const Material& material, const std::vector<Geometry>& geometry,
-                    const Lists& places, const Lists& graph, const Numbering& rows, int first, int last,
-                    Assembled& result) {
-  const Lame c = lame(material);
+void assemble_nodes(const mesh::LagrangeNodes& nodes, const ElementConstants& constants,
+                    const std::vector<Geometry>& geometry, const Lists& places, const Lists& graph,
+                    const Numbering& rows, int first, int last, Assembled& result) {
   const ReferenceElement& reference = reference_element(nodes.order);
   const Eigen::Index n = reference.nodes;
   std::vector<int> place_of(static_cast<std::size_t>(nodes.positions.rows()), 0);
@@ -206,8 +224,9 @@ void assemble_nodes(const mesh::LagrangeNodes& nodes, const Material& material, 
       const Eigen::Index b = *place % n;
       const Geometry& g = geometry[static_cast<std::size_t>(e)];
       if (g.curved) continue;
-      const Eigen::Matrix<double, 12, 9> T = stiffness_map(g, c);
-      const double mass = material.density_kg_m3 * g.volume;
+      const Constants& c = constants.of(e);
+      const Eigen::Matrix<double, 12, 9> T = stiffness_map(g, c.lame);
+      const double mass = c.density_kg_m3 * g.volume;
       const int* element = nodes.elements.data() + e * n;
       for (Eigen::Index a = 0; a < n; ++a) {
         const auto at = place_of[static_cast<std::size_t>(element[a])];
@@ -306,14 +325,14 @@ void add_batch(const mesh::LagrangeNodes& nodes, const Lists& graph, const Numbe
 }
 
 /// Curved elements: integrated in parallel, a batch at a time.
-void assemble_curved(const mesh::LagrangeNodes& nodes, const Material& material, const std::vector<Geometry>& geometry,
-                     const Lists& graph, const Numbering& rows, Assembled& result) {
+void assemble_curved(const mesh::LagrangeNodes& nodes, const ElementConstants& constants,
+                     const std::vector<Geometry>& geometry, const Lists& graph, const Numbering& rows,
+                     Assembled& result) {
   std::vector<Eigen::Index> curved;
   for (std::size_t e = 0; e < geometry.size(); ++e) {
     if (geometry[e].curved) curved.push_back(static_cast<Eigen::Index>(e));
   }
   result.curved_elements = static_cast<int>(curved.size());
-  const Lame c = lame(material);
   const CurvedReference& reference = curved_reference(nodes.order);
   constexpr std::size_t at_once = 128;
   std::vector<ColumnPlaces> work(curved.empty() ? 0 : 8, ColumnPlaces(nodes.positions.rows()));
@@ -323,7 +342,8 @@ void assemble_curved(const mesh::LagrangeNodes& nodes, const Material& material,
         curved.begin() + static_cast<std::ptrdiff_t>(std::min(first + at_once, curved.size())));
     std::vector<CurvedElement> batch(elements.size());
     core::parallel_for(elements.size(), [&](std::size_t k) {
-      batch[k] = curved_element(reference, positions_of(nodes, elements[k]), c, material.density_kg_m3);
+      const Constants& c = constants.of(elements[k]);
+      batch[k] = curved_element(reference, positions_of(nodes, elements[k]), c.lame, c.density_kg_m3);
     });
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const double jacobian = batch[k].least_jacobian;
@@ -341,6 +361,12 @@ void assemble_curved(const mesh::LagrangeNodes& nodes, const Material& material,
 }  // namespace
 
 Assembled assemble(const mesh::LagrangeNodes& nodes, const Material& material, const std::vector<int>& fixed) {
+  return assemble(nodes, Materials{{material}, {}}, fixed);
+}
+
+Assembled assemble(const mesh::LagrangeNodes& nodes, const Materials& materials, const std::vector<int>& fixed) {
+  validate(materials, static_cast<std::size_t>(nodes.elements.rows()));
+  const ElementConstants constants(materials);
   Numbering rows(nodes.positions.rows(), fixed);
   const std::vector<Geometry> geometry = geometries(nodes);
   const Lists places = incidences(nodes);
@@ -350,10 +376,10 @@ Assembled assemble(const mesh::LagrangeNodes& nodes, const Material& material, c
   const auto count = static_cast<std::size_t>(nodes.positions.rows());
   constexpr std::size_t pieces = 32;
   core::parallel_for(pieces, [&](std::size_t p) {
-    assemble_nodes(nodes, material, geometry, places, graph, rows, static_cast<int>(p * count / pieces),
+    assemble_nodes(nodes, constants, geometry, places, graph, rows, static_cast<int>(p * count / pieces),
                    static_cast<int>((p + 1) * count / pieces), result);
   });
-  assemble_curved(nodes, material, geometry, graph, rows, result);
+  assemble_curved(nodes, constants, geometry, graph, rows, result);
   result.free_rows = std::move(rows.free_rows);
   return result;
 }

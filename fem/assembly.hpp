@@ -30,7 +30,11 @@ struct Assembled {
 /// their order, so that the result is the same for any number of threads. `fixed`: rows 3·node + axis left out, in any
 /// order, duplicates allowed. Throws NumericalError if an element has no positive volume, is turned inside out
 /// somewhere or has a node whose position is not finite, or if K outgrows 32-bit indices; InputError if nothing is left
-/// free. Cost 162 flops an entry of a straight element.
+/// free or for what validate(materials) refuses. Cost 162 flops an entry of a straight element.
+[[nodiscard]] Assembled assemble(const mesh::LagrangeNodes& nodes, const Materials& materials,
+                                 const std::vector<int>& fixed = {});
+
+/// The same of one material.
 [[nodiscard]] Assembled assemble(const mesh::LagrangeNodes& nodes, const Material& material,
                                  const std::vector<int>& fixed = {});
 

@@ -29,7 +29,7 @@ Eigen::MatrixXd interpolated(const Model& from, const Eigen::MatrixXd& Phi, cons
       const Eigen::MatrixX3d of_element = u(from.nodes.elements.row(e), Eigen::all);
       at_nodes(to.nodes.elements.row(e), Eigen::all) = N * of_element;
     }
-    result.col(mode) = at_nodes.reshaped<Eigen::RowMajor>()(to.free_rows);
+    result.col(mode) = on_rows(to, at_nodes);
   }
   return result;
 }

@@ -16,4 +16,27 @@ Lame lame(const Material& material) {
   return {E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), E / (2.0 * (1.0 + nu))};
 }
 
+void validate(const Materials& materials, std::size_t tets) {
+  if (materials.list.empty()) throw core::InputError("a part needs a material, and none is given");
+  for (std::size_t i = 0; i < materials.list.size(); ++i) {
+    try {
+      (void)lame(materials.list[i]);
+    } catch (const core::InputError& error) {
+      if (materials.list.size() == 1) throw;
+      throw core::InputError("material " + std::to_string(i) + ": " + error.what());
+    }
+  }
+  if (materials.of_tet.empty()) return;
+  if (materials.of_tet.size() != tets) {
+    throw core::InputError("materials are given for " + std::to_string(materials.of_tet.size()) +
+                           " tetrahedra, and the mesh has " + std::to_string(tets) + ": give one index for each");
+  }
+  for (std::size_t tet = 0; tet < tets; ++tet) {
+    const int index = materials.of_tet[tet];
+    if (index >= 0 && static_cast<std::size_t>(index) < materials.list.size()) continue;
+    throw core::InputError("tetrahedron " + std::to_string(tet) + " is of material " + std::to_string(index) +
+                           ", and there are materials 0 to " + std::to_string(materials.list.size() - 1));
+  }
+}
+
 }  // namespace thinwall::fem

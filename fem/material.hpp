@@ -1,5 +1,8 @@
 #pragma once
-// Isotropic linear elasticity.
+// Isotropic linear elasticity, of one material or of several.
+
+#include <cstddef>
+#include <vector>
 
 namespace thinwall::fem {
 
@@ -18,5 +21,15 @@ struct Lame {
 
 /// Throws InputError unless E > 0, 0 ≤ ν < 0.5 and ρ > 0.
 [[nodiscard]] Lame lame(const Material& material);
+
+/// The materials of a part and which of them each tetrahedron is of.
+struct Materials {
+  std::vector<Material> list;
+  std::vector<int> of_tet;  ///< index into the list for each tetrahedron; empty: the first everywhere
+};
+
+/// Throws InputError, with the place, unless there is a material, each is what lame() takes, and every one of `tets`
+/// tetrahedra has an index into the list (or none has one). Cost O(tets).
+void validate(const Materials& materials, std::size_t tets);
 
 }  // namespace thinwall::fem

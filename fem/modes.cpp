@@ -32,6 +32,11 @@ linalg::Eigenpairs solve(const Model& model, const Factored& factored, const Mod
 /// motions without stiffness: on free plates 100 to 800 times as wide as thick, of orders 3 to 6, they come to 0.4 to
 /// 0.9 of this.
 double round_off(const Model& model) {
+  return std::numeric_limits<double>::epsilon() * model.spectrum_rad2_s2;
+}
+
+/// The same with what is attached: a stiff clamp leaves its round-off to what slides along it.
+double round_off_attached(const Model& model) {
   return std::numeric_limits<double>::epsilon() * model.K.diagonal().sum() / model.M.diagonal().sum();
 }
 
@@ -40,7 +45,8 @@ double round_off(const Model& model) {
 void require_rigid_modes(const Model& model, const Eigen::VectorXd& lambda, double noise) {
   const Eigen::Index rigid = model.rigid_motions;
   const double largest = rigid > 0 ? lambda.head(rigid).cwiseAbs().maxCoeff() : 0.0;
-  if (largest <= std::max(1e-6 * lambda(rigid), noise) && lambda(rigid) > noise) return;
+  const double of_rigid = std::max({1e-6 * lambda(rigid), noise, 10.0 * round_off_attached(model)});
+  if (largest <= of_rigid && lambda(rigid) > noise) return;
   throw core::NumericalError(
       (rigid > 0
            ? "a part that is free in " + std::to_string(rigid) + " rigid motions (" + listed(model.free_motions) + ")"

@@ -1,49 +1,56 @@
 #include "fem/points.hpp"
 
-#include <map>
 #include <sstream>
 
 #include "core/error.hpp"
-#include "fem/reference_element.hpp"
-#include "mesh/locate.hpp"
+#include "fem/patch.hpp"
 
 namespace thinwall::fem {
 
+namespace {
+
+[[noreturn]] void cannot_move(const NamedPoint& point, const std::string& how, const Eigen::Vector3d& direction) {
+  std::ostringstream text;
+  text << "point \"" << point.name << "\" cannot " << how << " (" << direction.transpose()
+       << "): it lies on a support; move the point or leave the direction out";
+  throw core::InputError(text.str());
+}
+
+/// Adds the functional d · motion of the patch's nodes, d a row of six, as a column; returns the sum of its sizes.
+double add_column(const Model& model, const RowMap& rows, const PatchAverage& average, const Eigen::Matrix3d& J_inverse,
+                  const Eigen::Matrix<double, 6, 1>& d, int column, std::vector<Eigen::Triplet<double>>& entries) {
+  const std::size_t before = entries.size();
+  for (std::size_t a = 0; a < average.nodes.size(); ++a) {
+    Eigen::Vector3d w = motion_of_node(average, static_cast<Eigen::Index>(a), J_inverse).transpose() * d;
+    w = (w.array().abs() < 1e-15).select(0.0, w);
+    add_entries(rows, model.nodes, model.rigid, average.nodes[a], w, column, entries);
+  }
+  double movable = 0.0;
+  for (std::size_t i = before; i < entries.size(); ++i) movable += std::abs(entries[i].value());
+  return movable;
+}
+
+}  // namespace
+
 linalg::SparseMatrix point_columns(const Model& model, const NamedPoint& point) {
-  std::map<int, double> weight_of_node;
-  try {
-    for (const mesh::PatchSample& sample :
-         mesh::patch_samples(model.mesh, mesh::boundary(model.mesh), point.position_m, point.patch_radius_m)) {
-      const Eigen::VectorXd N = shape_functions(model.nodes.order, sample.location.lambda);
-      for (Eigen::Index a = 0; a < N.size(); ++a)
-        weight_of_node[model.nodes.elements(sample.location.tet, a)] += sample.weight * N(a);
-    }
-  } catch (const core::InputError& error) {
-    throw core::InputError("point \"" + point.name + "\": " + error.what());
-  }
-  std::vector<int> row_of(3 * static_cast<std::size_t>(model.nodes.positions.rows()), -1);
-  for (std::size_t i = 0; i < model.free_rows.size(); ++i)
-    row_of[static_cast<std::size_t>(model.free_rows[i])] = static_cast<int>(i);
+  const Patch patch = point.faces ? Patch(*point.faces) : Patch(Disc{point.position_m, point.patch_radius_m});
+  const PatchAverage average = patch_average(model.mesh, model.nodes, patch, point.name);
+  const Eigen::Matrix3d J_inverse = point.turns.empty() ? Eigen::Matrix3d::Zero() : inverse_spread(average, point.name);
+  const RowMap rows = row_map(model.nodes.positions.rows(), model.free_rows, model.rigid);
   std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t d = 0; d < point.directions.size(); ++d) {
-    double movable = 0.0;
-    for (const auto& [node, weight] : weight_of_node) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const double value = weight * point.directions[d](axis);
-        const int row = row_of[3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis)];
-        if (row < 0 || std::abs(value) < 1e-15) continue;
-        entries.emplace_back(row, static_cast<int>(d), value);
-        movable += std::abs(value);
-      }
-    }
-    if (movable < 1e-9) {
-      std::ostringstream text;
-      text << "point \"" << point.name << "\" cannot move in direction (" << point.directions[d].transpose()
-           << "): it lies on a support; move the point or leave the direction out";
-      throw core::InputError(text.str());
-    }
+  int column = 0;
+  Eigen::Matrix<double, 6, 1> d;
+  for (const Eigen::Vector3d& direction : point.directions) {
+    d << direction, Eigen::Vector3d::Zero();
+    if (add_column(model, rows, average, J_inverse, d, column++, entries) < 1e-9)
+      cannot_move(point, "move in direction", direction);
   }
-  linalg::SparseMatrix W(model.K.rows(), static_cast<Eigen::Index>(point.directions.size()));
+  for (const Eigen::Vector3d& axis : point.turns) {
+    d << Eigen::Vector3d::Zero(), axis;
+    if (add_column(model, rows, average, J_inverse, d, column++, entries) < 1e-9)
+      cannot_move(point, "turn about", axis);
+  }
+  linalg::SparseMatrix W(model.K.rows(), column);
   W.setFromTriplets(entries.begin(), entries.end());
   return W;
 }

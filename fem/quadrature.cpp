@@ -55,4 +55,22 @@ TetQuadrature tet_quadrature(int points) {
   return rule;
 }
 
+TriangleQuadrature triangle_quadrature(int points) {
+  assert(points >= 1 && points <= 20);
+  const LineRule u = gauss_jacobi(points, 1);
+  const LineRule v = gauss_jacobi(points, 0);
+  TriangleQuadrature rule;
+  rule.lambda.resize(3, points * points);
+  rule.weight.resize(points * points);
+  Eigen::Index q = 0;
+  for (int i = 0; i < points; ++i) {
+    for (int j = 0; j < points; ++j, ++q) {
+      const double second = (1.0 - u.x(i)) * v.x(j);
+      rule.lambda.col(q) << 1.0 - u.x(i) - second, u.x(i), second;
+      rule.weight(q) = u.w(i) * v.w(j);
+    }
+  }
+  return rule;
+}
+
 }  // namespace thinwall::fem

@@ -1,5 +1,5 @@
 #pragma once
-// Quadrature on the tetrahedron.
+// Quadrature on the tetrahedron and on the triangle.
 
 #include <Eigen/Core>
 
@@ -14,5 +14,15 @@ struct TetQuadrature {
 /// Conical product of Gauss-Jacobi rules (Stroud 1971), `points` a direction, points³ in all: exact for polynomials of
 /// degree 2·points − 1; all weights positive, all points inside. 1 ≤ points ≤ 20.
 [[nodiscard]] TetQuadrature tet_quadrature(int points);
+
+/// The same on a triangle: ∫ f dA ≈ A Σ w f(λ).
+struct TriangleQuadrature {
+  Eigen::Matrix<double, 3, Eigen::Dynamic> lambda;
+  Eigen::VectorXd weight;
+};
+
+/// Conical product of Gauss-Jacobi rules (Stroud 1971), `points` a direction, points² in all: exact for polynomials of
+/// degree 2·points − 1; all weights positive, all points inside. 1 ≤ points ≤ 20.
+[[nodiscard]] TriangleQuadrature triangle_quadrature(int points);
 
 }  // namespace thinwall::fem

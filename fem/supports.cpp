@@ -14,12 +14,17 @@ std::vector<int> fixed_rows(const mesh::TetMesh& mesh, const mesh::LagrangeNodes
   return fixed;
 }
 
-Model supported_model(mesh::TetMesh mesh, int order, const Material& material, const std::vector<Support>& supports,
-                      const Shaping& shape) {
+Model supported_model(mesh::TetMesh mesh, int order, const Materials& materials, const std::vector<Support>& supports,
+                      const Shaping& shape, const Attachments& attachments) {
   mesh::LagrangeNodes nodes = mesh::lagrange_nodes(mesh, order);
   const auto fixed = fixed_rows(mesh, nodes, supports);
   if (shape) shape(nodes);
-  return build_model(std::move(mesh), std::move(nodes), material, fixed);
+  return build_model(std::move(mesh), std::move(nodes), materials, fixed, attachments);
+}
+
+Model supported_model(mesh::TetMesh mesh, int order, const Material& material, const std::vector<Support>& supports,
+                      const Shaping& shape, const Attachments& attachments) {
+  return supported_model(std::move(mesh), order, Materials{{material}, {}}, supports, shape, attachments);
 }
 
 }  // namespace thinwall::fem

@@ -24,9 +24,15 @@ struct Support {
 /// Moves the nodes of the straight mesh to where they belong, in place: onto the surface of a curved part.
 using Shaping = std::function<void(mesh::LagrangeNodes&)>;
 
-/// Builds the constrained model of order 1…6 on a mesh. Supports are looked up on the mesh, before `shape` (if there is
-/// one) moves its nodes.
+/// Builds the constrained model of order 1…6 on a mesh. Supports and attachments are looked up on the mesh, supports
+/// before `shape` (if there is one) moves its nodes; normals and lever arms of attachments are those of the moved ones.
+[[nodiscard]] Model supported_model(mesh::TetMesh mesh, int order, const Materials& materials,
+                                    const std::vector<Support>& supports, const Shaping& shape = {},
+                                    const Attachments& attachments = {});
+
+/// The same of one material.
 [[nodiscard]] Model supported_model(mesh::TetMesh mesh, int order, const Material& material,
-                                    const std::vector<Support>& supports, const Shaping& shape = {});
+                                    const std::vector<Support>& supports, const Shaping& shape = {},
+                                    const Attachments& attachments = {});
 
 }  // namespace thinwall::fem

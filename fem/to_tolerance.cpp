@@ -22,14 +22,17 @@ struct Solution {
   Eigen::MatrixXd flexibility;  // Wᵀ (K − σM)⁻¹ W
 };
 
+/// Columns of the points, turns scaled to the norm of a displacement: rad and m are compared in one unit.
 linalg::SparseMatrix point_loads(const Model& model, const std::vector<NamedPoint>& points) {
   std::vector<Eigen::Triplet<double>> entries;
   int columns = 0;
   for (const NamedPoint& point : points) {
     const linalg::SparseMatrix w = point_columns(model, point);
     for (Eigen::Index j = 0; j < w.cols(); ++j, ++columns) {
+      const bool turn = j >= static_cast<Eigen::Index>(point.directions.size());
+      const double scale = turn && !point.directions.empty() ? w.col(0).norm() / w.col(j).norm() : 1.0;
       for (linalg::SparseMatrix::InnerIterator it(w, j); it; ++it)
-        entries.emplace_back(static_cast<int>(it.row()), columns, it.value());
+        entries.emplace_back(static_cast<int>(it.row()), columns, scale * it.value());
     }
   }
   linalg::SparseMatrix W(model.K.rows(), columns);
@@ -39,7 +42,8 @@ linalg::SparseMatrix point_loads(const Model& model, const std::vector<NamedPoin
 
 /// Model and factor, the modes yet to be found.
 Solution prepared(const SolidPart& part, const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
-  Model model = supported_model(mesh, order, part.material, part.supports, part.shape);
+  const Materials materials = part.materials ? part.materials(mesh) : Materials{{part.material}, {}};
+  Model model = supported_model(mesh, order, materials, part.supports, part.shape, part.attachments);
   Factored factored = factorise(model, options.memory_limit_bytes);
   return {std::move(model), std::move(factored), {}, {}, {}};
 }

@@ -18,6 +18,9 @@ struct SolidPart {
   Shaping shape;
   Material material;
   std::vector<Support> supports;
+  Attachments attachments{};
+  std::function<Materials(const mesh::TetMesh&)>
+      materials{};  ///< of a part of several, on each mesh; instead of material
 };
 
 struct ToleranceOptions {
