@@ -41,7 +41,7 @@ class Bytes {
   /// The next bytes; fewer if the text ends or is no base64.
   std::string take(std::uint64_t count) {
     if (!is_base64_) {
-      const std::string taken(text_.substr(0, count));
+      std::string taken(text_.substr(0, count));
       text_.remove_prefix(taken.size());
       return taken;
     }
@@ -184,7 +184,12 @@ std::vector<Out> numbers(const VtuEncoding& encoding, const VtuArray& array) {
          "has the format " + io::quoted(array.format) + "; \"ascii\", \"binary\" and \"appended\" are read");
   const std::string data = binary_data(encoding, array);
   const std::string& type = array.type;
-  if (type == "Int8") return converted<std::int8_t, Out>(encoding, array, data);
+  if (type == "Int8") {
+    std::vector<Out> values = converted<std::uint8_t, Out>(encoding, array, data);
+    for (Out& value : values)
+      if (value > 127) value -= 256;
+    return values;
+  }
   if (type == "UInt8") return converted<std::uint8_t, Out>(encoding, array, data);
   if (type == "Int16") return converted<std::int16_t, Out>(encoding, array, data);
   if (type == "UInt16") return converted<std::uint16_t, Out>(encoding, array, data);

@@ -74,24 +74,26 @@ void place_tets(const LabelledMesh& labelled, const SplitCells& split, SolidMesh
   }
 }
 
+[[noreturn]] void fail_jacobian(const LabelledMesh& labelled, const LabelledCell& cell, const LeastJacobian& least) {
+  const std::string element = "element " + std::to_string(cell.label);
+  const std::string where = place_text(least.at) + ", det J is " + core::number_text(least.ratio);
+  if (!least.has_volume) {
+    const bool is_part = cell.shape != CellShape::tetrahedron;
+    fail_at(labelled, cell.line,
+            element + (is_part ? " has a corner without positive volume at " : " has no positive volume at ") + where +
+                " of its longest edge cubed: its corners lie in one plane, or are numbered in the wrong sense");
+  }
+  fail_at(labelled, cell.line,
+          element + " is turned inside out at " + where +
+              " of its mean there: its mid-edge nodes bend it too far; mesh finer there, or with straight edges");
+}
+
 void require_sound_jacobians(const LabelledMesh& labelled, const SplitCells& split, SolidMesh& solid) {
   for (Eigen::Index tet = 0; tet < solid.nodes.elements.rows(); ++tet) {
     const LeastJacobian least = least_jacobian(solid.nodes, tet, jacobian_bound);
     solid.least_jacobian = std::min(solid.least_jacobian, least.ratio);
-    if (least.is_sound) continue;
-    const LabelledCell& cell = labelled.cells[split.cell_of_tet[static_cast<std::size_t>(tet)]];
-    const std::string element = "element " + std::to_string(cell.label);
-    const std::string ratio = core::number_text(least.ratio);
-    const bool is_part = cell.shape != CellShape::tetrahedron;
-    if (!least.has_volume) {
-      fail_at(labelled, cell.line,
-              element + (is_part ? " has a corner without positive volume at " : " has no positive volume at ") +
-                  place_text(least.at) + ", det J is " + ratio +
-                  " of its longest edge cubed: its corners lie in one plane, or are numbered in the wrong sense");
-    }
-    fail_at(labelled, cell.line,
-            element + " is turned inside out at " + place_text(least.at) + ", det J is " + ratio +
-                " of its mean there: its mid-edge nodes bend it too far; mesh finer there, or with straight edges");
+    if (!least.is_sound)
+      fail_jacobian(labelled, labelled.cells[split.cell_of_tet[static_cast<std::size_t>(tet)]], least);
   }
 }
 
