@@ -130,7 +130,7 @@ mesh::TetMesh meshed(const app::Case& source, const Options& options) {
 void write_inp(const std::string& path, const app::Case& source, const fem::Model& model) {
   std::vector<bool> is_free(static_cast<std::size_t>(model.nodes.positions.rows()), false);
   for (const int node : model.node_of_row) is_free[static_cast<std::size_t>(node)] = true;
-  io::NodeSet fixed{"FIXED", {}};
+  mesh::NodeSet fixed{"FIXED", {}};
   for (std::size_t node = 0; node < is_free.size(); ++node) {
     if (!is_free[node]) fixed.nodes.push_back(static_cast<int>(node));
   }

@@ -39,7 +39,7 @@ struct Options {
 };
 
 /// K and M of the free DOFs.
-fem::Assembled free_matrices(const io::InpMesh& part, const std::vector<int>& fixed_nodes) {
+fem::Assembled free_matrices(const mesh::SolidMesh& part, const std::vector<int>& fixed_nodes) {
   std::vector<int> fixed;
   for (const int node : fixed_nodes) {
     for (int axis = 0; axis < 3; ++axis) fixed.push_back(3 * node + axis);
@@ -126,8 +126,8 @@ nlohmann::ordered_json run(const Options& options) {
   nlohmann::ordered_json report{{"program", "thinwall"}, {"threads", options.threads}};
   bench::Stopwatch total;
   bench::Stopwatch watch;
-  const io::InpMesh part = io::read_inp(options.inp, 1.0);
-  const std::vector<int>& fixed = io::node_set(part, options.fixed, options.inp).nodes;
+  const mesh::SolidMesh part = io::read_inp(options.inp, 1.0);
+  const std::vector<int>& fixed = mesh::node_set(part, options.fixed, options.inp).nodes;
   report["read_s"] = watch.lap();
   const fem::Assembled matrices = free_matrices(part, fixed);
   report["assembly_s"] = watch.lap();

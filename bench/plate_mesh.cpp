@@ -27,7 +27,7 @@ void write_plate(double element_size_m, int modes, const char* path) {
   const double mesh_s = watch.lap();
   const mesh::LagrangeNodes nodes = mesh::lagrange_nodes(mesh, 2);
   const auto boundary = mesh::boundary(mesh);
-  io::NodeSet fixed{"FIXED", {}};
+  mesh::NodeSet fixed{"FIXED", {}};
   for (const char* face : {"y_min", "y_max"}) {
     const auto held = mesh::nodes_on(nodes, mesh, mesh::select(mesh, boundary, mesh::face_of(plate, face), face));
     fixed.nodes.insert(fixed.nodes.end(), held.begin(), held.end());

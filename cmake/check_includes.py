@@ -32,6 +32,8 @@ OWNERS = [
      ("core/dense_eigenvalues.hpp", "core/dense_factorisations.hpp")),
     (re.compile(r"^vtk.*\.h$"), ("io/vtu.cpp", "io/vtp.cpp", "io/polyline_vtu.cpp", "tests/io/")),
     (re.compile(r"^matio\.h$"), ("io/mat_variables.cpp",)),
+    (re.compile(r"^pugixml\.hpp$"), ("io/vtu_reader.cpp",)),
+    (re.compile(r"^zlib\.h$"), ("io/vtu_array.cpp",)),
     (re.compile(r"^openssl/"), ("io/manifest.cpp",)),
     (re.compile(r"^(urdf|console_bridge)"), ("io/urdf.cpp",)),
     (re.compile(r"^tetgen\.h$"), ("mesh/",)),

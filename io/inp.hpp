@@ -1,5 +1,5 @@
 #pragma once
-// Tetrahedral meshes in the input format of Abaqus and CalculiX: nodes, C3D4 and C3D10 elements, node sets.
+// Meshes in the input format of Abaqus and CalculiX: nodes, solid elements, sets, surfaces, materials.
 //
 // Layout: Dhondt, CalculiX CrunchiX User's Manual 2.20, "Element types" and "Input deck format". Fields are
 // separated by commas, "**" starts a comment, keywords and names do not depend on case.
@@ -7,41 +7,57 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesh/lagrange_nodes.hpp"
-#include "mesh/tet_mesh.hpp"
+#include "mesh/solid_mesh.hpp"
 
 namespace thinwall::io {
 
-/// Some nodes under a name: ascending indices into the rows of LagrangeNodes::positions.
-struct NodeSet {
+/// What a *SOLID SECTION gives to a set of elements, in the file's own units; absent where the file does not say it, or
+/// where the material is not isotropic.
+struct InpMaterial {
+  std::string element_set;
   std::string name;
-  std::vector<int> nodes;
+  std::optional<double> youngs_modulus;  ///< mass / (length time²)
+  std::optional<double> poisson_ratio;
+  std::optional<double> density;  ///< mass / length³
 };
 
-/// What thinwall takes from an input file. Nodes that no element uses are left out, of the sets as well.
-struct InpMesh {
-  mesh::TetMesh mesh;               ///< the corners only, by ascending number in the file
-  mesh::LagrangeNodes nodes;        ///< of order 1 (C3D4) or 2 (C3D10): the corners, then the nodes within the edges
-  std::vector<int> node_labels;     ///< for each node its number in the file
-  std::vector<int> element_labels;  ///< for each tetrahedron its number in the file
-  std::vector<NodeSet> sets;        ///< by name, in capitals
-  /// Largest distance of a C3D10's mid-edge node from the middle of its edge, over the length of the edge: elements
-  /// are straight-sided where it is round-off.
-  double midside_offset = 0.0;
+/// A mesh and its materials.
+struct InpPart {
+  mesh::SolidMesh solid;
+  std::vector<InpMaterial> materials;  ///< a section each
 };
 
-/// Reads *NODE, *ELEMENT of TYPE=C3D4 or C3D10, and *NSET (also GENERATE, and sets by name), with NSET= of *NODE; other
-/// keywords are passed over with their lines. A file does not tell its unit: `metres_per_unit` does.
-/// Throws DataError with file and line: a keyword that makes or moves nodes or elements and is not read (*INCLUDE,
-/// *SYSTEM, *NGEN ...), another type of element, both types in one file, text where a number belongs, a value that is
-/// not finite, a node or element that is there twice or is missing, an element without positive volume; no elements.
-/// Nodes that a range of GENERATE passes over may be absent. Cost O(bytes).
-[[nodiscard]] InpMesh read_inp(const std::filesystem::path& path, double metres_per_unit);
+/// The file's nodes and elements under its own numbers.
+struct InpLabelled {
+  mesh::LabelledMesh mesh;
+  std::vector<InpMaterial> materials;
+};
 
-/// The set of that name, whatever its case; throws DataError that offers the nearest name. `path` is for the message.
-[[nodiscard]] const NodeSet& node_set(const InpMesh& inp, const std::string& name, const std::filesystem::path& path);
+/// Reads *NODE, *ELEMENT of TYPE=C3D4, C3D10, C3D8, C3D20, C3D6, C3D15 and C3D5 with whatever letter follows, *NSET and
+/// *ELSET (also GENERATE, and sets by name), with NSET= of *NODE and ELSET= of *ELEMENT; *SURFACE of element faces or
+/// nodes, whose nodes become a node set; *MATERIAL, *ELASTIC, *DENSITY (first line of each) and *SOLID SECTION.
+/// Elements that are no solids are passed over and counted in a notice, the nodes of a set of them become a node set;
+/// other keywords are passed over with their lines. A file does not tell its unit: `metres_per_unit` does. `name` is
+/// what messages call the file; names of sets are in capitals. Throws DataError with file and line: a keyword that
+/// makes or moves nodes or elements and is not read (*INCLUDE, *SYSTEM, *NGEN, an *INSTANCE that moves ...), another
+/// solid element, text where a number belongs, a value that is not finite, a node that is missing, sets that together
+/// hold over 10 million members and 100 of every node. Nodes that a range of GENERATE passes over may be absent. Cost
+/// O(bytes).
+[[nodiscard]] InpLabelled inp_mesh(std::string_view bytes, const std::string& name, double metres_per_unit);
+
+/// The file as tetrahedra: mesh::solid_mesh of inp_mesh.
+[[nodiscard]] InpPart read_inp_part(const std::filesystem::path& path, double metres_per_unit);
+
+/// The same without the materials.
+[[nodiscard]] mesh::SolidMesh read_inp(const std::filesystem::path& path, double metres_per_unit);
+
+/// E in Pa and ρ in kg/m³ of a file whose unit of time is the second: E · kg / m, ρ · kg / m³, with the metres in its
+/// unit of length and the kilograms in its unit of mass (mm, t, s: 1e-3 and 1e3).
+[[nodiscard]] InpMaterial in_si(InpMaterial material, double metres_per_unit, double kg_per_mass_unit);
 
 /// A homogeneous part whose natural modes are wanted.
 struct InpFrequencyStep {
@@ -57,7 +73,7 @@ struct InpFrequencyStep {
 /// 14 significant digits (relative 5e-14). Written in one step. Throws InputError for another order, a set with an
 /// empty name or one that the format cannot hold, or an unknown set in `fixed`; NumericalError for a coordinate that is
 /// not finite; DataError if the file cannot be written.
-void write_inp(const std::filesystem::path& path, const mesh::LagrangeNodes& nodes, const std::vector<NodeSet>& sets,
-               const std::optional<InpFrequencyStep>& step = {});
+void write_inp(const std::filesystem::path& path, const mesh::LagrangeNodes& nodes,
+               const std::vector<mesh::NodeSet>& sets, const std::optional<InpFrequencyStep>& step = {});
 
 }  // namespace thinwall::io

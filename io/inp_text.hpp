@@ -1,59 +1,77 @@
 #pragma once
 // An input file of Abaqus or CalculiX in its own numbers, before it becomes a mesh (io/inp.hpp).
 
-#include <Eigen/Core>
-#include <array>
-#include <filesystem>
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "mesh/labelled_mesh.hpp"
+
 namespace thinwall::io {
-
-/// A line of *NODE: the node's number, where it stands, its position in m.
-struct InpTextNode {
-  int label = 0;
-  int line = 0;
-  Eigen::Vector3d x = Eigen::Vector3d::Zero();
-};
-
-/// An element of *ELEMENT: its number, where it starts, its nodes' numbers (the first four, or all ten).
-struct InpTextElement {
-  int label = 0;
-  int line = 0;
-  std::array<int, 10> nodes{};
-};
 
 /// Labels first, first + step, ... up to last; of a range by GENERATE some may be absent.
 struct InpLabelRange {
-  int first = 0;
-  int last = 0;
-  int step = 1;
+  std::int64_t first = 0;
+  std::int64_t last = 0;
+  std::int64_t step = 1;
   int line = 0;
   bool gaps_allowed = false;
 };
 
-/// Nodes, elements and sets in the order of the file; names in capitals.
-struct InpText {
-  std::string path;
-  std::vector<InpTextNode> nodes;
-  std::vector<InpTextElement> elements;
-  int order = 0;  ///< 1 for C3D4, 2 for C3D10, 0 without elements
-  std::map<std::string, std::vector<InpLabelRange>> sets;
+/// Ranges, and other sets that are part of it.
+struct InpTextSet {
+  std::vector<InpLabelRange> ranges;
+  std::vector<std::string> others;
 };
 
-/// Number of nodes of an element of this order: 4 or 10.
-[[nodiscard]] constexpr std::size_t inp_node_count(int order) {
-  return order == 1 ? 4 : 10;
-}
+/// A line of *SURFACE: an element or a set of them, and the number of the face, from 1; of nodes 0.
+struct InpTextFace {
+  std::string set;  ///< empty: the element `label`
+  std::int64_t label = 0;
+  int face = 0;
+  int line = 0;
+};
 
-/// Reads the lines, coordinates times `metres_per_unit`. Throws DataError with file and line for whatever a line alone
-/// can have wrong (io/inp.hpp lists it). Cost O(bytes).
-[[nodiscard]] InpText read_inp_text(const std::filesystem::path& path, double metres_per_unit);
+/// *MATERIAL: the first line of *ELASTIC (isotropic) and *DENSITY, in the file's units.
+struct InpTextMaterial {
+  std::string name;
+  std::optional<double> youngs_modulus;
+  std::optional<double> poisson_ratio;
+  std::optional<double> density;
+};
 
-/// Throws DataError "file.inp:12: what".
-[[noreturn]] void fail_at(const InpText& text, int line, const std::string& what);
+/// *SOLID SECTION.
+struct InpTextSection {
+  std::string element_set;
+  std::string material;
+  int line = 0;
+};
+
+/// An element that is no solid: its number, and which of flat_nodes are its.
+struct InpTextFlat {
+  std::int64_t label = 0;
+  std::size_t first = 0;
+  std::size_t nodes = 0;
+};
+
+/// Nodes, elements, sets and materials in the order of the file; names in capitals.
+struct InpText {
+  mesh::LabelledMesh mesh;
+  std::map<std::string, InpTextSet> node_sets;
+  std::map<std::string, InpTextSet> element_sets;
+  std::map<std::string, std::vector<InpTextFace>> surfaces;
+  std::vector<InpTextFlat> flat;  ///< shells, beams, ...: for the nodes of their sets
+  std::vector<std::int64_t> flat_nodes;
+  std::vector<InpTextMaterial> materials;
+  std::vector<InpTextSection> sections;
+};
+
+/// Reads the lines, coordinates times `metres_per_unit`; `name` is what messages call the file. Throws DataError with
+/// file and line for whatever a line alone can have wrong (io/inp.hpp lists it). Cost O(bytes).
+[[nodiscard]] InpText inp_text(std::string_view bytes, const std::string& name, double metres_per_unit);
 
 /// a…z to A…Z, whatever the locale: the format's names do not depend on case.
 [[nodiscard]] std::string capitals(std::string_view text);

@@ -65,6 +65,13 @@ void SurfaceText::skip_line() {
   ++line_;
 }
 
+std::string_view SurfaceText::take(std::size_t count) {
+  const std::string_view taken = rest_.substr(0, count);
+  rest_.remove_prefix(taken.size());
+  line_ += static_cast<int>(std::count(taken.begin(), taken.end(), '\n'));
+  return taken;
+}
+
 bool SurfaceText::at_end() {
   skip_blanks(true);
   return rest_.empty();
@@ -85,7 +92,7 @@ double SurfaceText::number(std::string_view word, const char* what) const {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || end != digits.data() + digits.size())
     fail(quoted(word) + " where " + what + " belongs, a number");
-  if (!std::isfinite(value)) fail(std::string(what) + " is " + quoted(word) + ", not finite; export it again");
+  if (!std::isfinite(value)) fail(std::string(what) + " is " + quoted(word) + ", not finite; export the file again");
   return value;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// The text formats of surfaces (STL, OFF, OBJ, PLY) below the level of meaning: words, numbers, lines.
+// The text formats of surfaces and meshes (STL, OFF, OBJ, PLY, MSH, VTU) below the level of meaning: words, numbers,
+// lines.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +22,8 @@ class SurfaceText {
   [[nodiscard]] std::string_view word_of_line();
   /// Passes over the rest of this line.
   void skip_line();
+  /// The next `count` bytes, whatever they are; all that is left if there are fewer.
+  [[nodiscard]] std::string_view take(std::size_t count);
   /// True if nothing but blanks and comments is left.
   [[nodiscard]] bool at_end();
 

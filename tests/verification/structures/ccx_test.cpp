@@ -6,11 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -19,31 +16,15 @@
 #include "fem/reference_element.hpp"
 #include "io/inp.hpp"
 #include "tests/mesh/kuhn_box.hpp"
+#include "tests/verification/structures/ccx_run.hpp"
 
 namespace thinwall {
 namespace {
 
-/// Frequencies in Hz from the first table of CalculiX's .dat file: lines of five numbers, the fourth in Hz.
-std::vector<double> ccx_frequencies(const std::filesystem::path& dat) {
-  std::ifstream file(dat);
-  std::vector<double> frequencies;
-  for (std::string line; std::getline(file, line);) {
-    if (line.find("P A R T I C I P A T I O N") != std::string::npos) break;
-    std::istringstream words(line);
-    int mode = 0;
-    double lambda = 0.0;
-    double omega = 0.0;
-    double hz = 0.0;
-    double imaginary = 0.0;
-    if (words >> mode >> lambda >> omega >> hz >> imaginary) frequencies.push_back(hz);
-  }
-  return frequencies;
-}
-
 class CalculiX : public ::testing::TestWithParam<int> {
  protected:
   void SetUp() override {
-    if (std::system("command -v ccx > /dev/null 2>&1") != 0) {
+    if (!ccx_is_installed()) {
       GTEST_SKIP() << "ccx is not installed (Debian's package calculix-ccx)";
     }
     folder_ = std::filesystem::temp_directory_path() /
@@ -56,10 +37,7 @@ class CalculiX : public ::testing::TestWithParam<int> {
 
   /// Runs ccx on NAME.inp in the folder.
   [[nodiscard]] std::vector<double> run(const std::string& name) const {
-    const std::string command =
-        "cd '" + folder_.string() + "' && OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 ccx " + name + " > ccx.log 2>&1";
-    EXPECT_EQ(std::system(command.c_str()), 0) << "see ccx.log";
-    return ccx_frequencies(folder_ / (name + ".dat"));
+    return ccx_frequencies(folder_ / (name + ".inp"));
   }
 
   std::filesystem::path folder_;
@@ -109,14 +87,14 @@ const fem::Material steel{210e9, 0.3, 7850.0};
 /// Writes the box, clamped at x = 0, and reads it back as a model.
 fem::Model box_by_way_of_a_file(const std::filesystem::path& file, const std::array<int, 3>& cells, int order) {
   const auto nodes = mesh::lagrange_nodes(mesh::kuhn_box(box_size, cells), order);
-  io::NodeSet clamped{"CLAMPED", {}};
+  mesh::NodeSet clamped{"CLAMPED", {}};
   for (Eigen::Index i = 0; i < nodes.positions.rows(); ++i) {
     if (nodes.positions(i, 0) < 1e-9) clamped.nodes.push_back(static_cast<int>(i));
   }
   const io::InpFrequencyStep step{steel.youngs_modulus_Pa, steel.poisson_ratio, steel.density_kg_m3, {"CLAMPED"}, 10};
   io::write_inp(file, nodes, {clamped}, step);
-  const io::InpMesh read = io::read_inp(file, 1.0);
-  const auto fixed = fem::rows_of(io::node_set(read, "CLAMPED", file).nodes, {0, 1, 2});
+  const mesh::SolidMesh read = io::read_inp(file, 1.0);
+  const auto fixed = fem::rows_of(mesh::node_set(read, "CLAMPED", file.string()).nodes, {0, 1, 2});
   fem::Model model = fem::build_model(read.mesh, order, steel, fixed);
   EXPECT_TRUE(model.nodes.elements == read.nodes.elements) << "the fixed rows count the file's nodes";
   return model;

@@ -6,37 +6,16 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include "fem/reference_element.hpp"
 #include "io/inp.hpp"
 #include "tests/mesh/plane_shapes.hpp"
+#include "tests/verification/structures/ccx_run.hpp"
 #include "tests/verification/structures/prism_part.hpp"
 
 namespace thinwall {
 namespace {
-
-/// Runs ccx on the file and reads the frequencies (Hz) off the first table of its .dat file: lines of five numbers, the
-/// fourth in Hz.
-std::vector<double> ccx_frequencies(const std::filesystem::path& input) {
-  std::filesystem::path stem = input;
-  stem.replace_extension();
-  const std::string command = "cd '" + stem.parent_path().string() +
-                              "' && OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 ccx '" + stem.string() + "' > '" +
-                              stem.string() + ".log' 2>&1";
-  EXPECT_EQ(std::system(command.c_str()), 0);
-  std::ifstream file(stem.string() + ".dat");
-  std::vector<double> frequencies;
-  for (std::string line; std::getline(file, line);) {
-    if (line.find("P A R T I C I P A T I O N") != std::string::npos) break;
-    std::istringstream words(line);
-    double number[5];
-    if (words >> number[0] >> number[1] >> number[2] >> number[3] >> number[4]) frequencies.push_back(number[3]);
-  }
-  return frequencies;
-}
 
 /// The mass as CalculiX integrates it over its ten-node tetrahedron, by four points (exact to degree 2, not 4), on the
 /// free rows: M_e = ρ V / 4 Σ_q N(λ_q) N(λ_q)ᵀ.
@@ -72,8 +51,7 @@ linalg::SparseMatrix mass_by_four_points(const fem::Model& model, double density
 class PocketByCalculiX : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (std::system("command -v ccx > /dev/null 2>&1") != 0)
-      GTEST_SKIP() << "ccx is not installed (Debian's package calculix-ccx)";
+    if (!ccx_is_installed()) GTEST_SKIP() << "ccx is not installed (Debian's package calculix-ccx)";
     folder_ = std::filesystem::temp_directory_path() / ("thinwall_pocket_ccx_" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder_);
   }

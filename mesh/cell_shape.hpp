@@ -1,0 +1,32 @@
+#pragma once
+// The solid elements that other programs mesh with, and how their nodes are numbered here.
+//
+// The order is that of Abaqus and, but for wedges turned inside out, of VTK: corners, a node in each edge in the order
+// of `edges`, a node in each four-sided face in the order of `faces`, a node in the middle of a hexahedron.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace thinwall::mesh {
+
+enum class CellShape : std::uint8_t { tetrahedron, hexahedron, wedge, pyramid };
+
+/// Corners, edges and faces of a shape by local numbers; faces run counterclockwise seen from outside.
+struct CellTopology {
+  const char* name = "";    ///< "tetrahedron"
+  const char* plural = "";  ///< "tetrahedra"
+  std::size_t corners = 0;
+  std::vector<std::array<std::size_t, 2>> edges;
+  std::vector<std::vector<std::size_t>> faces;
+};
+
+/// Of 4, 8, 6 and 5 corners. The tetrahedron's edges are 01 12 20 03 13 23.
+[[nodiscard]] const CellTopology& topology(CellShape shape);
+
+/// 1 for a node at each corner; 2 with one in each edge, or in each four-sided face (and the middle of a hexahedron) as
+/// well; 0 for any other number of nodes: 4, 10; 8, 20, 27; 6, 15, 18; 5, 13, 14 are known.
+[[nodiscard]] int cell_order(CellShape shape, std::size_t nodes);
+
+}  // namespace thinwall::mesh
