@@ -76,8 +76,15 @@ Eigen::AlignedBox3d bounds(const Part& part) {
   return box;
 }
 
+bool names_node_set(const Case& source, const std::string& name) {
+  const bool face = name.size() == 5 && std::string("xyz").find(name[0]) != std::string::npos &&
+                    (name.ends_with("_min") || name.ends_with("_max"));
+  return source.part && source.part->shape == "mesh" && !face &&
+         std::ranges::find(source.selections, name, &Selection::name) == source.selections.end();
+}
+
 bool may_be_held(const Part& part) {
-  return !part.supports.empty() || part.shape == "matrices";
+  return !part.supports.empty() || !part.clamps.empty() || !part.springs.empty() || part.shape == "matrices";
 }
 
 Eigen::Vector3d box_size(const Part& part) {
@@ -86,7 +93,8 @@ Eigen::Vector3d box_size(const Part& part) {
 
 Eigen::Vector3d position(const Part& part, const Point& point) {
   if (point.position) return *point.position + point.offset;
-  if (part.shape == "matrices") return node_position(part, node_of(*part.imported, point).value_or(-1));
+  if (part.imported && (point.node || part.shape == "matrices"))
+    return node_position(part, node_of(*part.imported, point).value_or(-1));
   return bounds(part).min() + point.at->cwiseProduct(box_size(part)) + point.offset;
 }
 

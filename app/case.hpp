@@ -64,6 +64,34 @@ struct Support {
   std::vector<int> fixed;  ///< 0, 1, 2 for x, y, z
 };
 
+/// Another material than the part's, of a set of elements or of a selection.
+struct MaterialRegion {
+  std::string on;
+  Material material;
+};
+
+/// A bed of springs on a face or a selection, stiffness per area.
+struct Clamp {
+  std::string on;
+  double normal = 0.0, tangential = 0.0;  ///< N/m³
+};
+
+/// A rigid body on a point.
+struct PointMass {
+  std::string at;
+  double mass = 0.0;                                  ///< kg
+  Eigen::Vector3d inertia = Eigen::Vector3d::Zero();  ///< kg m², about its own centre and x, y, z
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();   ///< m
+};
+
+/// Springs from a point to ground.
+struct PointSpring {
+  std::string at;
+  Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();           ///< N/m
+  Eigen::Vector3d rotation_stiffness = Eigen::Vector3d::Zero();  ///< N m/rad
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();              ///< m
+};
+
 /// The part is bent about a cylinder; the middle of its extent along `along` stays where it is.
 struct Bend {
   double radius = 0.0;       ///< m, of the mid-surface
@@ -76,6 +104,7 @@ struct ImportedPart;
 struct PartFile {
   std::filesystem::path path;
   std::string unit;                                  ///< of length; no default
+  std::string mass_unit;                             ///< of matrices, and of materials in a mesh
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< m: the point of the file where the part's axes begin
   mesh::SurfaceRepairOptions repair;                 ///< of a surface
   io::MatrixFiles matrices;                          ///< of shape matrices; `path` is empty then
@@ -83,16 +112,20 @@ struct PartFile {
 
 /// A box with one corner at the origin, a prism, or what a file holds.
 struct Part {
-  std::string shape = "box";                                 ///< box, prism, surface, matrices
+  std::string shape = "box";                                 ///< box, prism, surface, mesh, matrices
   double length = 0.0, height = 0.0, thickness = 0.0;        ///< m
   int length_axis = 1, height_axis = 2, thickness_axis = 0;  ///< 0, 1, 2 for x, y, z
   mesh::Prism prism;                                         ///< of shape prism: outline in x, y; height along z
   std::optional<Bend> bend;
-  PartFile file;                                 ///< of shape surface and matrices
+  PartFile file;                                 ///< of shapes surface, mesh, matrices
   std::shared_ptr<const ImportedPart> imported;  ///< what the file holds, once it is read (app/imported_part.hpp)
   Material material;
+  std::vector<MaterialRegion> materials;  ///< others; later ones win
   MeshOptions mesh;
-  std::vector<Support> supports;  ///< none: a free part
+  std::vector<Support> supports;  ///< none: a free part, unless clamps or springs hold it
+  std::vector<Clamp> clamps;
+  std::vector<PointMass> masses;
+  std::vector<PointSpring> springs;
 };
 
 /// One measured FRF in a file, converted by io/ to receptance.
@@ -122,6 +155,7 @@ struct Point {
   std::optional<int> node;                           ///< number of a node
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< m
   double patch_radius = 0.0;                         ///< m; 0: the nearest node alone
+  bool rigid = false;                                ///< the patch moves as one body
   std::vector<Eigen::Vector3d> directions;           ///< unit vectors
 };
 
@@ -139,6 +173,7 @@ struct Modes {
 struct Reduction {
   std::string method = "craig_bampton";
   ModeRange fixed_interface;
+  std::optional<double> tolerance;     ///< on the interface's receptance, in place of a range
   std::vector<std::string> interface;  ///< names of points
   int check_frequencies = 5;
 };
@@ -366,6 +401,10 @@ struct Case {
 
 /// The block around the part, before it is bent, m.
 [[nodiscard]] Eigen::AlignedBox3d bounds(const Part& part);
+
+/// Whether a name of part.supports is a set of nodes of the mesh file: no face of the box around the part (x_min …),
+/// no selection.
+[[nodiscard]] bool names_node_set(const Case& source, const std::string& name);
 
 /// Whether something holds the part, as far as the case tells: matrices may be those of a held part.
 [[nodiscard]] bool may_be_held(const Part& part);

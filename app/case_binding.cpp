@@ -79,6 +79,7 @@ PartFile bind_part_file(const Table& table, const std::filesystem::path& folder)
   PartFile file;
   if (const std::string name = table.text("file"); !name.empty()) file.path = folder / name;
   file.unit = table.text("unit");
+  file.mass_unit = table.text("mass_unit");
   if (table.has("origin")) file.origin = table.vector("origin");
   const Table matrices = table.table("matrices");
   const auto matrix = [&](const char* key) {
@@ -91,7 +92,7 @@ PartFile bind_part_file(const Table& table, const std::filesystem::path& folder)
   file.matrices.dofs = matrix("dofs");
   file.matrices.positions = matrix("positions");
   file.matrices.length_unit = file.unit;
-  file.matrices.mass_unit = table.text("mass_unit");
+  file.matrices.mass_unit = file.mass_unit;
   const Table repair = table.table("repair");
   mesh::SurfaceRepairOptions& options = file.repair;
   options.merge_tolerance_m = repair.optional("merge_tolerance").value_or(0.0);
@@ -99,6 +100,22 @@ PartFile bind_part_file(const Table& table, const std::filesystem::path& folder)
   options.largest_movement = repair.optional("largest_movement").value_or(options.largest_movement);
   options.thinnest_wall_m = repair.optional("thinnest_wall").value_or(0.0);
   return file;
+}
+
+Material bind_material(const Table& table) {
+  return {table.number("youngs_modulus"), table.number("poisson_ratio"), table.number("density")};
+}
+
+void bind_attachments(const Table& table, Part& part) {
+  for (const auto& region : table.tables("materials"))
+    part.materials.push_back({region.text("on"), bind_material(region)});
+  for (const auto& clamp : table.tables("clamps"))
+    part.clamps.push_back({clamp.text("on"), clamp.number("normal_stiffness"), clamp.number("tangential_stiffness")});
+  for (const auto& mass : table.tables("masses"))
+    part.masses.push_back({mass.text("at"), mass.number("mass"), mass.vector("inertia"), mass.vector("offset")});
+  for (const auto& spring : table.tables("springs"))
+    part.springs.push_back(
+        {spring.text("at"), spring.vector("stiffness"), spring.vector("rotation_stiffness"), spring.vector("offset")});
 }
 
 Part bind_part(const Table& table, const std::filesystem::path& folder) {
@@ -120,7 +137,8 @@ Part bind_part(const Table& table, const std::filesystem::path& folder) {
   part.height_axis = axis_index(table.text("axes.height"));
   part.thickness_axis = axis_index(table.text("axes.thickness"));
   const Table material = table.table("material"), mesh = table.table("mesh");
-  part.material = {material.number("youngs_modulus"), material.number("poisson_ratio"), material.number("density")};
+  part.material = bind_material(material);
+  bind_attachments(table, part);
   const auto number = [&](const char* key) {
     const double value = mesh.number(key);  // NaN for "auto"
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
@@ -171,6 +189,7 @@ std::vector<Point> bind_points(const Table& table) {
     if (point.has("node")) bound.node = point.integer("node");
     bound.offset = point.vector("offset");
     bound.patch_radius = point.number("patch_radius");
+    bound.rigid = point.text("connection") == "rigid";
     bound.directions = point.directions("directions");
     list.push_back(std::move(bound));
   }
@@ -380,6 +399,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   bound.points = bind_points(root.table("points"));
   bound.modes = {bind_range(root.table("modes"), "count", 10), root.flag("modes.verify_count")};
   bound.reduction.fixed_interface = bind_range(root.table("reduction"), "modes", 30);
+  bound.reduction.tolerance = root.table("reduction").optional("tolerance");
   bound.reduction.interface = root.names("reduction.interface");
   if (bound.reduction.interface.empty()) bound.reduction.interface = point_names(bound.points);
   if (root.has("reduction.check_frequencies"))

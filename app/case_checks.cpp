@@ -44,7 +44,8 @@ void check_something_to_do(const Case& source, Findings& findings) {
 
 void check_ranges(const Case& source, Findings& findings) {
   for (const auto& [a, b] :
-       {std::pair{"modes.count", "modes.up_to"}, std::pair{"reduction.modes", "reduction.up_to"}}) {
+       {std::pair{"modes.count", "modes.up_to"}, std::pair{"reduction.modes", "reduction.up_to"},
+        std::pair{"reduction.modes", "reduction.tolerance"}, std::pair{"reduction.up_to", "reduction.tolerance"}}) {
     if (findings.given(a) && findings.given(b))
       findings.report(b, "give either " + std::string(a) + " or " + b + ", not both");
   }

@@ -9,6 +9,8 @@
 
 #include "app/imported_part.hpp"
 #include "app/matrix_part.hpp"
+#include "app/part_attachments.hpp"
+#include "app/part_materials.hpp"
 #include "app/path.hpp"
 #include "core/memory.hpp"
 #include "mesh/bend.hpp"
@@ -20,20 +22,6 @@
 namespace thinwall::app {
 
 namespace {
-
-mesh::Region region_of(const Case& source, const std::string& name) {
-  const auto selection = std::find_if(source.selections.begin(), source.selections.end(),
-                                      [&](const Selection& s) { return s.name == name; });
-  if (selection == source.selections.end()) {
-    const Eigen::AlignedBox3d box = bounds(*source.part);
-    auto plane = std::get<mesh::PlaneRegion>(mesh::face_of({box.sizes()}, name));
-    plane.point += box.min();
-    return plane;
-  }
-  if (selection->plane) return mesh::PlaneRegion{selection->plane->point, selection->plane->normal};
-  if (selection->box) return mesh::BoxRegion{selection->box->min, selection->box->max};
-  return mesh::SphereRegion{selection->sphere->centre, selection->sphere->radius};
-}
 
 /// Size near the named points, growing by `grading` (m of size per m of distance) away from them.
 std::function<double(const Eigen::Vector3d&)> graded_size(const Case& source) {
@@ -146,7 +134,10 @@ Discretisation refined_to_tolerance(const Case& source) {
   const auto mesh_at = [&](int level) {
     return from_file(*source.part) ? surface_mesh(source, level) : graded_mesh(source, level);
   };
-  fem::SolidPart part{mesh_at, shaping(*source.part), material_of(*source.part), supports_of(source)};
+  fem::SolidPart part{
+      mesh_at, shaping(*source.part), material_of(*source.part), supports_of(source), attachments_of(source), {}};
+  if (!source.part->materials.empty())
+    part.materials = [&source](const mesh::TetMesh& mesh) { return materials_on(source, mesh); };
   fem::ToleranceOptions options;
   options.tolerance = wanted.tolerance;
   options.modes = mode_options(source);
@@ -229,6 +220,30 @@ double mass(const Part& part, const mesh::TetMesh& flat) {
   return part.material.density * volume;
 }
 
+mesh::Region region_of(const Case& source, const std::string& name) {
+  const auto selection = std::find_if(source.selections.begin(), source.selections.end(),
+                                      [&](const Selection& s) { return s.name == name; });
+  if (selection == source.selections.end()) {
+    const Eigen::AlignedBox3d box = bounds(*source.part);
+    auto plane = std::get<mesh::PlaneRegion>(mesh::face_of({box.sizes()}, name));
+    plane.point += box.min();
+    return plane;
+  }
+  if (selection->plane) return mesh::PlaneRegion{selection->plane->point, selection->plane->normal};
+  if (selection->box) return mesh::BoxRegion{selection->box->min, selection->box->max};
+  return mesh::SphereRegion{selection->sphere->centre, selection->sphere->radius};
+}
+
+std::vector<int> rows_held_by_sets(const Case& source, const mesh::SolidMesh& solid) {
+  std::vector<int> rows;
+  for (const Support& support : source.part->supports) {
+    if (!names_node_set(source, support.on)) continue;
+    const auto& set = mesh::node_set(solid, support.on, source.part->file.path.string());
+    for (const int row : fem::rows_of(set.nodes, support.fixed)) rows.push_back(row);
+  }
+  return rows;
+}
+
 fem::Material material_of(const Part& part) {
   const Material& m = part.material;
   return {m.youngs_modulus, m.poisson_ratio, m.density};
@@ -236,7 +251,9 @@ fem::Material material_of(const Part& part) {
 
 std::vector<fem::Support> supports_of(const Case& source) {
   std::vector<fem::Support> supports;
-  for (const Support& s : source.part->supports) supports.push_back({s.on, region_of(source, s.on), s.fixed});
+  for (const Support& s : source.part->supports) {
+    if (!names_node_set(source, s.on)) supports.push_back({s.on, region_of(source, s.on), s.fixed});
+  }
   return supports;
 }
 
@@ -255,6 +272,10 @@ Discretisation discretise(const Case& source) {
     Discretisation result;
     result.solved.emplace(matrix_solution(source));
     return result;
+  }
+  if (part.shape == "mesh") {
+    const mesh::SolidMesh& solid = part.imported->mesh->solid;
+    return {solid.mesh, part.mesh.order.value_or(std::max(2, solid.nodes.order)), {}, {}};
   }
   if (part.shape == "box" && part.thickness > std::max(part.length, part.height)) {
     spdlog::warn("the part is {:g} m thick, more than it is long or high; a number without a unit is in metres",

@@ -9,6 +9,8 @@
 #include "app/case.hpp"
 #include "fem/to_tolerance.hpp"
 #include "mesh/bend.hpp"
+#include "mesh/selection.hpp"
+#include "mesh/solid_mesh.hpp"
 #include "mesh/tet_mesh.hpp"
 
 namespace thinwall::app {
@@ -48,7 +50,14 @@ struct PlanarPart {
 /// Mass of the part, kg, in closed form on the flat mesh: ρ ∫ (1 + w/R) dV, R infinite without a bend.
 [[nodiscard]] double mass(const Part& part, const mesh::TetMesh& flat);
 
+/// A face of the box around the part, or a selection, by its name.
+[[nodiscard]] mesh::Region region_of(const Case& source, const std::string& name);
+
+/// The nodes of a mesh from a file that are held: 3·node + axis of the supports on its sets.
+[[nodiscard]] std::vector<int> rows_held_by_sets(const Case& source, const mesh::SolidMesh& solid);
+
 [[nodiscard]] fem::Material material_of(const Part& part);
+/// Supports on faces and selections; those on sets of nodes are rows_held_by_sets().
 [[nodiscard]] std::vector<fem::Support> supports_of(const Case& source);
 [[nodiscard]] fem::NamedPoint named_point(const Case& source, const std::string& name);
 [[nodiscard]] fem::ModeOptions mode_options(const Case& source);

@@ -1,5 +1,7 @@
 #include "app/imported_part.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -12,7 +14,8 @@ namespace thinwall::app {
 
 namespace {
 
-constexpr std::array surface_endings{".stl", ".off", ".obj", ".ply"};
+constexpr std::array surface_endings{".stl", ".off", ".obj", ".ply", ".step", ".stp"};
+constexpr std::array mesh_endings{".msh", ".inp", ".vtu"};
 
 std::string ending(const std::filesystem::path& file) {
   std::string text = file.extension().string();
@@ -48,6 +51,20 @@ ImportedPart read_surface_part(const PartFile& file) {
   return part;
 }
 
+ImportedPart read_mesh_part(const PartFile& file) {
+  ImportedPart part;
+  part.mesh = io::read_mesh_file(file.path, file.unit);
+  mesh::SolidMesh& solid = part.mesh->solid;
+  for (auto& x : solid.mesh.vertices) part.box.extend(x -= file.origin);
+  solid.nodes.positions.rowwise() -= file.origin.transpose();
+  const Eigen::Vector3d size = 1e3 * part.box.sizes();
+  part.said = fmt::format("{:.4g} x {:.4g} x {:.4g} mm, {} tetrahedra of order {}", size.x(), size.y(), size.z(),
+                          solid.mesh.tets.size(), solid.nodes.order);
+  if (solid.pieces > 1) part.said += fmt::format(", {} pieces that share no node", solid.pieces);
+  part.notes = solid.notices;
+  return part;
+}
+
 ImportedPart read_matrix_part(const PartFile& file) {
   io::ImportedMatrices imported = io::read_matrices(file.matrices);
   dynamics::require_consistent(imported.model);
@@ -76,16 +93,26 @@ void add_surface(nlohmann::json& result, const mesh::SurfaceRepair& surface) {
 }  // namespace
 
 std::string shape_of_file(const std::filesystem::path& file) {
-  return std::ranges::find(surface_endings, ending(file)) != surface_endings.end() ? "surface" : "";
+  const auto among = [end = ending(file)](const auto& endings) {
+    return std::ranges::find(endings, end) != endings.end();
+  };
+  return among(surface_endings) ? "surface" : among(mesh_endings) ? "mesh" : "";
 }
 
 bool from_file(const Part& part) {
-  return part.shape == "surface" || part.shape == "matrices";
+  return part.shape == "surface" || part.shape == "mesh" || part.shape == "matrices";
 }
 
 Eigen::Vector3d node_position(const Part& part, int node) {
   const Eigen::Vector3d unknown = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  if (!part.imported || !part.imported->matrices) return unknown;
+  if (!part.imported) return unknown;
+  if (part.imported->mesh) {
+    const auto& solid = part.imported->mesh->solid;
+    const auto label = std::ranges::find(solid.node_labels, node);
+    if (label == solid.node_labels.end()) return unknown;
+    return solid.nodes.positions.row(label - solid.node_labels.begin()).transpose();
+  }
+  if (!part.imported->matrices) return unknown;
   const auto& positions = part.imported->matrices->positions;
   const auto found = positions.find(node);
   return found == positions.end() ? unknown : found->second;
@@ -101,6 +128,11 @@ std::optional<int> node_of(const ImportedPart& part, const Point& point) {
 
 std::vector<int> node_numbers(const ImportedPart& part) {
   std::vector<int> nodes;
+  if (part.mesh) {
+    for (const auto label : part.mesh->solid.node_labels) {
+      if (label >= 0) nodes.push_back(static_cast<int>(label));
+    }
+  }
   if (part.matrices) {
     for (const auto& dof : part.matrices->dofs) {
       if (dof.component > 0) nodes.push_back(dof.node);
@@ -114,6 +146,7 @@ std::vector<int> node_numbers(const ImportedPart& part) {
 std::shared_ptr<const ImportedPart> read_part_file(const Part& part) {
   try {
     return std::make_shared<ImportedPart>(part.shape == "matrices" ? read_matrix_part(part.file)
+                                          : part.shape == "mesh"   ? read_mesh_part(part.file)
                                                                    : read_surface_part(part.file));
   } catch (const core::InputError& error) {
     throw core::InputError(main_file(part).string() + ": " + error.what());
@@ -127,6 +160,7 @@ nlohmann::json geometry_summary(const Part& part) {
   result["size_m"] = imported.box.isEmpty() ? nlohmann::json(nullptr) : vector_json(imported.box.sizes());
   result["notes"] = imported.notes;
   if (imported.surface) add_surface(result, *imported.surface);
+  if (imported.mesh) result["least_jacobian"] = imported.mesh->solid.least_jacobian;
   return result;
 }
 

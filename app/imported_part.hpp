@@ -10,6 +10,7 @@
 
 #include "app/case.hpp"
 #include "dynamics/sparse_model.hpp"
+#include "io/mesh_file.hpp"
 #include "mesh/surface_repair.hpp"
 
 namespace thinwall::app {
@@ -17,13 +18,14 @@ namespace thinwall::app {
 /// What the file of a part holds, in m, in the part's axes.
 struct ImportedPart {
   std::optional<mesh::SurfaceRepair> surface;     ///< of shape surface
+  std::optional<io::MeshFile> mesh;               ///< of shape mesh
   std::optional<dynamics::SparseModel> matrices;  ///< of shape matrices
   Eigen::AlignedBox3d box;
   std::string said;                ///< what was read and mended, for people
   std::vector<std::string> notes;  ///< what a reader noticed, a line each
 };
 
-/// The shape that a file's ending tells: "surface"; empty for an ending that no reader knows.
+/// The shape that a file's ending tells: "surface", "mesh"; empty for an ending that no reader knows.
 [[nodiscard]] std::string shape_of_file(const std::filesystem::path& file);
 
 /// Whether the part's shape is one that a file holds.

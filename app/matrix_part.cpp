@@ -19,6 +19,7 @@ fem::Model model_of(const dynamics::SparseModel& matrices) {
   fem::Model model;
   model.K = matrices.K;
   model.M = matrices.M;
+  model.spectrum_rad2_s2 = model.K.diagonal().sum() / model.M.diagonal().sum();
   std::map<int, int> index;  // amplitudes stand by themselves
   int next = 0;
   for (const auto& dof : matrices.dofs) {

@@ -8,11 +8,13 @@
 #include "app/case_checks.hpp"
 #include "app/discretisation.hpp"
 #include "app/imported_part.hpp"
+#include "app/part_materials.hpp"
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "dynamics/dof.hpp"
 #include "dynamics/unit_system.hpp"
+#include "io/inp_text.hpp"
 #include "io/surface_unit.hpp"
 #include "mesh/bend.hpp"
 
@@ -64,14 +66,18 @@ void check_belonging(const Part& part, Findings& findings) {
                                    {"part.holes[0].outline", {"prism"}},
                                    {"part.zones[0].outline", {"prism"}},
                                    {"part.bend.radius", {"box", "prism"}},
-                                   {"part.file", {"surface"}},
-                                   {"part.unit", {"surface", "matrices"}},
-                                   {"part.mass_unit", {"matrices"}},
+                                   {"part.file", {"surface", "mesh"}},
+                                   {"part.unit", {"surface", "mesh", "matrices"}},
+                                   {"part.mass_unit", {"mesh", "matrices"}},
                                    {"part.matrices.stiffness", {"matrices"}},
-                                   {"part.origin", {"surface", "matrices"}},
-                                   {"part.supports[0].on", {"box", "prism", "surface"}},
-                                   {"part.material.density", {"box", "prism", "surface"}},
-                                   {"part.mesh.tolerance", {"box", "prism", "surface"}},
+                                   {"part.origin", {"surface", "mesh", "matrices"}},
+                                   {"part.supports[0].on", {"box", "prism", "surface", "mesh"}},
+                                   {"part.clamps[0].on", {"box", "prism", "surface", "mesh"}},
+                                   {"part.masses[0].at", {"box", "prism", "surface", "mesh"}},
+                                   {"part.springs[0].at", {"box", "prism", "surface", "mesh"}},
+                                   {"part.materials[0].on", {"box", "prism", "surface", "mesh"}},
+                                   {"part.material.density", {"box", "prism", "surface", "mesh"}},
+                                   {"part.mesh.tolerance", {"box", "prism", "surface", "mesh"}},
                                    {"part.repair.merge_tolerance", {"surface"}}};
   for (const auto& [key, shapes] : all) {
     if (!findings.given(key) || std::ranges::find(shapes, part.shape) != shapes.end()) continue;
@@ -96,10 +102,11 @@ void check_part_file(const Part& part, Findings& findings) {
   if (part.shape == "matrices") return check_matrices(part, findings);
   if (part.shape.empty()) {
     findings.report("part.file", "\"" + part.file.path.filename().string() +
-                                     "\" has an ending that is not read; take a .stl, .off, .obj or .ply");
+                                     "\" has an ending that is not read; take a .stl, .off, .obj, .ply or .step, or a "
+                                     "mesh as .msh, .inp or .vtu");
     return;
   }
-  if (!findings.given("part.file")) findings.report("part.file", "missing; the surface of the part");
+  if (!findings.given("part.file")) findings.report("part.file", "missing; the surface or the mesh of the part");
   if (!findings.given("part.unit")) {
     findings.report("part.unit", "missing; the file does not tell its unit of length: \"mm\", \"m\", \"inch\"");
   } else {
@@ -253,14 +260,116 @@ void check_mesh_size(const Case& source, Findings& findings) {
                       (many_tets || order_now == 1 ? "" : ", or a lower part.mesh.order"));
 }
 
-void check_supports(const Case& source, Findings& findings) {
+std::vector<std::string> faces_and_selections(const Case& source) {
   std::vector<std::string> known = face_names;
   for (const auto& selection : source.selections) known.push_back(selection.name);
+  return known;
+}
+
+/// Mesh of the part's file, once it is read.
+const mesh::SolidMesh* solid_of(const Part& part) {
+  return part.imported && part.imported->mesh ? &part.imported->mesh->solid : nullptr;
+}
+
+/// Names of sets are known in capitals; a case may write them otherwise.
+std::string as_in_file(const std::string& name, const std::vector<std::string>& known) {
+  const auto same =
+      std::ranges::find_if(known, [&](const std::string& k) { return io::capitals(k) == io::capitals(name); });
+  return same == known.end() ? name : *same;
+}
+
+void check_supports(const Case& source, Findings& findings) {
   const auto& supports = source.part->supports;
+  const mesh::SolidMesh* solid = solid_of(*source.part);
+  if (source.part->shape == "mesh" && solid == nullptr) return;
+  std::vector<std::string> known = faces_and_selections(source);
+  if (solid != nullptr) {
+    for (const auto& set : solid->node_sets) known.push_back(set.name);
+  }
   for (std::size_t i = 0; i < supports.size(); ++i) {
     const std::string key = "part.supports[" + std::to_string(i) + "]";
-    findings.require_known(key + ".on", supports[i].on, known, "face or selection");
+    findings.require_known(key + ".on", as_in_file(supports[i].on, known), known,
+                           solid == nullptr ? "face or selection" : "face, selection or set of nodes");
+    if (source.part->mesh.order.value_or(2) > 2 && names_node_set(source, supports[i].on))
+      findings.report(key + ".on",
+                      "a set of nodes holds those of the file; take part.mesh.order = 2, or a face or selection");
   }
+}
+
+void check_material(const Case& source, Findings& findings) {
+  const Part& part = *source.part;
+  if (part.shape == "matrices" || (part.shape == "mesh" && (part.imported == nullptr || materials_in_file(part))))
+    return;
+  for (const auto& [key, meaning] : {std::pair{"part.material.youngs_modulus", "Young's modulus"},
+                                     {"part.material.poisson_ratio", "Poisson's ratio"},
+                                     {"part.material.density", "density"}}) {
+    if (findings.given(key)) continue;
+    const bool in_file = part.shape == "mesh" && !part.imported->mesh->materials.empty();
+    findings.report(key, "missing; " + std::string(meaning) +
+                             (in_file ? ", or part.mass_unit to take the materials of the file" : ""));
+  }
+}
+
+void check_materials(const Case& source, Findings& findings) {
+  std::vector<std::string> known;
+  for (const auto& selection : source.selections) known.push_back(selection.name);
+  const mesh::SolidMesh* solid = solid_of(*source.part);
+  if (source.part->shape == "mesh" && solid == nullptr) return;
+  if (solid != nullptr) {
+    for (const auto& set : solid->element_sets) known.push_back(set.name);
+  }
+  for (std::size_t i = 0; i < source.part->materials.size(); ++i) {
+    const std::string key = "part.materials[" + std::to_string(i) + "].on", &on = source.part->materials[i].on;
+    findings.require_known(key, as_in_file(on, known), known,
+                           solid == nullptr ? "selection" : "selection or set of elements");
+    const auto selection = std::ranges::find(source.selections, on, &Selection::name);
+    if (selection != source.selections.end() && selection->plane)
+      findings.report(key, "a plane holds no elements; take a box or a sphere");
+  }
+}
+
+void check_carrier(const Case& source, const std::string& key, const std::string& name, Findings& findings) {
+  std::vector<std::string> known;
+  for (const auto& point : source.points) known.push_back(point.name);
+  findings.require_known(key + ".at", name, known, "point");
+  const auto found = std::ranges::find(source.points, name, &Point::name);
+  if (found != source.points.end() && !(found->patch_radius > 0.0))
+    findings.report("points." + name, "carries a mass or springs and needs a patch: give patch_radius");
+}
+
+void check_attachments(const Case& source, Findings& findings) {
+  const Part& part = *source.part;
+  for (std::size_t i = 0; i < part.clamps.size(); ++i) {
+    const std::string key = "part.clamps[" + std::to_string(i) + "]";
+    findings.require_known(key + ".on", part.clamps[i].on, faces_and_selections(source), "face or selection");
+    if (part.clamps[i].normal == 0.0 && part.clamps[i].tangential == 0.0)
+      findings.report(key, "holds nothing; give normal_stiffness or tangential_stiffness");
+  }
+  for (std::size_t i = 0; i < part.masses.size(); ++i)
+    check_carrier(source, "part.masses[" + std::to_string(i) + "]", part.masses[i].at, findings);
+  for (std::size_t i = 0; i < part.springs.size(); ++i) {
+    const std::string key = "part.springs[" + std::to_string(i) + "]";
+    check_carrier(source, key, part.springs[i].at, findings);
+    if (part.springs[i].stiffness.isZero() && part.springs[i].rotation_stiffness.isZero())
+      findings.report(key, "holds nothing; give stiffness or rotation_stiffness");
+  }
+}
+
+/// What a mesh from a file cannot be asked for.
+void check_given_mesh(const Case& source, Findings& findings) {
+  const Part& part = *source.part;
+  const mesh::SolidMesh* solid = solid_of(part);
+  for (const auto* key : {"part.mesh.element_size", "part.mesh.tolerance"}) {
+    const bool other = key == std::string("part.mesh.tolerance") ? part.mesh.tolerance != MeshOptions{}.tolerance
+                                                                 : part.mesh.element_size.has_value();
+    if (other) findings.report(key, "the mesh is given; part.mesh.order alone can make it better; remove this key");
+  }
+  if (solid == nullptr || !part.mesh.order) return;
+  if (*part.mesh.order < solid->nodes.order)
+    findings.report("part.mesh.order",
+                    "the file's elements are of order " + std::to_string(solid->nodes.order) + "; take that or more");
+  if (*part.mesh.order > 2 && solid->midside_offset > 1e-6)
+    findings.report("part.mesh.order", "the file's elements are curved; their order can be 2 only");
 }
 
 void check_selection(const Selection& selection, Findings& findings) {
@@ -283,11 +392,12 @@ std::string text(const Eigen::Vector3d& p) {
   return "(" + list + ")";
 }
 
-void check_node(const Case& source, const Point& point, bool numbered, Findings& findings) {
+void check_node(const Case& source, const Point& point, Findings& findings) {
   const std::string key = "points." + point.name;
-  if (!numbered) return findings.report(key + ".node", "this part has no numbered nodes; give at or position");
+  if (!source.part || (source.part->shape != "matrices" && source.part->shape != "mesh"))
+    return findings.report(key + ".node", "this part has no numbered nodes; give at or position");
   if (point.at || point.position)
-    return findings.report(key, "matrices know nodes, no places; give node = its number, and neither at nor position");
+    return findings.report(key, "give the node = its number, and neither at nor position (matrices know no places)");
   if (!independent(point.directions))
     findings.report(key + ".directions", "the directions must be independent, three at most");
   if (!source.part->imported) return;
@@ -298,13 +408,13 @@ void check_node(const Case& source, const Point& point, bool numbered, Findings&
   const std::string range =
       known.empty() ? "none" : std::to_string(known.front()) + " to " + std::to_string(known.back());
   findings.report(node ? key + ".node" : key,
-                  "the DOF table of the matrices has no " + which + " (nodes are numbered " + range + ")");
+                  "the part's file has no " + which + " (nodes are numbered " + range + ")");
 }
 
 void check_point(const Case& source, const Point& point, Findings& findings) {
   const std::string key = "points." + point.name;
-  const bool numbered = source.part && source.part->shape == "matrices";
-  if (numbered || point.node) return check_node(source, point, numbered, findings);
+  const bool matrices = source.part && source.part->shape == "matrices";
+  if (matrices || point.node) return check_node(source, point, findings);
   if (point.at.has_value() == point.position.has_value()) {
     findings.report(key, "give either at = [fractions of the box] or position = [lengths]");
     return;
@@ -336,7 +446,9 @@ SizeEstimate estimate_size(const Case& source) {
     return size;
   }
   size.order = part.mesh.order.value_or(part.mesh.element_size ? 2 : 5);
-  size.elements = from_file(part) ? elements_in_surface(part)
+  if (part.shape == "mesh") size.order = part.mesh.order.value_or(std::max(2, part.imported->mesh->solid.nodes.order));
+  size.elements = part.shape == "mesh" ? static_cast<double>(part.imported->mesh->solid.mesh.tets.size())
+                  : from_file(part)    ? elements_in_surface(part)
                   : by_tetgen(part)
                       ? std::max(6.0, tets_in({Eigen::Vector3d::Zero(), box_size(part)}, grading_of(source)))
                       : static_cast<double>(graded_mesh(source, 0).tets.size());
@@ -361,8 +473,13 @@ bool independent(const std::vector<Eigen::Vector3d>& directions) {
 void check_part(const Case& source, Findings& findings) {
   if (source.part) {
     check_shape(source, findings);
+    check_material(source, findings);
+    check_materials(source, findings);
+    check_attachments(source, findings);
+    if (source.part->shape == "mesh") check_given_mesh(source, findings);
     check_bend(*source.part, findings);
-    if (geometry_known(*source.part) && source.part->shape != "matrices") check_mesh_size(source, findings);
+    if (geometry_known(*source.part) && source.part->shape != "matrices" && source.part->shape != "mesh")
+      check_mesh_size(source, findings);
     check_supports(source, findings);
   }
   for (const auto& selection : source.selections) check_selection(selection, findings);

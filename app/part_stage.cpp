@@ -8,6 +8,8 @@
 #include "app/imported_part.hpp"
 #include "app/matrix_part.hpp"
 #include "app/measured.hpp"
+#include "app/part_attachments.hpp"
+#include "app/part_materials.hpp"
 #include "app/path_stage.hpp"
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
@@ -17,6 +19,7 @@
 #include "reduction/accuracy.hpp"
 #include "reduction/damping.hpp"
 #include "reduction/full_response.hpp"
+#include "reduction/mode_count.hpp"
 
 namespace thinwall::app {
 
@@ -25,6 +28,7 @@ namespace {
 /// The part's rigid-body modes must all show at the interface: points on one line, say, do not see the turn about it.
 void require_held_by_interface(const PartResult& part) {
   const Eigen::Index rigid = part.modes.rigid_motions;
+  if (rigid == 0) return;  // softly sprung
   const Eigen::MatrixXd seen = part.interface.W.transpose() * part.modes.pairs.Phi.leftCols(rigid);
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(seen);
   svd.setThreshold(1e-6);
@@ -35,8 +39,37 @@ void require_held_by_interface(const PartResult& part) {
       " of them: add a support, or a point off the line of the others; without points, modes alone are computed");
 }
 
+void require_solved(double relative_residual) {
+  if (relative_residual < 1e-6) return;
+  throw core::NumericalError("the check of the reduced model did not solve the full one (residual " +
+                             std::to_string(relative_residual) + ")");
+}
+
+/// As many modes as a tolerance on the interface's receptance needs.
+void reduce_to_tolerance(const Case& source, PartResult& part) {
+  reduction::Band band{source.response.from_hz, source.response.to_hz};
+  if (source.damping.model == "modal" && source.damping.ratio > 0.0) band.loss_factor = 2.0 * source.damping.ratio;
+  const reduction::FullModel full{part.model.K, part.model.M, part.model.node_of_row,
+                                  part.modes.pairs.Phi.leftCols(part.modes.rigid_motions)};
+  const auto truth = reduction::band_truth(full, part.interface, band);
+  require_solved(truth.max_relative_residual);
+  auto chosen = reduction::modes_for_tolerance(full, part.interface,
+                                               {.tolerance = *source.reduction.tolerance, .band = band}, truth);
+  if (chosen.status != reduction::ModeCountStatus::met) {
+    throw core::NumericalError("reduction.tolerance is not met with " + std::to_string(chosen.modes) +
+                               " modes: take a narrower response band, a larger tolerance, or reduction.modes");
+  }
+  spdlog::info("{} modes: the receptance of the interface is {:.1e} off by estimate", chosen.modes,
+               chosen.estimated_error);
+  part.reduced = std::move(chosen.reduced);
+  part.truncation = std::move(chosen.truncation);
+  part.estimated_receptance_error = chosen.estimated_error;
+}
+
 /// The reduced model and what it leaves out.
 void reduce(const Case& source, PartResult& part, const fem::Factored& factored) {
+  if (factored.sigma != 0.0) require_held_by_interface(part);
+  if (source.reduction.tolerance) return reduce_to_tolerance(source, part);
   const reduction::CraigBamptonOptions options{source.reduction.fixed_interface.count.value_or(30),
                                                source.reduction.fixed_interface.up_to_hz};
   const auto by = [&](const linalg::ShiftedInverse& inverse) {
@@ -45,17 +78,10 @@ void reduce(const Case& source, PartResult& part, const fem::Factored& factored)
   };
   if (factored.sigma == 0.0) return by(fem::inverse_of(factored));
   // A free part: the interface itself restrains it, if its points hold all rigid-body motions.
-  require_held_by_interface(part);
   const linalg::SparseCholesky held(reduction::restrained(part.model.K, part.interface), part.model.node_of_row);
   const linalg::ShiftedInverse inverse{[&held](const Eigen::Ref<const Eigen::MatrixXd>& B) { return held.solve(B); },
                                        0.0};
   by(inverse);
-}
-
-void require_solved(double relative_residual) {
-  if (relative_residual < 1e-6) return;
-  throw core::NumericalError("the check of the reduced model did not solve the full one (residual " +
-                             std::to_string(relative_residual) + ")");
 }
 
 /// Undamped receptances of the full model at a few frequencies between its resonances. A held part's factor serves all
@@ -92,6 +118,22 @@ void check_reduction(const Case& source, PartResult& part, const fem::Factored& 
 
 }  // namespace
 
+namespace {
+
+/// The mesh of a file with its own nodes, curved where they are, or straight-sided of a higher order.
+fem::Model mesh_model(const Case& source, int order, const fem::Materials& materials) {
+  mesh::SolidMesh solid = source.part->imported->mesh->solid;
+  if (order == 2) solid = mesh::with_order(std::move(solid), 2);
+  mesh::LagrangeNodes nodes = order > 2 ? mesh::lagrange_nodes(solid.mesh, order) : solid.nodes;
+  std::vector<int> fixed = fem::fixed_rows(solid.mesh, nodes, supports_of(source));
+  if (order <= 2) {
+    for (const int row : rows_held_by_sets(source, solid)) fixed.push_back(row);
+  }
+  return fem::build_model(std::move(solid.mesh), std::move(nodes), materials, fixed, attachments_of(source));
+}
+
+}  // namespace
+
 mesh::TetMesh stretched(mesh::TetMesh mesh, const Eigen::Vector3d& from_size, const Eigen::Vector3d& to_size) {
   const Eigen::Vector3d factor = to_size.cwiseQuotient(from_size);
   for (auto& v : mesh.vertices) v = v.cwiseProduct(factor).eval();
@@ -99,8 +141,10 @@ mesh::TetMesh stretched(mesh::TetMesh mesh, const Eigen::Vector3d& from_size, co
 }
 
 fem::Model part_model(const Case& source, mesh::TetMesh mesh, int order) {
-  return fem::supported_model(std::move(mesh), order, material_of(*source.part), supports_of(source),
-                              shaping(*source.part));
+  const fem::Materials materials = materials_on(source, mesh);
+  if (source.part->shape == "mesh") return mesh_model(source, order, materials);
+  return fem::supported_model(std::move(mesh), order, materials, supports_of(source), shaping(*source.part),
+                              attachments_of(source));
 }
 
 reduction::Interface part_interface(const Case& source, const fem::Model& model) {
@@ -158,10 +202,13 @@ void look_at_mesh(PartResult& part) {
 
 /// The matrix's mass against the geometry's: exact for straight elements, to the accuracy of the curve for bent ones.
 void check_mass(const Case& source, PartResult& part) {
-  const double expected = mass(*source.part, part.model.mesh);
+  const bool summed = source.part->shape == "mesh" || !source.part->materials.empty();
+  if (summed && part.model.curved_elements > 0) return;  // nothing to compare with
+  const double expected =
+      summed ? mass(materials_on(source, part.model.mesh), part.model.mesh) : mass(*source.part, part.model.mesh);
   part.mass_difference = std::abs(part.model.mass.mass_kg / expected - 1.0);
   // A remeshed surface keeps its volume to mesh::SurfaceMeshOptions::volume_tolerance.
-  const double bound = from_file(*source.part) ? 2e-3 : part.model.curved_elements > 0 ? 1e-4 : 1e-8;
+  const double bound = source.part->shape == "surface" && !summed ? 2e-3 : part.model.curved_elements > 0 ? 1e-4 : 1e-8;
   if (part.mass_difference < bound) return;
   throw core::NumericalError("the mass of the mesh differs from the geometry's by " +
                              std::to_string(part.mass_difference) + " relative, more than " + std::to_string(bound) +

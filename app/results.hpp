@@ -44,6 +44,7 @@ struct PartResult {
   std::optional<reduction::CraigBampton> reduced;     ///< none without an interface
   std::optional<reduction::Truncation> truncation;    ///< of what it leaves out
   double frequency_error = 0.0;                       ///< of the reduced model, largest relative
+  std::optional<double> estimated_receptance_error;   ///< of the reduced model over the band, with reduction.tolerance
   std::optional<double> receptance_error;             ///< against direct solves of the full model, largest relative
   std::vector<reduction::IdentifiedMode> identified;  ///< damping found in a measured FRF
   std::optional<dynamics::SpatialModel> damped;       ///< the reduced model with its damping

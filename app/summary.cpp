@@ -93,7 +93,9 @@ json part_of(const Results& results) {
 }
 
 json reduction_of(const PartResult& part) {
-  return {{"method", "craig_bampton"},
+  const auto& estimated = part.estimated_receptance_error;
+  return {{"estimated_receptance_error", estimated ? json(*estimated) : json(nullptr)},
+          {"method", "craig_bampton"},
           {"interface_dofs", part.interface.W.cols()},
           {"kept_modes", part.reduced->fixed_interface_hz.size()},
           {"size", part.reduced->model.size()},

@@ -46,6 +46,7 @@ inline constexpr QuantityKind frequency{"frequency", "Hz", "29 Hz"};
 inline constexpr QuantityKind spindle_speed{"spindle speed", "rpm", "1900 rpm", false};
 inline constexpr QuantityKind velocity{"velocity", "m/s", "1800 mm/min"};
 inline constexpr QuantityKind stiffness{"stiffness", "N/m", "1.7e6 N/m"};
+inline constexpr QuantityKind bed_stiffness{"stiffness per area", "N/m^3", "5 N/mm^3"};
 inline constexpr QuantityKind damping{"damping", "N s/m", "200 N s/m"};
 inline constexpr QuantityKind rate{"rate", "1/s", "12 1/s"};
 inline constexpr QuantityKind power{"power", "W", "15 kW"};

@@ -82,7 +82,7 @@ TEST(PartFile, KeysThatDoNotBelongAreRefused) {
   expect_problem("shape = \"surface\"\nunit = \"mm\"\n", folder.path, "part.file: missing");
   expect_problem(good + "length = \"100 mm\"", folder.path, "part.length: belongs to a part of shape \"box\"");
   expect_problem("file = \"plate.stl\"\nshape = \"prism\"\noutline = [[0, 0], [1, 0], [0, 1]]\nthickness = 0.1",
-                 folder.path, "part.file: belongs to a part of shape \"surface\"");
+                 folder.path, "part.file: belongs to a part of shape \"surface\" or \"mesh\"");
   expect_problem(good + "[part.bend]\nradius = \"1 m\"", folder.path, "part.bend.radius: belongs to");
   expect_problem(good + "[points.P]\nposition = [\"200 mm\", 0, 0]", folder.path, "lies outside the part");
   expect_problem(good + "[part.repair]\nlargest_hole = 200", folder.path, "part.repair.largest_hole");
@@ -148,9 +148,8 @@ TEST(PartFile, WhatMatricesDoNotTellIsRefused) {
     EXPECT_NE(problem.find(part), std::string::npos) << problem;
   };
   expect(two_masses + "[points.C]\ndirections = \"x\"\n", "no point of this name; give its node");
-  expect(two_masses + "[points.C]\nnode = 4\ndirections = \"x\"\n",
-         "points.C.node: the DOF table of the matrices has no node 4");
-  expect(two_masses + "[points.C]\nat = [0, 0, 0]\n", "matrices know nodes, no places");
+  expect(two_masses + "[points.C]\nnode = 4\ndirections = \"x\"\n", "points.C.node: the part's file has no node 4");
+  expect(two_masses + "[points.C]\nat = [0, 0, 0]\n", "give the node = its number, and neither at nor position");
   expect(two_masses + "[[part.supports]]\non = \"x_min\"\n", "part.supports[0].on: belongs to");
   expect("unit = \"mm\"\n[part.matrices]\nstiffness = \"k.mtx\"\nmass = \"m.mtx\"\n",
          "set part.unit and part.mass_unit");

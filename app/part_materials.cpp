@@ -1,0 +1,104 @@
+#include "app/part_materials.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/imported_part.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "io/surface_unit.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+fem::Material material(const Material& m) {
+  return {m.youngs_modulus, m.poisson_ratio, m.density};
+}
+
+bool given(const Material& m) {
+  return std::isfinite(m.youngs_modulus) && std::isfinite(m.poisson_ratio) && std::isfinite(m.density);
+}
+
+Eigen::Vector3d centre(const mesh::TetMesh& mesh, std::size_t tet) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const int v : mesh.tets[tet]) sum += mesh.vertices[static_cast<std::size_t>(v)];
+  return sum / 4.0;
+}
+
+const mesh::SolidMesh* solid_of(const Part& part) {
+  return part.imported && part.imported->mesh ? &part.imported->mesh->solid : nullptr;
+}
+
+/// Tetrahedra of a set of the file, or whose centres the selection of that name holds.
+std::vector<int> tets_in(const Case& source, const std::string& name, const mesh::TetMesh& mesh) {
+  const auto selection = std::ranges::find(source.selections, name, &Selection::name);
+  if (selection == source.selections.end())
+    return mesh::element_set(*solid_of(*source.part), name, source.part->file.path.string()).tets;
+  std::vector<int> tets;
+  for (std::size_t tet = 0; tet < mesh.tets.size(); ++tet) {
+    if (contains(*selection, centre(mesh, tet), 0.0)) tets.push_back(static_cast<int>(tet));
+  }
+  if (tets.empty())
+    throw core::InputError("part.materials: no element has its centre in \"" + name + "\": enlarge it, or mesh finer");
+  return tets;
+}
+
+void set_material(fem::Materials& materials, const std::vector<int>& tets, const fem::Material& m) {
+  const int index = static_cast<int>(materials.list.size());
+  materials.list.push_back(m);
+  for (const int tet : tets) materials.of_tet[static_cast<std::size_t>(tet)] = index;
+}
+
+double kilograms_per_unit(const Part& part) {
+  return core::parse_quantity("1 " + part.file.mass_unit, core::kind::mass);
+}
+
+/// The file's sections in SI, each on its set of elements.
+void add_sections(const Part& part, fem::Materials& materials) {
+  const double metres = io::metres_per_unit(part.file.unit, part.file.path.string());
+  for (const io::InpMaterial& raw : part.imported->mesh->materials) {
+    const io::InpMaterial m = io::in_si(raw, metres, kilograms_per_unit(part));
+    if (!m.youngs_modulus || !m.poisson_ratio || !m.density) continue;
+    set_material(materials, mesh::element_set(*solid_of(part), m.element_set, part.file.path.string()).tets,
+                 {*m.youngs_modulus, *m.poisson_ratio, *m.density});
+  }
+}
+
+}  // namespace
+
+bool materials_in_file(const Part& part) {
+  return part.imported && part.imported->mesh && !part.imported->mesh->materials.empty() &&
+         !part.file.mass_unit.empty();
+}
+
+fem::Materials materials_on(const Case& source, const mesh::TetMesh& mesh) {
+  const Part& part = *source.part;
+  fem::Materials materials;
+  if (given(part.material)) materials.list.push_back(material(part.material));
+  if (part.materials.empty() && given(part.material)) return materials;
+  materials.of_tet.assign(mesh.tets.size(), given(part.material) ? 0 : -1);
+  if (!given(part.material) && materials_in_file(part)) add_sections(part, materials);
+  for (const MaterialRegion& region : part.materials)
+    set_material(materials, tets_in(source, region.on, mesh), material(region.material));
+  const auto without = std::ranges::find(materials.of_tet, -1);
+  if (without != materials.of_tet.end()) {
+    const Eigen::Vector3d x = 1e3 * centre(mesh, static_cast<std::size_t>(without - materials.of_tet.begin()));
+    char place[96];
+    std::snprintf(place, sizeof place, "(%.4g, %.4g, %.4g) mm", x(0), x(1), x(2));
+    throw core::InputError("an element at " + std::string(place) +
+                           " has no material: give [part.material] for what no set or selection names");
+  }
+  return materials;
+}
+
+double mass(const fem::Materials& materials, const mesh::TetMesh& mesh) {
+  double sum = 0.0;
+  for (std::size_t tet = 0; tet < mesh.tets.size(); ++tet) {
+    const std::size_t index = materials.of_tet.empty() ? 0 : static_cast<std::size_t>(materials.of_tet[tet]);
+    sum += materials.list[index].density_kg_m3 * mesh::volume(mesh, static_cast<int>(tet));
+  }
+  return sum;
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,22 @@
+#pragma once
+// Which material each element of the part is of.
+
+#include "app/case.hpp"
+#include "fem/material.hpp"
+#include "mesh/tet_mesh.hpp"
+
+namespace thinwall::app {
+
+/// part.material everywhere, or what the sections of the part's mesh file say where the case gives none, and over it
+/// each of part.materials: on a set of elements of the file, or where a selection (box or sphere) holds an element's
+/// centre; later ones win. Throws InputError for an element without a material, a region that holds no element, or a
+/// plane.
+[[nodiscard]] fem::Materials materials_on(const Case& source, const mesh::TetMesh& mesh);
+
+/// Whether the mesh file gives a material to all of its elements, with a unit of mass to read them by.
+[[nodiscard]] bool materials_in_file(const Part& part);
+
+/// Mass of a mesh of straight tetrahedra, kg: Σ ρ V.
+[[nodiscard]] double mass(const fem::Materials& materials, const mesh::TetMesh& mesh);
+
+}  // namespace thinwall::app
