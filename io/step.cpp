@@ -53,8 +53,7 @@ void validate(const StepOptions& options) {
 
 /// Before a foreign library sees it: what is no STEP file, or half of one.
 void require_whole(const std::string& bytes, const std::string& name) {
-  const auto begin = bytes.find("ISO-10303-21;");
-  if (begin == std::string::npos || begin > longest_heading)
+  if (bytes.find("ISO-10303-21;") > longest_heading)  // or nowhere
     throw core::DataError(name + ": line 1: no STEP file: it does not begin with \"ISO-10303-21;\"");
   if (bytes.find("END-ISO-10303-21;") == std::string::npos) {
     const auto lines = 1 + std::count(bytes.begin(), bytes.end(), '\n');

@@ -32,8 +32,7 @@ TEST(ClosedPart, AnEdgeThatTurnsInwardsIsTold) {
   EXPECT_TRUE(has_reentrant_edge(mesh::surface(mesh::LPocket{}, 0.01)));
 }
 
-// The clamped plate by prismatic elements of the case's own mesher would be another check; here the same hierarchy with
-// a fifth of the tolerance stands for the truth.
+// A fifth of the tolerance stands for the truth; against other meshes: tests/verification/real_parts.
 TEST(ClosedPart, ATighterToleranceFindsTheEarlierOneWithinItsEstimate) {
   ClosedPartOptions options;
   options.supports = {{"foot", mesh::face_of(plate, "x_min"), {0, 1, 2}}};

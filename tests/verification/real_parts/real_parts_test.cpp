@@ -45,6 +45,7 @@ Eigen::VectorXd fine_frequencies(const mesh::TriangleSurface& surface, int count
   options.size.layers = 1;
   options.size.turn_rad = 0.25;
   options.volume_tolerance = 1.5e-3;
+  options.smallest_shape = 1e-10;  // the trailing edge of the blade
   const auto meshed = mesh::mesh_closed_surface(surface, options);
   const auto model = fem::supported_model(meshed.mesh, 4, aluminium, {});
   const auto modes = fem::modes(model, fem::factorise(model), {.count = count, .up_to_hz = {}, .verify_count = false});
@@ -102,7 +103,7 @@ std::string refusal(const std::string& file, const std::string& unit) {
   try {
     (void)mesh::repaired_surface(soup_of(file, unit));
   } catch (const core::Error& error) {
-    const std::string text = error.what();
+    std::string text = error.what();
     EXPECT_EQ(text.find('\n'), std::string::npos) << "one line";
     EXPECT_NE(text.find(") mm"), std::string::npos) << "the place: " << text;
     std::printf("%s: %s\n", file.c_str(), text.c_str());
