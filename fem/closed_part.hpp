@@ -22,7 +22,8 @@ struct ClosedPartOptions {
   int levels = 1;                  ///< of ever smaller and more graded elements, 1 to 4; each has five times as many
   std::int64_t largest_dofs = 400000;  ///< no model with more is solved; 0: no bound
   double memory_limit_bytes = 0.0;     ///< of a factor; 0: none
-  mesh::ProcessLimits limits;          ///< of each attempt of a mesher
+  /// Of each attempt of a mesher. TetGen takes a second or never ends.
+  mesh::ProcessLimits limits{.time_s = 20.0, .memory_bytes = 4e9};
 };
 
 /// How the elements lie to the surface of one level.
