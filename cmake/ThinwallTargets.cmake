@@ -1,4 +1,5 @@
-# thinwall_library(<folder> LINKS ...)   the target thinwall::<folder> from every .cpp of the folder
+# thinwall_library(<folder> LINKS ...)   the target thinwall::<folder> from every .cpp of the folder but those whose
+#                                        path matches EXCLUDES: they belong to a target of their own
 # thinwall_test(<name> LINKS ...)        one GoogleTest program from every .cpp of the current folder
 
 add_library(thinwall_flags INTERFACE)
@@ -19,9 +20,12 @@ if(THINWALL_SANITIZE)
 endif()
 
 function(thinwall_library name)
-  cmake_parse_arguments(ARG "" "" "LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "" "EXCLUDES" "LINKS;PRIVATE_LINKS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  if(ARG_EXCLUDES)
+    list(FILTER sources EXCLUDE REGEX "${ARG_EXCLUDES}[^/]*$")
+  endif()
   if(sources)
     add_library(thinwall_${name} STATIC ${sources})
     target_include_directories(thinwall_${name} PUBLIC ${PROJECT_SOURCE_DIR})

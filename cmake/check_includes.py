@@ -36,6 +36,7 @@ OWNERS = [
     (re.compile(r"^zlib\.h$"), ("io/vtu_array.cpp",)),
     (re.compile(r"^openssl/"), ("io/manifest.cpp",)),
     (re.compile(r"^(urdf|console_bridge)"), ("io/urdf.cpp",)),
+    (re.compile(r"^[A-Za-z]+_?[A-Za-z]*\.hxx$"), ("io/step",)),
     (re.compile(r"^tetgen\.h$"), ("mesh/",)),
     (re.compile(r"^(suitesparse/)?cholmod\.h$"), ("linalg/", "tests/linalg/")),
 ]

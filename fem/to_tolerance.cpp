@@ -133,6 +133,20 @@ void validate(const ToleranceOptions& o) {
     throw core::InputError("orders must rise within 1 to 6, on at least one level");
 }
 
+/// Whether the model of this order keeps within the bound on degrees of freedom.
+bool fits(const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
+  return options.largest_dofs == 0 || 3 * mesh::lagrange_node_count(mesh, order) <= options.largest_dofs;
+}
+
+void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options) {
+  const int order = options.first_order + 1;
+  if (fits(mesh, order, options)) return;
+  throw core::InputError("the coarsest mesh has " + std::to_string(3 * mesh::lagrange_node_count(mesh, order)) +
+                         " degrees of freedom at order " + std::to_string(order) + ", more than the bound of " +
+                         std::to_string(options.largest_dofs) +
+                         "; allow more, lower the first order, or simplify the part");
+}
+
 /// Of the error of the order below, what `order` leaves. The law of the edge is that of high orders: below 0.5 it says
 /// nothing.
 double left_by(int order, const ToleranceOptions& options) {
@@ -154,9 +168,10 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
   validate(options);
   Estimate estimate;
   estimate.tolerance = options.tolerance;
+  mesh::TetMesh mesh = part.mesh(0);
+  require_fit(mesh, options);
   for (int level = 0;; ++level) {
-    const mesh::TetMesh mesh = part.mesh(level);
-    const bool last_level = level + 1 == options.levels;
+    bool last_level = level + 1 == options.levels;
     Solution now = solve(part, mesh, options.first_order + 1, options);
     Solution below = solve_below(part, now, options);
     estimate.steps.push_back({level, options.first_order, below.model.K.rows(), {}, {}});
@@ -176,7 +191,18 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
       // Smaller elements, where the next order will not do: away from inner edges one brings a factor of ten, at most
       // thirty; beside them what the law says.
       const double next = options.reentrant_edges ? of_higher * left_by(order + 1, options) : 1.0 / 30.0;
-      if (!last_level && (order == options.last_order || next * worst > options.tolerance)) break;
+      if (!last_level && (order == options.last_order || next * worst > options.tolerance)) {
+        mesh::TetMesh finer = part.mesh(level + 1);
+        if (fits(finer, options.first_order + 1, options)) {
+          mesh = std::move(finer);
+          break;
+        }
+        last_level = true;
+        estimate.held_back = true;
+      }
+      estimate.held_back = estimate.held_back || !fits(mesh, order + 1, options);
+      if (order == options.last_order || !fits(mesh, order + 1, options))
+        return finished(std::move(now), std::move(estimate), of_higher);
       below = std::move(now);
       now = solve(part, mesh, order + 1, options);
     }

@@ -1,6 +1,7 @@
 #pragma once
 // Order and element size from a tolerance: an hp hierarchy that ends when its own estimate says so.
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -32,6 +33,7 @@ struct ToleranceOptions {
   int levels = 4;
   bool reentrant_edges = false;     ///< whether an edge of the part turns inwards: errors fall more slowly then
   double memory_limit_bytes = 0.0;  ///< of a factor; 0: none
+  std::int64_t largest_dofs = 0;    ///< no model with more rows than this before supports is solved; 0: no bound
 };
 
 /// One solution on the way: its size, and how far the one before it on the same mesh was from it.
@@ -53,7 +55,8 @@ struct Estimate {
   double frequency = 0.0;   ///< largest relative error
   double receptance = 0.0;  ///< largest error over the sum of the modes' magnitudes at its frequency; 0 without points
   double tolerance = 0.0;
-  bool met = false;  ///< false: all levels were used
+  bool met = false;        ///< false: all levels were used, or the next solution would exceed largest_dofs
+  bool held_back = false;  ///< ended by largest_dofs
   std::vector<RefinementStep> steps;
 };
 
@@ -71,7 +74,8 @@ struct [[nodiscard]] Refined {
 /// last_order, or too far above for an order to help, goes to the next level (Babuska & Guo 1992: exponential
 /// convergence with elements graded to edges and rising order). Receptances between the points are compared at zero (or
 /// at the shift of a free part) and between resonances that lie more than a quarter apart; nearer to a resonance they
-/// magnify the error of its frequency. Throws InputError for options out of range, and what the steps throw. Cost: that
+/// magnify the error of its frequency. Throws InputError for options out of range and for largest_dofs below what the
+/// first two orders of the first level have, and what the steps throw. Cost: that
 /// of the last step, and about a third more for those before.
 Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& options);
 

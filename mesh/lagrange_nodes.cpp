@@ -45,6 +45,16 @@ Key key_of(const std::array<int, 4>& tet, const std::array<int, 4>& alpha) {
   return key;
 }
 
+void require_order(int order) {
+  if (order < 1 || order > 6) throw core::InputError("element order " + std::to_string(order) + " is outside 1 to 6");
+}
+
+template <class T>
+std::int64_t distinct(std::vector<T>& items) {
+  std::sort(items.begin(), items.end());
+  return std::unique(items.begin(), items.end()) - items.begin();
+}
+
 }  // namespace
 
 std::vector<std::array<int, 4>> lattice(int order) {
@@ -67,10 +77,26 @@ std::vector<std::array<int, 4>> lattice(int order) {
   return vertices_first;
 }
 
-LagrangeNodes lagrange_nodes(const TetMesh& mesh, int order) {
-  if (order < 1 || order > 6) {
-    throw core::InputError("element order " + std::to_string(order) + " is outside 1 to 6");
+std::int64_t lagrange_node_count(const TetMesh& mesh, int order) {
+  require_order(order);
+  std::vector<int> vertices;
+  std::vector<std::array<int, 2>> edges;
+  std::vector<std::array<int, 3>> faces;
+  for (auto tet : mesh.tets) {
+    std::sort(tet.begin(), tet.end());
+    for (std::size_t i = 0; i < 4; ++i) {
+      vertices.push_back(tet[i]);
+      for (std::size_t j = i + 1; j < 4; ++j) edges.push_back({tet[i], tet[j]});
+      faces.push_back({tet[i == 0 ? 1 : 0], tet[i <= 1 ? 2 : 1], tet[i <= 2 ? 3 : 2]});
+    }
   }
+  const std::int64_t p = order;
+  return distinct(vertices) + (p - 1) * distinct(edges) + (p - 1) * (p - 2) / 2 * distinct(faces) +
+         (p - 1) * (p - 2) * (p - 3) / 6 * static_cast<std::int64_t>(mesh.tets.size());
+}
+
+LagrangeNodes lagrange_nodes(const TetMesh& mesh, int order) {
+  require_order(order);
   const auto alphas = lattice(order);
   LagrangeNodes nodes;
   nodes.order = order;

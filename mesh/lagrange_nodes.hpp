@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "mesh/tet_mesh.hpp"
@@ -24,5 +25,10 @@ struct LagrangeNodes {
 /// Numbers the nodes of order 1…6. Two elements share a node exactly if it is the same weighted set of vertices, so
 /// orientation needs no special case. Throws InputError for another order. Cost O(nodes log nodes).
 [[nodiscard]] LagrangeNodes lagrange_nodes(const TetMesh& mesh, int order);
+
+/// How many nodes lagrange_nodes() would make, without making them: V + (p − 1) E + (p − 1)(p − 2)/2 F
+/// + (p − 1)(p − 2)(p − 3)/6 T for the vertices that elements use, edges, faces and elements. Throws InputError for
+/// another order than 1…6. Cost O(elements log elements).
+[[nodiscard]] std::int64_t lagrange_node_count(const TetMesh& mesh, int order);
 
 }  // namespace thinwall::mesh

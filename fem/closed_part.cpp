@@ -1,0 +1,118 @@
+#include "fem/closed_part.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "core/error.hpp"
+#include "mesh/surface_to_volume.hpp"
+
+namespace thinwall::fem {
+
+namespace {
+
+constexpr double share_of_surface = 0.2;
+constexpr double coarsest_turn_rad = 0.5;
+constexpr double smaller_per_level = 1.5;
+constexpr double sharp_rad = 0.5235987755982988;  // 30°
+
+void validate(const ClosedPartOptions& o) {
+  if (!(o.tolerance >= 1e-3 && o.tolerance <= 0.1)) {
+    throw core::InputError("a tolerance of " + std::to_string(o.tolerance) +
+                           " for a part of a closed surface is outside 0.001 to 0.1: its elements have straight edges");
+  }
+  if (o.levels < 1 || o.levels > 4)
+    throw core::InputError("a closed surface was to be meshed at " + std::to_string(o.levels) + " levels; give 1 to 4");
+  if (o.largest_dofs < 0) throw core::InputError("the bound on degrees of freedom is negative; give 0 for none");
+}
+
+/// Whether a support ends where the surface has no line of its own.
+bool ends_within_a_face(const Support& support) {
+  return !std::holds_alternative<mesh::PlaneRegion>(support.region);
+}
+
+mesh::SurfaceMeshOptions mesh_options(const ClosedPartOptions& options, int level) {
+  mesh::SurfaceMeshOptions result;
+  for (const Support& support : options.supports)
+    if (ends_within_a_face(support)) result.size.refined.push_back(support.region);
+  result.size.layers = std::min(4, level + (result.size.refined.empty() ? 0 : 1));
+  result.size.scale = std::pow(smaller_per_level, -level);
+  result.size.turn_rad = coarsest_turn_rad * std::pow(2.0, -level);
+  result.volume_tolerance = share_of_surface * options.tolerance;
+  result.limits = options.limits;
+  return result;
+}
+
+mesh::SurfaceMeshed meshed(const mesh::TriangleSurface& surface, const ClosedPartOptions& options, int level) {
+  try {
+    return mesh::mesh_closed_surface(surface, mesh_options(options, level));
+  } catch (const core::NumericalError&) {
+    if (level == 0) throw;
+  }
+  mesh::SurfaceMeshOptions other = mesh_options(options, 0);
+  other.size.scale = std::pow(0.7, level);
+  return mesh::mesh_closed_surface(surface, other);
+}
+
+}  // namespace
+
+SolidPart solid_part(const mesh::TriangleSurface& surface, const Material& material, const ClosedPartOptions& options,
+                     std::vector<SurfaceFit>& fits) {
+  SolidPart part;
+  part.material = material;
+  part.supports = options.supports;
+  part.mesh = [&surface, &options, &fits](int level) {
+    mesh::SurfaceMeshed result = meshed(surface, options, level);
+    fits.push_back({level, std::move(result.mesher), result.volume_error_relative, result.surface_distance_m,
+                    std::move(result.failures)});
+    return std::move(result.mesh);
+  };
+  return part;
+}
+
+bool has_reentrant_edge(const mesh::TriangleSurface& surface) {
+  std::map<std::pair<int, int>, int> along;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      along[{surface.triangles[t][k], surface.triangles[t][(k + 1) % 3]}] = static_cast<int>(t);
+  return std::any_of(along.begin(), along.end(), [&](const auto& entry) {
+    const auto [from, to] = entry.first;
+    const auto other = along.find({to, from});
+    if (other == along.end()) return false;
+    const Eigen::Vector3d a = mesh::area_vector(surface, entry.second).normalized();
+    const Eigen::Vector3d b = mesh::area_vector(surface, other->second).normalized();
+    if (a.dot(b) > std::cos(sharp_rad)) return false;
+    const Eigen::Vector3d way =
+        surface.vertices[static_cast<std::size_t>(to)] - surface.vertices[static_cast<std::size_t>(from)];
+    return a.cross(b).dot(way) < 0.0;  // the other face rises above this one
+  });
+}
+
+ClosedPart refine_closed_part(const mesh::TriangleSurface& surface, const Material& material,
+                              const ClosedPartOptions& options) {
+  validate(options);
+  ToleranceOptions steps;
+  steps.tolerance = (1.0 - share_of_surface) * options.tolerance;
+  steps.modes = options.modes;
+  steps.points = options.points;
+  steps.first_order = options.first_order;
+  steps.last_order = options.last_order;
+  steps.levels = options.levels;
+  steps.reentrant_edges = has_reentrant_edge(surface);
+  steps.memory_limit_bytes = options.memory_limit_bytes;
+  steps.largest_dofs = options.largest_dofs;
+  std::vector<SurfaceFit> fits;
+  Refined refined = refine_to_tolerance(solid_part(surface, material, options, fits), steps);
+  ClosedPart result{std::move(refined), std::move(fits), 0.0, false};
+  const int level = result.refined.estimate.steps.back().level;
+  const auto solved =
+      std::find_if(result.fits.begin(), result.fits.end(), [&](const SurfaceFit& fit) { return fit.level == level; });
+  result.frequency_error = result.refined.estimate.frequency + std::abs(solved->volume_error_relative);
+  result.met = result.frequency_error <= options.tolerance && result.refined.estimate.met;
+  return result;
+}
+
+}  // namespace thinwall::fem

@@ -1,0 +1,87 @@
+#include "fem/closed_part.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/error.hpp"
+#include "mesh/box.hpp"
+#include "mesh/shapes.hpp"
+#include "tests/mesh/kuhn_box.hpp"
+
+namespace thinwall::fem {
+namespace {
+
+const Material steel{210e9, 0.3, 7850.0};
+const mesh::Box plate{{0.09, 0.06, 0.003}};
+
+mesh::TriangleSurface plate_surface() {
+  return mesh::triangulated(mesh::surface(plate));
+}
+
+TEST(ClosedPart, NodesAreCountedAsTheyAreMade) {
+  const mesh::TetMesh mesh = mesh::kuhn_box({1.0, 2.0, 3.0}, {2, 3, 1});
+  for (int order = 1; order <= 6; ++order)
+    EXPECT_EQ(mesh::lagrange_node_count(mesh, order), mesh::lagrange_nodes(mesh, order).positions.rows()) << order;
+  EXPECT_THROW((void)mesh::lagrange_node_count(mesh, 7), core::InputError);
+}
+
+TEST(ClosedPart, AnEdgeThatTurnsInwardsIsTold) {
+  EXPECT_FALSE(has_reentrant_edge(plate_surface()));
+  EXPECT_FALSE(has_reentrant_edge(mesh::surface(mesh::CylinderSector{}, 0.01))) << "a smooth hollow is no edge";
+  EXPECT_TRUE(has_reentrant_edge(mesh::surface(mesh::LPocket{}, 0.01)));
+}
+
+// A fifth of the tolerance stands for the truth; against other meshes: tests/verification/real_parts.
+TEST(ClosedPart, ATighterToleranceFindsTheEarlierOneWithinItsEstimate) {
+  ClosedPartOptions options;
+  options.supports = {{"foot", mesh::face_of(plate, "x_min"), {0, 1, 2}}};
+  const ClosedPart coarse = refine_closed_part(plate_surface(), steel, options);
+  options.tolerance = 2e-3;
+  options.first_order = 4;
+  const ClosedPart fine = refine_closed_part(plate_surface(), steel, options);
+  ASSERT_TRUE(coarse.met);
+  ASSERT_TRUE(fine.met);
+  const auto error = (coarse.refined.modes.frequency_hz.array() / fine.refined.modes.frequency_hz.array() - 1.0).abs();
+  EXPECT_LT(error.maxCoeff(), coarse.frequency_error + fine.frequency_error);
+  EXPECT_GE(fine.refined.model.K.rows(), coarse.refined.model.K.rows());
+}
+
+TEST(ClosedPart, KeepsWithinTheBoundOnDegreesOfFreedomAndSaysSo) {
+  ClosedPartOptions options;
+  options.tolerance = 1e-3;
+  options.levels = 2;
+  const auto free = refine_closed_part(plate_surface(), steel, options);
+  const auto& steps = free.refined.estimate.steps;
+  ASSERT_GE(steps.size(), 3U) << "three orders at least";
+  options.largest_dofs = steps[1].dofs + 1;
+  const auto bounded = refine_closed_part(plate_surface(), steel, options);
+  EXPECT_TRUE(bounded.refined.estimate.held_back);
+  EXPECT_FALSE(bounded.met);
+  EXPECT_EQ(bounded.refined.model.K.rows(), steps[1].dofs);
+  EXPECT_GT(bounded.frequency_error, options.tolerance);
+  options.largest_dofs = steps[1].dofs - 1;
+  try {
+    (void)refine_closed_part(plate_surface(), steel, options);
+    FAIL() << "above the bound";
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(std::to_string(steps[1].dofs) + " degrees of freedom at order 4"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(ClosedPart, RefusesWhatCannotBe) {
+  ClosedPartOptions options;
+  options.tolerance = 1e-4;
+  EXPECT_THROW((void)refine_closed_part(plate_surface(), steel, options), core::InputError);
+  options = {};
+  options.levels = 0;
+  EXPECT_THROW((void)refine_closed_part(plate_surface(), steel, options), core::InputError);
+  mesh::TriangleSurface open = plate_surface();
+  open.triangles.pop_back();
+  EXPECT_THROW((void)refine_closed_part(open, steel), core::InputError);
+}
+
+}  // namespace
+}  // namespace thinwall::fem
