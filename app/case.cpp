@@ -76,6 +76,10 @@ Eigen::AlignedBox3d bounds(const Part& part) {
   return box;
 }
 
+double usual_tolerance(const Part& part) {
+  return part.shape == "surface" ? 1e-2 : 1e-3;
+}
+
 bool names_node_set(const Case& source, const std::string& name) {
   const bool face = name.size() == 5 && std::string("xyz").find(name[0]) != std::string::npos &&
                     (name.ends_with("_min") || name.ends_with("_max"));

@@ -402,6 +402,9 @@ struct Case {
 /// The block around the part, before it is bent, m.
 [[nodiscard]] Eigen::AlignedBox3d bounds(const Part& part);
 
+/// part.mesh.tolerance where the case does not give it: 0.01 of a surface from a file, 0.001 of other parts.
+[[nodiscard]] double usual_tolerance(const Part& part);
+
 /// Whether a name of part.supports is a set of nodes of the mesh file: no face of the box around the part (x_min …),
 /// no selection.
 [[nodiscard]] bool names_node_set(const Case& source, const std::string& name);

@@ -145,7 +145,7 @@ Part bind_part(const Table& table, const std::filesystem::path& folder) {
   };
   const auto order = number("order");
   part.mesh = {number("element_size"),
-               mesh.number("tolerance"),
+               mesh.optional("tolerance").value_or(usual_tolerance(part)),
                order ? std::optional(static_cast<int>(*order)) : std::nullopt,
                mesh.number("quality"),
                mesh.optional("grading"),

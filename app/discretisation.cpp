@@ -13,6 +13,7 @@
 #include "app/part_materials.hpp"
 #include "app/path.hpp"
 #include "core/memory.hpp"
+#include "fem/closed_part.hpp"
 #include "mesh/bend.hpp"
 #include "mesh/prism_mesh.hpp"
 #include "mesh/selection.hpp"
@@ -97,17 +98,11 @@ int along_axis(const Part& part, int through) {
   return longest;
 }
 
-/// A mesh of the closed surface of a file, one element through the wall; the coarsest is level 0.
-mesh::TetMesh surface_mesh(const Case& source, int level) {
+/// A mesh of the closed surface of a file with elements of the size that the case gives, one through the wall.
+mesh::TetMesh surface_mesh(const Case& source) {
   const MeshOptions& wanted = source.part->mesh;
   mesh::SurfaceMeshOptions options;
-  options.size.size_m = wanted.element_size.value_or(0.0);
-  options.size.scale = std::pow(1.5, -level);
-  options.size.layers = 1 + level;
-  for (const Point& p : source.points) {
-    if (p.patch_radius > 0.0)
-      options.size.refined.emplace_back(mesh::SphereRegion{position(*source.part, p), p.patch_radius});
-  }
+  options.size.size_m = *wanted.element_size;
   options.limits = {wanted.time_limit, wanted.memory_limit};
   mesh::SurfaceMeshed meshed = mesh::mesh_closed_surface(source.part->imported->surface->surface, options);
   for (const auto& failure : meshed.failures) spdlog::info("a mesher failed and the next was tried: {}", failure);
@@ -129,40 +124,85 @@ std::vector<fem::NamedPoint> watched_points(const Case& source) {
   return points;
 }
 
-Discretisation refined_to_tolerance(const Case& source) {
+void log_steps(const fem::Estimate& estimate) {
+  for (const auto& step : estimate.steps) {
+    spdlog::info("level {}, order {}: {} degrees of freedom, frequencies changed by {:.2e}, receptances by {:.2e}",
+                 step.level, step.order, step.dofs, step.frequency_change.value_or(0.0),
+                 step.receptance_change.value_or(0.0));
+  }
+  if (!estimate.met) {
+    spdlog::warn("the tolerance of {} was not met{}: frequencies are right to about {:.1e}, receptances to {:.1e}",
+                 estimate.tolerance, estimate.held_back ? ", for the next model would be too large" : "",
+                 estimate.frequency, estimate.receptance);
+  }
+}
+
+Discretisation discretised(fem::Refined refined) {
+  log_steps(refined.estimate);
+  Discretisation result{refined.model.mesh, refined.model.nodes.order, refined.estimate, {}};
+  result.solved.emplace(Solution{std::move(refined.model), std::move(refined.factored), std::move(refined.modes)});
+  return result;
+}
+
+std::function<fem::Materials(const mesh::TetMesh&)> several_materials(const Case& source) {
+  if (source.part->materials.empty()) return {};
+  return [&source](const mesh::TetMesh& mesh) { return materials_on(source, mesh); };
+}
+
+/// The closed surface of a file, by its walls.
+Discretisation refined_surface(const Case& source) {
   const MeshOptions& wanted = source.part->mesh;
-  const auto mesh_at = [&](int level) {
-    return from_file(*source.part) ? surface_mesh(source, level) : graded_mesh(source, level);
-  };
-  fem::SolidPart part{
-      mesh_at, shaping(*source.part), material_of(*source.part), supports_of(source), attachments_of(source), {}};
-  if (!source.part->materials.empty())
-    part.materials = [&source](const mesh::TetMesh& mesh) { return materials_on(source, mesh); };
+  fem::ClosedPartOptions options;
+  options.tolerance = wanted.tolerance;
+  options.modes = mode_options(source);
+  options.modes.verify_count = false;
+  options.supports = supports_of(source);
+  options.points = watched_points(source);
+  options.attachments = attachments_of(source);
+  options.materials = several_materials(source);
+  options.levels = 2;
+  options.memory_limit_bytes = core::available_memory_bytes();
+  options.limits = {wanted.time_limit, wanted.memory_limit};
+  if (wanted.order) {
+    options.last_order = std::max(2, *wanted.order);
+    options.first_order = options.last_order - 1;
+  }
+  fem::ClosedPart part =
+      fem::refine_closed_part(source.part->imported->surface->surface, material_of(*source.part), options);
+  for (const auto& fit : part.fits) {
+    for (const auto& failure : fit.failures) spdlog::info("a mesher failed and the next was tried: {}", failure);
+    spdlog::info("{}: volume off by {:.1e} relative, surface by up to {:.2g} mm", fit.mesher, fit.volume_error_relative,
+                 1e3 * fit.surface_distance_m);
+  }
+  fem::Estimate& estimate = part.refined.estimate;  // what the surface is off by belongs to it
+  estimate.frequency = part.frequency_error;
+  estimate.tolerance = options.tolerance;
+  estimate.met = part.met;
+  return discretised(std::move(part.refined));
+}
+
+Discretisation refined_to_tolerance(const Case& source) {
+  if (source.part->shape == "surface") return refined_surface(source);
+  const MeshOptions& wanted = source.part->mesh;
+  fem::SolidPart part{[&](int level) { return graded_mesh(source, level); },
+                      shaping(*source.part),
+                      material_of(*source.part),
+                      supports_of(source),
+                      attachments_of(source),
+                      several_materials(source)};
   fem::ToleranceOptions options;
   options.tolerance = wanted.tolerance;
   options.modes = mode_options(source);
   options.modes.verify_count = false;
   options.memory_limit_bytes = core::available_memory_bytes();
-  options.reentrant_edges = from_file(*source.part) || mesh::has_reentrant_edge(planar(*source.part).prism);
+  options.reentrant_edges = mesh::has_reentrant_edge(planar(*source.part).prism);
   if (options.reentrant_edges) options.levels = 2;  // more bring little: across a rib one element remains
   options.points = watched_points(source);
   if (wanted.order) {
     options.last_order = std::max(2, *wanted.order);
     options.first_order = options.last_order - 1;
   }
-  fem::Refined refined = fem::refine_to_tolerance(part, options);
-  for (const auto& step : refined.estimate.steps) {
-    spdlog::info("level {}, order {}: {} degrees of freedom, frequencies changed by {:.2e}, receptances by {:.2e}",
-                 step.level, step.order, step.dofs, step.frequency_change.value_or(0.0),
-                 step.receptance_change.value_or(0.0));
-  }
-  if (!refined.estimate.met) {
-    spdlog::warn("the tolerance of {} was not met: frequencies are right to about {:.1e}, receptances to {:.1e}",
-                 wanted.tolerance, refined.estimate.frequency, refined.estimate.receptance);
-  }
-  Discretisation result{refined.model.mesh, refined.model.nodes.order, refined.estimate, {}};
-  result.solved.emplace(Solution{std::move(refined.model), std::move(refined.factored), std::move(refined.modes)});
-  return result;
+  return discretised(fem::refine_to_tolerance(part, options));
 }
 
 }  // namespace
@@ -283,7 +323,7 @@ Discretisation discretise(const Case& source) {
   }
   if (!part.mesh.element_size) return refined_to_tolerance(source);
   const int order = part.mesh.order.value_or(2);
-  if (from_file(part)) return {surface_mesh(source, 0), order, {}, {}};
+  if (part.shape == "surface") return {surface_mesh(source), order, {}, {}};
   if (part.shape == "box" && !part.bend) return {tetgen_mesh(source), order, {}, {}};
   return {graded_mesh(source, 0), order, {}, {}};
 }

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "core/parallel.hpp"
+#include "io/step.hpp"
 
 namespace thinwall::app {
 
@@ -47,7 +48,9 @@ std::string doctor_report() {
   line("nlohmann-json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH));
   text << "\nthreads\n";
   line("in use", std::to_string(core::thread_count()));
-  text << "\noptional parts\n  none\n";
+  text << "\noptional parts\n";
+  line("STEP files",
+       io::reads_step() ? "there (Open CASCADE)" : "absent: install libocct-data-exchange-dev and build again");
   return text.str();
 }
 

@@ -99,6 +99,10 @@ std::string shape_of_file(const std::filesystem::path& file) {
   return among(surface_endings) ? "surface" : among(mesh_endings) ? "mesh" : "";
 }
 
+bool tells_its_unit(const std::filesystem::path& file) {
+  return ending(file) == ".step" || ending(file) == ".stp";
+}
+
 bool from_file(const Part& part) {
   return part.shape == "surface" || part.shape == "mesh" || part.shape == "matrices";
 }

@@ -8,13 +8,12 @@
 #include "app/case_checks.hpp"
 #include "app/discretisation.hpp"
 #include "app/imported_part.hpp"
-#include "app/part_materials.hpp"
+#include "app/part_description_checks.hpp"
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "dynamics/dof.hpp"
 #include "dynamics/unit_system.hpp"
-#include "io/inp_text.hpp"
 #include "io/surface_unit.hpp"
 #include "mesh/bend.hpp"
 
@@ -107,6 +106,7 @@ void check_part_file(const Part& part, Findings& findings) {
     return;
   }
   if (!findings.given("part.file")) findings.report("part.file", "missing; the surface or the mesh of the part");
+  if (tells_its_unit(part.file.path) && !findings.given("part.unit")) return;
   if (!findings.given("part.unit")) {
     findings.report("part.unit", "missing; the file does not tell its unit of length: \"mm\", \"m\", \"inch\"");
   } else {
@@ -234,7 +234,9 @@ void check_mesh_size(const Case& source, Findings& findings) {
     findings.report(other_quality ? "part.mesh.quality" : "part.mesh.point_element_size",
                     "belongs to boxes with a given element_size; elsewhere meshes are graded by rule; remove it");
   }
-  if (mesh.element_size && mesh.tolerance != MeshOptions{}.tolerance)
+  if (source.part->shape == "surface" && !mesh.element_size && mesh.tolerance < 1e-3)
+    findings.report("part.mesh.tolerance", "a surface from a file is followed to 0.001 at best; take that or more");
+  if (mesh.element_size && mesh.tolerance != usual_tolerance(*source.part))
     findings.report("part.mesh.tolerance", "nothing is estimated with a given element_size; remove one of the two");
   if (!by_tetgen(*source.part)) return;
   const int order_now = mesh.order.value_or(2);
@@ -258,118 +260,6 @@ void check_mesh_size(const Case& source, Findings& findings) {
   findings.report(near_points ? "part.mesh.point_element_size" : "part.mesh.element_size",
                   length(asked) + (many_tets ? "" : order) + " would make about " + what + "; take " + remedy +
                       (many_tets || order_now == 1 ? "" : ", or a lower part.mesh.order"));
-}
-
-std::vector<std::string> faces_and_selections(const Case& source) {
-  std::vector<std::string> known = face_names;
-  for (const auto& selection : source.selections) known.push_back(selection.name);
-  return known;
-}
-
-/// Mesh of the part's file, once it is read.
-const mesh::SolidMesh* solid_of(const Part& part) {
-  return part.imported && part.imported->mesh ? &part.imported->mesh->solid : nullptr;
-}
-
-/// Names of sets are known in capitals; a case may write them otherwise.
-std::string as_in_file(const std::string& name, const std::vector<std::string>& known) {
-  const auto same =
-      std::ranges::find_if(known, [&](const std::string& k) { return io::capitals(k) == io::capitals(name); });
-  return same == known.end() ? name : *same;
-}
-
-void check_supports(const Case& source, Findings& findings) {
-  const auto& supports = source.part->supports;
-  const mesh::SolidMesh* solid = solid_of(*source.part);
-  if (source.part->shape == "mesh" && solid == nullptr) return;
-  std::vector<std::string> known = faces_and_selections(source);
-  if (solid != nullptr) {
-    for (const auto& set : solid->node_sets) known.push_back(set.name);
-  }
-  for (std::size_t i = 0; i < supports.size(); ++i) {
-    const std::string key = "part.supports[" + std::to_string(i) + "]";
-    findings.require_known(key + ".on", as_in_file(supports[i].on, known), known,
-                           solid == nullptr ? "face or selection" : "face, selection or set of nodes");
-    if (source.part->mesh.order.value_or(2) > 2 && names_node_set(source, supports[i].on))
-      findings.report(key + ".on",
-                      "a set of nodes holds those of the file; take part.mesh.order = 2, or a face or selection");
-  }
-}
-
-void check_material(const Case& source, Findings& findings) {
-  const Part& part = *source.part;
-  if (part.shape == "matrices" || (part.shape == "mesh" && (part.imported == nullptr || materials_in_file(part))))
-    return;
-  for (const auto& [key, meaning] : {std::pair{"part.material.youngs_modulus", "Young's modulus"},
-                                     {"part.material.poisson_ratio", "Poisson's ratio"},
-                                     {"part.material.density", "density"}}) {
-    if (findings.given(key)) continue;
-    const bool in_file = part.shape == "mesh" && !part.imported->mesh->materials.empty();
-    findings.report(key, "missing; " + std::string(meaning) +
-                             (in_file ? ", or part.mass_unit to take the materials of the file" : ""));
-  }
-}
-
-void check_materials(const Case& source, Findings& findings) {
-  std::vector<std::string> known;
-  for (const auto& selection : source.selections) known.push_back(selection.name);
-  const mesh::SolidMesh* solid = solid_of(*source.part);
-  if (source.part->shape == "mesh" && solid == nullptr) return;
-  if (solid != nullptr) {
-    for (const auto& set : solid->element_sets) known.push_back(set.name);
-  }
-  for (std::size_t i = 0; i < source.part->materials.size(); ++i) {
-    const std::string key = "part.materials[" + std::to_string(i) + "].on", &on = source.part->materials[i].on;
-    findings.require_known(key, as_in_file(on, known), known,
-                           solid == nullptr ? "selection" : "selection or set of elements");
-    const auto selection = std::ranges::find(source.selections, on, &Selection::name);
-    if (selection != source.selections.end() && selection->plane)
-      findings.report(key, "a plane holds no elements; take a box or a sphere");
-  }
-}
-
-void check_carrier(const Case& source, const std::string& key, const std::string& name, Findings& findings) {
-  std::vector<std::string> known;
-  for (const auto& point : source.points) known.push_back(point.name);
-  findings.require_known(key + ".at", name, known, "point");
-  const auto found = std::ranges::find(source.points, name, &Point::name);
-  if (found != source.points.end() && !(found->patch_radius > 0.0))
-    findings.report("points." + name, "carries a mass or springs and needs a patch: give patch_radius");
-}
-
-void check_attachments(const Case& source, Findings& findings) {
-  const Part& part = *source.part;
-  for (std::size_t i = 0; i < part.clamps.size(); ++i) {
-    const std::string key = "part.clamps[" + std::to_string(i) + "]";
-    findings.require_known(key + ".on", part.clamps[i].on, faces_and_selections(source), "face or selection");
-    if (part.clamps[i].normal == 0.0 && part.clamps[i].tangential == 0.0)
-      findings.report(key, "holds nothing; give normal_stiffness or tangential_stiffness");
-  }
-  for (std::size_t i = 0; i < part.masses.size(); ++i)
-    check_carrier(source, "part.masses[" + std::to_string(i) + "]", part.masses[i].at, findings);
-  for (std::size_t i = 0; i < part.springs.size(); ++i) {
-    const std::string key = "part.springs[" + std::to_string(i) + "]";
-    check_carrier(source, key, part.springs[i].at, findings);
-    if (part.springs[i].stiffness.isZero() && part.springs[i].rotation_stiffness.isZero())
-      findings.report(key, "holds nothing; give stiffness or rotation_stiffness");
-  }
-}
-
-/// What a mesh from a file cannot be asked for.
-void check_given_mesh(const Case& source, Findings& findings) {
-  const Part& part = *source.part;
-  const mesh::SolidMesh* solid = solid_of(part);
-  for (const auto* key : {"part.mesh.element_size", "part.mesh.tolerance"}) {
-    const bool other = key == std::string("part.mesh.tolerance") ? part.mesh.tolerance != MeshOptions{}.tolerance
-                                                                 : part.mesh.element_size.has_value();
-    if (other) findings.report(key, "the mesh is given; part.mesh.order alone can make it better; remove this key");
-  }
-  if (solid == nullptr || !part.mesh.order) return;
-  if (*part.mesh.order < solid->nodes.order)
-    findings.report("part.mesh.order",
-                    "the file's elements are of order " + std::to_string(solid->nodes.order) + "; take that or more");
-  if (*part.mesh.order > 2 && solid->midside_offset > 1e-6)
-    findings.report("part.mesh.order", "the file's elements are curved; their order can be 2 only");
 }
 
 void check_selection(const Selection& selection, Findings& findings) {
@@ -473,14 +363,10 @@ bool independent(const std::vector<Eigen::Vector3d>& directions) {
 void check_part(const Case& source, Findings& findings) {
   if (source.part) {
     check_shape(source, findings);
-    check_material(source, findings);
-    check_materials(source, findings);
-    check_attachments(source, findings);
-    if (source.part->shape == "mesh") check_given_mesh(source, findings);
+    check_description(source, findings);
     check_bend(*source.part, findings);
     if (geometry_known(*source.part) && source.part->shape != "matrices" && source.part->shape != "mesh")
       check_mesh_size(source, findings);
-    check_supports(source, findings);
   }
   for (const auto& selection : source.selections) check_selection(selection, findings);
   for (const auto& point : source.points) check_point(source, point, findings);

@@ -64,6 +64,8 @@ SolidPart solid_part(const mesh::TriangleSurface& surface, const Material& mater
   SolidPart part;
   part.material = material;
   part.supports = options.supports;
+  part.attachments = options.attachments;
+  part.materials = options.materials;
   part.mesh = [&surface, &options, &fits](int level) {
     mesh::SurfaceMeshed result = meshed(surface, options, level);
     fits.push_back({level, std::move(result.mesher), result.volume_error_relative, result.surface_distance_m,

@@ -17,9 +17,11 @@ struct ClosedPartOptions {
   ModeOptions modes{.count = 5, .up_to_hz = {}, .verify_count = false};
   std::vector<Support> supports;   ///< none: a free part
   std::vector<NamedPoint> points;  ///< where receptances count
-  int first_order = 3;             ///< of a level; 1 to 5
-  int last_order = 6;              ///< of a level; above first_order, to 6
-  int levels = 1;                  ///< of ever smaller and more graded elements, 1 to 4; each has five times as many
+  Attachments attachments{};
+  std::function<Materials(const mesh::TetMesh&)> materials{};  ///< of a part of several, on each mesh
+  int first_order = 3;                                         ///< of a level; 1 to 5
+  int last_order = 6;                                          ///< of a level; above first_order, to 6
+  int levels = 1;  ///< of ever smaller and more graded elements, 1 to 4; each has five times as many
   std::int64_t largest_dofs = 400000;  ///< no model with more is solved; 0: no bound
   double memory_limit_bytes = 0.0;     ///< of a factor; 0: none
   /// Of each attempt of a mesher. TetGen takes a second or never ends.
