@@ -94,7 +94,7 @@ TEST(FreeMotions, OfPiecesThatShareNoVertexSayWhichPiece) {
   EXPECT_EQ(words, (Words{"translation along x of the piece around (1.15, 0.1, 0.05)",
                           "translation along y of the piece around (1.15, 0.1, 0.05)",
                           "rotation about z of the piece around (1.15, 0.1, 0.05)"}));
-  EXPECT_EQ(free_motions(nodes, {}).size(), 12U);
+  EXPECT_EQ(free_motions(nodes, std::vector<int>{}).size(), 12U);
 }
 
 TEST(FreeMotions, AreListedWithCommas) {

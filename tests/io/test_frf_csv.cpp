@@ -179,11 +179,11 @@ TEST(ResampledFrf, NeverExtrapolates) {
 TEST(ResampledCoherence, IsStraightBetweenItsLines) {
   MeasuredFrf frf = measured(10.0, 10.0, 2);
   EXPECT_EQ(coherence_on(frf, {Eigen::VectorXd::Constant(1, 15.0)}).size(), 0) << "it has none";
-  frf.coherence = Eigen::Vector2d(0.8, 1.0);
+  frf.coherence = Eigen::VectorXd{{0.8, 1.0}};
   EXPECT_EQ(coherence_on(frf, frf.axis), frf.coherence);
-  const Eigen::VectorXd between = coherence_on(frf, {Eigen::Vector3d(10.0, 12.5, 15.0)});
+  const Eigen::VectorXd between = coherence_on(frf, {Eigen::VectorXd{{10.0, 12.5, 15.0}}});
   EXPECT_LT((between - Eigen::Vector3d(0.8, 0.85, 0.9)).cwiseAbs().maxCoeff(), 1e-15);
-  EXPECT_THROW((void)coherence_on(frf, {Eigen::Vector2d(15.0, 21.0)}), core::DataError);
+  EXPECT_THROW((void)coherence_on(frf, {Eigen::VectorXd{{15.0, 21.0}}}), core::DataError);
 }
 
 TEST_F(MeasuredFrfFile, MayHaveItsCoherenceInAFourthColumnThatSaysSo) {

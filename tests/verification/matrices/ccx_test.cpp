@@ -45,7 +45,7 @@ class CalculixMatrices : public ::testing::Test {
   /// A box of C3D10, clamped at x = 0, in SI: with its modes in full precision (.eig), and with its matrices.
   void write_decks() {
     const auto nodes = mesh::lagrange_nodes(mesh::kuhn_box({0.2, 0.08, 0.05}, {3, 2, 1}), 2);
-    io::NodeSet clamped{"CLAMPED", {}};
+    mesh::NodeSet clamped{"CLAMPED", {}};
     for (Eigen::Index i = 0; i < nodes.positions.rows(); ++i)
       if (nodes.positions(i, 0) < 1e-9) clamped.nodes.push_back(static_cast<int>(i));
     const io::InpFrequencyStep step{steel.youngs_modulus_Pa, steel.poisson_ratio, steel.density_kg_m3, {"CLAMPED"}, 10};
@@ -99,14 +99,14 @@ TEST_F(CalculixMatrices, HaveTheFrequenciesThatItFinds) {
 /// Row by row: what CalculiX calls node 17, z is that row of our own stiffness of the same file.
 TEST_F(CalculixMatrices, HaveOurStiffnessRowByRowAndItsMass) {
   const dynamics::SparseModel model = io::read_matrices(stored()).model;
-  const io::InpMesh inp = io::read_inp(folder_ / "box.inp", 1.0);
-  const auto fixed = fem::rows_of(io::node_set(inp, "CLAMPED", "").nodes, {0, 1, 2});
+  const mesh::SolidMesh inp = io::read_inp(folder_ / "box.inp", 1.0);
+  const auto fixed = fem::rows_of(mesh::node_set(inp, "CLAMPED", "").nodes, {0, 1, 2});
   const fem::Model ours = fem::build_model(inp.mesh, 2, steel, fixed);
   ASSERT_EQ(ours.K.rows(), model.size());
   std::vector<int> row_of(model.dofs.size());
   for (std::size_t i = 0; i < ours.free_rows.size(); ++i) {
     const int row = ours.free_rows[i];
-    const dynamics::NodeDof dof{inp.node_labels[static_cast<std::size_t>(row / 3)], row % 3 + 1};
+    const dynamics::NodeDof dof{static_cast<int>(inp.node_labels[static_cast<std::size_t>(row / 3)]), row % 3 + 1};
     const auto found = std::find(model.dofs.begin(), model.dofs.end(), dof);
     ASSERT_NE(found, model.dofs.end());
     row_of[i] = static_cast<int>(found - model.dofs.begin());

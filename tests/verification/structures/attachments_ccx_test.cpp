@@ -39,8 +39,8 @@ std::vector<int> halves(const mesh::TetMesh& mesh) {
   return of_tet;
 }
 
-io::NodeSet nodes_at(const mesh::LagrangeNodes& nodes, const std::string& name, double x) {
-  io::NodeSet set{name, {}};
+mesh::NodeSet nodes_at(const mesh::LagrangeNodes& nodes, const std::string& name, double x) {
+  mesh::NodeSet set{name, {}};
   for (Eigen::Index i = 0; i < nodes.positions.rows(); ++i) {
     if (std::abs(nodes.positions(i, 0) - x) < 1e-9) set.nodes.push_back(static_cast<int>(i));
   }
