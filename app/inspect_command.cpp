@@ -21,7 +21,14 @@ reduction::ReducedModelReport report_of(const InspectRequest& request, std::stri
   for (const auto& note : imported.notes) notes += note + "\n";
   if (imported.model.size() > largest_dense)
     return reduction::sparse_report(imported.model, {.positions = {}, .rigid_motions = request.rigid_motions});
-  const PlacedModel model = placed(imported.model);
+  PlacedModel model = placed(imported.model);
+  const auto unplaced = [&](const dynamics::Dof& dof) {
+    return dof.kind != dynamics::DofKind::modal && !model.positions.contains(dof.point);
+  };
+  if (!model.positions.empty() && std::ranges::any_of(model.model.dofs, unplaced)) {
+    notes += "some nodes have no position: nothing is said of rigid motions\n";
+    model.positions.clear();
+  }
   return reduction::report(model.model, {.positions = model.positions, .rigid_motions = request.rigid_motions});
 }
 

@@ -43,6 +43,9 @@ int rigid_count(const Eigen::VectorXd& lambda) {
 void count_rigid_motions(fem::Model& model) {
   model.rigid_motions = 1;  // so that it is shifted
   const fem::Factored shifted = fem::factorise(model, core::available_memory_bytes());
+  if (model.K.rows() < 2)
+    throw core::InputError(
+        "the part's matrices have a single row: describe a part of one mode by measured FRFs or modes");
   const int wanted = static_cast<int>(std::min<Eigen::Index>(most_rigid + 4, model.K.rows() - 1));
   const auto lowest = linalg::lowest_eigenpairs(model.K, model.M, fem::inverse_of(shifted), wanted);
   if (lowest.status != linalg::EigenStatus::converged)

@@ -26,6 +26,21 @@ void write_matrices(const fs::path& folder, const PlacedModel& placed_model) {
   io::write_dof_table(folder / "dofs.csv", sparse);
 }
 
+/// A model with a DOF table of names, or matrices numbered by nodes.
+PlacedModel read_mat_file(const fs::path& path) {
+  try {
+    return {io::read_mat(path), {}};
+  } catch (const core::DataError&) {
+    return placed(io::read_sparse_mat(path));
+  }
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw core::DataError("cannot make the folder \"" + folder.string() + "\": " + error.message());
+}
+
 }  // namespace
 
 PlacedModel placed(const dynamics::SparseModel& sparse) {
@@ -39,9 +54,10 @@ PlacedModel placed(const dynamics::SparseModel& sparse) {
 }
 
 std::string write_model(const fs::path& folder, const PlacedModel& model) {
-  fs::create_directories(folder);
-  for (const char* name : {"stiffness.mtx", "mass.mtx", "damping.mtx", "dofs.csv"}) fs::remove(folder / name);
+  make_folder(folder);
   io::write_mat(folder / "model.mat", model.model);
+  std::error_code ignored;  // of an earlier model; what remains is written over
+  for (const char* name : {"stiffness.mtx", "mass.mtx", "damping.mtx", "dofs.csv"}) fs::remove(folder / name, ignored);
   try {
     write_matrices(folder, model);
   } catch (const core::InputError& error) {
@@ -51,7 +67,7 @@ std::string write_model(const fs::path& folder, const PlacedModel& model) {
 }
 
 PlacedModel read_model(const fs::path& path) {
-  if (!fs::is_directory(path)) return placed(io::read_sparse_mat(path));
+  if (!fs::is_directory(path)) return read_mat_file(path);
   if (fs::exists(path / "stiffness.mtx")) {
     const auto optional = [&](const char* name) { return fs::exists(path / name) ? path / name : fs::path(); };
     return placed(io::read_matrices({.stiffness = path / "stiffness.mtx",
@@ -62,7 +78,7 @@ PlacedModel read_model(const fs::path& path) {
                                      .mass_unit = "kg"})
                       .model);
   }
-  if (fs::exists(path / "model.mat")) return {io::read_mat(path / "model.mat"), {}};
+  if (fs::exists(path / "model.mat")) return read_mat_file(path / "model.mat");
   throw core::DataError(path.string() +
                         ": neither stiffness.mtx nor model.mat is there; \"thinwall reduce\" writes both");
 }

@@ -32,23 +32,26 @@ json effective_mass_json(const reduction::EffectiveMass& effective) {
 }
 
 json rigid_json(const reduction::RigidBodyState& rigid) {
-  if (rigid.sets.seen != 6) return {{"motions_seen", rigid.sets.seen}};
+  const json known = {{"motions_seen", rigid.sets.seen},
+                      {"free_motions", rigid.free_motions},
+                      {"free_motions_in_words", rigid.in_words}};
+  if (rigid.sets.seen != 6) return known;
   json inertia = json::array();
   for (int i = 0; i < 3; ++i) inertia.push_back(list(rigid.body.inertia_kg_m2.row(i).transpose()));
-  return {{"motions_seen", rigid.sets.seen},
-          {"free_motions", rigid.free_motions},
-          {"modes_without_energy", rigid.sets.without_energy},
-          {"mass_kg", finite(rigid.body.mass_kg)},
-          {"centre_m", list(rigid.body.centre_m)},
-          {"inertia_about_centre_kg_m2", inertia},
-          {"reference_m", list(rigid.reference)},
-          {"grounding_n_per_m_and_n_m_per_rad", list(rigid.grounding_stiffness)},
-          {"grounding_hz", list(rigid.grounding_hz)},
-          {"geometry_misfit", finite(rigid.sets.geometry_misfit)},
-          {"stiffness_disagreement", finite(rigid.sets.stiffness_disagreement)},
-          {"eigen_disagreement", finite(rigid.sets.eigen_disagreement)},
-          {"mass_disagreement", finite(rigid.mass_disagreement)},
-          {"effective_mass", effective_mass_json(rigid.effective)}};
+  json result = {{"modes_without_energy", rigid.sets.without_energy},
+                 {"mass_kg", finite(rigid.body.mass_kg)},
+                 {"centre_m", list(rigid.body.centre_m)},
+                 {"inertia_about_centre_kg_m2", inertia},
+                 {"reference_m", list(rigid.reference)},
+                 {"grounding_n_per_m_and_n_m_per_rad", list(rigid.grounding_stiffness)},
+                 {"grounding_hz", list(rigid.grounding_hz)},
+                 {"geometry_misfit", finite(rigid.sets.geometry_misfit)},
+                 {"stiffness_disagreement", finite(rigid.sets.stiffness_disagreement)},
+                 {"eigen_disagreement", finite(rigid.sets.eigen_disagreement)},
+                 {"mass_disagreement", finite(rigid.mass_disagreement)},
+                 {"effective_mass", effective_mass_json(rigid.effective)}};
+  result.update(known);
+  return result;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "app/reduce_command.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 
@@ -12,6 +13,7 @@
 #include "app/stages.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "fem/patch.hpp"
 #include "reduction/comparison.hpp"
 #include "reduction/damping.hpp"
 #include "reduction/mode_count.hpp"
@@ -28,10 +30,12 @@ struct ReducedPart {
   std::string chosen;  ///< why so many modes; "" where they were given
 };
 
-void require_reducible(const Case& source) {
+void require_reducible(const Case& source, const ReduceRequest& request) {
   if (!source.part) throw core::InputError("there is no modelled part to reduce; describe it in [part]");
   if (source.reduction.interface.empty())
     throw core::InputError("the part has no points to be reduced to; name them in [points]");
+  if (reduction::method_named(request.method) == Method::modal_truncation)
+    throw core::InputError("modal_truncation gives poles, no matrices to write; \"thinwall run\" writes them as modes");
 }
 
 reduction::Band band_of(const Case& source, const ReduceRequest& request) {
@@ -53,8 +57,17 @@ void require_solved(const reduction::BandTruth& truth) {
                              fmt::format("{:.1e}", truth.max_relative_residual) + "); take a narrower band");
 }
 
-/// Elastic modes that the case names, if it names any.
-std::optional<int> modes_of_case(const Case& source) {
+/// Elastic modes that are asked for: by the command, or by the case's [reduction]; none where a tolerance is to choose.
+std::optional<int> wanted_modes(const Case& source, const ReduceRequest& request, const Solution& part) {
+  if (request.modes || request.tolerance) return request.modes;
+  if (source.reduction.fixed_interface.up_to_hz) {  // as many as the part itself has up to there
+    const auto& hz = part.modes.frequency_hz;
+    if (hz(hz.size() - 1) < *source.reduction.fixed_interface.up_to_hz)
+      throw core::InputError(
+          "reduction.up_to reaches beyond the modes that are computed; raise modes.up_to, or give --modes");
+    return static_cast<int>((hz.array() <= *source.reduction.fixed_interface.up_to_hz).count()) -
+           part.modes.rigid_motions;
+  }
   const auto* given = find(source.values, "reduction.modes");
   return given == nullptr ? std::nullopt : source.reduction.fixed_interface.count;
 }
@@ -80,16 +93,16 @@ ReducedPart by_tolerance(const reduction::FullModel& full, const reduction::Inte
   return result;
 }
 
-ReducedPart reduced_part(const Case& source, const ReduceRequest& request, const reduction::FullModel& full,
-                         const reduction::Interface& interface, const reduction::Band& band,
-                         const reduction::BandTruth& truth) {
+ReducedPart reduced_part(const Case& source, const ReduceRequest& request, std::optional<int> modes,
+                         const reduction::FullModel& full, const reduction::Interface& interface,
+                         const reduction::Band& band, const reduction::BandTruth& truth) {
   const Method method = reduction::method_named(request.method);
-  const std::optional<int> modes = request.modes ? request.modes : modes_of_case(source);
   if (request.tolerance && method != Method::craig_bampton)
     throw core::InputError("a tolerance chooses the modes of craig_bampton; give --modes with --method " +
                            request.method);
   if (request.tolerance || (!modes && method == Method::craig_bampton))
-    return by_tolerance(full, interface, band, truth, request.tolerance.value_or(0.01));
+    return by_tolerance(full, interface, band, truth,
+                        request.tolerance.value_or(source.reduction.tolerance.value_or(0.01)));
   reduction::ReductionOptions options;
   options.modes = modes.value_or(options.modes);
   options.characteristic =
@@ -98,11 +111,18 @@ ReducedPart reduced_part(const Case& source, const ReduceRequest& request, const
   return {reduction::reduce(method, full, interface, options), ""};
 }
 
-/// Where the report finds the points: where the interface's weights have their centre.
-reduction::Positions positions_of(const Case& source) {
+/// Where the points are: the centres of their patches, which an edge may cut, or their nodes; empty unless all are
+/// known.
+reduction::Positions positions_of(const Case& source, const fem::Model& model) {
   reduction::Positions positions;
-  for (const std::string& name : source.reduction.interface)
-    positions[name] = position(*source.part, point(source, name));
+  for (const std::string& name : source.reduction.interface) {
+    const fem::NamedPoint p = named_point(source, name);
+    const fem::Patch disc = fem::Disc{p.position_m, p.patch_radius_m};
+    const Eigen::Vector3d x =
+        model.mesh.tets.empty() ? p.position_m : fem::patch_average(model.mesh, model.nodes, disc, name).centre_m;
+    if (!x.allFinite()) return {};
+    positions[name] = x;
+  }
   return positions;
 }
 
@@ -119,18 +139,18 @@ std::string error_text(const reduction::ComparisonRow& row, const reduction::Ban
 }
 
 /// The files, and what is to be said of them.
-std::string written(const Case& source, const ReduceRequest& request, const ReducedPart& reduced, bool held) {
-  const auto* spatial = std::get_if<dynamics::SpatialModel>(&reduced.reduction.model);
-  if (spatial == nullptr)
-    throw core::InputError("modal_truncation gives poles, no matrices to write; \"thinwall run\" writes them as modes");
-  PlacedModel model{*spatial, positions_of(source)};
-  if (takes_damping(reduced.reduction.method)) {
+std::string written(const Case& source, const ReduceRequest& request, const ReducedPart& reduced,
+                    const Solution& part) {
+  PlacedModel model{std::get<dynamics::SpatialModel>(reduced.reduction.model), positions_of(source, part.model)};
+  if (source.damping.model == "matrices") {
+    spdlog::warn("the part's damping matrix is not carried into the reduced model; \"thinwall run\" does that");
+  } else if (takes_damping(reduced.reduction.method)) {
     std::vector<reduction::IdentifiedMode> identified;
     model.model = damped(source, model.model, identified);
   }
   const std::string left_out = write_model(request.out, model);
-  const reduction::ReducedModelReport report = reduction::report(
-      model.model, {.positions = model.positions, .rigid_motions = held ? std::nullopt : std::optional(6)});
+  const reduction::ReducedModelReport report =
+      reduction::report(model.model, {.positions = model.positions, .rigid_motions = part.modes.rigid_motions});
   core::write_file_atomically(request.out / "report.json", report_json(report).dump(2) + "\n");
   core::write_file_atomically(request.out / "report.txt", reduction::text(report));
   std::string text = reduction::text(report) + "\n";
@@ -141,7 +161,7 @@ std::string written(const Case& source, const ReduceRequest& request, const Redu
 }  // namespace
 
 std::string reduce_part(const Case& source, const ReduceRequest& request) {
-  require_reducible(source);
+  require_reducible(source, request);
   const reduction::Band band = band_of(source, request);
   Stages stages(false);
   stages.begin("mesh, order and modes");
@@ -152,7 +172,8 @@ std::string reduce_part(const Case& source, const ReduceRequest& request) {
   const reduction::BandTruth truth = reduction::band_truth(full, interface, band);
   require_solved(truth);
   stages.begin("reduction");
-  const ReducedPart reduced = reduced_part(source, request, full, interface, band, truth);
+  const ReducedPart reduced =
+      reduced_part(source, request, wanted_modes(source, request, part), full, interface, band, truth);
   if (reduced.reduction.status != linalg::EigenStatus::converged)
     throw core::NumericalError("the modes of the reduction did not converge: ask for fewer, or mesh more evenly");
   const reduction::ComparisonRow row = reduction::compared(reduced.reduction, truth, band);
@@ -167,7 +188,7 @@ std::string reduce_part(const Case& source, const ReduceRequest& request) {
     stages.begin("comparison");
     text += "\n" + reduction::text(reduction::compare(full, interface, band, row.size)) + "\n";
   }
-  return text + written(source, request, reduced, part.modes.rigid_motions == 0);
+  return text + written(source, request, reduced, part);
 }
 
 }  // namespace thinwall::app

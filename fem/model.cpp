@@ -130,6 +130,7 @@ std::vector<int> rows_held(const Model& model) {
 /// Whether only springs or clamps hold a rigid motion, with a λ below `bound`: by Rayleigh's quotients of the six
 /// motions about the centre. K⁻¹ would then show little but these motions, and a shift is needed as for a free part.
 bool softly_held(const Model& model, double bound) {
+  if (model.nodes.positions.rows() == 0) return false;  // matrices without a mesh
   if (free_motions(model.nodes, rows_held(model)).empty()) return false;
   Eigen::MatrixXd R = rigid_body_motions(model);
   R.rightCols<3>() += R.leftCols<3>() * cross_matrix(model.mass.centre_m);
