@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "io/csv_text.hpp"
-#include "io/inp_text.hpp"
+#include "io/inp.hpp"
 #include "io/surface_text.hpp"
 
 namespace thinwall::io {
@@ -135,7 +135,8 @@ void write_dof_table(const std::filesystem::path& path, const dynamics::SparseMo
 std::map<int, Eigen::Vector3d> read_node_positions(const std::filesystem::path& path) {
   std::map<int, Eigen::Vector3d> positions;
   if (lower_case(path.extension().string()) == ".inp") {
-    for (const InpTextNode& node : read_inp_text(path, 1.0).nodes) positions.emplace(node.label, node.x);
+    for (const mesh::LabelledNode& node : inp_mesh(core::read_file(path), path.string(), 1.0).mesh.nodes)
+      positions.emplace(static_cast<int>(node.label), node.x);
     return positions;
   }
   const CsvText text = read_csv_text(path);

@@ -27,7 +27,7 @@ struct DofTableFile {
 /// was. Throws InputError for a name with control characters, DataError if the file cannot be written.
 void write_dof_table(const std::filesystem::path& path, const dynamics::SparseModel& model);
 
-/// Where nodes are: of *NODE of an input file of Abaqus or CalculiX (io/inp_text.hpp), or of a table with the columns
+/// Where nodes are: of *NODE of an input file of Abaqus or CalculiX (io/inp.hpp), or of a table with the columns
 /// node, x, y, z; in the unit of the file. Throws DataError with file and line. Cost O(bytes).
 [[nodiscard]] std::map<int, Eigen::Vector3d> read_node_positions(const std::filesystem::path& path);
 
