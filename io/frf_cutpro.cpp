@@ -27,10 +27,15 @@ bool starts_with_numbers(const std::vector<std::string>& words) {
   return words.size() >= 3 && std::all_of(words.begin(), words.begin() + 3, [](const auto& w) { return is_number(w); });
 }
 
+// Every word before the numbers is tried as four units: another kind of file ends here, and soon.
+constexpr int most_words = 1000;
+constexpr std::size_t longest_unit = 32;
+
 /// What the words of a header tell.
 struct Told {
   std::optional<FrfFormat> frf;  ///< quantity and unit
   std::optional<double> in_hz;
+  int words = 0;  ///< seen so far
 };
 
 bool equal(double a, double b) {
@@ -55,10 +60,16 @@ std::optional<double> frequency_unit(const std::string& word) {
   }
 }
 
-void take_word(std::string word, Told& told, const std::string& location) {
-  const auto outer = [](char c) { return std::string("()[]{},;:\"").find(c) != std::string::npos; };
-  while (!word.empty() && outer(word.front())) word.erase(word.begin());
-  while (!word.empty() && outer(word.back())) word.pop_back();
+void take_word(const std::string& bracketed, Told& told, const std::string& location) {
+  if (++told.words > most_words) {
+    throw core::DataError(location + ": more than " + std::to_string(most_words) +
+                          " words before the lines of three numbers; a .frf file has a short heading, or none");
+  }
+  constexpr const char* outer = "()[]{},;:\"";
+  const auto first = bracketed.find_first_not_of(outer);
+  if (first == std::string::npos) return;
+  const std::string word = bracketed.substr(first, bracketed.find_last_not_of(outer) - first + 1);
+  if (word.size() > longest_unit) return;
   if (const auto in_hz = frequency_unit(word)) {
     if (told.in_hz && *told.in_hz != *in_hz) throw core::DataError(location + ": two different units of frequency");
     told.in_hz = in_hz;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -31,10 +32,27 @@ struct Columns {
   std::vector<DofColumns> dofs;
 };
 
-std::optional<std::size_t> column(const CsvText& text, const std::string& name) {
-  const auto found = std::find(text.header.begin(), text.header.end(), name);
-  if (found == text.header.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - text.header.begin());
+using ColumnIndices = std::map<std::string, std::size_t>;
+
+/// Where each column stands; a header of a million names is searched in no time.
+ColumnIndices indices_of(const std::vector<std::string>& header) {
+  ColumnIndices indices;
+  for (std::size_t i = 0; i < header.size(); ++i) indices.emplace(header[i], i);
+  return indices;
+}
+
+std::optional<std::size_t> column(const ColumnIndices& indices, const std::string& name) {
+  const auto found = indices.find(name);
+  if (found == indices.end()) return std::nullopt;
+  return found->second;
+}
+
+/// "a, b, c", the first ten.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 10;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) list += (i == 0 ? "" : ", ") + names[i];
+  return list + (names.size() > most ? " and " + std::to_string(names.size() - most) + " more" : "");
 }
 
 /// "1X" of "L_1X_re"; empty if the column is none of a vector.
@@ -64,17 +82,18 @@ void require_known_columns(const CsvText& text) {
 
 Columns columns_of(const CsvText& text) {
   require_known_columns(text);
+  const ColumnIndices indices = indices_of(text.header);
   std::vector<std::string> missing;
   const auto need = [&](const std::string& name) {
-    const auto found = column(text, name);
+    const auto found = column(indices, name);
     if (!found) missing.push_back(name);
     return found.value_or(0);
   };
   Columns columns;
-  columns.mode = column(text, "mode");
+  columns.mode = column(indices, "mode");
   columns.frequency = need("frequency_hz");
-  const auto percent = column(text, "damping_percent");
-  const auto ratio = column(text, "damping_ratio");
+  const auto percent = column(indices, "damping_percent");
+  const auto ratio = column(indices, "damping_ratio");
   if (percent && ratio)
     throw core::DataError(text.path.string() + ": has both damping_percent and damping_ratio; keep one of them");
   if (!percent && !ratio) missing.emplace_back("damping_percent or damping_ratio");
@@ -89,9 +108,7 @@ Columns columns_of(const CsvText& text) {
   }
   if (columns.dofs.empty()) missing.emplace_back("the vectors, such as L_1X_re, L_1X_im, R_1X_re, R_1X_im");
   if (missing.empty()) return columns;
-  std::string list;
-  for (const std::string& name : missing) list += (list.empty() ? "" : ", ") + name;
-  throw core::DataError(text.path.string() + ": lacks " + list);
+  throw core::DataError(text.path.string() + ": lacks " + listed(missing));
 }
 
 dynamics::Dof dof_named(const std::string& name) {

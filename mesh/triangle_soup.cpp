@@ -77,12 +77,14 @@ class NearPoints {
   }
 
  private:
-  /// Cells are as wide as the tolerance; coordinates beyond 2^62 cells meet in the last one.
+  /// Cells are as wide as the tolerance. From 2^53 of them on doubles lie further apart than that: only equal ones are
+  /// near, and the bits are the cell, so that no cell ever holds many points.
   [[nodiscard]] Key cell_of(const Eigen::Vector3d& x) const {
     Key key{};
     for (int k = 0; k < 3; ++k) {
+      const double cells = std::floor(x(k) / tolerance_);
       key[static_cast<std::size_t>(k)] =
-          static_cast<std::int64_t>(std::clamp(std::floor(x(k) / tolerance_), -0x1p62, 0x1p62));
+          std::abs(cells) < 0x1p53 ? static_cast<std::int64_t>(cells) : std::bit_cast<std::int64_t>(x(k));
     }
     return key;
   }

@@ -1,5 +1,6 @@
 #include "io/frf_cutpro.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -72,6 +73,19 @@ TEST_F(CutproFile, OfUnknownUnitsOrAnotherFormIsRefused) {
   expect(refusal("Hz m/N\n" + lines + "30 1,5e-8 0\n"), "decimal comma");
   expect(refusal("Hz m/N\n"), "holds no line of three numbers");
   expect(refusal(""), "holds no line of three numbers");
+}
+
+// Found by fuzzing: each word was tried as four units, a second for a fifth of a megabyte, and brackets were taken off
+// one by one from the front.
+TEST_F(CutproFile, OfAnotherKindIsRefusedSoonAndAtTheLine) {
+  std::string table;
+  for (int line = 0; line < 300000; ++line) table += "1,2,3\n";
+  const std::string brackets = "Hz " + std::string(2000000, '(') + "m/N" + std::string(2000000, ')') + "\n" + lines;
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_NE(refusal(table).find("tap.frf:1001: more than 1000 words"), std::string::npos) << refusal(table);
+  EXPECT_NE(refusal("Hz m/N " + std::string(2000000, 'm') + "\n").find("no line of three"), std::string::npos);
+  expect_receptance(read_cutpro_frf(write("brackets.frf", brackets)));
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5.0);
 }
 
 }  // namespace thinwall::io::test

@@ -1,3 +1,5 @@
+#include <chrono>
+
 #include "core/error.hpp"
 #include "io/modal_table_csv.hpp"
 #include "scratch_folder.hpp"
@@ -48,6 +50,26 @@ TEST_F(ModalTableFile, NamesAllColumnsThatAreMissing) {
                 .find("keep one"),
             std::string::npos);
   EXPECT_NE(refusal("frequency_hz,damping_ratio,L_1W_re\n1,.1,10\n").find("L_1W_re"), std::string::npos);
+}
+
+// Found by fuzzing: every name was searched in the whole header, and the message named them all.
+TEST_F(ModalTableFile, OfManyColumnsIsReadInTimeAndItsMessageStaysShort) {
+  std::string header = "frequency_hz,damping_ratio";
+  std::string line = "10,0.1";
+  std::string half = header;
+  for (int dof = 0; dof < 25000; ++dof) {
+    const std::string name = "_" + std::to_string(dof) + "X_";
+    header += ",L" + name + "re,L" + name + "im,R" + name + "re,R" + name + "im";
+    line += ",1,2,3,4";
+    half += ",L" + name + "re";
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const auto file = write("wide.csv", header + "\n" + line + "\n");
+  EXPECT_EQ(read_modal_table(file, {1.0, 1.0, {}}).dofs.size(), 25000U);
+  const std::string text = refusal(half + "\n" + line + "\n");
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5.0);
+  EXPECT_NE(text.find(" and 74990 more"), std::string::npos) << text;
+  EXPECT_LT(text.size(), 400U);
 }
 
 TEST_F(ModalTableFile, RefusesNumbersThatNoModeHas) {

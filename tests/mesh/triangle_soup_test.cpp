@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <random>
 
 #include "core/error.hpp"
@@ -59,6 +60,23 @@ TEST(TriangleSoup, TakesCoordinatesBeyondAnyCell) {
   soup.triangles = {{0, 1, 2}};
   EXPECT_EQ(merged_points(soup, 1e-9).merged, 0);
   EXPECT_THROW((void)merged_points(soup, -1.0), core::InputError);
+}
+
+// Bytes that are no surface make such points. All of them once shared one cell: a minute for 60 000.
+TEST(TriangleSoup, MergesFarPointsInTimeAndOnlyEqualOnes) {
+  TriangleSoup soup;
+  constexpr int count = 50000;
+  for (int p = 0; p < count; ++p) {
+    const double far = (p % 2 == 0 ? 1e25 : -1e300) * (1.0 + p);
+    soup.points.insert(soup.points.end(), {{far, 0.0, 1e20}, {0.0, far, 1.0 * p}, {far, 0.0, 1e20}});
+    soup.triangles.push_back({3 * p, 3 * p + 1, 3 * p + 2});
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const MergedPoints merged = merged_points(soup, 1e-3);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5.0);
+  EXPECT_EQ(merged.merged, count);
+  EXPECT_EQ(merged.largest_way, 0.0);
+  EXPECT_EQ(merged.soup.points.size(), 2U * count);
 }
 
 TEST(TriangleSoup, TellsItsSize) {
