@@ -1,5 +1,7 @@
 #include "app/inspect_command.hpp"
 
+#include <algorithm>
+
 #include "app/model_files.hpp"
 #include "app/model_report_json.hpp"
 #include "core/atomic_file.hpp"

@@ -5,6 +5,9 @@
 #include "app/case_reader.hpp"
 #include "app/pipeline.hpp"
 #include "app/reduce_command.hpp"
+#include "fem/model.hpp"
+#include "fem/modes.hpp"
+#include "io/mesh_file.hpp"
 #include "io/stl.hpp"
 #include "mesh/box.hpp"
 #include "mesh/shapes.hpp"
@@ -112,7 +115,7 @@ spindle_speed = "5000 rpm"
 [lobes]
 from = "3000 rpm"
 to = "9000 rpm"
-count = 20
+count = 5
 depth_limit = "20 mm"
 )";
 
@@ -156,6 +159,111 @@ TEST(PartFile, MatricesOfAPartGoThroughThePipelineAsThePartDoes) {
                     own["lobes"][chart]["minimum_depth_m"].get<double>(),
                 1.0, 1e-5);
   }
+}
+
+std::vector<double> frequencies(const nlohmann::json& summary) {
+  std::vector<double> hz;
+  for (const auto& mode : summary["part"]["modes"]) hz.push_back(mode["frequency_hz"].get<double>());
+  return hz;
+}
+
+const std::string block_material =
+    "[part.material]\nyoungs_modulus = \"71 GPa\"\npoisson_ratio = 0.33\ndensity = \"2810 kg/m^3\"\n";
+
+/// A block of Gmsh held on its named group of faces: the modes of the same mesh through the library.
+TEST(PartFile, AMeshIsSolvedOnItsOwnNodesAndHeldByItsSets) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "part_mesh";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  const std::string source = std::string(THINWALL_SOURCE_DIR) + "/tests/io/data/box_41_binary.msh";
+  const auto text = [&](const std::string& on) {
+    return "[part]\nfile = \"" + source + "\"\nunit = \"mm\"\n" + block_material + "[[part.supports]]\non = \"" + on +
+           "\"\n[modes]\ncount = 6\n";
+  };
+  const auto by_set = run_case(parse_case(text("CLAMPED"), folder), {folder / "set", true, -1, false}).summary;
+  const mesh::SolidMesh solid = io::read_solid_mesh(source, "mm");
+  const auto& held = mesh::node_set(solid, "clamped", "box").nodes;
+  const fem::Model model =
+      fem::build_model(solid.mesh, solid.nodes, fem::Material{71e9, 0.33, 2810.0}, fem::rows_of(held, {0, 1, 2}));
+  const fem::Factored factored = fem::factorise(model);
+  fem::ModeOptions options;
+  options.count = 6;
+  const fem::Modes expected = fem::modes(model, factored, options);
+  for (std::size_t k = 0; k < 6; ++k)
+    EXPECT_NEAR(frequencies(by_set)[k] / expected.frequency_hz(static_cast<Eigen::Index>(k)), 1.0, 1e-9);
+  EXPECT_EQ(by_set["mesh"]["order"], 2);
+  EXPECT_EQ(by_set["geometry"]["notes"].size(), solid.notices.size());
+  try {
+    (void)parse_case(text("clampd"), folder);
+    ADD_FAILURE() << "a set that is not there";
+  } catch (const core::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("clamped"), std::string::npos) << error.what();
+  }
+}
+
+/// Stiff elastic clamps hold as a support does, soft ones leave the part free; a mass lowers what it rides on.
+TEST(PartFile, ClampsGoFromFreeToHeldAndMassesCount) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "part_attached";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  const std::string plate =
+      "[part]\nlength = \"60 mm\"\nheight = \"100 mm\"\nthickness = \"4 mm\"\n"
+      "[part.axes]\nlength = \"x\"\nheight = \"y\"\nthickness = \"z\"\n[part.mesh]\nelement_size = \"15 mm\"\n"
+      "order = 3\n[modes]\ncount = 4\n" +
+      block_material;
+  const auto run_with = [&](const std::string& more, const std::string& out) {
+    return run_case(parse_case(plate + more, folder), {folder / out, true, -1, false}).summary;
+  };
+  const auto clamps = [](const std::string& k) {
+    return "[[part.clamps]]\non = \"y_min\"\nnormal_stiffness = \"" + k + "\"\ntangential_stiffness = \"" + k + "\"\n";
+  };
+  const auto held = frequencies(run_with("[[part.supports]]\non = \"y_min\"\n", "held"));
+  const auto stiff = frequencies(run_with(clamps("1e20 N/m^3"), "stiff"));
+  const auto half = frequencies(run_with(clamps("1e12 N/m^3"), "half"));
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(stiff[k] / held[k], 1.0, 1e-6);
+    EXPECT_LT(half[k], held[k]);
+  }
+  const auto free = run_with("", "free");
+  const auto soft = run_with(clamps("1 N/m^3"), "soft");
+  EXPECT_EQ(free["part"]["rigid_body_modes"], 6);
+  EXPECT_NEAR(frequencies(soft).back() / frequencies(free).back(), 1.0, 1e-6);
+  const std::string mass =
+      "[[part.masses]]\nat = \"P\"\nmass = \"20 g\"\n[points.P]\nposition = [0.03, 0.1, 0.004]\npatch_radius = \"5 "
+      "mm\"\n";
+  const auto loaded = frequencies(run_with("[[part.supports]]\non = \"y_min\"\n" + mass, "loaded"));
+  // A cantilever of mass M with m on its tip, by Rayleigh's quotient of its own first shape: 4.12 = tip² over mean.
+  const double M = 2810 * 0.06 * 0.1 * 0.004;
+  EXPECT_NEAR(loaded[0] / held[0], 1.0 / std::sqrt(1.0 + 4.12 * 0.02 / M), 0.03);
+}
+
+/// Matrices that nothing holds: their free motions are counted by themselves.
+TEST(PartFile, FreeMatricesAreFree) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "part_free_matrices";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  std::string plate = held_plate + with_place(
+                                       "position = [\"30 mm\", \"100 mm\", \"4 mm\"]\npatch_radius = \"4 mm\"\n"
+                                       "[points.A]\nposition = [\"10 mm\", \"20 mm\", \"4 mm\"]\n"
+                                       "patch_radius = \"4 mm\"\n[points.B]\nposition = [\"50 mm\", \"30 mm\", 0]\n"
+                                       "patch_radius = \"4 mm\"\n",
+                                       "modal", "ratio = 0.01");
+  const auto support = plate.find("[[part.supports]]");
+  plate.erase(support, plate.find("[points.P]") - support);
+  plate.erase(plate.find("[robot]"));
+  ReduceRequest request;
+  request.out = folder / "model";
+  request.modes = 40;
+  const Case part = parse_case(plate, folder);
+  (void)reduce_part(part, request);
+  const std::string matrices =
+      "[part]\nunit = \"m\"\nmass_unit = \"kg\"\n[part.matrices]\nstiffness = \"model/stiffness.mtx\"\n"
+      "mass = \"model/mass.mtx\"\ndofs = \"model/dofs.csv\"\n[points.P]\n[points.A]\n[points.B]\n[modes]\ncount = 4\n"
+      "[reduction]\nmodes = 10\n[damping]\nratio = 0.01\n";
+  const auto own = run_case(part, {folder / "own", true, -1, false}).summary;
+  const auto from_files = run_case(parse_case(matrices, folder), {folder / "files", true, -1, false}).summary;
+  EXPECT_EQ(from_files["part"]["rigid_body_modes"], 6);
+  for (std::size_t k = 6; k < 10; ++k) EXPECT_NEAR(frequencies(from_files)[k] / frequencies(own)[k], 1.0, 2e-3) << k;
 }
 
 }  // namespace
