@@ -108,7 +108,7 @@ bool from_file(const Part& part) {
 }
 
 Eigen::Vector3d node_position(const Part& part, int node) {
-  const Eigen::Vector3d unknown = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::Vector3d unknown = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   if (!part.imported) return unknown;
   if (part.imported->mesh) {
     const auto& solid = part.imported->mesh->solid;

@@ -1,5 +1,7 @@
 #include "app/matrix_part.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -54,6 +56,12 @@ void count_rigid_motions(fem::Model& model) {
   for (int k = 0; k < model.rigid_motions; ++k) model.free_motions.push_back("mode " + std::to_string(k + 1));
 }
 
+[[noreturn]] void no_such_row(const std::string& point, int node, int axis) {
+  throw core::InputError(
+      fmt::format("point \"{0}\": node {1} has no row along {2}: leave the direction out of points.{0}.directions",
+                  point, node, "xyz"[axis]));
+}
+
 }  // namespace
 
 Solution matrix_solution(const Case& source) {
@@ -77,10 +85,7 @@ reduction::Interface matrix_interface(const Case& source) {
       for (int axis = 0; axis < 3; ++axis) {
         if (n[axis] == 0.0) continue;
         const auto row = row_of.find({node, axis + 1});
-        if (row == row_of.end()) {
-          throw core::InputError("point \"" + name + "\": node " + std::to_string(node) + " has no row along " +
-                                 "xyz"[axis] + ": leave the direction out of points." + name + ".directions");
-        }
+        if (row == row_of.end()) no_such_row(name, node, axis);
         entries.emplace_back(row->second, static_cast<int>(interface.dofs.size()), n[axis]);
       }
       interface.dofs.push_back({p.name, n, dynamics::DofKind::translation});

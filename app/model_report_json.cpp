@@ -32,7 +32,7 @@ json effective_mass_json(const reduction::EffectiveMass& effective) {
 }
 
 json rigid_json(const reduction::RigidBodyState& rigid) {
-  const json known = {{"motions_seen", rigid.sets.seen},
+  json known = {{"motions_seen", rigid.sets.seen},
                       {"free_motions", rigid.free_motions},
                       {"free_motions_in_words", rigid.in_words}};
   if (rigid.sets.seen != 6) return known;

@@ -49,7 +49,7 @@ linalg::SparseMatrix patch_columns(const mesh::LagrangeNodes& nodes, const std::
     for (const int node : rigid[p].nodes) {
       const Eigen::Vector3d r = nodes.positions.row(node).transpose() - rigid[p].centre_m;
       for (int axis = 0; axis < 3; ++axis) {
-        const int row = own.row_of[static_cast<std::size_t>(3 * node + axis)];
+        const int row = own.row_of[3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis)];
         const Eigen::Vector3d turn = r.cross(Eigen::Vector3d::Unit(axis)) / rigid[p].size_m;
         for (int i = 0; i < 3; ++i) {
           entries.emplace_back(row, first + i, i == axis ? 1.0 : 0.0);
@@ -110,7 +110,7 @@ void add_entries(const RowMap& rows, const mesh::LagrangeNodes& nodes, const std
   const int patch = rows.patch_of.empty() ? -1 : rows.patch_of[static_cast<std::size_t>(node)];
   if (patch < 0) {
     for (int axis = 0; axis < 3; ++axis) {
-      const int row = rows.row_of[static_cast<std::size_t>(3 * node + axis)];
+      const int row = rows.row_of[3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis)];
       if (row >= 0 && w(axis) != 0.0) entries.emplace_back(row, column, w(axis));
     }
     return;
