@@ -65,6 +65,7 @@ void validate(const Band& band, const FullModel& full) {
 std::vector<Complex> squares(const Band& band, const Eigen::VectorXd& natural_hz) {
   std::vector<double> lines;
   const double first = band.from_hz > 0.0 ? band.from_hz : 1e-3 * band.to_hz;
+  lines.reserve(static_cast<std::size_t>(band.lines));
   for (int i = 0; i < band.lines; ++i)
     lines.push_back(first * std::pow(band.to_hz / first, static_cast<double>(i) / (band.lines - 1)));
   if (band.from_hz == 0.0) lines.front() = 0.0;

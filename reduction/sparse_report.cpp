@@ -131,6 +131,7 @@ std::vector<int> piece_of_row(const SparseModel& model) {
   std::map<int, std::vector<int>> nodes;
   for (int row = 0; row < std::ssize(model.dofs); ++row)
     nodes[model.dofs[static_cast<std::size_t>(row)].node].push_back(row);
+  cells.reserve(nodes.size());
   for (const auto& [node, rows] : nodes) cells.push_back(rows);
   for (const Matrix* A : {&model.K, &model.M}) {
     for (Index column = 0; column < A->outerSize(); ++column) {
