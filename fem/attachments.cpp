@@ -6,6 +6,7 @@
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
+#include "core/units.hpp"
 
 namespace thinwall::fem {
 
@@ -15,7 +16,7 @@ using Violations = std::vector<std::string>;
 
 void require_stiffness(double value, const std::string& what, Violations& found) {
   if (!(value >= 0.0 && std::isfinite(value)))
-    found.push_back(what + " is " + std::to_string(value) + "; it must be finite and not negative");
+    found.push_back(what + " is " + core::number_text(value) + "; it must be finite and not negative");
 }
 
 /// Symmetric, finite, no eigenvalue below zero, all to round-off.
@@ -31,12 +32,12 @@ void require_semidefinite(const Eigen::Matrix3d& A, const std::string& what, Vio
   }
   const Eigen::Vector3d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(A).eigenvalues();
   if (values(0) < -1e-9 * size)
-    found.push_back(what + " has the negative eigenvalue " + std::to_string(values(0)) + "; none may be negative");
+    found.push_back(what + " has the negative eigenvalue " + core::number_text(values(0)) + "; none may be negative");
 }
 
 void require_body(const PointMass& mass, const std::string& what, Violations& found) {
   if (!(mass.mass_kg >= 0.0 && std::isfinite(mass.mass_kg)))
-    found.push_back(what + " is " + std::to_string(mass.mass_kg) + " kg; it must be finite and not negative");
+    found.push_back(what + " is " + core::number_text(mass.mass_kg) + " kg; it must be finite and not negative");
   const std::size_t before = found.size();
   require_semidefinite(mass.inertia_kg_m2, "the inertia of " + what, found);
   if (found.size() > before) return;

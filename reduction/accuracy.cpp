@@ -8,6 +8,7 @@
 #include "core/interrupt.hpp"
 #include "dynamics/conversion.hpp"
 #include "linalg/sparse_indefinite.hpp"
+#include "reduction/worst.hpp"
 
 namespace thinwall::reduction {
 
@@ -18,7 +19,7 @@ double max_relative_frequency_error(const dynamics::SpatialModel& reduced, const
   for (Eigen::Index k = 0; k < count; ++k) {
     const double hz = modes.omega_rad_s(k + rigid) / (2.0 * std::numbers::pi);
     const double error = std::abs(hz - full_hz(k)) / full_hz(k);
-    if (!(error <= worst)) worst = error;  // NaN stays
+    worst = worse_of(worst, error);
   }
   return worst;
 }
@@ -64,8 +65,9 @@ double max_relative_receptance_error(const dynamics::SpatialModel& reduced, cons
     const Eigen::Index nb = line.H.rows();
     const Eigen::MatrixXd B = displacements(reduced).topRows(nb);
     const Eigen::MatrixXd H = B * (reduced.K - omega * omega * reduced.M).partialPivLu().solve(B.transpose());
-    const double error = (H - line.H).cwiseAbs().maxCoeff() / line.H.cwiseAbs().maxCoeff();
-    if (!(error <= worst)) worst = error;
+    const double error =
+        (H - line.H).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / line.H.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    worst = worse_of(worst, error);
   }
   return worst;
 }

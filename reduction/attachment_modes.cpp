@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 #include "linalg/tall.hpp"
+#include "reduction/symmetric_part.hpp"
 
 namespace thinwall::reduction {
 
@@ -14,10 +15,6 @@ namespace {
 void require_static(const linalg::ShiftedInverse& inverse) {
   if (inverse.sigma != 0.0)
     throw core::NumericalError("attachment modes are static: they need the inverse at zero shift");
-}
-
-Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& A) {
-  return 0.5 * (A + A.transpose());
 }
 
 [[noreturn]] void refuse_dependent(const Interface& interface) {

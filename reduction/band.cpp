@@ -9,7 +9,9 @@
 #include "core/error.hpp"
 #include "core/faults.hpp"
 #include "core/interrupt.hpp"
+#include "core/units.hpp"
 #include "reduction/free_interface.hpp"
+#include "reduction/worst.hpp"
 
 namespace thinwall::reduction {
 
@@ -52,9 +54,18 @@ void validate(const Band& band) {
   faults.raise("the band of a comparison");
 }
 
+void validate(const Band& band, const FullModel& full) {
+  validate(band);
+  if (full.rigid.cols() == 0 || band.from_hz > 0.0) return;
+  throw core::InputError(
+      "the band of a comparison: it begins at from_hz 0, where a free part has no receptance; give " +
+      core::number_text(1e-3 * band.to_hz) + ", or another value above 0");
+}
+
 std::vector<Complex> squares(const Band& band, const Eigen::VectorXd& natural_hz) {
   std::vector<double> lines;
   const double first = band.from_hz > 0.0 ? band.from_hz : 1e-3 * band.to_hz;
+  lines.reserve(static_cast<std::size_t>(band.lines));
   for (int i = 0; i < band.lines; ++i)
     lines.push_back(first * std::pow(band.to_hz / first, static_cast<double>(i) / (band.lines - 1)));
   if (band.from_hz == 0.0) lines.front() = 0.0;
@@ -96,13 +107,13 @@ Eigen::VectorXd common_units(const dynamics::DofTable& interface, const std::vec
 
 double relative_error(const Eigen::MatrixXcd& H, const Eigen::MatrixXcd& full, const Eigen::VectorXd& units) {
   const auto size = [&](const Eigen::MatrixXcd& X) {
-    return (units.asDiagonal() * X.cwiseAbs() * units.asDiagonal()).eval().maxCoeff();
+    return (units.asDiagonal() * X.cwiseAbs() * units.asDiagonal()).eval().maxCoeff<Eigen::PropagateNaN>();
   };
   return size(H - full) / size(full);
 }
 
 BandTruth band_truth(const FullModel& full, const Interface& interface, const Band& band) {
-  validate(band);
+  validate(band, full);
   const StaticFlexibility flexibility(full);
   PartModes modes = free_modes_beyond(full, flexibility, band.to_hz);
   if (modes.status != linalg::EigenStatus::converged)
@@ -129,7 +140,7 @@ double max_receptance_error(const ReducedModel& model, const BandTruth& truth) {
   double worst = 0.0;
   for (std::size_t i = 0; i < truth.z.size(); ++i) {
     const double error = relative_error(receptance_at(model, truth.units.size(), truth.z[i]), truth.H[i], truth.units);
-    if (!(error <= worst)) worst = error;  // NaN stays
+    worst = worse_of(worst, error);
   }
   return worst;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/dof.hpp"
+#include "reduction/full_model.hpp"
 #include "reduction/receptance_sum.hpp"
 #include "reduction/reduce.hpp"
 
@@ -26,6 +27,9 @@ struct Band {
 
 /// Throws InputError with every violation at once.
 void validate(const Band& band);
+
+/// The same, and InputError for a free part's band that begins at 0.
+void validate(const Band& band, const FullModel& full);
 
 /// z = ω²/(1 + iη) at every line: `lines` of them, each frequency of `natural_hz` in the band and its half-power points
 /// f (1 ± η/2), ascending; in between the receptance is smooth.
@@ -62,7 +66,7 @@ struct [[nodiscard]] BandTruth {
 /// right-hand sides.
 BandTruth band_truth(const FullModel& full, const Interface& interface, const Band& band);
 
-/// The largest relative_error() of a reduced model over the lines of a truth.
+/// The largest relative_error() of a reduced model over the lines of a truth; NaN if one is.
 [[nodiscard]] double max_receptance_error(const ReducedModel& model, const BandTruth& truth);
 
 }  // namespace thinwall::reduction

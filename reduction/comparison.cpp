@@ -8,6 +8,7 @@
 
 #include "core/dense_eigenvalues.hpp"
 #include "core/dense_factorisations.hpp"
+#include "reduction/symmetric_part.hpp"
 
 namespace thinwall::reduction {
 
@@ -16,12 +17,13 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// The real eigenvalues μ of (K + αM)⁻¹ M that are not round-off of 0.
+/// The real eigenvalues μ of (K + αM)⁻¹ M, of their symmetric parts, that are not round-off of 0.
 std::vector<double> inverse_eigenvalues(const dynamics::SpatialModel& model, double alpha) {
-  MatrixXd B = model.K + alpha * model.M;
+  MatrixXd B = symmetric_part(model.K + alpha * model.M);
   const Eigen::VectorXd scale = B.cwiseAbs().rowwise().maxCoeff().cwiseSqrt().cwiseInverse();
+  if (!scale.allFinite()) return {};  // a coordinate without mass and stiffness
   B = (scale.asDiagonal() * B * scale.asDiagonal()).eval();
-  const MatrixXd M = scale.asDiagonal() * model.M * scale.asDiagonal();
+  const MatrixXd M = scale.asDiagonal() * symmetric_part(model.M) * scale.asDiagonal();
   std::vector<double> mu;
   const double zero = 1e-13 / alpha;
   const bool definite = B.llt().info() == Eigen::Success;

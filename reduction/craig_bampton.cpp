@@ -7,6 +7,7 @@
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "linalg/tall.hpp"
+#include "reduction/symmetric_part.hpp"
 
 namespace thinwall::reduction {
 
@@ -69,10 +70,6 @@ linalg::Eigenpairs fixed_interface_modes(const linalg::SparseMatrix& K, const li
   }
   if (options.up_to_hz) return linalg::eigenpairs_up_to(K, M, inner_inverse, omega_max * omega_max);
   return linalg::lowest_eigenpairs(K, M, inner_inverse, options.modes);
-}
-
-Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& A) {
-  return 0.5 * (A + A.transpose());
 }
 
 }  // namespace

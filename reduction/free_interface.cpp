@@ -7,6 +7,7 @@
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "linalg/tall.hpp"
+#include "reduction/symmetric_part.hpp"
 
 namespace thinwall::reduction {
 
@@ -15,10 +16,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-MatrixXd symmetric_part(const MatrixXd& A) {
-  return 0.5 * (A + A.transpose());
-}
 
 /// Eigenpairs of a matrix brought to the units of `own` (its square roots, a DOF each).
 struct Scaled {
@@ -117,11 +114,12 @@ PartModes free_modes_beyond(const FullModel& full, const StaticFlexibility& flex
     const linalg::Eigenpairs all = all_elastic(full, flexibility);
     return joined(flexibility.rigid_modes(), all, (all.lambda.array() < needed).count() + 1);
   }
+  const Index there = full.K.rows() - flexibility.rigid_modes().cols();
   for (double bound = 2.0 * needed;; bound *= 2.0) {
     const linalg::Eigenpairs pairs = linalg::eigenpairs_up_to(full.K, full.M, flexibility.action(), bound);
-    const Index found = pairs.lambda.size();
+    const Index found = std::min(pairs.lambda.size(), there);  // beyond all there are lies what G does not answer
     const bool reached = found > 0 && pairs.lambda(found - 1) >= needed;
-    if (reached || pairs.status != linalg::EigenStatus::converged)
+    if (reached || found == there || pairs.status != linalg::EigenStatus::converged)
       return joined(flexibility.rigid_modes(), pairs, found);
   }
 }

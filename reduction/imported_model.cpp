@@ -8,6 +8,14 @@
 
 namespace thinwall::reduction {
 
+std::vector<int> node_of_row(const dynamics::SparseModel& model) {
+  std::map<int, int> numbers;
+  std::vector<int> nodes;
+  for (const dynamics::NodeDof& dof : model.dofs)
+    nodes.push_back(numbers.emplace(dof.node, static_cast<int>(numbers.size())).first->second);
+  return nodes;
+}
+
 FullModel full_model(const dynamics::SparseModel& model) {
   dynamics::require_plausible(model);
   const Eigen::VectorXd mass = model.M.diagonal();
@@ -21,9 +29,7 @@ FullModel full_model(const dynamics::SparseModel& model) {
   FullModel full;
   full.K = model.K;
   full.M = model.M;
-  std::map<int, int> numbers;
-  for (const dynamics::NodeDof& dof : model.dofs)
-    full.node_of_row.push_back(numbers.emplace(dof.node, static_cast<int>(numbers.size())).first->second);
+  full.node_of_row = node_of_row(model);
   full.rigid = rigid_body_modes(full.K, full.M, full.node_of_row);
   return full;
 }

@@ -14,6 +14,9 @@ namespace thinwall::reduction {
 /// cannot take; NumericalError where K + αM is not positive definite. Cost: of rigid_body_modes().
 [[nodiscard]] FullModel full_model(const dynamics::SparseModel& model);
 
+/// For each row of an imported model its node, numbered from 0 in the order of the table. Cost O(n log n).
+[[nodiscard]] std::vector<int> node_of_row(const dynamics::SparseModel& model);
+
 /// All DOFs of the given nodes as the interface, in the order of the table, each with its name. Throws InputError for a
 /// node that has no DOF. Cost O(n).
 [[nodiscard]] Interface interface_at(const dynamics::SparseModel& model, const std::vector<int>& nodes);

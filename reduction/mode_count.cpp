@@ -10,6 +10,7 @@
 #include "dynamics/conversion.hpp"
 #include "reduction/accuracy.hpp"
 #include "reduction/held_interface.hpp"
+#include "reduction/worst.hpp"
 
 namespace thinwall::reduction {
 
@@ -98,7 +99,7 @@ double against_truth(const CountedReceptance& reference, const BandTruth& truth)
   double worst = 0.0;
   for (std::size_t k = 0; k < truth.z.size(); ++k) {
     const double error = relative_error(reference.receptance(truth.z[k]), truth.H[k], truth.units);
-    if (!(error <= worst)) worst = error;
+    worst = worse_of(worst, error);
   }
   return worst;
 }
@@ -110,7 +111,7 @@ double against_direct_solves(const CountedReceptance& reference, const FullModel
   for (const FullReceptance& line : full_receptances(full.K, full.M, full.node_of_row, interface, lines)) {
     const double omega = 2.0 * std::numbers::pi * line.frequency_hz;
     const double error = relative_error(reference.receptance(omega * omega), line.H.cast<Complex>(), units);
-    if (!(error <= worst)) worst = error;
+    worst = worse_of(worst, error);
   }
   return worst;
 }
@@ -140,7 +141,7 @@ Estimates estimates(const CraigBampton& reduced, const dynamics::SpatialModel& b
     for (std::size_t m = 0; m < result.errors.size(); ++m) {
       if (m > 0) counted.add(Z, static_cast<Index>(m) - 1, z[line]);
       const double error = relative_error(Z.inverse(), H[line], result.units);
-      if (!(error <= result.errors[m])) result.errors[m] = error;
+      result.errors[m] = worse_of(result.errors[m], error);
     }
   }
   return result;
@@ -168,7 +169,8 @@ ChosenModes chosen_from(const CraigBampton& all, const Truncation& left_out, con
   result.errors = std::move(estimate.errors);
   result.reduced = cut(all, result.modes);
   result.truncation = cut(left_out, all, result.modes);
-  const bool verified = result.reference_error <= 0.1 * options.tolerance;
+  const bool converged = all.status == linalg::EigenStatus::converged;
+  const bool verified = converged && result.reference_error <= 0.1 * options.tolerance;
   result.status = !met ? ModeCountStatus::not_met : verified ? ModeCountStatus::met : ModeCountStatus::not_verified;
   return result;
 }
@@ -176,6 +178,7 @@ ChosenModes chosen_from(const CraigBampton& all, const Truncation& left_out, con
 ChosenModes chosen_modes(const FullModel& full, const Interface& interface, const ModeCountOptions& options,
                          const BandTruth* truth) {
   validate(options);
+  validate(options.band, full);
   const linalg::SparseCholesky factor = held_by_interface(full, interface);
   const linalg::ShiftedInverse inverse{
       [&factor](const Eigen::Ref<const MatrixXd>& B) -> MatrixXd { return factor.solve(B); }, 0.0};

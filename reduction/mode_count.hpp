@@ -19,9 +19,11 @@ struct ModeCountOptions {
 };
 
 enum class ModeCountStatus {
-  met,           ///< the estimate is below the tolerance, and the reference was verified
-  not_verified,  ///< direct solves differ from the reference by more than a tenth of the tolerance after all rounds
-  not_met,       ///< the estimate stays above the tolerance after all rounds
+  met,  ///< the estimate is below the tolerance, and the reference was verified
+  /// after all rounds, direct solves differ from the reference by more than a tenth of the tolerance, or the modes of
+  /// the reference did not converge
+  not_verified,
+  not_met,  ///< the estimate stays above the tolerance after all rounds
 };
 
 /// A Craig-Bampton model cut to as few modes as the tolerance allows.

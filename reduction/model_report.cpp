@@ -6,6 +6,7 @@
 
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
+#include "dynamics/motion_words.hpp"
 #include "reduction/band.hpp"
 #include "reduction/comparison.hpp"
 #include "reduction/report_parts.hpp"
@@ -50,6 +51,16 @@ double mass_disagreement(const MatrixXd& M, const RigidSets& sets, double mass) 
   return worst;
 }
 
+/// The combinations of the six motions that cost nothing.
+void find_free_motions(const dynamics::SpatialModel& model, double lambda_bound, RigidBodyState& state) {
+  dynamics::RigidKernel k{state.reference, state.sets.length_m, {}};
+  MatrixXd Y = state.sets.geometry;
+  Y.leftCols(3) *= k.size;
+  k.motions = free_motions(Y, model.K * Y, model.M * Y, model.K.cwiseAbs().rowwise().sum(), lambda_bound);
+  state.free_motions = static_cast<int>(k.motions.cols());
+  state.in_words = dynamics::in_words(k);
+}
+
 RigidBodyState rigid_body_state(const dynamics::SpatialModel& model, const ReportOptions& options, double lowest_hz) {
   RigidBodyState state;
   state.reference = options.reference ? *options.reference : mean_point(model.dofs, options.positions);
@@ -60,8 +71,7 @@ RigidBodyState rigid_body_state(const dynamics::SpatialModel& model, const Repor
   state.mass = Y.transpose() * model.M * Y;
   const VectorXd lambda = state.grounding_stiffness.cwiseQuotient(state.mass.diagonal());
   state.grounding_hz = lambda.cwiseAbs().cwiseSqrt() / (2.0 * std::numbers::pi);
-  state.free_motions =
-      static_cast<int>((state.grounding_hz.array() <= std::sqrt(options.grounding) * lowest_hz).count());
+  find_free_motions(model, options.grounding * std::pow(2.0 * std::numbers::pi * lowest_hz, 2), state);
   state.body = body_of(state.mass, state.reference);
   const std::vector<int> rows = physical_rows(model.dofs);
   state.effective = effective_mass(model.K, model.M, dynamics::displacements(model)(rows, Eigen::all), Y);
@@ -77,6 +87,7 @@ RigidBodyState rigid_body_state(const dynamics::SpatialModel& model, const Repor
 void check_receptances(const dynamics::SpatialModel& model, ReducedModelReport& report) {
   const auto& hz = report.frequencies_hz;
   if (hz.empty()) return;
+  report.reciprocity = report.least_power = 0.0;
   dynamics::SpatialModel seen = model;
   const std::vector<int> rows = physical_rows(model.dofs);
   seen.T = dynamics::displacements(model)(rows, Eigen::all);
@@ -99,11 +110,23 @@ void check_receptances(const dynamics::SpatialModel& model, ReducedModelReport& 
 
 std::vector<double> lowest_frequencies(const dynamics::SpatialModel& model, int rigid) {
   const double middle = model.K.diagonal().cwiseAbs().sum() / model.M.diagonal().cwiseAbs().sum();
-  if (!(middle > 0.0)) return {};
+  if (!(middle > 0.0 && std::isfinite(middle))) return {};
   VectorXd hz = natural_frequencies_hz(model, rigid, 0.01 * std::sqrt(middle) / (2.0 * std::numbers::pi));
   // A second time about what was found: accurate for the lowest.
   if (hz.size() > 0) hz = natural_frequencies_hz(model, rigid, hz(0));
   return {hz.begin(), hz.begin() + std::min<Index>(20, hz.size())};
+}
+
+/// The names of coordinates in which nothing has mass or stiffness.
+std::vector<std::string> bare_coordinates(const dynamics::SpatialModel& model) {
+  std::vector<std::string> names;
+  const auto empty = [](const MatrixXd& A, Index i) { return A.row(i).isZero(0.0) && A.col(i).isZero(0.0); };
+  for (Index i = 0; i < model.size(); ++i) {
+    if (!empty(model.K, i) || !empty(model.M, i)) continue;
+    names.push_back(model.has_own_coordinates() ? "coordinate " + std::to_string(i + 1)
+                                                : name(model.dofs[static_cast<std::size_t>(i)]));
+  }
+  return names;
 }
 
 void find_in_rigid_body(const ReportOptions& options, ReducedModelReport& report) {
@@ -161,8 +184,11 @@ ReducedModelReport report(const dynamics::SpatialModel& model, const ReportOptio
     result.matrices.push_back(state_of("D", model.D, lambda * model.M.diagonal(), options.definiteness));
   if (!options.positions.empty()) result.rigid = rigid_body_state(model, options, lowest);
   check_receptances(model, result);
+  find_bare(bare_coordinates(model), result);
+  find_frequencies(!model.K.isZero(0.0), "M or K is missing, zero or singular: nothing was checked against it", result);
   find_in_matrices(options, result);
   find_in_rigid_body(options, result);
+  if (std::isnan(result.reciprocity)) return result;
   result.findings.push_back({"reciprocity", result.reciprocity, options.reciprocity,
                              result.reciprocity <= options.reciprocity, "see the symmetry of the matrices"});
   result.findings.push_back({"least power lost over |H|", result.least_power, -1e-9, result.least_power >= -1e-9,

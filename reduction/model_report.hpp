@@ -2,6 +2,7 @@
 // May I trust this matrix? Checks on any reduced model, our own or imported.
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,7 +35,8 @@ struct MatrixState {
   double least = 0.0;      ///< eigenvalue of the symmetric part, as scaled
   int negative = 0;        ///< eigenvalues below −bound
   int zero = 0;            ///< eigenvalues within ±bound: for K, rigid motions and massless mechanisms
-  std::string place{};     ///< the DOF, or pair, that shows it; of sparse models where something is wrong
+  bool told = true;  ///< whether the eigenvalues could be counted (sparse models: no shift without a vanishing pivot)
+  std::string place{};  ///< the DOF, or pair, that shows it; of sparse models where something is wrong
 };
 
 /// What moving the model as a rigid body costs and weighs.
@@ -43,8 +45,8 @@ struct RigidBodyState {
   Eigen::Vector3d reference = Eigen::Vector3d::Zero();
   Eigen::Matrix<double, 6, 1> grounding_stiffness = Eigen::Matrix<double, 6, 1>::Zero();  ///< N/m, N m/rad: YᵀKY
   Eigen::Matrix<double, 6, 1> grounding_hz = Eigen::Matrix<double, 6, 1>::Zero();         ///< √(YᵀKY / YᵀMY)/2π
-  int free_motions = 0;                                ///< with grounding in the bound
-  std::vector<std::string> in_words;                   ///< the free ones, of sparse models (dynamics/motion_words.hpp)
+  int free_motions = 0;                                ///< with grounding in the bound, whatever their axes
+  std::vector<std::string> in_words;                   ///< the free ones (dynamics/motion_words.hpp)
   dynamics::Matrix6 mass = dynamics::Matrix6::Zero();  ///< YᵀMY about the reference
   double mass_disagreement = 0.0;  ///< of the three sets' and of the masses along x, y, z, over the mean
   dynamics::RigidBody body;        ///< centre from the origin of the positions
@@ -66,8 +68,10 @@ struct [[nodiscard]] ReducedModelReport {
   std::vector<MatrixState> matrices;    ///< M, C, K, D
   std::optional<RigidBodyState> rigid;  ///< if there are positions
   std::vector<double> frequencies_hz;   ///< the lowest twenty beyond those without energy
-  double reciprocity = 0.0;             ///< largest |H − Hᵀ| / |H| over five frequencies, loss factor 0.02
-  double least_power = 0.0;             ///< least eigenvalue of −Im H there over |H|: ≥ 0 for a passive model
+  /// Largest |H − Hᵀ| / |H| over five frequencies, loss factor 0.02; least eigenvalue of −Im H there over |H|: ≥ 0 for
+  /// a passive model. NaN, and no finding, where no receptance was computed: of sparse models, or without frequencies.
+  double reciprocity = std::numeric_limits<double>::quiet_NaN();
+  double least_power = std::numeric_limits<double>::quiet_NaN();
   std::vector<Finding> findings;
   [[nodiscard]] bool trustworthy() const;  ///< every finding is ok
 };

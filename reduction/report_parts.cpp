@@ -1,7 +1,10 @@
 #include "reduction/report_parts.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 
 namespace thinwall::reduction {
@@ -46,12 +49,42 @@ dynamics::RigidBody body_of(const dynamics::Matrix6& mass, const Vector3d& refer
   return body;
 }
 
+Eigen::Matrix<double, 6, Eigen::Dynamic> free_motions(const Eigen::MatrixXd& Y, const Eigen::MatrixXd& KY,
+                                                      const Eigen::MatrixXd& MY, const Eigen::VectorXd& row_stiffness,
+                                                      double lambda_bound) {
+  const dynamics::Matrix6 G = Y.transpose() * KY;
+  const double round_off = 5e-14 * (Y.transpose() * row_stiffness.asDiagonal() * Y).trace();
+  const double inertia = (Y.transpose() * MY).trace();
+  const Eigen::SelfAdjointEigenSolver<dynamics::Matrix6> eigen(0.5 * (G + G.transpose()));
+  const double bound = std::max(round_off, lambda_bound * std::abs(inertia));
+  return eigen.eigenvectors().leftCols((eigen.eigenvalues().array() <= bound).count());
+}
+
+void find_bare(const std::vector<std::string>& names, ReducedModelReport& report) {
+  constexpr std::size_t told = 5;
+  std::string where;
+  for (std::size_t i = 0; i < std::min(names.size(), told); ++i) where += (i == 0 ? "" : ", ") + names[i];
+  if (names.size() > told) where += " ...";
+  report.findings.push_back({"DOFs without mass and stiffness", static_cast<double>(names.size()), 0.0, names.empty(),
+                             where + ": nothing holds or moves them; leave them out, or export what is missing"});
+}
+
+void find_frequencies(bool expected, const std::string& advice, ReducedModelReport& report) {
+  const auto count = static_cast<double>(report.frequencies_hz.size());
+  report.findings.push_back({"frequencies found", count, expected ? 1.0 : 0.0, !expected || count > 0.0, advice});
+}
+
 void find_in_matrices(const ReportOptions& options, ReducedModelReport& report) {
   for (const MatrixState& matrix : report.matrices) {
     const std::string place = matrix.place.empty() ? "" : "; see " + matrix.place;
     report.findings.push_back(
         {"symmetry of " + matrix.name, matrix.asymmetry, options.symmetry, matrix.asymmetry <= options.symmetry,
          "both triangles must be there and equal: export the full matrix, or mirror the one given" + place});
+    if (!matrix.told) {
+      report.findings.push_back({"definiteness of " + matrix.name + " not told", 0.0, 0.0, false,
+                                 "a pivot vanishes at every shift: see DOFs without mass and stiffness, and scales"});
+      continue;
+    }
     const bool definite = matrix.negative == 0;
     const char* advice = matrix.name == "M"   ? "a negative mass: a sign or a wrong row of the DOF table"
                          : matrix.name == "K" ? "negative stiffness; dual Craig-Bampton's has it by construction"

@@ -7,6 +7,8 @@
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "dynamics/rigid_body.hpp"
+#include "reduction/rigid_count.hpp"
+#include "reduction/symmetric_part.hpp"
 
 namespace thinwall::reduction {
 
@@ -44,23 +46,22 @@ struct LowModes {
 };
 LowModes low_modes(const dynamics::SpatialModel& model) {
   if (model.K.isZero(0.0)) return {MatrixXd::Identity(model.size(), model.size()), static_cast<int>(model.size())};
-  double alpha = 1e-6 * model.K.diagonal().cwiseAbs().sum() / model.M.diagonal().cwiseAbs().sum();
+  const MatrixXd K = symmetric_part(model.K), M = symmetric_part(model.M);
+  double alpha = 1e-6 * K.diagonal().cwiseAbs().sum() / M.diagonal().cwiseAbs().sum();
   LowModes result;
-  for (int pass = 0; pass < 2; ++pass) {
-    const MatrixXd B = model.K + alpha * model.M;
+  for (int pass = 0; pass < 2 && alpha > 0.0; ++pass) {
+    const MatrixXd B = K + alpha * M;
     const VectorXd scale = B.cwiseAbs().rowwise().maxCoeff().cwiseSqrt().cwiseInverse();
+    if (!scale.allFinite() || !B.allFinite()) return {};
     const MatrixXd scaled = scale.asDiagonal() * B * scale.asDiagonal();
     if (scaled.llt().info() != Eigen::Success) return {};
-    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(scale.asDiagonal() * model.M * scale.asDiagonal(),
-                                                                   scaled);
-    const VectorXd lambda = eigen.eigenvalues().reverse().unaryExpr(
-        [alpha](double mu) { return mu > 1e-13 / alpha ? 1.0 / mu - alpha : 1e300; });
-    result.without_energy = 0;
-    for (Index k = 0; k < std::min<Index>(12, lambda.size() - 1); ++k) {
-      if (std::abs(lambda(k)) < 1e-6 * lambda(k + 1)) result.without_energy = static_cast<int>(k) + 1;
-    }
+    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(scale.asDiagonal() * M * scale.asDiagonal(), scaled);
+    const VectorXd mu = eigen.eigenvalues().reverse();
+    const Index finite = (mu.array() > 1e-13 / alpha).count();  // the others are coordinates without mass
+    const VectorXd lambda = mu.head(finite).cwiseInverse().array() - alpha;
+    result.without_energy = rigid_count(lambda, 0.0);
     result.Phi = scale.asDiagonal() * eigen.eigenvectors().rowwise().reverse();
-    if (result.without_energy < lambda.size()) alpha = lambda(result.without_energy);
+    if (result.without_energy < finite) alpha = lambda(result.without_energy);
   }
   return result;
 }

@@ -26,9 +26,8 @@ using Positions = std::map<std::string, Eigen::Vector3d>;
 [[nodiscard]] Eigen::MatrixXd static_motions(const Eigen::MatrixXd& K, const Eigen::MatrixXd& B,
                                              const Eigen::MatrixXd& x);
 
-/// Modes without energy: λ below 1e-6 of the next, at most twelve; all where K is zero; 0 if K + αM is
-/// not positive definite for a small α.
-/// Cost O(n³).
+/// Modes without energy: λ below 1e-6 of the next, at most twelve (rigid_count()), of those with mass; all where K is
+/// zero; 0 if K + αM, its symmetric part, is not positive definite for a small α. Cost O(n³).
 [[nodiscard]] int modes_without_energy(const dynamics::SpatialModel& model);
 
 /// Three sets of six motions (after the checks of Craig-Bampton models at NASA and in pyYeti's cbcheck; Eq. 17):

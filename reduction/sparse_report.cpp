@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
@@ -12,7 +14,9 @@
 #include "linalg/eigenpairs.hpp"
 #include "linalg/sparse_cholesky.hpp"
 #include "linalg/sparse_indefinite.hpp"
+#include "reduction/imported_model.hpp"
 #include "reduction/report_parts.hpp"
+#include "reduction/rigid_count.hpp"
 
 namespace thinwall::reduction {
 
@@ -29,34 +33,25 @@ std::string row_name(const SparseModel& model, Index row) {
   return name(dynamics::named(model, model.dofs[static_cast<std::size_t>(row)]));
 }
 
-/// For each row its node, numbered from 0.
-std::vector<int> node_of_row(const SparseModel& model) {
-  std::map<int, int> numbers;
-  std::vector<int> nodes;
-  for (const dynamics::NodeDof& dof : model.dofs)
-    nodes.push_back(numbers.emplace(dof.node, static_cast<int>(numbers.size())).first->second);
-  return nodes;
-}
-
 linalg::SparseMatrix identity(Index n) {
   linalg::SparseMatrix I(n, n);
   I.setIdentity();
   return I;
 }
 
-/// Eigenvalues of S below −shift; another shift if a pivot vanished.
-int below(const linalg::SparseMatrix& S, double shift, const std::vector<int>& nodes) {
+/// Eigenvalues of S below −shift; another shift if a pivot vanished, none if it does at each of four.
+std::optional<int> below(const linalg::SparseMatrix& S, double shift, const std::vector<int>& nodes) {
   for (const double factor : {1.0, 1.0137, 0.9811, 1.0519}) {
     const auto count = linalg::count_eigenvalues_below(S, identity(S.rows()), -factor * shift, nodes);
-    if (count) return *count;
+    if (count) return count;
   }
-  return 0;
+  return std::nullopt;
 }
 
 /// The least eigenvalue of S and the largest entry of its vector, by inverse iteration from just below it.
 std::pair<double, Index> least_pair(const linalg::SparseMatrix& S, double bound, const std::vector<int>& nodes) {
   double shift = 10.0 * bound;
-  while (below(S, shift, nodes) > 0) shift *= 10.0;
+  while (shift < 1e20 && below(S, shift, nodes).value_or(1) > 0) shift *= 10.0;
   const linalg::SparseCholesky factor(linalg::combine(1.0, S, 1.0519 * shift, identity(S.rows())), nodes);
   VectorXd x = VectorXd::LinSpaced(S.rows(), 1.0, 2.0);
   for (int pass = 0; pass < 60; ++pass) x = factor.solve(x).col(0).normalized();
@@ -86,8 +81,11 @@ MatrixState state_of(const SparseModel& model, const char* letter, const Matrix&
   S = (0.5 * (A + At)).eval();
   S = (scale.asDiagonal() * S * scale.asDiagonal()).eval();
   const std::vector<int> nodes = node_of_row(model);
-  state.negative = below(S, options.definiteness, nodes);
-  state.zero = below(S, -options.definiteness, nodes) - state.negative;
+  const auto negative = below(S, options.definiteness, nodes), not_positive = below(S, -options.definiteness, nodes);
+  state.told = negative.has_value() && not_positive.has_value();
+  if (!state.told) return state;
+  state.negative = *negative;
+  state.zero = *not_positive - *negative;
   if (state.negative == 0) return state;
   const auto [least, row] = least_pair(S, options.definiteness, nodes);
   state.least = least;
@@ -97,31 +95,31 @@ MatrixState state_of(const SparseModel& model, const char* letter, const Matrix&
 
 struct Frequencies {
   int without_energy = 0;
+  std::string missing{};  ///< why there are none
   std::vector<double> hz;
 };
 
-/// The lowest of K φ = λ M φ, shifted by α = 1e-8 tr K / tr M; none where K + αM is not positive definite.
+/// The lowest of K φ = λ M φ, shifted by α = 1e-8 tr K / tr M; none, and why, where they cannot be found.
 Frequencies lowest_frequencies(const SparseModel& model) {
   linalg::SparseMatrix K, M;
   K = model.K;
   M = model.M;
   const double size = K.diagonal().sum() / M.diagonal().sum();
-  const int count = static_cast<int>(std::min<Index>(32, model.size() - 1));
-  if (!(size > 0.0 && std::isfinite(size)) || count < 1) return {};
+  const Index with_mass = (VectorXd(M.diagonal()).array() != 0.0).count();  // no more modes than these
+  const int count = static_cast<int>(std::min<Index>(32, std::min(with_mass, model.size() - 1)));
+  if (!(size > 0.0 && std::isfinite(size)) || count < 1) return {0, "K or M is zero", {}};
   linalg::Eigenpairs pairs;
   try {
     const linalg::SparseCholesky factor(linalg::combine(1.0, K, 1e-8 * size, M), node_of_row(model));
     pairs = linalg::lowest_eigenpairs(
         K, M, {[&](const Eigen::Ref<const MatrixXd>& B) { return factor.solve(B); }, -1e-8 * size}, count);
   } catch (const core::NumericalError&) {
-    return {};
+    return {0, "K + αM is not positive definite: see the eigenvalues of M and K", {}};
   }
+  if (pairs.status != linalg::EigenStatus::converged) return {0, "the search for them did not converge", {}};
   Frequencies result;
   const double round_off = 10.0 * std::numeric_limits<double>::epsilon() * size;
-  for (Index k = 0; k + 1 < std::min<Index>(13, pairs.lambda.size()); ++k) {
-    const bool small = std::abs(pairs.lambda(k)) < std::max(1e-6 * pairs.lambda(k + 1), round_off);
-    if (small) result.without_energy = static_cast<int>(k) + 1;
-  }
+  result.without_energy = rigid_count(pairs.lambda, round_off);
   for (Index k = result.without_energy; k < pairs.lambda.size() && result.hz.size() < 20; ++k)
     result.hz.push_back(std::sqrt(std::max(pairs.lambda(k), 0.0)) / (2.0 * std::numbers::pi));
   return result;
@@ -133,6 +131,7 @@ std::vector<int> piece_of_row(const SparseModel& model) {
   std::map<int, std::vector<int>> nodes;
   for (int row = 0; row < std::ssize(model.dofs); ++row)
     nodes[model.dofs[static_cast<std::size_t>(row)].node].push_back(row);
+  cells.reserve(nodes.size());
   for (const auto& [node, rows] : nodes) cells.push_back(rows);
   for (const Matrix* A : {&model.K, &model.M}) {
     for (Index column = 0; column < A->outerSize(); ++column) {
@@ -176,12 +175,7 @@ dynamics::RigidKernel kernel(const SparseModel& model, const Geometry& geometry,
   for (Index row = 0; row < Y.rows(); ++row)
     if (piece[static_cast<std::size_t>(row)] != root) Y.row(row).setZero();
   const VectorXd stiffness = model.K.cwiseAbs() * VectorXd::Ones(model.size());
-  const dynamics::Matrix6 G = Y.transpose() * (model.K * Y);
-  const double round_off = 5e-14 * (Y.transpose() * stiffness.asDiagonal() * Y).trace();
-  const double inertia = (Y.transpose() * (model.M * Y)).trace();
-  const Eigen::SelfAdjointEigenSolver<dynamics::Matrix6> eigen(0.5 * (G + G.transpose()));
-  const double bound = std::max(round_off, lambda_bound * std::abs(inertia));
-  k.motions = eigen.eigenvectors().leftCols((eigen.eigenvalues().array() <= bound).count());
+  k.motions = free_motions(Y, model.K * Y, model.M * Y, stiffness, lambda_bound);
   return k;
 }
 
@@ -205,8 +199,12 @@ RigidBodyState rigid_body_state(const SparseModel& model, const Geometry& geomet
   RigidBodyState state;
   state.reference = options.reference ? *options.reference : mean_point(geometry.dofs, geometry.positions);
   const MatrixXd Y = motions(geometry, state.reference);
-  for (const auto& [point, x] : geometry.positions)
-    state.sets.length_m = std::max(state.sets.length_m, (x - state.reference).norm());
+  double length = 0.0;
+  for (const int row : geometry.rows) {
+    const std::string& point = geometry.dofs[static_cast<std::size_t>(row)].point;
+    length = std::max(length, (geometry.positions.at(point) - state.reference).norm());
+  }
+  if (length > 0.0) state.sets.length_m = length;
   dynamics::Matrix6 gram = Y.transpose() * Y;
   const VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   gram = (scale.asDiagonal() * gram * scale.asDiagonal()).eval();
@@ -265,6 +263,20 @@ void find_in_rigid_body(const ReportOptions& options, ReducedModelReport& report
         rigid.mass_disagreement <= options.rigid_motion, "mass is missing in some direction, or units differ");
 }
 
+/// The names of rows in which nothing has mass or stiffness.
+std::vector<std::string> bare_rows(const SparseModel& model) {
+  const VectorXd ones = VectorXd::Ones(model.size());
+  VectorXd size = VectorXd::Zero(model.size());
+  for (const Matrix* A : {&model.K, &model.M}) {
+    const Matrix sizes = A->cwiseAbs();
+    size += sizes * ones + sizes.transpose() * ones;
+  }
+  std::vector<std::string> names;
+  for (Index row = 0; row < size.size(); ++row)
+    if (size(row) == 0.0) names.push_back(row_name(model, row));
+  return names;
+}
+
 void find_pieces(const SparseModel& model, const std::vector<int>& piece, ReducedModelReport& report) {
   std::vector<int> roots = piece;
   std::sort(roots.begin(), roots.end());
@@ -294,6 +306,8 @@ ReducedModelReport sparse_report(const SparseModel& model, const ReportOptions& 
   result.matrices.push_back(state_of(model, "K", model.K, inertial, options));
   const std::vector<int> piece = piece_of_row(model);
   if (!geometry.positions.empty()) result.rigid = rigid_body_state(model, geometry, piece, options, frequencies);
+  find_bare(bare_rows(model), result);
+  find_frequencies(model.size() > 1 && model.K.norm() > 0.0, frequencies.missing, result);
   find_in_matrices(options, result);
   find_pieces(model, piece, result);
   if (result.rigid) find_in_rigid_body(options, result);

@@ -8,7 +8,8 @@ namespace thinwall::reduction {
 
 /// report() for sparse matrices, by factorisations instead of dense algebra: symmetry with the worst pair by name;
 /// definiteness by the inertia of the scaled matrices ± bound, with the least eigenvalue and its DOF where there are
-/// negative ones (0 stands for none); the lowest frequencies by block Lanczos; pieces that share no entry; and where
+/// negative ones (0 stands for none); rows without mass and stiffness by name; the lowest
+/// frequencies by block Lanczos; pieces that share no entry; and where
 /// every node has a position (options.positions by names, or else the model's own), with amplitudes at rest,
 ///
 ///     grounding YᵀKY and mass YᵀMY of the six rigid motions Y; free are the motions y of each piece with

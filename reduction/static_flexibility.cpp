@@ -6,7 +6,9 @@
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "linalg/tall.hpp"
+#include "reduction/rigid_count.hpp"
 
 namespace thinwall::reduction {
 
@@ -38,7 +40,7 @@ void require_free(const linalg::SparseMatrix& K, const MatrixXd& R) {
     const double share = force.col(k).norm() / size.col(k).norm();
     if (share <= 1e-7) continue;
     throw core::InputError("rigid motion " + std::to_string(k + 1) + " of a part that is said to be free is held: K " +
-                           "answers it with " + std::to_string(share) +
+                           "answers it with " + core::number_text(share) +
                            " of the force on rows that move alone, 1e-7 at most is round-off; leave it out");
   }
 }
@@ -102,19 +104,13 @@ linalg::ShiftedInverse StaticFlexibility::action() const {
 
 MatrixXd rigid_body_modes(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M,
                           const std::vector<int>& node_of_row) {
-  constexpr int most = 12;
   const double size = K.diagonal().sum() / M.diagonal().sum();
-  const int count = static_cast<int>(std::min<Index>(most + 1, K.rows() - 1));
+  const int count = static_cast<int>(std::min<Index>(most_rigid_modes + 1, K.rows()));
   const linalg::Eigenpairs pairs = lowest(K, M, node_of_row, count, 1e-8 * size);
   if (pairs.status != linalg::EigenStatus::converged)
     throw core::NumericalError("the search for rigid-body modes did not converge: give them from geometry");
   const double round_off = 10.0 * std::numeric_limits<double>::epsilon() * size;
-  Index found = 0;
-  for (Index k = 0; k + 1 < pairs.lambda.size(); ++k) {
-    const bool small = std::abs(pairs.lambda(k)) < std::max(1e-6 * pairs.lambda(k + 1), round_off);
-    if (small) found = k + 1;
-  }
-  return pairs.Phi.leftCols(found);
+  return pairs.Phi.leftCols(rigid_count(pairs.lambda, round_off));
 }
 
 }  // namespace thinwall::reduction

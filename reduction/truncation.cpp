@@ -5,6 +5,7 @@
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "linalg/tall.hpp"
+#include "reduction/symmetric_part.hpp"
 
 namespace thinwall::reduction {
 
@@ -13,10 +14,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-MatrixXd symmetric_part(const MatrixXd& A) {
-  return 0.5 * (A + A.transpose());
-}
 
 /// The directions of the interface in which something was left out: VᵀAV = I. `own` measures round-off.
 MatrixXd whitening(const MatrixXd& A, const VectorXd& own) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 
 #include "core/dense_factorisations.hpp"
@@ -11,6 +13,7 @@
 #include "fem/modes.hpp"
 #include "reduction/damping.hpp"
 #include "reduction/full_response.hpp"
+#include "reduction/worst.hpp"
 #include "tests/reduction/solid_part.hpp"
 
 namespace thinwall::reduction {
@@ -46,6 +49,24 @@ TEST(FullReceptances, EqualADenseSolve) {
         << "reciprocity";
     EXPECT_LT(line.relative_residual, 1e-9);
   }
+}
+
+/// The second number is a good one: a comparison with NaN is false, whichever way it is written.
+TEST(Accuracy, OfWhatIsNotANumberIsNotThatOfTheNextNumber) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(worse_of(worse_of(0.0, nan), 1.0)));
+  EXPECT_EQ(worse_of(worse_of(0.0, 2.0), 1.0), 2.0);
+  const Part part;
+  const dynamics::SpatialModel model = part.reduced(5);
+  Eigen::VectorXd hz = part.natural_hz.head(3);
+  EXPECT_LT(max_relative_frequency_error(model, hz, 0), 1.0);
+  hz(0) = nan;
+  EXPECT_TRUE(std::isnan(max_relative_frequency_error(model, hz, 0)));
+  auto full = full_receptances(part.model.K, part.model.M, part.model.node_of_row, part.interface,
+                               {0.5 * part.natural_hz(0), 0.7 * part.natural_hz(0)});
+  EXPECT_LT(max_relative_receptance_error(model, full), 1.0);
+  full[0].H(1, 1) = nan;
+  EXPECT_TRUE(std::isnan(max_relative_receptance_error(model, full)));
 }
 
 TEST(Accuracy, ErrorsFallAsModesAreAddedAndVanishWithAllOfThem) {

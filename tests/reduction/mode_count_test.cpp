@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -154,6 +156,34 @@ TEST(ModeCount, BadInputIsRefusedAndAnUnreachableToleranceIsAStatus) {
   const ChosenModes stopped =
       modes_for_tolerance(part.full, part.interface, {.tolerance = 1e-8, .band = band, .rounds = 1});
   EXPECT_NE(stopped.status, ModeCountStatus::met);
+}
+
+TEST(ModeCount, ATruthThatIsNoNumberSomewhereVerifiesNothing) {
+  const Reducible part = random_part(0);
+  const Band band = band_of(part);
+  BandTruth truth = band_truth(part.full, part.interface, band);
+  const ModeCountOptions options{.tolerance = 0.1, .band = band, .rounds = 3};
+  ASSERT_EQ(modes_for_tolerance(part.full, part.interface, options, truth).status, ModeCountStatus::met);
+  truth.H.front()(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  const ChosenModes chosen = modes_for_tolerance(part.full, part.interface, options, truth);
+  EXPECT_EQ(chosen.status, ModeCountStatus::not_verified);
+  EXPECT_TRUE(std::isnan(chosen.reference_error));
+  EXPECT_TRUE(std::isnan(max_receptance_error(chosen.reduced.model, truth)));
+}
+
+TEST(ModeCount, OfAFreePartNeedsABandAboveZero) {
+  const Reducible part = random_part(3);
+  Band band = band_of(part);
+  band.from_hz = 0.0;
+  for (const bool truth : {true, false}) {
+    try {
+      if (truth) (void)band_truth(part.full, part.interface, band);
+      if (!truth) (void)modes_for_tolerance(part.full, part.interface, {.tolerance = 0.01, .band = band});
+      FAIL() << "a free part has no static receptance";
+    } catch (const core::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("from_hz"), std::string::npos) << error.what();
+    }
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "core/dense_factorisations.hpp"
@@ -130,6 +131,53 @@ TEST(ModelReport, FindsWhatIsWrong) {
   contains(wrong([](auto&, auto& moved) { moved.at("Q").x() += 0.005; }), "free rigid motions");
   contains(wrong([](auto& model, auto&) { model.K(0, 0) *= 1.001; }), "free rigid motions");
   contains(wrong([](auto& model, auto&) { model.M.row(0) *= 1.1, model.M.col(0) *= 1.1; }), "mass along the axes");
+}
+
+TEST(ModelReport, AHingeIsFreeWhateverItsAxis) {
+  const dynamics::RigidBody body{2.0, Eigen::Vector3d::Zero(), Eigen::Vector3d(0.02, 0.03, 0.04).asDiagonal()};
+  for (const Eigen::Vector3d& axis :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(1, -2, 0.5)}) {
+    const Eigen::Vector3d a = axis.normalized();
+    MatrixXd K = 1e6 * MatrixXd::Identity(6, 6);
+    K.bottomRightCorner(3, 3) -= 1e6 * a * a.transpose();
+    const dynamics::SpatialModel model{
+        dynamics::mass_matrix(body), MatrixXd::Zero(6, 6), K, {}, dynamics::six_dofs("A")};
+    const ReducedModelReport found = report(model, {.positions = {{"A", {1.0, 2.0, 3.0}}}, .rigid_motions = 1});
+    EXPECT_EQ(found.rigid->free_motions, 1) << axis.transpose();
+    EXPECT_TRUE(found.trustworthy()) << what_is_wrong(found);
+    ASSERT_EQ(found.rigid->in_words.size(), 1U);
+    EXPECT_EQ(found.rigid->in_words[0].find("rotation about"), 0U) << found.rigid->in_words[0];
+  }
+}
+
+/// Where nothing can be computed nothing is found against a model, which is not to be said.
+TEST(ModelReport, OfWhatHasNoFrequenciesGivesNoVerdictOnReceptances) {
+  const dynamics::SpatialModel good = reduced(true, Method::craig_bampton, 12);
+  dynamics::SpatialModel bare = good, massless = good;
+  for (MatrixXd* matrix : {&bare.K, &bare.M}) {
+    matrix->row(4).setZero();
+    matrix->col(4).setZero();
+  }
+  massless.M.setZero();
+  for (const ReportOptions& options : {ReportOptions{}, ReportOptions{.positions = positions}}) {
+    const ReducedModelReport of_bare = report(bare, options), of_massless = report(massless, options);
+    for (const ReducedModelReport* found : {&of_bare, &of_massless}) {
+      EXPECT_NE(what_is_wrong(*found).find("frequencies found"), std::string::npos) << text(*found);
+      EXPECT_TRUE(std::isnan(found->reciprocity) && std::isnan(found->least_power));
+      EXPECT_EQ(text(*found).find("reciprocity"), std::string::npos) << "a verdict on what was not computed";
+    }
+    EXPECT_EQ(what_is_wrong(of_bare).find("DOFs without mass and stiffness"), 0U) << what_is_wrong(of_bare);
+    EXPECT_NE(text(of_bare).find(name(good.dofs[4])), std::string::npos) << text(of_bare);
+    EXPECT_EQ(what_is_wrong(of_massless).find("DOFs without"), std::string::npos) << "they have stiffness";
+  }
+}
+
+/// Nine coordinates with mass and as many without.
+TEST(ModelReport, OfFewModesBesideCoordinatesWithoutMass) {
+  const ReducedModelReport found =
+      report(reduced(false, Method::macneal, 3), {.positions = positions, .rigid_motions = 6});
+  EXPECT_TRUE(found.trustworthy()) << what_is_wrong(found);
+  EXPECT_EQ(found.rigid->sets.without_energy, 6);
 }
 
 TEST(ModelReport, PassivityIsLostWhereStiffnessGivesEnergy) {
