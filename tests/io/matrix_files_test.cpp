@@ -248,6 +248,28 @@ TEST_F(MatrixFile, TakesPositionsFromATableOrAnInputFile) {
   EXPECT_TRUE(has(partly.notes.back(), "without a position, the first of node 102")) << partly.notes.back();
 }
 
+TEST_F(MatrixFile, TakesPositionsFromAnInputFileOfWhateverElements) {
+  const std::string nodes = "*NODE\n3,0.,0.,0.\n9,0.,5.,0.\n4,1.,0.,0.\n";
+  for (const char* elements : {"", "*ELEMENT, TYPE=S3\n1,3,4,9\n", "*ELEMENT, TYPE=B31\n1,3,4\n2,4,9\n"}) {
+    const auto positions = read_node_positions(write("job.inp", nodes + elements));
+    EXPECT_EQ(positions.size(), 3U);
+    EXPECT_EQ(positions.at(9), Eigen::Vector3d(0.0, 5.0, 0.0));
+  }
+  for (const auto& [text, part] : {std::pair{nodes + "9,0.,6.,0.\n", "job.inp:5: node 9 is there already, in line 3"},
+                                   {std::string("*HEADING\n"), "job.inp: holds no *NODE"}}) {
+    const auto file = write("job.inp", text);
+    EXPECT_TRUE(has(message_of<core::DataError>([&] { (void)read_node_positions(file); }), part));
+  }
+}
+
+TEST_F(MatrixFile, HasNoTableOfPositionsThatAreNotFinite) {
+  SparseModel model = matrix_model(2, false);
+  model.positions[102].y() = std::nan("");
+  const std::string message = message_of<core::InputError>([&] { write_dof_table(path("dofs.csv"), model); });
+  EXPECT_TRUE(has(message, "the position of node 102 is not finite")) << message;
+  EXPECT_TRUE(is_empty());
+}
+
 const std::string two = "%%MatrixMarket matrix coordinate real symmetric\n% c\n2 2 3\n1 1 2.5\n2 1 -1\n2 2 3\n";
 const std::string table = "row,node,component\n1,7,x\n2,7,y\n";
 
