@@ -70,6 +70,7 @@ class Reader {
     matrix.labelled.path = name_;
     matrix.labelled.name = capitals(field(card, 0));
     matrix.form = integer(card, 2, "the form of the matrix", 1, 9);
+    matrix.labelled.may_be_half = matrix.form == 6;
     matrix.type = integer(card, 3, "the type of its numbers", 1, 4);
     matrix.line = card.line;
     if (find(matrix.labelled.name) != nullptr) fail(card, "the heading of " + matrix.labelled.name + " is there twice");

@@ -9,8 +9,9 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "io/csv_text.hpp"
-#include "io/inp.hpp"
+#include "io/inp_text.hpp"
 #include "io/surface_text.hpp"
+#include "mesh/labelled_checks.hpp"
 
 namespace thinwall::io {
 
@@ -122,6 +123,10 @@ void write_dof_table(const std::filesystem::path& path, const dynamics::SparseMo
     const NodeDof& dof = model.dofs[i];
     const auto name = model.names.find(dof.node);
     const auto position = model.positions.find(dof.node);
+    if (position != model.positions.end() && !position->second.allFinite()) {
+      throw core::InputError(path.string() + ": the position of node " + std::to_string(dof.node) +
+                             " is not finite; leave it out where it is not known");
+    }
     content += std::to_string(i + 1) + ',' + std::to_string(dof.node) + ',' +
                component_words.at(static_cast<std::size_t>(dof.component)) + ',' +
                (name == model.names.end() ? "" : csv_field(name->second));
@@ -135,8 +140,10 @@ void write_dof_table(const std::filesystem::path& path, const dynamics::SparseMo
 std::map<int, Eigen::Vector3d> read_node_positions(const std::filesystem::path& path) {
   std::map<int, Eigen::Vector3d> positions;
   if (lower_case(path.extension().string()) == ".inp") {
-    for (const mesh::LabelledNode& node : inp_mesh(core::read_file(path), path.string(), 1.0).mesh.nodes)
-      positions.emplace(static_cast<int>(node.label), node.x);
+    InpText text = inp_text(core::read_file(path), path.string(), 1.0);
+    mesh::sort_nodes(text.mesh);
+    if (text.mesh.nodes.empty()) mesh::fail_at(text.mesh, 0, "holds no *NODE");
+    for (const mesh::LabelledNode& node : text.mesh.nodes) positions.emplace(static_cast<int>(node.label), node.x);
     return positions;
   }
   const CsvText text = read_csv_text(path);

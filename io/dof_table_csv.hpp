@@ -24,11 +24,12 @@ struct DofTableFile {
 [[nodiscard]] DofTableFile read_dof_table(const std::filesystem::path& path);
 
 /// Writes the table of a model: point where a node has a name, x_m, y_m, z_m where it has a position. Reads back as it
-/// was. Throws InputError for a name with control characters, DataError if the file cannot be written.
+/// was. Throws InputError for a name with control characters and a position that is not finite, DataError if the file
+/// cannot be written.
 void write_dof_table(const std::filesystem::path& path, const dynamics::SparseModel& model);
 
-/// Where nodes are: of *NODE of an input file of Abaqus or CalculiX (io/inp.hpp), or of a table with the columns
-/// node, x, y, z; in the unit of the file. Throws DataError with file and line. Cost O(bytes).
+/// Where nodes are: of *NODE of an input file of Abaqus or CalculiX, whatever its elements (io/inp_text.hpp), or of a
+/// table with the columns node, x, y, z; in the unit of the file. Throws DataError with file and line. Cost O(bytes).
 [[nodiscard]] std::map<int, Eigen::Vector3d> read_node_positions(const std::filesystem::path& path);
 
 }  // namespace thinwall::io

@@ -17,22 +17,10 @@ namespace {
 using Labels = std::vector<std::int64_t>;
 using TextSets = std::map<std::string, InpTextSet>;
 
-/// The ranges of a set and of those that are part of it, directly or through others.
-std::vector<InpLabelRange> all_ranges(const TextSets& sets, const std::string& name) {
-  std::vector<InpLabelRange> ranges;
-  std::set<std::string> seen{name};
-  std::vector<std::string> open{name};
-  while (!open.empty()) {
-    const InpTextSet& set = sets.at(open.back());
-    open.pop_back();
-    ranges.insert(ranges.end(), set.ranges.begin(), set.ranges.end());
-    for (const std::string& other : set.others)
-      if (seen.insert(other).second) open.push_back(other);
-  }
-  return ranges;
-}
+// What steps cost, in units of one label that is looked at: about the time they take.
+constexpr std::size_t set_cost = 25, range_cost = 5, member_cost = 5;
 
-/// Turns ranges into labels, and keeps count of them: text of a few bytes may name every node.
+/// Turns ranges into labels, and keeps count of the work: text of a few bytes may name every node, or every set.
 class Expansion {
  public:
   explicit Expansion(const InpText& text) : text_(text) {
@@ -41,7 +29,23 @@ class Expansion {
     for (const auto& [label, cell] : cells_) cell_labels_.push_back(label);
     for (const InpTextFlat& element : text.flat) flat_[element.label] = &element;
     for (const auto& [label, element] : flat_) flat_labels_.push_back(label);
-    left_ = 10000000 + 100 * (node_labels_.size() + cell_labels_.size());
+    left_ = 120000000 + 1200 * (node_labels_.size() + cell_labels_.size());
+  }
+
+  /// The ranges of a set and of those that are part of it, directly or through others.
+  std::vector<InpLabelRange> all_ranges(const TextSets& sets, const std::string& name) {
+    std::vector<InpLabelRange> ranges;
+    std::vector<const InpTextSet*> open{&sets.at(name)};
+    std::set<const InpTextSet*> seen{open.back()};
+    while (!open.empty()) {
+      const InpTextSet& set = *open.back();
+      open.pop_back();
+      charge(set_cost * (1 + set.others.size()) + set.ranges.size(), 0);
+      ranges.insert(ranges.end(), set.ranges.begin(), set.ranges.end());
+      for (const std::string& other : set.others)
+        if (const InpTextSet* part = &sets.at(other); seen.insert(part).second) open.push_back(part);
+    }
+    return ranges;
   }
 
   Labels nodes(const std::vector<InpLabelRange>& ranges) {
@@ -81,19 +85,39 @@ class Expansion {
  private:
   Labels expanded(const std::vector<InpLabelRange>& ranges, const Labels& known) {
     Labels labels;
-    for (const InpLabelRange& range : ranges) {
-      auto label = std::lower_bound(known.begin(), known.end(), range.first);
-      for (; label != known.end() && *label <= range.last; ++label) {
-        if ((*label - range.first) % range.step == 0) add(*label, range.line, labels);
-      }
-    }
+    if (known.empty()) return labels;
+    for (const InpLabelRange& range : ranges) add_range(range, known, labels);
     std::sort(labels.begin(), labels.end());
     labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
     return labels;
   }
 
+  /// Goes by the labels that are there, or by the steps where those are far fewer.
+  void add_range(const InpLabelRange& range, const Labels& known, Labels& labels) {
+    const auto begin = std::lower_bound(known.begin(), known.end(), range.first);
+    const auto end = std::upper_bound(begin, known.end(), range.last);
+    const std::int64_t steps = (range.last - range.first) / range.step + 1;
+    charge(range_cost, range.line);
+    if (steps < (end - begin) / 16) {
+      charge(2 * range_cost * static_cast<std::size_t>(steps), range.line);
+      for (std::int64_t label = range.first; label <= range.last; label += range.step)
+        if (std::binary_search(begin, end, label)) add(label, range.line, labels);
+      return;
+    }
+    charge(static_cast<std::size_t>(end - begin), range.line);
+    for (auto label = begin; label != end; ++label)
+      if ((*label - range.first) % range.step == 0) add(*label, range.line, labels);
+  }
+
+  void charge(std::size_t cost, int line) {
+    if (cost > left_)
+      mesh::fail_at(text_.mesh, line,
+                    "the sets of the file have too many members, or too many sets in each other; drop some of them");
+    left_ -= cost;
+  }
+
   void add(std::int64_t label, int line, Labels& labels) {
-    if (left_-- == 0) mesh::fail_at(text_.mesh, line, "the sets of the file have too many members; drop some of them");
+    charge(member_cost, line);
     labels.push_back(label);
   }
 
@@ -143,9 +167,9 @@ void expand_sets(InpText& text) {
   std::vector<mesh::LabelledSet> node_sets;
   std::vector<mesh::LabelledSet> cell_sets;
   for (const auto& [name, set] : text.node_sets)
-    node_sets.push_back({name, expansion.nodes(all_ranges(text.node_sets, name))});
+    node_sets.push_back({name, expansion.nodes(expansion.all_ranges(text.node_sets, name))});
   for (const auto& [name, set] : text.element_sets) {
-    const auto ranges = all_ranges(text.element_sets, name);
+    const auto ranges = expansion.all_ranges(text.element_sets, name);
     Labels cells = expansion.cells(ranges);
     Labels nodes = expansion.nodes_of_flat(ranges);
     if (!cells.empty() || nodes.empty()) cell_sets.push_back({name, std::move(cells)});
@@ -159,12 +183,15 @@ void expand_sets(InpText& text) {
 
 std::vector<InpMaterial> section_materials(const InpText& text) {
   std::vector<InpMaterial> result;
+  std::map<std::string, const InpTextMaterial*> by_name;
+  for (const InpTextMaterial& material : text.materials) by_name.emplace(material.name, &material);
   for (const InpTextSection& section : text.sections) {
-    const auto is_it = [&](const InpTextMaterial& material) { return material.name == section.material; };
-    const auto found = std::find_if(text.materials.begin(), text.materials.end(), is_it);
-    if (found == text.materials.end())
+    const auto found = by_name.find(section.material);
+    if (found == by_name.end())
       mesh::fail_at(text.mesh, section.line, "the material \"" + section.material + "\" is not in the file");
-    result.push_back({section.element_set, found->name, found->youngs_modulus, found->poisson_ratio, found->density});
+    const InpTextMaterial& material = *found->second;
+    result.push_back(
+        {section.element_set, material.name, material.youngs_modulus, material.poisson_ratio, material.density});
   }
   return result;
 }

@@ -45,8 +45,8 @@ struct InpLabelled {
 /// what messages call the file; names of sets are in capitals. Throws DataError with file and line: a keyword that
 /// makes or moves nodes or elements and is not read (*INCLUDE, *SYSTEM, *NGEN, an *INSTANCE that moves ...), another
 /// solid element, text where a number belongs, a value that is not finite, a node that is missing, sets that together
-/// hold over 10 million members and 100 of every node. Nodes that a range of GENERATE passes over may be absent. Cost
-/// O(bytes).
+/// hold over 6 million members and 60 of every node, or are part of each other over two million times. Nodes that a
+/// range of GENERATE passes over may be absent. Cost O(bytes) and of the members of the sets.
 [[nodiscard]] InpLabelled inp_mesh(std::string_view bytes, const std::string& name, double metres_per_unit);
 
 /// The file as tetrahedra: mesh::solid_mesh of inp_mesh.

@@ -46,6 +46,15 @@ void read_nodes(const MatVariables& variables, const std::filesystem::path& path
   }
 }
 
+/// Whether a matrix is in a file of its own; in both it would be left open which one counts.
+bool is_elsewhere(const MatVariables& variables, const std::string& name, const std::filesystem::path& path,
+                  const std::filesystem::path& other) {
+  if (other.empty() || other == path) return false;
+  if (!variables.contains(name)) return true;
+  throw core::DataError(path.string() + ": holds " + name + ", which " + other.string() +
+                        " is stated for; leave it out of one of them");
+}
+
 }  // namespace
 
 void write_mat(const std::filesystem::path& path, const SparseModel& model) {
@@ -82,14 +91,30 @@ void write_mat(const std::filesystem::path& path, const SparseModel& model) {
   write_mat_variables(path, "component matrices by thinwall", variables);
 }
 
+Eigen::SparseMatrix<double> read_mat_matrix(const std::filesystem::path& path, const std::string& name) {
+  return sparse_of(variable(read_mat_variables(path, {name}), name, path), path);
+}
+
 SparseModel read_sparse_mat(const std::filesystem::path& path) {
+  return read_sparse_mat(MatFiles{path});
+}
+
+SparseModel read_sparse_mat(const MatFiles& files) {
+  const std::filesystem::path& path = files.stiffness;
   const MatVariables variables = read_mat_variables(path, {"K", "M", "C", "dof_node", "dof_component", "dof_point",
                                                            "node_number", "node_position", "name_number", "name_text"});
-  if (variables.contains("dof_point")) return dynamics::sparse_model(read_mat(path));
+  const bool other_mass = is_elsewhere(variables, "M", path, files.mass);
+  const bool other_damping = is_elsewhere(variables, "C", path, files.damping);
   SparseModel model;
+  if (variables.contains("dof_point")) {
+    model = dynamics::sparse_model(read_mat(path));
+    if (other_damping) model.C = read_mat_matrix(files.damping, "C");
+    return model;
+  }
   model.K = sparse_of(variable(variables, "K", path), path);
-  model.M = sparse_of(variable(variables, "M", path), path);
-  if (variables.contains("C")) model.C = sparse_of(variables.at("C"), path);
+  model.M = other_mass ? read_mat_matrix(files.mass, "M") : sparse_of(variable(variables, "M", path), path);
+  if (other_damping) model.C = read_mat_matrix(files.damping, "C");
+  if (!other_damping && variables.contains("C")) model.C = sparse_of(variables.at("C"), path);
   if (variables.contains("dof_node")) {
     const std::vector<int> nodes = integers(variables.at("dof_node"), path);
     const std::vector<int> components = integers(variable(variables, "dof_component", path), path);

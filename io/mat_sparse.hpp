@@ -2,6 +2,7 @@
 // Imported matrices as MAT version 5: sparse K, M, C with the table of their rows.
 
 #include <filesystem>
+#include <string>
 
 #include "dynamics/sparse_model.hpp"
 
@@ -17,5 +18,17 @@ void write_mat(const std::filesystem::path& path, const dynamics::SparseModel& m
 /// SpatialModel wrote. Without a table the model has no DOFs, and is not consistent before it gets them. Throws
 /// DataError that names the file and the variable.
 [[nodiscard]] dynamics::SparseModel read_sparse_mat(const std::filesystem::path& path);
+
+/// The variable K, M or C of a file, whatever else it holds. Throws DataError that names the file and the variable.
+[[nodiscard]] Eigen::SparseMatrix<double> read_mat_matrix(const std::filesystem::path& path, const std::string& name);
+
+/// Files of one component: that of the stiffness as read_sparse_mat() has it, and where it is stated another one for M
+/// or C, of which that variable alone is read. Throws DataError if a matrix is in two files of different names.
+struct MatFiles {
+  std::filesystem::path stiffness;
+  std::filesystem::path mass{};     ///< empty: in the file of the stiffness
+  std::filesystem::path damping{};  ///< empty: in the file of the stiffness, or none
+};
+[[nodiscard]] dynamics::SparseModel read_sparse_mat(const MatFiles& files);
 
 }  // namespace thinwall::io

@@ -48,7 +48,7 @@ std::vector<NodeDof> dofs_of(const std::vector<const LabelledEntries*>& matrices
 }
 
 MatrixEntries in_rows(const LabelledEntries& labelled, const std::vector<NodeDof>& dofs) {
-  MatrixEntries matrix{labelled.path, static_cast<int>(dofs.size()), {}};
+  MatrixEntries matrix{labelled.path, static_cast<int>(dofs.size()), {}, labelled.may_be_half};
   matrix.entries.reserve(labelled.entries.size());
   const auto row_of = [&](const NodeDof& dof) {
     return static_cast<int>(std::lower_bound(dofs.begin(), dofs.end(), dof) - dofs.begin());
@@ -66,7 +66,8 @@ WholeMatrix whole_matrix(const MatrixEntries& matrix) {
   const bool off_diagonal =
       std::any_of(sorted.begin(), sorted.end(), [](const Entry& entry) { return entry.row != entry.column; });
   WholeMatrix whole;
-  whole.was_half = off_diagonal && std::adjacent_find(sorted.begin(), sorted.end(), is_pair) == sorted.end();
+  whole.was_half =
+      matrix.may_be_half && off_diagonal && std::adjacent_find(sorted.begin(), sorted.end(), is_pair) == sorted.end();
   std::vector<Eigen::Triplet<double>> triplets;
   triplets.reserve(sorted.size() * (whole.was_half ? 2 : 1));
   for (const Entry& entry : sorted) {

@@ -23,6 +23,7 @@ struct MatrixEntries {
   std::string path;
   int size = 0;
   std::vector<MatrixEntry<int>> entries;
+  bool may_be_half = true;  ///< the format allows one triangle of a symmetric matrix
 };
 
 /// A matrix whose rows are DOFs, in any order.
@@ -30,6 +31,7 @@ struct LabelledEntries {
   std::string path;
   std::string name;  ///< in the file; may be empty
   std::vector<MatrixEntry<dynamics::NodeDof>> entries;
+  bool may_be_half = true;  ///< as of MatrixEntries
 };
 
 /// The DOFs of all these matrices, each once, by node and component. Cost O(n log n) of the entries.
@@ -38,8 +40,8 @@ struct LabelledEntries {
 /// The entries by their places in the table (ascending), which must hold them all.
 [[nodiscard]] MatrixEntries in_rows(const LabelledEntries& labelled, const std::vector<dynamics::NodeDof>& dofs);
 
-/// The matrix, zeros left out, and whether the file held one triangle of it: where no entry has a mirror image, a_ij is
-/// a_ji too.
+/// The matrix, zeros left out, and whether the file held one triangle of it: where the format allows that and no entry
+/// has a mirror image, a_ij is a_ji too.
 struct WholeMatrix {
   Eigen::SparseMatrix<double> A;
   bool was_half = false;

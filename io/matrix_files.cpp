@@ -104,7 +104,6 @@ Matrices take_files(const MatrixFiles& files) {
       throw core::DataError(path + ": is of the format " + name_of(format) + ", the stiffness of " +
                             name_of(matrices.format) + ": take all matrices from one export");
     }
-    if (format == Format::mat && k == 0) break;
     if (format == Format::matrix_market) matrices.rows[k] = matrix_market_entries(bytes, path);
     if (format == Format::triplets) matrices.rows[k] = triplet_entries(bytes, path);
     if (format == Format::labelled) matrices.labelled[k] = labelled_triplets(bytes, path);
@@ -113,14 +112,17 @@ Matrices take_files(const MatrixFiles& files) {
   return matrices;
 }
 
-/// The table that was stated, or job.dof beside job.sti.
-std::optional<DofTableFile> table_of(const MatrixFiles& files) {
-  std::filesystem::path path = files.dofs;
-  if (path.empty()) {
-    path = files.stiffness;
-    path.replace_extension(".dof");
-    if (path == files.stiffness || !std::filesystem::exists(path)) return std::nullopt;
-  }
+/// The table that was stated, or job.dof beside job.sti; empty: neither.
+std::filesystem::path table_path(const MatrixFiles& files) {
+  if (!files.dofs.empty()) return files.dofs;
+  std::filesystem::path path = files.stiffness;
+  path.replace_extension(".dof");
+  const bool is_there = path != files.stiffness && std::filesystem::exists(path);
+  return is_there ? path : std::filesystem::path();
+}
+
+std::optional<DofTableFile> table_of(const std::filesystem::path& path) {
+  if (path.empty()) return std::nullopt;
   const std::string bytes = core::read_file(path);
   const std::string_view first_line = std::string_view(bytes).substr(0, bytes.find('\n'));
   const bool ccx = first_line.find_first_not_of("0123456789. \r") == std::string_view::npos && !first_line.empty();
@@ -173,7 +175,7 @@ SparseModel model_of_text(const MatrixFiles& files, Matrices& matrices, const st
     std::vector<const LabelledEntries*> all;
     for (const LabelledEntries& labelled : matrices.labelled) all.push_back(&labelled);
     model.dofs = dofs_of(all);
-    if (table) require_labels(model.dofs, table->dofs, files.dofs.string());
+    if (table) require_labels(model.dofs, table->dofs, table_path(files).string());
   } else if (table) {
     model.dofs = table->dofs;
   } else {
@@ -218,10 +220,9 @@ ImportedMatrices read_matrices(const MatrixFiles& files) {
   ImportedMatrices imported;
   Matrices matrices = take_files(files);
   imported.format = name_of(matrices.format);
-  const std::optional<DofTableFile> table = table_of(files);
+  const std::optional<DofTableFile> table = table_of(table_path(files));
   if (matrices.format == Format::mat) {
-    imported.model = read_sparse_mat(files.stiffness);
-    if (!files.mass.empty()) imported.model.M = read_sparse_mat(files.mass).M;
+    imported.model = read_sparse_mat(MatFiles{files.stiffness, files.mass, files.damping});
     if (table) imported.model.dofs = table->dofs;
   } else {
     imported.model = model_of_text(files, matrices, table, imported.notes);

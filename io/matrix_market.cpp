@@ -82,7 +82,7 @@ MatrixEntries matrix_market_entries(std::string_view bytes, const std::string& n
   const std::int64_t columns = text.whole_number(next_word(text), "the number of columns", 1, largest);
   if (rows != columns)
     text.fail("is " + std::to_string(rows) + " x " + std::to_string(columns) + "; K, M and C are square");
-  MatrixEntries matrix{name, static_cast<int>(rows), {}};
+  MatrixEntries matrix{name, static_cast<int>(rows), {}, heading.symmetric};
   if (heading.coordinate) {
     read_coordinates(text, heading.symmetric, matrix);
   } else {

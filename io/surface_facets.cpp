@@ -13,7 +13,8 @@ namespace {
 /// A fan's triangle may be turned over by this share of the facet's area: corners on a straight edge, round-off.
 constexpr double allowed_relative_overlap = 1e-9;
 
-/// Fans that are tried for a facet: a file of long facets costs no more than this times its corners.
+/// Fans that are compared for a facet: a file of long facets that any of them fills costs no more than this times its
+/// corners.
 constexpr std::size_t most_tried = 64;
 
 using Points = std::vector<Eigen::Vector3d>;
@@ -57,6 +58,8 @@ std::size_t best_apex(const Points& points, std::span<const int> corners) {
     largest = smallest;
     best = apex;
   }
+  for (std::size_t apex = 0; step > 1 && best == corners.size() && apex < corners.size(); ++apex)
+    if (smallest_of_fan(points, corners, apex, normal / area) > largest) return apex;
   return best;
 }
 

@@ -10,7 +10,7 @@ namespace thinwall::io {
 double metres_per_unit(const std::string& unit, const std::string& file) {
   if (unit.empty()) {
     throw core::InputError("the unit of \"" + file +
-                           "\" is missing; surface files do not tell it, state \"mm\", \"m\" or \"inch\"");
+                           "\" is missing; files of its kind do not tell it, state \"mm\", \"m\" or \"inch\"");
   }
   const core::Quantity quantity = core::parse_unit(unit);
   if (quantity.dimension != core::parse_unit("m").dimension) {

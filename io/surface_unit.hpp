@@ -1,5 +1,5 @@
 #pragma once
-// The unit of a surface file: formats of surfaces do not tell it, and there is no silent default.
+// The unit of a file of a surface or a mesh: their formats do not tell it, STEP apart, and there is no silent default.
 
 #include <string>
 

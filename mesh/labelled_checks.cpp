@@ -3,12 +3,16 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <unordered_map>
 #include <utility>
 
 namespace thinwall::mesh {
 
 namespace {
+
+/// Numbers of nodes name degrees of freedom, of which other formats hold an int.
+constexpr std::int64_t most_label = std::numeric_limits<std::int32_t>::max();
 
 std::string in_line(std::int64_t line) {
   return line > 0 ? ", in line " + std::to_string(line) : "";
@@ -133,6 +137,10 @@ void sort_nodes(LabelledMesh& labelled) {
     std::stable_sort(labelled.nodes.begin(), labelled.nodes.end(), by_label);
   for (std::size_t i = 0; i < labelled.nodes.size(); ++i) {
     const LabelledNode& node = labelled.nodes[i];
+    if (node.label > most_label)
+      fail_at(labelled, node.line,
+              "the number of node " + std::to_string(node.label) + " is beyond " + std::to_string(most_label) +
+                  ": renumber the nodes");
     if (!node.x.allFinite())
       fail_at(labelled, node.line, "node " + std::to_string(node.label) + " has a coordinate that is not finite");
     if (i == 0 || labelled.nodes[i - 1].label != node.label) continue;

@@ -17,7 +17,8 @@ namespace thinwall::mesh {
 /// the numbers, O(log n) otherwise.
 [[nodiscard]] int row_of_node(const LabelledMesh& labelled, std::int64_t label, std::int64_t line);
 
-/// Sorts the nodes by label; throws DataError for one that is there twice, or whose place is not finite.
+/// Sorts the nodes by label; throws DataError for one that is there twice, beyond 2³¹ − 1, or at a place that is not
+/// finite.
 void sort_nodes(LabelledMesh& labelled);
 
 enum class NodeRole : char { unused, corner, middle };

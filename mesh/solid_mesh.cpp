@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
@@ -95,6 +97,22 @@ void require_sound_jacobians(const LabelledMesh& labelled, const SplitCells& spl
     if (!least.is_sound)
       fail_jacobian(labelled, labelled.cells[split.cell_of_tet[static_cast<std::size_t>(tet)]], least);
   }
+}
+
+/// Sets of one name as one, where the first of them stands.
+std::vector<LabelledSet> joined_by_name(std::vector<LabelledSet> sets) {
+  std::vector<LabelledSet> joined;
+  std::map<std::string, std::size_t> place;
+  for (LabelledSet& set : sets) {
+    const auto [known, is_new] = place.emplace(set.name, joined.size());
+    if (is_new) {
+      joined.push_back(std::move(set));
+    } else {
+      std::vector<std::int64_t>& labels = joined[known->second].labels;
+      labels.insert(labels.end(), set.labels.begin(), set.labels.end());
+    }
+  }
+  return joined;
 }
 
 std::vector<NodeSet> placed_node_sets(const LabelledMesh& labelled, const std::vector<int>& place,
@@ -200,6 +218,8 @@ const Set& named(const std::vector<Set>& sets, const char* kind, const std::stri
 SolidMesh solid_mesh(LabelledMesh labelled) {
   SolidMesh solid;
   solid.notices = std::move(labelled.notices);
+  labelled.node_sets = joined_by_name(std::move(labelled.node_sets));
+  labelled.cell_sets = joined_by_name(std::move(labelled.cell_sets));
   std::vector<int> rows = checked_rows(labelled, solid.notices);
   if (put_middles_right(labelled, rows)) {
     solid.notices.emplace_back(

@@ -44,12 +44,13 @@ struct SolidMesh {
 /// The mesh with all elements as tetrahedra, checked. Hexahedra, wedges and pyramids are split (mesh/cell_split.hpp),
 /// quadratic ones along their curved faces. Mid-edge nodes are compared with their edges (mesh/midside_order.hpp): a
 /// file that exchanges the last two of every ten-node tetrahedron is put right, with a notice.
+/// Sets of one name, as Gmsh has them of curves and surfaces, become one.
 /// Notices: elements by kind, nodes that no element uses, pieces, nodes that are not shared, elements that hang on the
 /// rest by an edge or a node. Throws DataError with file, line or number: no element; a number that is there twice or
-/// is missing; a coordinate that is not finite; elements of both orders; two elements on the same nodes; a node that is
-/// a corner here and within an edge there; an edge with two middles; faces that do not fit; mid-edge nodes in no known
-/// order; det J below 1e-3 of its mean anywhere in an element (mesh/tet_jacobian.hpp), with its place.
-/// Cost O(n log n).
+/// is missing; a node's beyond 2³¹ − 1; a coordinate that is not finite; elements of both orders; two elements on the
+/// same nodes; a node that is a corner here and within an edge there; an edge with two middles; faces that do not fit;
+/// mid-edge nodes in no known order; det J below 1e-3 of its mean anywhere in an element (mesh/tet_jacobian.hpp), with
+/// its place. Cost O(n log n).
 [[nodiscard]] SolidMesh solid_mesh(LabelledMesh labelled);
 
 /// The same tetrahedra with nodes in the middles of their edges, straight-sided. A middle joins a node set that has all

@@ -112,6 +112,32 @@ TEST_F(GmshFile, OfSeveralGroupsForAnElementTakesItOnce) {
 }
 
 /// With the bytes of every number turned around it is the same file of a machine of the other kind.
+/// A group has a name and a number for each dimension.
+TEST(GmshFiles, WithOneNameOnACurveAndASurfaceHaveOneSet) {
+  const std::string text =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"held\"\n2 2 \"held\"\n3 3 \"part\"\n"
+      "$EndPhysicalNames\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n$EndNodes\n$Elements\n4\n"
+      "1 1 2 1 1 1 2\n2 2 2 2 1 1 3 4\n3 4 2 3 1 1 2 3 4\n4 4 2 3 1 2 5 3 4\n$EndElements\n";
+  const mesh::SolidMesh solid = mesh::solid_mesh(gmsh_mesh(text, "x.msh", 1.0));
+  ASSERT_EQ(solid.node_sets.size(), 1U);
+  EXPECT_EQ(mesh::node_set(solid, "held", "").nodes, (std::vector<int>{0, 1, 2, 3}));
+}
+
+TEST(GmshFiles, WithNumbersOfNodesBeyondAnIntAreRefused) {
+  for (const char* last : {"2147483647", "2147483648", "4611686018427387000"}) {
+    const std::string text =
+        std::string("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 ") + last + "\n3 1 0 4\n1\n2\n3\n" + last +
+        "\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 " + last + "\n$EndElements\n";
+    const auto read = [&] { return mesh::solid_mesh(gmsh_mesh(text, "x.msh", 1.0)); };
+    if (std::string(last) == "2147483647") {
+      EXPECT_EQ(read().node_labels.back(), 2147483647);
+      continue;
+    }
+    const std::string message = test::message_of<core::DataError>([&] { (void)read(); });
+    EXPECT_TRUE(message.starts_with("x.msh:10: the number of node " + std::string(last) + " is beyond")) << message;
+  }
+}
+
 TEST_F(GmshFile, OfTheOtherByteOrderIsReadTheSame) {
   std::string bytes = core::read_file(std::filesystem::path(THINWALL_SOURCE_DIR) / "fuzz/corpus/gmsh/hex8_22_binary");
   const auto turn = [&bytes](std::size_t at, std::size_t size) {

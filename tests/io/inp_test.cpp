@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdio>
+#include <ctime>
+#include <functional>
 #include <random>
 
 #include "core/atomic_file.hpp"
@@ -133,6 +136,51 @@ TEST_F(InpFile, OfAnotherHandIsReadWithGapsRangesCommentsAndContinuedLines) {
   EXPECT_EQ(node_set(read, "few", "").nodes, (std::vector<int>{1, 4}));
   EXPECT_NE(test::message_of<core::DataError>([&] { (void)node_set(read, "rnge", "hand.inp"); }).find("RANGE"),
             std::string::npos);
+}
+
+TEST_F(InpFile, OfRangesTakesEveryStepThatIsANode) {
+  std::string text = "*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n*NODE\n";
+  for (int node = 1; node <= 2000; ++node)
+    if (node != 1001) text += std::to_string(node) + ",0,0," + std::to_string(node) + "\n";
+  text += "*NSET,NSET=FEW,GENERATE\n1,2000,500\n*NSET,NSET=ODD,GENERATE\n3,1000000,2\n*NSET,NSET=ONE,GENERATE\n7,7\n";
+  const auto sets = inp_mesh(text, "ranges.inp", 1.0).mesh.node_sets;
+  ASSERT_EQ(sets.size(), 3U);
+  EXPECT_EQ(sets[0].labels, (std::vector<std::int64_t>{1, 501, 1501})) << "1001 is absent";
+  EXPECT_EQ(sets[1].labels.size(), 998U);
+  EXPECT_EQ(sets[1].labels.back(), 1999);
+  EXPECT_EQ(sets[2].labels, std::vector<std::int64_t>{7});
+}
+
+/// Two megabytes that name each other, or ranges, as often as they can: read or refused, not computed for minutes.
+TEST_F(InpFile, WhoseSetsMultiplyEndsSoon) {
+  const std::string tet = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4\n1,1,2,3,4\n";
+  const auto filled = [](std::string text, std::size_t size, const std::function<std::string(int)>& line) {
+    for (int k = 1; text.size() < size; ++k) text += line(k);
+    return text;
+  };
+  const auto number = [](int k) { return std::to_string(k); };
+  std::vector<std::string> files;
+  files.push_back(filled(tet + "*NSET,NSET=A0\n1\n", 2000000,
+                         [&](int k) { return "*NSET,NSET=A" + number(k) + "\nA" + number(k - 1) + "\n"; }));
+  files.push_back(filled(tet + "*NSET,NSET=A\n1\n*NSET,NSET=B\n", 1000000, [](int) { return "A,A,A,A\n"; }));
+  files.back() = filled(files.back(), 2000000, [&](int k) { return "*NSET,NSET=C" + number(k) + "\nB\n"; });
+  const std::string nodes = filled(tet + "*NODE\n", 1000000, [&](int k) { return number(k + 4) + ",0,0,1\n"; });
+  for (const char* range :
+       {"1,2147483647,99999999\n", "1,2147483647,400000\n", "1,2147483647,9000\n", "1,90000,7\n", "90001,90002\n"})
+    files.push_back(filled(nodes + "*NSET,NSET=R,GENERATE\n", 2000000, [&](int) { return range; }));
+  files.push_back(filled(tet, 2000000, [&](int k) {
+    return "*MATERIAL,NAME=M" + number(k) + "\n*SOLID SECTION,ELSET=E,MATERIAL=M" + number(k) + "\n";
+  }));
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::clock_t start = std::clock();
+    try {
+      (void)inp_mesh(files[i], "many.inp", 1.0);
+    } catch (const core::DataError& error) {
+      EXPECT_NE(std::string(error.what()).find("too many members"), std::string::npos) << i << ": " << error.what();
+    }
+    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 2.0) << i;
+    std::printf("%zu: %.2f s\n", i, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  }
 }
 
 TEST_F(InpFile, WithWindowsLineEndsReadsTheSame) {

@@ -18,6 +18,7 @@
 #include "io/dof_table_csv.hpp"
 #include "io/mat.hpp"
 #include "io/mat_sparse.hpp"
+#include "io/mat_variables.hpp"
 #include "io/matrix_market.hpp"
 #include "io/nastran_cards.hpp"
 #include "matrix_model.hpp"
@@ -126,6 +127,70 @@ TEST_F(MatrixFile, OfMatWithAReducedModelKeepsItsNames) {
   const SparseModel read = read_matrices(si({path("reduced.mat")})).model;
   EXPECT_EQ(dynamics::spatial_model(read).K, dense.K);
   EXPECT_EQ(name(dynamics::named(read, read.dofs[4])), name(dense.dofs[4]));
+}
+
+TEST_F(MatrixFile, OfMatTakesFromEachFileTheMatrixThatItIsStatedFor) {
+  const SparseModel model = matrix_model(3, true);
+  std::vector<double> nodes, components;
+  for (const NodeDof& dof : model.dofs) {
+    nodes.push_back(dof.node);
+    components.push_back(dof.component);
+  }
+  write_mat_variables(path("K.mat"), "a stiffness",
+                      {mat_sparse("K", model.K),
+                       {"dof_node", {nodes.size(), 1}, nodes},
+                       {"dof_component", {nodes.size(), 1}, components}});
+  write_mat_variables(path("M.mat"), "a mass", {mat_sparse("M", model.M)});
+  write_mat_variables(path("C.mat"), "a damping", {mat_sparse("C", model.C), mat_sparse("K", model.M)});
+  const SparseModel read = read_matrices(si({path("K.mat"), path("M.mat"), path("C.mat")})).model;
+  EXPECT_TRUE(same(read.K, model.K));
+  EXPECT_TRUE(same(read.M, model.M));
+  EXPECT_TRUE(same(read.C, model.C));
+  EXPECT_EQ(read.dofs, model.dofs);
+  write_mat(path("all.mat"), model);
+  write_matrix_market(path("M.mtx"), model.M);
+  EXPECT_TRUE(same(read_matrices(si({path("all.mat"), path("all.mat"), path("all.mat")})).model, model));
+  for (const auto& [files, part] : {
+           std::pair{MatrixFiles{path("K.mat")}, "K.mat: has no variable M"},
+           {MatrixFiles{path("K.mat"), path("C.mat")}, "C.mat: has no variable M"},
+           {MatrixFiles{path("K.mat"), path("M.mtx")}, "M.mtx: is of the format Matrix Market"},
+           {MatrixFiles{path("all.mat"), path("M.mat")}, "all.mat: holds M, which"},
+           {MatrixFiles{path("all.mat"), "", path("C.mat")}, "all.mat: holds C, which"},
+       }) {
+    const std::string message = message_of<core::DataError>([&] { (void)read_matrices(si(files)); });
+    EXPECT_TRUE(has(message, part)) << message;
+  }
+}
+
+// A format that states the whole matrix is not completed: what it lacks is zero, and told as asymmetry.
+TEST_F(MatrixFile, OfOneTriangleIsCompletedOnlyWhereTheFormatAllowsIt) {
+  const std::string entries = "2 2 3\n1 1 2.5\n2 1 -1\n2 2 3\n";
+  const std::string table_text = "node,component\n7,x\n7,y\n";
+  const std::string columns = "DMIG,KAAX,7,1,,7,1,2.5\n,7,2,-1.\nDMIG,KAAX,7,2,,7,2,3.\n";
+  const std::string mass = "DMIG,MAAX,0,6,2\nDMIG,MAAX,7,1,,7,1,1.\nDMIG,MAAX,7,2,,7,2,1.\n";
+  for (const bool symmetric : {false, true}) {
+    const auto market = write("K.mtx", std::string("%%MatrixMarket matrix coordinate real ") +
+                                           (symmetric ? "symmetric\n" : "general\n") + entries);
+    const auto mass_market = write("M.mtx", "%%MatrixMarket matrix coordinate real general\n2 2 2\n1 1 1\n2 2 1\n");
+    const auto punch = write("x.pch", std::string("DMIG,KAAX,0,") + (symmetric ? "6" : "1") + ",2\n" + columns + mass);
+    for (const MatrixFiles& files :
+         {MatrixFiles{market, mass_market, "", write("dofs.csv", table_text)}, MatrixFiles{punch}}) {
+      const ImportedMatrices read = read_matrices(si(files));
+      EXPECT_EQ(read.model.K.coeff(1, 0), -1.0);
+      EXPECT_EQ(read.model.K.coeff(0, 1), symmetric ? -1.0 : 0.0) << files.stiffness;
+      EXPECT_EQ(read.notes.empty(), !symmetric);
+      if (symmetric) continue;
+      EXPECT_THROW(dynamics::require_plausible(read.model), core::InputError);
+    }
+  }
+}
+
+TEST_F(MatrixFile, WhoseDofsAreNotInTheTableBesideItNamesThatTable) {
+  const MatrixFiles files =
+      si({write("job.mtx", "1,1,1,1,5.0\n1,2,1,2,4.0\n"), write("M.mtx", "1,1,1,1,2.0\n1,2,1,2,2.0\n")});
+  const auto beside = write("job.dof", "1.1\n1.3\n");
+  const std::string message = message_of<core::DataError>([&] { (void)read_matrices(files); });
+  EXPECT_TRUE(message.starts_with(beside.string() + ": node 1, component 2")) << message;
 }
 
 // A first export rounds to what sixteen columns hold; what came from a file goes out and comes back as it was.
@@ -246,6 +311,28 @@ TEST_F(MatrixFile, TakesPositionsFromATableOrAnInputFile) {
   EXPECT_EQ(partly.model.positions.size(), 1U);
   ASSERT_FALSE(partly.notes.empty());
   EXPECT_TRUE(has(partly.notes.back(), "without a position, the first of node 102")) << partly.notes.back();
+}
+
+TEST_F(MatrixFile, TakesPositionsFromAnInputFileOfWhateverElements) {
+  const std::string nodes = "*NODE\n3,0.,0.,0.\n9,0.,5.,0.\n4,1.,0.,0.\n";
+  for (const char* elements : {"", "*ELEMENT, TYPE=S3\n1,3,4,9\n", "*ELEMENT, TYPE=B31\n1,3,4\n2,4,9\n"}) {
+    const auto positions = read_node_positions(write("job.inp", nodes + elements));
+    EXPECT_EQ(positions.size(), 3U);
+    EXPECT_EQ(positions.at(9), Eigen::Vector3d(0.0, 5.0, 0.0));
+  }
+  for (const auto& [text, part] : {std::pair{nodes + "9,0.,6.,0.\n", "job.inp:5: node 9 is there already, in line 3"},
+                                   {std::string("*HEADING\n"), "job.inp: holds no *NODE"}}) {
+    const auto file = write("job.inp", text);
+    EXPECT_TRUE(has(message_of<core::DataError>([&] { (void)read_node_positions(file); }), part));
+  }
+}
+
+TEST_F(MatrixFile, HasNoTableOfPositionsThatAreNotFinite) {
+  SparseModel model = matrix_model(2, false);
+  model.positions[102].y() = std::nan("");
+  const std::string message = message_of<core::InputError>([&] { write_dof_table(path("dofs.csv"), model); });
+  EXPECT_TRUE(has(message, "the position of node 102 is not finite")) << message;
+  EXPECT_TRUE(is_empty());
 }
 
 const std::string two = "%%MatrixMarket matrix coordinate real symmetric\n% c\n2 2 3\n1 1 2.5\n2 1 -1\n2 2 3\n";

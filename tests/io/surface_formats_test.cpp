@@ -2,15 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "io/obj.hpp"
 #include "io/off.hpp"
 #include "io/ply.hpp"
@@ -208,6 +211,34 @@ TEST(SurfaceDialects, AFacetThatTurnsInwardsIsCutFromTheCornerThatSeesAll) {
             std::to_string(a + 6) + "\n";
   }
   EXPECT_NEAR(volume_of(obj_surface(text, "l.obj", 1.0)), 3.0, 1e-14);
+}
+
+TEST(SurfaceDialects, AFacetOfManyCornersIsCutFromTheOnlyOneThatSeesAll) {
+  // Teeth around three quarters of the origin, which is the second of a hundred corners: only every second one is
+  // compared. From a tooth the flanks of the others are hidden.
+  std::string text, facet = "f";
+  double twice_area = 0.0;
+  Eigen::Vector2d before = Eigen::Vector2d::Zero();
+  for (int k = 0; k < 99; ++k) {
+    const double angle = 1.5 * std::numbers::pi * k / 98.0, radius = k % 2 == 0 ? 3.0 : 1.0;
+    const Eigen::Vector2d x(radius * std::cos(angle), radius * std::sin(angle));
+    text += "v " + core::number_text(x.x()) + " " + core::number_text(x.y()) + " 0\n";
+    twice_area += before.x() * x.y() - before.y() * x.x();
+    before = x;
+  }
+  text += "v 0 0 0\n";
+  for (int k = 0; k < 100; ++k) facet += " " + std::to_string((k + 98) % 100 + 1);
+  const TriangleSoup soup = obj_surface(text + facet + "\n", "teeth.obj", 1.0);
+  ASSERT_EQ(soup.triangles.size(), 98U);
+  double sum = 0.0;
+  for (const auto& [a, b, c] : soup.triangles) {
+    const auto& x = soup.points;
+    const auto at = [&](int p) { return x[static_cast<std::size_t>(p)]; };
+    const double twice = (at(b) - at(a)).cross(at(c) - at(a)).z();
+    EXPECT_GT(twice, 0.0);
+    sum += twice;
+  }
+  EXPECT_NEAR(sum, twice_area, 1e-13);
 }
 
 }  // namespace

@@ -134,10 +134,10 @@ TEST_F(SurfaceUnits, ThatAreMissingOrNoLengthAreNamed) {
   const auto refusal = [](const std::filesystem::path& path, const std::string& unit) {
     return message_of<core::InputError>([&] { (void)read_surface(path, unit); });
   };
-  EXPECT_NE(refusal(file, "").find("is missing; surface files do not tell it"), std::string::npos);
+  EXPECT_NE(refusal(file, "").find("is missing; files of its kind do not tell it"), std::string::npos);
   EXPECT_NE(refusal(file, "kg").find("state a length"), std::string::npos) << refusal(file, "kg");
   EXPECT_NE(refusal(file, "furlong").find("furlong"), std::string::npos);
-  EXPECT_NE(refusal(path("part.step"), "mm").find(".stl, .off, .obj or .ply"), std::string::npos);
+  EXPECT_NE(refusal(path("part.igs"), "mm").find(".stl, .off, .obj, .ply or .step"), std::string::npos);
   for (const double bad : {0.0, -1.0, std::nan("")}) {
     EXPECT_THROW((void)stl_surface(ascii_stl(cube), "part", bad), core::InputError);
     EXPECT_THROW((void)off_surface(off_text(cube), "part", bad), core::InputError);
