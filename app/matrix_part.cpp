@@ -3,19 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <map>
 
 #include "app/imported_part.hpp"
 #include "core/error.hpp"
 #include "core/memory.hpp"
 #include "fem/modes.hpp"
+#include "reduction/rigid_count.hpp"
 
 namespace thinwall::app {
 
 namespace {
-
-constexpr int most_rigid = 12;
 
 fem::Model model_of(const dynamics::SparseModel& matrices) {
   fem::Model model;
@@ -33,14 +32,6 @@ fem::Model model_of(const dynamics::SparseModel& matrices) {
   return model;
 }
 
-/// How many of the lowest λ lie below 1e-6 of the next one; none where there is no such gap.
-int rigid_count(const Eigen::VectorXd& lambda) {
-  for (Eigen::Index k = std::min<Eigen::Index>(most_rigid, lambda.size() - 1); k > 0; --k) {
-    if (lambda.head(k).cwiseAbs().maxCoeff() < 1e-6 * lambda(k)) return static_cast<int>(k);
-  }
-  return 0;
-}
-
 /// Sets how many motions are free: by the lowest modes of a shifted K, which is definite whatever is free.
 void count_rigid_motions(fem::Model& model) {
   model.rigid_motions = 1;  // so that it is shifted
@@ -48,11 +39,12 @@ void count_rigid_motions(fem::Model& model) {
   if (model.K.rows() < 2)
     throw core::InputError(
         "the part's matrices have a single row: describe a part of one mode by measured FRFs or modes");
-  const int wanted = static_cast<int>(std::min<Eigen::Index>(most_rigid + 4, model.K.rows() - 1));
+  const int wanted = static_cast<int>(std::min<Eigen::Index>(reduction::most_rigid_modes + 4, model.K.rows() - 1));
   const auto lowest = linalg::lowest_eigenpairs(model.K, model.M, fem::inverse_of(shifted), wanted);
   if (lowest.status != linalg::EigenStatus::converged)
     throw core::NumericalError("the lowest modes of the matrices did not converge: \"thinwall inspect\" tells more");
-  model.rigid_motions = rigid_count(lowest.lambda);
+  model.rigid_motions =
+      reduction::rigid_count(lowest.lambda, 10.0 * std::numeric_limits<double>::epsilon() * model.spectrum_rad2_s2);
   for (int k = 0; k < model.rigid_motions; ++k) model.free_motions.push_back("mode " + std::to_string(k + 1));
 }
 

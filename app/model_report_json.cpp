@@ -33,8 +33,8 @@ json effective_mass_json(const reduction::EffectiveMass& effective) {
 
 json rigid_json(const reduction::RigidBodyState& rigid) {
   json known = {{"motions_seen", rigid.sets.seen},
-                      {"free_motions", rigid.free_motions},
-                      {"free_motions_in_words", rigid.in_words}};
+                {"free_motions", rigid.free_motions},
+                {"free_motions_in_words", rigid.in_words}};
   if (rigid.sets.seen != 6) return known;
   json inertia = json::array();
   for (int i = 0; i < 3; ++i) inertia.push_back(list(rigid.body.inertia_kg_m2.row(i).transpose()));

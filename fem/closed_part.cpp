@@ -113,8 +113,7 @@ ClosedPart refine_closed_part(const mesh::TriangleSurface& surface, const Materi
   const auto solved =
       std::find_if(result.fits.begin(), result.fits.end(), [&](const SurfaceFit& fit) { return fit.level == level; });
   result.frequency_error = result.refined.estimate.frequency + std::abs(solved->volume_error_relative);
-  result.met =
-      result.frequency_error <= options.tolerance && result.refined.estimate.receptance <= options.tolerance;
+  result.met = result.frequency_error <= options.tolerance && result.refined.estimate.receptance <= options.tolerance;
   return result;
 }
 

@@ -44,7 +44,8 @@ struct [[nodiscard]] ClosedPart {
   /// Elements (refined.estimate) and surface: a wall that is thinner by a share of its volume bends at frequencies
   /// lower by the same share.
   double frequency_error = 0.0;
-  bool met = false;  ///< frequency_error and the elements' error of receptances ≤ tolerance; if not, refined.estimate says whether largest_dofs was in the way
+  bool met = false;  ///< frequency_error and the elements' error of receptances ≤ tolerance; if not, refined.estimate
+                     ///< says whether largest_dofs was in the way
 };
 
 /// A part whose mesh(level) is mesh::mesh_closed_surface with edges of 9 wall thicknesses (one element through the
