@@ -122,6 +122,10 @@ Eigen::Vector3d node_position(const Part& part, int node) {
   return found == positions.end() ? unknown : found->second;
 }
 
+const mesh::SolidMesh* solid_of(const Part& part) {
+  return part.imported && part.imported->mesh ? &part.imported->mesh->solid : nullptr;
+}
+
 std::optional<int> node_of(const ImportedPart& part, const Point& point) {
   if (point.node || !part.matrices) return point.node;
   for (const auto& [node, name] : part.matrices->names) {

@@ -34,6 +34,9 @@ struct ImportedPart {
 /// Whether the part's shape is one that a file holds.
 [[nodiscard]] bool from_file(const Part& part);
 
+/// The mesh of the part's file, once it is read; null for parts of other shapes.
+[[nodiscard]] const mesh::SolidMesh* solid_of(const Part& part);
+
 /// The node that a point stands for: by its number, or, where it has none, by its name in the part's DOF table.
 [[nodiscard]] std::optional<int> node_of(const ImportedPart& part, const Point& point);
 

@@ -16,12 +16,11 @@
 #include "dynamics/unit_system.hpp"
 #include "io/surface_unit.hpp"
 #include "mesh/bend.hpp"
+#include "mesh/box.hpp"
 
 namespace thinwall::app {
 
 namespace {
-
-const std::vector<std::string> face_names{"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
 /// A regular tetrahedron of edge a has a³/(6√2); meshers fill space with tetrahedra of about that size.
 constexpr double tets_per_cube = 8.485281374238570;
@@ -266,7 +265,7 @@ void check_selection(const Selection& selection, Findings& findings) {
   const std::string key = "selections." + selection.name;
   const int predicates = (selection.plane ? 1 : 0) + (selection.box ? 1 : 0) + (selection.sphere ? 1 : 0);
   if (predicates != 1) findings.report(key, "give exactly one of plane, box, sphere");
-  if (std::ranges::find(face_names, selection.name) != face_names.end()) {
+  if (std::ranges::find(mesh::face_names(), selection.name) != mesh::face_names().end()) {
     findings.report(key, "this is the name of a face of the box; choose another");
   }
   if (selection.box && (selection.box->min.array() > selection.box->max.array()).any()) {
@@ -320,7 +319,8 @@ void check_point(const Case& source, const Point& point, Findings& findings) {
 
 bool holds(const Case& source, const Support& support, const Eigen::Vector3d& p) {
   const auto& part = *source.part;
-  if (std::ranges::find(face_names, support.on) != face_names.end()) return on_face(part, support.on, p);
+  if (std::ranges::find(mesh::face_names(), support.on) != mesh::face_names().end())
+    return on_face(part, support.on, p);
   const auto selection = std::ranges::find(source.selections, support.on, &Selection::name);
   return selection != source.selections.end() && contains(*selection, p, tolerance(part));
 }

@@ -6,22 +6,16 @@
 #include "app/imported_part.hpp"
 #include "app/part_materials.hpp"
 #include "io/inp_text.hpp"
+#include "mesh/box.hpp"
 
 namespace thinwall::app {
 
 namespace {
 
-constexpr std::array face_names{"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
-
 std::vector<std::string> faces_and_selections(const Case& source) {
-  std::vector<std::string> known(face_names.begin(), face_names.end());
+  std::vector<std::string> known(mesh::face_names().begin(), mesh::face_names().end());
   for (const auto& selection : source.selections) known.push_back(selection.name);
   return known;
-}
-
-/// Mesh of the part's file, once it is read.
-const mesh::SolidMesh* solid_of(const Part& part) {
-  return part.imported && part.imported->mesh ? &part.imported->mesh->solid : nullptr;
 }
 
 /// Names of sets are known in capitals; a case may write them otherwise.

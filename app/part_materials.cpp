@@ -26,10 +26,6 @@ Eigen::Vector3d centre(const mesh::TetMesh& mesh, std::size_t tet) {
   return sum / 4.0;
 }
 
-const mesh::SolidMesh* solid_of(const Part& part) {
-  return part.imported && part.imported->mesh ? &part.imported->mesh->solid : nullptr;
-}
-
 /// Tetrahedra of a set of the file, or whose centres the selection of that name holds.
 std::vector<int> tets_in(const Case& source, const std::string& name, const mesh::TetMesh& mesh) {
   const auto selection = std::ranges::find(source.selections, name, &Selection::name);

@@ -14,8 +14,11 @@
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/memory.hpp"
+#include "core/units.hpp"
+#include "fem/closed_part.hpp"
 #include "fem/free_motions.hpp"
 #include "fem/points.hpp"
+#include "mesh/surface_to_volume.hpp"
 #include "reduction/accuracy.hpp"
 #include "reduction/damping.hpp"
 #include "reduction/full_response.hpp"
@@ -207,11 +210,15 @@ void check_mass(const Case& source, PartResult& part) {
   const double expected =
       summed ? mass(materials_on(source, part.model.mesh), part.model.mesh) : mass(*source.part, part.model.mesh);
   part.mass_difference = std::abs(part.model.mass.mass_kg / expected - 1.0);
-  // A remeshed surface keeps its volume to mesh::SurfaceMeshOptions::volume_tolerance.
-  const double bound = source.part->shape == "surface" && !summed ? 2e-3 : part.model.curved_elements > 0 ? 1e-4 : 1e-8;
+  double bound = part.model.curved_elements > 0 ? 1e-4 : 1e-8;
+  if (source.part->shape == "surface" && !summed) {
+    const MeshOptions& mesh = source.part->mesh;
+    bound = mesh.element_size ? mesh::SurfaceMeshOptions{}.volume_tolerance : fem::share_of_surface * mesh.tolerance;
+  }
   if (part.mass_difference < bound) return;
   throw core::NumericalError("the mass of the mesh differs from the geometry's by " +
-                             std::to_string(part.mass_difference) + " relative, more than " + std::to_string(bound) +
+                             core::number_text(part.mass_difference, 3) + " relative, more than " +
+                             core::number_text(bound, 3) +
                              (part.model.curved_elements > 0 ? ": use smaller elements or a higher order" : ""));
 }
 

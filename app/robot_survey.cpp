@@ -21,7 +21,7 @@ namespace thinwall::app {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// D of u_tip = D q; a tip's table holds one point alone.
 Eigen::Matrix3Xd translations_of(const dynamics::DofTable& dofs) {
@@ -43,7 +43,7 @@ std::optional<Eigen::Matrix3d> static_compliance(const Component& tip) {
 
 /// Infinite where nothing moves; negative, and seen as such, where a table of modes says so of rest.
 double stiffness_of(double compliance, double largest) {
-  return std::abs(compliance) > 1e-12 * largest ? 1.0 / compliance : infinity;
+  return std::abs(compliance) > 1e-12 * largest ? 1.0 / compliance : infinite;
 }
 
 TipReport report_at(const Case& source, const std::optional<Eigen::VectorXd>& near) {
@@ -102,10 +102,10 @@ io::Table columns(const RobotSurvey& survey) {
         column(survey, "smallest_singular_value", [](const TipReport& t) { return *t.robot.smallest_singular; }));
   for (std::size_t k = 0; k < most_modes(survey); ++k) {
     table.push_back(column(survey, fmt::format("frequency_{}_hz", k + 1), [k](const TipReport& t) {
-      return k < t.modes.size() ? t.modes[k].frequency_hz : infinity;
+      return k < t.modes.size() ? t.modes[k].frequency_hz : infinite;
     }));
     table.push_back(column(survey, fmt::format("damping_ratio_{}", k + 1), [k](const TipReport& t) {
-      return k < t.modes.size() ? t.modes[k].damping_ratio : infinity;
+      return k < t.modes.size() ? t.modes[k].damping_ratio : infinite;
     }));
   }
   if (!first.stiffness) return table;

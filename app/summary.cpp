@@ -104,7 +104,7 @@ json reduction_of(const PartResult& part) {
           {"max_relative_receptance_error", part.receptance_error ? json(*part.receptance_error) : json(nullptr)}};
 }
 
-json modes_of(const dynamics::ModalModel& model) {
+json mode_list(const dynamics::ModalModel& model) {
   json modes = json::array();
   for (const int k : dynamics::oscillating_modes(model)) {
     const auto m = dynamics::summarise(model.poles(k));
@@ -115,7 +115,7 @@ json modes_of(const dynamics::ModalModel& model) {
 
 /// The tip as it stands; what the model does not tell is absent.
 json robot_of(const Case& source, const Component& robot, const RobotPosture& posture) {
-  json result = {{"model", source.robot->model}, {"modes", robot.modal ? modes_of(*robot.modal) : json::array()}};
+  json result = {{"model", source.robot->model}, {"modes", robot.modal ? mode_list(*robot.modal) : json::array()}};
   result.update(posture_summary(posture));
   const TipReport report = tip_report(posture, robot);
   if (!report.stiffness) return result;
@@ -129,7 +129,7 @@ json robot_of(const Case& source, const Component& robot, const RobotPosture& po
 json coupling_of(const Case& source, const Results& results) {
   const CouplingResult& coupled = *results.coupled;
   json result;
-  result["modes"] = coupled.modal ? modes_of(*coupled.modal) : json::array();
+  result["modes"] = coupled.modal ? mode_list(*coupled.modal) : json::array();
   result["main_modes"] = json::array();
   if (coupled.modal && !results.reductions.empty()) {
     for (const auto& m : participating_modes(*coupled.modal, results.reductions.front().dof)) {

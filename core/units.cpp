@@ -267,16 +267,20 @@ std::string number_text(double value) {
   return {buffer.data(), result.ptr};
 }
 
+std::string number_text(double value, int digits) {
+  std::array<char, 32> buffer{};
+  const auto result =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, digits);
+  return {buffer.data(), result.ptr};
+}
+
 std::string exact_text(double value, const QuantityKind& kind) {
   return number_text(value) + (kind.unit.empty() ? "" : " " + std::string(kind.unit));
 }
 
 std::string readable_text(double value, const QuantityKind& kind) {
-  std::array<char, 32> buffer{};
-  const auto text = [&buffer](double number, std::string_view unit) {
-    const auto result =
-        std::to_chars(buffer.data(), buffer.data() + buffer.size(), number, std::chars_format::general, 4);
-    return std::string(buffer.data(), result.ptr) + (unit.empty() ? "" : " " + std::string(unit));
+  const auto text = [](double number, std::string_view unit) {
+    return number_text(number, 4) + (unit.empty() ? "" : " " + std::string(unit));
   };
   const auto choices = readable_units(kind);
   for (const auto unit : choices) {

@@ -84,4 +84,7 @@ inline constexpr QuantityKind memory{"memory", "B", "4 GB"};
 /// Shortest text that reads back as the same number, with a point whatever the locale.
 [[nodiscard]] std::string number_text(double value);
 
+/// The same rounded to so many significant digits (1 to 17), for messages.
+[[nodiscard]] std::string number_text(double value, int digits);
+
 }  // namespace thinwall::core

@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "core/dense_factorisations.hpp"
+#include "core/units.hpp"
 
 namespace thinwall::dynamics {
 
@@ -39,12 +39,6 @@ Eigen::Matrix3Xd plainest(Eigen::Matrix3Xd A) {
   return sorted;
 }
 
-std::string number(double x) {
-  char text[32];
-  (void)std::snprintf(text, sizeof text, "%.3g", x);
-  return text;
-}
-
 std::string direction(const Eigen::Vector3d& d) {
   for (Eigen::Index k = 0; k < 3; ++k) {
     if (std::abs(d(k)) > 1.0 - negligible) return {"xyz"[k]};
@@ -55,7 +49,9 @@ std::string direction(const Eigen::Vector3d& d) {
 }  // namespace
 
 std::string place(const Eigen::Vector3d& x, double scale) {
-  const auto rounded = [&](double value) { return number(std::abs(value) < negligible * scale ? 0.0 : value); };
+  const auto rounded = [&](double value) {
+    return core::number_text(std::abs(value) < negligible * scale ? 0.0 : value, 3);
+  };
   return "(" + rounded(x(0)) + ", " + rounded(x(1)) + ", " + rounded(x(2)) + ")";
 }
 

@@ -26,6 +26,14 @@ DofTable select(const DofTable& dofs, const std::vector<int>& rows) {
 
 }  // namespace
 
+void require_consistent(const ResponseModel& model) {
+  const auto rows = static_cast<Eigen::Index>(model.responses.size());
+  const auto columns = static_cast<Eigen::Index>(model.forces.size());
+  bool consistent = model.axis.size() == static_cast<Eigen::Index>(model.H.size());
+  for (const auto& H : model.H) consistent = consistent && H.rows() == rows && H.cols() == columns;
+  if (!consistent) throw core::InputError("the response's matrices do not match its frequencies and DOF tables");
+}
+
 void require_complete(const ResponseModel& model) {
   if (static_cast<Eigen::Index>(model.H.size()) != model.axis.size()) {
     throw core::InputError("a response of " + std::to_string(model.H.size()) + " matrices on an axis of " +

@@ -19,6 +19,10 @@ struct ResponseModel {
   std::vector<Eigen::MatrixXcd> H;
 };
 
+/// Throws InputError unless there is one matrix a line, each as high as the table of responses and as wide as that of
+/// forces. Cost: that of the lines.
+void require_consistent(const ResponseModel& model);
+
 /// Throws InputError unless there is one matrix a line, each as high as the table of responses, as wide as that of
 /// forces, and finite; says at which frequency the first fault lies. Cost lines · entries.
 void require_complete(const ResponseModel& model);

@@ -4,6 +4,7 @@
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/mode_signs.hpp"
 #include "dynamics/conversion.hpp"
 
 namespace thinwall::dynamics {
@@ -38,14 +39,6 @@ Eigen::MatrixXd semidefinite_factor(const Eigen::MatrixXd& K) {
   return scale.asDiagonal() * G.leftCols(rank);
 }
 
-void fix_signs(Eigen::MatrixXd& Phi) {
-  for (auto column : Phi.colwise()) {
-    Eigen::Index largest = 0;
-    column.cwiseAbs().maxCoeff(&largest);
-    if (column(largest) < 0.0) column = -column;
-  }
-}
-
 }  // namespace
 
 UndampedModes undamped_modes(const SpatialModel& model) {
@@ -63,7 +56,7 @@ UndampedModes undamped_modes(const SpatialModel& model) {
     modes.omega_rad_s.tail(G.cols()) = svd.singularValues().reverse();
     modes.Phi = mass.matrixU().solve(svd.matrixU().rowwise().reverse());
   }
-  fix_signs(modes.Phi);
+  core::fix_signs(modes.Phi);
   return modes;
 }
 

@@ -166,11 +166,11 @@ void add(Triplets& entries, const std::vector<std::size_t>& nodes, const Eigen::
   }
 }
 
-struct Assembled {
+struct FrameTriplets {
   Triplets M, C, K;
 };
 
-void add_springs(const BeamFrame& frame, Assembled& into) {
+void add_springs(const BeamFrame& frame, FrameTriplets& into) {
   for (const NodeSpring& spring : frame.springs) {
     if (!spring.other) {
       add(into.K, {spring.node}, spring.stiffness);
@@ -186,8 +186,8 @@ void add_springs(const BeamFrame& frame, Assembled& into) {
 }
 
 /// M, C, K over all nodes, free of each other's hinges.
-Assembled assembled(const BeamFrame& frame) {
-  Assembled into;
+FrameTriplets assembled(const BeamFrame& frame) {
+  FrameTriplets into;
   for (const BeamSegment& element : frame.segments) {
     const Eigen::Vector3d along = frame.nodes[element.to].position_m - frame.nodes[element.from].position_m;
     const dynamics::Matrix6 turned = dynamics::turned(axes_of(along, element.y).transpose());
@@ -241,7 +241,7 @@ dynamics::SpatialModel spatial_model(const BeamFrame& given) {
   const BeamFrame frame = cut(given);
   const Sparse L = motions(frame);
   if (L.cols() == 0) throw core::InputError("frame of beams: all its nodes are clamped; nothing is left to move");
-  const Assembled matrices = assembled(frame);
+  const FrameTriplets matrices = assembled(frame);
   dynamics::SpatialModel model{
       over_coordinates(matrices.M, L), over_coordinates(matrices.C, L), over_coordinates(matrices.K, L), {}, {}, {}};
   Index column = L.cols() - static_cast<Index>(frame.hinges.size());

@@ -14,7 +14,6 @@ namespace thinwall::fem {
 
 namespace {
 
-constexpr double share_of_surface = 0.2;
 constexpr double coarsest_turn_rad = 0.5;
 constexpr double smaller_per_level = 1.5;
 constexpr double sharp_rad = 0.5235987755982988;  // 30°

@@ -10,8 +10,11 @@
 
 namespace thinwall::fem {
 
+/// Of a tolerance on frequencies, what is for the volume of the mesh against the surface's.
+inline constexpr double share_of_surface = 0.2;
+
 struct ClosedPartOptions {
-  /// On frequencies, relative, 1e-3 to 0.1. A fifth of it is for the surface, which the elements follow with
+  /// On frequencies, relative, 1e-3 to 0.1. share_of_surface of it is for the surface, which the elements follow with
   /// straight edges, the rest for the elements.
   double tolerance = 1e-2;
   ModeOptions modes{.count = 5, .up_to_hz = {}, .verify_count = false};

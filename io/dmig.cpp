@@ -20,9 +20,9 @@ constexpr int largest_node = 100000000;
 
 // ---- Reading ----
 
-class Reader {
+class DmigReader {
  public:
-  explicit Reader(std::string name) : name_(std::move(name)) {}
+  explicit DmigReader(std::string name) : name_(std::move(name)) {}
 
   void take(const NastranCard& card) {
     if (capitals(card.name) == "GRID") {
@@ -167,7 +167,7 @@ std::string points_text(const dynamics::SparseModel& model) {
 }  // namespace
 
 DmigFile read_dmig(std::string_view bytes, const std::string& name) {
-  Reader reader(name);
+  DmigReader reader(name);
   for_each_card(
       bytes, [](std::string_view card) { return capitals(card) == "DMIG" || capitals(card) == "GRID"; },
       [&](const NastranCard& card) { reader.take(card); });

@@ -21,9 +21,9 @@ constexpr std::int64_t most_groups = 64;  ///< of an entity: every element stand
 constexpr std::int64_t many = std::numeric_limits<std::int64_t>::max() / 2;
 using Group = std::pair<std::int64_t, std::int64_t>;  ///< dimension, tag
 
-class Reader {
+class GmshReader {
  public:
-  Reader(std::string_view bytes, const std::string& name, double metres_per_unit)
+  GmshReader(std::string_view bytes, const std::string& name, double metres_per_unit)
       : in_(bytes, name), metres_per_unit_(metres_per_unit) {
     mesh_.path = name;
   }
@@ -285,7 +285,7 @@ class Reader {
 
 mesh::LabelledMesh gmsh_mesh(std::string_view bytes, const std::string& name, double metres_per_unit) {
   require_metres_per_unit(metres_per_unit, name);
-  return Reader(bytes, name, metres_per_unit).read();
+  return GmshReader(bytes, name, metres_per_unit).read();
 }
 
 mesh::SolidMesh read_gmsh(const std::filesystem::path& path, double metres_per_unit) {

@@ -18,7 +18,7 @@ void append_name(std::string& text, int dimension, std::size_t tag, const std::s
   text += std::to_string(dimension) + " " + std::to_string(tag) + " \"" + name + "\"\n";
 }
 
-void append_nodes(std::string& text, const mesh::LagrangeNodes& nodes) {
+void append_node_section(std::string& text, const mesh::LagrangeNodes& nodes) {
   text += "$Nodes\n" + std::to_string(nodes.positions.rows()) + "\n";
   for (Eigen::Index i = 0; i < nodes.positions.rows(); ++i) {
     text += std::to_string(i + 1);
@@ -56,7 +56,7 @@ void write_gmsh(const std::filesystem::path& path, const mesh::SolidMesh& solid)
   for (std::size_t s = 0; s < solid.node_sets.size(); ++s) append_name(text, 0, s + 1, solid.node_sets[s].name);
   for (std::size_t s = 0; s < solid.element_sets.size(); ++s) append_name(text, 3, s + 1, solid.element_sets[s].name);
   text += "$EndPhysicalNames\n";
-  append_nodes(text, solid.nodes);
+  append_node_section(text, solid.nodes);
 
   std::string elements;
   std::size_t count = 0;

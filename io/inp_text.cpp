@@ -51,9 +51,9 @@ InpElement element_of_type(std::string_view type) {
 }
 
 /// Goes through a file line by line.
-class Reader {
+class InpReader {
  public:
-  Reader(std::string_view bytes, const std::string& name, double metres_per_unit)
+  InpReader(std::string_view bytes, const std::string& name, double metres_per_unit)
       : text_(bytes), metres_per_unit_(metres_per_unit) {
     result_.mesh.path = name;
   }
@@ -363,7 +363,7 @@ class Reader {
 }  // namespace
 
 InpText inp_text(std::string_view bytes, const std::string& name, double metres_per_unit) {
-  return Reader(bytes, name, metres_per_unit).read();
+  return InpReader(bytes, name, metres_per_unit).read();
 }
 
 std::string capitals(std::string_view text) {

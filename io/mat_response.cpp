@@ -14,10 +14,6 @@ namespace {
 
 using dynamics::ResponseModel;
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& cause) {
-  throw core::DataError(path.string() + ": " + cause);
-}
-
 /// Numbers of lines, responses and forces.
 struct Extent {
   std::size_t lines = 0;
@@ -104,28 +100,30 @@ Strides strides_by_size(const MatVariable& array, const Extent& extent, bool lin
   };
   for (const Strides& other : readings) {
     if (extent.lines > 1 && differs(readings.front(), other)) {
-      fail(path, "the variable " + array.name + " has as many lines as entries; its dimensions cannot be told apart");
+      fail_in(path,
+              "the variable " + array.name + " has as many lines as entries; its dimensions cannot be told apart");
     }
   }
   if (!readings.empty()) return readings.front();
   std::string found;
   for (const std::size_t length : array.size) found += (found.empty() ? "" : " x ") + std::to_string(length);
-  fail(path, "the variable " + array.name + " is " + found + "; expected " + std::to_string(extent.rows) + " x " +
-                 std::to_string(extent.columns) + " x " + std::to_string(extent.lines) + " or lines first");
+  fail_in(path, "the variable " + array.name + " is " + found + "; expected " + std::to_string(extent.rows) + " x " +
+                    std::to_string(extent.columns) + " x " + std::to_string(extent.lines) + " or lines first");
 }
 
 std::vector<double> frequencies(const MatVariable& variable, double in_hz, const std::filesystem::path& path) {
   const std::size_t count = variable.re.size();
   const bool is_vector = variable.size.size() == 2 && (variable.size[0] == count || variable.size[1] == count);
   if (!is_vector || !variable.im.empty() || count == 0) {
-    fail(path, "the variable " + variable.name + " is no real vector of frequencies");
+    fail_in(path, "the variable " + variable.name + " is no real vector of frequencies");
   }
   std::vector<double> hz;
   for (const double value : variable.re) hz.push_back(value * in_hz);
   for (std::size_t i = 1; i < count; ++i) {
-    if (hz[i] <= hz[i - 1]) fail(path, "the variable " + variable.name + " does not rise at " + std::to_string(i + 1));
+    if (hz[i] <= hz[i - 1])
+      fail_in(path, "the variable " + variable.name + " does not rise at " + std::to_string(i + 1));
   }
-  if (hz.front() < 0.0) fail(path, "the variable " + variable.name + " starts below 0");
+  if (hz.front() < 0.0) fail_in(path, "the variable " + variable.name + " starts below 0");
   return hz;
 }
 
@@ -134,9 +132,9 @@ void take_coherence(const MatVariable& array, const Extent& extent, std::size_t 
   const Strides strides = strides_by_size(array, extent, lines_last, path);
   for (const double value : array.re) {
     if (value >= 0.0 && value <= 1.0 + 1e-6) continue;
-    fail(path, "the variable " + array.name + " holds a coherence outside of 0 to 1");
+    fail_in(path, "the variable " + array.name + " holds a coherence outside of 0 to 1");
   }
-  if (!array.im.empty()) fail(path, "the variable " + array.name + " is complex; a coherence is real");
+  if (!array.im.empty()) fail_in(path, "the variable " + array.name + " is complex; a coherence is real");
   for (std::size_t row = 0; row < extent.rows; ++row) {
     for (std::size_t column = 0; column < extent.columns; ++column) {
       EntryCoherence entry{static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column),
@@ -167,7 +165,7 @@ MeasuredResponse read_arrays(const std::filesystem::path& path, const MatFrfName
     measured.notes.push_back(path.string() + ": the line at 0 Hz has no receptance and is left out");
     first = 1;
   }
-  if (first == hz.size()) fail(path, "has no line above 0 Hz");
+  if (first == hz.size()) fail_in(path, "has no line above 0 Hz");
   const auto lines = static_cast<Eigen::Index>(hz.size() - first);
   measured.response.axis.hz = Eigen::Map<const Eigen::VectorXd>(hz.data() + first, lines);
   for (std::size_t line = first; line < hz.size(); ++line) {
@@ -179,7 +177,7 @@ MeasuredResponse read_arrays(const std::filesystem::path& path, const MatFrfName
         const std::complex<double> value(array.re[at], array.im.empty() ? 0.0 : array.im[at]);
         const std::complex<double> receptance = to_receptance(value, 2.0 * std::numbers::pi * hz[line], format);
         if (!std::isfinite(receptance.real()) || !std::isfinite(receptance.imag())) {
-          fail(path, "the variable " + array.name + " holds a receptance beyond the range of a double");
+          fail_in(path, "the variable " + array.name + " holds a receptance beyond the range of a double");
         }
         H(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) = receptance;
       }

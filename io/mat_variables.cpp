@@ -60,10 +60,6 @@ std::string kind_word(DofKind kind) {
   throw core::InputError("a degree of freedom is of no known kind");
 }
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& cause) {
-  throw core::DataError(path.string() + ": " + cause);
-}
-
 // ---- Writing ----
 
 std::size_t count_of(const std::vector<std::size_t>& size) {
@@ -155,7 +151,7 @@ void require_whole(const std::filesystem::path& path) {
     const std::size_t size = tag[1];
     at += tag_size + (tag[0] == MAT_T_COMPRESSED ? size : (size + 7) / 8 * 8);
   }
-  if (at != bytes.size()) fail(path, "is no whole MAT file of version 5; write it again with that version");
+  if (at != bytes.size()) fail_in(path, "is no whole MAT file of version 5; write it again with that version");
 }
 
 /// The characters of a cell as UTF-8; MATLAB writes 16-bit characters, other programs bytes.
@@ -165,18 +161,19 @@ std::string utf8_text(const matvar_t& cell, const std::filesystem::path& path) {
   try {
     return utf8::utf16to8(std::u16string(static_cast<const char16_t*>(cell.data), length));
   } catch (const utf8::exception&) {
-    fail(path, "holds a name with broken characters");
+    fail_in(path, "holds a name with broken characters");
   }
 }
 
 std::vector<std::string> texts_of(const matvar_t& cells, const std::filesystem::path& path, const std::string& name) {
-  if (cells.rank != 2 || std::min(cells.dims[0], cells.dims[1]) > 1) fail(path, "the variable " + name + " is no list");
+  if (cells.rank != 2 || std::min(cells.dims[0], cells.dims[1]) > 1)
+    fail_in(path, "the variable " + name + " is no list");
   const std::size_t count = cells.dims[0] * cells.dims[1];
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < count; ++i) {
     const matvar_t* cell = Mat_VarGetCell(const_cast<matvar_t*>(&cells), static_cast<int>(i));
     if (cell == nullptr || cell->class_type != MAT_C_CHAR || cell->rank != 2) {
-      fail(path, name + " holds something not a text");
+      fail_in(path, name + " holds something not a text");
     }
     texts.push_back(utf8_text(*cell, path));
   }
@@ -186,11 +183,11 @@ std::vector<std::string> texts_of(const matvar_t& cells, const std::filesystem::
 template <typename Number>
 std::vector<double> numbers_of(const void* data, std::size_t count, const std::filesystem::path& path,
                                const std::string& name) {
-  if (data == nullptr && count > 0) fail(path, "the variable " + name + " has no values");
+  if (data == nullptr && count > 0) fail_in(path, "the variable " + name + " has no values");
   const auto* numbers = static_cast<const Number*>(data);
   std::vector<double> values(numbers, numbers + count);
   for (const double value : values) {
-    if (!std::isfinite(value)) fail(path, "the variable " + name + " holds NaN or infinity");
+    if (!std::isfinite(value)) fail_in(path, "the variable " + name + " holds NaN or infinity");
   }
   return values;
 }
@@ -203,7 +200,7 @@ void take_numbers(const matvar_t& stored, const std::filesystem::path& path, Mat
     return;
   }
   const auto* parts = static_cast<const mat_complex_split_t*>(stored.data);
-  if (parts == nullptr) fail(path, "the variable " + variable.name + " has no values");
+  if (parts == nullptr) fail_in(path, "the variable " + variable.name + " has no values");
   variable.re = numbers_of<Number>(parts->Re, count, path, variable.name);
   variable.im = numbers_of<Number>(parts->Im, count, path, variable.name);
 }
@@ -213,18 +210,18 @@ Eigen::SparseMatrix<double> sparse_numbers(const matvar_t& stored, const std::st
                                            const std::filesystem::path& path) {
   const auto* parts = static_cast<const mat_sparse_t*>(stored.data);
   if (parts == nullptr || stored.isComplex != 0 || stored.data_type != MAT_T_DOUBLE || stored.rank != 2)
-    fail(path, "the variable " + name + " is no real sparse matrix of doubles");
+    fail_in(path, "the variable " + name + " is no real sparse matrix of doubles");
   const std::size_t rows = stored.dims[0], columns = stored.dims[1];
   const auto* values = static_cast<const double*>(parts->data);
   const bool whole = parts->jc != nullptr && parts->njc == columns + 1 && parts->jc[0] == 0 &&
                      std::is_sorted(parts->jc, parts->jc + parts->njc) && parts->jc[columns] <= parts->nir &&
                      parts->jc[columns] <= parts->ndata && rows < std::size_t{1} << 31U;
-  if (!whole) fail(path, "the sparse variable " + name + " is not whole: write it again");
+  if (!whole) fail_in(path, "the sparse variable " + name + " is not whole: write it again");
   std::vector<Eigen::Triplet<double>> triplets;
   for (std::size_t column = 0; column < columns; ++column) {
     for (std::size_t k = parts->jc[column]; k < parts->jc[column + 1]; ++k) {
-      if (parts->ir[k] >= rows) fail(path, "the sparse variable " + name + " has an entry beyond its rows");
-      if (!std::isfinite(values[k])) fail(path, "the variable " + name + " holds NaN or infinity");
+      if (parts->ir[k] >= rows) fail_in(path, "the sparse variable " + name + " has an entry beyond its rows");
+      if (!std::isfinite(values[k])) fail_in(path, "the variable " + name + " holds NaN or infinity");
       triplets.emplace_back(static_cast<int>(parts->ir[k]), static_cast<int>(column), values[k]);
     }
   }
@@ -245,7 +242,7 @@ MatVariable decoded(const matvar_t& stored, const std::string& name, const std::
   } else if (stored.class_type == MAT_C_SINGLE && stored.data_type == MAT_T_SINGLE) {
     take_numbers<float>(stored, path, variable);
   } else {
-    fail(path, "the variable " + name + " is neither a full matrix of doubles or singles nor a list of texts");
+    fail_in(path, "the variable " + name + " is neither a full matrix of doubles or singles nor a list of texts");
   }
   return variable;
 }
@@ -254,7 +251,7 @@ DofKind kind_of(const std::string& word, const std::filesystem::path& path) {
   for (const auto& [kind, known] : kind_words) {
     if (word == known) return kind;
   }
-  fail(path, "the kind \"" + word + "\" is none of translation, rotation, modal");
+  fail_in(path, "the kind \"" + word + "\" is none of translation, rotation, modal");
 }
 
 MatVariable text_variable(const std::string& name, const dynamics::DofTable& dofs, std::string (*text_of)(const Dof&)) {
@@ -264,6 +261,10 @@ MatVariable text_variable(const std::string& name, const dynamics::DofTable& dof
 }
 
 }  // namespace
+
+void fail_in(const std::filesystem::path& path, const std::string& cause) {
+  throw core::DataError(path.string() + ": " + cause);
+}
 
 void write_mat_variables(const std::filesystem::path& path, const std::string& title,
                          const std::vector<MatVariable>& variables) {
@@ -286,7 +287,7 @@ void write_mat_variables(const std::filesystem::path& path, const std::string& t
 MatVariables read_mat_variables(const std::filesystem::path& path, const std::vector<std::string>& names) {
   require_whole(path);
   const MatFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
-  if (!file) fail(path, "cannot be read as a MAT file");
+  if (!file) fail_in(path, "cannot be read as a MAT file");
   MatVariables variables;
   for (const std::string& name : names) {
     const Variable stored(Mat_VarRead(file.get(), name.c_str()));
@@ -297,7 +298,7 @@ MatVariables read_mat_variables(const std::filesystem::path& path, const std::ve
 
 const MatVariable& variable(const MatVariables& variables, const std::string& name, const std::filesystem::path& path) {
   const auto found = variables.find(name);
-  if (found == variables.end()) fail(path, "has no variable " + name);
+  if (found == variables.end()) fail_in(path, "has no variable " + name);
   return found->second;
 }
 
@@ -330,14 +331,14 @@ Eigen::MatrixXd matrix_of(const MatVariable& variable, const std::filesystem::pa
                           Eigen::Index columns) {
   const std::string name = "the variable " + variable.name;
   if (variable.size.size() != 2 || !variable.im.empty() || !variable.texts.empty() || variable.is_sparse) {
-    fail(path, name + " is not a full real matrix");
+    fail_in(path, name + " is not a full real matrix");
   }
   const auto found_rows = static_cast<Eigen::Index>(variable.size[0]);
   const auto found_columns = static_cast<Eigen::Index>(variable.size[1]);
   if ((rows >= 0 && found_rows != rows) || (columns >= 0 && found_columns != columns)) {
     const auto expected = [](Eigen::Index length) { return length >= 0 ? std::to_string(length) : "any"; };
-    fail(path, name + " is " + std::to_string(found_rows) + " × " + std::to_string(found_columns) + ", expected " +
-                   expected(rows) + " × " + expected(columns));
+    fail_in(path, name + " is " + std::to_string(found_rows) + " × " + std::to_string(found_columns) + ", expected " +
+                      expected(rows) + " × " + expected(columns));
   }
   return Eigen::Map<const Eigen::MatrixXd>(variable.re.data(), found_rows, found_columns);
 }
@@ -364,7 +365,7 @@ dynamics::DofTable dofs_of(const MatVariables& variables, const std::string& pre
   const MatVariable& kinds = variable(variables, prefix + "_kind", path);
   for (const MatVariable* texts : {&points, &kinds}) {
     if (texts->texts.size() == static_cast<std::size_t>(count)) continue;
-    fail(path, "the variable " + texts->name + " is not a cell array of " + std::to_string(count) + " × 1 texts");
+    fail_in(path, "the variable " + texts->name + " is not a cell array of " + std::to_string(count) + " × 1 texts");
   }
   const Eigen::MatrixXd axes = matrix_of(variable(variables, prefix + "_direction", path), path, count, 3);
   dynamics::DofTable dofs;

@@ -27,6 +27,9 @@ struct MatVariable {
 /// Variables by name.
 using MatVariables = std::map<std::string, MatVariable>;
 
+/// Throws DataError "path: cause".
+[[noreturn]] void fail_in(const std::filesystem::path& path, const std::string& cause);
+
 /// Writes the variables in their order; `title` (100 bytes at most) opens the file behind "MATLAB 5.0 MAT-file, ". The
 /// bytes depend on the arguments only. Written in one step. Throws InputError if a value is not finite, a text is not
 /// UTF-8, or a variable exceeds the 2 GiB of the format; DataError if the file cannot be written.

@@ -2,12 +2,17 @@
 // The entries of a matrix as files list them, by row and column or by node and component, before they are a matrix.
 
 #include <Eigen/SparseCore>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "dynamics/sparse_model.hpp"
 
 namespace thinwall::io {
+
+/// Rows, columns and nodes beyond it are refused: they are kept as int, and one more than the last is needed.
+inline constexpr std::int64_t largest_label = std::numeric_limits<int>::max() - 1;
 
 /// A number in a file: its row and column, from 0, or two DOFs; and the line that it stands on.
 template <class Place>

@@ -7,6 +7,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "io/matrix_entries.hpp"
 #include "io/surface_text.hpp"
 
 namespace thinwall::io {
@@ -45,8 +46,6 @@ std::string_view next_word(SurfaceText& text) {
   return word;
 }
 
-constexpr std::int64_t largest = std::numeric_limits<int>::max() - 1;
-
 void read_coordinates(SurfaceText& text, bool symmetric, MatrixEntries& matrix) {
   const std::int64_t count =
       text.whole_number(next_word(text), "the number of entries", 0, std::numeric_limits<std::int64_t>::max());
@@ -78,8 +77,8 @@ bool is_matrix_market(std::string_view bytes) {
 MatrixEntries matrix_market_entries(std::string_view bytes, const std::string& name) {
   SurfaceText text(bytes, name, '\0');
   const Heading heading = read_heading(text);
-  const std::int64_t rows = text.whole_number(next_word(text), "the number of rows", 1, largest);
-  const std::int64_t columns = text.whole_number(next_word(text), "the number of columns", 1, largest);
+  const std::int64_t rows = text.whole_number(next_word(text), "the number of rows", 1, largest_label);
+  const std::int64_t columns = text.whole_number(next_word(text), "the number of columns", 1, largest_label);
   if (rows != columns)
     text.fail("is " + std::to_string(rows) + " x " + std::to_string(columns) + "; K, M and C are square");
   MatrixEntries matrix{name, static_cast<int>(rows), {}, heading.symmetric};

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "io/matrix_entries.hpp"
 #include "io/surface_text.hpp"
 
 namespace thinwall::io {
@@ -11,8 +12,6 @@ namespace thinwall::io {
 namespace {
 
 using dynamics::NodeDof;
-
-constexpr std::int64_t largest = std::numeric_limits<int>::max() - 1;
 
 /// Commas as blanks: no field of these lines is empty.
 std::string without_commas(std::string_view bytes) {
@@ -37,7 +36,7 @@ void require_end_of_line(SurfaceText& text, const char* form) {
 }
 
 NodeDof dof(SurfaceText& text, std::string_view node_word) {
-  const auto node = static_cast<int>(text.whole_number(node_word, "a node", -largest, largest));
+  const auto node = static_cast<int>(text.whole_number(node_word, "a node", -largest_label, largest_label));
   const auto component =
       static_cast<int>(text.whole_number(text.word_of_line(), "a component (1 to 6, or 0 for an amplitude)", 0, 6));
   return {node, component};
@@ -61,8 +60,8 @@ MatrixEntries triplet_entries(std::string_view bytes, const std::string& name) {
   SurfaceText text(plain, name, '\0');
   MatrixEntries matrix{name, 0, {}};
   for (std::string_view word = first_word(text); !word.empty(); word = first_word(text)) {
-    const auto row = static_cast<int>(text.whole_number(word, "a row", 1, largest) - 1);
-    const auto column = static_cast<int>(text.whole_number(text.word_of_line(), "a column", 1, largest) - 1);
+    const auto row = static_cast<int>(text.whole_number(word, "a row", 1, largest_label) - 1);
+    const auto column = static_cast<int>(text.whole_number(text.word_of_line(), "a column", 1, largest_label) - 1);
     const double value = text.number(text.word_of_line(), "an entry");
     require_end_of_line(text, "row column value");
     matrix.size = std::max({matrix.size, row + 1, column + 1});
@@ -93,7 +92,7 @@ std::vector<NodeDof> ccx_dofs(std::string_view bytes, const std::string& name) {
   for (std::string_view word = text.word(); !word.empty(); word = text.word()) {
     const auto point = word.find('.');
     if (point == std::string_view::npos) text.fail(quoted(word) + " where \"node.component\" belongs");
-    const auto node = text.whole_number(word.substr(0, point), "a node", 1, largest);
+    const auto node = text.whole_number(word.substr(0, point), "a node", 1, largest_label);
     const auto component = text.whole_number(word.substr(point + 1), "a component", 1, 6);
     require_end_of_line(text, "node.component");
     dofs.push_back({static_cast<int>(node), static_cast<int>(component)});

@@ -12,8 +12,6 @@ namespace thinwall::io {
 
 namespace {
 
-constexpr std::int64_t largest_int = std::numeric_limits<int>::max();
-
 /// The next word of a statement, which goes on in the next line after '\'.
 std::string_view word_of_statement(SurfaceText& text) {
   std::string_view word = text.word_of_line();

@@ -13,8 +13,6 @@ namespace thinwall::io {
 
 namespace {
 
-constexpr std::int64_t largest_int = std::numeric_limits<int>::max();
-
 /// The number of points. A heading is optional; "4OFF" and "nOFF" have other than three coordinates.
 std::int64_t read_heading(SurfaceText& text) {
   std::string_view word = text.word();

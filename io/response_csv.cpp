@@ -57,14 +57,6 @@ std::string header(const ResponseModel& model) {
   return line + "\n";
 }
 
-void require_consistent(const ResponseModel& model) {
-  const auto rows = static_cast<Eigen::Index>(model.responses.size());
-  const auto columns = static_cast<Eigen::Index>(model.forces.size());
-  bool consistent = model.axis.size() == static_cast<Eigen::Index>(model.H.size());
-  for (const auto& H : model.H) consistent = consistent && H.rows() == rows && H.cols() == columns;
-  if (!consistent) throw core::InputError("the response's matrices do not match its frequencies and DOF tables");
-}
-
 std::string line_text(const ResponseModel& model, std::size_t line) {
   const Eigen::MatrixXcd& H = model.H[line];
   const double hz = model.axis.hz(static_cast<Eigen::Index>(line));
@@ -108,7 +100,7 @@ void take_dof(const CsvText& text, const std::string& comment, ResponseModel& mo
 }  // namespace
 
 void write_response(const std::filesystem::path& path, const ResponseModel& model) {
-  require_consistent(model);
+  dynamics::require_consistent(model);
   std::string text = "# receptance, e^{+i omega t}; entry response/force, real and imaginary part\n";
   for (const Dof& dof : model.responses) text += dof_line("response", dof);
   for (const Dof& dof : model.forces) text += dof_line("force", dof);

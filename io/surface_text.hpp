@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -52,6 +53,9 @@ class SurfaceText {
   char comment_;
   int line_ = 1;
 };
+
+/// Counts and numbers of these files are kept as int.
+inline constexpr std::int64_t largest_int = std::numeric_limits<int>::max();
 
 /// The word in quotes for a message: at most 40 characters, anything that does not print as '?'.
 [[nodiscard]] std::string quoted(std::string_view word);

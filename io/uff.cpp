@@ -75,13 +75,9 @@ Abscissa abscissa_of(const FrequencyAxis& axis) {
   return even;
 }
 
-void require_consistent(const ResponseModel& model) {
-  const auto rows = static_cast<Eigen::Index>(model.responses.size());
-  const auto columns = static_cast<Eigen::Index>(model.forces.size());
-  bool consistent = model.axis.size() == static_cast<Eigen::Index>(model.H.size());
-  for (const auto& H : model.H) consistent = consistent && H.rows() == rows && H.cols() == columns;
-  if (!consistent) throw core::InputError("the response's matrices do not match its frequencies and DOF tables");
-  if (rows * columns * model.axis.size() == 0) {
+void require_entries(const ResponseModel& model) {
+  dynamics::require_consistent(model);
+  if (model.responses.empty() || model.forces.empty() || model.H.empty()) {
     throw core::InputError("the response has no entry or no frequency; a universal file needs at least one of each");
   }
 }
@@ -308,7 +304,7 @@ void join_coherence(Contents& contents, UffNotes& notes) {
 
 void write_uff(const std::filesystem::path& path, const MeasuredResponse& measured, const UffForm& form) {
   const ResponseModel& model = measured.response;
-  require_consistent(model);
+  require_entries(model);
   for (const Dof& dof : model.responses) require_writable(dof);
   for (const Dof& dof : model.forces) require_writable(dof);
   const Abscissa abscissa = abscissa_of(model.axis);

@@ -124,8 +124,8 @@ void note_storage(UffNotes& notes, const UffRecords& heading_at, const Storage& 
   if (!line_end.empty()) note(notes, heading_at, "a line end after the binary values is passed over");
   if (!storage.as_stated) {
     note(notes, heading_at,
-         std::string("the values are stored in ") + (stated_double ? "single" : "double") +
-             " precision, record 7 states " + (stated_double ? "double" : "single"));
+         stated_double ? "the values are stored in single precision, record 7 states double"
+                       : "the values are stored in double precision, record 7 states single");
   }
   if (stated_bytes < 0 || static_cast<std::size_t>(stated_bytes) != bytes) {
     note(notes, heading_at,

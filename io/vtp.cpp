@@ -53,14 +53,6 @@ vtkNew<vtkFloatArray> single_precision(const Rows& values, const UsedNodes& used
   return array;
 }
 
-void require_sound(const NodeVectors& field, Eigen::Index nodes) {
-  if (field.values.rows() != nodes) {
-    throw core::InputError("the field \"" + field.name + "\" has " + std::to_string(field.values.rows()) +
-                           " rows for " + std::to_string(nodes) + " nodes");
-  }
-  if (!field.values.allFinite()) throw core::NumericalError("the field \"" + field.name + "\" holds NaN or infinity");
-}
-
 /// Appended base64 data, UInt64 headers, zlib.
 void write(const std::filesystem::path& path, vtkPolyData& surface) {
   vtkNew<vtkXMLPolyDataWriter> writer;

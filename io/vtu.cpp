@@ -45,14 +45,6 @@ void set_geometry(vtkUnstructuredGrid& grid, const mesh::LagrangeNodes& nodes) {
   grid.SetCells(cell_type(nodes.order), cells);
 }
 
-void require_sound(const NodeVectors& field, Eigen::Index nodes) {
-  if (field.values.rows() != nodes) {
-    throw core::InputError("the field \"" + field.name + "\" has " + std::to_string(field.values.rows()) +
-                           " rows for " + std::to_string(nodes) + " nodes");
-  }
-  if (!field.values.allFinite()) throw core::NumericalError("the field \"" + field.name + "\" holds NaN or infinity");
-}
-
 void add_vectors(vtkUnstructuredGrid& grid, const NodeVectors& field) {
   vtkNew<vtkDoubleArray> array;
   array->SetName(field.name.c_str());
@@ -85,6 +77,14 @@ std::string xml_text(vtkUnstructuredGrid& grid) {
 }
 
 }  // namespace
+
+void require_sound(const NodeVectors& field, Eigen::Index nodes) {
+  if (field.values.rows() != nodes) {
+    throw core::InputError("the field \"" + field.name + "\" has " + std::to_string(field.values.rows()) +
+                           " rows for " + std::to_string(nodes) + " nodes");
+  }
+  if (!field.values.allFinite()) throw core::NumericalError("the field \"" + field.name + "\" holds NaN or infinity");
+}
 
 std::vector<int> vtk_node_order(int order) {
   const auto lattice = mesh::lattice(order);

@@ -16,6 +16,10 @@ struct NodeVectors {
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> values;
 };
 
+/// Throws InputError if the field has another number of rows than there are nodes, NumericalError if one of its values
+/// is not finite.
+void require_sound(const NodeVectors& field, Eigen::Index nodes);
+
 /// A number that belongs to the whole file, such as "frequency_hz"; it goes to the field data.
 struct FieldNumber {
   std::string name;

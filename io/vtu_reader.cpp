@@ -52,9 +52,10 @@ bool is_no_solid(std::int64_t type) {
   return std::find(flat.begin(), flat.end(), type) != flat.end();
 }
 
-class Reader {
+class VtuReader {
  public:
-  Reader(std::string_view bytes, const std::string& name, double metres_per_unit) : metres_per_unit_(metres_per_unit) {
+  VtuReader(std::string_view bytes, const std::string& name, double metres_per_unit)
+      : metres_per_unit_(metres_per_unit) {
     mesh_.path = name;
     mesh_.wedges_may_be_turned = true;
     encoding_.path = name;
@@ -227,7 +228,7 @@ class Reader {
 
 mesh::LabelledMesh vtu_mesh(std::string_view bytes, const std::string& name, double metres_per_unit) {
   require_metres_per_unit(metres_per_unit, name);
-  return Reader(bytes, name, metres_per_unit).read();
+  return VtuReader(bytes, name, metres_per_unit).read();
 }
 
 mesh::SolidMesh read_vtu(const std::filesystem::path& path, double metres_per_unit) {

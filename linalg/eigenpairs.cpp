@@ -8,6 +8,7 @@
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/mode_signs.hpp"
 #include "linalg/block_lanczos.hpp"
 #include "linalg/tall.hpp"
 
@@ -50,17 +51,9 @@ class MassOperator {
   const SparseMatrix& M_;
 };
 
-void fix_signs(Eigen::MatrixXd& Phi) {
-  for (auto phi : Phi.colwise()) {
-    Eigen::Index largest = 0;
-    phi.cwiseAbs().maxCoeff(&largest);
-    if (phi(largest) < 0.0) phi = -phi;
-  }
-}
-
 void finish(const SparseMatrix& M, const ShiftedInverse& inverse, Eigenpairs& pairs) {
   for (auto phi : pairs.Phi.colwise()) phi /= std::sqrt(phi.dot(M * phi));
-  fix_signs(pairs.Phi);
+  core::fix_signs(pairs.Phi);
   const Eigen::VectorXd shifted = pairs.lambda.array() - inverse.sigma;
   const Eigen::MatrixXd R = pairs.Phi - inverse.apply(M * pairs.Phi) * shifted.asDiagonal();
   pairs.inverse_residual = (R.cwiseProduct(M * R)).colwise().sum().cwiseMax(0.0).cwiseSqrt().transpose();
@@ -122,11 +115,14 @@ Eigenpairs dense_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const 
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(0.5 * (Kz + Kz.transpose()),
                                                                         0.5 * (Mz + Mz.transpose()));
   if (!positive || dense.info() != Eigen::Success)
-    throw core::NumericalError("the mass matrix of a dense eigenproblem is not positive definite");
+    throw core::NumericalError(
+        "the mass matrix of a dense eigenproblem is not positive definite: some motion has no mass; "
+        "give every degree of freedom mass (elements integrated at few points, such as "
+        "CalculiX's C3D10, leave such motions in small models: take more elements)");
   Eigenpairs pairs;
   pairs.lambda = dense.eigenvalues();
   pairs.Phi = Z * dense.eigenvectors();
-  fix_signs(pairs.Phi);
+  core::fix_signs(pairs.Phi);
   const Eigen::MatrixXd R = Kz * dense.eigenvectors() - Mz * dense.eigenvectors() * pairs.lambda.asDiagonal();
   const double scale = pairs.lambda.cwiseAbs().maxCoeff();
   pairs.inverse_residual = R.colwise().norm().transpose() / (scale > 0.0 ? scale : 1.0);

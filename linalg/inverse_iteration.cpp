@@ -2,6 +2,7 @@
 
 #include "core/dense_eigenvalues.hpp"
 #include "core/dense_factorisations.hpp"
+#include "core/mode_signs.hpp"
 #include "linalg/tall.hpp"
 
 namespace thinwall::linalg {
@@ -11,14 +12,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-void fix_signs(MatrixXd& Phi) {
-  for (auto phi : Phi.colwise()) {
-    Index largest = 0;
-    phi.cwiseAbs().maxCoeff(&largest);
-    if (phi(largest) < 0.0) phi = -phi;
-  }
-}
 
 }  // namespace
 
@@ -44,7 +37,7 @@ bool inverse_iteration(const SparseMatrix& M, const ShiftedInverse& inverse, Eig
     pairs.lambda = ritz.eigenvalues().array() + inverse.sigma;
     pairs.Phi = tall_product(Y, s.asDiagonal() * ritz.eigenvectors());
   }
-  fix_signs(pairs.Phi);
+  core::fix_signs(pairs.Phi);
   return solved;
 }
 

@@ -11,7 +11,7 @@ namespace thinwall::mesh {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 const Eigen::Vector2d& at(const BorderGraph& graph, int point) {
   return graph.points[static_cast<std::size_t>(point)];

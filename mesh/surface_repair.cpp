@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <span>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "mesh/closed_surface.hpp"
 #include "mesh/edge_uses.hpp"
 #include "mesh/facet_repair.hpp"
@@ -25,16 +25,10 @@ constexpr double farthest_diagonals = 1e8;
 /// Crossings that are looked for; one is enough to refuse, more tell where to look.
 constexpr int most_crossings = 1000;
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 void require_within(double value, double least, double most, const char* name) {
   if (value >= least && value <= most) return;
-  throw core::InputError(std::string(name) + " of a surface's repair is " + number(value) + "; choose " +
-                         number(least) + " to " + number(most));
+  throw core::InputError(std::string(name) + " of a surface's repair is " + core::number_text(value, 3) + "; choose " +
+                         core::number_text(least, 3) + " to " + core::number_text(most, 3));
 }
 
 void validate(const SurfaceRepairOptions& options) {
@@ -79,10 +73,10 @@ void merge(Bench& bench, const TriangleSoup& soup, const SurfaceRepairOptions& o
   const SoupBounds block = bounds(bench.soup);
   const double bound = options.largest_movement * (block.largest - block.least).norm();
   if (merged.largest_way > bound) {
-    throw core::InputError("merging points moves the surface by " + number(1e3 * merged.largest_way) +
-                           " mm, more than " + number(1e3 * bound) + " mm (" + number(options.largest_movement) +
-                           " of its diagonal), the first at " + place_text(merged.first_merged) +
-                           "; merge within less");
+    throw core::InputError("merging points moves the surface by " + core::number_text(1e3 * merged.largest_way, 3) +
+                           " mm, more than " + core::number_text(1e3 * bound, 3) + " mm (" +
+                           core::number_text(options.largest_movement, 3) + " of its diagonal), the first at " +
+                           place_text(merged.first_merged) + "; merge within less");
   }
 }
 
@@ -94,7 +88,7 @@ void move_to_centre_if_far(Bench& bench, const SurfaceRepairOptions& options) {
   const double ratio = centre.norm() / diagonal;
   if (!(diagonal > 0.0) || ratio <= options.far_diagonals) return;
   const std::string where =
-      "coordinates lie " + number(ratio) + " diagonals from the origin, around " + place_text(centre);
+      "coordinates lie " + core::number_text(ratio, 3) + " diagonals from the origin, around " + place_text(centre);
   if (ratio > farthest_diagonals) {
     throw core::InputError(where + ", too far to resolve the surface; export it near the origin");
   }
@@ -102,7 +96,7 @@ void move_to_centre_if_far(Bench& bench, const SurfaceRepairOptions& options) {
   for (auto& x : bench.soup.points) x -= centre;
   const double single = std::numeric_limits<float>::epsilon() / 2 * ratio;
   SurfaceFinding finding{.what = "surface moved to its centre: " + where + "; a file in single precision resolves " +
-                                 number(single) + " of its diagonal there"};
+                                 core::number_text(single, 3) + " of its diagonal there"};
   finding.add(block.least - centre);
   bench.note(finding);
 }
@@ -208,8 +202,8 @@ void turn_outwards(Bench& bench, const SurfaceRepairOptions& options) {
 void require_thick_enough(SurfaceRepair& result, double thinnest_m) {
   const ThinWalls walls = thin_walls(result.surface, thinnest_m);
   result.thinnest_wall_m = walls.thinnest_m;
-  SurfaceFinding thin{.what = "facets above a wall thinner than " + number(1e3 * thinnest_m) + " mm, the thinnest " +
-                              number(1e3 * walls.thinnest_m) + " mm",
+  SurfaceFinding thin{.what = "facets above a wall thinner than " + core::number_text(1e3 * thinnest_m, 3) +
+                              " mm, the thinnest " + core::number_text(1e3 * walls.thinnest_m, 3) + " mm",
                       .remedy = "thicken it, lower the tolerance, or correct the unit"};
   for (const int t : walls.triangles) thin.add(centroid(result.surface, t));
   refuse_if_any({thin}, result.moved_by);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <memory>
 #include <numeric>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/units.hpp"
 #include "mesh/closed_surface.hpp"
 #include "mesh/delaunay_volume.hpp"
 #include "mesh/remesh.hpp"
@@ -25,20 +25,14 @@ constexpr double walls_off_the_surface = 0.02;  // of isotropic facets; finer on
 constexpr double smallest_turn_rad = 0.01;
 constexpr double samples_per_diagonal = 100.0;
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 void validate(const SurfaceMeshOptions& options) {
   validate(options.size);
   if (!(options.volume_tolerance >= 1e-6 && options.volume_tolerance <= 0.1)) {
-    throw core::InputError("the volume tolerance of a surface mesh is " + number(options.volume_tolerance) +
-                           "; choose 1e-6 to 0.1");
+    throw core::InputError("the volume tolerance of a surface mesh is " +
+                           core::number_text(options.volume_tolerance, 3) + "; choose 1e-6 to 0.1");
   }
   if (!(options.smallest_shape >= 0.0 && options.smallest_shape <= 1e-3)) {
-    throw core::InputError("the smallest V/L³ of a surface mesh is " + number(options.smallest_shape) +
+    throw core::InputError("the smallest V/L³ of a surface mesh is " + core::number_text(options.smallest_shape, 3) +
                            "; choose 0 to 1e-3");
   }
 }
@@ -81,8 +75,8 @@ TetMesh fill_remeshed(const TriangleSurface& surface, const Analysed& part, cons
   const auto crossings = self_intersections(remeshed.surface);
   if (!crossings.empty()) {
     const Eigen::Vector3d x = 1e3 * centroid(remeshed.surface, crossings[0][0]);
-    throw core::NumericalError("the coarse surface crosses itself near (" + number(x(0)) + ", " + number(x(1)) + ", " +
-                               number(x(2)) + ") mm");
+    throw core::NumericalError("the coarse surface crosses itself near (" + core::number_text(x(0), 3) + ", " +
+                               core::number_text(x(1), 3) + ", " + core::number_text(x(2), 3) + ") mm");
   }
   return tetrahedralise_as_given(faceted(remeshed.surface), options.limits);
 }
@@ -94,12 +88,12 @@ SurfaceMeshed judged(TetMesh mesh, const TriangleSurface& surface, const Surface
   result.smallest_shape = smallest_shape(mesh);
   result.mesh = std::move(mesh);
   if (!(std::abs(result.volume_error_relative) <= options.volume_tolerance)) {
-    throw core::NumericalError("the mesh's volume is off by " + number(result.volume_error_relative) + ", more than " +
-                               number(options.volume_tolerance));
+    throw core::NumericalError("the mesh's volume is off by " + core::number_text(result.volume_error_relative, 3) +
+                               ", more than " + core::number_text(options.volume_tolerance, 3));
   }
   if (!(result.smallest_shape >= options.smallest_shape)) {
-    throw core::NumericalError("the mesh has a tetrahedron with V/L³ = " + number(result.smallest_shape) + ", below " +
-                               number(options.smallest_shape));
+    throw core::NumericalError("the mesh has a tetrahedron with V/L³ = " + core::number_text(result.smallest_shape, 3) +
+                               ", below " + core::number_text(options.smallest_shape, 3));
   }
   return result;
 }

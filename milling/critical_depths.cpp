@@ -18,7 +18,7 @@ namespace {
 using Eigen::Index;
 using std::complex;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 void require_found(bool found) {
   if (found) return;

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Index;
 using std::complex;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Vectors that no structure is likely to be orthogonal to.
 Eigenpair started_at(Index n, complex<double> nu) {

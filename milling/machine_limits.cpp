@@ -11,7 +11,7 @@ namespace thinwall::milling {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Of the arcs, where sin φ > 0: ∫ sin φ dφ and ∫ dφ.
 struct ChipArc {

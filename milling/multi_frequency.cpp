@@ -21,7 +21,7 @@ using Eigen::Index;
 using Eigen::MatrixXcd;
 using std::complex;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr complex<double> i_unit(0.0, 1.0);
 
 /// dG/dω.

@@ -10,7 +10,7 @@ namespace thinwall::milling {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 }  // namespace
 

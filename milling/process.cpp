@@ -11,7 +11,7 @@ namespace thinwall::milling {
 
 namespace {
 
-bool same(const CuttingCoefficients& a, const CuttingCoefficients& b) {
+bool same_coefficients(const CuttingCoefficients& a, const CuttingCoefficients& b) {
   return a.K_t == b.K_t && a.K_r == b.K_r && a.K_a == b.K_a && a.K_te == b.K_te && a.K_re == b.K_re && a.K_ae == b.K_ae;
 }
 
@@ -44,7 +44,9 @@ const CuttingCoefficients& coefficients(const MillingProcess& process, int tooth
 
 bool equal_teeth(const MillingProcess& process) {
   const auto& own = process.tooth_coefficients;
-  const auto differ = [](const CuttingCoefficients& a, const CuttingCoefficients& b) { return !same(a, b); };
+  const auto differ = [](const CuttingCoefficients& a, const CuttingCoefficients& b) {
+    return !same_coefficients(a, b);
+  };
   return process.cutter.equal_teeth() && std::adjacent_find(own.begin(), own.end(), differ) == own.end();
 }
 

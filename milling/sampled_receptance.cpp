@@ -15,7 +15,7 @@ namespace {
 using Eigen::Index;
 using std::complex;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// ∫ e^{−iω s} ℓ_j(s) ds over each element's polynomials, s from the start of the period; one a node.
 Eigen::VectorXcd node_moments(const ContactGrid& grid, const std::vector<ProductRule>& rules, double seconds_per_rad,

@@ -27,7 +27,7 @@ namespace {
 using Eigen::Index;
 using std::complex;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// What does not change with resolution and depth. Keeps references.
 struct SampledCut {

@@ -20,7 +20,7 @@ namespace {
 using Eigen::Index;
 using std::complex;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 complex<double> on_circle(double theta) {
   return theta == pi ? -1.0 : std::polar(1.0, theta);

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Index;
 using std::complex;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The structure under its mean cut, in the directions that yield.
 struct MeanCut {

@@ -1,5 +1,6 @@
 #include "reduction/method.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -25,8 +26,8 @@ constexpr std::array<std::pair<Method, const char*>, 8> table{{
 
 const std::vector<Method>& all_methods() {
   static const std::vector<Method> methods = [] {
-    std::vector<Method> all;
-    for (const auto& [method, text] : table) all.push_back(method);
+    std::vector<Method> all(table.size());
+    std::transform(table.begin(), table.end(), all.begin(), [](const auto& row) { return row.first; });
     return all;
   }();
   return methods;
