@@ -72,9 +72,9 @@ fem::Materials materials_on(const Case& source, const mesh::TetMesh& mesh) {
   const Part& part = *source.part;
   fem::Materials materials;
   if (given(part.material)) materials.list.push_back(material(part.material));
-  if (part.materials.empty() && given(part.material)) return materials;
+  if (part.materials.empty() && given(part.material) && !materials_in_file(part)) return materials;
   materials.of_tet.assign(mesh.tets.size(), given(part.material) ? 0 : -1);
-  if (!given(part.material) && materials_in_file(part)) add_sections(part, materials);
+  if (materials_in_file(part)) add_sections(part, materials);
   for (const MaterialRegion& region : part.materials)
     set_material(materials, tets_in(source, region.on, mesh), material(region.material));
   const auto without = std::ranges::find(materials.of_tet, -1);

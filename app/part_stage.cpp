@@ -3,7 +3,9 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "app/imported_part.hpp"
 #include "app/matrix_part.hpp"
@@ -51,7 +53,8 @@ void require_solved(double relative_residual) {
 /// As many modes as a tolerance on the interface's receptance needs.
 void reduce_to_tolerance(const Case& source, PartResult& part) {
   reduction::Band band{source.response.from_hz, source.response.to_hz};
-  if (source.damping.model == "modal" && source.damping.ratio > 0.0) band.loss_factor = 2.0 * source.damping.ratio;
+  if (const double least = least_loss_factor(source.damping, band.from_hz, band.to_hz); least > 0.0)
+    band.loss_factor = least;
   const reduction::FullModel full{part.model.K, part.model.M, part.model.node_of_row,
                                   part.modes.pairs.Phi.leftCols(part.modes.rigid_motions)};
   const auto truth = reduction::band_truth(full, part.interface, band);
@@ -120,6 +123,20 @@ void check_reduction(const Case& source, PartResult& part, const fem::Factored& 
 }
 
 }  // namespace
+
+double least_loss_factor(const Damping& damping, double from_hz, double to_hz) {
+  if (damping.model == "structural") return damping.loss_factor;
+  if (damping.model == "modal") {
+    double least = damping.ratio;
+    for (const double ratio : damping.ratios) least = least > 0.0 ? std::min(least, ratio) : ratio;
+    return 2.0 * least;
+  }
+  if (damping.model != "rayleigh") return 0.0;
+  const double from = 2.0 * std::numbers::pi * from_hz;
+  const double to = 2.0 * std::numbers::pi * to_hz;
+  const double lowest = damping.beta > 0.0 ? std::clamp(std::sqrt(damping.alpha / damping.beta), from, to) : to;
+  return damping.alpha / lowest + damping.beta * lowest;
+}
 
 namespace {
 

@@ -38,11 +38,22 @@ void require_reducible(const Case& source, const ReduceRequest& request) {
     throw core::InputError("modal_truncation gives poles, no matrices to write; \"thinwall run\" writes them as modes");
 }
 
+/// A model is not written over the matrices that it comes from.
+void require_apart(const Case& source, const ReduceRequest& request) {
+  if (source.part->shape != "matrices") return;
+  std::error_code ignored;
+  const auto in = std::filesystem::weakly_canonical(source.part->file.matrices.stiffness, ignored).parent_path();
+  if (std::filesystem::weakly_canonical(request.out, ignored) != in) return;
+  throw core::InputError("the matrices of the part lie in \"" + request.out.string() +
+                         "\", where the reduced ones would take their place; choose another folder with -o");
+}
+
 reduction::Band band_of(const Case& source, const ReduceRequest& request) {
   reduction::Band band;
   band.from_hz = request.from_hz.value_or(source.response.from_hz);
   band.to_hz = request.to_hz.value_or(source.response.to_hz);
-  if (source.damping.model == "modal" && source.damping.ratio > 0.0) band.loss_factor = 2.0 * source.damping.ratio;
+  if (const double least = least_loss_factor(source.damping, band.from_hz, band.to_hz); least > 0.0)
+    band.loss_factor = least;
   reduction::validate(band);
   return band;
 }
@@ -162,6 +173,7 @@ std::string written(const Case& source, const ReduceRequest& request, const Redu
 
 std::string reduce_part(const Case& source, const ReduceRequest& request) {
   require_reducible(source, request);
+  require_apart(source, request);
   const reduction::Band band = band_of(source, request);
   Stages stages(false);
   stages.begin("mesh, order and modes");

@@ -5,6 +5,7 @@
 #include "app/case_checks.hpp"
 #include "app/case_reader.hpp"
 #include "app/imported_part.hpp"
+#include "app/part_materials.hpp"
 #include "core/atomic_file.hpp"
 #include "io/stl.hpp"
 #include "mesh/box.hpp"
@@ -126,6 +127,42 @@ std::string matrix_problem(const std::string& keys, const std::filesystem::path&
     return error.what();
   }
   return "no problem";
+}
+
+/// Two tetrahedra, the second of steel by the file: [part.material] is for the first alone.
+TEST(PartFile, MaterialsOfAMeshStandBesideThatOfTheCase) {
+  const TemporaryFolder folder;
+  core::write_file_atomically(folder.path / "two.inp", R"(*NODE
+1, 0, 0, 0
+2, 10, 0, 0
+3, 0, 10, 0
+4, 0, 0, 10
+5, 0, 0, -10
+*ELEMENT, TYPE=C3D4, ELSET=UPPER
+1, 1, 2, 3, 4
+*ELEMENT, TYPE=C3D4, ELSET=LOWER
+2, 1, 3, 2, 5
+*MATERIAL, NAME=STEEL
+*ELASTIC
+210000, 0.3
+*DENSITY
+7.8e-9
+*SOLID SECTION, ELSET=LOWER, MATERIAL=STEEL
+)");
+  const Case source = parse_case(R"([part]
+file = "two.inp"
+unit = "mm"
+mass_unit = "t"
+[part.material]
+youngs_modulus = "70 GPa"
+poisson_ratio = 0.33
+density = "2700 kg/m^3"
+)",
+                                 folder.path);
+  const mesh::TetMesh& mesh = source.part->imported->mesh->solid.mesh;
+  const fem::Materials materials = materials_on(source, mesh);
+  const double volume = 1e-6 / 6.0;
+  EXPECT_NEAR(mass(materials, mesh), volume * (2700.0 + 7800.0), 1e-15);
 }
 
 TEST(PartFile, MatricesAreReadInTheirUnitsAndTheirNodesNamed) {

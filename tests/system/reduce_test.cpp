@@ -167,5 +167,29 @@ TEST(Reduce, WhatCannotBeReducedOrInspectedIsSaid) {
           3, "unit");
 }
 
+/// A model reduced from matrices, written where they lie, would take their place: the files are as they were.
+TEST(Reduce, AModelIsNotWrittenOverTheMatricesThatItComesFrom) {
+  const fs::path folder = scratch("reduce_over");
+  ASSERT_EQ(command({"reduce", written_case(folder, "").string(), "-o", (folder / "model").string()}).code, 0);
+  const fs::path own = folder / "model";
+  const std::string before = core::read_file(own / "stiffness.mtx");
+  core::write_file_atomically(own / "case.toml", R"([part]
+shape = "matrices"
+unit = "m"
+mass_unit = "kg"
+[part.matrices]
+stiffness = "stiffness.mtx"
+mass = "mass.mtx"
+dofs = "dofs.csv"
+[points.A]
+[response]
+to = "4000 Hz"
+)");
+  const Answer answer = command({"reduce", own.string(), "-o", own.string(), "--modes", "2"});
+  EXPECT_EQ(answer.code, 3) << answer.err;
+  EXPECT_NE(answer.err.find("choose another folder with -o"), std::string::npos) << answer.err;
+  EXPECT_EQ(core::read_file(own / "stiffness.mtx"), before);
+}
+
 }  // namespace
 }  // namespace thinwall::app
