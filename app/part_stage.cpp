@@ -53,7 +53,7 @@ void require_solved(double relative_residual) {
 /// As many modes as a tolerance on the interface's receptance needs.
 void reduce_to_tolerance(const Case& source, PartResult& part) {
   reduction::Band band{source.response.from_hz, source.response.to_hz};
-  if (const double least = least_loss_factor(source.damping, band.from_hz, band.to_hz); least > 0.0)
+  if (const double least = least_loss_factor(source.damping, part.modes, band.from_hz, band.to_hz); least > 0.0)
     band.loss_factor = least;
   const reduction::FullModel full{part.model.K, part.model.M, part.model.node_of_row,
                                   part.modes.pairs.Phi.leftCols(part.modes.rigid_motions)};
@@ -124,18 +124,23 @@ void check_reduction(const Case& source, PartResult& part, const fem::Factored& 
 
 }  // namespace
 
-double least_loss_factor(const Damping& damping, double from_hz, double to_hz) {
+double least_loss_factor(const Damping& damping, const fem::Modes& modes, double from_hz, double to_hz) {
   if (damping.model == "structural") return damping.loss_factor;
   if (damping.model == "modal") {
-    double least = damping.ratio;
-    for (const double ratio : damping.ratios) least = least > 0.0 ? std::min(least, ratio) : ratio;
-    return 2.0 * least;
+    double least = 2.0 * damping.ratio;
+    for (const double ratio : damping.ratios)
+      if (ratio > 0.0) least = least > 0.0 ? std::min(least, 2.0 * ratio) : 2.0 * ratio;
+    return least;
   }
   if (damping.model != "rayleigh") return 0.0;
-  const double from = 2.0 * std::numbers::pi * from_hz;
-  const double to = 2.0 * std::numbers::pi * to_hz;
-  const double lowest = damping.beta > 0.0 ? std::clamp(std::sqrt(damping.alpha / damping.beta), from, to) : to;
-  return damping.alpha / lowest + damping.beta * lowest;
+  double least = 0.0;
+  for (const double hz : modes.frequency_hz.tail(modes.frequency_hz.size() - modes.rigid_motions)) {
+    if (hz < from_hz || hz > to_hz) continue;
+    const double omega = 2.0 * std::numbers::pi * hz;
+    const double here = damping.alpha / omega + damping.beta * omega;
+    least = least > 0.0 ? std::min(least, here) : here;
+  }
+  return least;
 }
 
 namespace {

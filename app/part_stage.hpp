@@ -24,10 +24,10 @@ namespace thinwall::app {
 [[nodiscard]] dynamics::SpatialModel damped(const Case& source, const dynamics::SpatialModel& reduced,
                                             std::vector<reduction::IdentifiedMode>& identified);
 
-/// The least loss factor (2ζ) that the case's damping has from `from_hz` to `to_hz`: peaks are as high there as
-/// anywhere, so that a tolerance on receptances is held with it. 0 where the case does not tell: no damping, or
-/// matrices. What a measured FRF gives is not known yet and not looked at.
-[[nodiscard]] double least_loss_factor(const Damping& damping, double from_hz, double to_hz);
+/// The least loss factor (2ζ) that the case's damping gives to a peak from `from_hz` to `to_hz`: of Rayleigh damping,
+/// α/ω + βω, at the modes there. A tolerance on receptances is held with it. 0 where the case does not tell: no
+/// damping, matrices, no mode in the band. What a measured FRF gives is not known yet and not looked at.
+[[nodiscard]] double least_loss_factor(const Damping& damping, const fem::Modes& modes, double from_hz, double to_hz);
 
 /// Model, factor and modes: as the tolerance or a fit left them, or computed now.
 [[nodiscard]] Solution solved_part(const Case& source, Discretisation discretisation, Stages& stages);

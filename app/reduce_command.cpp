@@ -52,8 +52,6 @@ reduction::Band band_of(const Case& source, const ReduceRequest& request) {
   reduction::Band band;
   band.from_hz = request.from_hz.value_or(source.response.from_hz);
   band.to_hz = request.to_hz.value_or(source.response.to_hz);
-  if (const double least = least_loss_factor(source.damping, band.from_hz, band.to_hz); least > 0.0)
-    band.loss_factor = least;
   reduction::validate(band);
   return band;
 }
@@ -174,10 +172,12 @@ std::string written(const Case& source, const ReduceRequest& request, const Redu
 std::string reduce_part(const Case& source, const ReduceRequest& request) {
   require_reducible(source, request);
   require_apart(source, request);
-  const reduction::Band band = band_of(source, request);
+  reduction::Band band = band_of(source, request);
   Stages stages(false);
   stages.begin("mesh, order and modes");
   const Solution part = solved_part(source, discretise(source), stages);
+  const double least = least_loss_factor(source.damping, part.modes, band.from_hz, band.to_hz);
+  if (least > 0.0) band.loss_factor = least;
   const reduction::Interface interface = part_interface(source, part.model);
   const reduction::FullModel full = full_model(part);
   stages.begin("receptance of the full model");

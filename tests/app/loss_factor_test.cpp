@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "app/part_stage.hpp"
@@ -10,30 +9,42 @@
 namespace thinwall::app {
 namespace {
 
+fem::Modes modes_at(const Eigen::VectorXd& hz) {
+  fem::Modes modes;
+  modes.frequency_hz = hz;
+  return modes;
+}
+
 TEST(LeastLossFactor, IsTheSmallestThatTheCaseGives) {
+  const fem::Modes modes = modes_at(Eigen::VectorXd::Constant(1, 100.0));
   Damping damping;
   damping.model = "structural";
   damping.loss_factor = 5e-4;
-  EXPECT_EQ(least_loss_factor(damping, 1.0, 3000.0), 5e-4);
+  EXPECT_EQ(least_loss_factor(damping, modes, 1.0, 3000.0), 5e-4);
   damping.model = "modal";
   damping.ratio = 0.01;
-  damping.ratios = {0.02, 2.5e-4, 0.03};
-  EXPECT_EQ(least_loss_factor(damping, 1.0, 3000.0), 5e-4);
+  damping.ratios = {0.02, 2.5e-4, 0.0, 0.03};
+  EXPECT_EQ(least_loss_factor(damping, modes, 1.0, 3000.0), 5e-4);
   damping.ratios.clear();
-  EXPECT_EQ(least_loss_factor(damping, 1.0, 3000.0), 0.02);
+  EXPECT_EQ(least_loss_factor(damping, modes, 1.0, 3000.0), 0.02);
   damping.model = "matrices";
-  EXPECT_EQ(least_loss_factor(damping, 1.0, 3000.0), 0.0) << "not told";
+  EXPECT_EQ(least_loss_factor(damping, modes, 1.0, 3000.0), 0.0) << "not told";
 }
 
-/// α/ω + βω has its minimum 2√(αβ) at ω = √(α/β), here at 1000 rad/s = 159 Hz.
-TEST(LeastLossFactor, OfRayleighDampingLiesInTheBand) {
+/// α/ω + βω has its minimum 2√(αβ) at ω = √(α/β), here at 1000 rad/s, and rises to both sides.
+TEST(LeastLossFactor, OfRayleighDampingIsThatOfTheModesInTheBand) {
+  Eigen::VectorXd omega(4);
+  omega << 100.0, 1000.0, 2000.0, 9000.0;
+  const fem::Modes modes = modes_at(omega / (2.0 * std::numbers::pi));
   Damping damping;
   damping.model = "rayleigh";
   damping.alpha = 10.0;
   damping.beta = 1e-5;
-  EXPECT_NEAR(least_loss_factor(damping, 10.0, 3000.0), 0.02, 1e-15);
-  const double above = 2.0 * std::numbers::pi * 1000.0;
-  EXPECT_NEAR(least_loss_factor(damping, 1000.0, 3000.0), 10.0 / above + 1e-5 * above, 1e-15);
+  EXPECT_NEAR(least_loss_factor(damping, modes, 1.0, 1e4), 0.02, 1e-15);
+  EXPECT_NEAR(least_loss_factor(damping, modes, 200.0, 1e4), 10.0 / 2000.0 + 1e-5 * 2000.0, 1e-15);
+  EXPECT_EQ(least_loss_factor(damping, modes, 400.0, 500.0), 0.0) << "no mode in the band";
+  damping.alpha = 0.0;
+  EXPECT_NEAR(least_loss_factor(damping, modes, 0.0, 1e4), 1e-5 * 100.0, 1e-15);
 }
 
 }  // namespace
