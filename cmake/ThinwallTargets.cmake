@@ -23,8 +23,8 @@ if(THINWALL_SANITIZE)
   target_link_options(thinwall_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
-# Headers that nearly every file includes are parsed once a target; a file still includes what it uses, which static
-# analysis and the build with sanitizers hold it to: they go without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
+# Headers that nearly every file includes are parsed once a target; a file still includes what it uses, which the
+# build with sanitizers holds it to: it goes without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
 set(THINWALL_COMMON_HEADERS <Eigen/Geometry> <Eigen/LU> <Eigen/SparseCore> <algorithm> <cmath> <filesystem> <functional>
                             <map> <memory> <numeric> <optional> <sstream> <string> <vector>)
 

@@ -2,7 +2,7 @@
 # Runs clang-tidy with .clang-tidy over the program's sources; fails on any finding.
 #   check_tidy.sh [PATTERN]     pattern of the sources' paths; the whole program, without the tests, if left out
 # Most of the time goes to the headers of Eigen and CGAL. So the whole program is read in batches of one folder's files
-# (a unity build, a fifth of the time), and files of a pattern each by itself. Nothing is built.
+# (a unity build, a third of the time), and files of a pattern each by itself. Nothing is built.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
