@@ -120,32 +120,42 @@ bool contains(const Selection& selection, const Eigen::Vector3d& p, double toler
 }
 
 std::vector<std::filesystem::path> input_files(const Case& source) {
+  return input_files(source, {});
+}
+
+std::vector<std::filesystem::path> input_files(const Case& source, const std::vector<std::string>& without_sections) {
   std::vector<std::filesystem::path> files;
+  std::string section;
+  const auto add = [&](const std::filesystem::path& file) {
+    const bool wanted = std::ranges::find(without_sections, section) == without_sections.end();
+    if (wanted && !file.empty()) files.push_back(file);
+  };
+  const auto add_measured = [&](const std::vector<MeasuredFrf>& all) {
+    for (const MeasuredFrf& frf : all) add(frf.file);
+  };
+  section = "part";
   if (source.part && from_file(*source.part)) {
     const io::MatrixFiles& matrices = source.part->file.matrices;
-    for (const auto& file : {source.part->file.path, matrices.stiffness, matrices.mass, matrices.damping, matrices.dofs,
-                             matrices.positions}) {
-      if (!file.empty()) files.push_back(file);
-    }
+    for (const auto& file : {source.part->file.path, matrices.stiffness, matrices.mass, matrices.damping,
+                             io::dof_table_path(matrices), matrices.positions})
+      add(file);
   }
-  for (const auto& frf : source.measured_part) files.push_back(frf.file);
+  add_measured(source.measured_part);
+  section = "robot";
   if (source.robot) {
-    for (const auto& frf : source.robot->measured) files.push_back(frf.file);
-    for (const auto& file : {source.robot->table, source.robot->urdf, source.robot->joints}) {
-      if (!file.empty()) files.push_back(file);
-    }
+    add_measured(source.robot->measured);
+    for (const auto& file : {source.robot->table, source.robot->urdf, source.robot->joints}) add(file);
   }
+  section = "contacts";
   for (const Contact& contact : source.contacts) {
-    if (!contact.table.empty()) files.push_back(contact.table);
-    for (const auto& frf : contact.measured) files.push_back(frf.file);
+    add(contact.table);
+    add_measured(contact.measured);
   }
-  if (source.tool) {
-    for (const auto& frf : source.tool->measured) files.push_back(frf.file);
-    if (source.tool->swap) {
-      for (const auto& frf : source.tool->swap->measured) files.push_back(frf.file);
-    }
-  }
-  if (source.damping.from_frf) files.push_back(source.damping.from_frf->file);
+  section = "tool";
+  if (source.tool) add_measured(source.tool->measured);
+  if (source.tool && source.tool->swap) add_measured(source.tool->swap->measured);
+  section = "damping";
+  if (source.damping.from_frf) add(source.damping.from_frf->file);
   return files;
 }
 

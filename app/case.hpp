@@ -427,6 +427,10 @@ struct Case {
 /// Data files that the case names, besides the case file itself.
 [[nodiscard]] std::vector<std::filesystem::path> input_files(const Case& source);
 
+/// The same without those that only the given sections name ("robot", "tool").
+[[nodiscard]] std::vector<std::filesystem::path> input_files(const Case& source,
+                                                             const std::vector<std::string>& without_sections);
+
 /// Value of a numeric key by its dotted name, "part.length", "damping.ratios[0]", "robot.stiffness", in the unit of the
 /// schema (SI; Hz; rpm). Tables in the middle may be left out where that is unambiguous ("part.element_size"). Throws
 /// InputError with the nearest key if the case has no such number.

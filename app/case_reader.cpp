@@ -30,11 +30,11 @@ Case parse_case(const std::string& text, const std::filesystem::path& folder, co
   result.source = text;
   auto problems = std::move(read.problems);
   std::ranges::move(check_case(result), std::back_inserter(problems));
-  if (!problems.empty()) throw CaseError(name, std::move(problems));
+  if (!problems.empty()) throw CaseError({name, text, overrides}, std::move(problems));
   if (!result.part || !from_file(*result.part)) return result;
   result.part->imported = read_part_file(*result.part);
   problems = check_case(result);  // what could not be told before its size was known
-  if (!problems.empty()) throw CaseError(name, std::move(problems));
+  if (!problems.empty()) throw CaseError({name, text, overrides}, std::move(problems));
   return result;
 }
 
@@ -49,7 +49,8 @@ Case read_case(const std::filesystem::path& folder_or_file, const std::vector<st
 std::vector<Expectation> read_expectations(const std::filesystem::path& case_file) {
   const auto file = case_file.parent_path() / "expected.toml";
   if (!std::filesystem::exists(file)) return {};
-  ReadValues read = read_values(core::read_file(file), file.string(), expectation_schema());
+  const std::string text = core::read_file(file);
+  ReadValues read = read_values(text, file.string(), expectation_schema());
   for (int i = 0; i < array_size(read.values, "expect"); ++i) {
     const std::string item = "expect[" + std::to_string(i) + "]";
     const auto given = [&](const char* key) { return find(read.values, item + key) != nullptr; };
@@ -60,7 +61,7 @@ std::vector<Expectation> read_expectations(const std::filesystem::path& case_fil
     read.problems.push_back({name->line, name->column,
                              item + ": give value or same_as with tolerance or relative, or at_least or at_most"});
   }
-  if (!read.problems.empty()) throw CaseError(file.string(), std::move(read.problems));
+  if (!read.problems.empty()) throw CaseError({file.string(), text}, std::move(read.problems));
   return bind_expectations(read.values);
 }
 

@@ -14,7 +14,7 @@ namespace thinwall::app {
 using Value = std::variant<double, bool, std::string, std::vector<double>, std::vector<std::string>,
                            std::vector<Eigen::Vector3d>>;
 
-/// One key of the case with its value, and the place where it was written (line 0: a default, or --set).
+/// One key of the case with its value, and the place where it was written (as of a Problem; line 0: a default).
 struct CaseValue {
   std::string key;  ///< "part.supports[0].on", "points.P.at"
   Value value;

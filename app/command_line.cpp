@@ -1,29 +1,38 @@
 #include "app/command_line.hpp"
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <new>
 #include <sstream>
 
 #include "app/case_checks.hpp"
 #include "app/case_reader.hpp"
 #include "app/case_template.hpp"
+#include "app/command_description.hpp"
+#include "app/command_sweep.hpp"
 #include "app/compare.hpp"
+#include "app/completion.hpp"
 #include "app/doctor.hpp"
 #include "app/imported_part.hpp"
 #include "app/inspect_command.hpp"
+#include "app/json_schema.hpp"
 #include "app/lobes_input.hpp"
 #include "app/lobes_report.hpp"
 #include "app/log.hpp"
+#include "app/manual_page.hpp"
 #include "app/reduce_command.hpp"
 #include "app/result_folder.hpp"
 #include "app/robot_survey.hpp"
+#include "app/terminal.hpp"
 #include "app/terminal_report.hpp"
+#include "app/unknown_word.hpp"
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "report/page.hpp"
+#include "report/phases.hpp"
 
 namespace thinwall::app {
 
@@ -33,11 +42,15 @@ using core::ExitCode;
 
 /// Everything that the words of the command line can carry.
 struct Arguments {
-  std::string case_path, out, template_name = "plate", folder, left, right;
+  std::string case_path, out, template_name = "plate", folder, left, right, html;
+  std::string progress = "auto", shell, schema = "case";
   std::vector<std::string> overrides, points;
   LobesInput lobes;
   ReduceRequest reduce;
   InspectRequest inspect;
+  report::PhasesRequest phases;
+  SweepRequest sweep;
+  MergeRequest merge;
   bool fresh = false, quiet = false, verbose = false;
   int threads = 0;
   double tolerance = 1e-9;
@@ -49,20 +62,32 @@ std::vector<milling::OperatingPoint> operating_points(const Arguments& arguments
   return points;
 }
 
+/// Sets the log up as -q, -v and --progress ask for it; returns how stages are shown.
+ProgressDisplay start_log(const Arguments& arguments) {
+  const ProgressDisplay display = progress_display(arguments.progress, arguments.quiet);
+  const bool lines_in_spite_of_quiet = arguments.quiet && display == ProgressDisplay::lines;
+  log_to_terminal(arguments.quiet && !lines_in_spite_of_quiet ? -1
+                  : arguments.verbose                         ? 1
+                                                              : 0,
+                  display == ProgressDisplay::line);
+  return display;
+}
+
 /// Computes a case into its result folder; `report` makes the text for the terminal.
 template <typename Report>
 ExitCode compute(const Arguments& arguments, const Case& source, const RunCase& run_case, std::ostream& out,
                  const Report& report) {
   const int verbosity = arguments.quiet ? -1 : arguments.verbose ? 1 : 0;
-  log_to_terminal(verbosity);
+  const ProgressDisplay display = start_log(arguments);
   if (arguments.threads > 0) core::set_thread_count(arguments.threads);
   const std::vector<milling::OperatingPoint> points = operating_points(arguments);
   const ResultFolder folder(arguments.out.empty() ? default_result_folder(source)
                                                   : std::filesystem::path(arguments.out));
   log_to_file(folder.path() / "run.log");
-  const bool progress = !arguments.quiet && ::isatty(STDERR_FILENO) != 0;
-  const RunResult result = run_case(source, {folder.path(), arguments.fresh, verbosity, progress, points});
-  out << report(result.summary, folder.path().string());
+  const RunResult result =
+      run_case(source, {folder.path(), arguments.fresh, verbosity, display == ProgressDisplay::line, points,
+                        display == ProgressDisplay::lines});
+  out << coloured(report(result.summary, folder.path().string()), style_for(out));
   return result.expectations_hold ? ExitCode::done : ExitCode::expectation;
 }
 
@@ -91,8 +116,9 @@ ExitCode robot(const Arguments& arguments, std::ostream& out) {
 }
 
 ExitCode reduce(const Arguments& arguments, std::ostream& out) {
-  log_to_terminal(arguments.quiet ? -1 : 0);
-  out << reduce_part(read_case(arguments.case_path, arguments.overrides), arguments.reduce);
+  ReduceRequest request = arguments.reduce;
+  request.display = start_log(arguments);
+  out << reduce_part(read_case(arguments.case_path, arguments.overrides), request);
   return ExitCode::done;
 }
 
@@ -139,7 +165,43 @@ ExitCode compare(const Arguments& arguments, std::ostream& out) {
   }
   if (comparison.differences.size() > shown) out << "and " << comparison.differences.size() - shown << " more\n";
   out << comparison.numbers << " numbers compared, " << comparison.differences.size() << " differences\n";
+  if (!arguments.html.empty()) {
+    report::write_page(arguments.html, {{arguments.left, arguments.right}, program_name()});
+    out << "wrote " << arguments.html << '\n';
+    return ExitCode::done;
+  }
   return comparison.differences.empty() ? ExitCode::done : ExitCode::expectation;
+}
+
+ExitCode print_schema(const std::string& file, std::ostream& out) {
+  if (file != "case" && file != "expected" && file != "joints")
+    throw core::UsageError("there is no schema of \"" + file + "\"; there are case, expected, joints");
+  const Schema& schema = file == "case" ? case_schema() : file == "expected" ? expectation_schema() : joints_schema();
+  out << json_schema(schema, file == "joints" ? "joints beside a URDF" : file + ".toml of thinwall").dump(2) << '\n';
+  return ExitCode::done;
+}
+
+ExitCode remake_report(const Arguments& arguments, std::ostream& out) {
+  const std::filesystem::path results = arguments.folder;
+  const std::filesystem::path file =
+      arguments.out.empty() ? results / "report.html" : std::filesystem::path(arguments.out);
+  report::write_page(file, {{results}, program_name()});
+  out << "wrote " << file.string() << '\n';
+  return ExitCode::done;
+}
+
+ExitCode animate(const Arguments& arguments, std::ostream& out) {
+  require_results(arguments.folder);
+  const std::filesystem::path file = report::write_phases(arguments.folder, arguments.phases);
+  out << "wrote " << file.string() << "; open it in ParaView and press play\n";
+  return ExitCode::done;
+}
+
+/// "plate|wall": help, completion and the man page know the choices of an option by its type.
+std::string alternatives(const std::vector<std::string>& names) {
+  std::string list;
+  for (const auto& name : names) list += (list.empty() ? "" : "|") + name;
+  return list;
 }
 
 void add_overrides(CLI::App& command, Arguments& arguments) {
@@ -149,20 +211,29 @@ void add_overrides(CLI::App& command, Arguments& arguments) {
 }
 
 void add_case_arguments(CLI::App& command, Arguments& arguments) {
-  command.add_option("CASE", arguments.case_path, "a folder with a case.toml, or the file")->required();
+  command.add_option("CASE", arguments.case_path, "a folder with a case.toml, or the file")
+      ->type_name("PATH")
+      ->required();
   add_overrides(command, arguments);
+}
+
+void add_log_arguments(CLI::App& command, Arguments& arguments) {
+  auto* quiet = command.add_flag("-q,--quiet", arguments.quiet, "log warnings only");
+  command.add_flag("-v,--verbose", arguments.verbose, "log everything")->excludes(quiet);
+  command.add_option("--progress", arguments.progress, "stage, count and time left (default: auto, not with -q)")
+      ->type_name("auto|always|never");
 }
 
 /// What `run` and `lobes` have in common.
 void add_run_arguments(CLI::App& command, Arguments& arguments) {
+  command.add_flag("--fresh", arguments.fresh, "compute everything anew, whatever an earlier run left");
   command.add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
   command
       .add_option("--at", arguments.points,
                   "an operating point, several times: --at \"5000 rpm, 0.5 mm\"; stable or not, and the margins")
       ->type_name("\"SPEED, DEPTH\"")
       ->allow_extra_args(false);
-  auto* quiet = command.add_flag("-q,--quiet", arguments.quiet, "log warnings only");
-  command.add_flag("-v,--verbose", arguments.verbose, "log everything")->excludes(quiet);
+  add_log_arguments(command, arguments);
   command.add_option("--threads", arguments.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
 }
 
@@ -174,14 +245,15 @@ void describe_lobes(CLI::App& app, Arguments& arguments) {
                    "direction), or FRFs of the tool tip (frequency, real, imaginary), each FILE or ENTRY=FILE: x=FILE "
                    "y=FILE xy=FILE for response and force in the part's axes. FILE alone is x: "
                    "entries that are not given are zero, so that one file moves along x only")
+      ->type_name("FILE")
       ->required();
   command->add_option("--tool", arguments.lobes.tool, "TOML with the tables [tool], [cutting], [lobes] of a case")
       ->type_name("FILE");
-  command->add_option("--quantity", arguments.lobes.quantity, "of FRFs: receptance, mobility or accelerance")
-      ->type_name("WORD");
+  command->add_option("--quantity", arguments.lobes.quantity, "what FRFs are")
+      ->type_name("receptance|mobility|accelerance");
   command->add_option("--unit", arguments.lobes.unit, "of FRFs: m/N, um/N, m/s/N, m/s^2/N …")->type_name("UNIT");
-  command->add_option("--frequency-unit", arguments.lobes.frequency_unit, "of FRFs: Hz (default) or rad/s")
-      ->type_name("UNIT");
+  command->add_option("--frequency-unit", arguments.lobes.frequency_unit, "of FRFs (default: Hz)")
+      ->type_name("Hz|rad/s");
   add_overrides(*command, arguments);
   add_run_arguments(*command, arguments);
 }
@@ -191,11 +263,8 @@ void describe_reduce(CLI::App& app, Arguments& arguments) {
   auto* command = app.add_subcommand("reduce", "the part of a case as a small model, its error and a report on it");
   add_case_arguments(*command, arguments);
   command->add_option("-o,--out", reduce.out, "folder for the model (default: model)")->type_name("DIR");
-  command
-      ->add_option("--method", reduce.method,
-                   "guyan, craig_bampton (default), characteristic_constraint_modes, rubin, macneal, craig_chang, "
-                   "dual_craig_bampton")
-      ->type_name("NAME");
+  command->add_option("--method", reduce.method, "how it is reduced (default: craig_bampton)")
+      ->type_name("guyan|craig_bampton|characteristic_constraint_modes|rubin|macneal|craig_chang|dual_craig_bampton");
   auto* modes = command->add_option("--modes", reduce.modes, "elastic modes kept")->check(CLI::Range(0, 2000));
   command
       ->add_option("--tolerance", reduce.tolerance,
@@ -206,14 +275,15 @@ void describe_reduce(CLI::App& app, Arguments& arguments) {
   command->add_option("--characteristic", reduce.characteristic, "amplitudes of a reduced interface")
       ->check(CLI::Range(1, 2000));
   command->add_flag("--compare", reduce.compare, "a table of all methods at this size");
-  command->add_flag("-q,--quiet", arguments.quiet, "log warnings only");
+  add_log_arguments(*command, arguments);
 }
 
 void describe_inspect(CLI::App& app, Arguments& arguments) {
   InspectRequest& inspect = arguments.inspect;
   io::MatrixFiles& files = inspect.files;
   auto* command = app.add_subcommand("inspect", "may a reduced or imported model be trusted? (exit 6: it may not)");
-  auto* model = command->add_option("MODEL", inspect.model, "a folder of \"thinwall reduce\", or a MAT file in SI");
+  auto* model = command->add_option("MODEL", inspect.model, "a folder of \"thinwall reduce\", or a MAT file in SI")
+                    ->type_name("FILE");
   command
       ->add_option("--stiffness", files.stiffness,
                    "K in place of MODEL: Matrix Market, .sti of CalculiX, Abaqus, DMIG, MAT (docs/matrices.md)")
@@ -230,12 +300,21 @@ void describe_inspect(CLI::App& app, Arguments& arguments) {
   command->add_option("--json", inspect.json, "the report as JSON")->type_name("FILE");
 }
 
+void describe_for_the_shell(CLI::App& app, Arguments& arguments) {
+  auto* completion = app.add_subcommand("completion", "print a script that completes thinwall's words in a shell");
+  completion->add_option("SHELL", arguments.shell, "the shell")
+      ->type_name(alternatives(completed_shells()))
+      ->required();
+  app.add_subcommand("man", "print the manual page: thinwall man | man -l -");
+  auto* schema = app.add_subcommand("schema", "print the JSON Schema of a case, for editors that check TOML by one");
+  schema->add_option("FILE", arguments.schema, "of which file (default: case)")->type_name("case|expected|joints");
+}
+
 void describe(CLI::App& app, Arguments& arguments) {
   app.require_subcommand(1);
-  app.set_version_flag("--version", "thinwall " + program_version());
+  app.set_version_flag("--version", program_name());
   auto* run_command = app.add_subcommand("run", "compute a case");
   add_case_arguments(*run_command, arguments);
-  run_command->add_flag("--fresh", arguments.fresh, "reserved: results are always computed anew");
   add_run_arguments(*run_command, arguments);
   describe_lobes(app, arguments);
   auto* robot_command = app.add_subcommand(
@@ -245,14 +324,29 @@ void describe(CLI::App& app, Arguments& arguments) {
   add_case_arguments(*app.add_subcommand("check", "report every error of a case, and sizes to expect"), arguments);
   describe_reduce(app, arguments);
   describe_inspect(app, arguments);
+  describe_sweep(app, arguments.sweep, arguments.merge);
   auto* init = app.add_subcommand("init", "write a commented case to start from");
-  init->add_option("--template", arguments.template_name, "plate or wall")->type_name("NAME");
-  init->add_option("DIR", arguments.folder, "folder for the case (default: the template's name)");
+  init->add_option("--template", arguments.template_name, "what to start from (default: plate)")
+      ->type_name(alternatives(template_names()));
+  init->add_option("DIR", arguments.folder, "folder for the case (default: the template's name)")->type_name("DIR");
   auto* compare_command = app.add_subcommand("compare", "compare two result folders, number by number");
-  compare_command->add_option("A", arguments.left, "result folder")->required();
-  compare_command->add_option("B", arguments.right, "result folder")->required();
-  compare_command->add_option("--tolerance", arguments.tolerance, "relative tolerance")->check(CLI::NonNegativeNumber);
-  app.add_subcommand("doctor", "versions, libraries, threads, optional parts");
+  compare_command->add_option("A", arguments.left, "result folder")->type_name("DIR")->required();
+  compare_command->add_option("B", arguments.right, "result folder")->type_name("DIR")->required();
+  compare_command->add_option("--tolerance", arguments.tolerance, "relative tolerance, from 0 on (default: 1e-9)");
+  compare_command->add_option("--html", arguments.html, "both on one page, in this file; the exit code is 0 then")
+      ->type_name("FILE");
+  auto* report_command = app.add_subcommand("report", "make report.html of a result folder anew");
+  report_command->add_option("RESULTS", arguments.folder, "result folder")->type_name("DIR")->required();
+  report_command->add_option("--out", arguments.out, "the page (default: RESULTS/report.html)")->type_name("FILE");
+  auto* animate_command = app.add_subcommand("animate", "a mode shape in sixteen phases, which ParaView plays at once");
+  animate_command->add_option("RESULTS", arguments.folder, "result folder")->type_name("DIR")->required();
+  animate_command->add_option("--mode", arguments.phases.mode, "its number (default: 1)");
+  animate_command->add_option("--of", arguments.phases.of, "part (default) or coupled: with the robot")
+      ->type_name("part|coupled");
+  animate_command->add_option("--amplitude", arguments.phases.amplitude,
+                              "largest displacement over the part's diagonal (default: 0.1)");
+  describe_for_the_shell(app, arguments);
+  app.add_subcommand("doctor", "versions, libraries, threads, optional parts, and a self-test (exit 5: it fails)");
 }
 
 ExitCode execute(const CLI::App& app, const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
@@ -262,21 +356,36 @@ ExitCode execute(const CLI::App& app, const Arguments& arguments, const RunCase&
   if (app.got_subcommand("reduce")) return reduce(arguments, out);
   if (app.got_subcommand("inspect")) return inspect(arguments, out);
   if (app.got_subcommand("check")) return check(arguments, out);
+  if (app.got_subcommand("sweep")) return run_sweep(arguments.sweep, run_case, out);
+  if (app.got_subcommand("merge")) return merge_sweeps(arguments.merge.folders, arguments.merge.out, out);
   if (app.got_subcommand("compare")) return compare(arguments, out);
+  if (app.got_subcommand("animate")) return animate(arguments, out);
+  if (app.got_subcommand("report")) return remake_report(arguments, out);
   if (app.got_subcommand("init")) {
     const auto folder = arguments.folder.empty() ? arguments.template_name : arguments.folder;
     const auto file = write_template(arguments.template_name, folder);
     out << "wrote " << file.string() << "; compute it with: thinwall run " << file.parent_path().string() << '\n';
     return ExitCode::done;
   }
-  out << doctor_report();
-  return ExitCode::done;
+  if (app.got_subcommand("completion")) {
+    out << completion_script(description_of(app), arguments.shell);
+    return ExitCode::done;
+  }
+  if (app.got_subcommand("man")) {
+    out << manual_page(description_of(app));
+    return ExitCode::done;
+  }
+  if (app.got_subcommand("schema")) return print_schema(arguments.schema, out);
+  const Diagnosis found = diagnosis();
+  out << found.text;
+  return found.works ? ExitCode::done : ExitCode::numerical;
 }
 
 /// Every line of the message behind "thinwall: ".
 void report(std::ostream& err, const std::string& message) {
+  const Style style = style_for(err);
   std::istringstream lines(message);
-  for (std::string line; std::getline(lines, line);) err << "thinwall: " << line << '\n';
+  for (std::string line; std::getline(lines, line);) err << style.bad("thinwall:") << " " << line << '\n';
 }
 
 /// CLI11 has exit codes of its own (105, 106, …): help and version are 0, all else is a usage error.
@@ -288,14 +397,26 @@ ExitCode parse(CLI::App& app, int argc, const char* const* argv, std::ostream& o
     app.exit(success, out, err);
     throw;
   } catch (const CLI::ParseError& error) {
-    report(err, std::string(error.what()) + "; \"thinwall --help\" lists the commands");
+    const std::string unknown = unknown_word(description_of(app), {argv + 1, argv + argc});
+    report(err, unknown.empty() ? std::string(error.what()) + "; \"thinwall --help\" lists the commands" : unknown);
     return ExitCode::usage;
+  }
+}
+
+/// Every problem of a case with what it points at beneath.
+void report(std::ostream& err, const CaseError& error) {
+  for (const Problem& problem : error.problems) {
+    report(err, problem_line(error.source.name, problem));
+    err << excerpt(error.source, problem);
   }
 }
 
 int guarded(const std::function<ExitCode()>& command, std::ostream& err) {
   try {
     return static_cast<int>(command());
+  } catch (const CaseError& error) {
+    report(err, error);
+    return static_cast<int>(error.code());
   } catch (const core::Error& error) {
     report(err, error.what());
     return static_cast<int>(error.code());
@@ -304,6 +425,9 @@ int guarded(const std::function<ExitCode()>& command, std::ostream& err) {
   } catch (const std::bad_alloc&) {
     report(err, "out of memory; take larger elements or fewer modes");
     return static_cast<int>(ExitCode::numerical);
+  } catch (const std::filesystem::filesystem_error& error) {
+    report(err, std::string(error.what()) + "; check that the folder is there and may be read and written");
+    return static_cast<int>(ExitCode::unreadable_data);
   } catch (const std::exception& error) {
     report(err, std::string("internal error: ") + error.what());
     return static_cast<int>(ExitCode::internal);

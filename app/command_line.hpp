@@ -1,15 +1,11 @@
 #pragma once
-// The words of the command line (design: run, lobes, check, init, compare, doctor).
+// The words of the command line (design: run, lobes, sweep, check, init, compare, doctor).
 
-#include <functional>
 #include <ostream>
 
 #include "app/pipeline.hpp"
 
 namespace thinwall::app {
-
-/// What `run` and `lobes` hand the case to; in the program this is run_case().
-using RunCase = std::function<RunResult(const Case&, const RunOptions&)>;
 
 /// Runs one command. Results go to `out`, the log and every error to `err`, a line each. Returns the exit code: 0 done,
 /// 1 internal error, 2 usage, 3 invalid case, 4 unreadable data, 5 numerical failure, 6 an expectation does not hold

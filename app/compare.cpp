@@ -10,6 +10,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "io/json_file.hpp"
 
 namespace thinwall::app {
 
@@ -24,6 +25,15 @@ bool is_round_off(const std::string& name) {
 
 using nlohmann::json;
 using Row = std::vector<std::string>;
+
+/// A number or a text as it is, of a whole section what it holds, in one short line.
+std::string shown_value(const json& value) {
+  constexpr std::size_t longest = 80;
+  if (value.is_structured()) return io::kind_of(value);
+  std::string text = value.dump(-1, ' ', true);  // in ASCII: it may be cut anywhere
+  if (text.size() > longest) text.replace(longest, std::string::npos, " …");
+  return text;
+}
 
 struct Comparer {
   double tolerance;
@@ -54,7 +64,7 @@ struct Comparer {
       for (std::size_t i = 0; i < a.size(); ++i) node(where + "[" + std::to_string(i) + "]", a[i], b[i]);
       return;
     }
-    text(where, a.dump(), b.dump());
+    text(where, shown_value(a), shown_value(b));
   }
 
   void object(const std::string& where, const json& a, const json& b) {
@@ -62,6 +72,7 @@ struct Comparer {
     for (const auto& [name, value] : a.items()) names.insert(name);
     for (const auto& [name, value] : b.items()) names.insert(name);
     names.erase("timings_s");
+    names.erase("sentences");  // numbers that are compared as such
     for (const auto& name : names) {
       std::string place = where;
       if (!where.ends_with(": ")) place += '.';
@@ -69,19 +80,19 @@ struct Comparer {
       if (a.contains(name) && b.contains(name)) {
         node(place, a[name], b[name]);
       } else {
-        text(place, a.contains(name) ? a[name].dump() : "absent", b.contains(name) ? b[name].dump() : "absent");
+        text(place, a.contains(name) ? shown_value(a[name]) : "absent",
+             b.contains(name) ? shown_value(b[name]) : "absent");
       }
     }
   }
 };
 
 json read_summary(const std::filesystem::path& folder) {
+  require_results(folder);
   const auto file = folder / "summary.json";
-  try {
-    return json::parse(core::read_file(file));
-  } catch (const json::exception& error) {
-    throw core::DataError("cannot read \"" + file.string() + "\": not JSON (" + error.what() + ")");
-  }
+  json summary = io::read_json(file);
+  if (!summary.is_object()) io::JsonValue{&summary, file.string(), ""}.refuse("is no object");
+  return summary;
 }
 
 std::vector<Row> read_rows(const std::filesystem::path& file) {
@@ -142,17 +153,32 @@ void compare_csv(Comparer& comparer, const std::string& name, const std::vector<
 
 std::set<std::string> csv_files(const std::filesystem::path& folder) {
   std::set<std::string> names;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file() && entry.path().extension() == ".csv" && !core::is_partial_name(entry.path())) {
-      names.insert(entry.path().lexically_relative(folder).string());
+  try {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+      if (entry.is_regular_file() && entry.path().extension() == ".csv" && !core::is_partial_name(entry.path())) {
+        names.insert(entry.path().lexically_relative(folder).string());
+      }
     }
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw core::DataError("cannot list \"" + folder.string() + "\": " + error.code().message());
   }
   return names;
 }
 
 }  // namespace
 
+void require_results(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (std::filesystem::exists(folder / "summary.json", ignored)) return;
+  throw core::DataError(
+      "\"" + folder.string() +
+      (std::filesystem::is_directory(folder, ignored) ? "\" holds no summary.json" : "\" is no folder") +
+      ": name the result folder of a finished run, as results/<case>");
+}
+
 Comparison compare_results(const std::filesystem::path& left, const std::filesystem::path& right, double tolerance) {
+  if (!(tolerance >= 0.0) || std::isinf(tolerance))
+    throw core::UsageError("the tolerance is a relative one, a number from 0 on, as 1e-6");
   Comparer comparer{tolerance, {}};
   comparer.node("summary.json: ", read_summary(left), read_summary(right));
   const auto ours = csv_files(left), theirs = csv_files(right);

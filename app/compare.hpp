@@ -17,10 +17,14 @@ struct Comparison {
   std::vector<Difference> differences;
 };
 
+/// Throws DataError, which says what is wanted, unless `folder` is one of results: unless it holds a summary.json.
+void require_results(const std::filesystem::path& folder);
+
 /// Compares summary.json (without times) and every CSV file of two result folders. Two numbers are equal if
 /// |a − b| ≤ tolerance · max(|a|, |b|, s), where s is the largest magnitude of the column for a CSV, so that
 /// round-off beside zero does not count, and 0 for the summary; s = 1 for what is named residual, difference or error.
-/// Throws DataError if a folder has no summary.json.
+/// Sections that only one has are told by what they hold. Throws DataError if a folder has no summary.json or a damaged
+/// one, UsageError for a tolerance below zero or none.
 [[nodiscard]] Comparison compare_results(const std::filesystem::path& left, const std::filesystem::path& right,
                                          double tolerance);
 

@@ -4,16 +4,13 @@
 
 #include <cmath>
 
+#include "app/json_number.hpp"
+
 namespace thinwall::app {
 
 namespace {
 
 using nlohmann::json;
-
-/// JSON has no infinity; what is not finite becomes null.
-json finite(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
-}
 
 json rows_of(const Eigen::MatrixXd& matrix) {
   json rows = json::array();
@@ -23,20 +20,6 @@ json rows_of(const Eigen::MatrixXd& matrix) {
     rows.push_back(row);
   }
   return rows;
-}
-
-/// K, C and η along one direction of a contact.
-struct Along {
-  double stiffness, damping, loss_factor;
-};
-
-Along along(const coupling::Contact& contact, std::size_t direction) {
-  const coupling::ContactSpring& spring = contact.springs[direction];
-  if (!contact.has_matrices()) return {spring.stiffness, spring.damping, spring.loss_factor};
-  const auto i = static_cast<Eigen::Index>(direction);
-  const coupling::JointMatrices& joint = contact.matrices;
-  return {joint.K(i, i), joint.C.size() > 0 ? joint.C(i, i) : 0.0,
-          joint.D.size() > 0 ? joint.D(i, i) / joint.K(i, i) : 0.0};
 }
 
 json identified_of(const ContactIdentification& identification) {
@@ -62,7 +45,7 @@ json contact_of(const JoinedContact& joined) {
   const coupling::Contact& contact = joined.contact;
   json result = {{"part", contact.point_a}, {"robot", contact.point_b}, {"model", joined.model}};
   for (std::size_t i = 0; i < contact.springs.size(); ++i) {
-    const Along values = along(contact, i);
+    const ContactAlong values = along(contact, i);
     const Eigen::Vector3d& n = contact.springs[i].direction;
     result["directions"].push_back({n.x(), n.y(), n.z()});
     result["stiffness_n_per_m"].push_back(finite(values.stiffness));
@@ -139,6 +122,15 @@ std::string identified_text(const json& contact) {
 }
 
 }  // namespace
+
+ContactAlong along(const coupling::Contact& contact, std::size_t direction) {
+  const coupling::ContactSpring& spring = contact.springs[direction];
+  if (!contact.has_matrices()) return {spring.stiffness, spring.damping, spring.loss_factor};
+  const auto i = static_cast<Eigen::Index>(direction);
+  const coupling::JointMatrices& joint = contact.matrices;
+  return {joint.K(i, i), joint.C.size() > 0 ? joint.C(i, i) : 0.0,
+          joint.D.size() > 0 ? joint.D(i, i) / joint.K(i, i) : 0.0};
+}
 
 json contacts_summary(const Results& results) {
   json list = json::array();

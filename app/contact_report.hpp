@@ -12,6 +12,12 @@ namespace thinwall::app {
 /// the identified joint with half widths of 95 % intervals, where there are any.
 [[nodiscard]] nlohmann::json contacts_summary(const Results& results);
 
+/// K (N/m), C (N s/m) and η along one direction of a contact.
+struct ContactAlong {
+  double stiffness = 0.0, damping = 0.0, loss_factor = 0.0;
+};
+[[nodiscard]] ContactAlong along(const coupling::Contact& contact, std::size_t direction);
+
 /// What a regularised kernel dropped; null without a regularisation.
 [[nodiscard]] nlohmann::json regularisation_summary(const std::string& regularisation, double threshold,
                                                     const coupling::CoupledResponse& receptance);

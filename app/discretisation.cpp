@@ -15,6 +15,7 @@
 #include "core/memory.hpp"
 #include "fem/closed_part.hpp"
 #include "mesh/bend.hpp"
+#include "mesh/box_mesh.hpp"
 #include "mesh/prism_mesh.hpp"
 #include "mesh/selection.hpp"
 #include "mesh/surface_to_volume.hpp"
@@ -48,20 +49,6 @@ mesh::TetMesh tetgen_mesh(const Case& source) {
   options.memory_limit_bytes = wanted.memory_limit;
   options.size_at = graded_size(source);
   return mesh::tetrahedralise(mesh::surface({box_size(*source.part)}), options);
-}
-
-/// The mesher's x, y, z run along the part's axes; an odd exchange of axes turns every tetrahedron, and is turned back.
-mesh::TetMesh in_part_axes(mesh::TetMesh mesh, const std::array<int, 3>& axes) {
-  const bool odd = (axes[1] - axes[0] + 3) % 3 != 1;
-  for (auto& v : mesh.vertices) {
-    Eigen::Vector3d x;
-    for (int k = 0; k < 3; ++k) x[axes[static_cast<std::size_t>(k)]] = v[k];
-    v = x;
-  }
-  if (odd) {
-    for (auto& tet : mesh.tets) std::swap(tet[2], tet[3]);
-  }
-  return mesh;
 }
 
 double thinnest(const mesh::Prism& prism) {
@@ -137,7 +124,25 @@ void log_steps(const fem::Estimate& estimate) {
   }
 }
 
-Discretisation discretised(fem::Refined refined) {
+/// Says what spheres of another material cost; returns their share of the part.
+double warn_of_misplaced(const Case& source, const mesh::TetMesh& mesh) {
+  const double share = misplaced_share(source, mesh);
+  if (share > 0.0)
+    spdlog::warn(
+        "{:.1e} of the part's volume is of the wrong material, for elements lie across the border of a sphere; a box, "
+        "which the mesh follows, or smaller elements make it less",
+        share);
+  return share;
+}
+
+/// Frequencies are off by about the share of mass or stiffness that is misplaced; the estimate knows nothing of it.
+void add_misplaced(double share, fem::Estimate& estimate) {
+  estimate.frequency += share;
+  estimate.met = estimate.met && estimate.frequency <= estimate.tolerance;
+}
+
+Discretisation discretised(const Case& source, fem::Refined refined) {
+  add_misplaced(warn_of_misplaced(source, refined.model.mesh), refined.estimate);
   log_steps(refined.estimate);
   Discretisation result{refined.model.mesh, refined.model.nodes.order, refined.estimate, {}};
   result.solved.emplace(Solution{std::move(refined.model), std::move(refined.factored), std::move(refined.modes)});
@@ -160,6 +165,7 @@ Discretisation refined_surface(const Case& source) {
   options.points = watched_points(source);
   options.attachments = attachments_of(source);
   options.materials = several_materials(source);
+  options.divided = [&source](mesh::TetMesh mesh) { return cut_at_materials(source, std::move(mesh)); };
   options.levels = 2;
   options.memory_limit_bytes = core::available_memory_bytes();
   options.limits = {wanted.time_limit, wanted.memory_limit};
@@ -178,13 +184,13 @@ Discretisation refined_surface(const Case& source) {
   estimate.frequency = part.frequency_error;
   estimate.tolerance = options.tolerance;
   estimate.met = part.met;
-  return discretised(std::move(part.refined));
+  return discretised(source, std::move(part.refined));
 }
 
 Discretisation refined_to_tolerance(const Case& source) {
   if (source.part->shape == "surface") return refined_surface(source);
   const MeshOptions& wanted = source.part->mesh;
-  fem::SolidPart part{[&](int level) { return graded_mesh(source, level); },
+  fem::SolidPart part{[&](int level) { return cut_at_materials(source, graded_mesh(source, level)); },
                       shaping(*source.part),
                       material_of(*source.part),
                       supports_of(source),
@@ -202,7 +208,7 @@ Discretisation refined_to_tolerance(const Case& source) {
     options.last_order = std::max(2, *wanted.order);
     options.first_order = options.last_order - 1;
   }
-  return discretised(fem::refine_to_tolerance(part, options));
+  return discretised(source, fem::refine_to_tolerance(part, options));
 }
 
 }  // namespace
@@ -231,7 +237,7 @@ mesh::TetMesh graded_mesh(const Case& source, int level) {
     const Eigen::Vector3d x = position(*source.part, p);
     options.spots.push_back({{x[part.axes[0]], x[part.axes[1]]}, p.patch_radius});
   }
-  return in_part_axes(mesh::mesh_prism(part.prism, options), part.axes);
+  return mesh::in_axes(mesh::mesh_prism(part.prism, options), part.axes);
 }
 
 mesh::Bend bend_of(const Part& part) {
@@ -297,9 +303,21 @@ std::vector<fem::Support> supports_of(const Case& source) {
   return supports;
 }
 
+double off_surface(const Part& part) {
+  if (part.shape == "surface") return 0.01 * bounds(part).diagonal().norm();
+  const mesh::SolidMesh* solid = solid_of(part);
+  if (solid == nullptr || solid->midside_offset < 1e-6) return 0.0;
+  const auto vertex = [solid](int v) { return solid->mesh.vertices[static_cast<std::size_t>(v)]; };
+  double longest = 0.0;
+  for (const auto& tet : solid->mesh.tets) {
+    for (const int v : tet) longest = std::max(longest, (vertex(v) - vertex(tet[0])).norm());
+  }
+  return solid->midside_offset * longest;
+}
+
 fem::NamedPoint named_point(const Case& source, const std::string& name) {
   const Point& p = point(source, name);
-  return {p.name, position(*source.part, p), p.patch_radius, p.directions};
+  return {p.name, position(*source.part, p), p.patch_radius, p.directions, {}, {}, off_surface(*source.part)};
 }
 
 fem::ModeOptions mode_options(const Case& source) {
@@ -323,9 +341,12 @@ Discretisation discretise(const Case& source) {
   }
   if (!part.mesh.element_size) return refined_to_tolerance(source);
   const int order = part.mesh.order.value_or(2);
-  if (part.shape == "surface") return {surface_mesh(source), order, {}, {}};
-  if (part.shape == "box" && !part.bend) return {tetgen_mesh(source), order, {}, {}};
-  return {graded_mesh(source, 0), order, {}, {}};
+  mesh::TetMesh mesh = part.shape == "surface"             ? surface_mesh(source)
+                       : part.shape == "box" && !part.bend ? tetgen_mesh(source)
+                                                           : graded_mesh(source, 0);
+  mesh = cut_at_materials(source, std::move(mesh));
+  warn_of_misplaced(source, mesh);
+  return {std::move(mesh), order, {}, {}};
 }
 
 }  // namespace thinwall::app

@@ -59,6 +59,10 @@ struct PlanarPart {
 [[nodiscard]] fem::Material material_of(const Part& part);
 /// Supports on faces and selections; those on sets of nodes are rows_held_by_sets().
 [[nodiscard]] std::vector<fem::Support> supports_of(const Case& source);
+/// How far (m) the elements may lie off a place that is given on the part: nothing where they fill it exactly; 0.01 of
+/// the diagonal where they follow a file's surface by chords (outside_part() has held the place to the surface itself);
+/// what the edges of a file's curved elements bow by.
+[[nodiscard]] double off_surface(const Part& part);
 [[nodiscard]] fem::NamedPoint named_point(const Case& source, const std::string& name);
 [[nodiscard]] fem::ModeOptions mode_options(const Case& source);
 

@@ -12,12 +12,18 @@ namespace {
 using Eigen::Index;
 using nlohmann::json;
 
+/// |a| of the largest entry.
+template <typename Matrix>
+double largest_entry(const Matrix& A) {
+  return std::sqrt(A.cwiseAbs2().maxCoeff());
+}
+
 /// The largest entry of `errors` relative to the largest of the response on its line.
 template <typename Matrix>
 json largest(const dynamics::ResponseModel& response, const std::vector<Matrix>& errors) {
   double relative = 0.0, at_hz = response.axis.hz(0);
   for (std::size_t line = 0; line < errors.size(); ++line) {
-    const double here = errors[line].cwiseAbs().maxCoeff() / response.H[line].cwiseAbs().maxCoeff();
+    const double here = largest_entry(errors[line]) / largest_entry(response.H[line]);
     if (!(here > relative)) continue;
     relative = here;
     at_hz = response.axis.hz(static_cast<Index>(line));

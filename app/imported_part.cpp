@@ -62,6 +62,11 @@ ImportedPart read_mesh_part(const PartFile& file) {
                           solid.mesh.tets.size(), solid.nodes.order);
   if (solid.pieces > 1) part.said += fmt::format(", {} pieces that share no node", solid.pieces);
   part.notes = solid.notices;
+  for (const io::InpMaterial& m : part.mesh->materials) {
+    if (const std::string lacking = io::what_lacks(m); !lacking.empty())
+      part.notes.push_back("the material \"" + m.name + "\" of the set " + m.element_set + " has no " + lacking +
+                           ": the case's takes its place");
+  }
   return part;
 }
 

@@ -4,8 +4,8 @@
 
 #include "app/model_files.hpp"
 #include "app/model_report_json.hpp"
-#include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "io/json_file.hpp"
 #include "reduction/sparse_report.hpp"
 
 namespace thinwall::app {
@@ -44,7 +44,7 @@ reduction::ReducedModelReport report_of_model(const InspectRequest& request) {
 Inspection inspect(const InspectRequest& request) {
   std::string notes;
   const auto report = request.model.empty() ? report_of(request, notes) : report_of_model(request);
-  if (request.json) core::write_file_atomically(*request.json, report_json(report).dump(2) + "\n");
+  if (request.json) io::write_json(*request.json, report_json(report));
   return {notes + reduction::text(report), report.trustworthy()};
 }
 

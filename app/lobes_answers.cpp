@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "app/lobes_report.hpp"
+
 namespace thinwall::app {
 
 using nlohmann::json;
@@ -44,18 +46,43 @@ std::string robust_text(const json& robust) {
 }
 
 /// What errors of the structure make of the least depth; a reduction below a thousandth is not worth a line.
-std::string error_budget_text(const json& budget, double least_depth_m) {
-  std::string text;
-  if (!budget.contains("at_minimum")) return text;
+void add_error_budget(std::vector<std::string>& notes, const json& budget, double least_depth_m) {
+  if (!budget.contains("at_minimum")) return;
   const json &reduction = budget["at_minimum"]["truncation_m"], &noise = budget["at_minimum"]["noise_deviation_m"];
   if (!reduction.is_null() && std::abs(reduction.get<double>()) >= 1e-3 * least_depth_m) {
-    text +=
-        fmt::format("    the part's reduction moves the least depth by {:.2g} %; more modes (reduction) lower that\n",
-                    std::abs(reduction.get<double>()) / least_depth_m * 100.0);
+    notes.push_back(
+        fmt::format("the part's reduction moves the least depth by {:.2g} %; more modes (reduction) lower that",
+                    std::abs(reduction.get<double>()) / least_depth_m * 100.0));
   }
   if (!noise.is_null())
-    text += fmt::format("    noise of measured FRFs: the least depth is known to {:.2g} % (one standard deviation)\n",
-                        noise.get<double>() / least_depth_m * 100.0);
+    notes.push_back(fmt::format("noise of measured FRFs: the least depth is known to {:.2g} % (one standard deviation)",
+                                noise.get<double>() / least_depth_m * 100.0));
+}
+
+std::string indented(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += "    " + line + '\n';
+  return text;
+}
+
+/// The one or two parameters that matter most.
+std::vector<std::string> sensitivity_lines(const json& sensitivities) {
+  constexpr std::size_t most = 2;
+  constexpr double least = 0.2;  // of the first: what matters less is not worth a line
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < std::min(most, sensitivities.size()); ++i) {
+    const double value = sensitivities[i]["sensitivity"].get<double>();
+    if (std::abs(value) < least * std::abs(sensitivities[0]["sensitivity"].get<double>())) break;
+    lines.push_back(fmt::format("{} {} the limit by {:.2f} %", one_percent_more(sensitivities[i]),
+                                value < 0.0 ? "lowers" : "raises", std::abs(value)));
+  }
+  return lines;
+}
+
+/// "With the robot: 1.4 % of …."
+std::string as_sentence(const std::string& about, const std::string& line) {
+  std::string text = about + ": " + line + ".";
+  if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
   return text;
 }
 
@@ -74,35 +101,60 @@ std::string pockets_text(const json& pockets, std::string label) {
 }
 
 std::string sensitivities_text(const json& sensitivities) {
-  constexpr std::size_t most = 2;
-  constexpr double least = 0.2;  // of the first: what matters less is not worth a line
-  std::string text;
-  for (std::size_t i = 0; i < std::min(most, sensitivities.size()); ++i) {
-    const double value = sensitivities[i]["sensitivity"].get<double>();
-    if (std::abs(value) < least * std::abs(sensitivities[0]["sensitivity"].get<double>())) break;
-    text += fmt::format("    {} {} the limit by {:.2f} %\n", one_percent_more(sensitivities[i]),
-                        value < 0.0 ? "lowers" : "raises", std::abs(value));
-  }
-  return text;
+  return indented(sensitivity_lines(sensitivities));
 }
 
-std::string asked_text(const json& chart) {
-  std::string text;
+std::vector<std::string> chart_notes(const json& chart) {
+  std::vector<std::string> notes;
   if (!chart["error_budget"].is_null())
-    text += error_budget_text(chart["error_budget"], chart["minimum_depth_m"].get<double>());
-  if (chart.contains("robust")) text += robust_text(chart["robust"]);
+    add_error_budget(notes, chart["error_budget"], chart["minimum_depth_m"].get<double>());
   if (chart.contains("compared")) {
     for (const json& other : chart["compared"]) {
-      text += fmt::format("    {}: differs by up to {:.2g} % (at {:.0f} rpm)\n", in_words(other["name"]),
-                          other["largest_relative_difference"].get<double>() * 100.0,
-                          other["at_spindle_speed_rpm"].get<double>());
+      notes.push_back(fmt::format("{}: differs by up to {:.2g} % (at {:.0f} rpm)", in_words(other["name"]),
+                                  other["largest_relative_difference"].get<double>() * 100.0,
+                                  other["at_spindle_speed_rpm"].get<double>()));
     }
   }
   if (chart.contains("map") && chart["map"]["speeds_not_converged"].get<int>() > 0) {
-    text += fmt::format("    {} of {} speeds of the map did not reach the tolerance\n",
-                        chart["map"]["speeds_not_converged"].get<int>(), chart["map"]["speeds"].get<int>());
+    notes.push_back(fmt::format("{} of {} speeds of the map did not reach the tolerance",
+                                chart["map"]["speeds_not_converged"].get<int>(), chart["map"]["speeds"].get<int>()));
   }
-  return text;
+  if (const json& share = chart["static_share"]; !share.is_null() && share.get<double>() > 0.01) {
+    notes.push_back(fmt::format(
+        "{:.1f} % of the static compliance lies in modes above lobes.modes_up_to, taken without their dynamics",
+        share.get<double>() * 100.0));
+  }
+  if (const int missed = chart["speeds_not_converged"].get<int>(); missed > 0) {
+    notes.push_back(fmt::format("{} of {} speeds did not reach the tolerance: see the status column of lobes/{}.csv",
+                                missed, chart["speeds"].get<int>(), chart["name"].get<std::string>()));
+  }
+  return notes;
+}
+
+std::string asked_text(const json& chart) {
+  return (chart.contains("robust") ? robust_text(chart["robust"]) : "") + indented(chart_notes(chart));
+}
+
+std::vector<std::string> sentences(const json& summary) {
+  std::vector<std::string> list;
+  for (const json& chart : summary["lobes"]) {
+    const std::string title = chart_title(chart["name"].get<std::string>());
+    if (chart.contains("at_case_speed")) {
+      for (const std::string& line : sensitivity_lines(chart["at_case_speed"]["sensitivities"]))
+        list.push_back(as_sentence(title, line));
+    }
+    for (const std::string& line : chart_notes(chart)) list.push_back(as_sentence(title, line));
+  }
+  if (!summary.contains("path")) return list;
+  for (const json& path : summary["path"]) {
+    if (const int missed = path["rows_not_converged"].get<int>(); missed > 0) {
+      list.push_back(as_sentence("along the path, " + chart_title(path["name"].get<std::string>()),
+                                 fmt::format("{} rows did not reach the tolerance: see the status column of "
+                                             "lobes/{}_path.csv",
+                                             missed, path["name"].get<std::string>())));
+    }
+  }
+  return list;
 }
 
 }  // namespace thinwall::app

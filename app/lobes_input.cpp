@@ -42,7 +42,11 @@ Source source_of(const std::string& word) {
 
 /// A TOML string; JSON escapes are among TOML's.
 std::string quoted(const std::string& text) {
-  return nlohmann::json(text).dump();
+  try {
+    return nlohmann::json(text).dump();
+  } catch (const nlohmann::json::exception&) {
+    throw core::InputError("\"" + text + "\" is not in UTF-8, as names in a case have to be; rename it");
+  }
 }
 
 std::optional<std::size_t> column(const io::CsvText& text, const std::string& name) {

@@ -38,10 +38,6 @@ std::string chart_text(const json& chart) {
                         depth_text(row["limiting_depth_m"].get<double>(), row["at_depth_limit"].get<bool>()));
     text += sensitivities_text(row["sensitivities"]);
   }
-  if (const int missed = chart["speeds_not_converged"].get<int>(); missed > 0) {
-    text += fmt::format("    {} of {} speeds did not reach the tolerance: see the status column of lobes/{}.csv\n",
-                        missed, chart["speeds"].get<int>(), chart["name"].get<std::string>());
-  }
   return text;
 }
 

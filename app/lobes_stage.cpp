@@ -9,7 +9,9 @@
 #include <variant>
 
 #include "app/cut_structure.hpp"
+#include "app/kept_part.hpp"
 #include "app/lobe_sensitivity.hpp"
+#include "app/main_modes.hpp"
 #include "app/milling_process.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -40,11 +42,11 @@ struct Chart {
   [[nodiscard]] const milling::RelativeStructure* poles() const {
     return std::get_if<milling::RelativeStructure>(&structure);
   }
-  [[nodiscard]] milling::Lobes by(const std::string& method) const {
+  [[nodiscard]] milling::Lobes by(const std::string& method, const milling::KeptRows& kept = {}) const {
     if (const auto* sampled = std::get_if<milling::SampledStructure>(&structure))
-      return milling::stability_lobes(*sampled, process, speeds_rpm, options.stability);
+      return milling::stability_lobes(*sampled, process, speeds_rpm, options.stability, kept);
     return milling::stability_lobes(*milling::lobe_method(milling::method_named(method), *poles(), process, options),
-                                    speeds_rpm);
+                                    speeds_rpm, kept);
   }
   [[nodiscard]] milling::RowAt row_at(const std::string& method) const {
     return [this, method](double rpm, const milling::StabilityOptions& with) {
@@ -188,14 +190,16 @@ milling::StabilityOptions stability_options(const LobesOptions& wanted) {
 }
 
 NamedLobes compute_lobes(const Case& source, const std::string& name, CutStructure structure,
-                         const StructureErrors& errors, const std::vector<milling::OperatingPoint>& points) {
+                         const StructureErrors& errors, const std::vector<milling::OperatingPoint>& points,
+                         Checkpoint& kept) {
   const LobesOptions& wanted = *source.lobes;
   const milling::MillingProcess process = milling_process(source);
   const Chart chart{std::move(structure), process, options_of(wanted),
                     milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count), wanted.method == "direct"};
   NamedLobes result;
   result.name = name;
-  result.lobes = chart.by(wanted.method);
+  result.main_modes_hz = main_modes_hz(chart.structure);
+  result.lobes = chart.by(wanted.method, kept_rows(kept, name));
   if (const auto rpm = source.cutting->spindle_speed_rpm) {
     result.at_spindle_speed = chart.row_at(wanted.method)(*rpm, chart.options.stability);
     if (!result.at_spindle_speed->crossings.empty())

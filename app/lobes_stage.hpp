@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/case.hpp"
+#include "app/checkpoint.hpp"
 #include "app/cut_structure.hpp"
 #include "app/results.hpp"
 #include "app/structure_errors.hpp"
@@ -14,10 +15,11 @@ namespace thinwall::app {
 [[nodiscard]] milling::StabilityOptions stability_options(const LobesOptions& wanted);
 
 /// The chart of what the cut feels, what `errors` of the structure make of its depths, and what it says of operating
-/// points. From samples there are neither comparisons, a map, a robust chart nor sensitivities.
+/// points. Rows that are kept are taken, others kept as they are found. From samples there are neither comparisons, a
+/// map, a robust chart nor sensitivities.
 [[nodiscard]] NamedLobes compute_lobes(const Case& source, const std::string& name, CutStructure structure,
                                        const StructureErrors& errors,
-                                       const std::vector<milling::OperatingPoint>& points);
+                                       const std::vector<milling::OperatingPoint>& points, Checkpoint& kept);
 
 /// Throws InputError, before anything is computed, if operating points are asked of a case without a chart or lie
 /// deeper than it goes.

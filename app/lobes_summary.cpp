@@ -9,9 +9,13 @@ using nlohmann::json;
 namespace {
 
 /// The depth limit is the tool's length unless the case says less.
-std::string limit_name(const Case& source, milling::PocketLimit limit) {
+std::string depth_limit_name(const Case& source) {
   const bool whole_edge = source.tool && source.lobes->depth_limit >= source.tool->length;
-  return limit == milling::PocketLimit::depth_limit && whole_edge ? "tool_length" : milling::name(limit);
+  return whole_edge ? "tool_length" : milling::name(milling::PocketLimit::depth_limit);
+}
+
+std::string limit_name(const Case& source, milling::PocketLimit limit) {
+  return limit == milling::PocketLimit::depth_limit ? depth_limit_name(source) : milling::name(limit);
 }
 
 json compared_summary(const ComparedLobes& other) {
@@ -37,6 +41,19 @@ json map_summary(const milling::StabilityMap& map) {
 }
 
 }  // namespace
+
+json cutting_summary(const Case& source) {
+  json cutting = {{"teeth", source.tool->teeth},
+                  {"depth_limit_m", source.lobes->depth_limit},
+                  {"depth_limit_is", depth_limit_name(source)}};
+  if (source.part || !source.measured_part.empty()) cutting["at"] = source.cutting->at;
+  if (source.cutting->spindle_speed_rpm) cutting["spindle_speed_rpm"] = *source.cutting->spindle_speed_rpm;
+  if (!source.machine) return cutting;
+  const double highest = source.machine->max_spindle_speed_rpm;
+  cutting["spindle_range_rpm"] = {source.machine->min_spindle_speed_rpm,
+                                  std::isfinite(highest) ? json(highest) : json(nullptr)};
+  return cutting;
+}
 
 json pockets_summary(const Case& source, const std::vector<milling::Pocket>& pockets) {
   json list = json::array();

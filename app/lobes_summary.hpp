@@ -9,6 +9,11 @@
 
 namespace thinwall::app {
 
+/// What the cut of the case is, as pages and scripts ask for it beside the charts: teeth, the point that is cut (absent
+/// of a tool alone), the depth limit and whether it is the tool's length ("tool_length", "depth_limit"), the case's own
+/// speed and the machine's range of speeds (null where unbounded), each if it is given. Needs tool, cutting and lobes.
+[[nodiscard]] nlohmann::json cutting_summary(const Case& source);
+
 /// Best first, each with speed, depth, removal rate (null without a feed) and what it is limited by.
 [[nodiscard]] nlohmann::json pockets_summary(const Case& source, const std::vector<milling::Pocket>& pockets);
 

@@ -8,10 +8,10 @@
 
 namespace thinwall::app {
 
-void log_to_terminal(int verbosity) {
+void log_to_terminal(int verbosity, bool over_a_line) {
   auto terminal = std::make_shared<spdlog::sinks::stderr_sink_mt>();
   terminal->set_level(verbosity < 0 ? spdlog::level::warn : verbosity > 0 ? spdlog::level::debug : spdlog::level::info);
-  terminal->set_pattern("%v");
+  terminal->set_pattern(over_a_line ? "\r\033[K%v" : "%v");
   auto logger = std::make_shared<spdlog::logger>("thinwall", terminal);
   logger->set_level(spdlog::level::debug);
   spdlog::set_default_logger(logger);

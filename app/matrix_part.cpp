@@ -1,10 +1,13 @@
 #include "app/matrix_part.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include "app/imported_part.hpp"
 #include "core/error.hpp"
@@ -32,6 +35,19 @@ fem::Model model_of(const dynamics::SparseModel& matrices) {
   return model;
 }
 
+/// What is counted as free though K holds it: by a soft suspension, or by the digits that a file has lost.
+void warn_of_soft_springs(const Eigen::VectorXd& lambda, int free, double round_off) {
+  if (free == 0) return;
+  const double largest = lambda.head(free).cwiseAbs().maxCoeff();
+  if (largest < 100.0 * round_off) return;
+  const auto hertz = [](double value) { return std::sqrt(value) / (2.0 * std::numbers::pi); };
+  const std::string next = free < lambda.size() ? fmt::format(", the next at {:.4g} Hz", hertz(lambda(free))) : "";
+  spdlog::warn(
+      "{} modes up to {:.3g} Hz are counted as free motions{}: a suspension a thousand times softer than the part, or "
+      "matrices written with few digits; its stiffness is left out",
+      free, hertz(largest), next);
+}
+
 /// Sets how many motions are free: by the lowest modes of a shifted K, which is definite whatever is free.
 void count_rigid_motions(fem::Model& model) {
   model.rigid_motions = 1;  // so that it is shifted
@@ -43,8 +59,9 @@ void count_rigid_motions(fem::Model& model) {
   const auto lowest = linalg::lowest_eigenpairs(model.K, model.M, fem::inverse_of(shifted), wanted);
   if (lowest.status != linalg::EigenStatus::converged)
     throw core::NumericalError("the lowest modes of the matrices did not converge: \"thinwall inspect\" tells more");
-  model.rigid_motions =
-      reduction::rigid_count(lowest.lambda, 10.0 * std::numeric_limits<double>::epsilon() * model.spectrum_rad2_s2);
+  const double round_off = 10.0 * std::numeric_limits<double>::epsilon() * model.spectrum_rad2_s2;
+  model.rigid_motions = reduction::rigid_count(lowest.lambda, round_off);
+  warn_of_soft_springs(lowest.lambda, model.rigid_motions, round_off);
   for (int k = 0; k < model.rigid_motions; ++k) model.free_motions.push_back("mode " + std::to_string(k + 1));
 }
 
@@ -60,7 +77,13 @@ Solution matrix_solution(const Case& source) {
   fem::Model model = model_of(*source.part->imported->matrices);
   count_rigid_motions(model);
   fem::Factored factored = fem::factorise(model, core::available_memory_bytes());
-  fem::Modes modes = fem::modes(model, factored, mode_options(source));
+  fem::ModeOptions options = mode_options(source);
+  const int most = std::max(1, static_cast<int>(model.K.rows()) - 1 - model.rigid_motions);
+  if (options.count > most && !options.up_to_hz) {
+    spdlog::info("{} modes are asked for; of {} rows {} can be computed", options.count, model.K.rows(), most);
+    options.count = most;
+  }
+  fem::Modes modes = fem::modes(model, factored, options);
   return {std::move(model), std::move(factored), std::move(modes)};
 }
 

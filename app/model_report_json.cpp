@@ -1,16 +1,12 @@
 #include "app/model_report_json.hpp"
 
-#include <cmath>
+#include "app/json_number.hpp"
 
 namespace thinwall::app {
 
 namespace {
 
 using nlohmann::json;
-
-json finite(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
-}
 
 json list(const Eigen::Ref<const Eigen::VectorXd>& values) {
   json result = json::array();
@@ -38,8 +34,7 @@ json rigid_json(const reduction::RigidBodyState& rigid) {
   if (rigid.sets.seen != 6) return known;
   json inertia = json::array();
   for (int i = 0; i < 3; ++i) inertia.push_back(list(rigid.body.inertia_kg_m2.row(i).transpose()));
-  json result = {{"modes_without_energy", rigid.sets.without_energy},
-                 {"mass_kg", finite(rigid.body.mass_kg)},
+  json result = {{"mass_kg", finite(rigid.body.mass_kg)},
                  {"centre_m", list(rigid.body.centre_m)},
                  {"inertia_about_centre_kg_m2", inertia},
                  {"reference_m", list(rigid.reference)},
@@ -82,6 +77,8 @@ json report_json(const reduction::ReducedModelReport& report) {
   }
   result["frequencies_hz"] = json::array();
   for (const double hz : report.frequencies_hz) result["frequencies_hz"].push_back(finite(hz));
+  result["modes_without_energy"] = {{"count", report.without_energy.count},
+                                    {"highest_hz", finite(report.without_energy.highest_hz)}};
   result["rigid_body"] = report.rigid ? rigid_json(*report.rigid) : json(nullptr);
   return result;
 }

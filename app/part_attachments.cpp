@@ -22,7 +22,7 @@ fem::Attachments attachments_of(const Case& source) {
     result.clamps.push_back({clamp.on, region_of(source, clamp.on), clamp.normal, clamp.tangential});
   for (const Point& point : source.points) {
     if (!point.rigid && !carries(part, point)) continue;
-    result.points.push_back({point.name, fem::Disc{position(part, point), point.patch_radius},
+    result.points.push_back({point.name, fem::Disc{position(part, point), point.patch_radius, off_surface(part)},
                              point.rigid ? fem::Connection::rigid : fem::Connection::averaging});
   }
   for (const PointMass& mass : part.masses)

@@ -14,9 +14,11 @@
 #include "core/units.hpp"
 #include "dynamics/dof.hpp"
 #include "dynamics/unit_system.hpp"
+#include "fem/closed_part.hpp"
 #include "io/surface_unit.hpp"
 #include "mesh/bend.hpp"
 #include "mesh/box.hpp"
+#include "mesh/nearest_point.hpp"
 
 namespace thinwall::app {
 
@@ -43,6 +45,11 @@ bool geometry_known(const Part& part) {
 /// Coordinates equal to a face's up to this are on it.
 double tolerance(const Part& part) {
   return 1e-9 * bounds(part).sizes().maxCoeff();
+}
+
+/// How near to a file's surface a point must be given: the nearest place of the surface is meant.
+double given_to(const Part& part) {
+  return 1e-4 * bounds(part).diagonal().norm();
 }
 
 bool on_face(const Part& part, const std::string& face, const Eigen::Vector3d& p) {
@@ -208,7 +215,8 @@ double tets_in(const Eigen::AlignedBox3d& cell, const Grading& grading) {
 }
 
 /// Twice as many as an even layer of triangles of the usual size (mesh::SurfaceSize) on both sides of a wall, three
-/// tetrahedra for two triangles, as edges are lined with layers.
+/// tetrahedra for two triangles, as edges are lined with layers; five times as many on the second level, which edges
+/// that turn inwards call for.
 double elements_in_surface(const Part& part) {
   const mesh::SurfaceRepair& imported = *part.imported->surface;
   double area = 0.0;
@@ -219,7 +227,8 @@ double elements_in_surface(const Part& part) {
   }
   const double wall = 2.0 * imported.volume_m3 / area;
   const double size = part.mesh.element_size.value_or(std::min(9.0 * wall, part.imported->box.diagonal().norm() / 8.0));
-  return 2.0 * 1.5 * area / (0.433 * size * size);
+  const bool finer = !part.mesh.element_size && fem::has_reentrant_edge(imported.surface);
+  return (finer ? 5.0 : 1.0) * 2.0 * 1.5 * area / (0.433 * size * size);
 }
 
 /// What is too much, and the size or order that would do; a uniform mesh grows with the cube of its fineness.
@@ -309,11 +318,29 @@ void check_point(const Case& source, const Point& point, Findings& findings) {
     return;
   }
   if (source.part && geometry_known(*source.part)) {
-    const std::string outside = outside_part(*source.part, position(*source.part, point));
+    const std::string outside = outside_part(*source.part, position(*source.part, point), point.patch_radius);
     if (!outside.empty()) findings.report(point.at ? key + ".at" : key + ".position", outside);
   }
   if (!independent(point.directions)) {
     findings.report(key + ".directions", "the directions must be independent, three at most");
+  }
+}
+
+/// Whether a box or sphere shares no volume with the block around the part.
+bool misses_part(const Part& part, const Selection& selection) {
+  const Eigen::AlignedBox3d block = bounds(part);
+  if (selection.sphere) return block.exteriorDistance(selection.sphere->centre) >= selection.sphere->radius;
+  return selection.box && !(block.intersection({selection.box->min, selection.box->max}).sizes().minCoeff() > 0.0);
+}
+
+void check_material_places(const Case& source, Findings& findings) {
+  for (std::size_t i = 0; i < source.part->materials.size(); ++i) {
+    const std::string& on = source.part->materials[i].on;
+    const auto selection = std::ranges::find(source.selections, on, &Selection::name);
+    if (selection != source.selections.end() && misses_part(*source.part, *selection))
+      findings.report("part.materials[" + std::to_string(i) + "].on",
+                      "the selection \"" + on + "\" does not meet the part, which reaches from " +
+                          text(bounds(*source.part).min()) + " to " + text(bounds(*source.part).max()) + "; move it");
   }
 }
 
@@ -365,6 +392,7 @@ void check_part(const Case& source, Findings& findings) {
     check_shape(source, findings);
     check_description(source, findings);
     check_bend(*source.part, findings);
+    if (geometry_known(*source.part)) check_material_places(source, findings);
     if (geometry_known(*source.part) && source.part->shape != "matrices" && source.part->shape != "mesh")
       check_mesh_size(source, findings);
   }
@@ -372,13 +400,21 @@ void check_part(const Case& source, Findings& findings) {
   for (const auto& point : source.points) check_point(source, point, findings);
 }
 
-std::string outside_part(const Part& part, const Eigen::Vector3d& p) {
+std::string outside_part(const Part& part, const Eigen::Vector3d& p, double patch_radius) {
   if (!geometry_known(part)) return "";
   const Eigen::AlignedBox3d box = bounds(part);
-  const double slack = tolerance(part);
-  if (!((box.min() - p).array() > slack).any() && !((p - box.max()).array() > slack).any()) return "";
-  return text(p) + " lies outside the part, which reaches from " +
-         (box.min().isZero() ? "the origin" : text(box.min())) + " to " + text(box.max());
+  const double slack = from_file(part) ? off_surface(part) : tolerance(part);
+  if (((box.min() - p).array() > slack).any() || ((p - box.max()).array() > slack).any()) {
+    return text(p) + " lies outside the part, which reaches from " +
+           (box.min().isZero() ? "the origin" : text(box.min())) + " to " + text(box.max());
+  }
+  if (part.shape != "surface") return "";
+  const mesh::PointToSurface place = mesh::point_to_surface(part.imported->surface->surface, p);
+  const bool inside_is_well = patch_radius <= 0.0;
+  if (place.distance_m <= given_to(part) || (place.inside && inside_is_well)) return "";
+  return text(p) + " lies " + core::readable_text(place.distance_m, core::kind::length) +
+         (place.inside ? " inside the part, where no patch can lie" : " off the part's surface") +
+         "; move it there (within " + core::readable_text(given_to(part), core::kind::length) + ")";
 }
 
 std::string point_of(const std::string& dof) {

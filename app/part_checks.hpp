@@ -12,8 +12,9 @@ void check_part(const Case& source, Findings& findings);
 [[nodiscard]] std::vector<std::string> part_points(const Case& source);
 
 /// "(…) lies outside the part, which reaches from …" for a position (m) off the block around the part (before it is
-/// bent), or "" if it lies within or the part is not known well enough.
-[[nodiscard]] std::string outside_part(const Part& part, const Eigen::Vector3d& p);
+/// bent), more than 1e-4 of the diagonal outside a file's surface or, with a patch (radius, m; 0: none), off it; or ""
+/// if it lies within or the part is not known well enough. Cost O(triangles of the surface).
+[[nodiscard]] std::string outside_part(const Part& part, const Eigen::Vector3d& p, double patch_radius);
 
 /// Name of the support that holds the point in the direction, or "" if it is free to move (or not known well enough).
 [[nodiscard]] std::string clamped_by(const Case& source, const std::string& point, const Eigen::Vector3d& direction);

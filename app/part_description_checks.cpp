@@ -57,6 +57,25 @@ void check_material(const Case& source, Findings& findings) {
   }
 }
 
+/// What the case gives to a set of the file goes before the file's own.
+bool given_by_case(const Part& part, const std::string& set) {
+  return std::ranges::any_of(part.materials,
+                             [&](const MaterialRegion& r) { return io::capitals(r.on) == io::capitals(set); });
+}
+
+/// Sections of the file whose material lacks something, where the case gives nothing in its place.
+void check_materials_of_file(const Case& source, Findings& findings) {
+  const Part& part = *source.part;
+  if (!materials_in_file(part) || findings.given("part.material.youngs_modulus")) return;
+  for (const io::InpMaterial& m : part.imported->mesh->materials) {
+    const std::string lacking = io::what_lacks(m);
+    if (lacking.empty() || given_by_case(part, m.element_set)) continue;
+    findings.report("part.file", "the material \"" + m.name + "\" of the set " + m.element_set + " has no " + lacking +
+                                     "; give [part.material], or [[part.materials]] with on = \"" + m.element_set +
+                                     "\"");
+  }
+}
+
 void check_materials(const Case& source, Findings& findings) {
   std::vector<std::string> known;
   for (const auto& selection : source.selections) known.push_back(selection.name);
@@ -124,6 +143,7 @@ void check_given_mesh(const Case& source, Findings& findings) {
 void check_description(const Case& source, Findings& findings) {
   check_material(source, findings);
   check_materials(source, findings);
+  check_materials_of_file(source, findings);
   check_supports(source, findings);
   check_attachments(source, findings);
   if (source.part->shape == "mesh") check_given_mesh(source, findings);

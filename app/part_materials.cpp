@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "io/surface_unit.hpp"
+#include "mesh/plane_cut.hpp"
 
 namespace thinwall::app {
 
@@ -20,10 +21,12 @@ bool given(const Material& m) {
   return std::isfinite(m.youngs_modulus) && std::isfinite(m.poisson_ratio) && std::isfinite(m.density);
 }
 
+Eigen::Vector3d corner(const mesh::TetMesh& mesh, std::size_t tet, int k) {
+  return mesh.vertices[static_cast<std::size_t>(mesh.tets[tet][static_cast<std::size_t>(k)])];
+}
+
 Eigen::Vector3d centre(const mesh::TetMesh& mesh, std::size_t tet) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const int v : mesh.tets[tet]) sum += mesh.vertices[static_cast<std::size_t>(v)];
-  return sum / 4.0;
+  return 0.25 * (corner(mesh, tet, 0) + corner(mesh, tet, 1) + corner(mesh, tet, 2) + corner(mesh, tet, 3));
 }
 
 /// Tetrahedra of a set of the file, or whose centres the selection of that name holds.
@@ -55,7 +58,7 @@ void add_sections(const Part& part, fem::Materials& materials) {
   const double metres = io::metres_per_unit(part.file.unit, part.file.path.string());
   for (const io::InpMaterial& raw : part.imported->mesh->materials) {
     const io::InpMaterial m = io::in_si(raw, metres, kilograms_per_unit(part));
-    if (!m.youngs_modulus || !m.poisson_ratio || !m.density) continue;
+    if (!io::what_lacks(m).empty()) continue;  // the check has told of it
     set_material(materials, mesh::element_set(*solid_of(part), m.element_set, part.file.path.string()).tets,
                  {*m.youngs_modulus, *m.poisson_ratio, *m.density});
   }
@@ -66,6 +69,44 @@ void add_sections(const Part& part, fem::Materials& materials) {
 bool materials_in_file(const Part& part) {
   return part.imported && part.imported->mesh && !part.imported->mesh->materials.empty() &&
          !part.file.mass_unit.empty();
+}
+
+mesh::TetMesh cut_at_materials(const Case& source, mesh::TetMesh mesh) {
+  if (source.part->shape == "mesh") return mesh;
+  for (const MaterialRegion& region : source.part->materials) {
+    const auto selection = std::ranges::find(source.selections, region.on, &Selection::name);
+    if (selection == source.selections.end() || !selection->box) continue;
+    for (const Eigen::Vector3d& corner : {selection->box->min, selection->box->max}) {
+      for (int axis = 0; axis < 3; ++axis) mesh = mesh::cut_along(mesh, {corner, Eigen::Vector3d::Unit(axis)});
+    }
+  }
+  return mesh;
+}
+
+double misplaced_share(const Case& source, const mesh::TetMesh& mesh) {
+  constexpr int n = 4;  // lattice of points within an element
+  double misplaced = 0.0;
+  for (const MaterialRegion& region : source.part->materials) {
+    const auto selection = std::ranges::find(source.selections, region.on, &Selection::name);
+    if (selection == source.selections.end() || !selection->sphere) continue;
+    for (std::size_t tet = 0; tet < mesh.tets.size(); ++tet) {
+      int samples = 0, within = 0;
+      for (int i = 0; i <= n; ++i) {
+        for (int j = 0; i + j <= n; ++j) {
+          for (int k = 0; i + j + k <= n; ++k) {
+            const Eigen::Vector4d lambda = (Eigen::Vector4d(i, j, k, n - i - j - k).array() + 0.25) / (n + 1);
+            Eigen::Vector3d x = Eigen::Vector3d::Zero();
+            for (int v = 0; v < 4; ++v) x += lambda(v) * corner(mesh, tet, v);
+            ++samples;
+            within += contains(*selection, x, 0.0) ? 1 : 0;
+          }
+        }
+      }
+      const int wrong = contains(*selection, centre(mesh, tet), 0.0) ? samples - within : within;
+      misplaced += mesh::volume(mesh, static_cast<int>(tet)) * wrong / samples;
+    }
+  }
+  return misplaced / mesh::volume(mesh);
 }
 
 fem::Materials materials_on(const Case& source, const mesh::TetMesh& mesh) {

@@ -7,6 +7,14 @@
 
 namespace thinwall::app {
 
+/// The mesh cut along the faces of the boxes that part.materials names, so that an element is of one material; what a
+/// sphere holds goes by the elements' centres. Meshes of files stay as they are.
+[[nodiscard]] mesh::TetMesh cut_at_materials(const Case& source, mesh::TetMesh mesh);
+
+/// Share of the part's volume whose material is another than its sphere's, for elements lie across the border, 0 to 1;
+/// sampled at 35 places of an element.
+[[nodiscard]] double misplaced_share(const Case& source, const mesh::TetMesh& mesh);
+
 /// part.material everywhere, or what the sections of the part's mesh file say where the case gives none, and over it
 /// each of part.materials: on a set of elements of the file, or where a selection (box or sphere) holds an element's
 /// centre; later ones win. Throws InputError for an element without a material, a region that holds no element, or a

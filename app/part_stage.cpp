@@ -21,6 +21,9 @@
 #include "fem/free_motions.hpp"
 #include "fem/points.hpp"
 #include "mesh/surface_to_volume.hpp"
+#include "mesh/tessellation.hpp"
+#include "mesh/triangle_tree.hpp"
+#include "mesh/wall_thickness.hpp"
 #include "reduction/accuracy.hpp"
 #include "reduction/damping.hpp"
 #include "reduction/full_response.hpp"
@@ -76,7 +79,8 @@ void reduce_to_tolerance(const Case& source, PartResult& part) {
 void reduce(const Case& source, PartResult& part, const fem::Factored& factored) {
   if (factored.sigma != 0.0) require_held_by_interface(part);
   if (source.reduction.tolerance) return reduce_to_tolerance(source, part);
-  const reduction::CraigBamptonOptions options{source.reduction.fixed_interface.count.value_or(30),
+  const auto inner = static_cast<int>(part.model.K.rows() - part.interface.W.cols());  // a small model has few
+  const reduction::CraigBamptonOptions options{std::min(source.reduction.fixed_interface.count.value_or(30), inner),
                                                source.reduction.fixed_interface.up_to_hz};
   const auto by = [&](const linalg::ShiftedInverse& inverse) {
     part.reduced = reduction::craig_bampton(part.model.K, part.model.M, inverse, part.interface, options);
@@ -113,6 +117,7 @@ std::vector<reduction::FullReceptance> full_receptances(const PartResult& part, 
 void check_reduction(const Case& source, PartResult& part, const fem::Factored& factored) {
   const Eigen::Index rigid = part.modes.rigid_motions;
   const Eigen::VectorXd elastic = part.modes.frequency_hz.tail(part.modes.frequency_hz.size() - rigid);
+  part.error_by_size = reduction::frequency_error_by_size(*part.reduced, elastic, static_cast<int>(rigid));
   part.frequency_error = reduction::max_relative_frequency_error(part.reduced->model, elastic, static_cast<int>(rigid));
   const double from = std::max(1.0, source.response.from_hz);
   const double to = std::min(source.response.to_hz, 0.5 * elastic.maxCoeff());
@@ -216,6 +221,18 @@ void take_damping_of_file(const Case& source, PartResult& part) {
   }
 }
 
+/// Of the surface as it is drawn; a surface that no ray leaves has none.
+std::vector<double> thickness_of(const fem::Model& model) {
+  mesh::TriangleSurface surface{{}, mesh::surface_triangles(model.nodes, mesh::boundary(model.mesh))};
+  for (const auto& x : model.nodes.positions.rowwise()) surface.vertices.emplace_back(x);
+  try {
+    return mesh::wall_thickness(surface, mesh::TriangleTree(surface));
+  } catch (const core::NumericalError& error) {
+    spdlog::info("no wall thickness among the results: {}", error.what());
+    return {};
+  }
+}
+
 /// What a mesh costs in quality.
 void look_at_mesh(PartResult& part) {
   part.min_quality = 1.0;
@@ -223,6 +240,7 @@ void look_at_mesh(PartResult& part) {
     part.min_quality = std::min(part.min_quality, mesh::mean_ratio(part.model.mesh, tet));
   }
   part.quality = mesh::quality(part.model.mesh);
+  part.wall_thickness_m = thickness_of(part.model);
 }
 
 /// The matrix's mass against the geometry's: exact for straight elements, to the accuracy of the curve for bent ones.

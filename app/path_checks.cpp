@@ -53,7 +53,7 @@ bool check_needs(const Case& source, Findings& findings) {
   return findings.problems.size() == before;
 }
 
-bool finite(const std::vector<Eigen::Vector3d>& positions) {
+bool all_finite(const std::vector<Eigen::Vector3d>& positions) {
   return std::ranges::all_of(positions, [](const Eigen::Vector3d& p) { return p.allFinite(); });
 }
 
@@ -69,7 +69,7 @@ void check_length(const Path& path, Findings& findings) {
 
 /// What is wrong with a point of the case at one position; empty if nothing.
 std::string fault_at(const Case& there, const Point& p) {
-  if (std::string outside = outside_part(*there.part, *p.position); !outside.empty()) return outside;
+  if (std::string outside = outside_part(*there.part, *p.position, p.patch_radius); !outside.empty()) return outside;
   for (const Eigen::Vector3d& direction : p.directions) {
     const std::string support = clamped_by(there, p.name, direction);
     if (!support.empty()) return "is clamped by \"" + support + "\"";
@@ -119,7 +119,7 @@ bool points_known(const Case& source) {
 void check_path(const Case& source, Findings& findings) {
   check_keys(findings);
   const bool complete = check_needs(source, findings);
-  if (!finite(source.path->positions)) return;  // reported by the reader
+  if (!all_finite(source.path->positions)) return;  // reported by the reader
   check_length(*source.path, findings);
   if (!complete || !points_known(source)) return;
   std::optional<Eigen::VectorXd> near;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/json_number.hpp"
 #include "app/lobes_report.hpp"
 #include "app/robot_survey.hpp"
 
@@ -13,10 +14,6 @@ namespace thinwall::app {
 namespace {
 
 using nlohmann::json;
-
-json finite(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
-}
 
 json position_summary(const Case& source, const PathLobes& path, std::size_t i) {
   const milling::Lobes& lobes = path.lobes[i];
@@ -56,6 +53,22 @@ json deepest_everywhere(const PathLobes& path) {
           {"limited_at_position", position + 1}};
 }
 
+/// The least depth of all positions at the case's own speed.
+json at_case_speed(const std::vector<milling::LobeRow>& rows) {
+  const auto weakest = std::ranges::min_element(rows, {}, &milling::LobeRow::limiting_depth_m);
+  const auto open = std::ranges::count_if(rows, [](const milling::LobeRow& row) {
+    return row.status != milling::StabilityStatus::converged &&
+           row.status != milling::StabilityStatus::stable_to_depth_limit;
+  });
+  return {{"spindle_speed_rpm", weakest->spindle_speed_rpm},
+          {"limiting_depth_m", weakest->limiting_depth_m},
+          {"at_depth_limit", weakest->at_limit},
+          {"limited_at_position", weakest - rows.begin() + 1},
+          {"error_estimate_relative", finite(weakest->error_estimate)},
+          {"status", milling::name(weakest->status)},
+          {"positions_not_converged", open}};
+}
+
 std::string depth_text(double depth_m, bool at_limit) {
   return fmt::format("{}{:.3f} mm", at_limit ? "over " : "", depth_m * 1e3);
 }
@@ -81,6 +94,12 @@ std::string chart_text(const json& path) {
     text += fmt::format("    the whole path up to {} at {:.0f} rpm, limited at position {}\n",
                         depth_text(deepest["depth_m"], deepest["at_depth_limit"]),
                         deepest["spindle_speed_rpm"].get<double>(), deepest["limited_at_position"].get<int>());
+  if (path.contains("at_case_speed")) {
+    const json& row = path["at_case_speed"];
+    text +=
+        fmt::format("    at {:.0f} rpm {}, limited at position {}\n", row["spindle_speed_rpm"].get<double>(),
+                    depth_text(row["limiting_depth_m"], row["at_depth_limit"]), row["limited_at_position"].get<int>());
+  }
   if (const int missed = path["rows_not_converged"].get<int>(); missed > 0)
     text += fmt::format("    {} rows did not reach the tolerance: see the status column of lobes/{}_path.csv\n", missed,
                         path["name"].get<std::string>());
@@ -99,15 +118,17 @@ json path_summary(const Case& source, const PathLobes& path) {
     error = std::max(error, path.lobes[i].worst_error_estimate);
   }
   const auto weakest = std::ranges::min_element(path.lobes, {}, &milling::Lobes::minimum_depth_m);
-  return {{"name", path.name},
-          {"method", path.lobes.front().method},
-          {"support", source.path->robot_follows ? "follows" : "held"},
-          {"speeds", path.lobes.front().rows.size()},
-          {"weakest", positions[static_cast<std::size_t>(weakest - path.lobes.begin())]},
-          {"deepest_everywhere", deepest_everywhere(path)},
-          {"error_estimate_relative", finite(error)},
-          {"rows_not_converged", not_converged},
-          {"positions", positions}};
+  json result = {{"name", path.name},
+                 {"method", path.lobes.front().method},
+                 {"support", source.path->robot_follows ? "follows" : "held"},
+                 {"speeds", path.lobes.front().rows.size()},
+                 {"weakest", positions[static_cast<std::size_t>(weakest - path.lobes.begin())]},
+                 {"deepest_everywhere", deepest_everywhere(path)},
+                 {"error_estimate_relative", finite(error)},
+                 {"rows_not_converged", not_converged},
+                 {"positions", positions}};
+  if (!path.at_spindle_speed.empty()) result["at_case_speed"] = at_case_speed(path.at_spindle_speed);
+  return result;
 }
 
 std::string path_text(const json& summary) {

@@ -2,11 +2,13 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <variant>
 
 #include "app/cut_structure.hpp"
+#include "app/kept_part.hpp"
 #include "app/lobes_stage.hpp"
 #include "app/milling_process.hpp"
 #include "app/part_stage.hpp"
@@ -14,6 +16,7 @@
 #include "app/robot_stage.hpp"
 #include "app/support_stage.hpp"
 #include "core/error.hpp"
+#include "core/progress.hpp"
 #include "coupling/spatial.hpp"
 #include "milling/lobe_field.hpp"
 #include "reduction/attachment_modes.hpp"
@@ -49,6 +52,7 @@ StructuresAlongPath structures_along_path(const Case& source, const Results& res
   const auto& models = results.finite_elements->along_path;
   const bool supported = results.coupled && results.coupled->model;
   StructuresAlongPath structures;
+  core::Progress progress("positions", models.size());
   structures.part.reserve(models.size());
   structures.supported.reserve(models.size());
   if (supported) structures.robot = postures_along_path(source, results);
@@ -60,6 +64,7 @@ StructuresAlongPath structures_along_path(const Case& source, const Results& res
       return std::get<milling::RelativeStructure>(cut_structure(there, frame, &modal));
     };
     structures.part.push_back(felt(modes_of(part)));
+    progress.step();
     if (!supported) continue;
     const dynamics::SpatialModel robot = robot_matrices(*there.robot, structures.robot[i].posture);
     structures.supported.push_back(felt(modes_of(coupling::couple(part, robot, contacts_of(there)))));
@@ -68,14 +73,20 @@ StructuresAlongPath structures_along_path(const Case& source, const Results& res
 }
 
 PathLobes charts(const Case& source, const std::string& name, const std::string& method,
-                 const milling::MillingProcess& process, const std::vector<milling::RelativeStructure>& structures) {
+                 const milling::MillingProcess& process, const std::vector<milling::RelativeStructure>& structures,
+                 Checkpoint& kept) {
   const LobesOptions& wanted = *source.lobes;
   const auto speeds = milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count);
-  milling::LobeField field = milling::lobe_field(structures, process, speeds, stability_options(wanted));
+  auto rows =
+      milling::lobe_field(structures, process, speeds, stability_options(wanted), kept_rows(kept, "path-" + name)).rows;
   PathLobes result{name, {}};
+  if (const auto rpm = source.cutting->spindle_speed_rpm) {
+    for (const auto& of_place : milling::lobe_field(structures, process, {*rpm}, stability_options(wanted)).rows)
+      result.at_spindle_speed.push_back(of_place.front());
+  }
   result.lobes.reserve(structures.size());
   for (std::size_t i = 0; i < structures.size(); ++i) {
-    result.lobes.push_back(milling::lobes_of(std::move(field.rows[i]), method));
+    result.lobes.push_back(milling::lobes_of(std::move(rows[i]), method));
     result.lobes.back().residual_share = milling::residual_share(structures[i]);
   }
   return result;
@@ -88,11 +99,13 @@ std::vector<dynamics::SpatialModel> models_along_path(const Case& source, const 
   const reduction::PartModes modes = reduction::part_modes(*part.reduced, part.model.M, inverse);
   const std::size_t count = source.path->positions.size();
   std::vector<dynamics::SpatialModel> models;
+  core::Progress progress("positions", count);
   models.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     try {
       const reduction::Interface interface = part_interface(at_position(source, i), part.model);
       models.push_back(reduction::with_attachment_modes(modes, part.model.M, inverse, interface));
+      progress.step();
     } catch (const core::InputError& error) {
       throw core::InputError("position " + std::to_string(i + 1) + " of the path: " + error.what());
     }
@@ -100,15 +113,15 @@ std::vector<dynamics::SpatialModel> models_along_path(const Case& source, const 
   return models;
 }
 
-std::vector<PathLobes> lobes_along_path(const Case& source, const Results& results) {
+std::vector<PathLobes> lobes_along_path(const Case& source, const Results& results, Checkpoint& kept) {
   const milling::MillingProcess process = milling_process(source);
   const StructuresAlongPath structures = structures_along_path(source, results, process.frame);
   const std::string& method = results.lobes.front().lobes.method;
   if (structures.supported.empty() && results.coupled)
     spdlog::warn("no charts of the supported part along the path: part and robot are not joined by matrices");
-  std::vector<PathLobes> all{charts(source, "part", method, process, structures.part)};
+  std::vector<PathLobes> all{charts(source, "part", method, process, structures.part, kept)};
   if (!structures.supported.empty()) {
-    all.push_back(charts(source, "supported", method, process, structures.supported));
+    all.push_back(charts(source, "supported", method, process, structures.supported, kept));
     all.back().robot = structures.robot;
   }
   return all;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/case.hpp"
+#include "app/checkpoint.hpp"
 #include "app/results.hpp"
 #include "linalg/eigenpairs.hpp"
 
@@ -18,7 +19,7 @@ namespace thinwall::app {
 
 /// Charts at every position: the part alone, and with the robot at its contacts where that is known by its matrices.
 /// A position costs an eigen-problem of the reduced size beside its chart. `results` must hold the models along the
-/// path. Throws as milling::lobe_field.
-[[nodiscard]] std::vector<PathLobes> lobes_along_path(const Case& source, const Results& results);
+/// path. Charts that are kept are taken, others kept once they are there. Throws as milling::lobe_field.
+[[nodiscard]] std::vector<PathLobes> lobes_along_path(const Case& source, const Results& results, Checkpoint& kept);
 
 }  // namespace thinwall::app

@@ -2,15 +2,21 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <ctime>
 
 #include "app/case_reader.hpp"
+#include "app/checkpoint.hpp"
 #include "app/contact_force.hpp"
 #include "app/contact_identification.hpp"
 #include "app/contact_model.hpp"
 #include "app/cut_structure.hpp"
+#include "app/doctor.hpp"
 #include "app/error_budget.hpp"
 #include "app/expectation.hpp"
+#include "app/kept_coupling.hpp"
+#include "app/kept_files.hpp"
+#include "app/kept_part.hpp"
 #include "app/lobes_stage.hpp"
 #include "app/measured.hpp"
 #include "app/milling_process.hpp"
@@ -20,12 +26,14 @@
 #include "app/results.hpp"
 #include "app/robot_stage.hpp"
 #include "app/robot_survey.hpp"
+#include "app/stage_keys.hpp"
 #include "app/stages.hpp"
 #include "app/summary.hpp"
 #include "app/support_stage.hpp"
 #include "app/updating.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "report/page.hpp"
 
 namespace thinwall::app {
 
@@ -41,7 +49,7 @@ std::string now_utc() {
 }
 
 /// Mesh, fits of the part, the part itself. Parameters that were fitted are written into `work`.
-void run_part(Case& work, Results& results, Stages& stages) {
+void compute_part_of(Case& work, Results& results, Stages& stages) {
   stages.begin(work.part->mesh.element_size ? "mesh" : "mesh, order and modes");
   Discretisation discretisation = discretise(work);
   const mesh::TetMesh& mesh = discretisation.mesh;
@@ -62,16 +70,35 @@ void run_part(Case& work, Results& results, Stages& stages) {
   results.finite_elements = compute_part(work, std::move(discretisation), stages);
 }
 
-/// Fits on the reduced part; damping may be among the parameters, so it is applied anew.
-void run_coupled_updating(Case& work, Results& results, Stages& stages) {
+/// The part's checkpoint: of this result folder, or one of those that several runs share.
+Checkpoint part_checkpoint(const Case& source, const RunOptions& options) {
+  const std::string key = part_key(source);
+  if (options.parts.empty()) return {options.out / "cache" / "part.bin", key, options.fresh};
+  return {options.parts / ("part-" + key.substr(0, 16) + ".bin"), key, false};
+}
+
+/// The same, or what an earlier run left of the same inputs.
+void run_part(const Case& source, Case& work, const RunOptions& options, Results& results, Stages& stages) {
+  stages.begin("kept results");
+  Checkpoint kept = part_checkpoint(source, options);
+  part_of_checkpoint(kept, work, results, [&stages](Case& w, Results& r) { compute_part_of(w, r, stages); });
   PartResult& part = *results.finite_elements;
-  const std::vector<Updating> fits = work.updating;  // a fit rewrites `work`
-  for (const Updating& updating : fits) {
-    if (updating.on != "coupled") continue;
-    stages.begin("updating");
-    results.updating.push_back(update_coupled(work, updating, part.reduced->model));
-    part.damped = damped(work, part.reduced->model, part.identified);
-  }
+  if (part.reduced && !part.damped) part.damped = damped(work, part.reduced->model, part.identified);
+}
+
+/// Fits on the reduced part; damping may be among the parameters, so it is applied anew.
+void run_coupled_updating(Checkpoint& kept, Case& work, Results& results, Stages& stages) {
+  if (std::ranges::count(work.updating, "coupled", &Updating::on) == 0) return;
+  stages.begin("updating");
+  fits_of_checkpoint(kept, work, results, [](Case& w, Results& r) {
+    const std::vector<Updating> fits = w.updating;  // a fit rewrites the case
+    for (const Updating& updating : fits) {
+      if (updating.on != "coupled") continue;
+      r.updating.push_back(update_coupled(w, updating, r.finite_elements->reduced->model));
+    }
+  });
+  PartResult& part = *results.finite_elements;
+  part.damped = damped(work, part.reduced->model, part.identified);
 }
 
 /// An arm that stands by its joints may stand elsewhere than at its contact.
@@ -117,16 +144,16 @@ void warn_of_kernel(const Case& work, const CouplingResult& coupled) {
     spdlog::warn("no spatial route, so no modes of part and robot together: {}", coupled.no_spatial_route);
 }
 
-void run_coupling(Case& work, Results& results, Stages& stages) {
+void run_coupling(Checkpoint& kept, Case& work, Results& results, Stages& stages) {
   find_contact(work, results, stages);
   stages.begin("coupling");
   results.contacts = joined_contacts(work);
-  results.coupled = couple(work, *results.part, *results.robot);
+  results.coupled = coupling_of_checkpoint(kept, [&] { return couple(work, *results.part, *results.robot); });
   results.reductions = reductions(work, *results.part, *results.coupled);
   warn_of_kernel(work, *results.coupled);
 }
 
-void run_responses(Case& work, Results& results, Stages& stages) {
+void run_responses(Checkpoint& kept, Case& work, Results& results, Stages& stages) {
   const bool reduced = results.finite_elements && results.finite_elements->damped;
   const bool part = reduced || !work.measured_part.empty();
   if (!part && !work.robot) return;
@@ -142,7 +169,7 @@ void run_responses(Case& work, Results& results, Stages& stages) {
   }
   if (!work.measured_part.empty()) warn_of_doubts(results.part->response, "the part's");
   if (work.robot && work.robot->model == "measured") warn_of_doubts(results.robot->response, "the robot's");
-  if (part && work.robot && !work.contacts.empty()) run_coupling(work, results, stages);
+  if (part && work.robot && !work.contacts.empty()) run_coupling(kept, work, results, stages);
   stages.begin("error budget");
   try {
     results.errors = error_budget(work, results);
@@ -155,11 +182,11 @@ void run_responses(Case& work, Results& results, Stages& stages) {
 
 /// The supported part where the robot has no poles. What cannot be charted from samples leaves the rest of the run.
 void add_sampled_chart(const Case& work, const milling::ToolFrame& frame,
-                       const std::vector<milling::OperatingPoint>& points, Results& results) {
+                       const std::vector<milling::OperatingPoint>& points, Checkpoint& kept, Results& results) {
   try {
     const auto structure = sampled_structure(work, frame, results.coupled->receptance.response);
     const StructureErrors errors = sampled_structure_errors(work, frame, results);
-    results.lobes.push_back(compute_lobes(work, "supported", structure, errors, points));
+    results.lobes.push_back(compute_lobes(work, "supported", structure, errors, points, kept));
   } catch (const core::Interrupted&) {
     throw;
   } catch (const core::Error& error) {
@@ -179,14 +206,15 @@ void flag_contacts(const Case& work, Results& results) {
   }
 }
 
-void run_lobes(const Case& work, const std::vector<milling::OperatingPoint>& points, Results& results, Stages& stages) {
+void run_lobes(const Case& work, const std::vector<milling::OperatingPoint>& points, Checkpoint& kept, Results& results,
+               Stages& stages) {
   if (!work.lobes || !work.cutting || !work.tool) return;
   const milling::ToolFrame frame = milling_process(work).frame;
   const auto chart_of = [&](const std::string& name, const dynamics::ModalModel* part,
                             const dynamics::ModalModel* richer) {
     const CutStructure structure = cut_structure(work, frame, part);
     const StructureErrors errors = structure_errors(work, frame, structure, richer);
-    results.lobes.push_back(compute_lobes(work, name, structure, errors, points));
+    results.lobes.push_back(compute_lobes(work, name, structure, errors, points, kept));
   };
   const auto modal = [](const std::optional<Component>& component) {
     return component && component->modal ? &*component->modal : nullptr;
@@ -203,14 +231,25 @@ void run_lobes(const Case& work, const std::vector<milling::OperatingPoint>& poi
     const auto& richer = results.errors.richer_coupled;
     chart_of("supported", &*results.coupled->modal, richer ? &*richer : nullptr);
   } else if (results.coupled) {
-    add_sampled_chart(work, frame, points, results);
+    add_sampled_chart(work, frame, points, kept, results);
   }
   const bool pressed = results.coupled && (work.robot->preload != Eigen::Vector3d::Zero() ||
                                            (work.contacts.size() == 1 && work.contacts.front().preload));
   if (pressed) flag_contacts(work, results);
   if (!work.path) return;
   stages.begin("lobes along the path");
-  results.path = lobes_along_path(work, results);
+  results.path = lobes_along_path(work, results, kept);
+}
+
+/// The page is a picture of results that are there; a run does not fail for it.
+void write_report(const std::filesystem::path& results, const report::KeptSections& kept) {
+  try {
+    report::write_page(results / "report.html", {{results}, program_name(), kept});
+  } catch (const core::Interrupted&) {
+    throw;
+  } catch (const core::Error& error) {
+    spdlog::warn("report.html was not written: {}", error.what());
+  }
 }
 
 }  // namespace
@@ -219,22 +258,38 @@ RunResult run_case(const Case& source, const RunOptions& options) {
   const std::string started = now_utc();
   const auto expectations = read_expectations(source.file);
   require_chart_of(source, options.points);
-  Stages stages(options.progress);
+  Stages stages(options.progress      ? ProgressDisplay::line
+                : options.stage_lines ? ProgressDisplay::lines
+                                      : ProgressDisplay::none);
   Results results;
   Case work = source;
-  if (work.part) run_part(work, results, stages);
-  if (results.finite_elements && results.finite_elements->reduced) run_coupled_updating(work, results, stages);
-  run_responses(work, results, stages);
-  run_lobes(work, options.points, results, stages);
+  if (work.part) run_part(source, work, options, results, stages);
+  Checkpoint structure(options.out / "cache" / "structure.bin", structure_key(source), options.fresh);
+  if (results.finite_elements && results.finite_elements->reduced)
+    run_coupled_updating(structure, work, results, stages);
+  run_responses(structure, work, results, stages);
+  Checkpoint kept(options.out / "cache" / "lobes.bin", charts_key(source), options.fresh);
+  run_lobes(work, options.points, kept, results, stages);
   stages.begin("output");
   const auto staging = core::partial_path(options.out / "results");
-  write_results(staging, source, results);
-  stages.end();
+  if (!take_files(structure, options.out, staging)) {
+    write_structure(staging, work, results);
+    keep_files(structure, staging);
+  }
+  write_cuts(staging, source, results);
+  write_cases(staging, source, work);
+  stages.begin("report");
   results.timings_s = stages.timings_s();
   RunResult run{summary_of(work, results), true};
   run.expectations_hold = add_checks(run.summary, expectations);
   if (!run.expectations_hold) run.summary["status"] = "expectation_not_met";
-  write_summary(staging, source, work, run.summary, started);
+  nlohmann::json manifest = manifest_of(source, run.summary, started);
+  write_summary(staging, run.summary, manifest);
+  write_report(staging, kept_sections(structure));
+  stages.end();
+  for (const auto& [stage, seconds] : stages.timings_s()) run.summary["timings_s"][stage] = seconds;
+  write_summary(staging, run.summary, manifest);
+  record_outputs(staging, manifest);
   publish(staging, options.out);
   return run;
 }

@@ -14,6 +14,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "fem/patch.hpp"
+#include "io/json_file.hpp"
 #include "reduction/comparison.hpp"
 #include "reduction/damping.hpp"
 #include "reduction/mode_count.hpp"
@@ -40,12 +41,14 @@ void require_reducible(const Case& source, const ReduceRequest& request) {
 
 /// A model is not written over the matrices that it comes from.
 void require_apart(const Case& source, const ReduceRequest& request) {
-  if (source.part->shape != "matrices") return;
+  const io::MatrixFiles& files = source.part->file.matrices;
   std::error_code ignored;
-  const auto in = std::filesystem::weakly_canonical(source.part->file.matrices.stiffness, ignored).parent_path();
-  if (std::filesystem::weakly_canonical(request.out, ignored) != in) return;
-  throw core::InputError("the matrices of the part lie in \"" + request.out.string() +
-                         "\", where the reduced ones would take their place; choose another folder with -o");
+  const auto out = std::filesystem::weakly_canonical(request.out, ignored);
+  for (const auto& file : {files.stiffness, files.mass, files.damping, files.dofs}) {
+    if (file.empty() || std::filesystem::weakly_canonical(file, ignored).parent_path() != out) continue;
+    throw core::InputError("\"" + file.string() + "\", which the part is read from, lies in \"" + request.out.string() +
+                           "\", where the reduced model is to go; choose another folder with -o");
+  }
 }
 
 reduction::Band band_of(const Case& source, const ReduceRequest& request) {
@@ -126,7 +129,7 @@ reduction::Positions positions_of(const Case& source, const fem::Model& model) {
   reduction::Positions positions;
   for (const std::string& name : source.reduction.interface) {
     const fem::NamedPoint p = named_point(source, name);
-    const fem::Patch disc = fem::Disc{p.position_m, p.patch_radius_m};
+    const fem::Patch disc = fem::Disc{p.position_m, p.patch_radius_m, p.off_m};
     const Eigen::Vector3d x =
         model.mesh.tets.empty() ? p.position_m : fem::patch_average(model.mesh, model.nodes, disc, name).centre_m;
     if (!x.allFinite()) return {};
@@ -160,7 +163,7 @@ std::string written(const Case& source, const ReduceRequest& request, const Redu
   const std::string left_out = write_model(request.out, model);
   const reduction::ReducedModelReport report =
       reduction::report(model.model, {.positions = model.positions, .rigid_motions = part.modes.rigid_motions});
-  core::write_file_atomically(request.out / "report.json", report_json(report).dump(2) + "\n");
+  io::write_json(request.out / "report.json", report_json(report));
   core::write_file_atomically(request.out / "report.txt", reduction::text(report));
   std::string text = reduction::text(report) + "\n";
   if (!left_out.empty()) text += "  model.mat only: " + left_out + "\n";
@@ -173,7 +176,7 @@ std::string reduce_part(const Case& source, const ReduceRequest& request) {
   require_reducible(source, request);
   require_apart(source, request);
   reduction::Band band = band_of(source, request);
-  Stages stages(false);
+  Stages stages(request.display);
   stages.begin("mesh, order and modes");
   const Solution part = solved_part(source, discretise(source), stages);
   const double least = least_loss_factor(source.damping, part.modes, band.from_hz, band.to_hz);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/case.hpp"
+#include "app/stages.hpp"
 
 namespace thinwall::app {
 
@@ -18,6 +19,7 @@ struct ReduceRequest {
   std::optional<double> from_hz, to_hz;  ///< the band; the case's response if not given
   std::optional<int> characteristic;     ///< amplitudes of a reduced interface
   bool compare = false;                  ///< all methods side by side, at the size of this one
+  ProgressDisplay display = ProgressDisplay::lines;
 };
 
 /// Meshes and reduces the part to its points, measures the error of the interface's receptance over the band against

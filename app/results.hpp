@@ -25,6 +25,7 @@
 #include "milling/robust_lobes.hpp"
 #include "milling/sampled_uncertainty.hpp"
 #include "milling/stability_map.hpp"
+#include "reduction/accuracy.hpp"
 #include "reduction/craig_bampton.hpp"
 #include "reduction/identification.hpp"
 #include "reduction/truncation.hpp"
@@ -39,11 +40,13 @@ struct PartResult {
   double min_quality = 0.0;  ///< mean ratio
   mesh::Quality quality;
   std::optional<fem::Estimate> estimate;  ///< of what the mesh costs in accuracy; none for a given size
+  std::vector<double> wall_thickness_m;   ///< beneath each triangle of mesh::surface_triangles; empty: not known
   double mass_difference = 0.0;           ///< mass, centre, inertia: matrix against geometry, relative
   reduction::Interface interface;
   std::optional<reduction::CraigBampton> reduced;     ///< none without an interface
   std::optional<reduction::Truncation> truncation;    ///< of what it leaves out
   double frequency_error = 0.0;                       ///< of the reduced model, largest relative
+  std::vector<reduction::ErrorBySize> error_by_size;  ///< the same with fewer modes
   std::optional<double> estimated_receptance_error;   ///< of the reduced model over the band, with reduction.tolerance
   std::optional<double> receptance_error;             ///< against direct solves of the full model, largest relative
   std::vector<reduction::IdentifiedMode> identified;  ///< damping found in a measured FRF
@@ -63,6 +66,7 @@ struct RobotPosture {
   robot::Posture posture;
   std::optional<Eigen::Vector3d> tip;       ///< m, part axes
   std::optional<double> smallest_singular;  ///< of the tip's Jacobian, 1 m a radian, over its largest
+  std::vector<Eigen::Vector3d> arm;         ///< from joint to joint to the tip, m, part axes
 };
 
 /// The tip in one posture. Stiffnesses are static, N/m: force over displacement along the same direction with the other
@@ -184,6 +188,7 @@ struct NamedLobes {
   std::optional<milling::LobeRow> at_spindle_speed;  ///< at the case's own speed
   std::vector<PointStability> points;                ///< that were asked for
   std::vector<ParameterSensitivity> sensitivities;   ///< at the case's own speed, largest first
+  std::vector<double> main_modes_hz;                 ///< that the cut feels most, ascending
   std::vector<milling::Pocket> pockets;              ///< within the machine's limits, best first
   std::vector<ComparedLobes> compared;
   std::optional<milling::StabilityMap> map;
@@ -196,9 +201,10 @@ struct NamedLobes {
 
 /// Charts of one structure at the positions of the path.
 struct PathLobes {
-  std::string name;                   ///< "part", "supported"
-  std::vector<milling::Lobes> lobes;  ///< of each position
-  std::vector<RobotPosture> robot{};  ///< how it stands at each; empty for the part alone
+  std::string name;                                  ///< "part", "supported"
+  std::vector<milling::Lobes> lobes;                 ///< of each position
+  std::vector<milling::LobeRow> at_spindle_speed{};  ///< of each, at the case's own speed; empty without one
+  std::vector<RobotPosture> robot{};                 ///< how it stands at each; empty for the part alone
 };
 
 /// One fit of model updating.

@@ -163,6 +163,8 @@ RobotPosture robot_posture(const Case& source, const std::optional<Eigen::Vector
   const robot::ArmPose at = robot::pose(robot.arm, result.posture.q);
   result.tip = at.tip.translation();
   result.smallest_singular = smallest_singular(at);
+  for (const auto& origin : at.origins.colwise()) result.arm.emplace_back(origin);
+  result.arm.push_back(*result.tip);
   return result;
 }
 

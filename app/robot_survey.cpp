@@ -212,6 +212,8 @@ nlohmann::json posture_summary(const RobotPosture& robot) {
   result["joints_rad"] = robot.posture.q;
   result["tip_m"] = *robot.tip;
   result["smallest_singular_value"] = *robot.smallest_singular;
+  result["arm_m"] = nlohmann::json::array();
+  for (const Eigen::Vector3d& joint : robot.arm) result["arm_m"].push_back(joint);
   return result;
 }
 

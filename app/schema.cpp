@@ -170,7 +170,7 @@ constexpr Key case_keys[] = {
     Key{"part.material.youngs_modulus", Type::quantity, kind::stress, "", modulus_bounds, "", "Young's modulus."},
     Key{"part.material.poisson_ratio", Type::quantity, kind::number, "", poisson_bounds, "", "Poisson's ratio."},
     Key{"part.material.density", Type::quantity, kind::density, "", density_bounds, "", "Density."},
-    Key{"part.materials[].on", Type::name, kind::number, "", any, "", "A set of elements of the mesh, or a selection (box, sphere) by the elements' centres. Later ones win.", required},
+    Key{"part.materials[].on", Type::name, kind::number, "", any, "", "A set of elements of the mesh, or a selection: a box, along whose faces generated elements are cut, or a sphere, by the elements' centres. Later ones win.", required},
     Key{"part.materials[].youngs_modulus", Type::quantity, kind::stress, "", modulus_bounds, "", "Young's modulus.", required},
     Key{"part.materials[].poisson_ratio", Type::quantity, kind::number, "", poisson_bounds, "", "Poisson's ratio.", required},
     Key{"part.materials[].density", Type::quantity, kind::density, "", density_bounds, "", "Density.", required},

@@ -88,6 +88,18 @@ std::string bound_text(const Key& key, double bound) {
   return key.kind.unit.empty() ? core::number_text(bound) : core::readable_text(bound, key.kind);
 }
 
+bool is_numeric(Type type) {
+  return type == Type::integer || type == Type::quantity || type == Type::quantities || type == Type::vector ||
+         type == Type::polygon || type == Type::positions;
+}
+
+/// What the page says of a key's range: numbers without bounds take any.
+std::string range_cell(const Key& key) {
+  if (!is_numeric(key.type)) return "";
+  const std::string bounds = bounds_text(key);
+  return (bounds.empty() ? "any" : bounds) + (key.bounds.infinity_allowed ? ", or `inf`" : "");
+}
+
 /// "`[part.mesh]`", "`[[updating.targets]]`".
 std::string title_text(const Section& section) {
   if (section.path.empty()) return "Top level";
@@ -199,7 +211,7 @@ std::string schema_markdown(const Schema& schema) {
       const std::string fallback = key.required           ? "required"
                                    : key.fallback.empty() ? "–"
                                                           : "`" + std::string(key.fallback) + "`";
-      text << "| `" << name << "` | " << type_cell(key) << " | " << fallback << " | " << bounds_text(key) << " | "
+      text << "| `" << name << "` | " << type_cell(key) << " | " << fallback << " | " << range_cell(key) << " | "
            << key.meaning << " |\n";
     }
     text << "\n";

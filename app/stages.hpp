@@ -1,19 +1,34 @@
 #pragma once
-// The stages of a run: announced, timed, interruptible.
+// The stages of a run: announced, timed, interruptible; and how far the long loops within them are.
 
 #include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/progress.hpp"
+
 namespace thinwall::app {
 
-/// Announces each stage on the log (and with its number on a terminal) and keeps its wall time.
+/// How a run shows where it is.
+enum class ProgressDisplay {
+  none,   ///< not at all; the stages are in run.log
+  lines,  ///< a line of the log for each stage, and every ten seconds of a long loop
+  line,   ///< one line of the terminal's, overwritten: for stderr on a terminal only
+};
+
+/// "8 s", "3 min", "2 h": whole numbers, rounded up, for what is left.
+[[nodiscard]] std::string duration_text(double seconds);
+
+/// "lobes: 120 of 200 speeds, 8 s left"; the time left from the first second on, by the rate so far.
+[[nodiscard]] std::string progress_text(const std::string& stage, const core::ProgressReport& report);
+
+/// Announces each stage, shows what loops within it count, and keeps its wall time. One at a time: it listens to
+/// core::Progress.
 class Stages {
  public:
-  /// `terminal`: overwrite one line on stderr instead of adding log lines.
-  explicit Stages(bool terminal) : terminal_(terminal) {}
-  ~Stages() { clear_line(); }
+  explicit Stages(ProgressDisplay display);
+  ~Stages();
   Stages(const Stages&) = delete;
   Stages& operator=(const Stages&) = delete;
 
@@ -28,9 +43,11 @@ class Stages {
 
  private:
   using Clock = std::chrono::steady_clock;
+  void show(const core::ProgressReport& report) const;
+  void write_line(const std::string& text) const;
   void clear_line() const;
 
-  bool terminal_;
+  ProgressDisplay display_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point stage_start_ = start_;
   std::string current_;

@@ -6,7 +6,10 @@
 #include "app/contact_report.hpp"
 #include "app/error_summary.hpp"
 #include "app/imported_part.hpp"
+#include "app/json_number.hpp"
+#include "app/lobes_answers.hpp"
 #include "app/lobes_summary.hpp"
+#include "app/part_damping.hpp"
 #include "app/path_report.hpp"
 #include "app/robot_survey.hpp"
 #include "app/support_stage.hpp"
@@ -19,12 +22,7 @@ namespace {
 using nlohmann::json;
 
 json mode(double frequency_hz, double damping_ratio) {
-  return {{"frequency_hz", frequency_hz}, {"damping_ratio", damping_ratio}};
-}
-
-/// JSON has no infinity; what is not finite becomes null, and a script that needs the number notices.
-json finite(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
+  return {{"frequency_hz", frequency_hz}, {"damping_ratio", finite(damping_ratio)}};
 }
 
 /// The error that the mesh costs, by its own estimate; null where size and order were given.
@@ -58,23 +56,15 @@ json mesh_of(const PartResult& part) {
           {"error_estimate", estimate_of(part)}};
 }
 
-/// Damping ratio of each full-model mode: that of the reduced model's mode of the same number, if it has one.
 json part_of(const Results& results) {
   const PartResult& part = *results.finite_elements;
   json modes = json::array();
-  std::vector<double> ratios;
-  if (results.part && results.part->modal) {
-    for (const int k : dynamics::oscillating_modes(*results.part->modal))
-      ratios.push_back(dynamics::summarise(results.part->modal->poles(k)).damping_ratio);
-  }
+  const std::vector<double> ratios = part_damping_ratios(results);
   for (Eigen::Index k = 0; k < part.modes.frequency_hz.size(); ++k) {
-    const Eigen::Index elastic = k - part.modes.rigid_motions;
-    const bool known = elastic >= 0 && elastic < static_cast<Eigen::Index>(ratios.size());
-    json entry = mode(part.modes.frequency_hz(k), known ? ratios[static_cast<std::size_t>(elastic)] : 0.0);
-    if (!known) entry["damping_ratio"] = nullptr;
+    json entry = mode(part.modes.frequency_hz(k), ratios[static_cast<std::size_t>(k)]);
     entry["residual"] = part.modes.residual(k);
     entry["inverse_residual"] = part.modes.pairs.inverse_residual(k);
-    if (elastic < 0) entry["rigid_body"] = true;
+    if (k < part.modes.rigid_motions) entry["rigid_body"] = true;
     modes.push_back(entry);
   }
   const auto& mass = part.model.mass;
@@ -94,7 +84,11 @@ json part_of(const Results& results) {
 
 json reduction_of(const PartResult& part) {
   const auto& estimated = part.estimated_receptance_error;
-  return {{"estimated_receptance_error", estimated ? json(*estimated) : json(nullptr)},
+  json by_size = json::array();
+  for (const auto& [modes, error] : part.error_by_size)
+    by_size.push_back({{"kept_modes", modes}, {"max_relative_frequency_error", error}});
+  return {{"error_by_size", by_size},
+          {"estimated_receptance_error", estimated ? json(*estimated) : json(nullptr)},
           {"method", "craig_bampton"},
           {"interface_dofs", part.interface.W.cols()},
           {"kept_modes", part.reduced->fixed_interface_hz.size()},
@@ -196,6 +190,7 @@ json lobes_of(const Case& source, const NamedLobes& named) {
                  {"speeds", lobes.rows.size()},
                  {"speeds_stable_to_depth_limit", lobes.rows_at_limit},
                  {"speeds_not_converged", lobes.rows_not_converged}};
+  result["main_modes_hz"] = named.main_modes_hz;
   result["best_pockets"] = pockets_summary(source, named.pockets);
   add_what_was_asked(result, source, named);
   result["error_budget"] = chart_errors_summary(named);
@@ -273,6 +268,36 @@ json updating_of(const UpdatingResult& fit) {
   return result;
 }
 
+/// Directions in which contacts hold a point of the part: those of springs that resist.
+json joined_at(const std::string& point, const std::vector<JoinedContact>& contacts) {
+  json joined = json::array();
+  for (const JoinedContact& contact : contacts) {
+    if (contact.contact.point_a != point) continue;
+    const auto& springs = contact.contact.springs;
+    for (std::size_t i = 0; i < springs.size(); ++i) {
+      const ContactAlong here = along(contact.contact, i);
+      if (here.stiffness != 0.0 || here.damping != 0.0) joined.push_back(springs[i].direction);
+    }
+  }
+  return joined;
+}
+
+/// The named points of a part whose shape is known.
+json points_of(const Case& source, const std::vector<JoinedContact>& contacts) {
+  json points = json::array();
+  if (!source.part) return points;
+  for (const Point& p : source.points) {
+    const Eigen::Vector3d x = position(*source.part, p);
+    if (!x.allFinite()) continue;
+    const bool touched = std::ranges::count(source.contacts, p.name, &Contact::part_point) > 0;
+    points.push_back({{"name", p.name}, {"position_m", x}, {"patch_radius_m", p.patch_radius}, {"contact", touched}});
+    points.back()["directions"] = json::array();
+    for (const Eigen::Vector3d& direction : p.directions) points.back()["directions"].push_back(direction);
+    points.back()["joined"] = joined_at(p.name, contacts);
+  }
+  return points;
+}
+
 }  // namespace
 
 json summary_of(const Case& source, const Results& results) {
@@ -285,10 +310,12 @@ json summary_of(const Case& source, const Results& results) {
     summary["part"] = part_of(results);
     if (results.finite_elements->reduced) summary["reduction"] = reduction_of(*results.finite_elements);
   }
+  summary["points"] = points_of(source, results.contacts);
   if (results.robot) summary["robot"] = robot_of(source, *results.robot, *results.robot_posture);
   summary["contacts"] = contacts_summary(results);
   if (results.coupled) summary["coupling"] = coupling_of(source, results);
   summary["error_budget"] = error_budget_summary(results);
+  if (!results.lobes.empty()) summary["cutting"] = cutting_summary(source);
   summary["lobes"] = json::array();
   for (const auto& lobes : results.lobes) summary["lobes"].push_back(lobes_of(source, lobes));
   for (const auto& path : results.path) summary["path"].push_back(path_summary(source, path));
@@ -296,6 +323,7 @@ json summary_of(const Case& source, const Results& results) {
   for (const auto& lobes : results.lobes) {
     for (const auto& point : lobes.points) summary["operating_points"].push_back(point_of(lobes.name, point));
   }
+  summary["sentences"] = sentences(summary);
   summary["checks"] = json::array();
   summary["timings_s"] = json::object();
   for (const auto& [stage, seconds] : results.timings_s) summary["timings_s"][stage] = seconds;

@@ -9,6 +9,7 @@
 #include "app/lobes_answers.hpp"
 #include "app/lobes_report.hpp"
 #include "app/path_report.hpp"
+#include "app/schema.hpp"
 
 namespace thinwall::app {
 
@@ -85,32 +86,29 @@ void charts(std::string& out, const json& summary) {
     out += fmt::format("  {:<22} {:<38} {:<25} {}\n", chart_title(lobes["name"]), minimum(lobes),
                        fmt::format("{} at {:.0f} rpm", depth(best), best["spindle_speed_rpm"].get<double>()), estimate);
     out += asked_text(lobes);
-    if (const json& static_share = lobes["static_share"];
-        !static_share.is_null() && static_share.get<double>() > 0.01) {
-      out += fmt::format(
-          "    {:.1f} % of the static compliance lies in modes above lobes.modes_up_to, taken without their dynamics\n",
-          static_share.get<double>() * 100.0);
-    }
-    if (lobes["speeds_not_converged"].get<int>() > 0) {
-      out += fmt::format("    {} of {} speeds did not reach the tolerance: see the status column of lobes/{}.csv\n",
-                         lobes["speeds_not_converged"].get<int>(), lobes["speeds"].get<int>(),
-                         lobes["name"].get<std::string>());
-    }
   }
+}
+
+/// In which the numbers of a fit are.
+std::string_view unit_of_key(const std::string& path) {
+  const Key* key = find_key(case_schema(), pattern_of(case_schema(), full_path(case_schema(), path)));
+  return key == nullptr ? "" : key->kind.unit;
 }
 
 void updating(std::string& out, const json& summary) {
   for (const json& fit : summary["updating"]) {
     out += fmt::format("  fitted: {}\n", fit["name"].get<std::string>());
     for (const json& p : fit["parameters"]) {
+      const std::string key = p["key"];
       out +=
-          fmt::format("    {:<28} {:>12.6g}  (from {:.6g}; bounds {:.6g} to {:.6g}{})\n", p["key"].get<std::string>(),
-                      p["fitted"].get<double>(), p["start"].get<double>(), p["lower"].get<double>(),
+          fmt::format("    {:<28} {:>12.6g} {:<6} (from {:.6g}; bounds {:.6g} to {:.6g}{})\n", key,
+                      p["fitted"].get<double>(), unit_of_key(key), p["start"].get<double>(), p["lower"].get<double>(),
                       p["upper"].get<double>(), p["at_bound"].get<bool>() ? "; at a bound" : "");
     }
     for (const json& t : fit["targets"]) {
-      out += fmt::format("    {:<28} {:>12.6g}  (wanted {:.6g})\n", t["quantity"].get<std::string>(),
-                         t["reached"].get<double>(), t["wanted"].get<double>());
+      const std::string quantity = t["quantity"];
+      out += fmt::format("    {:<28} {:>12.6g} {:<6} (wanted {:.6g})\n", quantity, t["reached"].get<double>(),
+                         quantity.ends_with("_frequency") ? "Hz" : "", t["wanted"].get<double>());
     }
     if (!fit["converged"].get<bool>()) out += "    did not converge\n";
   }

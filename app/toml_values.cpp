@@ -211,10 +211,16 @@ Value unread_value(const Key& key) {
   }
 }
 
+/// A --set that was put over the document: its key in full, and where its value starts in the option's text.
+struct Override {
+  std::string path;
+  int value_column = 1;
+};
+
 /// Walks the document along the schema and gathers values and problems.
 class Walk {
  public:
-  explicit Walk(const Schema& schema) : schema_(schema) {}
+  Walk(const Schema& schema, const std::vector<Override>& overrides) : schema_(schema), overrides_(overrides) {}
 
   void table(const toml::table& table, const std::string& path, const std::string& pattern) {
     for (const auto& [name, node] : in_file_order(table)) entry(*name, *node, path, pattern);
@@ -238,8 +244,23 @@ class Walk {
     return entries;
   }
 
-  void report(const toml::source_position& place, std::string text) {
-    problems.push_back({static_cast<int>(place.line), static_cast<int>(place.column), std::move(text)});
+  /// Where `path` stands: its place in the file; else in the last --set that is it, lies in it or holds it.
+  [[nodiscard]] Problem place_of(const toml::source_position& place, const std::string& path) const {
+    if (place.line > 0) return {static_cast<int>(place.line), static_cast<int>(place.column), ""};
+    const auto within = [](const std::string& inner, const std::string& outer) {
+      return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '.');
+    };
+    for (auto i = overrides_.size(); i > 0; --i) {
+      const Override& option = overrides_[i - 1];
+      if (!within(option.path, path) && !within(path, option.path.substr(0, option.path.find('[')))) continue;
+      return {-static_cast<int>(i), find_key(schema_, pattern_of(schema_, option.path)) ? option.value_column : 1, ""};
+    }
+    return {};
+  }
+
+  void report(const toml::source_position& place, const std::string& path, const std::string& text) {
+    problems.push_back(place_of(place, path));
+    problems.back().text = path + ": " + text;
   }
 
   void entry(const toml::key& name, const toml::node& node, const std::string& path, const std::string& pattern) {
@@ -248,7 +269,7 @@ class Walk {
     const std::string child_path = join(path, name.str());
     const std::string child = join(pattern, named_by_user ? "*" : name.str());
     if (named_by_user && !is_name(name.str())) {
-      report(name.source().begin, child_path + ": a name starts with a letter and goes on with letters, digits and _");
+      report(name.source().begin, child_path, "a name starts with a letter and goes on with letters, digits and _");
     } else if (const Key* key = find_key(schema_, child)) {
       value(*key, node, child_path);
     } else if (find_section(schema_, child + "[]") != nullptr) {
@@ -257,12 +278,11 @@ class Walk {
       if (const auto* inner = node.as_table()) {
         table(*inner, child_path, child);
       } else {
-        report(name.source().begin,
-               child_path + ": got " + std::string(node_type(node)) + ", expected a table [" + child_path + "]");
+        report(name.source().begin, child_path,
+               "got " + std::string(node_type(node)) + ", expected a table [" + child_path + "]");
       }
     } else {
-      report(name.source().begin,
-             child_path + ": unknown key" + core::did_you_mean(name.str(), below) + place_hint(name));
+      report(name.source().begin, child_path, "unknown key" + core::did_you_mean(name.str(), below) + place_hint(name));
     }
   }
 
@@ -286,8 +306,8 @@ class Walk {
   void array(const toml::key& name, const toml::node& node, const std::string& path, const std::string& pattern) {
     const auto* list = node.as_array();
     if (list == nullptr || !std::ranges::all_of(*list, [](const toml::node& entry) { return entry.is_table(); })) {
-      return report(name.source().begin, path + ": got " + std::string(node_type(node)) + ", expected tables [[" +
-                                             path + "]], one for each");
+      return report(name.source().begin, path,
+                    "got " + std::string(node_type(node)) + ", expected tables [[" + path + "]], one for each");
     }
     for (std::size_t i = 0; i < list->size(); ++i) {
       const std::string item = path + "[" + std::to_string(i) + "]";
@@ -297,14 +317,15 @@ class Walk {
   }
 
   void value(const Key& key, const toml::node& node, const std::string& path) {
-    // What --set puts into the document has no place in the file: line 0.
-    const auto place = node.source().begin;
-    CaseValue read{path, {}, static_cast<int>(place.line), static_cast<int>(place.column), true};
+    // What --set puts into the document has no place in the file: toml++ says line 0.
+    const auto source = node.source().begin;
+    const Problem place = place_of(source, path);
+    CaseValue read{path, {}, place.line, place.column, true};
     try {
       read.value = read_value(node, key);
     } catch (const InputError& error) {
       read.value = unread_value(key);
-      report(place, path + ": " + error.what());
+      report(source, path, error.what());
     }
     values.push_back(std::move(read));
   }
@@ -316,7 +337,8 @@ class Walk {
     if (parent != pattern || table.contains(name)) return;
     if (key.required) {
       const auto place = table.source().begin.line == 0 ? table_place_ : table.source().begin;
-      report(place, join(path, name) + ": missing; " + std::string(key.meaning));
+      problems.push_back(place_of(place, path));
+      problems.back().text = join(path, name) + ": missing; " + std::string(key.meaning);
       values.push_back({join(path, name), unread_value(key)});
     } else if (!key.fallback.empty()) {
       const auto document = toml::parse("value = " + std::string(key.fallback));
@@ -337,6 +359,7 @@ class Walk {
   }
 
   const Schema& schema_;
+  const std::vector<Override>& overrides_;
   toml::source_position table_place_{};
 };
 
@@ -345,9 +368,9 @@ toml::table parse_document(const std::string& text, const std::string& name) {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
     const auto place = error.source().begin;
-    throw CaseError(
-        name, {{static_cast<int>(place.line), static_cast<int>(place.column),
-                "not TOML: " + std::string(error.description()) + "; quantities with units go in quotes, \"6 mm\""}});
+    throw CaseError({name, text}, {{static_cast<int>(place.line), static_cast<int>(place.column),
+                                    "not TOML: " + std::string(error.description()) +
+                                        "; quantities with units go in quotes, \"6 mm\""}});
   }
 }
 
@@ -374,12 +397,13 @@ toml::table override_document(const std::string& text) {
   }
 }
 
-void apply_override(toml::table& document, const Schema& schema, const std::string& assignment) {
+Override apply_override(toml::table& document, const Schema& schema, const std::string& assignment) {
   const auto equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
     throw core::UsageError("--set \"" + assignment + "\": write key=value, for example --set part.length=\"390 mm\"");
   }
   const std::string path = full_path(schema, assignment.substr(0, equals));
+  Override applied{path, static_cast<int>(equals) + 2};
   toml::table* table = &document;
   std::string_view rest = path;
   for (auto dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
@@ -390,12 +414,13 @@ void apply_override(toml::table& document, const Schema& schema, const std::stri
   const auto bracket = rest.find('[');
   if (bracket == std::string_view::npos) {
     table->insert_or_assign(rest, *value.get("value"));
-    return;
+    return applied;
   }
   auto* list = (*table)[rest.substr(0, bracket)].as_array();
   const std::size_t index = std::stoul("0" + std::string(rest.substr(bracket + 1)));
   if (list == nullptr || index >= list->size()) throw InputError("--set " + path + ": the case has no such entry");
   list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(index), *value.get("value"));
+  return applied;
 }
 
 }  // namespace
@@ -403,8 +428,10 @@ void apply_override(toml::table& document, const Schema& schema, const std::stri
 ReadValues read_values(const std::string& text, const std::string& name, const Schema& schema,
                        const std::vector<std::string>& overrides) {
   toml::table document = parse_document(text, name);
-  for (const auto& assignment : overrides) apply_override(document, schema, assignment);
-  Walk walk(schema);
+  std::vector<Override> applied;
+  applied.reserve(overrides.size());
+  for (const auto& assignment : overrides) applied.push_back(apply_override(document, schema, assignment));
+  Walk walk(schema, applied);
   walk.table(document, "", "");
   return {std::move(walk.values), std::move(walk.problems)};
 }

@@ -14,8 +14,9 @@ namespace thinwall::app {
 namespace {
 
 std::map<std::string, robot::Joint> read_joints(const std::filesystem::path& file) {
-  const ReadValues read = read_values(core::read_file(file), file.string(), joints_schema());
-  if (!read.problems.empty()) throw CaseError(file.string(), read.problems);
+  const std::string text = core::read_file(file);
+  const ReadValues read = read_values(text, file.string(), joints_schema());
+  if (!read.problems.empty()) throw CaseError({file.string(), text}, read.problems);
   std::map<std::string, robot::Joint> joints;
   for (const Table& table : Table{read.values, ""}.tables("joints")) {
     if (!joints.emplace(table.text("name"), bind_joint(table)).second)

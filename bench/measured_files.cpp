@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   }
   constexpr double level = 0.005;
   app::Case source = app::read_case(argv[1], {"response.from=1 Hz", "response.to=1000 Hz", "response.lines=1999"});
-  app::Stages stages(false);
+  app::Stages stages(app::ProgressDisplay::none);
   app::Discretisation discretisation = app::discretise(source);
   discretisation.solved.reset();  // the fit changes the part
   const Eigen::Vector3d meshed = app::box_size(*source.part);

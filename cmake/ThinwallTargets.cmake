@@ -5,6 +5,8 @@
 add_library(thinwall_flags INTERFACE)
 target_compile_options(thinwall_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wsuggest-override
                                                 -Wzero-as-null-pointer-constant -Werror)
+# Whoever replaces one of our functions at load time does so on his own; calls within the library are direct.
+target_compile_options(thinwall_flags INTERFACE -fno-semantic-interposition)
 # GCC 12 takes "text" + std::string for overlapping copies and, where the library's headers are precompiled, for copies
 # beyond the end (GCC bug 105329, mended in 13).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
@@ -23,6 +25,11 @@ if(THINWALL_SANITIZE)
   target_link_options(thinwall_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
+# The alignment of Eigen's matrices follows the vector unit that a file is compiled for, and with it the layout of our
+# structs and who may free whose memory. It is pinned to that of AVX, so that programs compiled for any x86-64 fit a
+# library compiled for any other. Part of the library's interface: whoever uses it compiles with the same two words.
+set(THINWALL_EIGEN_ALIGNMENT EIGEN_MAX_ALIGN_BYTES=32 EIGEN_MAX_STATIC_ALIGN_BYTES=32)
+
 # Headers that nearly every file includes are parsed once a target; a file still includes what it uses, which the
 # build with sanitizers holds it to: it goes without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
 set(THINWALL_COMMON_HEADERS <Eigen/Geometry> <Eigen/LU> <Eigen/SparseCore> <algorithm> <cmath> <filesystem> <functional>
@@ -38,7 +45,11 @@ function(thinwall_library name)
   if(sources)
     add_library(thinwall_${name} STATIC ${sources})
     target_precompile_headers(thinwall_${name} PRIVATE ${THINWALL_COMMON_HEADERS})
+    if(THINWALL_BATCHES)
+      set_target_properties(thinwall_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    endif()
     target_include_directories(thinwall_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+    target_compile_definitions(thinwall_${name} PUBLIC ${THINWALL_EIGEN_ALIGNMENT})
     target_link_libraries(thinwall_${name} PUBLIC ${ARG_LINKS} PRIVATE thinwall_flags ${ARG_PRIVATE_LINKS})
   else()
     add_library(thinwall_${name} INTERFACE)

@@ -21,6 +21,7 @@ ALLOWED = {
     "milling": ["linalg", "dynamics", "core"],
     "io": ["mesh", "dynamics", "core"],
 }
+ALLOWED["report"] = ["io", "mesh", "core", "dynamics"]
 LIBRARY_FOLDERS = list(ALLOWED)
 ALLOWED["app"] = LIBRARY_FOLDERS
 for everything in ("python", "bench", "tests", "fuzz"):
@@ -33,8 +34,8 @@ OWNERS = [
     (re.compile(r"^vtk.*\.h$"), ("io/vtu.cpp", "io/vtp.cpp", "io/polyline_vtu.cpp", "tests/io/")),
     (re.compile(r"^matio\.h$"), ("io/mat_variables.cpp",)),
     (re.compile(r"^pugixml\.hpp$"), ("io/vtu_reader.cpp",)),
-    (re.compile(r"^zlib\.h$"), ("io/vtu_array.cpp",)),
-    (re.compile(r"^openssl/"), ("io/manifest.cpp",)),
+    (re.compile(r"^zlib\.h$"), ("io/vtu_array.cpp", "io/base64.cpp")),
+    (re.compile(r"^openssl/"), ("io/manifest.cpp", "io/base64.cpp")),
     (re.compile(r"^(urdf|console_bridge)"), ("io/urdf.cpp",)),
     (re.compile(r"^[A-Za-z]+_?[A-Za-z]*\.hxx$"), ("io/step",)),
     (re.compile(r"^tetgen\.h$"), ("mesh/",)),

@@ -18,12 +18,21 @@ namespace {
 
 constexpr std::string_view partial_mark = ".partial-";
 
-[[noreturn]] void fail(std::string_view what, const std::filesystem::path& path, int error) {
-  const std::string remedy = error == ENOSPC || error == EDQUOT || error == EFBIG
-                                 ? "free space or choose another folder"
-                                 : "choose another folder";
+[[noreturn]] void fail(std::string_view what, const std::filesystem::path& path, int error, std::string_view remedy) {
   throw DataError("cannot " + std::string(what) + " \"" + path.string() +
-                  "\": " + std::generic_category().message(error) + "; " + remedy);
+                  "\": " + std::generic_category().message(error) + "; " + std::string(remedy));
+}
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& path, int error) {
+  const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+  fail("write", path, error, full ? "free space or choose another folder" : "choose another folder");
+}
+
+[[noreturn]] void fail_to_read(const std::filesystem::path& path, int error) {
+  fail("read", path, error,
+       error == ENOENT || error == ENOTDIR ? "check its name and folder"
+       : error == EISDIR                   ? "name a file in it"
+                                           : "check that it is a file and may be read");
 }
 
 /// A descriptor that closes itself.
@@ -41,7 +50,7 @@ void write_all(int descriptor, std::string_view content, const std::filesystem::
   while (!content.empty()) {
     const ssize_t written = ::write(descriptor, content.data(), content.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail("write", target, errno);
+    if (written < 0) fail_to_write(target, errno);
     content.remove_prefix(static_cast<std::size_t>(written));
   }
 }
@@ -59,7 +68,7 @@ std::filesystem::path partial_path(const std::filesystem::path& target) {
 PartialFile::PartialFile(std::filesystem::path target) : target_(std::move(target)), partial_(partial_path(target_)) {
   std::error_code error;
   const auto folder = target_.has_parent_path() ? target_.parent_path() : std::filesystem::path(".");
-  if (!std::filesystem::is_directory(folder, error)) fail("write", target_, error ? error.value() : ENOTDIR);
+  if (!std::filesystem::is_directory(folder, error)) fail_to_write(target_, error ? error.value() : ENOTDIR);
   const auto status = std::filesystem::status(target_, error);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     throw DataError("cannot write \"" + target_.string() + "\": it exists and is not a plain file; remove it first");
@@ -74,10 +83,10 @@ PartialFile::~PartialFile() {
 void PartialFile::commit() {
   {
     const Descriptor file(::open(partial_.c_str(), O_RDONLY | O_CLOEXEC));
-    if (file.value < 0) fail("write", target_, errno);
-    if (::fsync(file.value) != 0) fail("write", target_, errno);
+    if (file.value < 0) fail_to_write(target_, errno);
+    if (::fsync(file.value) != 0) fail_to_write(target_, errno);
   }
-  if (std::rename(partial_.c_str(), target_.c_str()) != 0) fail("write", target_, errno);
+  if (std::rename(partial_.c_str(), target_.c_str()) != 0) fail_to_write(target_, errno);
 }
 
 bool is_partial_name(const std::filesystem::path& path) {
@@ -89,7 +98,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   PartialFile file(path);
   {
     const Descriptor partial(::open(file.partial().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-    if (partial.value < 0) fail("write", path, errno);
+    if (partial.value < 0) fail_to_write(path, errno);
     write_all(partial.value, content, path);
   }
   file.commit();
@@ -97,13 +106,13 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 
 std::string read_file(const std::filesystem::path& path) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) fail("read", path, EISDIR);
+  if (std::filesystem::is_directory(path, error)) fail_to_read(path, EISDIR);
   errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file) fail("read", path, errno);
+  if (!file) fail_to_read(path, errno);
   std::ostringstream content;
   content << file.rdbuf();
-  if (file.bad()) fail("read", path, EIO);
+  if (file.bad()) fail_to_read(path, EIO);
   return std::move(content).str();
 }
 

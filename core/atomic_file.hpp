@@ -19,6 +19,7 @@ class PartialFile {
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
 
+  /// The file to write to until commit().
   [[nodiscard]] const std::filesystem::path& partial() const { return partial_; }
 
   /// Flushes the partial file to the disk (fsync) and renames it to the target. Throws DataError with the cause.

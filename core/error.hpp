@@ -7,6 +7,7 @@
 
 namespace thinwall::core {
 
+/// What the program ends with (docs/conventions.md, exit codes).
 enum class ExitCode : int {
   done = 0,
   internal = 1,
@@ -22,6 +23,7 @@ enum class ExitCode : int {
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  /// What the program ends with if nobody catches the error.
   [[nodiscard]] ExitCode code() const { return code_; }
 
  private:

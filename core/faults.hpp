@@ -5,6 +5,7 @@
 
 namespace thinwall::core {
 
+/// Collects what is wrong, so that one error tells all of it.
 class Faults {
  public:
   /// Notes "<where> <what>" unless it holds.

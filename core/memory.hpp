@@ -11,6 +11,8 @@ namespace thinwall::core {
 
 /// Lets the allocator keep what is freed, for the whole process: a program for one run and then the end. Why: factors
 /// and bases are allocated and freed over and over, and half the time of a small factorisation can go into page faults.
+/// Each thread keeps an arena of its own: one for all would save 5 % of the memory at 170 000 degrees of freedom, and
+/// cost a stability chart, which allocates small matrices all the time, 40 % of its time in waiting for the other.
 /// To be called once, first thing in main().
 void keep_freed_memory();
 

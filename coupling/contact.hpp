@@ -18,6 +18,7 @@ struct ContactSpring {
   double loss_factor = 0.0;  ///< η ≥ 0; without meaning if K is infinite
   dynamics::DofKind kind = dynamics::DofKind::translation;  ///< a displacement along the direction or a turn about it
 
+  /// Whether the direction is joined without any give.
   [[nodiscard]] bool rigid() const { return stiffness == std::numeric_limits<double>::infinity(); }
 };
 
@@ -38,6 +39,7 @@ struct Contact {
   std::vector<ContactSpring> springs;
   JointMatrices matrices{};  ///< K given: they stand for the springs' own values, which stay at their defaults
 
+  /// Whether `matrices` stand for the springs' own values.
   [[nodiscard]] bool has_matrices() const { return matrices.K.size() > 0; }
 };
 

@@ -10,6 +10,7 @@
 
 namespace thinwall::coupling {
 
+/// The receptances that are coupled, in order.
 using Components = std::vector<const dynamics::ResponseModel*>;
 
 /// Row i of a table with its weight in a column of B.
@@ -35,6 +36,7 @@ struct Interface {
 
 /// The tables of the result: what is wanted of every component, one after another.
 [[nodiscard]] dynamics::DofTable wanted_responses(const std::vector<Interface>& components);
+/// The same of the forces.
 [[nodiscard]] dynamics::DofTable wanted_forces(const std::vector<Interface>& components);
 
 /// Throws NumericalError with the frequency where the condition of the kernel is above 1e14.
@@ -55,6 +57,7 @@ class CoupledLine {
   /// Of the line that was coupled last, and one component: wanted rows of P = I − Y B S⁻¹ Bᵀ over its responses, and
   /// wanted columns of Q = I − B S⁻¹ Bᵀ Y over its forces (Eq. 21).
   [[nodiscard]] Eigen::MatrixXcd P(const Interface& component) const;
+  /// See P().
   [[nodiscard]] Eigen::MatrixXcd Q(const Interface& component) const;
 
  private:

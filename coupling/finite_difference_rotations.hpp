@@ -21,12 +21,14 @@ struct DifferencePoints {
                                                                                                 ///< it, one or two
 };
 
+/// How P, the rotation by a moment, follows from both points.
 enum class RotationRule {
   second_difference,  ///< P = (H_11 − H_a1 − H_1a + H_aa)/S²
   rank_one,           ///< P = N L / H_11, entry by entry (Lei 2022, Eq. A.9-A.12): H_aa is not used
   corrected,          ///< second_difference less its truncation, which asks for `tip_section`
 };
 
+/// Of finite_difference_rotations().
 struct RotationOptions {
   RotationRule rule = RotationRule::second_difference;
   /// What the tool is like between both points, for the truncation.
@@ -44,6 +46,7 @@ struct RotationErrors {
   std::vector<Eigen::MatrixXd> noise;     ///< standard deviation of real and imaginary part, first order; empty: none
 };
 
+/// What finite_difference_rotations() makes of the displacements.
 struct TipReceptance {
   dynamics::ResponseModel T;  ///< DOFs: for each direction the displacement, then the rotation
   RotationErrors errors;

@@ -21,6 +21,7 @@ struct RelativeNoise {
 /// alike). Not below 1e-6. Throws InputError for a coherence out of its range or averages < 1.
 [[nodiscard]] Eigen::VectorXd noise_from_coherence(const Eigen::VectorXd& coherence, int averages);
 
+/// Where the assembly was measured, and which lines count.
 struct IdentificationOptions {
   std::string response_point{};  ///< where the assembly was measured; empty: point a of the contact
   std::string force_point{};     ///< where it was excited; empty: point a of the contact
@@ -30,6 +31,7 @@ struct IdentificationOptions {
   double largest_spread = 0.3;  ///< lines where Z's standard deviation is a larger share of |Z| are left out, in (0, 1)
 };
 
+/// Whether the lines told the joint.
 enum class IdentificationStatus {
   identified,
   no_information,  ///< too few lines hold any: of some entry no more than there are unknowns; its values are NaN

@@ -35,6 +35,7 @@ struct Joints {
   };
   std::vector<Block> blocks;
 
+  /// Number of joined directions.
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(directions.size()); }
 };
 

@@ -5,6 +5,7 @@
 
 namespace thinwall::coupling {
 
+/// What becomes of small singular values of the kernel (docs/theory/coupling.md, Eq. 8).
 enum class Regularisation {
   none,       ///< the kernel as it is; a singular one is refused
   truncated,  ///< singular values up to `threshold` times the largest are left out
@@ -32,6 +33,7 @@ class Kernel {
  public:
   Kernel(Regularisation regularisation, double threshold) : regularisation_(regularisation), threshold_(threshold) {}
 
+  /// Solves one line; see above for `magnitude`. What is found is in solution() and inverse() until the next.
   KernelLine solve(const Eigen::MatrixXcd& S, const Eigen::MatrixXd& magnitude, const Eigen::MatrixXcd& R);
 
   [[nodiscard]] const Eigen::MatrixXcd& solution() const { return X_; }         ///< S⁺ R

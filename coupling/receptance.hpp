@@ -10,12 +10,14 @@
 
 namespace thinwall::coupling {
 
+/// How well the worst line could be solved.
 enum class KernelStatus {
   well_conditioned,
   ill_conditioned,  ///< more than half of the digits are lost at some line (condition above 1e8)
   regularised,      ///< at some line singular values were dropped; `dropped` and `compatibility_residual` say how many
 };
 
+/// Of couple().
 struct CouplingOptions {
   double length = default_length;                        ///< m a radian, > 0: scales rotations in the kernel
   Regularisation regularisation = Regularisation::none;  ///< what becomes of the kernel's small singular values

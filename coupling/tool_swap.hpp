@@ -25,6 +25,7 @@ struct [[nodiscard]] HolderReceptance {
   std::vector<Eigen::MatrixXcd> left, right;  ///< dT^B = left dT^C_11 right, first order, one pair a line
   int rank_deficient_lines = 0;               ///< condition above 1e14
 
+  /// Whether the machine is unknown at some line.
   [[nodiscard]] bool rank_deficient() const { return rank_deficient_lines > 0; }
 };
 
@@ -47,12 +48,14 @@ struct [[nodiscard]] HolderReceptance {
 HolderReceptance holder_receptance(const dynamics::ResponseModel& measured, const HeldTool& tool,
                                    double length = default_length);
 
+/// What came of a swap.
 enum class SwapStatus {
   done,
   ill_conditioned,  ///< a kernel lost more than half of its digits (condition above 1e8) at some line
   rank_deficient,   ///< the holder is not known at some line: nothing was coupled
 };
 
+/// The tip with the wanted tool, and the machine that it was found with.
 struct [[nodiscard]] SwappedTool {
   SwapStatus status = SwapStatus::done;
   HolderReceptance holder;
@@ -89,6 +92,7 @@ struct RadialJoint {
   double rotational_stiffness = std::numeric_limits<double>::infinity();  ///< about x and y, N m/rad
   double rotational_damping = 0.0;                                        ///< N m s/rad
 };
+/// The joint as a contact between a point of the tool and one of the holder.
 [[nodiscard]] Contact radial_contact(const std::string& root, const std::string& holder, const RadialJoint& joint = {});
 
 }  // namespace thinwall::coupling

@@ -46,6 +46,7 @@ void check(const Tube& tube, const std::string& where, core::Faults& faults);
 /// Notes any number of the section that is not positive and finite (a shear factor may be infinite).
 void check(const BeamSection& section, const std::string& where, core::Faults& faults);
 
+/// Over the six components of end 1 and the six of end 2.
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
 // Below, L is the length (m, > 0), x runs along the beam from end 1 to end 2, and the six components are in its axes.

@@ -7,6 +7,7 @@
 
 namespace thinwall::dynamics {
 
+/// What moves.
 enum class DofKind {
   translation,  ///< displacement of a point along `direction`; unit m
   rotation,     ///< rotation of a point about `direction`; unit rad
@@ -21,6 +22,7 @@ struct Dof {
   DofKind kind = DofKind::translation;
 };
 
+/// The DOFs of rows or columns, in order.
 using DofTable = std::vector<Dof>;
 
 /// "P.x", "R.rz", "P.(0.6,0.8,0)", "mode 3".

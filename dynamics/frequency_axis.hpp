@@ -9,7 +9,9 @@ namespace thinwall::dynamics {
 struct FrequencyAxis {
   Eigen::VectorXd hz;
 
+  /// Number of lines.
   [[nodiscard]] Eigen::Index size() const { return hz.size(); }
+  /// 2π times the frequency of a line, rad/s.
   [[nodiscard]] double omega_rad_s(Eigen::Index line) const;
 };
 

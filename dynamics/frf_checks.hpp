@@ -22,6 +22,7 @@ struct Collocated {
 /// The driving points of a matrix, one a response DOF, in the order of the rows.
 [[nodiscard]] std::vector<Collocated> driving_points(const ResponseModel& model);
 
+/// Which way a driving point's power goes.
 enum class SignVerdict {
   passive,     ///< as it should be
   turned,      ///< −H: a sensor or a force counted in the other direction

@@ -31,6 +31,7 @@ struct ModeSummary {
   double damping_ratio = 0.0;
 };
 
+/// Frequency and damping ratio of a pole (rad/s).
 [[nodiscard]] ModeSummary summarise(std::complex<double> pole);
 
 /// Indices of the poles with Im λ > 0, by rising |λ|: one for each oscillating mode.

@@ -21,6 +21,7 @@ struct ModalTableRow {
   Eigen::VectorXd place_m;
 };
 
+/// Identified modes, a row each, over one table of DOFs.
 struct ModalTable {
   DofTable dofs;
   std::vector<ModalTableRow> rows;

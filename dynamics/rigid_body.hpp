@@ -9,6 +9,7 @@
 
 namespace thinwall::dynamics {
 
+/// Over x, y, z, rx, ry, rz.
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// X(r) = [ I  −[r]ₓ ; 0  I ]: the motion of a rigid body at p + r from its motion at p, both translation (m) and

@@ -30,7 +30,9 @@ struct SparseModel {
   std::map<int, Eigen::Vector3d> positions{};  ///< by node; may be empty, or lack some
   std::map<int, std::string> names{};          ///< of nodes that have one, and of amplitudes
 
+  /// Number of coordinates.
   [[nodiscard]] Eigen::Index size() const { return K.rows(); }
+  /// Whether there is a C.
   [[nodiscard]] bool has_damping() const { return C.rows() > 0; }
 };
 
@@ -54,6 +56,7 @@ struct Asymmetry {
   int row = 0, column = 0;
   double upper = 0.0, lower = 0.0;  ///< a(row, column), a(column, row)
 };
+/// Of a square matrix. Cost O(nnz).
 [[nodiscard]] Asymmetry asymmetry(const Eigen::SparseMatrix<double>& A);
 
 /// Throws InputError, with the DOFs' names and both values, if a matrix is asymmetric beyond `bound` (see Asymmetry) or

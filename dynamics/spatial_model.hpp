@@ -19,8 +19,11 @@ struct SpatialModel {
   DofTable dofs;
   Eigen::MatrixXd T{};
 
+  /// Number of coordinates.
   [[nodiscard]] Eigen::Index size() const { return M.rows(); }
+  /// Whether there is a D.
   [[nodiscard]] bool has_structural_damping() const { return D.size() > 0; }
+  /// Whether the coordinates are others than the DOFs, x = T y.
   [[nodiscard]] bool has_own_coordinates() const { return T.rows() > 0; }
 };
 

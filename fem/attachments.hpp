@@ -48,12 +48,14 @@ struct GroundSpring {
   Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();      ///< from the point to that place
 };
 
+/// All that is attached to a part.
 struct Attachments {
   std::vector<ElasticClamp> clamps;
   std::vector<ConnectedPoint> points;
   std::vector<PointMass> masses;
   std::vector<GroundSpring> springs;
 
+  /// Whether nothing is.
   [[nodiscard]] bool empty() const { return clamps.empty() && points.empty() && masses.empty() && springs.empty(); }
 };
 

@@ -54,6 +54,7 @@ struct Hinge {
   double damping = 0.0;
 };
 
+/// Nodes, what joins them, and what holds them.
 struct BeamFrame {
   std::vector<BeamNode> nodes;
   std::vector<BeamSegment> segments;

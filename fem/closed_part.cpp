@@ -69,7 +69,7 @@ SolidPart solid_part(const mesh::TriangleSurface& surface, const Material& mater
     mesh::SurfaceMeshed result = meshed(surface, options, level);
     fits.push_back({level, std::move(result.mesher), result.volume_error_relative, result.surface_distance_m,
                     std::move(result.failures)});
-    return std::move(result.mesh);
+    return options.divided ? options.divided(std::move(result.mesh)) : std::move(result.mesh);
   };
   return part;
 }

@@ -13,6 +13,7 @@ namespace thinwall::fem {
 /// Of a tolerance on frequencies, what is for the volume of the mesh against the surface's.
 inline constexpr double share_of_surface = 0.2;
 
+/// Of refine_closed_part().
 struct ClosedPartOptions {
   /// On frequencies, relative, 1e-3 to 0.1. share_of_surface of it is for the surface, which the elements follow with
   /// straight edges, the rest for the elements.
@@ -22,6 +23,7 @@ struct ClosedPartOptions {
   std::vector<NamedPoint> points;  ///< where receptances count
   Attachments attachments{};
   std::function<Materials(const mesh::TetMesh&)> materials{};  ///< of a part of several, on each mesh
+  std::function<mesh::TetMesh(mesh::TetMesh)> divided{};       ///< each mesh, before it is used; none: as it is
   int first_order = 3;                                         ///< of a level; 1 to 5
   int last_order = 6;                                          ///< of a level; above first_order, to 6
   int levels = 1;  ///< of ever smaller and more graded elements, 1 to 4; each has five times as many

@@ -75,6 +75,7 @@ struct Factored {
   linalg::SparseCholesky factor;
   double sigma = 0.0;
 };
+/// The factor as said above.
 [[nodiscard]] Factored factorise(const Model& model, double memory_limit_bytes = 0.0);
 
 /// The inverse of a factor as linalg's eigen-solver wants it. Keeps a reference.

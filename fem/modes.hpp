@@ -10,9 +10,9 @@ namespace thinwall::fem {
 
 /// How many modes, or up to which frequency; whether to prove that none was missed.
 struct ModeOptions {
-  int count = 10;                   ///< elastic modes; used if up_to_hz is not given
-  std::optional<double> up_to_hz;   ///< all modes below this frequency instead
-  bool verify_count = false;        ///< Sturm count: inertia of K − σM just above the last mode
+  int count = 10;                    ///< elastic modes; used if up_to_hz is not given
+  std::optional<double> up_to_hz{};  ///< all modes below this frequency instead
+  bool verify_count = false;         ///< Sturm count: inertia of K − σM just above the last mode
   double inverse_residual = 3e-10;  ///< ≤ 1e-6, of `count` modes: a frequency is off by its square, a shape by itself
 };
 

@@ -13,10 +13,13 @@ struct Lists {
   std::vector<std::ptrdiff_t> start;  ///< count + 1
   std::vector<int> items;
 
+  /// Number of items in a list.
   [[nodiscard]] std::ptrdiff_t length(int list) const {
     return start[static_cast<std::size_t>(list) + 1] - start[static_cast<std::size_t>(list)];
   }
+  /// First item of a list.
   [[nodiscard]] const int* begin(int list) const { return items.data() + start[static_cast<std::size_t>(list)]; }
+  /// Behind its last item.
   [[nodiscard]] const int* end(int list) const { return items.data() + start[static_cast<std::size_t>(list) + 1]; }
 };
 

@@ -46,7 +46,7 @@ struct Sums {
 void add_samples(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes, const Disc& disc, const std::string&,
                  Sums& sums) {
   for (const mesh::PatchSample& sample :
-       mesh::patch_samples(mesh, mesh::boundary(mesh), disc.centre_m, disc.radius_m)) {
+       mesh::patch_samples(mesh, mesh::boundary(mesh), disc.centre_m, disc.radius_m, disc.off_m)) {
     const Eigen::VectorXd N = shape_functions(nodes.order, sample.location.lambda);
     const Eigen::VectorXi row = nodes.elements.row(sample.location.tet);
     const std::vector<int> of_element(row.begin(), row.end());

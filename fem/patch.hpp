@@ -17,6 +17,7 @@ namespace thinwall::fem {
 struct Disc {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
   double radius_m = 0.0;
+  double off_m = 0.0;  ///< how far a mesh of chords may lie off the surface that the centre is on (mesh::disc_face)
 };
 
 /// A disc, or all faces of a region. Both are looked up on the straight mesh.

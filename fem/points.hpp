@@ -20,6 +20,7 @@ struct NamedPoint {
   std::vector<Eigen::Vector3d> directions;  ///< unit vectors
   std::vector<Eigen::Vector3d> turns{};     ///< unit vectors about which its rotation is wanted
   std::optional<mesh::Region> faces{};      ///< the patch, in place of the disc about the position
+  double off_m = 0.0;                       ///< of the disc
 };
 
 /// Column for each direction: w with wᵀu = n · ∫ u dA / ∫ dA over the patch (or n · u at the position), from the shape

@@ -16,25 +16,14 @@ std::vector<int> nodes_in(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& 
   return mesh::nodes_on(nodes, mesh, mesh::select(mesh, mesh::boundary(mesh), region, name));
 }
 
-/// The plane of the disc is that of its samples.
 std::vector<int> nodes_in(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes, const Disc& disc,
-                          const std::string& name) {
-  const auto boundary = mesh::boundary(mesh);
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  for (const mesh::PatchSample& sample : mesh::patch_samples(mesh, boundary, disc.centre_m, disc.radius_m)) {
-    Eigen::Vector3d x = -disc.centre_m;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const auto vertex = mesh.tets[static_cast<std::size_t>(sample.location.tet)][k];
-      x += sample.location.lambda(static_cast<Eigen::Index>(k)) * mesh.vertices[static_cast<std::size_t>(vertex)];
-    }
-    second += x * x.transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(second);
-  const mesh::PlaneRegion plane{disc.centre_m, eigen.eigenvectors().col(0)};
+                          const std::string& /*name*/) {
+  const mesh::DiscFace face = mesh::disc_face(mesh, mesh::boundary(mesh), disc.centre_m, disc.radius_m, disc.off_m);
   const auto straight = mesh::lagrange_nodes(mesh, nodes.order);
-  std::vector<int> chosen = mesh::nodes_on(nodes, mesh, mesh::select(mesh, boundary, plane, name));
+  std::vector<int> chosen = mesh::nodes_on(nodes, mesh, face.triangles);
   std::erase_if(chosen, [&](int node) {
-    return (straight.positions.row(node).transpose() - disc.centre_m).norm() > (1.0 + 1e-6) * disc.radius_m;
+    const Eigen::Vector3d r = straight.positions.row(node).transpose() - face.centre_m;
+    return r.norm() > (1.0 + 1e-6) * disc.radius_m || std::abs(r.dot(face.normal)) > face.depth_m;
   });
   return chosen;
 }

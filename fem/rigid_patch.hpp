@@ -31,6 +31,7 @@ struct RowMap {
   std::vector<int> patch_of;  ///< of a node: its rigid patch, or −1; empty without patches
   int first_patch_row = 0;    ///< six rows a patch, after all others
 };
+/// Of so many nodes; `free_rows`: rows 3·node + axis that no support holds, ascending.
 [[nodiscard]] RowMap row_map(Eigen::Index nodes, const std::vector<int>& free_rows,
                              const std::vector<RigidPatch>& rigid);
 

@@ -24,6 +24,7 @@ struct SolidPart {
       materials{};  ///< of a part of several, on each mesh; instead of material
 };
 
+/// Of refine_to_tolerance().
 struct ToleranceOptions {
   double tolerance = 1e-3;  ///< on frequencies and receptances, relative; 1e-6 to 0.1
   ModeOptions modes;

@@ -31,6 +31,7 @@ void require_rectangular(const Table& table) {
 std::string field(const Column& column, std::size_t row) {
   if (const auto* words = std::get_if<std::vector<std::string>>(&column.values)) return csv_field((*words)[row]);
   const double value = std::get<std::vector<double>>(column.values)[row];
+  if (std::isnan(value) && column.gaps) return "";
   if (std::isnan(value)) {
     throw core::NumericalError("column \"" + column.name + "\", row " + std::to_string(row + 1) + " is not a number");
   }
@@ -45,17 +46,38 @@ std::optional<double> infinity(const std::string& text) {
 }
 
 Column read_column(const CsvText& text, std::size_t index) {
-  if (!is_number(text.lines.front().fields[index])) {
+  const auto filled = std::ranges::find_if(text.lines, [&](const CsvLine& l) { return !l.fields[index].empty(); });
+  if (filled == text.lines.end() || !is_number(filled->fields[index])) {
     std::vector<std::string> words;
     for (const CsvLine& line : text.lines) words.push_back(line.fields[index]);
     return {text.header[index], std::move(words)};
   }
   std::vector<double> values;
+  bool gaps = false;
   for (const CsvLine& line : text.lines) {
-    const auto unlimited = infinity(line.fields[index]);
+    const bool gap = line.fields[index].empty();
+    const auto unlimited = gap ? std::numeric_limits<double>::quiet_NaN() : infinity(line.fields[index]);
     values.push_back(unlimited ? *unlimited : number(text, line, index));
+    gaps = gaps || gap;
   }
-  return {text.header[index], std::move(values)};
+  return {text.header[index], std::move(values), gaps};
+}
+
+const Column& column_of(const Table& table, const std::string& name, const std::filesystem::path& path) {
+  std::vector<std::string> names;
+  for (const Column& column : table) names.push_back(column.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw core::DataError(path.string() + ": no column is called \"" + name + "\"" + core::did_you_mean(name, names));
+  }
+  return table[static_cast<std::size_t>(found - names.begin())];
+}
+
+const std::vector<double>& numbers_of(const Column& column, const std::filesystem::path& path) {
+  const auto* values = std::get_if<std::vector<double>>(&column.values);
+  if (values == nullptr)
+    throw core::DataError(path.string() + ": column \"" + column.name + "\" does not hold numbers");
+  return *values;
 }
 
 }  // namespace
@@ -84,15 +106,18 @@ Table read_csv(const std::filesystem::path& path) {
 }
 
 const std::vector<double>& numbers(const Table& table, const std::string& name, const std::filesystem::path& path) {
-  std::vector<std::string> names;
-  for (const Column& column : table) names.push_back(column.name);
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    throw core::DataError(path.string() + ": no column is called \"" + name + "\"" + core::did_you_mean(name, names));
+  const Column& column = column_of(table, name, path);
+  if (column.gaps) throw core::DataError(path.string() + ": column \"" + name + "\" has an empty cell");
+  return numbers_of(column, path);
+}
+
+std::vector<double> numbers_or_gaps(const Table& table, const std::string& name, const std::filesystem::path& path) {
+  const Column& column = column_of(table, name, path);
+  if (const auto* words = std::get_if<std::vector<std::string>>(&column.values)) {
+    if (std::ranges::all_of(*words, &std::string::empty))
+      return std::vector<double>(words->size(), std::numeric_limits<double>::quiet_NaN());
   }
-  const auto* values = std::get_if<std::vector<double>>(&table[static_cast<std::size_t>(found - names.begin())].values);
-  if (values == nullptr) throw core::DataError(path.string() + ": column \"" + name + "\" does not hold numbers");
-  return *values;
+  return numbers_of(column, path);
 }
 
 }  // namespace thinwall::io

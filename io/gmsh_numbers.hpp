@@ -20,15 +20,19 @@ class GmshNumbers {
 
   /// From here on numbers are bytes; they begin with the number 1, which tells their order.
   void begin_binary();
+  /// Whether numbers are bytes by now.
   [[nodiscard]] bool is_binary() const { return is_binary_; }
 
   /// An integer of four bytes, a count or a number of eight bytes, a real of eight bytes; as text a word each.
   [[nodiscard]] std::int64_t integer(const char* what, std::int64_t least, std::int64_t most);
+  /// See integer().
   [[nodiscard]] std::int64_t count(const char* what, std::int64_t least, std::int64_t most);
+  /// See integer().
   [[nodiscard]] double real(const char* what);
 
   /// The line, 0 in binary files.
   [[nodiscard]] std::int64_t line() const { return is_binary_ ? 0 : text_.line(); }
+  /// Throws DataError with the file, its line or byte, and what.
   [[noreturn]] void fail(const std::string& what) const;
 
  private:

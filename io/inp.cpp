@@ -217,6 +217,17 @@ mesh::SolidMesh read_inp(const std::filesystem::path& path, double metres_per_un
   return read_inp_part(path, metres_per_unit).solid;
 }
 
+std::string what_lacks(const InpMaterial& material) {
+  std::string text;
+  const auto add = [&text](const std::optional<double>& value, const char* name) {
+    if (!value) text += (text.empty() ? "" : ", ") + std::string(name);
+  };
+  add(material.youngs_modulus, "Young's modulus");
+  add(material.poisson_ratio, "Poisson's ratio");
+  add(material.density, "density");
+  return text;
+}
+
 InpMaterial in_si(InpMaterial material, double metres_per_unit, double kg_per_mass_unit) {
   if (material.youngs_modulus) *material.youngs_modulus *= kg_per_mass_unit / metres_per_unit;
   if (material.density) *material.density *= kg_per_mass_unit / (metres_per_unit * metres_per_unit * metres_per_unit);

@@ -55,6 +55,9 @@ struct InpLabelled {
 /// The same without the materials.
 [[nodiscard]] mesh::SolidMesh read_inp(const std::filesystem::path& path, double metres_per_unit);
 
+/// "Young's modulus, density": what a section does not say; "" if it says all.
+[[nodiscard]] std::string what_lacks(const InpMaterial& material);
+
 /// E in Pa and ρ in kg/m³ of a file whose unit of time is the second: E · kg / m, ρ · kg / m³, with the metres in its
 /// unit of length and the kilograms in its unit of mass (mm, t, s: 1e-3 and 1e3).
 [[nodiscard]] InpMaterial in_si(InpMaterial material, double metres_per_unit, double kg_per_mass_unit);

@@ -10,6 +10,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 
 namespace thinwall::io {
 
@@ -54,7 +55,7 @@ std::string sha256(std::string_view bytes) {
 std::string sha256_of_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   Sha256 digest;
-  std::vector<char> piece(1U << 20U);
+  std::vector<char> piece(1U << 16U);
   while (file) {
     file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
     digest.add({piece.data(), static_cast<std::size_t>(file.gcount())});
@@ -70,13 +71,14 @@ std::vector<FileRecord> file_records(const std::filesystem::path& folder) {
   try {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
       if (!entry.is_regular_file() || core::is_partial_name(entry.path())) continue;
-      records.push_back(
-          {entry.path().lexically_relative(folder).generic_string(), entry.file_size(), sha256_of_file(entry.path())});
+      records.push_back({entry.path().lexically_relative(folder).generic_string(), entry.file_size(), {}});
     }
   } catch (const std::filesystem::filesystem_error& error) {
     throw core::DataError("cannot list \"" + folder.string() + "\": " + error.code().message());
   }
   std::sort(records.begin(), records.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  core::parallel_for(records.size(),
+                     [&](std::size_t i) { records[i].sha256 = sha256_of_file(folder / records[i].name); });
   return records;
 }
 

@@ -23,7 +23,7 @@ struct FileRecord {
 [[nodiscard]] std::string sha256_of_file(const std::filesystem::path& path);
 
 /// Every plain file below `folder`, by rising name, without unfinished ones (core::is_partial_name). Throws DataError
-/// if the folder or a file cannot be read.
+/// if the folder or a file cannot be read. Files are hashed side by side.
 [[nodiscard]] std::vector<FileRecord> file_records(const std::filesystem::path& folder);
 
 }  // namespace thinwall::io

@@ -29,6 +29,7 @@ struct MatFiles {
   std::filesystem::path mass{};     ///< empty: in the file of the stiffness
   std::filesystem::path damping{};  ///< empty: in the file of the stiffness, or none
 };
+/// The model from these files.
 [[nodiscard]] dynamics::SparseModel read_sparse_mat(const MatFiles& files);
 
 }  // namespace thinwall::io

@@ -112,15 +112,6 @@ Matrices take_files(const MatrixFiles& files) {
   return matrices;
 }
 
-/// The table that was stated, or job.dof beside job.sti; empty: neither.
-std::filesystem::path table_path(const MatrixFiles& files) {
-  if (!files.dofs.empty()) return files.dofs;
-  std::filesystem::path path = files.stiffness;
-  path.replace_extension(".dof");
-  const bool is_there = path != files.stiffness && std::filesystem::exists(path);
-  return is_there ? path : std::filesystem::path();
-}
-
 std::optional<DofTableFile> table_of(const std::filesystem::path& path) {
   if (path.empty()) return std::nullopt;
   const std::string bytes = core::read_file(path);
@@ -175,7 +166,7 @@ SparseModel model_of_text(const MatrixFiles& files, Matrices& matrices, const st
     std::vector<const LabelledEntries*> all;
     for (const LabelledEntries& labelled : matrices.labelled) all.push_back(&labelled);
     model.dofs = dofs_of(all);
-    if (table) require_labels(model.dofs, table->dofs, table_path(files).string());
+    if (table) require_labels(model.dofs, table->dofs, dof_table_path(files).string());
   } else if (table) {
     model.dofs = table->dofs;
   } else {
@@ -215,12 +206,20 @@ void settle_positions(SparseModel& model, std::vector<std::string>& notes) {
 
 }  // namespace
 
+std::filesystem::path dof_table_path(const MatrixFiles& files) {
+  if (!files.dofs.empty() || files.stiffness.empty()) return files.dofs;
+  std::filesystem::path path = files.stiffness;
+  path.replace_extension(".dof");
+  const bool is_there = path != files.stiffness && std::filesystem::exists(path);
+  return is_there ? path : std::filesystem::path();
+}
+
 ImportedMatrices read_matrices(const MatrixFiles& files) {
   const dynamics::UnitSystem units = dynamics::unit_system(files.length_unit, files.mass_unit);
   ImportedMatrices imported;
   Matrices matrices = take_files(files);
   imported.format = name_of(matrices.format);
-  const std::optional<DofTableFile> table = table_of(table_path(files));
+  const std::optional<DofTableFile> table = table_of(dof_table_path(files));
   if (matrices.format == Format::mat) {
     imported.model = read_sparse_mat(MatFiles{files.stiffness, files.mass, files.damping});
     if (table) imported.model.dofs = table->dofs;

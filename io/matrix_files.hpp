@@ -31,6 +31,9 @@ struct ImportedMatrices {
   std::vector<std::string> notes;  ///< what was done or is missing, a line each
 };
 
+/// The table of DOFs that is read: the one that is stated, or job.dof beside job.sti; empty if there is neither.
+[[nodiscard]] std::filesystem::path dof_table_path(const MatrixFiles& files);
+
 /// Reads the files. Throws InputError for missing or wrong units, DataError with file and line for what the readers
 /// refuse, for an unknown format, for a DOF table that is missing or has another number of rows than the matrices, and
 /// for matrices of different kinds in one component. Cost O(bytes + entries · log).

@@ -9,13 +9,16 @@
 
 namespace thinwall::io {
 
+/// How the numbers of the body are written.
 enum class PlyFormat { ascii, little_endian, big_endian };
 
+/// Type of a number.
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 /// Bytes of a value in a binary file.
 [[nodiscard]] std::size_t size_of(PlyType type);
 
+/// A number, or a list of numbers, of every item of an element.
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::float32;
@@ -23,12 +26,14 @@ struct PlyProperty {
   PlyType count_type = PlyType::uint8;  ///< of a list
 };
 
+/// So many items ("vertex", "face") with the same properties.
 struct PlyElement {
   std::string name;
   std::int64_t count = 0;
   std::vector<PlyProperty> properties;
 };
 
+/// What stands before the body.
 struct PlyHeading {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;

@@ -9,6 +9,7 @@
 
 namespace thinwall::io {
 
+/// How finely a STEP file's faces become triangles.
 struct StepOptions {
   /// How far a triangle may lie off the true surface, as a fraction of the diagonal of the part's block, 1e-6 to 0.1.
   double linear_deflection = 1e-3;

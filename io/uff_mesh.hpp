@@ -28,6 +28,7 @@ struct UffNode {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
+/// An element of data set 2412.
 struct UffElement {
   long label = 0;
   int descriptor = uff::linear_triangle;
@@ -41,6 +42,7 @@ struct UffTraceLine {
   std::vector<long> nodes;
 };
 
+/// Nodes, elements and trace lines of a file.
 struct UffMesh {
   std::vector<UffNode> nodes;
   std::vector<UffElement> elements;

@@ -29,6 +29,7 @@ struct UffShape {
   Eigen::MatrixXcd displacement;  ///< nodes × 3, or × 6 with rotations (rad)
 };
 
+/// The shapes of a file, and what was noted on the way.
 struct UffShapes {
   std::vector<UffShape> shapes;
   UffNotes notes{};

@@ -4,10 +4,12 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
@@ -83,7 +85,8 @@ vtkNew<vtkDoubleArray> on_triangles(const TriangleNumbers& field, std::size_t tr
 }  // namespace
 
 void write_vtp(const std::filesystem::path& path, const mesh::LagrangeNodes& nodes,
-               const std::vector<std::array<int, 3>>& triangles, const std::vector<NodeVectors>& vectors) {
+               const std::vector<std::array<int, 3>>& triangles, const std::vector<NodeVectors>& vectors,
+               const std::vector<TriangleNumbers>& numbers) {
   const UsedNodes used = used_by(triangles, nodes.positions.rows());
   vtkNew<vtkPolyData> surface;
   vtkNew<vtkPoints> points;
@@ -100,6 +103,8 @@ void write_vtp(const std::filesystem::path& path, const mesh::LagrangeNodes& nod
     surface->GetPointData()->AddArray(single_precision(field.values, used, field.name.c_str()).Get());
   }
   if (!vectors.empty()) surface->GetPointData()->SetActiveVectors(vectors.front().name.c_str());
+  for (const TriangleNumbers& field : numbers)
+    surface->GetCellData()->AddArray(on_triangles(field, triangles.size()).Get());
   write(path, *surface);
 }
 
@@ -119,6 +124,68 @@ void write_vtp(const std::filesystem::path& path, const mesh::TriangleSurface& s
     data->GetCellData()->AddArray(on_triangles(field, surface.triangles.size()).Get());
   if (!numbers.empty()) data->GetCellData()->SetActiveScalars(numbers.front().name.c_str());
   write(path, *data);
+}
+
+namespace {
+
+[[noreturn]] void no_surface(const std::filesystem::path& path, const std::string& why) {
+  throw core::DataError(path.string() + ": not a surface as thinwall writes it: " + why);
+}
+
+mesh::TriangleSurface triangles_of(vtkPolyData& data, const std::filesystem::path& path) {
+  mesh::TriangleSurface surface;
+  const vtkIdType vertices = data.GetNumberOfPoints();
+  for (vtkIdType v = 0; v < vertices; ++v) surface.vertices.emplace_back(data.GetPoint(v));
+  vtkNew<vtkIdList> cell;
+  vtkCellArray& cells = *data.GetPolys();
+  for (cells.InitTraversal(); cells.GetNextCell(cell) != 0;) {
+    if (cell->GetNumberOfIds() != 3) no_surface(path, "a polygon is no triangle");
+    std::array<int, 3> triangle{};
+    for (vtkIdType k = 0; k < 3; ++k) {
+      if (cell->GetId(k) < 0 || cell->GetId(k) >= vertices)
+        no_surface(path, "a triangle names a vertex that is missing");
+      triangle[static_cast<std::size_t>(k)] = static_cast<int>(cell->GetId(k));
+    }
+    surface.triangles.push_back(triangle);
+  }
+  return surface;
+}
+
+std::string name_of(vtkDataArray& array) {
+  return array.GetName() == nullptr ? "" : array.GetName();
+}
+
+}  // namespace
+
+SurfaceFields read_vtp(const std::filesystem::path& path) {
+  const std::string bytes = core::read_file(path);
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->ReadFromInputStringOn();
+  reader->SetInputString(bytes);
+  reader->GlobalWarningDisplayOff();
+  reader->Update();
+  if (reader->GetErrorCode() != 0 || reader->GetOutput() == nullptr || reader->GetOutput()->GetNumberOfPolys() == 0)
+    no_surface(path, "VTK cannot read it");
+  vtkPolyData& data = *reader->GetOutput();
+  SurfaceFields fields{triangles_of(data, path), {}, {}};
+  const auto vertices = static_cast<vtkIdType>(fields.surface.vertices.size());
+  const auto triangles = static_cast<vtkIdType>(fields.surface.triangles.size());
+  for (int i = 0; i < data.GetPointData()->GetNumberOfArrays(); ++i) {
+    vtkDataArray* array = data.GetPointData()->GetArray(i);
+    if (array == nullptr || array->GetNumberOfComponents() != 3 || array->GetNumberOfTuples() != vertices) continue;
+    NodeVectors field{name_of(*array), {}};
+    field.values.resize(vertices, 3);
+    for (vtkIdType v = 0; v < vertices; ++v) array->GetTuple(v, field.values.row(v).data());
+    fields.vectors.push_back(std::move(field));
+  }
+  for (int i = 0; i < data.GetCellData()->GetNumberOfArrays(); ++i) {
+    vtkDataArray* array = data.GetCellData()->GetArray(i);
+    if (array == nullptr || array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() != triangles) continue;
+    TriangleNumbers field{name_of(*array), {}};
+    for (vtkIdType t = 0; t < triangles; ++t) field.values.push_back(array->GetTuple1(t));
+    fields.numbers.push_back(std::move(field));
+  }
+  return fields;
 }
 
 }  // namespace thinwall::io

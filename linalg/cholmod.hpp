@@ -29,6 +29,7 @@ inline cholmod_sparse cholmod_view(std::size_t rows, int* first, int* row, doubl
   return view;
 }
 
+/// CHOLMOD's view of a symmetric matrix; copies nothing, A must outlive it.
 inline cholmod_sparse cholmod_view(const SparseMatrix& A) {
   cholmod_sparse view = cholmod_view(static_cast<std::size_t>(A.rows()), const_cast<int*>(A.outerIndexPtr()),
                                      const_cast<int*>(A.innerIndexPtr()), const_cast<double*>(A.valuePtr()));

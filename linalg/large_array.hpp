@@ -7,6 +7,7 @@
 
 namespace thinwall::linalg {
 
+/// Gives the memory of allocate_large() back.
 struct FreeLarge {
   void operator()(void* memory) const noexcept;
 };
@@ -26,7 +27,9 @@ class LargeArray {
   LargeArray() = default;
   explicit LargeArray(std::ptrdiff_t size) : memory_(allocate_large(sizeof(T) * static_cast<std::size_t>(size))) {}
 
+  /// The first number.
   [[nodiscard]] T* data() { return static_cast<T*>(memory_.get()); }
+  /// The first number.
   [[nodiscard]] const T* data() const { return static_cast<const T*>(memory_.get()); }
   [[nodiscard]] T& operator[](std::ptrdiff_t i) { return data()[i]; }
   [[nodiscard]] const T& operator[](std::ptrdiff_t i) const { return data()[i]; }

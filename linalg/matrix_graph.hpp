@@ -14,8 +14,11 @@ struct MatrixGraph {
   std::vector<std::vector<int>> rows;
   std::vector<std::vector<int>> neighbours;
 
+  /// Number of nodes.
   [[nodiscard]] int size() const { return static_cast<int>(rows.size()); }
+  /// Neighbours of a node.
   [[nodiscard]] const std::vector<int>& around(int node) const { return neighbours[static_cast<std::size_t>(node)]; }
+  /// How many they are.
   [[nodiscard]] std::size_t degree(int node) const { return around(node).size(); }
 };
 

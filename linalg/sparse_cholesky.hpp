@@ -52,7 +52,9 @@ class SparseCholesky {
   /// from several threads at once.
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& B) const;
 
+  /// Size and cost of the factor.
   [[nodiscard]] const FactorStatistics& statistics() const;
+  /// Order of the matrix.
   [[nodiscard]] Eigen::Index rows() const;
 
  private:

@@ -25,6 +25,7 @@ class SparseIndefinite {
   /// Number of negative eigenvalues; none if a pivot vanished (the shift lies on an eigenvalue): shift elsewhere.
   [[nodiscard]] std::optional<int> negative_eigenvalues() const;
 
+  /// Of A X = B.
   struct Solution {
     Eigen::MatrixXd X;
     double relative_residual = 0.0;  ///< max over columns of ‖A x − b‖ / ‖b‖, after one step of iterative refinement

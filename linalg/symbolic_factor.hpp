@@ -20,12 +20,19 @@ struct SymbolicFactor {
   std::vector<std::ptrdiff_t> first_value;
   std::vector<int> rows;
 
+  /// Number of supernodes.
   [[nodiscard]] int count() const { return static_cast<int>(first_column.size()) - 1; }
+  /// Number of columns of a supernode.
   [[nodiscard]] int columns(int s) const { return at(first_column, s + 1) - at(first_column, s); }
+  /// Number of its rows.
   [[nodiscard]] std::ptrdiff_t height(int s) const { return at(first_row, s + 1) - at(first_row, s); }
+  /// Its rows, ascending.
   [[nodiscard]] const int* rows_of(int s) const { return rows.data() + at(first_row, s); }
+  /// Its first column.
   [[nodiscard]] int column(int s) const { return at(first_column, s); }
+  /// Place of its first value.
   [[nodiscard]] std::ptrdiff_t value(int s) const { return at(first_value, s); }
+  /// Number of values of all supernodes.
   [[nodiscard]] std::ptrdiff_t values() const { return first_value.back(); }
 
  private:
@@ -40,6 +47,7 @@ struct FactorCost {
   double nonzeros = 0.0;  ///< of L, lower triangles
   double flops = 0.0;     ///< Σ over the columns of (entries)²
 };
+/// Entries and operations of a factor. Cost O(columns).
 [[nodiscard]] FactorCost factor_cost(const SymbolicFactor& L);
 
 /// Parent of each supernode in the elimination tree: the one that owns its first row below; −1 for a root.

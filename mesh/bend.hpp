@@ -7,6 +7,7 @@
 
 namespace thinwall::mesh {
 
+/// One point a row, m.
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /// The bend, in part axes: coordinate `along` (0 x, 1 y, 2 z) becomes the arc length on the mid-surface, `through` the
@@ -32,6 +33,7 @@ struct Bend {
 /// The bent position of a point of the flat part, and the way back; m, part axes. The way back takes angles within
 /// ±180 degrees.
 [[nodiscard]] Eigen::Vector3d bent(const Bend& bend, const Eigen::Vector3d& x);
+/// See bent().
 [[nodiscard]] Eigen::Vector3d unbent(const Bend& bend, const Eigen::Vector3d& x);
 
 /// The rotation at a point of the flat part: column k is the direction that axis k of the flat part has after bending.

@@ -24,6 +24,7 @@ struct BorderGraph {
   std::vector<Border> borders;
 };
 
+/// Both ends of a border, m.
 [[nodiscard]] Segment segment(const BorderGraph& graph, const Border& border);
 
 /// All edges of the outline, holes and zones, split where they cross or touch (within 1e-9 of the diagonal); without

@@ -11,6 +11,7 @@
 
 namespace thinwall::mesh {
 
+/// Shapes of cells that are read and split.
 enum class CellShape : std::uint8_t { tetrahedron, hexahedron, wedge, pyramid };
 
 /// Corners, edges and faces of a shape by local numbers; faces run counterclockwise seen from outside.

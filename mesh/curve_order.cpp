@@ -13,11 +13,11 @@ namespace thinwall::mesh {
 
 namespace {
 
-using Kernel = CGAL::Simple_cartesian<double>;
-using Centres = CGAL::Pointer_property_map<Kernel::Point_3>::type;
+using SortingKernel = CGAL::Simple_cartesian<double>;
+using Centres = CGAL::Pointer_property_map<SortingKernel::Point_3>::type;
 
-std::vector<Kernel::Point_3> centres(const TetMesh& mesh) {
-  std::vector<Kernel::Point_3> all;
+std::vector<SortingKernel::Point_3> centres(const TetMesh& mesh) {
+  std::vector<SortingKernel::Point_3> all;
   all.reserve(mesh.tets.size());
   for (const auto& tet : mesh.tets) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -46,10 +46,10 @@ void number_vertices_by_use(TetMesh& mesh) {
 }  // namespace
 
 void order_along_curve(TetMesh& mesh) {
-  std::vector<Kernel::Point_3> at = centres(mesh);
+  std::vector<SortingKernel::Point_3> at = centres(mesh);
   std::vector<std::size_t> order(at.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const CGAL::Spatial_sort_traits_adapter_3<Kernel, Centres> traits(CGAL::make_property_map(at));
+  const CGAL::Spatial_sort_traits_adapter_3<SortingKernel, Centres> traits(CGAL::make_property_map(at));
   CGAL::hilbert_sort(order.begin(), order.end(), traits);
   std::vector<std::array<int, 4>> sorted;
   sorted.reserve(order.size());

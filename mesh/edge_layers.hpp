@@ -28,6 +28,7 @@ struct BorderSide {
 
 /// Unit vectors along a side, and to its left into the material.
 [[nodiscard]] Eigen::Vector2d direction(const BorderGraph& graph, const BorderSide& side);
+/// See direction().
 [[nodiscard]] Eigen::Vector2d inward(const BorderGraph& graph, const BorderSide& side);
 
 /// Length of a side, m.

@@ -29,6 +29,7 @@ struct SplitFlat {
   SurfaceFinding removed;
   SurfaceFinding left;
 };
+/// Removes them from the soup.
 [[nodiscard]] SplitFlat split_flat(TriangleSoup& soup);
 
 }  // namespace thinwall::mesh

@@ -28,6 +28,7 @@ struct TriangleSurface {
 
 /// Enclosed volume of a faceted surface by the divergence theorem, m³.
 [[nodiscard]] double volume(const FacetedSurface& surface);
+/// The same of triangles.
 [[nodiscard]] double volume(const TriangleSurface& surface);
 
 /// ½ (b − a) × (c − a) of a triangle with corners a, b, c: outward normal times area, m².

@@ -21,6 +21,7 @@ namespace thinwall::mesh {
 /// finite.
 void sort_nodes(LabelledMesh& labelled);
 
+/// What a node is to the cells.
 enum class NodeRole : char { unused, corner, middle };
 
 /// What each node is to the cells. Throws DataError for one that is a corner here and within an edge there.

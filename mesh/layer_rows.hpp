@@ -26,6 +26,7 @@ struct Sketch {
 
 /// Distance from p to the nearest point and to the nearest segment of the sketch, m.
 [[nodiscard]] double point_distance(const Sketch& sketch, const Eigen::Vector2d& p);
+/// See point_distance().
 [[nodiscard]] double segment_distance(const Sketch& sketch, const Eigen::Vector2d& p);
 
 }  // namespace thinwall::mesh

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <sstream>
 
 #include "core/error.hpp"
+#include "mesh/nearest_point.hpp"
 
 namespace thinwall::mesh {
 
@@ -47,43 +47,26 @@ double diagonal(const TetMesh& mesh) {
   return (high - low).norm();
 }
 
-/// Point of the triangle nearest to x (Ericson 2005, section 5.1.5).
-Eigen::Vector3d nearest_on_triangle(const Eigen::Vector3d& x, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                    const Eigen::Vector3d& c) {
-  const Eigen::Vector3d ab = b - a;
-  const Eigen::Vector3d ac = c - a;
-  const double d1 = ab.dot(x - a);
-  const double d2 = ac.dot(x - a);
-  if (d1 <= 0.0 && d2 <= 0.0) return a;
-  const double d3 = ab.dot(x - b);
-  const double d4 = ac.dot(x - b);
-  if (d3 >= 0.0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return a + d1 / (d1 - d3) * ab;
-  const double d5 = ab.dot(x - c);
-  const double d6 = ac.dot(x - c);
-  if (d6 >= 0.0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return a + d2 / (d2 - d6) * ac;
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
-  const double sum = va + vb + vc;
-  return a + (vb / sum) * ab + (vc / sum) * ac;
-}
-
-const BoundaryTriangle& nearest_triangle(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary,
-                                         const Eigen::Vector3d& x, double& distance) {
-  const BoundaryTriangle* best = nullptr;
-  distance = std::numeric_limits<double>::max();
+/// Of these boundary triangles the one nearest to x, and its point.
+struct OnBoundary {
+  const BoundaryTriangle* triangle = nullptr;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double distance_m = std::numeric_limits<double>::max();
+};
+OnBoundary nearest(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary, const Eigen::Vector3d& x) {
+  OnBoundary best;
   for (const auto& triangle : boundary) {
     const auto& v = triangle.vertices;
-    const double d = (x - nearest_on_triangle(x, vertex(mesh, v[0]), vertex(mesh, v[1]), vertex(mesh, v[2]))).norm();
-    if (d < distance) {
-      distance = d;
-      best = &triangle;
-    }
+    const Eigen::Vector3d p = nearest_on_triangle(x, vertex(mesh, v[0]), vertex(mesh, v[1]), vertex(mesh, v[2]));
+    if ((p - x).norm() < best.distance_m) best = {&triangle, p, (p - x).norm()};
   }
-  return *best;
+  return best;
+}
+
+/// The place in its tetrahedron of a point of the boundary.
+Location location_of(const TetMesh& mesh, const OnBoundary& at) {
+  const Eigen::Vector4d lambda = barycentric(mesh, at.triangle->tet, at.point).cwiseMax(0.0);
+  return {at.triangle->tet, lambda / lambda.sum()};
 }
 
 [[noreturn]] void off_the_part(const Eigen::Vector3d& x, double distance, const char* what) {
@@ -93,11 +76,19 @@ const BoundaryTriangle& nearest_triangle(const TetMesh& mesh, const std::vector<
   throw core::InputError(text.str());
 }
 
-/// Of these tetrahedra the one that x lies in, or the one that it is least outside of by barycentric coordinates.
-Located locate_among(const TetMesh& mesh, const std::vector<int>& tets, const Eigen::Vector3d& x) {
+/// Outward normal of a boundary triangle.
+Eigen::Vector3d normal(const TetMesh& mesh, const BoundaryTriangle& triangle) {
+  const auto& v = triangle.vertices;
+  const Eigen::Vector3d a = vertex(mesh, v[0]);
+  return (vertex(mesh, v[1]) - a).cross(vertex(mesh, v[2]) - a).normalized();
+}
+
+}  // namespace
+
+Located locate(const TetMesh& mesh, const Eigen::Vector3d& x) {
   Location best;
   double worst = -std::numeric_limits<double>::max();
-  for (const int tet : tets) {
+  for (int tet = 0; tet < static_cast<int>(mesh.tets.size()); ++tet) {
     const Eigen::Vector4d lambda = barycentric(mesh, tet, x);
     if (lambda.minCoeff() > worst) {
       worst = lambda.minCoeff();
@@ -110,44 +101,39 @@ Located locate_among(const TetMesh& mesh, const std::vector<int>& tets, const Ei
   return {best, (position(mesh, best) - x).norm()};
 }
 
-/// Those whose boxes come within `reach_m` of x.
-std::vector<int> tets_near(const TetMesh& mesh, const Eigen::Vector3d& x, double reach_m) {
-  std::vector<int> near;
-  for (std::size_t tet = 0; tet < mesh.tets.size(); ++tet) {
+DiscFace disc_face(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary, const Eigen::Vector3d& x,
+                   double radius_m, double off_m) {
+  const double tolerance = 1e-6 * diagonal(mesh);
+  const OnBoundary centre = nearest(mesh, boundary, x);
+  if (centre.distance_m > tolerance + off_m)
+    off_the_part(x, centre.distance_m, "the part's surface, where a patch must lie");
+  DiscFace face{centre.point, normal(mesh, *centre.triangle), tolerance, {*centre.triangle}};
+  if (off_m > 0.0) face.depth_m += off_m + 0.25 * radius_m;
+  const double reach = radius_m + face.depth_m;
+  for (const auto& triangle : boundary) {
     Eigen::AlignedBox3d box;
-    for (const int corner : mesh.tets[tet]) box.extend(vertex(mesh, corner));
-    if (box.squaredExteriorDistance(x) <= reach_m * reach_m) near.push_back(static_cast<int>(tet));
+    for (const int corner : triangle.vertices) box.extend(vertex(mesh, corner));
+    if (&triangle != centre.triangle && box.squaredExteriorDistance(face.centre_m) <= reach * reach &&
+        normal(mesh, triangle).dot(face.normal) > 0.5)
+      face.triangles.push_back(triangle);
   }
-  return near;
-}
-
-}  // namespace
-
-Located locate(const TetMesh& mesh, const Eigen::Vector3d& x) {
-  std::vector<int> all(mesh.tets.size());
-  std::iota(all.begin(), all.end(), 0);
-  return locate_among(mesh, all, x);
+  return face;
 }
 
 std::vector<PatchSample> patch_samples(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary,
-                                       const Eigen::Vector3d& x, double radius_m) {
+                                       const Eigen::Vector3d& x, double radius_m, double off_m) {
   const double tolerance = 1e-6 * diagonal(mesh);
-  double distance = 0.0;
   if (radius_m <= 0.0) {
     const Located found = locate(mesh, x);
-    if (found.distance_m > tolerance) {
-      nearest_triangle(mesh, boundary, x, distance);  // locate() moves x by more than its distance
-      off_the_part(x, distance, "the part");
-    }
-    return {{found.location, 1.0}};
+    if (found.distance_m <= tolerance) return {{found.location, 1.0}};
+    const OnBoundary moved = nearest(mesh, boundary, x);  // locate() moves x by more than its distance
+    if (moved.distance_m > tolerance + off_m) off_the_part(x, moved.distance_m, "the part");
+    return {{location_of(mesh, moved), 1.0}};
   }
-  const BoundaryTriangle& triangle = nearest_triangle(mesh, boundary, x, distance);
-  if (distance > tolerance) off_the_part(x, distance, "the part's surface, where a patch must lie");
-  const Eigen::Vector3d e1 = (vertex(mesh, triangle.vertices[1]) - vertex(mesh, triangle.vertices[0])).normalized();
-  const Eigen::Vector3d normal =
-      e1.cross(vertex(mesh, triangle.vertices[2]) - vertex(mesh, triangle.vertices[0])).normalized();
-  const Eigen::Vector3d e2 = normal.cross(e1);
-  const std::vector<int> tets = tets_near(mesh, x, radius_m + tolerance);
+  const DiscFace face = disc_face(mesh, boundary, x, radius_m, off_m);
+  const auto& v = face.triangles.front().vertices;
+  const Eigen::Vector3d e1 = (vertex(mesh, v[1]) - vertex(mesh, v[0])).normalized();
+  const Eigen::Vector3d e2 = face.normal.cross(e1);
   constexpr int rings = 8;
   constexpr int sectors = 24;
   std::vector<PatchSample> samples;
@@ -157,8 +143,12 @@ std::vector<PatchSample> patch_samples(const TetMesh& mesh, const std::vector<Bo
       // A quarter of a sector on, so that no ray lies on an edge of the part along e1, where half a sector would count
       // whole.
       const double angle = 2.0 * std::numbers::pi * (sector + 0.25 + 0.5 * (ring % 2)) / sectors;
-      const Located found = locate_among(mesh, tets, x + r * (std::cos(angle) * e1 + std::sin(angle) * e2));
-      if (found.distance_m <= tolerance) samples.push_back({found.location, 1.0});
+      const Eigen::Vector3d wanted = face.centre_m + r * (std::cos(angle) * e1 + std::sin(angle) * e2);
+      const OnBoundary found = nearest(mesh, face.triangles, wanted);
+      const Eigen::Vector3d moved = found.point - wanted;
+      const double fall = std::abs(moved.dot(face.normal));
+      const double aside = (moved - moved.dot(face.normal) * face.normal).norm();
+      if (fall <= face.depth_m && aside <= tolerance + fall) samples.push_back({location_of(mesh, found), 1.0});
     }
   }
   if (samples.empty()) off_the_part(x, radius_m, "the part's surface, where a patch must lie");

@@ -83,9 +83,9 @@ Triangulation triangulate(const Sketch& sketch) {
   return result;
 }
 
-using Face = Triangulation::Face_handle;
+using FaceHandle = Triangulation::Face_handle;
 
-double area(Face face) {
+double area(FaceHandle face) {
   const auto& a = face->vertex(0)->point();
   const auto& b = face->vertex(1)->point();
   const auto& c = face->vertex(2)->point();
@@ -93,12 +93,13 @@ double area(Face face) {
 }
 
 /// All faces that can be reached from `first` without crossing a border; marks them.
-std::vector<Face> region(const Triangulation& triangulation, const std::set<std::pair<int, int>>& borders, Face first) {
-  std::vector<Face> faces{first};
+std::vector<FaceHandle> region(const Triangulation& triangulation, const std::set<std::pair<int, int>>& borders,
+                               FaceHandle first) {
+  std::vector<FaceHandle> faces{first};
   first->info() = 1;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     for (int k = 0; k < 3; ++k) {
-      const Face next = faces[i]->neighbor(k);
+      const FaceHandle next = faces[i]->neighbor(k);
       if (triangulation.is_infinite(next) || next->info() != 0) continue;
       const int a = faces[i]->vertex(Triangulation::ccw(k))->info();
       const int b = faces[i]->vertex(Triangulation::cw(k))->info();
@@ -116,20 +117,20 @@ PlanarMesh with_material(const Prism& prism, const Triangulation& triangulation,
   std::set<std::pair<int, int>> borders;
   for (std::size_t i = 0; i < sketch.borders; ++i)
     borders.insert(std::minmax(sketch.segments[i][0], sketch.segments[i][1]));
-  for (const Face face : triangulation.all_face_handles()) face->info() = 0;
+  for (const FaceHandle face : triangulation.all_face_handles()) face->info() = 0;
   const double sliver = 1e-14 * diagonal(prism) * diagonal(prism);
   PlanarMesh mesh;
   mesh.vertices = sketch.points;
-  for (const Face first : triangulation.finite_face_handles()) {
+  for (const FaceHandle first : triangulation.finite_face_handles()) {
     if (first->info() != 0) continue;
     const auto faces = region(triangulation, borders, first);
-    const Face largest =
-        *std::max_element(faces.begin(), faces.end(), [](Face a, Face b) { return area(a) < area(b); });
+    const FaceHandle largest =
+        *std::max_element(faces.begin(), faces.end(), [](FaceHandle a, FaceHandle b) { return area(a) < area(b); });
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     for (int k = 0; k < 3; ++k) middle += sketch.points[static_cast<std::size_t>(largest->vertex(k)->info())] / 3.0;
     const auto extent = extent_at(prism, middle);
     if (!extent || area(largest) < sliver) continue;
-    for (const Face face : faces) {
+    for (const FaceHandle face : faces) {
       mesh.triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
       mesh.extents.push_back(*extent);
     }

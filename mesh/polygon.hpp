@@ -11,6 +11,7 @@ namespace thinwall::mesh {
 /// Corners in order, m; the last is joined to the first. Either orientation.
 using Polygon = std::vector<Eigen::Vector2d>;
 
+/// Both ends, m.
 using Segment = std::array<Eigen::Vector2d, 2>;
 
 /// a_x b_y − a_y b_x.

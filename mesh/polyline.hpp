@@ -6,6 +6,7 @@
 
 namespace thinwall::mesh {
 
+/// Points in order, m.
 using Polyline = std::vector<Eigen::Vector3d>;
 
 /// The point of the polyline nearest to x. Cost O(points).

@@ -19,6 +19,7 @@ struct Spot {
   double radius_m = 0.0;
 };
 
+/// How fine the mesh of a prism is, and where.
 struct PrismMeshOptions {
   double size_m = 0.0;  ///< wanted edge of an element away from borders, in the plane and along a rib's height; above 0
   int layers = 1;       ///< graded layers along every border, 0 to 8; none: size_m everywhere
@@ -27,7 +28,7 @@ struct PrismMeshOptions {
   /// wider than size_m. Across a rib, which is thinner than it is high, there are none.
   double layer_width_m = 0.0;
   double layer_factor = 0.2;  ///< width of a layer over that of the next one inwards, 0.1 to 0.5
-  std::vector<Spot> spots;    ///< elements as small as the radius there, growing with the distance
+  std::vector<Spot> spots{};  ///< elements as small as the radius there, growing with the distance
   double spot_growth = 1.0;   ///< size of an element over its distance from the spot, 0.2 to 10: high orders bear 4
 };
 

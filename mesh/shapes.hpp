@@ -32,7 +32,9 @@ struct CylinderSector {
   double angle_rad = 1.5707963267948966;
   double height_m = 0.08;
 };
+/// Its surface, with edges of about `edge_m`.
 [[nodiscard]] TriangleSurface surface(const CylinderSector& sector, double edge_m);
+/// Its volume in closed form, m³.
 [[nodiscard]] double volume(const CylinderSector& sector);
 
 /// A wall that stands on z = 0 with a rectangular section chord × thickness(z), thickness linear in z, turned about the
@@ -44,7 +46,9 @@ struct Blade {
   double tip_thickness_m = 0.003;
   double twist_rad = 0.5235987755982988;
 };
+/// Its surface, with edges of about `edge_m`.
 [[nodiscard]] TriangleSurface surface(const Blade& blade, double edge_m);
+/// Its volume, m³.
 [[nodiscard]] double volume(const Blade& blade);
 
 /// A corner of a pocket: a floor 0 ≤ z ≤ floor and two walls, x ≤ wall and y ≤ wall, on 0 ≤ x ≤ length, 0 ≤ y ≤ width,
@@ -56,7 +60,9 @@ struct LPocket {
   double wall_m = 0.003;
   double floor_m = 0.004;
 };
+/// Its surface, with edges of about `edge_m`.
 [[nodiscard]] TriangleSurface surface(const LPocket& pocket, double edge_m);
+/// Its volume in closed form, m³.
 [[nodiscard]] double volume(const LPocket& pocket);
 
 }  // namespace thinwall::mesh

@@ -41,14 +41,17 @@ class SizeSpace {
   SizeSpace(const TriangleSurface& surface, const SurfaceFeatures& features, const std::vector<double>& thickness,
             const SurfaceSize& size);
 
+  /// The coordinates of a point x of a patch with the normal n there.
   [[nodiscard]] Eigen::VectorXd at(int patch, const Eigen::Vector3d& x, const Eigen::Vector3d& normal) const;
   /// Unit normal of the input surface, interpolated between the patch's own vertex normals, at the point nearest to x.
   [[nodiscard]] Eigen::Vector3d normal(int patch, const Eigen::Vector3d& x) const;
   /// Nearest point of the patch of the input surface, m; of one of its sharp lines.
   [[nodiscard]] Eigen::Vector3d on_patch(int patch, const Eigen::Vector3d& x) const;
+  /// See on_patch().
   [[nodiscard]] Eigen::Vector3d on_line(int line, const Eigen::Vector3d& x) const;
   /// How far a face of the new mesh may lie off the patch, m: 5 % of the wall; 0 for a planar patch needs no look.
   [[nodiscard]] double allowed_deviation_m(int patch) const;
+  /// Whether the patch is planar.
   [[nodiscard]] bool is_planar(int patch) const;
 
  private:

@@ -60,6 +60,7 @@ struct SolidMesh {
 
 /// The set of that name, whatever its case; throws DataError that offers the nearest name. `path` is for the message.
 [[nodiscard]] const NodeSet& node_set(const SolidMesh& solid, const std::string& name, const std::string& path);
+/// The same of sets of elements.
 [[nodiscard]] const ElementSet& element_set(const SolidMesh& solid, const std::string& name, const std::string& path);
 
 }  // namespace thinwall::mesh

@@ -14,6 +14,7 @@ struct FeatureLine {
   std::array<int, 2> patches{};  ///< on its two sides; equal where a crease runs out into a smooth patch
 };
 
+/// The smooth patches of a surface and the sharp lines between them.
 struct SurfaceFeatures {
   std::vector<int> patch_of_triangle;
   int patches = 0;

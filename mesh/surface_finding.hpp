@@ -8,6 +8,7 @@
 
 namespace thinwall::mesh {
 
+/// A kind of fault, how often it was found and where first.
 struct SurfaceFinding {
   std::string what;                                   ///< follows the count: "facets that stand twice"
   int count = 0;                                      ///< 0: nothing found

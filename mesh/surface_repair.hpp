@@ -12,6 +12,7 @@
 
 namespace thinwall::mesh {
 
+/// What may be mended, and how far.
 struct SurfaceRepairOptions {
   double merge_tolerance_m = 0.0;  ///< points within this become one, 0: only equal ones; closes cracks of exporters
   int largest_hole_edges = 0;      ///< holes with at most so many edges are filled, 0 to 100; 0: none

@@ -12,6 +12,7 @@
 
 namespace thinwall::mesh {
 
+/// Of mesh_closed_surface().
 struct SurfaceMeshOptions {
   SurfaceSize size;                ///< wanted edges on the surface
   double volume_tolerance = 1e-3;  ///< bound on |mesh volume / surface volume − 1|, 1e-6 to 0.1
@@ -47,6 +48,7 @@ struct VolumeMesher {
 /// degenerate tetrahedron. Throws InputError for a bad surface or option; NumericalError, one line with what each
 /// mesher said, if all fail; Interrupted. Interruptible.
 [[nodiscard]] SurfaceMeshed mesh_closed_surface(const FacetedSurface& surface, const SurfaceMeshOptions& options = {});
+/// The same of triangles.
 [[nodiscard]] SurfaceMeshed mesh_closed_surface(const TriangleSurface& surface, const SurfaceMeshOptions& options = {});
 
 /// The same with meshers of one's own, tried in order.

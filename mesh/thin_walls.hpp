@@ -8,6 +8,7 @@
 
 namespace thinwall::mesh {
 
+/// What thin_walls() finds.
 struct ThinWalls {
   std::vector<int> triangles;  ///< with a wall beneath them that is thinner than the bound
   double thinnest_m = std::numeric_limits<double>::infinity();  ///< of all walls; infinite if there is none

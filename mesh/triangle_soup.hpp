@@ -40,6 +40,7 @@ struct SoupBounds {
   Eigen::Vector3d least = Eigen::Vector3d::Zero();
   Eigen::Vector3d largest = Eigen::Vector3d::Zero();
 };
+/// The block around all points.
 [[nodiscard]] SoupBounds bounds(const TriangleSoup& soup);
 
 /// "120 x 80 x 12 mm": the size along the axes, for people to see whether the unit was the right one.

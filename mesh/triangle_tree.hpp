@@ -24,11 +24,13 @@ class TriangleTree {
   TriangleTree(const TriangleTree&) = delete;
   TriangleTree& operator=(const TriangleTree&) = delete;
 
+  /// A point of the surface, and how far it is.
   struct Nearest {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< m
     int triangle = -1;
     double distance_m = 0.0;
   };
+  /// The point of the surface nearest to x, m.
   [[nodiscard]] Nearest nearest(const Eigen::Vector3d& x) const;
 
   /// Distance (m) along a unit direction to the first triangle hit, `skipped` left out (−1: none); empty if none is

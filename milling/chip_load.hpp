@@ -8,6 +8,7 @@
 
 namespace thinwall::milling {
 
+/// The chip of one tooth.
 struct ChipLoad {
   double mean_thickness_m = 0.0;  ///< over the part of the arcs in which the tooth cuts; 0 if it never does
   double share_in_cut = 1.0;      ///< of the arcs: less where runout lets the tooth pass above the last cut surface

@@ -37,6 +37,7 @@ struct Contact {
   std::vector<Past> past;
 };
 
+/// The elements of one period of the cut, and the contacts at their nodes.
 struct ContactGrid {
   double period_rad = 0.0;  ///< after which the cut repeats itself
   std::vector<CutElement> elements;

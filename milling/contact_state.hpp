@@ -22,7 +22,9 @@ struct ContactState {
   Eigen::MatrixXd C;         ///< p × states
   Eigen::Matrix2Xd in_plane;
 
+  /// Number of states: two a pair of poles, one a real pole.
   [[nodiscard]] Eigen::Index size() const { return 2 * decay.size() + real_pole.size(); }
+  /// Number of directions in which the structure yields.
   [[nodiscard]] Eigen::Index directions() const { return C.rows(); }
 };
 
@@ -39,6 +41,7 @@ struct FreeFlight {
   Eigen::ArrayXd decay;  ///< e^{λ t} of the real poles
 };
 
+/// Over a time, s.
 [[nodiscard]] FreeFlight free_flight(const ContactState& state, double time_s);
 
 /// X ← e^{Λ t} X for every column of X (states × any).

@@ -217,11 +217,9 @@ std::vector<double> stops_between(const Eigen::VectorXcd& flow) {
   std::vector<double> stops{0.0};
   while (stops.back() < pi) {
     const complex<double> at = std::polar(1.0, stops.back());
-    double step = 0.35;
-    for (const complex<double> f : flow) {
-      step = std::min(step, 0.6 * std::abs(at - f));
-      step = std::min(step, 0.6 * std::abs(at - std::conj(f)));
-    }
+    double square = INFINITY;  // of the distance to the nearest
+    for (const complex<double> f : flow) square = std::min({square, std::norm(at - f), std::norm(at - std::conj(f))});
+    const double step = std::min(0.35, 0.6 * std::sqrt(square));
     stops.push_back(stops.back() + std::max(step, 1e-4));
   }
   stops.back() = pi;

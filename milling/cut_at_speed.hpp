@@ -27,6 +27,7 @@ struct DiscreteCut {
   RegenerativeLoop loop;
 };
 
+/// On a grid of a resolution; depth in m.
 [[nodiscard]] DiscreteCut discrete(const CutAtSpeed& cut, Resolution resolution, double depth_m);
 
 /// Keeps a reference to the loop.

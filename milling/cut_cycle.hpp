@@ -42,6 +42,7 @@ struct CutCycle {
   std::vector<double> joints;  ///< heights, as shares of the depth, at which edges change their shape; 0 and 1 too
 };
 
+/// Of a process; depth in m.
 [[nodiscard]] CutCycle cut_cycle(const MillingProcess& process, double depth_m);
 
 /// Stretch of the period in which some edge cuts and no joint of an edge enters or leaves.

@@ -9,6 +9,7 @@
 
 namespace thinwall::milling {
 
+/// What the cut does to tool and spindle at a moment.
 struct CuttingLoad {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< on the tool, tool axes, N
   double torque = 0.0;                              ///< that the spindle must give, N m

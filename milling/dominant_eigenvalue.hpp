@@ -31,6 +31,7 @@ DominantEigenvalue dominant_eigenvalue(const LinearMap& map, Eigen::Index size, 
 
 /// The two ways, for comparison.
 DominantEigenvalue dominant_eigenvalue_dense(const LinearMap& map, Eigen::Index size, double tolerance);
+/// By Arnoldi's method, Ritz values first looked at after so many steps.
 DominantEigenvalue dominant_eigenvalue_arnoldi(const LinearMap& map, Eigen::Index size, double tolerance,
                                                Eigen::Index first_look = 20);
 

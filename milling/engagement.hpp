@@ -8,6 +8,7 @@
 
 namespace thinwall::milling {
 
+/// Which way the teeth go through the cut.
 enum class MillingDirection {
   up,    ///< conventional: the chip starts at zero thickness; the wall lies on the +y_T side of the tool
   down,  ///< climb: the chip ends at zero thickness; the wall lies on the −y_T side
@@ -18,6 +19,7 @@ struct Engagement {
   double entry_rad = 0.0;
   double exit_rad = 0.0;  ///< entry < exit ≤ entry + 2π
 
+  /// Angle in the cut, rad.
   [[nodiscard]] double arc_rad() const { return exit_rad - entry_rad; }
 };
 

@@ -22,7 +22,9 @@ struct Envelope {
   [[nodiscard]] bool straight() const { return corner_radius_m == 0.0 && tip_angle_rad == 0.0; }
 };
 
+/// A ball of that diameter.
 [[nodiscard]] Envelope ball_end(double diameter_m);
+/// A cylinder with a rounded corner.
 [[nodiscard]] Envelope bull_nose(double diameter_m, double corner_radius_m);
 
 /// A point of the meridian. κ is the axial immersion angle, from the axis to the outward normal
@@ -43,6 +45,7 @@ struct MeridianPiece {
   double corner_radial_m = 0.0;
   double corner_axial_m = 0.0;
 
+  /// A cone or a cylinder.
   [[nodiscard]] bool straight() const { return corner_radius_m == 0.0; }
   /// At a height of the piece, m.
   [[nodiscard]] MeridianPoint at(double height_m) const;

@@ -14,6 +14,7 @@
 
 namespace thinwall::milling {
 
+/// How well the periodic motion is resolved.
 struct ForcedOptions {
   double error_tolerance = 1e-4;  ///< relative, in (0, 1), of every figure
   int most_nodes = 240;           ///< ≥ 8: nodes in the cut at which refinement of unequal teeth gives up

@@ -7,6 +7,7 @@
 
 namespace thinwall::milling {
 
+/// The crossings of a row, and how far they were looked for.
 struct FoundCrossings {
   std::vector<LobePoint> points;  ///< ascending
   double searched_m = 0.0;        ///< the depth up to which crossings were looked for

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/progress.hpp"
 #include "milling/row_search.hpp"
 
 namespace thinwall::milling {
@@ -30,10 +33,21 @@ void summarise(LobeField& field) {
   }
 }
 
+std::vector<LobeRow> rows_at_speed(const std::vector<RelativeStructure>& structures, const MillingProcess& process,
+                                   double rpm, StabilityOptions options) {
+  std::vector<LobeRow> rows;
+  rows.reserve(structures.size());
+  for (const RelativeStructure& structure : structures) {
+    rows.push_back(limiting_depth(structure, process, rpm, options));
+    options.expected_depth_m = rows.back().limiting_depth_m;
+  }
+  return rows;
+}
+
 }  // namespace
 
 LobeField lobe_field(const std::vector<RelativeStructure>& structures, const MillingProcess& process,
-                     const std::vector<double>& spindle_speeds_rpm, StabilityOptions options) {
+                     const std::vector<double>& spindle_speeds_rpm, StabilityOptions options, const KeptRows& kept) {
   if (structures.empty() || spindle_speeds_rpm.empty()) {
     throw core::InputError("lobe field: " + std::to_string(structures.size()) + " positions and " +
                            std::to_string(spindle_speeds_rpm.size()) +
@@ -43,13 +57,18 @@ LobeField lobe_field(const std::vector<RelativeStructure>& structures, const Mil
   LobeField field;
   field.spindle_speeds_rpm = spindle_speeds_rpm;
   field.rows.assign(structures.size(), std::vector<LobeRow>(spindle_speeds_rpm.size()));
+  core::Progress progress("speeds along the path", spindle_speeds_rpm.size());
+  std::mutex adding;
   core::parallel_for(spindle_speeds_rpm.size(), [&](std::size_t i) {
-    StabilityOptions from_neighbour = options;
-    for (std::size_t position = 0; position < structures.size(); ++position) {
-      LobeRow& row = field.rows[position][i];
-      row = limiting_depth(structures[position], process, spindle_speeds_rpm[i], from_neighbour);
-      from_neighbour.expected_depth_m = row.limiting_depth_m;
+    std::vector<LobeRow> along = kept.find ? kept.find(i) : std::vector<LobeRow>{};
+    if (along.size() != structures.size()) {
+      along = rows_at_speed(structures, process, spindle_speeds_rpm[i], options);
+      const std::lock_guard lock(adding);
+      if (kept.add) kept.add(i, along);
     }
+    for (std::size_t position = 0; position < structures.size(); ++position)
+      field.rows[position][i] = std::move(along[position]);
+    progress.step();
   });
   summarise(field);
   return field;

@@ -7,6 +7,7 @@
 
 namespace thinwall::milling {
 
+/// The limit over speed and position.
 struct LobeField {
   std::vector<double> spindle_speeds_rpm;
   std::vector<std::vector<LobeRow>> rows;  ///< of each position, in the order of the speeds
@@ -20,8 +21,10 @@ struct LobeField {
 /// limiting_depth() with options.follow = 1 at every speed and each position of a path; `structures` are what the cut
 /// feels there: the part's receptance changes with the point, the robot's follows or stays. A position's search begins
 /// at the limit of the one before. Speeds are shared out among core::thread_count() threads; the result does not depend
-/// on their number. Throws InputError as stability_lobes(), or if there are no positions; NumericalError; Interrupted.
+/// on their number, nor on what was kept: here a block is one speed, by its number, with a row for each position.
+/// Throws InputError as stability_lobes(), or if there are no positions; NumericalError; Interrupted.
 [[nodiscard]] LobeField lobe_field(const std::vector<RelativeStructure>& structures, const MillingProcess& process,
-                                   const std::vector<double>& spindle_speeds_rpm, StabilityOptions options);
+                                   const std::vector<double>& spindle_speeds_rpm, StabilityOptions options,
+                                   const KeptRows& kept = {});
 
 }  // namespace thinwall::milling

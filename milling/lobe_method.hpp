@@ -12,6 +12,7 @@
 
 namespace thinwall::milling {
 
+/// Ways to the stability of a cut (docs/theory/lobes.md).
 enum class Method {
   direct,           ///< contact-phase collocation, critical depths directly (stability.hpp): exact, with its error
   zeroth_order,     ///< Altintas & Budak 1995: the mean cut
@@ -24,6 +25,7 @@ enum class Method {
   full_discretization_3,  ///< Guo et al. 2012: state cubic
 };
 
+/// All of them, as in the enumeration.
 [[nodiscard]] const std::vector<Method>& all_methods();
 
 /// As in the enumeration, "zeroth_order" and so on.
@@ -37,6 +39,7 @@ enum class Method {
 /// `multi_frequency` equal teeth without.
 [[nodiscard]] std::string objection(Method method, const MillingProcess& process);
 
+/// Of every method, each with what it needs.
 struct MethodOptions {
   StabilityOptions stability;
   int steps_per_period = 40;  ///< ≥ 3 a mean tooth period: semi- and full-discretization; 40 is not always enough

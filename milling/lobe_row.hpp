@@ -15,6 +15,7 @@ enum class Bifurcation {
   fold,  ///< μ = +1
 };
 
+/// How a row came out.
 enum class StabilityStatus {
   converged,              ///< the error estimate meets the tolerance
   node_limit_reached,     ///< it does not, at the largest number of nodes; the estimate says by how much
@@ -23,6 +24,7 @@ enum class StabilityStatus {
   crossing_missed,        ///< the count of unstable multipliers at the end of the search is not that of the crossings
 };
 
+/// In one word, as files have it.
 [[nodiscard]] std::string name(Bifurcation kind);
 
 /// Of a multiplier on, inside or outside of the circle.
@@ -31,8 +33,10 @@ enum class StabilityStatus {
 /// Of a multiplier e^{iθ}, 0 ≤ θ ≤ π.
 [[nodiscard]] Bifurcation bifurcation_at(double theta_rad);
 
+/// As in the enumeration.
 [[nodiscard]] std::string name(StabilityStatus status);
 
+/// How deep to look, how exactly and with how many nodes.
 struct StabilityOptions {
   double depth_limit_m = 0.02;    ///< > 0: the deepest cut of interest, for instance the tool's cutting length
   double error_tolerance = 1e-4;  ///< relative, in (0, 1): of the depth, or of |μ| at a point

@@ -1,12 +1,14 @@
 #include "milling/lobes.hpp"
 
 #include <algorithm>
+#include <mutex>
 #include <optional>
 #include <sstream>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/progress.hpp"
 
 namespace thinwall::milling {
 
@@ -43,17 +45,39 @@ std::vector<double> spindle_speeds(double from_rpm, double to_rpm, int count) {
   return speeds;
 }
 
-Lobes stability_lobes(const LobeMethod& method, const std::vector<double>& spindle_speeds_rpm) {
+std::vector<LobeRow> rows_by_blocks(const std::vector<double>& spindle_speeds_rpm,
+                                    const std::function<LobeRow(double, std::optional<double>)>& at,
+                                    const KeptRows& kept) {
   constexpr std::size_t block = 8;  // of speeds, whose searches begin at their neighbour's limit
-  std::vector<LobeRow> rows(spindle_speeds_rpm.size());
-  core::parallel_for((rows.size() + block - 1) / block, [&](std::size_t b) {
+  const std::size_t count = spindle_speeds_rpm.size();
+  std::vector<LobeRow> rows(count);
+  std::mutex adding;
+  core::Progress progress("speeds", count);
+  core::parallel_for((count + block - 1) / block, [&](std::size_t b) {
+    const std::size_t first = block * b, size = std::min(block, count - first);
+    std::vector<LobeRow> found = kept.find ? kept.find(first) : std::vector<LobeRow>{};
+    const bool is_new = found.size() != size;
+    if (is_new) found.clear();
     std::optional<double> expected;
-    for (std::size_t i = block * b; i < std::min(rows.size(), block * (b + 1)); ++i) {
-      rows[i] = method.limiting_depth(spindle_speeds_rpm[i], expected);
-      expected = rows[i].limiting_depth_m;
+    for (std::size_t i = 0; i < size; ++i) {
+      if (is_new) found.push_back(at(spindle_speeds_rpm[first + i], expected));
+      expected = found[i].limiting_depth_m;
+      progress.step();
     }
+    if (is_new && kept.add) {
+      const std::lock_guard lock(adding);
+      kept.add(first, found);
+    }
+    std::move(found.begin(), found.end(), rows.begin() + static_cast<std::ptrdiff_t>(first));
   });
-  Lobes lobes = lobes_of(std::move(rows), method.name());
+  return rows;
+}
+
+Lobes stability_lobes(const LobeMethod& method, const std::vector<double>& spindle_speeds_rpm, const KeptRows& kept) {
+  const auto at = [&method](double rpm, std::optional<double> expected) {
+    return method.limiting_depth(rpm, expected);
+  };
+  Lobes lobes = lobes_of(rows_by_blocks(spindle_speeds_rpm, at, kept), method.name());
   lobes.residual_share = method.residual_share();
   return lobes;
 }

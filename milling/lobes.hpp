@@ -1,6 +1,8 @@
 #pragma once
 // A stability chart: the limiting depth over a range of speeds.
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 
 namespace thinwall::milling {
 
+/// A chart by one method.
 struct Lobes {
   std::string method;
   std::vector<LobeRow> rows;          ///< in the order of the speeds
@@ -26,9 +29,22 @@ struct Lobes {
 /// The chart of rows in the order of their speeds. Throws InputError if there are none.
 [[nodiscard]] Lobes lobes_of(std::vector<LobeRow> rows, std::string method);
 
+/// Rows that a chart need not compute, by blocks of eight neighbouring speeds, and where it puts those that it did.
+struct KeptRows {
+  std::function<std::vector<LobeRow>(std::size_t first)> find{};  ///< of the block that begins there; empty: compute it
+  std::function<void(std::size_t first, const std::vector<LobeRow>&)> add{};  ///< one call at a time
+};
+
+/// Rows at every speed by `at`, which is told the limit of the speed before in its block, the blocks shared out among
+/// core::thread_count() threads; the rows do not depend on the number of threads, nor on what was kept. Interruptible.
+[[nodiscard]] std::vector<LobeRow> rows_by_blocks(
+    const std::vector<double>& spindle_speeds_rpm,
+    const std::function<LobeRow(double rpm, std::optional<double> expected_m)>& at, const KeptRows& kept);
+
 /// The method's limiting_depth() at every speed, the speeds shared out among core::thread_count() threads; the rows do
 /// not depend on the number of threads. Throws InputError for a bad speed or if there are no speeds; Interrupted.
-[[nodiscard]] Lobes stability_lobes(const LobeMethod& method, const std::vector<double>& spindle_speeds_rpm);
+[[nodiscard]] Lobes stability_lobes(const LobeMethod& method, const std::vector<double>& spindle_speeds_rpm,
+                                    const KeptRows& kept = {});
 
 /// The same by the direct method. Throws InputError for a bad process or option too.
 [[nodiscard]] Lobes stability_lobes(const RelativeStructure& structure, const MillingProcess& process,

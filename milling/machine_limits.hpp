@@ -9,6 +9,7 @@
 
 namespace thinwall::milling {
 
+/// What the machine can do; without bounds unless given.
 struct MachineLimits {
   static constexpr double none = std::numeric_limits<double>::infinity();
   double min_spindle_speed_rpm = 0.0;   ///< ≥ 0
@@ -44,6 +45,7 @@ struct CutLoad {
 /// Deepest cut that torque (M ≤ max_torque) and power (2π n/60 M ≤ efficiency max_power) allow at a speed, m; infinite
 /// if neither is bounded.
 [[nodiscard]] double depth_for_torque(const CutLoad& load, const MachineLimits& machine);
+/// See depth_for_torque().
 [[nodiscard]] double depth_for_power(const CutLoad& load, const MachineLimits& machine, double spindle_speed_rpm);
 
 /// Highest speed at which the feed per tooth can be kept, rpm: max_feed_rate over the feed of a turn; infinite without

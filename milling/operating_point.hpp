@@ -9,6 +9,7 @@
 
 namespace thinwall::milling {
 
+/// Whether a cut is stable, and how far the boundary is.
 struct OperatingPoint {
   double spindle_speed_rpm = 0.0;
   double depth_m = 0.0;

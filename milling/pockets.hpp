@@ -21,6 +21,7 @@ enum class PocketLimit {
   feed_rate,      ///< the same of the speed at which the feed per tooth can be kept
 };
 
+/// As in the enumeration.
 [[nodiscard]] std::string name(PocketLimit limit);
 
 /// A range of neighbouring speeds of a chart around a local maximum of speed times depth, which at a given feed per

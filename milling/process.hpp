@@ -12,6 +12,7 @@
 
 namespace thinwall::milling {
 
+/// The cut: tool, force law, engagement, axes.
 struct MillingProcess {
   Cutter cutter;
   CuttingCoefficients coefficients;

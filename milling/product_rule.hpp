@@ -40,6 +40,7 @@ class ProductRule {
   /// `nodes` ≥ 1; serves |z| ≤ `largest_exponent`.
   ProductRule(int nodes, double largest_exponent);
 
+  /// The nodes c_i.
   [[nodiscard]] const Eigen::VectorXd& node() const { return node_; }
 
   /// Re z ≤ 0, |z| within what the rule serves. Cost O(modes nodes² points), in products of matrices.

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/progress.hpp"
 #include "milling/bracketed_root.hpp"
 #include "milling/parameter_change.hpp"
 #include "milling/row_search.hpp"
@@ -223,8 +224,10 @@ RobustLobes robust_lobes(const RelativeStructure& structure, const MillingProces
   options.follow = 1.0;
   const std::vector<double> speeds = with_neighbours(spindle_speeds_rpm, reach);
   std::vector<UncertainRow> rows(speeds.size());
+  core::Progress progress("speeds of the robust chart", speeds.size());
   core::parallel_for(speeds.size(), [&](std::size_t i) {
     rows[i] = uncertain_row(structure, endless, speeds[i], options, uncertainty, confidence);
+    progress.step();
   });
   RobustLobes result;
   result.rows.reserve(spindle_speeds_rpm.size());

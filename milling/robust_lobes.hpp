@@ -9,6 +9,7 @@
 
 namespace thinwall::milling {
 
+/// The robust limit at one speed.
 struct RobustRow {
   double spindle_speed_rpm = 0.0;
   double relative_uncertainty = 0.0;  ///< of the limiting depth there, standard, first order; 0 where no crossing is
@@ -18,6 +19,7 @@ struct RobustRow {
   bool converged = true;              ///< every limit that this comes from
 };
 
+/// The robust chart.
 struct RobustLobes {
   std::vector<RobustRow> rows;        ///< in the order of the speeds
   double minimum_depth_m = 0.0;       ///< the robust absolute minimum

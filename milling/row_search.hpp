@@ -18,7 +18,9 @@ class SearchGrids {
   SearchGrids(const SearchGrids&) = delete;
   SearchGrids& operator=(const SearchGrids&) = delete;
 
+  /// The loop's gain on the grid of a level.
   [[nodiscard]] virtual const GainOnCircle& gain(std::size_t level) = 0;
+  /// Nodes of that grid.
   [[nodiscard]] virtual int nodes(std::size_t level) = 0;
   /// Whether a level beyond this one may be made.
   [[nodiscard]] virtual bool more_after(std::size_t level) = 0;
@@ -26,6 +28,7 @@ class SearchGrids {
   [[nodiscard]] virtual int unstable(std::size_t level, double depth_m) = 0;
   /// Whether there is none.
   [[nodiscard]] virtual bool stable(std::size_t level, double depth_m) { return unstable(level, depth_m) == 0; }
+  /// Of a crossing of that grid, Hz.
   [[nodiscard]] virtual double chatter_frequency_hz(std::size_t level, const Crossing& crossing) = 0;
   /// Error of a depth, relative, that no finer grid shows.
   [[nodiscard]] virtual double error_beyond_grids(std::size_t /*level*/, const Crossing& /*crossing*/) { return 0.0; }
@@ -49,6 +52,7 @@ struct FirstCrossing {
   [[nodiscard]] double depth_m() const { return found.empty() ? searched_m : found.front().depth_m; }
 };
 
+/// The search as said above.
 [[nodiscard]] FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& options);
 
 /// The depth up to which a row's crossings are wanted, m: `follow` times the first, or the depth limit.

@@ -43,6 +43,7 @@ struct LineWeights {
   bool real_part = false;
 };
 
+/// At a frequency, Hz.
 [[nodiscard]] LineWeights line_weights(const SampledReceptance& receptance, double hz, const Continuation& beyond = {});
 
 /// A peak of ‖H‖ (Frobenius) that falls to half its power on both sides before anything higher is met: noise on a flank

@@ -13,6 +13,7 @@
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/progress.hpp"
 #include "milling/chatter_frequency.hpp"
 #include "milling/cut_at_speed.hpp"
 #include "milling/product_rule.hpp"
@@ -344,12 +345,13 @@ LobeRow limiting_depth(const SampledStructure& structure, const MillingProcess& 
 }
 
 Lobes stability_lobes(const SampledStructure& structure, const MillingProcess& process,
-                      const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options) {
-  std::vector<LobeRow> rows(spindle_speeds_rpm.size());
-  core::parallel_for(rows.size(), [&](std::size_t i) {
-    rows[i] = limiting_depth(structure, process, spindle_speeds_rpm[i], options);
-  });
-  return lobes_of(std::move(rows), "contact-phase collocation on samples of the receptance");
+                      const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options,
+                      const KeptRows& kept) {
+  const auto at = [&](double rpm, std::optional<double> /*expected*/) {
+    return limiting_depth(structure, process, rpm, options);
+  };
+  return lobes_of(rows_by_blocks(spindle_speeds_rpm, at, kept),
+                  "contact-phase collocation on samples of the receptance");
 }
 
 }  // namespace thinwall::milling

@@ -42,7 +42,8 @@ struct SampledStructure {
 
 /// limiting_depth() at every speed in parallel, as the chart from poles (lobes.hpp).
 [[nodiscard]] Lobes stability_lobes(const SampledStructure& structure, const MillingProcess& process,
-                                    const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options);
+                                    const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options,
+                                    const KeptRows& kept = {});
 
 /// How a critical depth w follows the samples: g, one 3 × 3 a line (N, tool axes), with dw = Re Σ_lines Σ_ij g_ij dH_ij
 /// for independent changes of real and imaginary parts. At a crossing 1/w is an eigenvalue ν of −Z(e^{iθ}) with vectors

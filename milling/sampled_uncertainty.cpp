@@ -7,6 +7,7 @@
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/progress.hpp"
 
 namespace thinwall::milling {
 
@@ -76,9 +77,11 @@ DepthScatter sampled_depths(const SampledStructure& structure, const MillingProc
   std::vector<Matrix9cd> factors;
   for (std::size_t line = 0; line < covariance.size(); ++line) factors.push_back(factor(covariance[line], line));
   std::vector<LobeRow> rows(static_cast<std::size_t>(samples));
+  core::Progress progress("draws of the noise", rows.size());
   core::parallel_for(rows.size(), [&](std::size_t i) {
     const SampledStructure other{drawn(structure.samples, factors, seed + i), structure.poles};
     rows[i] = limiting_depth(other, process, spindle_speed_rpm, options);
+    progress.step();
   });
   DepthScatter scatter;
   double sum = 0.0, squares = 0.0;

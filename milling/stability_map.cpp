@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/progress.hpp"
 #include "milling/cut_at_speed.hpp"
 #include "milling/stability.hpp"
 
@@ -80,10 +81,12 @@ StabilityMap stability_map(const RelativeStructure& structure, const MillingProc
   StabilityMap map{spindle_speeds_rpm, depths_m, {}};
   map.modulus.resize(static_cast<Eigen::Index>(depths_m.size()), static_cast<Eigen::Index>(spindle_speeds_rpm.size()));
   std::vector<Column> columns(spindle_speeds_rpm.size());
+  core::Progress progress("speeds of the map", columns.size());
   core::parallel_for(columns.size(), [&](std::size_t i) {
     const double rpm = spindle_speeds_rpm[i];
     columns[i] = process.cutter.depends_on_depth() ? column_of_own_grids(structure, process, rpm, depths_m, options)
                                                    : column(cut_at_speed(structure, process, rpm), depths_m, options);
+    progress.step();
   });
   for (std::size_t i = 0; i < columns.size(); ++i) {
     map.modulus.col(static_cast<Eigen::Index>(i)) = columns[i].modulus;

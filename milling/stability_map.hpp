@@ -10,6 +10,7 @@
 
 namespace thinwall::milling {
 
+/// Largest multiplier over speed and depth.
 struct StabilityMap {
   std::vector<double> spindle_speeds_rpm;
   std::vector<double> depths_m;       ///< ascending

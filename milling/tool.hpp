@@ -21,12 +21,14 @@ struct Cutter {
 
   /// Mean angle between neighbouring teeth, rad.
   [[nodiscard]] double pitch_rad() const { return 2.0 * std::numbers::pi / teeth; }
+  /// Angle from a tooth to the one ahead of it, rad.
   [[nodiscard]] double pitch_rad(int tooth) const {
     return pitches_rad.empty() ? pitch_rad() : pitches_rad[static_cast<std::size_t>(tooth)];
   }
   /// Rotation by which a tooth's edge lags behind its tip per metre of height, 2 tan β / D: of constant lead, whatever
   /// the envelope, so that β is the helix angle where the radius is D/2 and the local one is atan(r lag).
   [[nodiscard]] double lag_rad_per_m(int tooth) const;
+  /// Whether any tooth has a helix.
   [[nodiscard]] bool has_helix() const;
   /// Whether the mean of the force over the depth changes with the depth: a helix, or an envelope that is not straight.
   [[nodiscard]] bool depends_on_depth() const { return has_helix() || !envelope.straight(); }

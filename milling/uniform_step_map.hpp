@@ -32,8 +32,11 @@ class UniformStepMap {
   /// does not converge. Throws NumericalError if neither does.
   [[nodiscard]] DominantEigenvalue dominant() const;
 
+  /// Number of unknowns: states and what is remembered.
   [[nodiscard]] Eigen::Index size() const { return state_.size() + state_.directions() * history_; }
+  /// Steps of a period.
   [[nodiscard]] int steps() const { return steps_; }
+  /// The period, s.
   [[nodiscard]] double period_s() const { return steps_ * step_s_; }
 
   /// The force that belongs to an eigenvector over the period at the start of its steps, tool axes, up to a factor:

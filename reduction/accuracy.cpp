@@ -24,6 +24,24 @@ double max_relative_frequency_error(const dynamics::SpatialModel& reduced, const
   return worst;
 }
 
+std::vector<ErrorBySize> frequency_error_by_size(const CraigBampton& reduced, const Eigen::VectorXd& full_hz,
+                                                 int rigid) {
+  const auto all = static_cast<int>(reduced.fixed_interface_hz.size());
+  const auto interface = static_cast<int>(reduced.model.size()) - all;
+  std::vector<ErrorBySize> result;
+  for (int step = 1; step <= 8; ++step) {
+    const int modes = static_cast<int>(std::lround(all * std::pow(0.125 * step, 1.5)));
+    const bool enough = interface + modes - rigid >= full_hz.size();
+    if (!enough || (!result.empty() && result.back().modes == modes)) continue;
+    const int n = interface + modes;
+    dynamics::SpatialModel cut = reduced.model;
+    for (Eigen::MatrixXd* matrix : {&cut.M, &cut.C, &cut.K}) matrix->conservativeResize(n, n);
+    cut.dofs.resize(static_cast<std::size_t>(n));
+    result.push_back({modes, max_relative_frequency_error(cut, full_hz, rigid)});
+  }
+  return result;
+}
+
 std::vector<FullReceptance> full_receptances(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M,
                                              const std::vector<int>& node_of_row, const Interface& interface,
                                              const std::vector<double>& frequencies_hz) {

@@ -16,6 +16,17 @@ namespace thinwall::reduction {
 [[nodiscard]] double max_relative_frequency_error(const dynamics::SpatialModel& reduced, const Eigen::VectorXd& full_hz,
                                                   int rigid);
 
+/// The same error of a Craig-Bampton model with its first fixed-interface modes only.
+struct ErrorBySize {
+  int modes = 0;
+  double max_relative_frequency_error = 0.0;
+};
+
+/// For some eight numbers of modes up to all of them; those too few for as many frequencies as `full_hz` holds are left
+/// out. Cost: a dense eigen-solution each.
+[[nodiscard]] std::vector<ErrorBySize> frequency_error_by_size(const CraigBampton& reduced,
+                                                               const Eigen::VectorXd& full_hz, int rigid);
+
 /// One full-model receptance at the interface.
 struct [[nodiscard]] FullReceptance {
   double frequency_hz = 0.0;

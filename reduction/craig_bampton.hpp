@@ -12,8 +12,8 @@ namespace thinwall::reduction {
 
 /// How many fixed-interface modes are kept.
 struct CraigBamptonOptions {
-  int modes = 30;                  ///< used if up_to_hz is not given
-  std::optional<double> up_to_hz;  ///< all fixed-interface modes below this frequency instead
+  int modes = 30;                    ///< used if up_to_hz is not given
+  std::optional<double> up_to_hz{};  ///< all fixed-interface modes below this frequency instead
 };
 
 /// The reduced model and the way back: u = T q with q = (u_b, η).

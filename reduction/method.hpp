@@ -6,6 +6,7 @@
 
 namespace thinwall::reduction {
 
+/// Ways to a small model (docs/theory/reductions.md).
 enum class Method {
   guyan,                            ///< static condensation (Guyan 1965)
   craig_bampton,                    ///< fixed-interface modes (Craig & Bampton 1968)

@@ -18,6 +18,7 @@ struct ModeCountOptions {
   int rounds = 10;  ///< ≥ 1: how often modes up to 1.6 times the frequency may be taken, 100 times the band in all
 };
 
+/// Whether the tolerance is met.
 enum class ModeCountStatus {
   met,  ///< the estimate is below the tolerance, and the reference was verified
   /// after all rounds, direct solves differ from the reference by more than a tenth of the tolerance, or the modes of

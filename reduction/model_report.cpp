@@ -173,7 +173,8 @@ ReducedModelReport report(const dynamics::SpatialModel& model, const ReportOptio
   dynamics::require_consistent(model);
   ReducedModelReport result = counted(model.dofs);
   result.coordinates = static_cast<int>(model.size());
-  result.frequencies_hz = lowest_frequencies(model, modes_without_energy(model));
+  result.without_energy = modes_without_energy(model);
+  result.frequencies_hz = lowest_frequencies(model, result.without_energy.count);
   const double lowest = result.frequencies_hz.empty() ? 0.0 : result.frequencies_hz.front();
   const double lambda = std::pow(2.0 * std::numbers::pi * lowest, 2);
   const VectorXd none = VectorXd::Zero(model.size());
@@ -188,6 +189,7 @@ ReducedModelReport report(const dynamics::SpatialModel& model, const ReportOptio
   find_frequencies(!model.K.isZero(0.0), "M or K is missing, zero or singular: nothing was checked against it", result);
   find_in_matrices(options, result);
   find_in_rigid_body(options, result);
+  find_free_modes(options, result);
   if (std::isnan(result.reciprocity)) return result;
   result.findings.push_back({"reciprocity", result.reciprocity, options.reciprocity,
                              result.reciprocity <= options.reciprocity, "see the symmetry of the matrices"});

@@ -67,6 +67,7 @@ struct [[nodiscard]] ReducedModelReport {
   int coordinates = 0, translations = 0, rotations = 0, amplitudes = 0;
   std::vector<MatrixState> matrices;    ///< M, C, K, D
   std::optional<RigidBodyState> rigid;  ///< if there are positions
+  ModesWithoutEnergy without_energy;    ///< that are counted as free
   std::vector<double> frequencies_hz;   ///< the lowest twenty beyond those without energy
   /// Largest |H − Hᵀ| / |H| over five frequencies, loss factor 0.02; least eigenvalue of −Im H there over |H|: ≥ 0 for
   /// a passive model. NaN, and no finding, where no receptance was computed: of sparse models, or without frequencies.

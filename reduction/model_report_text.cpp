@@ -33,7 +33,7 @@ std::string six(const char* label, const Eigen::Ref<const Eigen::VectorXd>& valu
 std::string body_text(const RigidBodyState& rigid) {
   const dynamics::RigidBody& body = rigid.body;
   std::string text;
-  text += line("  free rigid motions %d of 6, modes without energy %d", rigid.free_motions, rigid.sets.without_energy);
+  text += line("  free rigid motions %d of 6", rigid.free_motions);
   for (const std::string& motion : rigid.in_words) text += "  free: " + motion + "\n";
   text += line("  mass %.6g kg, centre (%.6g, %.6g, %.6g) m", body.mass_kg, body.centre_m.x(), body.centre_m.y(),
                body.centre_m.z());
@@ -79,6 +79,8 @@ std::string text(const ReducedModelReport& report) {
     text += buffer;
   }
   text += " Hz\n";
+  if (const ModesWithoutEnergy& free = report.without_energy; free.count > 0)
+    text += line("modes counted as free: %d, up to %.2g Hz", free.count, free.highest_hz);
   if (report.rigid && report.rigid->sets.seen < 6)
     text +=
         line("rigid body not judged: the DOFs show %d of 6 motions; three points that do not lie on one line show all",

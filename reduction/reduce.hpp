@@ -19,6 +19,7 @@ struct ReductionOptions {
   double damping_ratio = 0.0;  ///< ζ of every pole, 0 … 1; modal_truncation only, the others are undamped (damping.hpp)
 };
 
+/// By matrices, or by poles where the method is modal truncation.
 using ReducedModel = std::variant<dynamics::SpatialModel, dynamics::ModalModel>;
 
 /// A reduced model: the interface's DOFs first in its table.

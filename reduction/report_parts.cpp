@@ -69,6 +69,14 @@ void find_bare(const std::vector<std::string>& names, ReducedModelReport& report
                              where + ": nothing holds or moves them; leave them out, or export what is missing"});
 }
 
+void find_free_modes(const ReportOptions& options, ReducedModelReport& report) {
+  if (!options.rigid_motions || (report.rigid && report.rigid->sets.seen == 6)) return;
+  const int free = report.without_energy.count;
+  report.findings.push_back({"modes without energy", static_cast<double>(free),
+                             static_cast<double>(*options.rigid_motions), free == *options.rigid_motions,
+                             "a support that is not meant or is missing; which motions are free shows with positions"});
+}
+
 void find_frequencies(bool expected, const std::string& advice, ReducedModelReport& report) {
   const auto count = static_cast<double>(report.frequencies_hz.size());
   report.findings.push_back({"frequencies found", count, expected ? 1.0 : 0.0, !expected || count > 0.0, advice});

@@ -29,6 +29,10 @@ namespace thinwall::reduction {
 /// Adds whether there are DOFs without mass and stiffness, which are named.
 void find_bare(const std::vector<std::string>& names, ReducedModelReport& report);
 
+/// Adds, where places do not show six rigid motions, whether as many modes are without energy as motions are to be
+/// free.
+void find_free_modes(const ReportOptions& options, ReducedModelReport& report);
+
 /// Adds whether report.frequencies_hz holds any; `expected`: whether it must.
 void find_frequencies(bool expected, const std::string& advice, ReducedModelReport& report);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace thinwall::reduction {
 
@@ -11,6 +12,12 @@ int rigid_count(const Eigen::VectorXd& lambda, double round_off) {
     if (std::abs(lambda(k - 1)) < std::max(1e-6 * next, round_off)) return static_cast<int>(k);
   }
   return 0;
+}
+
+ModesWithoutEnergy without_energy(const Eigen::VectorXd& lambda, double round_off) {
+  const int count = rigid_count(lambda, round_off);
+  if (count == 0) return {};
+  return {count, std::sqrt(lambda.head(count).cwiseAbs().maxCoeff()) / (2.0 * std::numbers::pi)};
 }
 
 }  // namespace thinwall::reduction

@@ -7,7 +7,6 @@
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "dynamics/rigid_body.hpp"
-#include "reduction/rigid_count.hpp"
 #include "reduction/symmetric_part.hpp"
 
 namespace thinwall::reduction {
@@ -42,10 +41,11 @@ VectorXd row_lengths(const dynamics::DofTable& dofs, const std::vector<int>& row
 /// at the first elastic λ. M may be singular.
 struct LowModes {
   MatrixXd Phi;
-  int without_energy = 0;
+  ModesWithoutEnergy free;
 };
 LowModes low_modes(const dynamics::SpatialModel& model) {
-  if (model.K.isZero(0.0)) return {MatrixXd::Identity(model.size(), model.size()), static_cast<int>(model.size())};
+  if (model.K.isZero(0.0))
+    return {MatrixXd::Identity(model.size(), model.size()), {static_cast<int>(model.size()), 0.0}};
   const MatrixXd K = symmetric_part(model.K), M = symmetric_part(model.M);
   double alpha = 1e-6 * K.diagonal().cwiseAbs().sum() / M.diagonal().cwiseAbs().sum();
   LowModes result;
@@ -59,9 +59,9 @@ LowModes low_modes(const dynamics::SpatialModel& model) {
     const VectorXd mu = eigen.eigenvalues().reverse();
     const Index finite = (mu.array() > 1e-13 / alpha).count();  // the others are coordinates without mass
     const VectorXd lambda = mu.head(finite).cwiseInverse().array() - alpha;
-    result.without_energy = rigid_count(lambda, 0.0);
+    result.free = without_energy(lambda, 0.0);
     result.Phi = scale.asDiagonal() * eigen.eigenvectors().rowwise().reverse();
-    if (result.without_energy < finite) alpha = lambda(result.without_energy);
+    if (result.free.count < finite) alpha = lambda(result.free.count);
   }
   return result;
 }
@@ -88,8 +88,8 @@ MatrixXd rigid_motions_of(const dynamics::DofTable& dofs, const std::vector<int>
   return motions;
 }
 
-int modes_without_energy(const dynamics::SpatialModel& model) {
-  return low_modes(model).without_energy;
+ModesWithoutEnergy modes_without_energy(const dynamics::SpatialModel& model) {
+  return low_modes(model).free;
 }
 
 MatrixXd static_motions(const MatrixXd& K, const MatrixXd& B, const MatrixXd& x) {
@@ -132,7 +132,7 @@ RigidSets rigid_sets(const dynamics::SpatialModel& model, const Positions& posit
   qr.setThreshold(1e-8);
   sets.seen = static_cast<int>(qr.rank());
   const LowModes low = low_modes(model);
-  sets.without_energy = low.without_energy;
+  sets.without_energy = low.free.count;
   if (sets.seen < 6) return sets;
   std::vector<int> six(6);
   for (std::size_t k = 0; k < 6; ++k) six[k] = qr.colsPermutation().indices()(static_cast<Index>(k));

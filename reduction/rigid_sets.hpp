@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/spatial_model.hpp"
+#include "reduction/rigid_count.hpp"
 
 namespace thinwall::reduction {
 
@@ -28,7 +29,7 @@ using Positions = std::map<std::string, Eigen::Vector3d>;
 
 /// Modes without energy: λ below 1e-6 of the next, at most twelve (rigid_count()), of those with mass; all where K is
 /// zero; 0 if K + αM, its symmetric part, is not positive definite for a small α. Cost O(n³).
-[[nodiscard]] int modes_without_energy(const dynamics::SpatialModel& model);
+[[nodiscard]] ModesWithoutEnergy modes_without_energy(const dynamics::SpatialModel& model);
 
 /// Three sets of six motions (after the checks of Craig-Bampton models at NASA and in pyYeti's cbcheck; Eq. 17):
 /// geometry moves every DOF as positions say; stiffness moves six DOFs so, K the others; eigen takes the six modes of

@@ -94,7 +94,7 @@ MatrixState state_of(const SparseModel& model, const char* letter, const Matrix&
 }
 
 struct Frequencies {
-  int without_energy = 0;
+  ModesWithoutEnergy without_energy;
   std::string missing{};  ///< why there are none
   std::vector<double> hz;
 };
@@ -107,20 +107,20 @@ Frequencies lowest_frequencies(const SparseModel& model) {
   const double size = K.diagonal().sum() / M.diagonal().sum();
   const Index with_mass = (VectorXd(M.diagonal()).array() != 0.0).count();  // no more modes than these
   const int count = static_cast<int>(std::min<Index>(32, std::min(with_mass, model.size() - 1)));
-  if (!(size > 0.0 && std::isfinite(size)) || count < 1) return {0, "K or M is zero", {}};
+  if (!(size > 0.0 && std::isfinite(size)) || count < 1) return {{}, "K or M is zero", {}};
   linalg::Eigenpairs pairs;
   try {
     const linalg::SparseCholesky factor(linalg::combine(1.0, K, 1e-8 * size, M), node_of_row(model));
     pairs = linalg::lowest_eigenpairs(
         K, M, {[&](const Eigen::Ref<const MatrixXd>& B) { return factor.solve(B); }, -1e-8 * size}, count);
   } catch (const core::NumericalError&) {
-    return {0, "K + αM is not positive definite: see the eigenvalues of M and K", {}};
+    return {{}, "K + αM is not positive definite: see the eigenvalues of M and K", {}};
   }
-  if (pairs.status != linalg::EigenStatus::converged) return {0, "the search for them did not converge", {}};
+  if (pairs.status != linalg::EigenStatus::converged) return {{}, "the search for them did not converge", {}};
   Frequencies result;
   const double round_off = 10.0 * std::numeric_limits<double>::epsilon() * size;
-  result.without_energy = rigid_count(pairs.lambda, round_off);
-  for (Index k = result.without_energy; k < pairs.lambda.size() && result.hz.size() < 20; ++k)
+  result.without_energy = without_energy(pairs.lambda, round_off);
+  for (Index k = result.without_energy.count; k < pairs.lambda.size() && result.hz.size() < 20; ++k)
     result.hz.push_back(std::sqrt(std::max(pairs.lambda(k), 0.0)) / (2.0 * std::numbers::pi));
   return result;
 }
@@ -210,7 +210,7 @@ RigidBodyState rigid_body_state(const SparseModel& model, const Geometry& geomet
   gram = (scale.asDiagonal() * gram * scale.asDiagonal()).eval();
   const VectorXd spread = Eigen::SelfAdjointEigenSolver<dynamics::Matrix6>(gram).eigenvalues();
   state.sets.seen = static_cast<int>((spread.array() > 1e-12).count());
-  state.sets.without_energy = frequencies.without_energy;
+  state.sets.without_energy = frequencies.without_energy.count;
   state.sets.geometry = Y;
   const double lowest = frequencies.hz.empty() ? 0.0 : frequencies.hz.front();
   const double bound = options.grounding * std::pow(2.0 * std::numbers::pi * lowest, 2);
@@ -297,6 +297,7 @@ ReducedModelReport sparse_report(const SparseModel& model, const ReportOptions& 
   ReducedModelReport result = counted(geometry.dofs);
   result.coordinates = static_cast<int>(model.size());
   const Frequencies frequencies = lowest_frequencies(model);
+  result.without_energy = frequencies.without_energy;
   result.frequencies_hz = frequencies.hz;
   const double lowest = frequencies.hz.empty() ? 0.0 : frequencies.hz.front();
   const VectorXd none = VectorXd::Zero(model.size());
@@ -311,6 +312,7 @@ ReducedModelReport sparse_report(const SparseModel& model, const ReportOptions& 
   find_in_matrices(options, result);
   find_pieces(model, piece, result);
   if (result.rigid) find_in_rigid_body(options, result);
+  find_free_modes(options, result);
   return result;
 }
 

@@ -16,6 +16,7 @@ struct ArmPose {
   std::vector<Eigen::Isometry3d> links;  ///< the links' frames
   Eigen::Isometry3d tip;
 
+  /// Number of joints.
   [[nodiscard]] Eigen::Index joints() const { return origins.cols(); }
 };
 

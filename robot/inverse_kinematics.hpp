@@ -23,6 +23,7 @@ namespace thinwall::robot {
 [[nodiscard]] std::vector<Eigen::Vector4d> four_axis_postures(const SerialArm& arm, const Eigen::Vector3d& tip,
                                                               double pitch);
 
+/// How a search for a posture ended.
 enum class ReachStatus {
   reached,
   not_reached,  ///< the place is out of reach, or the search ended in a minimum beside it
@@ -38,6 +39,7 @@ struct [[nodiscard]] Reached {
   ReachStatus status = ReachStatus::not_reached;
 };
 
+/// Of the search.
 struct ReachOptions {
   double length = 1.0;           ///< m a radian, > 0: what a rotation counts beside a translation
   double tolerance = 1e-10;      ///< m, and m a radian times `length`

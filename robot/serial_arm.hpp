@@ -19,6 +19,7 @@ struct Joint {
   double servo_stiffness = std::numeric_limits<double>::infinity();  ///< N m/rad, ≥ 0; infinite: the motor is locked
   double servo_damping = 0.0;  ///< N m s/rad, ≥ 0; without meaning for a locked motor
 
+  /// Whether the motor does not turn.
   [[nodiscard]] bool motor_locked() const { return servo_stiffness == std::numeric_limits<double>::infinity(); }
 };
 
@@ -53,6 +54,7 @@ struct SerialArm {
   Eigen::Vector3d gravity = {0.0, 0.0, -9.81};            ///< m/s²
   std::vector<Counterbalance> counterbalances{};
 
+  /// Number of joints, one a link.
   [[nodiscard]] Eigen::Index joints() const { return static_cast<Eigen::Index>(links.size()); }
 };
 

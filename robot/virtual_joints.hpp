@@ -22,6 +22,7 @@ struct RigidLink {
 /// Turns about its axis, or slides along it. A motor holds it by a stiffness (N m/rad, N/m; infinite: it is locked) and
 /// a damper (N m s/rad, N s/m); without stiffness it is passive.
 struct VirtualJoint {
+  /// What the joint lets the frame behind it do.
   enum class Motion { rotation, translation };
   Motion motion = Motion::rotation;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector, in the frame before
@@ -45,6 +46,7 @@ struct VirtualSpring {
 /// What follows each other from the base to the tip; a body is fixed to the frame in which it stands.
 using ChainElement = std::variant<RigidLink, VirtualJoint, BeamLink, VirtualSpring, dynamics::RigidBody>;
 
+/// One way from the base to the tip.
 struct Chain {
   Eigen::Isometry3d base = Eigen::Isometry3d::Identity();  ///< in the world, m
   std::vector<ChainElement> elements;
@@ -61,6 +63,7 @@ struct ReducedTip {
   Eigen::MatrixXd M, C, K;
   Eigen::Index free = 0;  ///< motions that no spring holds: what K lacks in rank
 
+  /// Number of motions that are impossible.
   [[nodiscard]] Eigen::Index rigid() const { return 6 - Z.cols(); }
 };
 

@@ -59,6 +59,32 @@ to = "3000 rpm"
 )";
 }
 
+/// A cutter of one mode, whose chart of three speeds takes some hundredths of a second.
+inline std::string cutter_case() {
+  return R"(title = "Cutter"
+[tool]
+teeth = 2
+diameter = "10 mm"
+length = "10 mm"
+[[tool.modes]]
+frequency = "922 Hz"
+damping_ratio = 0.011
+stiffness = "1.34e6 N/m"
+direction = "x"
+[cutting]
+radial_depth = "1 mm"
+feed_direction = "x"
+tool_axis = "z"
+Kt = "600 N/mm^2"
+Kr = "200 N/mm^2"
+spindle_speed = "5000 rpm"
+[lobes]
+from = "5000 rpm"
+to = "6000 rpm"
+count = 3
+)";
+}
+
 /// `text` with the first `from` replaced by `to`.
 inline std::string with(std::string text, const std::string& from, const std::string& to) {
   const auto place = text.find(from);

@@ -6,12 +6,14 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <sstream>
 #include <thread>
 
 #include "app/case_reader.hpp"
 #include "app/case_template.hpp"
 #include "app/compare.hpp"
+#include "app/self_test.hpp"
 #include "app/summary.hpp"
 #include "case_text.hpp"
 #include "core/atomic_file.hpp"
@@ -77,6 +79,56 @@ TEST_F(CommandLine, WrongUseEndsWithTwoAndOneLine) {
   }
 }
 
+TEST_F(CommandLine, AWordThatIsNoCommandIsNamedWithTheNearestOne) {
+  EXPECT_EQ(call({"frobnicate"}).err,
+            "thinwall: there is no command \"frobnicate\"; \"thinwall --help\" lists the commands\n");
+  EXPECT_NE(call({"comapre", "a", "b"}).err.find("no command \"comapre\" (did you mean \"compare\"?)"),
+            std::string::npos);
+  EXPECT_EQ(call({"comapre", "a", "b"}).code, 2);
+}
+
+TEST_F(CommandLine, AnOptionThatIsNoneIsNamedWithTheNearestOne) {
+  EXPECT_EQ(
+      call({"run", plate(), "--fersh"}).err,
+      "thinwall: \"thinwall run\" has no option \"--fersh\" (did you mean \"--fresh\"?); \"thinwall run --help\" lists "
+      "them\n");
+  EXPECT_EQ(call({"merge", "--shard=1/2", "a"}).err,
+            "thinwall: \"thinwall merge\" has no option \"--shard\"; \"thinwall merge --help\" lists them\n");
+  EXPECT_NE(call({"-x"}).err.find("\"thinwall\" has no option \"-x\""), std::string::npos);
+  EXPECT_NE(call({"--versoin"}).err.find("(did you mean \"--version\"?)"), std::string::npos);
+  EXPECT_NE(call({"run", plate(), "--out"}).err.find("--out: 1 required DIR missing"), std::string::npos);
+}
+
+TEST_F(CommandLine, WhatCannotBeReadIsSaidBeforeAnythingIsClaimed) {
+  const Outcome animated = call({"animate", out()});
+  EXPECT_EQ(animated.code, 4);
+  EXPECT_EQ(animated.out, "");
+  EXPECT_EQ(animated.err,
+            "thinwall: \"" + out() + "\" is no folder: name the result folder of a finished run, as results/<case>\n");
+  std::filesystem::create_directories(out());
+  core::write_file_atomically(out() + "/summary.json", "{}");
+  const Outcome shapeless = call({"animate", out()});
+  EXPECT_EQ(shapeless.code, 4) << "no shapes";
+  EXPECT_EQ(shapeless.out, "");
+  EXPECT_EQ(shapeless.err.find("choose another folder"), std::string::npos) << shapeless.err;
+}
+
+TEST_F(CommandLine, LobesTakesFresh) {
+  for (const bool fresh : {false, true}) {
+    std::vector<std::string> words{"lobes", plate(), "--out", out(), "-q"};
+    if (fresh) words.emplace_back("--fresh");
+    bool asked = !fresh;
+    EXPECT_EQ(call(words,
+                   [&](const Case&, const RunOptions& options) {
+                     asked = options.fresh;
+                     return empty_result(true);
+                   })
+                  .code,
+              0);
+    EXPECT_EQ(asked, fresh);
+  }
+}
+
 TEST_F(CommandLine, RunHandsTheCaseAndThePreparedFolderToThePipeline) {
   const Outcome outcome = call({"run", plate(), "--out", out(), "--set", "part.element_size=8 mm", "--fresh", "-q"},
                                [&](const Case& source, const RunOptions& options) {
@@ -123,7 +175,17 @@ TEST_F(CommandLine, CheckReportsEveryErrorAndOtherwiseTheSizes) {
       with(with(plate_case(), "teeth = 6", "teeth = 0"), "poisson_ratio = 0.3", "poisson_ratio = 0.5"));
   const Outcome bad = call({"check", plate()});
   EXPECT_EQ(bad.code, 3);
-  EXPECT_EQ(std::count(bad.err.begin(), bad.err.end(), '\n'), 2) << bad.err;
+  const std::string file = plate() + "/case.toml";
+  EXPECT_EQ(bad.err, "thinwall: " + file +
+                         ":8:17: part.material.poisson_ratio: 0.5 is out of range: it must be at least 0, below 0.5; "
+                         "isotropic solids lie at 0.2 to 0.45; 0.5 would be incompressible\n"
+                         "      8 | poisson_ratio = 0.5\n"
+                         "        |                 ^~~\n"
+                         "thinwall: " +
+                         file +
+                         ":39:9: tool.teeth: 0 is out of range: it must be at least 1, at most 100\n"
+                         "     39 | teeth = 0\n"
+                         "        |         ^\n");
 }
 
 TEST_F(CommandLine, TemplatesAreRightCasesAndNeverOverwrite) {
@@ -140,9 +202,45 @@ TEST_F(CommandLine, TemplatesAreRightCasesAndNeverOverwrite) {
 TEST_F(CommandLine, DoctorNamesTheLibraries) {
   const Outcome outcome = call({"doctor"});
   EXPECT_EQ(outcome.code, 0);
-  for (const auto* name : {"Eigen", "SuiteSparse", "METIS", "VTK", "threads"}) {
+  for (const auto* name : {"Eigen", "SuiteSparse", "METIS", "VTK", "threads", "memory", "BLAS kernel", "STEP files"}) {
     EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
   }
+}
+
+TEST_F(CommandLine, DoctorTellsWhetherPythonFindsTheModule) {
+  const auto module = temporary.path / "python" / "thinwall";
+  std::filesystem::create_directories(module);
+  const char* before = std::getenv("PYTHONPATH");
+  const std::string kept = before == nullptr ? "" : before;
+  ::setenv("PYTHONPATH", module.parent_path().c_str(), 1);
+  core::write_file_atomically(module / "__init__.py", "");
+  const std::string found = call({"doctor"}).out;
+  core::write_file_atomically(module / "__init__.py", "import no_such_library\n");
+  const std::string broken = call({"doctor"}).out;
+  before == nullptr ? ::unsetenv("PYTHONPATH") : ::setenv("PYTHONPATH", kept.c_str(), 1);
+  if (std::system("python3 -c ''") != 0) GTEST_SKIP() << "python3 is not installed";
+  EXPECT_NE(found.find("Python module   there, in " + module.string()), std::string::npos) << found;
+  EXPECT_NE(broken.find("Python module   absent for python3: install python3-thinwall"), std::string::npos) << broken;
+}
+
+TEST_F(CommandLine, DoctorComputesACantileverAndSaysWhetherItIsRight) {
+  const SelfTest test = self_test();
+  EXPECT_TRUE(test.ok()) << test.failure;
+  EXPECT_NEAR(test.expected_hz, 208.88, 0.01);  // 3.516 / (2 pi l^2) sqrt(E h^2 / 12 rho), l = 0.2 m, h = 10 mm, steel
+  EXPECT_LT(test.found_hz, test.expected_hz) << "shear and rotary inertia lower it";
+  EXPECT_FALSE((SelfTest{test.expected_hz * 1.02, test.expected_hz, 0.1, ""}).ok());
+  EXPECT_FALSE((SelfTest{test.expected_hz, test.expected_hz, 0.1, "out of memory"}).ok());
+  EXPECT_NE(call({"doctor"}).out.find("everything works"), std::string::npos);
+}
+
+TEST_F(CommandLine, SchemaPrintsJsonOfEachFile) {
+  for (const std::string file : {"case", "expected", "joints"}) {
+    const auto schema = nlohmann::json::parse(call({"schema", file}).out);
+    EXPECT_EQ(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+    EXPECT_FALSE(schema["properties"].empty());
+  }
+  EXPECT_EQ(call({"schema"}).out, call({"schema", "case"}).out);
+  EXPECT_EQ(call({"schema", "robot"}).code, 2);
 }
 
 TEST_F(CommandLine, AFullStandardOutputIsAnError) {
@@ -234,6 +332,40 @@ TEST_F(Compare, MissingFilesAreDifferencesAndAMissingSummaryIsAnError) {
   EXPECT_EQ(compare().differences.size(), 1U);
   std::filesystem::remove(temporary.path / "b" / "summary.json");
   EXPECT_EQ(call({"compare", temporary.path / "a", temporary.path / "b"}).code, 4);
+}
+
+TEST_F(Compare, ASectionThatOneHasIsToldByWhatItHolds) {
+  const auto file = temporary.path / "b" / "summary.json";
+  nlohmann::json summary = nlohmann::json::parse(core::read_file(file));
+  summary["coupling"] = {{"modes", {1, 2}}, {"regularisation", "none"}, {"main_modes", {3}}, {"reductions", {4}}};
+  summary["modes"].push_back(summary["modes"][0]);
+  core::write_file_atomically(file, summary.dump());
+  const auto differences = compare().differences;
+  ASSERT_EQ(differences.size(), 2U);
+  EXPECT_EQ(differences[0].left, "absent");
+  EXPECT_EQ(differences[0].right, "an object with main_modes, modes, reductions and 1 more");
+  EXPECT_EQ(differences[1].left, "a list of 1");
+  EXPECT_EQ(differences[1].right, "a list of 2");
+}
+
+TEST_F(Compare, AToleranceIsAFiniteNumberFromZeroOn) {
+  for (const auto* tolerance : {"-1", "nan", "inf", "much"}) {
+    const Outcome outcome =
+        call({"compare", temporary.path / "a", temporary.path / "b", "--tolerance=" + std::string(tolerance)});
+    EXPECT_EQ(outcome.code, 2) << tolerance;
+    EXPECT_LT(outcome.err.size(), 150U) << outcome.err;
+  }
+  EXPECT_EQ(call({"compare", temporary.path / "a", temporary.path / "b", "--tolerance", "0"}).code, 0);
+}
+
+TEST_F(Compare, ADamagedSummaryIsToldWithItsFile) {
+  const std::string file = (temporary.path / "b" / "summary.json").string();
+  for (const auto* text : {"", "{\"modes\":", "[1, 2]", "3", "{\"modes\": \"caf\xe9\"}"}) {
+    core::write_file_atomically(file, text);
+    const Outcome outcome = call({"compare", temporary.path / "a", temporary.path / "b"});
+    EXPECT_EQ(outcome.code, 4) << outcome.err;
+    EXPECT_NE(outcome.err.find(file), std::string::npos) << outcome.err;
+  }
 }
 
 }  // namespace

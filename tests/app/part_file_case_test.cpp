@@ -6,11 +6,13 @@
 #include "app/case_reader.hpp"
 #include "app/imported_part.hpp"
 #include "app/part_materials.hpp"
+#include "app/stage_keys.hpp"
 #include "core/atomic_file.hpp"
 #include "io/stl.hpp"
 #include "mesh/box.hpp"
 #include "mesh/shapes.hpp"
 #include "temporary_folder.hpp"
+#include "tests/mesh/kuhn_box.hpp"
 
 namespace thinwall::app {
 namespace {
@@ -165,6 +167,65 @@ density = "2700 kg/m^3"
   EXPECT_NEAR(mass(materials, mesh), volume * (2700.0 + 7800.0), 1e-15);
 }
 
+/// A section whose material lacks something is named, with what it lacks, unless the case gives another.
+TEST(PartFile, AMaterialOfAMeshThatLacksSomethingIsNamed) {
+  const TemporaryFolder folder;
+  core::write_file_atomically(folder.path / "one.inp", R"(*NODE
+1, 0, 0, 0
+2, 10, 0, 0
+3, 0, 10, 0
+4, 0, 0, 10
+*ELEMENT, TYPE=C3D4, ELSET=UPPER
+1, 1, 2, 3, 4
+*MATERIAL, NAME=STEEL
+*ELASTIC
+210000, 0.3
+*SOLID SECTION, ELSET=UPPER, MATERIAL=STEEL
+)");
+  const std::string keys = "[part]\nfile = \"one.inp\"\nunit = \"mm\"\nmass_unit = \"t\"\n";
+  const std::string given = "youngs_modulus = \"70 GPa\"\npoisson_ratio = 0.3\ndensity = \"2700 kg/m^3\"\n";
+  EXPECT_NE(matrix_problem(keys.substr(7), folder.path)
+                .find("part.file: the material \"STEEL\" of the set UPPER has no density"),
+            std::string::npos)
+      << matrix_problem(keys.substr(7), folder.path);
+  EXPECT_EQ(matrix_problem(keys.substr(7) + "[[part.materials]]\non = \"UPPER\"\n" + given, folder.path), "no problem");
+  const Case taken = parse_case(keys + "[part.material]\n" + given, folder.path);
+  EXPECT_NE(taken.part->imported->notes.back().find("has no density: the case's takes its place"), std::string::npos);
+}
+
+/// The volume that coarse elements misplace falls with their size, and is none where no sphere is.
+TEST(PartFile, WhatASphereMisplacesFallsWithTheElements) {
+  const TemporaryFolder folder;
+  write_plate(folder.path / "plate.stl");
+  const auto share = [&](const std::string& predicate, int n) {
+    const Case source = parse_case(
+        surface_case(
+            "file = \"plate.stl\"\nunit = \"mm\"\n[[part.materials]]\non = \"end\"\nyoungs_modulus = \"210 GPa\"\n"
+            "poisson_ratio = 0.3\ndensity = \"7800 kg/m^3\"\n[selections.end." +
+            predicate),
+        folder.path);
+    return misplaced_share(source, mesh::kuhn_box({0.1, 0.06, 0.004}, {5 * n, 3 * n, 1}));
+  };
+  const std::string sphere = "sphere]\ncentre = [0.1, 0.03, 0]\nradius = 0.043\n";
+  const double coarse = share(sphere, 2), fine = share(sphere, 8);
+  EXPECT_GT(coarse, 0.01);
+  EXPECT_LT(coarse, 0.1);
+  EXPECT_NEAR(fine / coarse, 0.25, 0.1) << "a band of one element along the border";
+  EXPECT_EQ(share("box]\nmin = [0.043, 0, 0]\nmax = [1, 1, 1]\n", 2), 0.0) << "the mesh is cut there";
+}
+
+TEST(PartFile, AMaterialOfAPlaceThatMissesThePartIsRefused) {
+  const TemporaryFolder folder;
+  write_plate(folder.path / "plate.stl");
+  const auto keys = [](const std::string& min) {
+    return "file = \"plate.stl\"\nunit = \"mm\"\n[[part.materials]]\non = \"end\"\nyoungs_modulus = \"210 GPa\"\n"
+           "poisson_ratio = 0.3\ndensity = \"7800 kg/m^3\"\n[selections.end.box]\nmin = [" +
+           min + ", 0, 0]\nmax = [0.3, 1, 1]\n";
+  };
+  expect_problem(keys("0.2"), folder.path, "the selection \"end\" does not meet the part, which reaches from");
+  EXPECT_EQ(problem_of(keys("0.05"), folder.path), "no problem");
+}
+
 TEST(PartFile, MatricesAreReadInTheirUnitsAndTheirNodesNamed) {
   const TemporaryFolder folder;
   write_matrices(folder.path);
@@ -175,6 +236,24 @@ TEST(PartFile, MatricesAreReadInTheirUnitsAndTheirNodesNamed) {
   EXPECT_EQ(source.part->imported->matrices->M.coeff(1, 1), 1.0);
   EXPECT_EQ(node_of(*source.part->imported, source.points.front()), 8);
   EXPECT_EQ(input_files(source).size(), 3U);
+}
+
+TEST(PartFile, ATableThatIsReadBesideItsMatrixIsAnInput) {
+  const TemporaryFolder folder;
+  core::write_file_atomically(folder.path / "job.sti", "1 1 200\n2 1 -100\n2 2 100\n");
+  core::write_file_atomically(folder.path / "job.mas", "1 1 0.001\n2 2 0.001\n");
+  const auto with_dofs = [&](const std::string& dofs) {
+    core::write_file_atomically(folder.path / "job.dof", dofs);
+    return parse_case(
+        "[part]\nunit = \"mm\"\nmass_unit = \"t\"\n[part.matrices]\nstiffness = \"job.sti\"\nmass = \"job.mas\"\n"
+        "[points.B]\nnode = 8\ndirections = \"x\"\n",
+        folder.path);
+  };
+  const Case source = with_dofs("3.1\n8.1\n");
+  EXPECT_EQ(std::ranges::count(input_files(source), folder.path / "job.dof"), 1);
+  const std::string key = part_key(source);
+  EXPECT_EQ(part_key(with_dofs("3.1\n8.1\n")), key);
+  EXPECT_NE(part_key(with_dofs("8.1\n3.1\n")), key) << "the nodes have changed places";
 }
 
 TEST(PartFile, WhatMatricesDoNotTellIsRefused) {

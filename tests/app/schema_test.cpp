@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -47,6 +49,43 @@ TEST(Schema, BoundsAreOpenOrClosedAsSaid) {
   EXPECT_THROW(require_within_bounds(poisson, 0.5), core::InputError);
   EXPECT_THROW(require_within_bounds(poisson, std::numeric_limits<double>::quiet_NaN()), core::InputError);
   EXPECT_EQ(bounds_text(poisson), "at least 0, below 0.5");
+}
+
+/// The cells of each key's row of a page.
+std::vector<std::vector<std::string>> rows_of(const std::string& page) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(page);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("| `")) continue;
+    rows.emplace_back();
+    for (std::size_t at = 2; at < line.size();) {
+      const auto end = line.find(" | ", at);
+      rows.back().push_back(line.substr(at, end == std::string::npos ? line.size() - 2 - at : end - at));
+      at = end == std::string::npos ? line.size() : end + 3;
+    }
+  }
+  return rows;
+}
+
+TEST(Schema, EveryKeyIsDocumentedWithMeaningUnitRangeAndDefault) {
+  for (const Schema* schema : {&case_schema(), &expectation_schema(), &joints_schema()}) {
+    const auto rows = rows_of(schema_markdown(*schema));
+    EXPECT_EQ(rows.size(), schema->keys.size());
+    for (const auto& key : schema->keys) {
+      const std::string name = "`" + std::string(key.path.substr(key.path.rfind('.') + 1)) + "`";
+      const auto row = std::ranges::find_if(
+          rows, [&](const auto& cells) { return cells.size() == 5 && cells[0] == name && cells[4] == key.meaning; });
+      ASSERT_NE(row, rows.end()) << key.path;
+      EXPECT_TRUE(key.meaning.ends_with('.') || key.meaning.ends_with("…")) << key.path << ": " << key.meaning;
+      EXPECT_NE((*row)[1].find(key.kind.unit), std::string::npos) << key.path << ": no unit";
+      EXPECT_FALSE((*row)[2].empty()) << key.path << ": no default";
+      const bool number = key.type == Type::quantity || key.type == Type::integer || key.type == Type::quantities ||
+                          key.type == Type::vector || key.type == Type::polygon || key.type == Type::positions;
+      EXPECT_EQ((*row)[3].empty(), !number) << key.path << ": no range";
+      for (const auto& choice : choices(key))
+        EXPECT_NE((*row)[1].find("`" + choice + "`"), std::string::npos) << key.path;
+    }
+  }
 }
 
 // The page is printed from the table; with THINWALL_WRITE_DOCS set the test writes it instead.

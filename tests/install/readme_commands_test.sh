@@ -1,5 +1,6 @@
 #!/bin/bash
-# CI calls the commands of the README's section "Two commands" and no others that the README shows.
+# CI calls the commands of the README's section "Two commands" and no others that the README shows; a step that fails or
+# is skipped is not one that passed.
 set -euo pipefail
 here=$(dirname "$(readlink -f "$0")")
 # shellcheck source=expect.sh source-path=SCRIPTDIR
@@ -26,5 +27,18 @@ $section
 expect_contains "two of a kind" 'shows 2 commands ./thinwall run, not one' \
   "$(commands_of "$section"$'    ./thinwall run cases/second\n')"
 expect_contains "none" 'shows 0 commands ./thinwall run, not one' "$(commands_of '## Two commands')"
+
+printf '%s\n' "$section" >"$tree/README.md"
+step() { "$tree/.ci/run" step "$@" 2>&1 || echo "code $?"; }
+expect_contains "a step that passes" "=== a: passed in 0 s" "$(step a echo fine)"
+expect_contains "one that fails" "=== a: FAILED after 0 s
+=== FAILED: a (logs in build/ci-logs)
+code 1" "$(step a false)"
+skipped=$(step a printf 'SKIPPED: no browser\nmore\n')
+expect_contains "one that is skipped" "=== a: SKIPPED: no browser
+=== SKIPPED: a" "$skipped"
+expect_equal "it does not pass" "" "$(grep -e passed -e code <<<"$skipped" || true)"
+expect_contains "one that is skipped and fails" "=== FAILED: a" "$(step a sh -c 'echo SKIPPED: a part; exit 1')"
+
 expect_equal "this README" 2 "$("$here/../../.ci/run" commands | wc -l)"
 finish

@@ -52,6 +52,22 @@ TEST_F(CsvTable, ComesBackExactlyUnderACommaLocale) {
   EXPECT_EQ(std::get<std::vector<std::string>>(table[1].values), words);
 }
 
+TEST_F(CsvTable, EmptyCellsAreGapsOfAColumnThatMayHaveThem) {
+  const std::vector<double> ratio{std::nan(""), 0.01, std::nan("")}, none(3, std::nan(""));
+  write_csv(path("gaps.csv"),
+            {{"mode", std::vector<double>{1.0, 2.0, 3.0}}, {"ratio", ratio, true}, {"none", none, true}});
+  const Table table = read_csv(path("gaps.csv"));
+  const auto read = numbers_or_gaps(table, "ratio", "gaps.csv");
+  ASSERT_EQ(read.size(), 3U);
+  EXPECT_TRUE(std::isnan(read[0]) && std::isnan(read[2]));
+  EXPECT_EQ(read[1], 0.01);
+  EXPECT_EQ(numbers_or_gaps(table, "none", "gaps.csv").size(), 3U);
+  EXPECT_TRUE(std::isnan(numbers_or_gaps(table, "none", "gaps.csv")[1]));
+  const std::string message =
+      message_of<core::DataError>([&] { static_cast<void>(numbers(table, "ratio", "gaps.csv")); });
+  EXPECT_NE(message.find("\"ratio\" has an empty cell"), std::string::npos) << message << ": no NaN unawares";
+}
+
 TEST_F(CsvTable, IsNotWrittenWithNaNOrColumnsOfUnequalLength) {
   const std::string message = message_of<core::NumericalError>([&] {
     write_csv(path("t.csv"), {{"depth_m", std::vector<double>{1.0, std::nan("")}}});

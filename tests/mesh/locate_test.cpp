@@ -116,5 +116,61 @@ TEST(Patch, OffThePartOrOffItsSurfaceIsAnErrorThatSaysByHowMuch) {
   EXPECT_THROW((void)patch_samples(mesh, boundary(mesh), {0.15, 0.1, 0.05}, 0.01), core::InputError) << "inside";
 }
 
+/// A quarter of a tube of radius R between chords: its elements lie up to a sagitta off the cylinder.
+TetMesh chorded_tube(double R, double wall, double height, int chords) {
+  TetMesh mesh = kuhn_box({1.0, wall, height}, {chords, 1, 2});
+  for (auto& v : mesh.vertices) {
+    const double angle = 0.5 * std::numbers::pi * (1.0 - v.x()), r = R + v.y();
+    v = {r * std::cos(angle), r * std::sin(angle), v.z()};
+  }
+  return mesh;
+}
+
+TEST(Patch, OnACurvedSurfaceFallsOntoTheChordsOfTheMesh) {
+  const double R = 0.05, wall = 0.002, r = 0.008;
+  const int chords = 16;
+  const TetMesh mesh = chorded_tube(R, wall, 0.04, chords);
+  const double half = 0.25 * std::numbers::pi / chords, outer = R + wall;
+  const double sagitta = outer * (1.0 - std::cos(half));
+  const double middle = 0.25 * std::numbers::pi + half;  // of a chord
+  const Eigen::Vector3d out(std::cos(middle), std::sin(middle), 0.0);
+  for (const double radius : {outer, R}) {  // the convex face, and the concave one
+    const Eigen::Vector3d x = radius * out + Eigen::Vector3d(0.0, 0.0, 0.021);
+    if (radius == outer) {
+      EXPECT_THROW((void)patch_samples(mesh, boundary(mesh), x, 0.0), core::InputError) << "off the chords";
+      EXPECT_THROW((void)patch_samples(mesh, boundary(mesh), x, r), core::InputError);
+    }
+    const auto one = patch_samples(mesh, boundary(mesh), x, 0.0, 2.0 * sagitta);
+    EXPECT_LE((position(mesh, one[0].location) - x).norm(), 1.0001 * sagitta);
+    const auto samples = patch_samples(mesh, boundary(mesh), x, r, 2.0 * sagitta);
+    EXPECT_EQ(samples.size(), 192U) << "nothing is cut where no edge is";
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero(), second = Eigen::Vector3d::Zero();
+    for (const auto& sample : samples) {
+      const Eigen::Vector3d p = position(mesh, sample.location);
+      EXPECT_NEAR(p.head<2>().norm(), radius, 1.0001 * sagitta) << "on the face of the disc, not on the other one";
+      mean += sample.weight * (p - x);
+      second += sample.weight * (p - x).cwiseAbs2();
+    }
+    EXPECT_NEAR(second.z(), r * r / 4, 1e-3 * r * r);
+    EXPECT_NEAR(mean.dot(out), -r * r / 8 / radius, sagitta) << "what the cylinder falls by in the mean";
+  }
+}
+
+/// At the foot of a wall a disc on the floor ends; what lies within the wall is no part of its face.
+TEST(Patch, EndsAtAnInnerCorner) {
+  const TetMesh whole = kuhn_box({0.2, 0.1, 0.1}, {4, 2, 2});
+  TetMesh step;
+  step.vertices = whole.vertices;
+  for (std::size_t t = 0; t < whole.tets.size(); ++t) {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (const int v : whole.tets[t]) centre += 0.25 * whole.vertices[static_cast<std::size_t>(v)];
+    if (centre.x() < 0.1 || centre.z() < 0.05) step.tets.push_back(whole.tets[t]);
+  }
+  const double r = 0.02;
+  const Eigen::Vector3d centre(0.1 + 0.25 * r, 0.06, 0.05);
+  for (const auto& sample : patch_samples(step, boundary(step), centre, r))
+    EXPECT_GE(position(step, sample.location).x(), 0.1 - 1e-12);
+}
+
 }  // namespace
 }  // namespace thinwall::mesh

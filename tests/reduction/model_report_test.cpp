@@ -196,7 +196,10 @@ TEST(ModelReport, OfOnePointSaysWhichQuestionsItCannotAnswer) {
   EXPECT_TRUE(found.trustworthy()) << "one point is no fault";
   EXPECT_NE(text(found).find("rigid body not judged: the DOFs show 3 of 6 motions"), std::string::npos);
   EXPECT_EQ(what_is_wrong(report(model, {.positions = positions, .rigid_motions = 6})),
-            "rigid motions that the DOFs can show");
+            "rigid motions that the DOFs can show, modes without energy")
+      << "it is held: none is free, whatever the point sees";
+  EXPECT_TRUE(report(model, {.positions = positions, .rigid_motions = 0}).trustworthy());
+  EXPECT_EQ(what_is_wrong(report(model, {.rigid_motions = 1})), "modes without energy");
   EXPECT_TRUE(report(model).trustworthy()) << "without positions nothing is asked about rigid motions";
 }
 

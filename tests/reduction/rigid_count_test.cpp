@@ -44,6 +44,13 @@ TEST(RigidCount, IsWhereLambdaJumps) {
   EXPECT_EQ(rigid_count(many, 0.0), 0) << "twelve at most";
 }
 
+TEST(RigidCount, SaysHowFarFromFreeTheyAre) {
+  const ModesWithoutEnergy free = without_energy(Eigen::Vector3d(39.4784176, 1e9, 2e9), 0.0);  // (2π · 1 Hz)²
+  EXPECT_EQ(free.count, 1);
+  EXPECT_NEAR(free.highest_hz, 1.0, 1e-8);
+  EXPECT_EQ(without_energy(Eigen::Vector3d(1.0, 2.0, 3.0), 0.0).highest_hz, 0.0);
+}
+
 TEST(RigidBodyModes, OfTheSmallestChainsAreFound) {
   for (const int n : {2, 3, 5}) {
     const FullModel free = chain(n, false), held = chain(n, true);
@@ -70,7 +77,7 @@ TEST(ModesWithoutEnergy, AreThoseOfCoordinatesWithMass) {
   const Reducible part = small_part(false);
   for (const int modes : {1, 3, 5, 12}) {
     const Reduction reduced = reduce(Method::macneal, part.full, part.interface, {.modes = modes});
-    EXPECT_EQ(modes_without_energy(std::get<dynamics::SpatialModel>(reduced.model)), 6) << modes;
+    EXPECT_EQ(modes_without_energy(std::get<dynamics::SpatialModel>(reduced.model)).count, 6) << modes;
   }
 }
 

@@ -32,7 +32,7 @@ TEST(MeasuredCase, NoiseFreeFilesGiveTheModelsPredictionWithinAThousandthOfThePe
       app::read_case(cases / "barrios-2019", {"part.mesh.element_size=25 mm", "response.from=1 Hz",
                                               "response.to=1000 Hz", "response.lines=1999", "reduction.modes=40"});
   model.updating.clear();
-  app::Stages stages(false);
+  app::Stages stages(app::ProgressDisplay::none);
   const app::PartResult part = app::compute_part(model, app::discretise(model), stages);
   const auto axis = app::frequency_axis(model);
   const app::Component part_component = app::component(*part.damped, axis);

@@ -5,12 +5,15 @@
 #include "app/case_reader.hpp"
 #include "app/pipeline.hpp"
 #include "app/reduce_command.hpp"
+#include "core/atomic_file.hpp"
 #include "fem/model.hpp"
 #include "fem/modes.hpp"
+#include "fem/supports.hpp"
 #include "io/mesh_file.hpp"
 #include "io/stl.hpp"
 #include "mesh/box.hpp"
 #include "mesh/shapes.hpp"
+#include "tests/mesh/kuhn_box.hpp"
 
 namespace thinwall::app {
 namespace {
@@ -237,6 +240,40 @@ TEST(PartFile, ClampsGoFromFreeToHeldAndMassesCount) {
   EXPECT_NEAR(loaded[0] / held[0], 1.0 / std::sqrt(1.0 + 4.12 * 0.02 / M), 0.03);
 }
 
+/// A plate whose end is of steel from x = 60 mm on: the generated mesh, cut there, gives the modes of a regular mesh
+/// whose elements end there by themselves. Elements that lie across would be 1 % off.
+TEST(PartFile, ABoxOfAnotherMaterialEndsWhereItEnds) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "part_two_materials";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  const auto summary = run_case(parse_case("[part]\nlength = \"100 mm\"\nheight = \"40 mm\"\nthickness = \"5 mm\"\n"
+                                           "[part.axes]\nlength = \"x\"\nheight = \"y\"\nthickness = \"z\"\n"
+                                           "[part.mesh]\ntolerance = 0.001\n[modes]\ncount = 4\n" +
+                                               block_material +
+                                               "[[part.materials]]\non = \"end\"\nyoungs_modulus = \"210 GPa\"\n"
+                                               "poisson_ratio = 0.3\ndensity = \"7850 kg/m^3\"\n"
+                                               "[selections.end.box]\nmin = [\"60 mm\", \"-1 mm\", \"-1 mm\"]\n"
+                                               "max = [\"101 mm\", \"41 mm\", \"6 mm\"]\n",
+                                           folder),
+                                {folder / "out", true, -1, false})
+                           .summary;
+  mesh::TetMesh mesh = mesh::kuhn_box({0.1, 0.04, 0.005}, {10, 4, 1});
+  fem::Materials materials{{{71e9, 0.33, 2810.0}, {210e9, 0.3, 7850.0}}, {}};
+  for (const auto& tet : mesh.tets) {
+    double x = 0.0;
+    for (const int v : tet) x += 0.25 * mesh.vertices[static_cast<std::size_t>(v)].x();
+    materials.of_tet.push_back(x > 0.06 ? 1 : 0);
+  }
+  EXPECT_NEAR(summary["part"]["mass_kg"].get<double>(), 2e-4 * 0.1 * (0.6 * 2810.0 + 0.4 * 7850.0), 1e-10);
+  const fem::Model model = fem::supported_model(std::move(mesh), 4, materials, {}, {}, {});
+  fem::ModeOptions options;
+  options.count = 4;
+  const fem::Modes expected = fem::modes(model, fem::factorise(model), options);
+  for (std::size_t k = 6; k < 10; ++k) {
+    EXPECT_NEAR(frequencies(summary)[k] / expected.frequency_hz(static_cast<Eigen::Index>(k)), 1.0, 1.5e-3) << k;
+  }
+}
+
 /// Matrices that nothing holds: their free motions are counted by themselves.
 TEST(PartFile, FreeMatricesAreFree) {
   const fs::path folder = fs::path(::testing::TempDir()) / "part_free_matrices";
@@ -264,6 +301,56 @@ TEST(PartFile, FreeMatricesAreFree) {
   const auto from_files = run_case(parse_case(matrices, folder), {folder / "files", true, -1, false}).summary;
   EXPECT_EQ(from_files["part"]["rigid_body_modes"], 6);
   for (std::size_t k = 6; k < 10; ++k) EXPECT_NEAR(frequencies(from_files)[k] / frequencies(own)[k], 1.0, 2e-3) << k;
+}
+
+/// Two masses on springs have two modes; the usual counts of ten and thirty yield.
+TEST(PartFile, SmallMatricesGiveTheModesThatTheyHave) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "part_small";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n";
+  core::write_file_atomically(folder / "k.mtx", head + "3 3 5\n1 1 2e6\n2 1 -1e6\n2 2 2e6\n3 2 -1e6\n3 3 1e6\n");
+  core::write_file_atomically(folder / "m.mtx", head + "3 3 3\n1 1 1\n2 2 1\n3 3 1\n");
+  core::write_file_atomically(folder / "dofs.csv", "node,component,point\n1,x,A\n2,x,B\n3,x,C\n");
+  const auto summary = run_case(parse_case("[part]\nunit = \"m\"\nmass_unit = \"kg\"\n[part.matrices]\n"
+                                           "stiffness = \"k.mtx\"\nmass = \"m.mtx\"\ndofs = \"dofs.csv\"\n[points.C]\n"
+                                           "directions = \"x\"\n",
+                                           folder),
+                                {folder / "out", true, -1, false})
+                           .summary;
+  ASSERT_EQ(summary["part"]["modes"].size(), 2U);
+  for (int k = 1; k <= 2; ++k) {  // λ_k = 4 (k/m) sin²((2k − 1) π / 14) of a chain of three, held at one end
+    const double omega = 2e3 * std::sin((2 * k - 1) * M_PI / 14);
+    EXPECT_NEAR(frequencies(summary)[static_cast<std::size_t>(k - 1)], omega / (2 * M_PI), 1e-6);
+  }
+  EXPECT_FALSE(fs::exists(folder / "out" / "robot")) << "nothing was written there";
+}
+
+/// A point of the curved surface of a file, to the digits that people give, with a patch and without.
+TEST(PartFile, APointOnACurvedSurfaceIsHeldToTheFileAndMovedToTheMesh) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "part_curved";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  const auto text = [](const std::string& position, const std::string& more) {
+    return "[part]\nfile = \"" + std::string(THINWALL_SOURCE_DIR) + "/tests/data/parts/blade.stl\"\nunit = \"mm\"\n" +
+           block_material +
+           "[part.mesh]\ntolerance = 0.05\n[[part.supports]]\non = \"z_min\"\n[modes]\ncount = 4\n[points.P]\n"
+           "position = " +
+           position + "\n" + more;
+  };
+  const std::string there = "[\"3.158 mm\", \"4.509 mm\", \"60 mm\"]";
+  const auto at_point = run_case(parse_case(text(there, ""), folder), {folder / "point", true, -1, false}).summary;
+  const auto over_disc =
+      run_case(parse_case(text(there, "patch_radius = \"2 mm\"\n"), folder), {folder / "disc", true, -1, false})
+          .summary;
+  EXPECT_EQ(at_point["status"], "ok");
+  EXPECT_EQ(over_disc["status"], "ok");
+  try {
+    (void)parse_case(text("[\"3.158 mm\", \"3.4 mm\", \"60 mm\"]", ""), folder);
+    ADD_FAILURE() << "a millimetre off";
+  } catch (const core::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("off the part's surface"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

@@ -165,6 +165,34 @@ TEST(Path, TheWeakestPositionIsThatOfTheTable) {
   }
 }
 
+/// At the case's own speed, which is none of the chart's, the path's limit is the least of what the positions have
+/// there.
+TEST(Path, AtTheCasesSpeedTheWeakestPositionLimits) {
+  const fs::path out = scratch("path_speed");
+  const std::string ends = path(4.0, 60.0, 4, "held");
+  std::string with_speed = wall(40.0, 40.0, coarse, "count = 3\n" + ends);
+  with_speed.insert(with_speed.find("radial_depth"), "spindle_speed = \"11500 rpm\"\n");
+  const auto summary = run(with_speed, out);
+  const std::string one_speed = "count = 2\n" + ends;  // whose first speed is the case's
+  const std::string chart_there = wall(40.0, 40.0, coarse, one_speed);
+  const std::string from = "from = \"9000 rpm\"";
+  const auto there = run(std::string(chart_there).replace(chart_there.find(from), from.size(), "from = \"11500 rpm\""),
+                         scratch("path_speed_chart"));
+  for (const auto& chart : summary["path"]) {
+    const auto name = chart["name"].get<std::string>();
+    const fs::path file = fs::path(::testing::TempDir()) / "path_speed_chart" / "lobes" / (name + "_path.csv");
+    const auto depth = column(file, "limiting_depth_m"), position = column(file, "position");
+    std::size_t weakest = 0;
+    for (std::size_t row = 0; row < depth.size(); row += 2)
+      if (depth[row] < depth[weakest]) weakest = row;
+    const auto& row = chart["at_case_speed"];
+    EXPECT_NEAR(row["limiting_depth_m"].get<double>() / depth[weakest], 1.0, 1e-3) << name;
+    EXPECT_EQ(row["limited_at_position"].get<double>(), position[weakest]) << name;
+    EXPECT_EQ(row["positions_not_converged"], 0);
+  }
+  EXPECT_FALSE(there["path"][0].contains("at_case_speed")) << "no speed, no answer there";
+}
+
 /// The mesh is not symmetric: its tolerance of 0.5 % of every receptance is what the ends may differ by, and the steep
 /// flanks of lobes double it.
 TEST(Path, PositionsAtEqualDistanceFromTheMiddleOfASymmetricWallAreEqual) {

@@ -191,5 +191,50 @@ to = "4000 Hz"
   EXPECT_EQ(core::read_file(own / "stiffness.mtx"), before);
 }
 
+/// The table alone lies where the model is to go.
+TEST(Reduce, AModelIsNotWrittenOverATableEither) {
+  const fs::path folder = scratch("reduce_over_table");
+  ASSERT_EQ(command({"reduce", written_case(folder, "").string(), "-o", (folder / "model").string()}).code, 0);
+  fs::create_directories(folder / "out");
+  fs::rename(folder / "model" / "dofs.csv", folder / "out" / "dofs.csv");
+  const std::string before = core::read_file(folder / "out" / "dofs.csv");
+  core::write_file_atomically(folder / "case.toml", R"([part]
+shape = "matrices"
+unit = "m"
+mass_unit = "kg"
+[part.matrices]
+stiffness = "model/stiffness.mtx"
+mass = "model/mass.mtx"
+dofs = "out/dofs.csv"
+[points.A]
+[response]
+to = "4000 Hz"
+)");
+  const Answer answer = command({"reduce", folder.string(), "-o", (folder / "out").string(), "--modes", "2"});
+  EXPECT_EQ(answer.code, 3) << answer.err;
+  EXPECT_NE(answer.err.find("dofs.csv"), std::string::npos) << answer.err;
+  EXPECT_EQ(core::read_file(folder / "out" / "dofs.csv"), before);
+}
+
+/// Without places no motion can be named, but their number is held to.
+TEST(Reduce, RigidMotionsAreCountedWithoutPlaces) {
+  const fs::path folder = scratch("inspect_count");
+  core::write_file_atomically(folder / "k.mtx",
+                              "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 100\n2 1 -100\n2 2 100\n");
+  core::write_file_atomically(folder / "m.mtx",
+                              "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 1\n2 2 1\n");
+  core::write_file_atomically(folder / "dofs.csv", "node,component,point\n1,x,A\n2,x,B\n");
+  const auto inspected = [&](const std::string& motions) {
+    return command({"inspect", "--stiffness", (folder / "k.mtx").string(), "--mass", (folder / "m.mtx").string(),
+                    "--dofs", (folder / "dofs.csv").string(), "--unit", "m", "--mass-unit", "kg", "--rigid-motions",
+                    motions});
+  };
+  const Answer one = inspected("1"), none = inspected("0");
+  EXPECT_EQ(one.code, 0) << one.err << one.out;
+  EXPECT_NE(one.out.find("modes counted as free: 1"), std::string::npos) << one.out;
+  EXPECT_EQ(none.code, 6) << none.out;
+  EXPECT_NE(none.out.find("modes without energy"), std::string::npos) << none.out;
+}
+
 }  // namespace
 }  // namespace thinwall::app

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -12,7 +13,9 @@
 #include <thread>
 
 #include "core/atomic_file.hpp"
+#include "io/manifest.hpp"
 #include "io/response_csv.hpp"
+#include "report/document.hpp"
 
 namespace thinwall {
 namespace {
@@ -91,6 +94,26 @@ TEST(Run, FoldersThatAreNotARunsAreLeftAlone) {
   EXPECT_TRUE(fs::exists(out / "models"));
 }
 
+/// Every file beside the log with its sum, the page among them, and the times of all stages, writing the page included.
+void expect_whole_manifest(const fs::path& out) {
+  const auto manifest = nlohmann::json::parse(core::read_file(out / "manifest.json"));
+  std::vector<std::string> names;
+  for (const auto& file : manifest["outputs"]) {
+    names.push_back(file["name"]);
+    EXPECT_EQ(file["sha256"], io::sha256_of_file(out / names.back())) << names.back();
+  }
+  for (const char* name : {"report.html", "summary.json", "modes/modes.csv", "case.resolved.toml"})
+    EXPECT_EQ(std::ranges::count(names, name), 1) << name;
+  double sum = 0.0;
+  for (const auto& [stage, seconds] : manifest["timings_s"].items())
+    sum += stage == "total" ? 0.0 : seconds.get<double>();
+  EXPECT_GT(manifest["timings_s"]["report"].get<double>(), 0.0);
+  EXPECT_LE(sum, manifest["timings_s"]["total"].get<double>());
+  EXPECT_EQ(manifest["timings_s"], summary_in(out)["timings_s"]);
+  const bool repository = fs::exists(fs::path(THINWALL_SOURCE_DIR) / ".git");
+  EXPECT_EQ(manifest["program"].value("commit", "").size() >= 7, repository);
+}
+
 TEST(Run, LeavesEveryFileOfAResultFolder) {
   const fs::path out = scratch("run_plate");
   const fs::path table = scratch("run_plate.txt");
@@ -104,6 +127,7 @@ TEST(Run, LeavesEveryFileOfAResultFolder) {
     EXPECT_TRUE(fs::exists(out / name)) << name;
   }
   EXPECT_TRUE(unfinished(out).empty());
+  expect_whole_manifest(out);
   const auto summary = summary_in(out);
   EXPECT_LE(summary["coupling"]["route_difference"]["max_relative"].get<double>(), 1e-9);
   EXPECT_LE(summary["part"]["mass_difference_relative"].get<double>(), 1e-9);
@@ -117,6 +141,29 @@ TEST(Run, LeavesEveryFileOfAResultFolder) {
 }
 
 /// The plate of reference/structures.md: 3-D frequencies in Hz, right to 1e-4.
+TEST(Run, ThePageHasWhatItDrawsBesideTheLobes) {
+  const fs::path out = scratch("run_cutting");
+  std::vector<std::string> more = quick;
+  more.insert(more.end(), {"--set", "machine.max_spindle_speed=2800 rpm"});
+  const int code = run(words("run", plate, out, more));
+  ASSERT_TRUE(code == 0 || code == 6) << code;
+  const nlohmann::json document = report::document({{out}, "thinwall"}), cutting = document["runs"][0]["cutting"];
+  EXPECT_EQ(cutting["teeth"], 6);
+  EXPECT_DOUBLE_EQ(cutting["depth_limit_m"].get<double>(), 0.02) << "the tool's length";
+  EXPECT_DOUBLE_EQ(cutting["spindle_speed_rpm"].get<double>(), 1900.0);
+  EXPECT_EQ(cutting["spindle_range_rpm"], nlohmann::json({0.0, 2800.0}));
+  EXPECT_EQ(cutting["depth_limit_is"], "tool_length");
+  EXPECT_EQ(cutting["at"], "P");
+  // 6 teeth and 1.8 m/min: the feed of a tooth at 1900 rpm is kept, so the rate is ae·a·f z n, in cm³/min of m and rpm.
+  EXPECT_NEAR(cutting["removal_cm3_per_min_per_m_rpm"].get<double>(), 0.2e-3 * 1.8 / 1900.0 * 1e6, 1e-9);
+  const nlohmann::json points = document["runs"][0]["shapes"]["points"];
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_EQ(points[0]["directions"].size(), 3U);
+  EXPECT_EQ(points[0]["joined"], nlohmann::json({{1.0, 0.0, 0.0}})) << "the robot holds x of P";
+  EXPECT_EQ(points[1]["joined"], nlohmann::json::array()) << "and nothing of P2";
+  EXPECT_FALSE(document["runs"][0]["sentences"].empty());
+}
+
 TEST(Run, AToleranceAloneGivesThePlatesFrequenciesWithinItAndSaysSo) {
   const fs::path out = scratch("run_tolerance");
   const fs::path source = scratch("run_tolerance_case");

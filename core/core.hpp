@@ -1,0 +1,11 @@
+#pragma once
+// All that core/ offers to other programs.
+// Internal: atomic_file, dense_eigenvalues, dense_factorisations, faults, mode_signs, nearest_name, pieces.
+
+#include "core/eigen_alignment.hpp"
+#include "core/error.hpp"
+#include "core/interrupt.hpp"
+#include "core/memory.hpp"
+#include "core/parallel.hpp"
+#include "core/progress.hpp"
+#include "core/units.hpp"

@@ -1,0 +1,19 @@
+#pragma once
+// All that dynamics/ offers to other programs.
+// Internal: motion_words.
+
+#include "core/eigen_alignment.hpp"
+#include "dynamics/beam_element.hpp"
+#include "dynamics/conversion.hpp"
+#include "dynamics/dof.hpp"
+#include "dynamics/frequency_axis.hpp"
+#include "dynamics/frf_checks.hpp"
+#include "dynamics/mac.hpp"
+#include "dynamics/modal_model.hpp"
+#include "dynamics/modal_table.hpp"
+#include "dynamics/response_model.hpp"
+#include "dynamics/rigid_body.hpp"
+#include "dynamics/sparse_model.hpp"
+#include "dynamics/sparse_spatial.hpp"
+#include "dynamics/spatial_model.hpp"
+#include "dynamics/unit_system.hpp"

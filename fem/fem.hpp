@@ -1,0 +1,21 @@
+#pragma once
+// All that fem/ offers to other programs.
+// Internal: curved_element, elastic_clamps, face_points, interpolation, node_graph, quadrature,
+// reference_element.
+
+#include "core/eigen_alignment.hpp"
+#include "fem/assembly.hpp"
+#include "fem/attach.hpp"
+#include "fem/attachments.hpp"
+#include "fem/beam.hpp"
+#include "fem/closed_part.hpp"
+#include "fem/free_motions.hpp"
+#include "fem/material.hpp"
+#include "fem/model.hpp"
+#include "fem/modes.hpp"
+#include "fem/patch.hpp"
+#include "fem/points.hpp"
+#include "fem/rigid_body.hpp"
+#include "fem/rigid_patch.hpp"
+#include "fem/supports.hpp"
+#include "fem/to_tolerance.hpp"

@@ -1,0 +1,14 @@
+#pragma once
+// All that linalg/ offers to other programs.
+// Internal: cholmod, large_array, matrix_graph, minimum_fill, supernodal_factor, supernodal_solve,
+// symbolic_factor, tall, tree_cut.
+
+#include "core/eigen_alignment.hpp"
+#include "linalg/block_lanczos.hpp"
+#include "linalg/eigenpairs.hpp"
+#include "linalg/inverse_iteration.hpp"
+#include "linalg/library_threads.hpp"
+#include "linalg/ordering.hpp"
+#include "linalg/sparse.hpp"
+#include "linalg/sparse_cholesky.hpp"
+#include "linalg/sparse_indefinite.hpp"

@@ -1,0 +1,37 @@
+#pragma once
+// All that mesh/ offers to other programs.
+// Internal: border_graph, cell_shape, cell_split, curve_order, edge_layers, edge_uses, facet_repair,
+// hole_filling, joined_sets, labelled_checks, layer_rows, mesh_findings, midside_order, nearest_point,
+// orientation, pieces, planar_mesh, polyline, surface_finding, sweep, tet_jacobian, triangle_tree.
+
+#include "core/eigen_alignment.hpp"
+#include "mesh/bend.hpp"
+#include "mesh/box.hpp"
+#include "mesh/box_mesh.hpp"
+#include "mesh/closed_surface.hpp"
+#include "mesh/confined.hpp"
+#include "mesh/delaunay_volume.hpp"
+#include "mesh/faceted_surface.hpp"
+#include "mesh/labelled_mesh.hpp"
+#include "mesh/lagrange_nodes.hpp"
+#include "mesh/locate.hpp"
+#include "mesh/plane_cut.hpp"
+#include "mesh/polygon.hpp"
+#include "mesh/prism.hpp"
+#include "mesh/prism_mesh.hpp"
+#include "mesh/quality.hpp"
+#include "mesh/remesh.hpp"
+#include "mesh/selection.hpp"
+#include "mesh/shapes.hpp"
+#include "mesh/size_space.hpp"
+#include "mesh/solid_mesh.hpp"
+#include "mesh/surface_distance.hpp"
+#include "mesh/surface_features.hpp"
+#include "mesh/surface_repair.hpp"
+#include "mesh/surface_to_volume.hpp"
+#include "mesh/tessellation.hpp"
+#include "mesh/tet_mesh.hpp"
+#include "mesh/tetgen.hpp"
+#include "mesh/thin_walls.hpp"
+#include "mesh/triangle_soup.hpp"
+#include "mesh/wall_thickness.hpp"

@@ -1,0 +1,41 @@
+#pragma once
+// All that milling/ offers to other programs.
+// Internal: bracketed_root, complex_eigenvalues, contact_grid, contact_state, critical_depths, crossing,
+// cut_at_speed, cut_cycle, dominant_eigenvalue, edge, found_crossings, helical_row, parameter_change,
+// product_rule, refined_crossing, row_search, sampled_peak, step_coefficients, uniform_step_map,
+// uniform_step_stability, unstable_count, vanishing_powers.
+
+#include "core/eigen_alignment.hpp"
+#include "milling/chatter_frequency.hpp"
+#include "milling/chip_load.hpp"
+#include "milling/cutting_force.hpp"
+#include "milling/cutting_load.hpp"
+#include "milling/engagement.hpp"
+#include "milling/envelope.hpp"
+#include "milling/force_law.hpp"
+#include "milling/forced_vibration.hpp"
+#include "milling/lobe_field.hpp"
+#include "milling/lobe_method.hpp"
+#include "milling/lobe_row.hpp"
+#include "milling/lobes.hpp"
+#include "milling/machine_limits.hpp"
+#include "milling/multi_frequency.hpp"
+#include "milling/oblique_cutting.hpp"
+#include "milling/operating_point.hpp"
+#include "milling/passivity.hpp"
+#include "milling/periodic_motion.hpp"
+#include "milling/pockets.hpp"
+#include "milling/process.hpp"
+#include "milling/process_damping.hpp"
+#include "milling/regenerative_loop.hpp"
+#include "milling/relative_structure.hpp"
+#include "milling/robust_lobes.hpp"
+#include "milling/sampled_receptance.hpp"
+#include "milling/sampled_stability.hpp"
+#include "milling/sampled_uncertainty.hpp"
+#include "milling/sensitivity.hpp"
+#include "milling/stability.hpp"
+#include "milling/stability_map.hpp"
+#include "milling/surface_error.hpp"
+#include "milling/tool.hpp"
+#include "milling/zeroth_order.hpp"

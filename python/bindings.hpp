@@ -1,0 +1,100 @@
+#pragma once
+// What the files of the Python module share: one function a folder of the library, long calls, views of arrays.
+
+#include <pybind11/complex.h>
+#include <pybind11/eigen.h>
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+#include <signal.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/dof.hpp"
+#include "fem/model.hpp"
+#include "linalg/sparse.hpp"
+#include "mesh/lagrange_nodes.hpp"
+#include "mesh/selection.hpp"
+#include "mesh/tet_mesh.hpp"
+
+namespace thinwall::python {
+
+namespace py = pybind11;
+using namespace pybind11::literals;
+
+void bind_core(py::module_& module);
+void bind_mesh(py::module_& module);
+void bind_fem(py::module_& module);
+void bind_dynamics(py::module_& module);
+void bind_reduction(py::module_& module);
+void bind_robot(py::module_& module);
+void bind_coupling(py::module_& module);
+void bind_milling(py::module_& module);
+void bind_io(py::module_& module);
+
+/// A mesh as Python holds it: tetrahedra, with the nodes that a file gave them if it gave any but the corners.
+struct Mesh {
+  mesh::TetMesh tets;
+  std::optional<mesh::LagrangeNodes> nodes{};  ///< of order 2
+};
+
+/// A model with its factor, which all that is computed from it share: made when it is first needed.
+class Part {
+ public:
+  explicit Part(fem::Model assembled) : model(std::move(assembled)) {}
+  const fem::Factored& factored();
+
+  fem::Model model;
+
+ private:
+  std::once_flag once_;  // long calls of several Python threads may meet here
+  std::unique_ptr<fem::Factored> factored_;
+};
+
+/// Guard of a long call: other Python threads go on meanwhile, and Ctrl-C ends it. Python's own handler only notes the
+/// signal for the interpreter, which does not run; ours asks the library to stop, which throws core::Interrupted where
+/// it looks next. A request that came too late becomes a KeyboardInterrupt after the call.
+class LongCall {
+ public:
+  LongCall();
+  ~LongCall();
+  LongCall(const LongCall&) = delete;
+  LongCall& operator=(const LongCall&) = delete;
+
+ private:
+  py::gil_scoped_release released_;
+  bool installed_ = false;
+  struct sigaction before_ {};
+};
+
+using LongCallGuard = py::call_guard<LongCall>;
+
+/// A read-only array on memory that `owner` keeps, of the given shape, rows after rows.
+template <typename Scalar>
+py::array view(const Scalar* data, std::vector<py::ssize_t> shape, const py::object& owner) {
+  py::array_t<Scalar> array(std::move(shape), data, owner);
+  array.attr("setflags")("write"_a = false);
+  return array;
+}
+
+/// A scipy.sparse.csc_matrix on the matrix's own memory, which `owner` keeps.
+py::object sparse_view(const linalg::SparseMatrix& matrix, const py::object& owner);
+
+/// "P.x", "P.rz", "P.(0.6,0.8,0)" as a DOF, "mode 3" as an amplitude. Throws InputError for anything else.
+dynamics::Dof dof_from_name(const std::string& text);
+std::vector<std::string> names(const dynamics::DofTable& dofs);
+
+/// Unit vectors of "x", "xyz" (its letters), or of one or several vectors. Throws InputError for anything else.
+std::vector<Eigen::Vector3d> directions(const py::object& words);
+
+/// Where faces are: a mesh::Region, or "x_min" … "z_max", the plane of a mesh's outermost vertices.
+mesh::Region region_on(const mesh::TetMesh& mesh, const py::object& region);
+
+}  // namespace thinwall::python

@@ -1,0 +1,74 @@
+// Components joined at points, by matrices or by receptances.
+
+#include "core/error.hpp"
+#include "coupling/receptance.hpp"
+#include "coupling/route_difference.hpp"
+#include "coupling/spatial.hpp"
+#include "python/bindings.hpp"
+
+namespace thinwall::python {
+
+namespace {
+
+using coupling::Contact;
+using coupling::CoupledResponse;
+
+Contact contact(const std::string& a, const std::string& b, const py::object& along, double stiffness, double damping,
+                double loss_factor, const py::object& about) {
+  Contact result{a, b, {}};
+  for (const auto& d : directions(along)) result.springs.push_back({d, stiffness, damping, loss_factor});
+  for (const auto& d : directions(about))
+    result.springs.push_back({d, stiffness, damping, loss_factor, dynamics::DofKind::rotation});
+  return result;
+}
+
+std::string status(const CoupledResponse& coupled) {
+  switch (coupled.status) {
+    case coupling::KernelStatus::well_conditioned:
+      return "well_conditioned";
+    case coupling::KernelStatus::ill_conditioned:
+      return "ill_conditioned";
+    case coupling::KernelStatus::regularised:
+      break;
+  }
+  return "regularised";
+}
+
+}  // namespace
+
+void bind_coupling(py::module_& module) {
+  py::class_<Contact>(module, "Contact", "A point of one component joined to a point of another.")
+      .def(py::init(&contact), "point_a"_a, "point_b"_a, "directions"_a = "xyz",
+           "stiffness"_a = std::numeric_limits<double>::infinity(), "damping"_a = 0.0, "loss_factor"_a = 0.0,
+           "turns"_a = "",
+           "directions, turns: letters or unit vectors along and about which both move together, by a spring (N/m,\n"
+           "N s/m; N m/rad about) or, of infinite stiffness, as one.")
+      .def_readonly("point_a", &Contact::point_a, "Its point of the one component.")
+      .def_readonly("point_b", &Contact::point_b, "Its point of the other.");
+  py::class_<CoupledResponse>(module, "CoupledResponse", "A coupled response and how well its kernel was solved.")
+      .def_readonly("response", &CoupledResponse::response, "Response between all DOFs of the components.")
+      .def_readonly("kernel_condition", &CoupledResponse::kernel_condition, "Skeel's, one a line; a view.")
+      .def_property_readonly("status", status, "well_conditioned, or ill_conditioned: half of the digits are lost.");
+  module.def(
+      "couple",
+      [](const std::vector<dynamics::SpatialModel>& components, const std::vector<Contact>& contacts) {
+        return coupling::couple(components, contacts);
+      },
+      "components"_a, "contacts"_a, LongCallGuard(),
+      "One SpatialModel of several: matrices assembled at the contacts.");
+  module.def(
+      "couple",
+      [](const std::vector<dynamics::ResponseModel>& components, const std::vector<Contact>& contacts) {
+        return coupling::couple(components, contacts);
+      },
+      "components"_a, "contacts"_a, LongCallGuard(),
+      "One CoupledResponse of several Responses on equal axes: receptance coupling.");
+  module.def(
+      "route_difference",
+      [](const dynamics::ResponseModel& spatial, const dynamics::ResponseModel& receptance) {
+        return coupling::route_difference(spatial, receptance).max_relative;
+      },
+      "spatial"_a, "receptance"_a, "Largest difference of two Responses, over the largest entry of its line.");
+}
+
+}  // namespace thinwall::python

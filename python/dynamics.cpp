@@ -1,0 +1,207 @@
+// The three model kinds and the conversions between them.
+
+#include <cmath>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "dynamics/conversion.hpp"
+#include "python/bindings.hpp"
+
+namespace thinwall::python {
+
+namespace {
+
+using dynamics::ModalModel;
+using dynamics::ResponseModel;
+using dynamics::SpatialModel;
+
+dynamics::DofTable table(const std::vector<std::string>& names) {
+  dynamics::DofTable dofs;
+  for (const auto& name : names) dofs.push_back(dof_from_name(name));
+  return dofs;
+}
+
+SpatialModel spatial_model(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const std::vector<std::string>& dofs,
+                           const std::optional<Eigen::MatrixXd>& C) {
+  SpatialModel model{M, C.value_or(Eigen::MatrixXd::Zero(M.rows(), M.cols())), K, {}, table(dofs)};
+  dynamics::require_consistent(model);
+  return model;
+}
+
+dynamics::FrequencyAxis axis_of(const Eigen::VectorXd& hz) {
+  for (Eigen::Index i = 0; i < hz.size(); ++i) {
+    if (!std::isfinite(hz(i)) || hz(i) < 0.0 || (i > 0 && hz(i) <= hz(i - 1)))
+      throw core::InputError("frequencies must rise strictly from 0 Hz or above; number " + std::to_string(i) +
+                             " does not");
+  }
+  return {hz};
+}
+
+ModalModel modal(const SpatialModel& model) {
+  return dynamics::to_modal(model.has_structural_damping() ? dynamics::equivalent_viscous(model) : model);
+}
+
+/// One value a mode that oscillates, by rising frequency.
+Eigen::VectorXd of_modes(const ModalModel& model, double dynamics::ModeSummary::*what) {
+  const auto modes = dynamics::oscillating_modes(model);
+  Eigen::VectorXd values(static_cast<Eigen::Index>(modes.size()));
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    values(i) = dynamics::summarise(model.poles(modes[static_cast<std::size_t>(i)])).*what;
+  return values;
+}
+
+using Cube = py::array_t<std::complex<double>, py::array::c_style | py::array::forcecast>;
+
+ResponseModel response(const Eigen::VectorXd& hz, const Cube& H, const std::vector<std::string>& responses,
+                       const std::optional<std::vector<std::string>>& forces) {
+  const std::vector<std::string>& columns = forces ? *forces : responses;
+  const auto rows = static_cast<py::ssize_t>(responses.size()), width = static_cast<py::ssize_t>(columns.size());
+  const bool fits = H.ndim() == 3 ? H.shape(1) == rows && H.shape(2) == width : H.ndim() == 1 && rows * width == 1;
+  if (!fits || H.shape(0) != hz.size())
+    throw core::InputError("H must be (lines, responses, forces), or (lines,) of a single entry");
+  ResponseModel model{axis_of(hz), table(responses), table(columns), {}};
+  using Line = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  for (py::ssize_t line = 0; line < hz.size(); ++line)
+    model.H.emplace_back(Eigen::Map<const Line>(H.data() + line * rows * width, rows, width));
+  dynamics::require_complete(model);
+  return model;
+}
+
+py::array one_piece(const ResponseModel& model) {
+  const auto rows = static_cast<py::ssize_t>(model.responses.size());
+  const auto columns = static_cast<py::ssize_t>(model.forces.size());
+  py::array_t<std::complex<double>> H({static_cast<py::ssize_t>(model.H.size()), rows, columns});
+  auto* next = H.mutable_data();
+  for (const auto& line : model.H) {
+    for (Eigen::Index i = 0; i < rows; ++i)
+      for (Eigen::Index j = 0; j < columns; ++j) *next++ = line(i, j);
+  }
+  H.attr("setflags")("write"_a = false);
+  return H;
+}
+
+/// The model holds a matrix a line: the array is made when it is first asked for, and kept in the Python object.
+py::object values(const py::object& self) {
+  const py::dict kept = self.attr("__dict__");
+  if (!kept.contains("_H")) kept["_H"] = one_piece(self.cast<const ResponseModel&>());
+  return kept["_H"];
+}
+
+void bind_spatial(py::module_& module) {
+  py::class_<SpatialModel>(module, "SpatialModel", "M y'' + C y' + (K + iD) y = Tᵀ f, x = T y, with named DOFs.")
+      .def(py::init(&spatial_model), "M"_a, "K"_a, "dofs"_a, "C"_a = py::none(),
+           "dofs: \"P.x\", \"P.rz\", \"mode 1\", one a row. SI units.")
+      .def_readonly("M", &SpatialModel::M, "Mass; a view.")
+      .def_readonly("C", &SpatialModel::C, "Viscous damping; a view.")
+      .def_readonly("K", &SpatialModel::K, "Stiffness; a view.")
+      .def_readonly("D", &SpatialModel::D, "Structural damping, (0, 0) if there is none; a view.")
+      .def_readonly("T", &SpatialModel::T, "DOFs from coordinates, (0, 0) if they are the same; a view.")
+      .def_property_readonly(
+          "dofs", [](const SpatialModel& model) { return names(model.dofs); }, "Names of the DOFs.");
+}
+
+void bind_modal(py::module_& module) {
+  py::class_<ModalModel>(module, "ModalModel", "H = R + Σ φ ψᵀ / (a (iω − λ)), every pole listed.")
+      .def_readonly("poles", &ModalModel::poles, "λ, rad/s; a view.")
+      .def_readonly("right", &ModalModel::right, "Response shapes φ, (dofs, poles); a view.")
+      .def_readonly("left", &ModalModel::left, "Force shapes ψ, (dofs, poles); a view.")
+      .def_readonly("scaling", &ModalModel::scaling, "a of each pole; a view.")
+      .def_readonly("residual", &ModalModel::residual, "R, m/N, (0, 0) if there is none; a view.")
+      .def_property_readonly(
+          "dofs", [](const ModalModel& model) { return names(model.dofs); }, "Names of the DOFs.")
+      .def_property_readonly(
+          "frequency_hz", [](const ModalModel& m) { return of_modes(m, &dynamics::ModeSummary::frequency_hz); },
+          "|λ|/2π of each mode that oscillates, ascending.")
+      .def_property_readonly(
+          "damping_ratio", [](const ModalModel& m) { return of_modes(m, &dynamics::ModeSummary::damping_ratio); },
+          "−Re λ/|λ| of the same.");
+}
+
+void bind_response(py::module_& module) {
+  py::class_<ResponseModel>(module, "Response", py::dynamic_attr(), "Receptances on a frequency axis, m/N, e^{+iωt}.")
+      .def(py::init(&response), "frequency_hz"_a, "H"_a, "responses"_a, "forces"_a = py::none(),
+           "H: (lines, responses, forces), or (lines,) of one entry; names as of a SpatialModel.")
+      .def_property_readonly(
+          "frequency_hz", [](const ResponseModel& model) -> const Eigen::VectorXd& { return model.axis.hz; },
+          py::return_value_policy::reference_internal, "The lines; a view.")
+      .def_property_readonly("H", values,
+                             "(lines, responses, forces): one read-only array, copied from the library at the first\n"
+                             "access and the same at every other.")
+      .def_property_readonly(
+          "responses", [](const ResponseModel& model) { return names(model.responses); }, "Names of the rows.")
+      .def_property_readonly(
+          "forces", [](const ResponseModel& model) { return names(model.forces); }, "Names of the columns.")
+      .def("entry", dynamics::entry, "response"_a, "force"_a, "One entry over frequency, by the names of its DOFs.");
+}
+
+}  // namespace
+
+dynamics::Dof dof_from_name(const std::string& text) {
+  if (text.rfind("mode ", 0) == 0) return {text, Eigen::Vector3d::Zero(), dynamics::DofKind::modal};
+  const auto open = text.find(".(") != std::string::npos ? text.find(".(") : text.find(".r(");
+  const auto dot = open != std::string::npos ? open : text.rfind('.');
+  if (dot == std::string::npos || dot == 0 || dot + 1 == text.size())
+    throw core::InputError("a DOF is named as \"P.x\", \"P.rz\", \"P.(0.6,0.8,0)\" or \"mode 1\", not \"" + text +
+                           "\"");
+  std::string direction = text.substr(dot + 1);
+  const bool turn = direction.front() == 'r';
+  if (turn) direction.erase(0, 1);
+  const auto kind = turn ? dynamics::DofKind::rotation : dynamics::DofKind::translation;
+  if (direction.empty() || direction.front() != '(') return {text.substr(0, dot), dynamics::axis(direction), kind};
+  Eigen::Vector3d d;
+  char skipped = 0;
+  std::istringstream(direction) >> skipped >> d.x() >> skipped >> d.y() >> skipped >> d.z() >> skipped;
+  if (skipped != ')' || std::abs(d.norm() - 1.0) > 1e-4)
+    throw core::InputError("\"" + text + "\" names no unit vector");
+  return {text.substr(0, dot), d.normalized(), kind};
+}
+
+std::vector<std::string> names(const dynamics::DofTable& dofs) {
+  std::vector<std::string> result;
+  result.reserve(dofs.size());
+  for (const auto& dof : dofs) result.push_back(dynamics::name(dof));
+  return result;
+}
+
+std::vector<Eigen::Vector3d> directions(const py::object& words) {
+  std::vector<Eigen::Vector3d> result;
+  if (py::isinstance<py::str>(words)) {
+    for (const char letter : words.cast<std::string>()) result.push_back(dynamics::axis(std::string(1, letter)));
+    return result;
+  }
+  const auto rows = py::array_t<double, py::array::c_style | py::array::forcecast>(words);
+  if (rows.ndim() < 1 || rows.ndim() > 2 || rows.shape(rows.ndim() - 1) != 3)
+    throw core::InputError("directions are letters as \"xz\", a vector of three, or a list of such");
+  for (py::ssize_t i = 0; i < rows.size(); i += 3)
+    result.emplace_back(Eigen::Map<const Eigen::Vector3d>(rows.data() + i));
+  return result;
+}
+
+py::object sparse_view(const linalg::SparseMatrix& matrix, const py::object& owner) {
+  const auto entries = static_cast<py::ssize_t>(matrix.nonZeros());
+  const py::tuple arrays =
+      py::make_tuple(view(matrix.valuePtr(), {entries}, owner), view(matrix.innerIndexPtr(), {entries}, owner),
+                     view(matrix.outerIndexPtr(), {matrix.outerSize() + 1}, owner));
+  return py::module_::import("scipy.sparse")
+      .attr("csc_matrix")(arrays, "shape"_a = py::make_tuple(matrix.rows(), matrix.cols()), "copy"_a = false);
+}
+
+void bind_dynamics(py::module_& module) {
+  bind_spatial(module);
+  bind_modal(module);
+  bind_response(module);
+  module.def("to_modal", modal, "model"_a, LongCallGuard(),
+             "All poles of a damped model. Structural damping becomes viscous with the same loss at each mode.");
+  module.def(
+      "receptances",
+      [](const SpatialModel& model, const Eigen::VectorXd& hz) {
+        return dynamics::direct_response(model, axis_of(hz));
+      },
+      "model"_a, "frequency_hz"_a, LongCallGuard(), "Receptances of matrices, one factorisation a line.");
+  module.def(
+      "receptances",
+      [](const ModalModel& model, const Eigen::VectorXd& hz) { return dynamics::to_response(model, axis_of(hz)); },
+      "model"_a, "frequency_hz"_a, LongCallGuard(), "Receptances of poles, as the sum over them.");
+}
+
+}  // namespace thinwall::python

@@ -1,0 +1,130 @@
+// A part by finite elements: assembly and modes of the full model.
+
+#include "core/error.hpp"
+#include "fem/modes.hpp"
+#include "fem/supports.hpp"
+#include "python/bindings.hpp"
+
+namespace thinwall::python {
+
+namespace {
+
+using Rows3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// A region, or (region, "xz") for some axes only.
+fem::Support support_on(const mesh::TetMesh& mesh, const py::object& words) {
+  py::object region = words;
+  std::string axes = "xyz";
+  if (py::isinstance<py::tuple>(words)) {
+    const auto pair = words.cast<std::pair<py::object, std::string>>();
+    region = pair.first;
+    axes = pair.second;
+  }
+  fem::Support support{py::repr(region).cast<std::string>(), region_on(mesh, region), {}};
+  for (const char letter : axes) {
+    if (letter < 'x' || letter > 'z') throw core::InputError("a support holds axes of \"xyz\", not \"" + axes + "\"");
+    support.axes.push_back(letter - 'x');
+  }
+  return support;
+}
+
+fem::Model model_of(const Mesh& mesh, int order, const fem::Material& material,
+                    const std::vector<fem::Support>& supports) {
+  const LongCall guard;
+  if (!mesh.nodes) return fem::supported_model(mesh.tets, order, material, supports);
+  const auto fixed = fem::fixed_rows(mesh.tets, *mesh.nodes, supports);
+  return fem::build_model(mesh.tets, *mesh.nodes, material, fixed);
+}
+
+std::unique_ptr<Part> assemble(const Mesh& mesh, const fem::Material& material, const std::vector<py::object>& fixed,
+                               std::optional<int> order) {
+  if (mesh.nodes && order.value_or(2) != 2)
+    throw core::InputError("the file's mesh has nodes in the middles of its edges: its order is 2");
+  std::vector<fem::Support> supports;
+  for (const py::object& words : fixed) supports.push_back(support_on(mesh.tets, words));
+  return std::make_unique<Part>(model_of(mesh, order.value_or(4), material, supports));
+}
+
+fem::Modes modes(Part& part, int count, std::optional<double> up_to_hz, bool verify) {
+  fem::Modes modes =
+      fem::modes(part.model, part.factored(), {.count = count, .up_to_hz = up_to_hz, .verify_count = verify});
+  if (modes.count_verified && !*modes.count_verified)
+    throw core::NumericalError("the Sturm count shows that the eigen-solver missed a mode: ask for a few more modes");
+  return modes;
+}
+
+py::array positions(const py::object& self) {
+  const auto& nodes = self.cast<const Part&>().model.nodes.positions;
+  return view(nodes.data(), {nodes.rows(), 3}, self);
+}
+
+py::array free_rows(const py::object& self) {
+  const auto& rows = self.cast<const Part&>().model.free_rows;
+  return view(rows.data(), {static_cast<py::ssize_t>(rows.size())}, self);
+}
+
+Rows3 displacements(const Part& part, const Eigen::VectorXd& values) {
+  if (values.size() != part.model.K.rows()) {
+    throw core::InputError("displacements are wanted of a vector of " + std::to_string(values.size()) +
+                           " values: the model has " + std::to_string(part.model.K.rows()) + " free rows");
+  }
+  return fem::displacements(part.model, values);
+}
+
+void bind_model(py::module_& module) {
+  py::class_<Part>(module, "Model", "A part's stiffness and mass on the rows that are free to move.")
+      .def_property_readonly(
+          "K", [](const py::object& self) { return sparse_view(self.cast<Part&>().model.K, self); },
+          "Stiffness, N/m: scipy.sparse.csc_matrix, a view.")
+      .def_property_readonly(
+          "M", [](const py::object& self) { return sparse_view(self.cast<Part&>().model.M, self); },
+          "Mass, kg: scipy.sparse.csc_matrix, a view.")
+      .def_property_readonly("positions", positions, "Nodes, (n, 3) in m; a view.")
+      .def_property_readonly("free_rows", free_rows, "3 node + axis of each row of K; a view.")
+      .def_property_readonly(
+          "mass_kg", [](const Part& part) { return part.model.mass.mass_kg; }, "From the unconstrained mass matrix.")
+      .def_property_readonly(
+          "rigid_motions", [](const Part& part) { return part.model.rigid_motions; },
+          "Ways to move that nothing holds: 0 of a held part, 6 of a free one.")
+      .def("displacements", displacements, "values"_a,
+           "Displacements of all nodes, (n, 3), from values of the free rows; those that are held are zero.");
+}
+
+}  // namespace
+
+const fem::Factored& Part::factored() {
+  std::call_once(once_, [this] { factored_ = std::make_unique<fem::Factored>(fem::factorise(model)); });
+  return *factored_;
+}
+
+void bind_fem(py::module_& module) {
+  py::class_<fem::Material>(module, "Material", "An isotropic, linearly elastic material.")
+      .def(py::init([](double E, double nu, double rho) {
+             return fem::Material{E, nu, rho};
+           }),
+           "youngs_modulus_Pa"_a, "poisson_ratio"_a, "density_kg_m3"_a)
+      .def_readonly("youngs_modulus_Pa", &fem::Material::youngs_modulus_Pa, "E, Pa.")
+      .def_readonly("poisson_ratio", &fem::Material::poisson_ratio, "ν.")
+      .def_readonly("density_kg_m3", &fem::Material::density_kg_m3, "ρ, kg/m³.");
+  bind_model(module);
+  py::class_<fem::Modes>(module, "Modes", "Natural modes, ascending, those of a rigid body first.")
+      .def_readonly("frequency_hz", &fem::Modes::frequency_hz, "0 of rigid-body modes; a view.")
+      .def_property_readonly(
+          "shapes", [](const fem::Modes& modes) -> const Eigen::MatrixXd& { return modes.pairs.Phi; },
+          py::return_value_policy::reference_internal, "One a column over the free rows, mass-normalised; a view.")
+      .def_readonly("residual", &fem::Modes::residual, "‖Kφ − λMφ‖ / (λ ‖Mφ‖) of each; a view.")
+      .def_readonly("rigid_motions", &fem::Modes::rigid_motions, "How many of them are of a rigid body.")
+      .def_readonly("round_off", &fem::Modes::round_off,
+                    "What rounding K's entries may change of the lowest frequency, relative.");
+  module.def(
+      "assemble", assemble, "mesh"_a, "material"_a, "fixed"_a = std::vector<py::object>{}, "order"_a = py::none(),
+      "The part's matrices, of Lagrange tetrahedra of order 1 to 6 (4, or 2 of a file that has such nodes).\n\n"
+      "fixed: regions that cannot move, \"x_min\" … \"z_max\" (the mesh's outermost plane), Plane, Block, Ball,\n"
+      "or (region, \"xz\") for some axes only. Raises InputError for a region without a face.");
+  module.def("modes", modes, "model"_a, "count"_a = 10, "up_to_hz"_a = py::none(), "verify"_a = false, LongCallGuard(),
+             "The `count` lowest elastic modes, or all up to a frequency.\n\n"
+             "verify: count the eigenvalues below the last one independently and raise NumericalError if one is\n"
+             "missing. The model keeps its factor for what is computed next.");
+}
+
+}  // namespace thinwall::python

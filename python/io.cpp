@@ -1,0 +1,30 @@
+// Measured receptances from files.
+
+#include "io/frf_csv.hpp"
+#include "io/response_csv.hpp"
+#include "python/bindings.hpp"
+
+namespace thinwall::python {
+
+namespace {
+
+dynamics::ResponseModel read_frf(const std::filesystem::path& path, const std::string& dof, const std::string& quantity,
+                                 const std::string& unit, const std::string& frequency_unit) {
+  const io::MeasuredFrf frf = io::read_frf(path, io::frf_format(quantity, unit, frequency_unit));
+  dynamics::ResponseModel model{frf.axis, {dof_from_name(dof)}, {dof_from_name(dof)}, {}};
+  for (const auto& value : frf.H) model.H.emplace_back(Eigen::MatrixXcd::Constant(1, 1, value));
+  return model;
+}
+
+}  // namespace
+
+void bind_io(py::module_& module) {
+  module.def("read_frf", read_frf, "path"_a, "dof"_a, py::kw_only(), "quantity"_a, "unit"_a, "frequency_unit"_a = "Hz",
+             LongCallGuard(),
+             "A measured driving point from CSV (frequency, real, imaginary part) as a Response of one entry.\n\n"
+             "quantity: receptance, mobility or accelerance; unit: of the values, as \"um/N\". Nothing is assumed.");
+  module.def("read_response", io::read_response, "path"_a, LongCallGuard(),
+             "A receptance matrix as the program writes it, frf/<name>.csv, as a Response.");
+}
+
+}  // namespace thinwall::python

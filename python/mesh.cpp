@@ -1,0 +1,118 @@
+// Meshes: boxes, prisms, files; and the regions that choose their faces.
+
+#include "core/error.hpp"
+#include "io/mesh_file.hpp"
+#include "mesh/box_mesh.hpp"
+#include "mesh/quality.hpp"
+#include "python/bindings.hpp"
+
+namespace thinwall::python {
+
+namespace {
+
+mesh::PrismMeshOptions options_of(double element_size, int layers,
+                                  const std::vector<std::pair<Eigen::Vector2d, double>>& spots) {
+  mesh::PrismMeshOptions options{.size_m = element_size, .layers = layers};
+  for (const auto& [at, radius] : spots) options.spots.push_back({at, radius});
+  return options;
+}
+
+Mesh box_mesh(const Eigen::Vector3d& size, double element_size, int layers,
+              const std::vector<std::pair<Eigen::Vector2d, double>>& spots) {
+  return {mesh::mesh_box({size}, options_of(element_size, layers, spots))};
+}
+
+Mesh prism_mesh(const mesh::Polygon& outline, double top, double element_size, double bottom,
+                const std::vector<mesh::Polygon>& holes,
+                const std::vector<std::tuple<mesh::Polygon, double, double>>& zones, int layers,
+                const std::vector<std::pair<Eigen::Vector2d, double>>& spots) {
+  mesh::Prism prism{outline, holes, bottom, top, {}};
+  for (const auto& [border, low, high] : zones) prism.zones.push_back({border, low, high});
+  return {mesh::mesh_prism(prism, options_of(element_size, layers, spots))};
+}
+
+Mesh read_mesh(const std::filesystem::path& path, const std::string& unit) {
+  mesh::SolidMesh solid = io::read_solid_mesh(path, unit);
+  Mesh mesh{std::move(solid.mesh)};
+  if (solid.nodes.order == 2) mesh.nodes = std::move(solid.nodes);
+  return mesh;
+}
+
+py::array vertices(const py::object& self) {
+  const auto& vertices = self.cast<const Mesh&>().tets.vertices;
+  return view(vertices.data()->data(), {static_cast<py::ssize_t>(vertices.size()), 3}, self);
+}
+
+py::array tets(const py::object& self) {
+  const auto& tets = self.cast<const Mesh&>().tets.tets;
+  return view(tets.data()->data(), {static_cast<py::ssize_t>(tets.size()), 4}, self);
+}
+
+mesh::Region outermost(const mesh::TetMesh& mesh, const std::string& name) {
+  Eigen::Vector3d low = mesh.vertices.front(), high = low;
+  for (const auto& v : mesh.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  auto plane = std::get<mesh::PlaneRegion>(mesh::face_of({high - low}, name));
+  plane.point += low;
+  return plane;
+}
+
+void bind_regions(py::module_& module) {
+  py::class_<mesh::PlaneRegion>(module, "Plane", "All faces of a mesh in the plane through `point` (m).")
+      .def(py::init<Eigen::Vector3d, Eigen::Vector3d>(), "point"_a, "normal"_a)
+      .def_readonly("point", &mesh::PlaneRegion::point, "A point of the plane, m.")
+      .def_readonly("normal", &mesh::PlaneRegion::normal, "Its normal.");
+  py::class_<mesh::BoxRegion>(module, "Block", "All faces of a mesh inside the block from `min` to `max` (m).")
+      .def(py::init<Eigen::Vector3d, Eigen::Vector3d>(), "min"_a, "max"_a)
+      .def_readonly("min", &mesh::BoxRegion::min, "Lowest corner, m.")
+      .def_readonly("max", &mesh::BoxRegion::max, "Highest corner, m.");
+  py::class_<mesh::SphereRegion>(module, "Ball", "All faces of a mesh inside a ball (m).")
+      .def(py::init<Eigen::Vector3d, double>(), "centre"_a, "radius"_a)
+      .def_readonly("centre", &mesh::SphereRegion::centre, "Its centre, m.")
+      .def_readonly("radius", &mesh::SphereRegion::radius, "Its radius, m.");
+}
+
+}  // namespace
+
+mesh::Region region_on(const mesh::TetMesh& mesh, const py::object& region) {
+  if (py::isinstance<py::str>(region)) return outermost(mesh, region.cast<std::string>());
+  if (py::isinstance<mesh::PlaneRegion>(region)) return region.cast<mesh::PlaneRegion>();
+  if (py::isinstance<mesh::BoxRegion>(region)) return region.cast<mesh::BoxRegion>();
+  if (py::isinstance<mesh::SphereRegion>(region)) return region.cast<mesh::SphereRegion>();
+  throw core::InputError("a region is \"x_min\" … \"z_max\", a Plane, a Block or a Ball, not " +
+                         py::repr(region).cast<std::string>());
+}
+
+void bind_mesh(py::module_& module) {
+  bind_regions(module);
+  py::class_<Mesh>(module, "Mesh", "Tetrahedra of a part.")
+      .def_property_readonly("vertices", vertices, "Corners, (n, 3) in m; a view.")
+      .def_property_readonly("tets", tets, "Four vertices of each tetrahedron, (m, 4); a view.")
+      .def_property_readonly(
+          "volume_m3", [](const Mesh& mesh) { return mesh::volume(mesh.tets); }, "Sum of the volumes.")
+      .def_property_readonly(
+          "order", [](const Mesh& mesh) { return mesh.nodes ? mesh.nodes->order : 1; },
+          "1, or 2 of a file with nodes in the middles of edges.")
+      .def_property_readonly(
+          "aspect_ratio", [](const Mesh& mesh) { return mesh::quality(mesh.tets).aspect_ratio; },
+          "Longest edge over smallest height of the worst tetrahedron.");
+  module.def("box_mesh", box_mesh, "size"_a, "element_size"_a, "layers"_a = 1,
+             "spots"_a = std::vector<std::pair<Eigen::Vector2d, double>>{}, LongCallGuard(),
+             "Meshes the box from the origin to `size` (m), one element through its thinnest side.\n\n"
+             "element_size: wanted edge away from borders, m. layers: graded ones along every border, 0 to 8. spots:\n"
+             "(place, radius) in the plane of the wall where elements are as small as the radius.");
+  module.def("prism_mesh", prism_mesh, "outline"_a, "top"_a, "element_size"_a, "bottom"_a = 0.0,
+             "holes"_a = std::vector<mesh::Polygon>{},
+             "zones"_a = std::vector<std::tuple<mesh::Polygon, double, double>>{}, "layers"_a = 1,
+             "spots"_a = std::vector<std::pair<Eigen::Vector2d, double>>{}, LongCallGuard(),
+             "Meshes a part with an outline in the x-y plane, from z = bottom to top (m).\n\n"
+             "outline, holes: lists of (x, y). zones: (outline, bottom, top), where the part is thinner or thicker;\n"
+             "later ones win. Raises InputError with everything that keeps it from being a part.");
+  module.def("read_mesh", read_mesh, "path"_a, "unit"_a, LongCallGuard(),
+             "Reads tetrahedra, hexahedra, wedges and pyramids of Gmsh, Abaqus, CalculiX (.inp) or VTK (.vtu).\n\n"
+             "unit: the file's unit of length, as \"mm\"; no format tells it.");
+}
+
+}  // namespace thinwall::python

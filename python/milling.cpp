@@ -1,0 +1,200 @@
+// The cut, and the depths and speeds at which it is stable.
+
+#include <algorithm>
+#include <iterator>
+#include <variant>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "dynamics/conversion.hpp"
+#include "milling/lobes.hpp"
+#include "milling/sampled_stability.hpp"
+#include "milling/stability_map.hpp"
+#include "python/bindings.hpp"
+
+namespace thinwall::python {
+
+namespace {
+
+using milling::Lobes;
+using milling::MillingProcess;
+
+/// The end of the cut that moves: poles, or lines of a receptance. Both in part axes.
+using Structure = std::variant<dynamics::SpatialModel, dynamics::ModalModel, dynamics::ResponseModel>;
+
+MillingProcess process(int teeth, double diameter_m, double K_t, double K_r, double K_a,
+                       std::optional<double> radial_depth_m, const std::string& direction,
+                       std::optional<std::pair<double, double>> arc_rad, const Eigen::Vector3d& feed,
+                       const Eigen::Vector3d& axis, const std::vector<double>& helices_rad,
+                       const std::vector<double>& pitches_rad) {
+  MillingProcess result;
+  result.cutter = {teeth, diameter_m, pitches_rad, helices_rad, {}, {}};
+  result.coefficients = {.K_t = K_t, .K_r = K_r, .K_a = K_a};
+  result.frame = {feed, axis};
+  if (radial_depth_m.has_value() == arc_rad.has_value())
+    throw core::InputError("a cut has either a radial_depth_m, with a direction, or an arc_rad");
+  if (direction != "up" && direction != "down")
+    throw core::InputError("a cut's direction is \"up\" or \"down\", not \"" + direction + "\"");
+  const auto turn = direction == "up" ? milling::MillingDirection::up : milling::MillingDirection::down;
+  result.engagement = arc_rad ? milling::Engagement{arc_rad->first, arc_rad->second}
+                              : milling::engagement_of(result.cutter, *radial_depth_m, turn);
+  milling::require_valid(milling::validate(result));
+  return result;
+}
+
+std::string point_of(const dynamics::DofTable& dofs, const std::optional<std::string>& at) {
+  if (at) return *at;
+  std::vector<std::string> points;
+  for (const auto& dof : dofs)
+    if (dof.kind == dynamics::DofKind::translation && std::ranges::find(points, dof.point) == points.end())
+      points.push_back(dof.point);
+  if (points.size() == 1) return points.front();
+  throw core::InputError("say at which point the cut is: `at`");
+}
+
+milling::RelativeStructure poles(const dynamics::ModalModel& model, const std::optional<std::string>& at) {
+  return milling::relative_structure(model, point_of(model.dofs, at));
+}
+
+milling::RelativeStructure poles(const dynamics::SpatialModel& model, const std::optional<std::string>& at) {
+  return poles(dynamics::to_modal(model.has_structural_damping() ? dynamics::equivalent_viscous(model) : model), at);
+}
+
+milling::SampledStructure samples(const dynamics::ResponseModel& model, const std::optional<std::string>& at,
+                                  const milling::ToolFrame& frame) {
+  const std::string point = point_of(model.responses, at);
+  const auto at_cut = dynamics::between(model, point, point);
+  const Eigen::MatrixXd D = frame.rotation().transpose() * dynamics::displacement_matrix(at_cut.responses, point);
+  const Eigen::MatrixXd F = frame.rotation().transpose() * dynamics::displacement_matrix(at_cut.forces, point);
+  milling::SampledStructure result{{at_cut.axis.hz, {}}, {}};
+  for (const auto& H : at_cut.H) result.samples.H.emplace_back(D * H * F.transpose());
+  return result;
+}
+
+/// The rows of some speeds.
+using Chart = std::function<Lobes(const std::vector<double>&)>;
+
+Chart chart_of(const Structure& structure, const MillingProcess& process, const std::optional<std::string>& at,
+               const milling::StabilityOptions& options, const std::string& method) {
+  if (const auto* response = std::get_if<dynamics::ResponseModel>(&structure)) {
+    if (method != "direct") throw core::InputError("from receptances the method is \"direct\", not \"" + method + "\"");
+    return [felt = samples(*response, at, process.frame), process, options](const std::vector<double>& speeds) {
+      return milling::stability_lobes(felt, process, speeds, options);
+    };
+  }
+  const auto* modal = std::get_if<dynamics::ModalModel>(&structure);
+  const auto felt = modal ? poles(*modal, at) : poles(std::get<dynamics::SpatialModel>(structure), at);
+  const std::shared_ptr<milling::LobeMethod> by =
+      milling::lobe_method(milling::method_named(method), felt, process, {.stability = options});
+  return [by](const std::vector<double>& speeds) { return milling::stability_lobes(*by, speeds); };
+}
+
+Lobes lobes(const Structure& structure, const MillingProcess& process, const std::vector<double>& speeds,
+            const std::optional<std::string>& at, double depth_limit_m, double error_tolerance,
+            const std::string& method, const std::function<void(std::size_t, std::size_t)>& progress) {
+  const auto chart = [&] {
+    const LongCall guard;
+    return chart_of(structure, process, at, {.depth_limit_m = depth_limit_m, .error_tolerance = error_tolerance},
+                    method);
+  }();
+  const auto part = [&chart](const std::vector<double>& some) {
+    const LongCall guard;
+    return chart(some);
+  };
+  if (!progress) return part(speeds);
+  const std::size_t at_once = 8 * static_cast<std::size_t>(core::thread_count());
+  Lobes result;
+  for (std::size_t from = 0; from < speeds.size(); from += at_once) {
+    const std::size_t to = std::min(from + at_once, speeds.size());
+    Lobes next =
+        part({speeds.begin() + static_cast<std::ptrdiff_t>(from), speeds.begin() + static_cast<std::ptrdiff_t>(to)});
+    std::ranges::move(next.rows, std::back_inserter(result.rows));
+    result.method = next.method;
+    result.residual_share = next.residual_share;
+    progress(to, speeds.size());
+  }
+  Lobes whole = milling::lobes_of(std::move(result.rows), result.method);
+  whole.residual_share = result.residual_share;
+  return whole;
+}
+
+milling::Multiplier multiplier(const Structure& structure, const MillingProcess& process, double speed_rpm,
+                               double depth_m, const std::optional<std::string>& at) {
+  if (const auto* modal = std::get_if<dynamics::ModalModel>(&structure))
+    return milling::multiplier_at(poles(*modal, at), process, speed_rpm, depth_m, {.depth_limit_m = depth_m});
+  if (const auto* spatial = std::get_if<dynamics::SpatialModel>(&structure))
+    return milling::multiplier_at(poles(*spatial, at), process, speed_rpm, depth_m, {.depth_limit_m = depth_m});
+  throw core::InputError("a multiplier needs poles: a SpatialModel or a ModalModel, not receptances");
+}
+
+/// One value a row as an array.
+template <typename Value>
+py::array column(const Lobes& lobes, Value milling::LobeRow::*member) {
+  py::array_t<Value> values(static_cast<py::ssize_t>(lobes.rows.size()));
+  for (std::size_t i = 0; i < lobes.rows.size(); ++i) values.mutable_at(i) = lobes.rows[i].*member;
+  return values;
+}
+
+template <typename Member>
+std::vector<std::string> words(const Lobes& lobes, Member milling::LobeRow::*member) {
+  std::vector<std::string> result;
+  for (const auto& row : lobes.rows) result.push_back(milling::name(row.*member));
+  return result;
+}
+
+void bind_lobes(py::module_& module) {
+  using milling::LobeRow;
+  py::class_<Lobes>(module, "Lobes", "A stability chart: one value a spindle speed.")
+      .def_readonly("method", &Lobes::method, "How it was computed.")
+      .def_readonly("minimum_depth_m", &Lobes::minimum_depth_m, "Least limiting depth of all speeds.")
+      .def_readonly("at_spindle_speed_rpm", &Lobes::at_spindle_speed_rpm, "Where that is.")
+      .def_readonly("worst_error_estimate", &Lobes::worst_error_estimate, "Largest relative estimate of a depth.")
+      .def_readonly("rows_not_converged", &Lobes::rows_not_converged, "Speeds whose estimate misses the tolerance.")
+      .def_property_readonly(
+          "spindle_speed_rpm", [](const Lobes& l) { return column(l, &LobeRow::spindle_speed_rpm); }, "The speeds.")
+      .def_property_readonly(
+          "limiting_depth_m", [](const Lobes& l) { return column(l, &LobeRow::limiting_depth_m); },
+          "Stable below; the depth limit where `at_limit`.")
+      .def_property_readonly(
+          "at_limit", [](const Lobes& l) { return column(l, &LobeRow::at_limit); }, "Stable up to the depth limit.")
+      .def_property_readonly(
+          "chatter_frequency_hz", [](const Lobes& l) { return column(l, &LobeRow::chatter_frequency_hz); },
+          "Of the motion that grows above the limit.")
+      .def_property_readonly(
+          "error_estimate", [](const Lobes& l) { return column(l, &LobeRow::error_estimate); },
+          "Relative, of the depth.")
+      .def_property_readonly(
+          "kind", [](const Lobes& l) { return words(l, &LobeRow::kind); }, "hopf, flip or fold.")
+      .def_property_readonly(
+          "status", [](const Lobes& l) { return words(l, &LobeRow::status); }, "converged, or what is wrong.");
+  py::class_<milling::Multiplier>(module, "Multiplier", "The dominant Floquet multiplier of a cut.")
+      .def_readonly("value", &milling::Multiplier::value, "μ, Im μ ≥ 0.")
+      .def_readonly("modulus", &milling::Multiplier::modulus, "|μ|, stable below 1.")
+      .def_readonly("error_estimate", &milling::Multiplier::error_estimate, "Of the modulus, relative.")
+      .def_readonly("chatter_frequency_hz", &milling::Multiplier::chatter_frequency_hz, "Of its motion.");
+}
+
+}  // namespace
+
+void bind_milling(py::module_& module) {
+  py::class_<MillingProcess>(module, "MillingProcess", "A cut but for its speed, its depth and what it shakes.")
+      .def(py::init(&process), py::kw_only(), "teeth"_a, "diameter_m"_a, "K_t"_a, "K_r"_a, "K_a"_a = 0.0,
+           "radial_depth_m"_a = py::none(), "direction"_a = "down", "arc_rad"_a = py::none(),
+           "feed"_a = Eigen::Vector3d(1, 0, 0), "axis"_a = Eigen::Vector3d(0, 0, 1),
+           "helices_rad"_a = std::vector<double>{}, "pitches_rad"_a = std::vector<double>{},
+           "K_t, K_r, K_a: cutting coefficients, N/m². radial_depth_m with direction \"up\" or \"down\", or arc_rad =\n"
+           "(entry, exit). feed, axis: unit vectors in the structure's axes, tool against part, tip to spindle.\n"
+           "helices_rad, pitches_rad: one a tooth.");
+  bind_lobes(module);
+  module.def("lobes", lobes, "structure"_a, "process"_a, "spindle_speeds_rpm"_a, py::kw_only(), "at"_a = py::none(),
+             "depth_limit_m"_a = 0.02, "error_tolerance"_a = 1e-4, "method"_a = "direct", "progress"_a = py::none(),
+             "The limiting depth at every speed: a stability lobe diagram.\n\n"
+             "structure: SpatialModel, ModalModel, or Response (measured receptances, without a fit). at: its point\n"
+             "where the cut is, if it has several. method: direct (exact, with its error), zeroth_order,\n"
+             "multi_frequency, semi_discretization_0 … 2, full_discretization_1 … 3. progress(done, of): called after\n"
+             "every few speeds; what it raises ends the call.");
+  module.def("multiplier", multiplier, "structure"_a, "process"_a, "spindle_speed_rpm"_a, "depth_m"_a,
+             "at"_a = py::none(), LongCallGuard(), "The dominant Floquet multiplier at one speed and depth.");
+}
+
+}  // namespace thinwall::python

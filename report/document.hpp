@@ -1,0 +1,31 @@
+#pragma once
+// Everything that a page shows, as one JSON document.
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace thinwall::report {
+
+/// Sections of a run that were made before of the same files, by name ("frf P", "shapes"), as JSON text. Called from
+/// several threads.
+struct KeptSections {
+  std::function<const std::string*(const std::string& name)> find;  ///< null if it is not there
+  std::function<void(const std::string& name, const std::string& text)> keep;
+};
+
+/// Of what a document is made.
+struct DocumentRequest {
+  std::vector<std::filesystem::path> folders;  ///< results of one run, or of several side by side
+  std::string program;                         ///< that makes the page: "thinwall 0.1.0"
+  KeptSections kept{};                         ///< taken instead of read from the files, for one run only
+  std::size_t most_bytes = 7500000;            ///< as JSON text; lines of receptances are left out to stay below
+};
+
+/// The document of web/document.md. Throws DataError, naming folder or file, for one without a readable summary.json,
+/// for files that cannot be read, and for JSON that is not as thinwall writes it.
+[[nodiscard]] nlohmann::json document(const DocumentRequest& request);
+
+}  // namespace thinwall::report

@@ -1,0 +1,42 @@
+#pragma once
+// Depths and limits in words.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace thinwall::report {
+
+/// "13.7 mm".
+[[nodiscard]] std::string millimetres(double metres);
+
+/// "tool length" of "tool_length".
+[[nodiscard]] std::string in_words(std::string name);
+
+/// The text with a capital letter.
+[[nodiscard]] std::string capital(std::string text);
+
+/// Whether a row or a point of summary.json is right by its `status`: converged, or stable to the depth limit.
+[[nodiscard]] bool is_sound(const nlohmann::json& row);
+
+/// A limiting depth with all that is to be said of it.
+struct Limit {
+  double depth_m = 0.0;
+  std::string at;  ///< " at 1900 rpm", " at every speed"
+  bool converged = true;
+  std::string of_depth_limit;  ///< what the depth limit is, where the depth is no more than that: "tool length"
+  std::string more;            ///< "weakest at position 6 of 7"
+};
+
+/// "stable up to 20 mm at 1900 rpm (tool length)", "not converged: 13.7 mm at 1900 rpm".
+[[nodiscard]] std::string text_of(const Limit& limit);
+
+/// The same after another of the same speed: "20 mm (tool length)".
+[[nodiscard]] std::string short_text_of(const Limit& limit);
+
+/// Of a chart of summary.json: at the case's speed, else its least depth. `cutting` says what the depth limit is.
+[[nodiscard]] Limit limit_of_chart(const nlohmann::json& chart, const nlohmann::json& cutting);
+
+/// Of a path of summary.json, over all positions.
+[[nodiscard]] Limit limit_of_path(const nlohmann::json& path, const nlohmann::json& cutting);
+
+}  // namespace thinwall::report

@@ -1,0 +1,13 @@
+#pragma once
+// Stability lobes of a result folder, as a page shows them.
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace thinwall::report {
+
+/// "lobes", "paths" and "cutting" of a run (web/document.md) from lobes/*.csv and the run's summary. Throws DataError
+/// for a file that cannot be read.
+[[nodiscard]] nlohmann::json lobes_data(const std::filesystem::path& results, const nlohmann::json& summary);
+
+}  // namespace thinwall::report

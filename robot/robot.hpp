@@ -1,0 +1,14 @@
+#pragma once
+// All that robot/ offers to other programs.
+
+#include "core/eigen_alignment.hpp"
+#include "robot/arm_dynamics.hpp"
+#include "robot/arm_kinematics.hpp"
+#include "robot/flexible_joints.hpp"
+#include "robot/inverse_kinematics.hpp"
+#include "robot/measured.hpp"
+#include "robot/modal_table.hpp"
+#include "robot/one_mode.hpp"
+#include "robot/serial_arm.hpp"
+#include "robot/tip_model.hpp"
+#include "robot/virtual_joints.hpp"

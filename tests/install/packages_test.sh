@@ -1,0 +1,82 @@
+#!/bin/bash
+# The Debian packages of a build: made, looked into, unpacked into a root of their own and used from there. Installing
+# them on a clean system takes a network: clean_debian.sh, a step of .ci/run.
+#   packages_test.sh BUILD CPACK CXX [PYTHON]     PYTHON: where the module is built
+set -euo pipefail
+here=$(dirname "$(readlink -f "$0")")
+# shellcheck source=expect.sh source-path=SCRIPTDIR
+source "$here/expect.sh"
+for tool in dpkg-shlibdeps file pkg-config; do
+  command -v "$tool" >/dev/null || { echo "skipped: it takes $tool (packages.txt)"; exit 77; }
+done
+build=$1 cpack=$2 cxx=$3 python=${4:-}
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+
+"$cpack" --config "$build/CPackConfig.cmake" -G DEB -B "$tree/debs" >"$tree/cpack.log" 2>&1 ||
+  { cat "$tree/cpack.log"; exit 1; }
+interface=$(sed -n 's/^project(thinwall VERSION \([0-9]*\.[0-9]*\).*/\1/p' "$here/../../CMakeLists.txt")
+library=libthinwall$interface
+names=(libthinwall-dev "$library" ${python:+python3-thinwall} thinwall)
+expect_equal "the packages" "${names[*]}" \
+  "$(for deb in "$tree"/debs/*.deb; do dpkg-deb -f "$deb" Package; done | LC_ALL=C sort | xargs)"
+
+deb_of() { echo "$tree"/debs/"$1"_*.deb; }
+depends() { dpkg-deb -f "$(deb_of "$1")" Depends; }
+paths() { dpkg-deb -c "$(deb_of "$1")" | awk '{ print $6 }'; }
+
+root=$tree/root
+for name in "${names[@]}"; do
+  dpkg-deb -x "$(deb_of "$name")" "$root"
+  expect_contains "$name: copyright" "/usr/share/doc/$name/copyright" "$(paths "$name")"
+  expect_contains "$name: change log" "/usr/share/doc/$name/changelog.gz" "$(paths "$name")"
+  expect_equal "$name: nothing outside /usr" "" "$(paths "$name" | grep -v '^\./usr/' | grep -v '^\./$' || true)"
+  expect_equal "$name: owned by root" "" "$(dpkg-deb -c "$(deb_of "$name")" | grep -v ' root/root ' || true)"
+done
+cpu_only=$(sed -n 's/^THINWALL_NATIVE:BOOL=//p' "$build/CMakeCache.txt")
+version=$(dpkg-deb -f "$(deb_of thinwall)" Version)
+expect_equal "a build for this processor says so" "$cpu_only" "$([[ $version == *+native ]] && echo ON || echo OFF)"
+
+# --- what they depend on, and what not
+expect_contains "the program's libraries" "libtet1.5" "$(depends thinwall)"
+expect_contains "the library's libraries" "libcholmod3" "$(depends "$library")"
+expect_equal "headers of their own library" "$library (= $version), libeigen3-dev (>= 3.4)" "$(depends libthinwall-dev)"
+expect_equal "the program needs no development package" "" "$(depends thinwall | tr ',' '\n' | grep -e '-dev' || true)"
+expect_equal "the library exists for its soname" "libthinwall.so.$interface" \
+  "$(find "$root/usr/lib" -name "libthinwall.so.$interface" -exec objdump -p {} + |
+    awk '$1 == "SONAME" { print $2 }')"
+
+# --- the words of the program, and whose they are that its page holds
+expect_equal "the manual page" "$(<"$here/../../docs/thinwall.1")" "$(zcat "$root/usr/share/man/man1/thinwall.1.gz")"
+for shell in bash:bash-completion/completions/thinwall zsh:zsh/vendor-completions/_thinwall \
+  fish:fish/vendor_completions.d/thinwall.fish; do
+  expect_equal "completion of ${shell%:*}" "$("$root/usr/bin/thinwall" completion "${shell%:*}")" \
+    "$(<"$root/usr/share/${shell#*:}")"
+done
+# The field's text is the file's: a blank before each line, a dot for an empty one.
+expect_contains "the licences of the page" "$(sed 's/^$/./; s/^/ /' "$here/../../web/dist/LICENSES.txt")" \
+  "$(<"$root/usr/share/doc/thinwall/copyright")"
+for name in plotly three fflate; do
+  expect_contains "the licence of $name" "$name" "$(<"$here/../../web/dist/LICENSES.txt")"
+done
+
+# --- used from there
+expect_contains "the program runs" "thinwall ${version%+native}" "$("$root/usr/bin/thinwall" --version 2>&1)"
+folder=$(dirname "$(find "$root/usr/lib" -name libthinwall.so)")
+export PKG_CONFIG_PATH=$folder/pkgconfig LD_LIBRARY_PATH=$folder
+read -ra flags < <(pkg-config --cflags --libs thinwall)
+"$cxx" -std=c++20 -O1 "$here/../../examples/cpp/couple_robot.cpp" -o "$tree/couple_robot" "${flags[@]}"
+expect_contains "a program built against them" "routes differ by" "$("$tree/couple_robot")"
+if [[ -n $python ]]; then
+  expect_contains "the module's Python" "python3 (>= 3." "$(depends python3-thinwall)"
+  expect_contains "the module's NumPy" "python3-numpy" "$(depends python3-thinwall)"
+  expect_equal "the module is imported" "$root/usr/lib/python3/dist-packages/thinwall/__init__.py ${version%+native}" \
+    "$(PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$root/usr/lib/python3/dist-packages "$python" -c \
+      'import thinwall; print(thinwall.__file__, thinwall.__version__)' 2>&1)"
+fi
+
+# --- lintian, where it is installed: neither errors nor warnings
+if command -v lintian >/dev/null; then
+  expect_equal "lintian" "" "$(lintian --fail-on none "$tree"/debs/*.deb 2>/dev/null | grep '^[EW]:' || true)"
+fi
+finish

@@ -1,0 +1,165 @@
+"""The examples and the snippets of the docs run, and print what they should."""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def run(script, *words, folder=None):
+    """What a script prints, run by itself without a screen."""
+    environment = os.environ | {"MPLBACKEND": "Agg"}
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore:.*non-GUI.*", script, *words],
+        env=environment,
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=240,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def number(pattern, text):
+    found = re.search(pattern, text)
+    assert found, f"{pattern} is not in\n{text}"
+    return float(found.group(1))
+
+
+def test_plate_to_lobes():
+    text = run(ROOT / "examples/python/plate_to_lobes.py")
+    # A clamped-free plate strip, 3.516/(2π) √(E h²/(12 ρ (1 − ν²)))/L²; the wall is twice as wide as high only.
+    assert number(r"\[ *([\d.]+)", text) == pytest.approx(475.0, rel=0.02)
+    alone = number(r"alone +least depth +([\d.]+)", text)
+    assert number(r"with the robot +least depth +([\d.]+)", text) > 2 * alone
+
+
+def test_lobes_from_frf():
+    text = run(ROOT / "examples/python/lobes_from_frf.py")
+    closed = number(r"closed form ([\d.]+) mm", text)
+    assert closed == pytest.approx(6.18, rel=1e-3)  # 2 k ζ (1 + ζ) / K_r
+    assert number(r"least depth ([\d.]+) mm", text) == pytest.approx(closed, rel=5e-3)
+    assert number(r"peak at ([\d.]+) Hz", text) == pytest.approx(600.0, rel=1e-3)
+
+
+COARSE = {  # what makes a case quick
+    "cantilever-wall": ("part.mesh.tolerance=0.05", "lobes.count=10"),
+    "huynh-2017-support": ("part.mesh.tolerance=0.05", "path.positions=3", "lobes.count=3"),
+    "irb6660-measured": ("part.mesh.tolerance=0.05", "lobes.count=3"),
+    "pocketed-rib": ("part.mesh.tolerance=0.1", "reduction.tolerance=0.1", "lobes.count=10"),
+    "wall-path": ("part.mesh.tolerance=0.05", "path.positions=3", "lobes.count=4"),
+}
+
+
+def example(run_case, case):
+    """What the script of a case prints."""
+    results = run_case(case, *COARSE.get(case, ()))
+    return run(ROOT / f"examples/python/{case.replace('-', '_')}.py", str(results.folder))
+
+
+def test_every_case_has_a_script_in_cells():
+    for case in ROOT.glob("cases/*/case.toml"):
+        text = (ROOT / f"examples/python/{case.parent.name.replace('-', '_')}.py").read_text(encoding="utf-8")
+        assert text.startswith("# %% [markdown]\n# # ") and text.count("\n# %%\n") >= 3
+        assert f'"results/{case.parent.name}"' in text and "plt.show()" in text
+
+
+def equal_to_the_program(text):
+    """The scripts couple what the program coupled, from files that hold every digit."""
+    return number(r"equal to ([\d.e+-]+)", text) < 1e-9
+
+
+def test_barrios_2019(run_case):
+    text = example(run_case, "barrios-2019")
+    assert equal_to_the_program(text)
+    assert number(r"part +([\d.]+) Hz", text) == pytest.approx(212.0, rel=0.01)  # published
+
+
+def test_barrios_2019_measured(run_case):
+    text = example(run_case, "barrios-2019-measured")
+    assert equal_to_the_program(text)
+    assert number(r"contact inf N/m: ([\d.]+) %", text) == pytest.approx(99.96, abs=0.01)  # published
+    falls = [number(rf"contact {stiffness} N/m: ([\d.]+) %", text) for stiffness in (r"1e\+05", r"1e\+06", r"1e\+07", "inf")]
+    assert falls == sorted(falls)
+
+
+def test_cantilever_wall(run_case):
+    text = example(run_case, "cantilever-wall")
+    program, module, half = (
+        [float(hz) for hz in re.search(rf"{name} +\[ *([\d. ]+)\]", text).group(1).split()]
+        for name in ("by the program", "by the module", "half the wall")
+    )
+    # A clamped-free plate strip has 475.0 Hz; Rayleigh-Ritz: both meshes are of elements that converge from above.
+    assert program[0] == pytest.approx(475.0, rel=0.02) and module == pytest.approx(program, rel=2e-3)
+    assert half == pytest.approx([hz / 2 for hz in module], rel=0.01)  # of a thin plate in proportion to the thickness
+    assert number(r"at corner +([\d.]+)", text) > number(r"at P +([\d.]+)", text)
+
+
+def test_ding_2010(run_case):
+    text = example(run_case, "ding-2010")
+    assert number(r"direct +off by +([\d.]+) %", text) < 0.02  # twice the tolerance of 1e-4
+    assert number(r"direct .*, +(\d+) flips", text) > 0
+    assert number(r"zeroth_order .*, +(\d+) flips", text) == 0  # an average force has no flips
+
+
+def test_huynh_2017_support(run_case):
+    text = example(run_case, "huynh-2017-support")
+    assert equal_to_the_program(text)
+    stiffness = [float(value) for value in re.findall(r"([\d.]+) N/um along x", text)]
+    assert len(stiffness) == 3 and stiffness[0] == stiffness[2] < stiffness[1]  # turned to either side by one angle
+    depth = r" +the whole path allows ([\d.]+) mm"
+    assert number("supported" + depth, text) > number("part" + depth, text)
+
+
+def test_irb6660_measured(run_case):
+    text = example(run_case, "irb6660-measured")
+    assert equal_to_the_program(text)
+    depths = [[float(mm) for mm in row.split()] for row in re.findall(r"\[ *([\d. ]+)\] mm", text)]
+    shares = [a / b for a, b in zip(*depths)]
+    assert all(0.93 < share < 1.05 and share != 1 for share in shares)  # recorded: −2 to +6 % without cross terms
+
+
+def test_pocketed_rib(run_case):
+    text = example(run_case, "pocketed-rib")
+    assert number(r"walls from ([\d.]+) mm", text) == pytest.approx(1.5, abs=0.01)  # the floor
+    ratios = [float(percent) for percent in re.findall(r"damping ([\d.]+) %", text)]
+    assert len(ratios) >= 3 and ratios == pytest.approx([0.6] * len(ratios), rel=0.05)  # what was put in
+
+
+def test_tool_swap(run_case):
+    text = example(run_case, "tool-swap")
+    assert number(r"least depth ([\d.]+) mm", text) == pytest.approx(7.79, rel=0.005)  # that of the assembled machine
+    flips = [float(waves) for waves in re.findall(r"flip +([\d.]+) waves", text)]
+    assert len(flips) > 0 and all(waves % 1 == 0.5 for waves in flips)
+    assert len(re.findall(r"hopf +[\d.]+ waves", text)) > 10
+
+
+def test_wall_path(run_case):
+    text = example(run_case, "wall-path")
+    assert equal_to_the_program(text)
+    depth = r" +weakest.* the whole path up to ([\d.]+) mm"
+    assert number("supported" + depth, text) > 10 * number("part" + depth, text)
+    assert number(r"alone, ([\d.]+) at best", text) < 0.05 * number(r"softest at P: ([\d.]+)", text)
+
+
+def snippets(document):
+    """The python blocks of a Markdown file as one script, each in its place."""
+    text = (ROOT / document).read_text(encoding="utf-8")
+    return "\n".join(re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL))
+
+
+def test_the_docs_snippets(run_case, tmp_path):
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results/barrios-2019").symlink_to(run_case("barrios-2019").folder)
+    (tmp_path / "tip.csv").symlink_to(ROOT / "examples/data/tip.csv")
+    script = tmp_path / "snippets.py"
+    script.write_text(snippets("docs/python.md"), encoding="utf-8")
+    assert script.read_text(encoding="utf-8").count("thinwall.") > 10
+    run(script, folder=tmp_path)

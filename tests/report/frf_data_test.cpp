@@ -1,0 +1,102 @@
+#include "report/frf_data.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "report/thinned_lines.hpp"
+#include "result_folder.hpp"
+#include "unpacked.hpp"
+
+namespace thinwall::report {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+/// Every number of the file is where the page looks for it: row the response, column the force, Re before Im.
+TEST(FrfData, TheArrayIsTheFile) {
+  const fs::path folder = result_folder("frf_array");
+  const auto response = response_of({"P", "Q"}, 50, false);
+  io::write_response(folder / "frf" / "part.csv", response);
+  const json entry = frf_data(folder)["frf"][0];
+  const auto hz = unpacked<double>(entry["hz"]);
+  const auto H = unpacked<float>(entry["H"]);
+  ASSERT_EQ(entry["H"]["shape"], (std::vector<int>{2, 2, 50, 2}));
+  ASSERT_EQ(entry["responses"], (std::vector<std::string>{"P.x", "Q.x"}));
+  EXPECT_LT(H[2 * 49 + 1], 0.0) << "a passive driving point has Im < 0";
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t j = 0; j < 2; ++j) {
+      for (std::size_t line = 0; line < 50; ++line) {
+        const auto expected = response.H[line](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+        const std::size_t at = ((i * 2 + j) * 50 + line) * 2;
+        const double close = 2e-5 * std::abs(expected);  // 15 bits
+        ASSERT_NEAR(H[at], expected.real(), close);
+        ASSERT_NEAR(H[at + 1], expected.imag(), close);
+        ASSERT_EQ(hz[line], response.axis.hz(static_cast<Eigen::Index>(line)));
+      }
+    }
+  }
+}
+
+TEST(FrfData, OfMirrorImagesTheUpperOneIsThere) {
+  const fs::path folder = result_folder("frf_mirror");
+  io::write_response(folder / "frf" / "part.csv", response_of({"P", "Q"}, 5, true));
+  const auto H = unpacked<float>(frf_data(folder)["frf"][0]["H"]);
+  EXPECT_FALSE(std::isnan(H[1 * 10]));
+  EXPECT_TRUE(std::isnan(H[2 * 10]));
+}
+
+TEST(FrfData, ChiefPointsComeFirstAndWhatIsLeftOutIsNamed) {
+  const fs::path folder = result_folder("frf_first");
+  const auto response = response_of({"A", "B", "C", "D"}, 20, false);
+  io::write_response(folder / "frf" / "part.csv", response);
+  const json run = frf_data(folder, {.points_first = {"D", "B"}, .most_dofs = 3});
+  const json& entry = run["frf"][0];
+  EXPECT_EQ(entry["responses"], (std::vector<std::string>{"D.x", "B.x", "A.x"}));
+  EXPECT_EQ(run["frf_left_out"], (std::vector<std::string>{"C.x"}));
+  const auto H = unpacked<float>(entry["H"]);
+  EXPECT_NEAR(H[(0 * 3 + 1) * 20 * 2], response.H[0](3, 1).real(), 1e-4 * std::abs(response.H[0](3, 1)))
+      << "response D, force B";
+  EXPECT_EQ(frf_data(folder)["frf_left_out"], json::array());
+}
+
+TEST(FrfData, IsThinnedToItsShareWithTheResonance) {
+  const fs::path folder = result_folder("frf_thinned");
+  const auto response = response_of({"A", "B"}, 30000, false);
+  io::write_response(folder / "frf" / "part.csv", response);
+  io::write_response(folder / "frf" / "coupled_receptance.csv", response);
+  io::write_response(folder / "frf" / "coupled_spatial.csv", response);
+  const json run = frf_data(folder, {.most_bytes = 100000});
+  EXPECT_LE(run.dump().size(), 100000U);
+  EXPECT_GT(run.dump().size(), 50000U) << "no more than needed";
+  const json& entry = run["frf"][0];
+  const auto lines = entry["thinned"]["to"].get<std::size_t>();
+  EXPECT_EQ(entry["thinned"]["from"], 30000);
+  EXPECT_EQ(entry["hz"]["shape"][0].get<std::size_t>(), lines);
+  EXPECT_EQ(run["route_difference"]["shape"][0].get<std::size_t>(), lines) << "beside the coupled lines";
+  double highest = 0.0, found = 0.0;
+  for (const auto& H : response.H) highest = std::max(highest, std::abs(H(0, 0)));
+  const auto H = unpacked<float>(entry["H"]);
+  for (std::size_t line = 0; line < lines; ++line)
+    found = std::max<double>(found, std::hypot(H[2 * line], H[2 * line + 1]));
+  EXPECT_NEAR(found / highest, 1.0, 1e-4);
+}
+
+/// A peak one line wide, far below the largest value of the response, and a zero.
+TEST(ThinnedLines, KeepTheEndsThePeaksAndTheZeros) {
+  dynamics::ResponseModel response;
+  response.H.assign(10000, Eigen::MatrixXcd::Constant(1, 1, 1.0));
+  for (std::size_t line = 0; line < 10000; ++line) response.H[line](0, 0) = 1.0 / (1.0 + static_cast<double>(line));
+  response.H[7777] *= 5.0;
+  response.H[8888] *= 0.1;
+  const auto kept = thinned_lines({&response}, 100);
+  EXPECT_LE(kept.size(), 100U);
+  EXPECT_GT(kept.size(), 80U);
+  EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end()));
+  for (const std::size_t line : {0U, 7777U, 8888U, 9999U}) EXPECT_EQ(std::ranges::count(kept, line), 1) << line;
+  EXPECT_EQ(thinned_lines({&response}, 10000).size(), 10000U);
+}
+
+}  // namespace
+}  // namespace thinwall::report

@@ -1,0 +1,90 @@
+#include "report/lobes_data.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "io/csv_table.hpp"
+#include "result_folder.hpp"
+#include "unpacked.hpp"
+
+namespace thinwall::report {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+using Numbers = std::vector<double>;
+using Words = std::vector<std::string>;
+
+json summary() {
+  return {
+      {"case", "small"},
+      {"cutting", {{"teeth", 4}, {"depth_limit_m", 0.02}}},
+      {"lobes",
+       {{{"name", "tool"},
+         {"main_modes_hz", {855.0, 1610.0}},
+         {"best_pockets", {{{"depth_m", 0.01}, {"spindle_speed_rpm", 2000.0}, {"removal_rate_cm3_per_min", 8.0}}}}}}}};
+}
+
+void write_chart(const fs::path& folder, const Words& status) {
+  io::write_csv(folder / "lobes" / "tool.csv", {{"spindle_speed_rpm", Numbers{1000.0, 2000.0, 3000.0}},
+                                                {"limiting_depth_m", Numbers{0.001, 0.02, 1.0 / 3.0}},
+                                                {"chatter_frequency_hz", Numbers{100.5, 0.0, 300.25}},
+                                                {"bifurcation", Words{"hopf", "hopf", "flip"}},
+                                                {"error_estimate_relative", Numbers{1e-5, 0.0, 2e-5}},
+                                                {"status", status},
+                                                {"truncation_m", Numbers{-1e-4, HUGE_VAL, 2e-4}}});
+}
+
+TEST(LobesData, TheArraysAreTheFile) {
+  const fs::path folder = result_folder("lobes_arrays");
+  write_chart(folder, {"converged", "stable_to_depth_limit", "node_limit_reached"});
+  io::write_csv(folder / "lobes" / "tool_crossings.csv", {{"spindle_speed_rpm", Numbers{1000.0, 1000.0}},
+                                                          {"depth_m", Numbers{0.001, 0.004}},
+                                                          {"chatter_frequency_hz", Numbers{100.5, 120.0}},
+                                                          {"bifurcation", Words{"hopf", "flip"}}});
+  const json run = lobes_data(folder, summary());
+  const json& chart = run["lobes"][0];
+  EXPECT_EQ(unpacked<double>(chart["rpm"]), (Numbers{1000.0, 2000.0, 3000.0}));
+  EXPECT_EQ(unpacked<double>(chart["depth_m"]), (Numbers{0.001, 0.02, 1.0 / 3.0}));
+  EXPECT_EQ(unpacked<float>(chart["chatter_hz"])[2], 300.25F);
+  EXPECT_NEAR(unpacked<float>(chart["truncation_m"])[0], -1e-4, 1e-8);
+  EXPECT_TRUE(std::isnan(unpacked<float>(chart["truncation_m"])[1])) << "not known";
+  EXPECT_EQ(chart["kind"], (Words{"hopf", "hopf", "flip"}));
+  EXPECT_EQ(chart["status"], (Words{"converged", "stable_to_depth_limit", "not_converged"}));
+  EXPECT_EQ(unpacked<double>(chart["crossings"]["depth_m"]), (Numbers{0.001, 0.004}));
+  EXPECT_EQ(chart["tooth_passing_hz"], (Numbers{855.0, 1610.0}));
+  EXPECT_DOUBLE_EQ(run["cutting"]["removal_cm3_per_min_per_m_rpm"].get<double>(), 8.0 / (0.01 * 2000.0));
+}
+
+TEST(LobesData, OfAPathAreRowsOfPositions) {
+  const fs::path folder = result_folder("lobes_path");
+  write_chart(folder, {"converged", "converged", "converged"});
+  io::write_csv(folder / "lobes" / "tool_path.csv", {{"position", Numbers{1, 1, 2, 2, 3, 3}},
+                                                     {"x_m", Numbers{0, 0, 0, 0, 0, 0}},
+                                                     {"y_m", Numbers{0.1, 0.1, 0.2, 0.2, 0.3, 0.3}},
+                                                     {"z_m", Numbers{0, 0, 0, 0, 0, 0}},
+                                                     {"spindle_speed_rpm", Numbers{900, 950, 900, 950, 900, 950}},
+                                                     {"limiting_depth_m", Numbers{1, 2, 3, 4, 5, 6}}});
+  const json path = lobes_data(folder, summary())["paths"][0];
+  EXPECT_EQ(path["depth_m"]["shape"], (std::vector<int>{3, 2}));
+  EXPECT_EQ(unpacked<float>(path["depth_m"]), (std::vector<float>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(unpacked<double>(path["rpm"]), (Numbers{900, 950}));
+  EXPECT_EQ(unpacked<double>(path["positions"])[4], 0.2);
+}
+
+TEST(LobesData, AColumnThatIsMissingIsNamed) {
+  const fs::path folder = result_folder("lobes_missing");
+  io::write_csv(folder / "lobes" / "tool.csv", {{"spindle_speed_rpm", Numbers{1000.0}}});
+  try {
+    (void)lobes_data(folder, summary());
+    FAIL();
+  } catch (const core::DataError& error) {
+    EXPECT_NE(std::string(error.what()).find("tool.csv"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace thinwall::report

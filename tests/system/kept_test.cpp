@@ -1,0 +1,421 @@
+// What a run keeps for the next one: nothing is computed twice, nothing that has changed is taken over.
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "app/checkpoint.hpp"
+#include "app/program_id.hpp"
+#include "app/stage_keys.hpp"
+#include "core/atomic_file.hpp"
+#include "io/response_csv.hpp"
+#include "report/document.hpp"
+#include "run_in_folder.hpp"
+#include "tests/report/unpacked.hpp"
+
+namespace thinwall::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string wall = R"([part]
+length = "60 mm"
+height = "50 mm"
+thickness = "3 mm"
+[part.axes]
+length = "x"
+height = "z"
+thickness = "y"
+[part.material]
+youngs_modulus = "71 GPa"
+poisson_ratio = 0.33
+density = "2810 kg/m^3"
+[part.mesh]
+element_size = "12 mm"
+[[part.supports]]
+on = "z_min"
+[points.P]
+position = ["30 mm", "3 mm", "50 mm"]
+patch_radius = "3 mm"
+[modes]
+count = 4
+[damping]
+ratio = 0.01
+[robot]
+model = "one_mode"
+frequency = "30 Hz"
+damping_ratio = 0.02
+stiffness = "2e6 N/m"
+direction = "y"
+[[contacts]]
+part = "P"
+robot = "R"
+directions = "y"
+stiffness = "1e6 N/m"
+[tool]
+teeth = 4
+diameter = "16 mm"
+length = "20 mm"
+[cutting]
+at = "P"
+radial_depth = "1 mm"
+Kt = "800 MPa"
+Kr = "240 MPa"
+spindle_speed = "8000 rpm"
+[lobes]
+from = "6000 rpm"
+to = "12000 rpm"
+count = 72
+modes_up_to = "4 kHz"
+tolerance = 0.01
+[reduction]
+modes = 6
+)";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+/// Three positions along the wall's top; the point Q is on it, too.
+std::string along_path(const std::string& text) {
+  return text + R"([points.Q]
+position = ["20 mm", "3 mm", "50 mm"]
+patch_radius = "3 mm"
+[path]
+from = ["20 mm", "3 mm", "50 mm"]
+to = ["40 mm", "3 mm", "50 mm"]
+positions = 3
+support = "follows"
+)";
+}
+
+nlohmann::json run_kept(const std::string& text, const fs::path& folder, bool fresh = false) {
+  return run_case(parse_case(text, folder), {folder, fresh, -1, false}).summary;
+}
+
+nlohmann::json without_times(nlohmann::json summary) {
+  summary.erase("timings_s");
+  return summary;
+}
+
+bool meshed(const nlohmann::json& summary) {
+  return summary["timings_s"].contains("mesh");
+}
+
+TEST(Kept, TheSecondRunIsTheFirstOneWithoutItsMesh) {
+  const fs::path folder = scratch("kept_twice");
+  const auto first = run_kept(wall, folder);
+  const auto chart = core::read_file(folder / "lobes" / "supported.csv");
+  const auto second = run_kept(wall, folder);
+  EXPECT_TRUE(meshed(first));
+  EXPECT_FALSE(meshed(second));
+  EXPECT_EQ(without_times(first), without_times(second)) << "to the last bit";
+  EXPECT_EQ(core::read_file(folder / "lobes" / "supported.csv"), chart);
+  const auto fresh = run_kept(wall, folder, true);
+  EXPECT_TRUE(meshed(fresh)) << "--fresh";
+}
+
+TEST(Kept, WhatChangesIsComputedAnew) {
+  const fs::path folder = scratch("kept_changed"), alone = scratch("kept_alone");
+  (void)run_kept(wall, folder);
+  const std::string cut = replaced(wall, "Kt = \"800 MPa\"", "Kt = \"900 MPa\"");
+  const auto other_cut = run_kept(cut, folder);
+  EXPECT_FALSE(meshed(other_cut)) << "the part is the same";
+  EXPECT_EQ(without_times(other_cut)["lobes"], without_times(run_kept(cut, alone))["lobes"]);
+  const std::string thick = replaced(cut, "thickness = \"3 mm\"", "thickness = \"4 mm\"");
+  const auto other_part = run_kept(thick, folder);
+  EXPECT_TRUE(meshed(other_part));
+  EXPECT_EQ(without_times(other_part), without_times(run_kept(thick, alone)));
+}
+
+TEST(Kept, ADamagedFileIsUsedAsFarAsItIsSound) {
+  const fs::path folder = scratch("kept_damaged");
+  const auto first = run_kept(wall, folder);
+  const fs::path part = folder / "cache" / "part.bin", lobes = folder / "cache" / "lobes.bin";
+  std::string bytes = core::read_file(part);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] + 1);
+  core::write_file_atomically(part, bytes);
+  fs::resize_file(lobes, fs::file_size(lobes) - 7);  // as if interrupted while it was written
+  const auto second = run_kept(wall, folder);
+  EXPECT_TRUE(meshed(second)) << "a piece with another sum is no piece";
+  EXPECT_EQ(without_times(first), without_times(second));
+  core::write_file_atomically(part, "thinwall-checkpoint 0 of another program\n");
+  EXPECT_TRUE(meshed(run_kept(wall, folder)));
+  EXPECT_FALSE(meshed(run_kept(wall, folder))) << "rebuilt";
+}
+
+/// Names of the pieces in a file of kept results: lengths of name and bytes, their sum, and both in the next line.
+std::vector<std::string> pieces_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string line, sum;
+  std::vector<std::string> names;
+  std::getline(in, line);
+  std::streamoff name_size = 0, size = 0;
+  while (in >> name_size >> size >> sum) {
+    std::string name(static_cast<std::size_t>(name_size), ' ');
+    in.ignore(1);
+    in.read(name.data(), name_size);
+    in.seekg(size, std::ios::cur);
+    names.push_back(name);
+  }
+  return names;
+}
+
+/// Charts that end after their first speeds go on from there, to the same end; what is there is not computed again.
+TEST(Kept, InterruptedChartsGoOn) {
+  const fs::path folder = scratch("kept_interrupted");
+  const std::string text = replaced(along_path(wall), "count = 72", "count = 24");
+  (void)run_kept(text, folder);
+  const fs::path lobes = folder / "cache" / "lobes.bin", chart = folder / "lobes" / "supported_path.csv";
+  const std::string whole = core::read_file(chart), bytes = core::read_file(lobes);
+  auto pieces = pieces_of(lobes);
+  EXPECT_EQ(pieces.size(), 2U * 3U + 2U * 24U)
+      << "of two charts by blocks of eight speeds, and along the path by speeds";
+  fs::resize_file(lobes, bytes.size() * 4 / 5);
+  (void)run_kept(text, folder);
+  EXPECT_EQ(core::read_file(chart), whole);
+  const std::string again = core::read_file(lobes);
+  EXPECT_EQ(again.size(), bytes.size()) << "the pieces that were missing are there again";
+  EXPECT_EQ(again.substr(0, again.size() * 3 / 4), bytes.substr(0, bytes.size() * 3 / 4)) << "the others stayed";
+  auto now = pieces_of(lobes);
+  std::ranges::sort(pieces);
+  std::ranges::sort(now);
+  EXPECT_EQ(now, pieces) << "each once";
+  (void)run_kept(text, folder);
+  EXPECT_EQ(core::read_file(lobes), again) << "nothing was computed";
+}
+
+/// Runs in folders of their own share the parts that are the same, as the points of a sweep do.
+TEST(Kept, PartsMayBeSharedByManyRuns) {
+  const fs::path parts = scratch("kept_parts");
+  const auto run = [&](const std::string& text, const std::string& name) {
+    RunOptions options{scratch(name), false, -1, false};
+    options.parts = parts;
+    return run_case(parse_case(text, options.out), options).summary;
+  };
+  const std::string cut = replaced(wall, "radial_depth = \"1 mm\"", "radial_depth = \"0.5 mm\"");
+  const std::string thick = replaced(wall, "thickness = \"3 mm\"", "thickness = \"4 mm\"");
+  EXPECT_TRUE(meshed(run(wall, "kept_parts_a")));
+  const auto other_cut = run(cut, "kept_parts_b");
+  EXPECT_FALSE(meshed(other_cut));
+  EXPECT_EQ(without_times(other_cut), without_times(run_kept(cut, scratch("kept_parts_alone"))));
+  EXPECT_TRUE(meshed(run(thick, "kept_parts_c")));
+  EXPECT_FALSE(meshed(run(wall, "kept_parts_d"))) << "the other part is there, too";
+}
+
+/// Whatever is taken over from a run before, the results are those of a run from nothing.
+TEST(Kept, WhatIsTakenOverIsWhatAFreshRunWouldGive) {
+  struct Change {
+    std::string from, to;
+    bool same_part;
+  };
+  const std::string law =
+      replaced(replaced(wall, "Kt = ", "law = \"power\"\nexponents = [0.3]\nfeed_rate = \"600 mm/min\"\nKt = "),
+               "count = 72", "count = 8");
+  const std::string path = replaced(along_path(wall), "count = 72", "count = 8");
+  for (const auto& [text, change] : std::vector<std::pair<std::string, Change>>{
+           {path, {"at = \"P\"", "at = \"Q\"", false}},
+           {path, {"part = \"P\"", "part = \"Q\"", false}},
+           {path, {"radial_depth = \"1 mm\"", "radial_depth = \"0.5 mm\"", true}},
+           {path, {"ratio = 0.01", "ratio = 0.03", true}},
+           {law, {"8000 rpm", "10000 rpm", true}},
+           {law, {"feed_rate = \"600 mm/min\"", "feed_rate = \"900 mm/min\"", true}},
+           {law, {"ratio = 0.01", "ratio = 0.03", true}},
+           {law, {"frequency = \"30 Hz\"", "frequency = \"45 Hz\"", true}},
+           {law, {"stiffness = \"1e6 N/m\"", "stiffness = \"2e6 N/m\"", true}},
+           {law, {"teeth = 4", "teeth = 2", true}},
+           {law, {"tolerance = 0.01", "tolerance = 0.001", true}},
+           {law, {"modes = 6", "modes = 8", false}}}) {
+    const fs::path folder = scratch("kept_over"), alone = scratch("kept_over_alone");
+    (void)run_kept(text, folder);
+    const std::string changed = replaced(text, change.from, change.to);
+    const auto kept = run_kept(changed, folder);
+    EXPECT_EQ(meshed(kept), !change.same_part) << change.to;
+    EXPECT_EQ(without_times(kept), without_times(run_kept(changed, alone))) << change.to;
+    for (const char* file : {"frf/coupled_receptance.csv", "lobes/supported.csv", "modes/coupled_modes.csv"})
+      EXPECT_EQ(core::read_file(folder / file), core::read_file(alone / file)) << file << " " << change.to;
+    const fs::path along = fs::path("lobes") / "supported_path.csv";
+    if (!fs::exists(alone / along)) continue;
+    EXPECT_EQ(core::read_file(folder / along), core::read_file(alone / along)) << change.to;
+  }
+}
+
+/// Files of an unchanged structure stay the same files; one that was touched is written anew.
+TEST(Kept, FilesOfTheSameStructureStay) {
+  const fs::path folder = scratch("kept_files");
+  const auto file_number = [](const fs::path& file) {
+    struct stat status {};
+    EXPECT_EQ(::stat(file.c_str(), &status), 0) << file;
+    return status.st_ino;
+  };
+  const fs::path shape = folder / "modes" / "part_mode_01.vtu", frf = folder / "frf" / "part.csv";
+  (void)run_kept(wall, folder);
+  const auto number = file_number(shape);
+  const std::string values = core::read_file(frf);
+  const std::string cut = replaced(wall, "Kt = \"800 MPa\"", "Kt = \"900 MPa\"");
+  (void)run_kept(cut, folder);
+  EXPECT_EQ(file_number(shape), number);
+  const auto pieces = pieces_of(folder / "cache" / "structure.bin");
+  EXPECT_EQ(pieces.size(), 4U) << "coupling, files and two sections of the page; nothing was added by the second run";
+  std::ofstream(frf, std::ios::app) << "0,0,0\n";
+  (void)run_kept(wall, folder);
+  EXPECT_EQ(core::read_file(frf), values) << "what somebody wrote into it is gone";
+  fs::remove(shape);
+  (void)run_kept(cut, folder);
+  EXPECT_TRUE(fs::exists(shape));
+}
+
+TEST(Kept, PiecesMayHaveAnyName) {
+  const fs::path file = scratch("kept_names") / "pieces.bin";
+  const std::vector<std::string> names{"plain", "with blanks", "7 5 of\nnumbers", "", std::string(500, 'x'), "\xff"};
+  {
+    Checkpoint kept(file, "key", false);
+    for (const std::string& name : names) kept.add(name, "bytes of " + name);
+  }
+  const Checkpoint kept(file, "key", false);
+  for (const std::string& name : names) {
+    ASSERT_NE(kept.find(name), nullptr) << name;
+    EXPECT_EQ(*kept.find(name), "bytes of " + name);
+  }
+  EXPECT_EQ(kept.find("another"), nullptr);
+  EXPECT_EQ(Checkpoint(file, "other key", false).find("plain"), nullptr);
+}
+
+TEST(Kept, TheProgramIsKnownByWhatItHolds) {
+  EXPECT_EQ(program_id().size(), 40U) << "the linker's build ID, a SHA-1";
+  EXPECT_EQ(program_id().find_first_not_of("0123456789abcdef"), std::string::npos);
+}
+
+TEST(Kept, WhereAPathLeadsThePointThatIsCutBelongsToTheStructure) {
+  const fs::path folder = scratch("kept_path_keys");
+  const std::string path = along_path(wall);
+  const auto key = [&](const std::string& text) { return structure_key(parse_case(text, folder)); };
+  EXPECT_NE(key(path), key(replaced(path, "at = \"P\"", "at = \"Q\""))) << "postures of the robot follow from it";
+  EXPECT_EQ(key(path), key(replaced(path, "radial_depth = \"1 mm\"", "radial_depth = \"2 mm\"")));
+  EXPECT_EQ(key(wall), key(replaced(wall, "radial_depth = \"1 mm\"", "radial_depth = \"2 mm\"")));
+}
+
+TEST(Kept, KeysTellWhatTheyStandFor) {
+  const fs::path folder = scratch("kept_keys");
+  const auto key = [&](const std::string& text, const std::vector<std::string>& without) {
+    return key_of(parse_case(text, folder), without);
+  };
+  const std::string other_speed = replaced(wall, "8000 rpm", "9000 rpm");
+  EXPECT_EQ(key(wall, {}), key(wall + "# a comment\n", {}));
+  EXPECT_NE(key(wall, {}), key(other_speed, {}));
+  EXPECT_EQ(key(wall, {"cutting.spindle_speed"}), key(other_speed, {"cutting.spindle_speed"}));
+  EXPECT_NE(key(wall, {"cutting.spindle"}), key(other_speed, {"cutting.spindle"}))
+      << "a key, not the letters it begins with";
+}
+
+void expect_column(const nlohmann::json& array, const std::vector<double>& expected) {
+  const auto found = report::unpacked<double>(array);
+  EXPECT_EQ(found, expected);
+}
+
+/// H of the page, entry by entry against the file; the mirror image of an entry may stand for it.
+void expect_receptances(const nlohmann::json& entry, const dynamics::ResponseModel& file) {
+  const auto H = report::unpacked<float>(entry["H"]);
+  const std::size_t n = file.responses.size(), lines = file.H.size();
+  ASSERT_EQ(entry["H"]["shape"], (std::vector<std::size_t>{n, n, lines, 2}));
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      const bool mirrored = std::isnan(H[(i * n + j) * lines * 2]);
+      EXPECT_EQ(mirrored, i > j);
+      const std::size_t at = (mirrored ? j * n + i : i * n + j) * lines * 2;
+      for (std::size_t line = 0; line < lines; ++line) {
+        const auto expected = file.H[line](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+        const double close = 3e-5 * file.H[line].cwiseAbs().maxCoeff();
+        ASSERT_NEAR(H[at + 2 * line], expected.real(), close) << i << ' ' << j << ' ' << line;
+        ASSERT_NEAR(H[at + 2 * line + 1], expected.imag(), close) << i << ' ' << j << ' ' << line;
+      }
+    }
+  }
+}
+
+/// The page's data are the results: decoded from the document as the page does it.
+TEST(Kept, ThePageHoldsTheNumbersOfTheRun) {
+  const fs::path folder = scratch("kept_page");
+  const auto summary = run_kept(wall, folder);
+  const nlohmann::json document = report::document({{folder}, "thinwall"});
+  const nlohmann::json& run = document["runs"][0];
+  EXPECT_EQ(run["summary"]["lobes"][1]["minimum_depth_m"], summary["lobes"][1]["minimum_depth_m"]);
+  ASSERT_EQ(run["lobes"].size(), 2U);
+  for (const auto& chart : run["lobes"]) {
+    const fs::path file = folder / "lobes" / (chart["name"].get<std::string>() + ".csv");
+    expect_column(chart["rpm"], column(file, "spindle_speed_rpm"));
+    expect_column(chart["depth_m"], column(file, "limiting_depth_m"));
+    EXPECT_FALSE(chart["tooth_passing_hz"].empty());
+  }
+  ASSERT_EQ(run["frf"].size(), 4U);
+  for (const auto& entry : run["frf"])
+    expect_receptances(entry, io::read_response(folder / "frf" / (entry["name"].get<std::string>() + ".csv")));
+  const auto hz = column(folder / "modes" / "modes.csv", "frequency_hz");
+  const auto with_robot = column(folder / "modes" / "coupled_modes.csv", "frequency_hz");
+  const auto& modes = run["shapes"]["modes"];
+  ASSERT_EQ(modes.size(), hz.size() + with_robot.size());
+  for (std::size_t k = 0; k < hz.size(); ++k) {
+    EXPECT_EQ(modes[k]["hz"], hz[k]);
+    EXPECT_EQ(modes[k]["damping"], summary["part"]["modes"][k]["damping_ratio"]);
+  }
+  for (std::size_t k = 0; k < with_robot.size(); ++k) EXPECT_EQ(modes[hz.size() + k]["hz"], with_robot[k]);
+  ASSERT_EQ(run["shapes"]["fixtures"].size(), 1U);
+  EXPECT_EQ(run["shapes"]["fixtures"][0]["name"], "z_min");
+  EXPECT_EQ(run["mac"]["values"]["shape"][0], 4);
+  EXPECT_GT(fs::file_size(folder / "report.html"), 2000000U);
+  EXPECT_LT(fs::file_size(folder / "report.html"), 5000000U);
+  const auto diagonal = column(folder / "modes" / "auto_mac.csv", "part_mode_2");
+  EXPECT_NEAR(diagonal[1], 1.0, 1e-12);
+}
+
+/// Receptances that are kept for the page are in the order of the cut that they were kept for.
+TEST(Kept, AnotherCutPointComesFirstOnThePage) {
+  const fs::path folder = scratch("kept_cut");
+  const auto first_dof = [&](const std::string& text) {
+    (void)run_kept(text, folder);
+    const std::string page = core::read_file(folder / "report.html");
+    const std::size_t begin = page.find("id=\"data\">") + 10;
+    const auto data = nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+    return data["runs"][0]["frf"][0]["responses"][0].get<std::string>();
+  };
+  const std::string two_points = wall + "[points.A]\nat = [1.0, 0.25, 1.0]\npatch_radius = \"1 mm\"\n";
+  EXPECT_EQ(first_dof(two_points), "P.x");
+  EXPECT_EQ(first_dof(replaced(two_points, "at = \"P\"\nradial", "at = \"A\"\nradial")), "A.x");
+}
+
+/// A free part has no damped model: its modes are not undamped, their damping is not known.
+TEST(Kept, DampingThatIsNotKnownIsToldAsSuch) {
+  const fs::path folder = scratch("kept_free");
+  (void)run_kept(R"([part]
+length = "80 mm"
+height = "40 mm"
+thickness = "3 mm"
+[part.material]
+youngs_modulus = "70 GPa"
+poisson_ratio = 0.33
+density = "2810 kg/m^3"
+[part.mesh]
+element_size = "20 mm"
+[modes]
+count = 8
+)",
+                 folder);
+  const fs::path file = folder / "modes" / "modes.csv";
+  const auto damping = io::numbers_or_gaps(io::read_csv(file), "damping_ratio", file);
+  const nlohmann::json document = report::document({{folder}, "thinwall"});
+  const auto& modes = document["runs"][0]["shapes"]["modes"];
+  ASSERT_EQ(modes.size(), damping.size());
+  ASSERT_GE(modes.size(), 8U);
+  for (std::size_t k = 0; k < damping.size(); ++k) {
+    EXPECT_TRUE(std::isnan(damping[k]));
+    EXPECT_TRUE(modes[k]["damping"].is_null());
+  }
+}
+
+}  // namespace
+}  // namespace thinwall::app

@@ -1,0 +1,91 @@
+// The page: its sections in order, from the data document.
+
+import './csp.js';
+import { button, el } from './dom.js';
+import { readDocument } from './decode.js';
+import { toggleTheme } from './colours.js';
+import { drawWaiting, later } from './plot.js';
+import { headline } from './headline.js';
+import { lobes, lobesLead } from './lobes.js';
+import { paths } from './paths.js';
+import { receptances, receptancesLead } from './receptances.js';
+import { checkTable, fitTables, modesLead, modeTables } from './tables.js';
+import { macPlot } from './mac.js';
+import { modes3d } from './modes3d.js';
+import { quality } from './reduction.js';
+import { provenance } from './provenance.js';
+
+/** A section with its heading (an anchor), what to see in a sentence, and its content; null where there is none. The sentence is asked for where there is a content only. */
+function section(id, title, sentence, content) {
+  const filled = content.flat(3).filter(Boolean);
+  if (!filled.length) return null;
+  return Object.assign(el('section', { id }, el('h2', {}, el('a', { href: `#${id}` }, title)), el('p', { class: 'lead' }, sentence()), filled), { title });
+}
+
+/** The runs' own blocks, side by side and each under its label where there are two. */
+function sideBySide(runs, of) {
+  const blocks = runs.map((run, i) => [run, of(run, i).filter(Boolean)]).filter(([, b]) => b.length);
+  if (!blocks.length) return [];
+  return [el('div', { class: 'columns' }, blocks.flatMap(([run, b]) => (runs.length > 1 ? [el('div', {}, el('h3', {}, run.label), b)] : b)))];
+}
+
+function macs(run, i) {
+  const plots = [];
+  if (run.mac) plots.push(['Part against part with robot', macPlot(`mac-${i}`, 'MAC of the part alone and with robot', run.mac, run.mac.rows, run.mac.columns)]);
+  if (run.auto_mac) plots.push(['Part against itself', macPlot(`auto-mac-${i}`, 'auto-MAC of the part', { ...run.auto_mac, column_hz: run.auto_mac.row_hz }, 'part alone', 'part alone')]);
+  plots.forEach(([, p]) => later(p.draw));
+  return plots.map(([title, p]) => el('div', {}, el('h4', {}, title), p.figure));
+}
+
+function macLead(runs) {
+  return ['1 says the same shape, 0 nothing in common.', runs.some((run) => run.mac) ? 'Against the part with robot, a mode off the diagonal has changed its place.' : '',
+    runs.some((run) => run.auto_mac) ? 'Against itself, a high value off the diagonal says that two modes are hard to tell apart.' : ''].filter(Boolean).join(' ');
+}
+
+function build(data) {
+  const { runs } = data;
+  const charts = { lobes: lobes(runs), path: paths(runs), frf: receptances(runs), shapes: modes3d(runs), quality: quality(runs) };
+  for (const p of [charts.frf?.chart, charts.path?.chart, charts.quality?.chart]) if (p) later(p.draw);
+  const macBlocks = sideBySide(runs, macs);
+  const sections = [
+    section('lobes', 'Stability lobes', () => lobesLead(runs), [charts.lobes?.content]),
+    section('path', 'Along the path', () => 'The limiting depth by position and speed; the lower panel gives the depth that is stable at every position.', [charts.path?.content]),
+    section('receptances', 'Receptances', () => receptancesLead(runs), [charts.frf?.content]),
+    section('modes', 'Modes', () => modesLead(runs), [sideBySide(runs, modeTables), macBlocks.length ? el('h3', { id: 'mac' }, 'Likeness of the shapes (MAC)') : null, macBlocks.length ? el('p', { class: 'lead' }, macLead(runs)) : null, macBlocks]),
+    section('shapes', 'Mode shapes', () => 'Drag to turn; click, then scroll to zoom. The motion is drawn much enlarged.', [charts.shapes?.content]),
+    section('fits', 'Fitted parameters', () => 'Values of the case that the run changed so that it gives what was measured.', [sideBySide(runs, fitTables)]),
+    section('quality', charts.quality?.title, () => charts.quality.lead, [charts.quality?.content]),
+    section('checks', 'Checks', () => 'Values that the case expects, with where the expectation comes from.', [runs.map((run) => [runs.length > 1 && checkTable(run) && el('h3', {}, run.label), checkTable(run)])]),
+    section('provenance', 'Provenance', () => 'What was computed, from what, by which program.', [provenance(data)]),
+  ].filter(Boolean);
+  return { charts, sections };
+}
+
+function main() {
+  const page = document.getElementById('page');
+  try {
+    const data = readDocument();
+    const { charts, sections } = build(data);
+    const links = [['answer', 'Answer'], ...sections.map((s) => [s.id, s.title])];
+    page.replaceChildren(
+      el('nav', { 'aria-label': 'Contents' }, el('div', { class: 'links' }, links.map(([id, title]) => el('a', { href: `#${id}` }, title))),
+        button('◐', 'Light or dark', toggleTheme)),
+      el('main', {}, headline(data), sections, el('footer', {}, `Made by ${data.program}. This file holds all that it shows and fetches nothing.`)));
+    charts.lobes?.chart.draw();
+    charts.shapes?.start();
+  } catch (error) {
+    page.replaceChildren(el('p', { class: 'failure', role: 'alert' }, `This page cannot be shown: ${error.message}.`));
+    console.error(error);
+  }
+  ready();
+  drawWaiting();
+}
+
+/** Says when the page can be used, in ms since it was opened. */
+function ready() {
+  const now = performance.now();
+  document.documentElement.dataset.ready = now.toFixed(0);
+  dispatchEvent(new CustomEvent('thinwall:ready', { detail: now }));
+}
+
+main();

@@ -1,0 +1,70 @@
+// Along a path: the limiting depth over position and spindle speed, and beneath it what holds at every position.
+
+import { choice, el, tick } from './dom.js';
+import { numbers } from './decode.js';
+import { viridisScale } from './colours.js';
+import { number, plain, scaled } from './format.js';
+import { logTicks, plot } from './plot.js';
+import { lobeTitle } from './lobes.js';
+
+export function paths(runs) {
+  const maps = runs.flatMap((run) => (run.paths ?? []).map((path) => ({ run, path })));
+  if (!maps.length) return null;
+  const several = runs.length > 1;
+  const supported = maps.findIndex((m) => m.path.name === 'supported');
+  const state = { at: Math.max(0, supported), log: true };
+  const title = ({ run, path }) => (several ? `${run.label}: ` : '') + lobeTitle(path.name);
+  const chart = plot({ name: 'path', label: 'Depth along the path', build: (colours, narrow) => build(maps, state, title, colours, narrow), columns: () => columns(maps[state.at].path) });
+  return { chart, content: [el('div', { class: 'controls' },
+    choice('Map of', maps.map((m, i) => [i, title(m)]), state.at, (v) => { state.at = Number(v); chart.draw(); }),
+    tick('logarithmic colours', state.log, (on) => { state.log = on; chart.draw(); })), chart.figure] };
+}
+
+/** Length along the path to each position, in mm. */
+function lengths(path) {
+  const p = numbers(path.positions);
+  const s = [0];
+  for (let i = 3; i < p.length; i += 3) s.push(s.at(-1) + Math.hypot(p[i] - p[i - 3], p[i + 1] - p[i - 2], p[i + 2] - p[i - 1]) * 1e3);
+  return s;
+}
+
+function rows(path) {
+  const [depth, n] = [numbers(path.depth_m), path.rpm.shape[0]];
+  return lengths(path).map((_, i) => scaled(depth.subarray(i * n, (i + 1) * n), 1e3));
+}
+
+const least = (map) => map[0].map((_, j) => map.reduce((m, row) => (row[j] === null ? m : Math.min(m, row[j])), Infinity)).map((v) => (Number.isFinite(v) ? v : null));
+
+function build(maps, state, title, colours, narrow) {
+  const { run, path } = maps[state.at];
+  const [x, y, z] = [Array.from(numbers(path.rpm)), lengths(path), rows(path)];
+  const all = z.flat().filter((v) => v > 0);
+  const [low, high] = [all.reduce((a, b) => Math.min(a, b), Infinity), all.reduce((a, b) => Math.max(a, b), 0)];
+  const bar = { title: { text: 'mm', side: 'top', font: { size: 12 } }, thickness: 12, outlinewidth: 0, len: 0.64, y: 1, yanchor: 'top', ...(state.log ? logTicks(low, high) : {}) };
+  const map = { type: 'heatmap', x, y, z: state.log ? z.map((r) => r.map((v) => (v > 0 ? Math.log10(v) : null))) : z, customdata: z, colorscale: viridisScale, colorbar: bar,
+    hovertemplate: '%{x:.5~g} rpm<br>%{y:.4~g} mm along the path<br>depth %{customdata:.4~g} mm<extra></extra>', meta: 'map' };
+  const dashes = { supported: ['solid', 'dash', 'longdash'], part: ['dot', 'dashdot', 'longdashdot'] }; // of the runs
+  const order = [...new Set(maps.map((m) => m.run))];
+  const curves = maps.map((m) => ({ name: plain(title(m)), x: Array.from(numbers(m.path.rpm)), y: least(rows(m.path)), yaxis: 'y2', mode: 'lines',
+    line: { color: colours[m.path.name] ?? colours.robot, width: 2, dash: dashes[m.path.name]?.[order.indexOf(m.run) % 3] }, hovertemplate: '%{x:.5~g} rpm: %{y:.4~g} mm everywhere', meta: `least ${order.indexOf(m.run)} ${m.path.name}` }));
+  const best = maps.filter((m) => m.run === run).flatMap(({ path: { name } }) => {
+    const deepest = run.summary.path?.find((p) => p.name === name)?.deepest_everywhere;
+    return deepest ? [{ x: [deepest.spindle_speed_rpm], y: [deepest.depth_m * 1e3], yaxis: 'y2', mode: 'markers', showlegend: false, marker: { symbol: 'star', size: 11, color: colours[name] ?? colours.robot },
+      hovertemplate: 'deepest everywhere: %{y:.4~g} mm at %{x:.5~g} rpm<extra></extra>', meta: `deepest ${name}` }] : [];
+  });
+  const n = run.cutting?.spindle_speed_rpm;
+  return { data: [map, ...curves, ...best], layout: {
+    height: narrow ? 500 : 560, hovermode: 'closest', uirevision: `path ${state.at}`, margin: { l: narrow ? 50 : 64, r: narrow ? 8 : 16, t: 12, b: 46 },
+    xaxis: { title: 'Spindle speed (rpm)', anchor: 'y2', ticks: '' },
+    yaxis: { title: narrow ? 'Position (mm)' : 'Position along the path (mm)', domain: [0.4, 1] },
+    yaxis2: { title: narrow ? 'Depth (mm)' : 'Depth, all positions (mm)', domain: [0, 0.32], type: 'log', dtick: 1 },
+    legend: { orientation: 'h', x: 0, y: 0.325, xanchor: 'left', yanchor: 'bottom', font: { size: 11 } },
+    shapes: n ? [{ type: 'line', x0: n, x1: n, y0: 0, y1: 1, yref: 'paper', line: { color: colours.ink, width: 1.2, dash: 'dash' } }] : [],
+  } };
+}
+
+function columns(path) {
+  const speeds = Array.from(numbers(path.rpm));
+  const z = rows(path);
+  return [{ name: 'spindle speed (rpm)', values: speeds }, ...lengths(path).map((s, i) => ({ name: `limiting depth (mm) at ${number(s, 4)} mm along the path`, values: z[i] }))];
+}

@@ -1,0 +1,146 @@
+// Receptances: one entry of the matrices of part, robot and the coupled system, and how far the two routes differ.
+
+import { choice, el, tick } from './dom.js';
+import { numbers } from './decode.js';
+import { faint } from './colours.js';
+import { number, plain } from './format.js';
+import { between, decades, plot } from './plot.js';
+
+const names = { part: 'part', robot: 'robot', coupled_receptance: 'coupled, receptances', coupled_spatial: 'coupled, matrices' };
+const colour = { part: 'part', robot: 'robot', coupled_receptance: 'supported', coupled_spatial: 'spatial' };
+
+// What is drawn of re + i im (m/N), its axis, and whether an error band (of the modulus) belongs to it.
+const displays = {
+  log: { title: 'Magnitude, logarithmic', axis: '|H| (µm/N)', of: (re, im) => Math.hypot(re, im) * 1e6, type: 'log', band: true },
+  linear: { title: 'Magnitude, linear', axis: '|H| (µm/N)', of: (re, im) => Math.hypot(re, im) * 1e6, band: true },
+  db: { title: 'Magnitude, dB', axis: '|H| (dB re 1 m/N)', of: (re, im) => 20 * Math.log10(Math.hypot(re, im)), unit: 'dB' },
+  real: { title: 'Real part', axis: 'Re H (µm/N)', of: (re) => re * 1e6 },
+  imaginary: { title: 'Imaginary part', axis: 'Im H (µm/N)', of: (re, im) => im * 1e6 },
+  phase: { title: 'Phase', axis: 'Phase (°)', of: (re, im) => (Math.atan2(im, re) * 180) / Math.PI, unit: '°' },
+  nyquist: { title: 'Nyquist' },
+};
+
+export function receptances(runs) {
+  const all = runs.flatMap((run, i) => (run.frf ?? []).map((frf) => ({ run, i, frf })));
+  if (!all.length) return null;
+  const state = { ...first(all), display: 'log', logFrequency: false };
+  const chart = plot({ name: 'receptance', label: 'Receptances', build: (colours, narrow) => build(all, runs, state, colours, narrow), columns: () => columns(all, runs, state) });
+  const set = (key) => (value) => { state[key] = value; chart.draw(); };
+  const unique = (key) => [...new Set(all.filter((a) => a.frf.name !== 'robot' || all.length === 1).flatMap((a) => a.frf[key]))].map((n) => [n, n]);
+  return { chart, content: [el('div', { class: 'controls' },
+    choice('Response', unique('responses'), state.response, set('response')), choice('Force', unique('forces'), state.force, set('force')),
+    choice('Show', Object.entries(displays).map(([k, d]) => [k, d.title]), state.display, set('display')),
+    tick('logarithmic frequency', false, set('logFrequency'))), chart.figure, leftOut(runs)] };
+}
+
+/** The entry to begin with: where the case's cut or its contact is, as far as the document says. */
+function first(all) {
+  const wanted = all[0].run.summary.coupling?.reductions?.[0]?.dof;
+  const frf = (all.find((a) => a.frf.name !== 'robot') ?? all[0]).frf;
+  const pick = (list) => (list.includes(wanted) ? wanted : list[0]);
+  return { response: pick(frf.responses), force: pick(frf.forces) };
+}
+
+/** The row or column of a name; the robot's end stands for the point that it touches. */
+function indexOf(list, name, contacts) {
+  if (list.includes(name)) return list.indexOf(name);
+  const dot = name.lastIndexOf('.');
+  const contact = contacts?.find((c) => c.part === name.slice(0, dot));
+  return contact ? list.indexOf(`${contact.robot}${name.slice(dot)}`) : -1;
+}
+
+/** { hz, re, im, deviation } of the chosen entry, or null. An entry that is left out (NaN) is that of its transpose. */
+function entry({ run, frf }, { response, force }) {
+  const contacts = run.summary.contacts;
+  let [r, f] = [indexOf(frf.responses, response, contacts), indexOf(frf.forces, force, contacts)];
+  if (r < 0 || f < 0) return null;
+  const [hz, H, deviation] = [numbers(frf.hz), numbers(frf.H), numbers(frf.deviation)];
+  const n = hz.length;
+  const at = () => r * frf.forces.length + f;
+  if (Number.isNaN(H[at() * n * 2])) [r, f] = [frf.responses.indexOf(frf.forces[f]), frf.forces.indexOf(frf.responses[r])];
+  if (r < 0 || f < 0) return null;
+  const values = H.subarray(at() * n * 2, (at() + 1) * n * 2);
+  return { hz, re: values.filter((_, k) => k % 2 === 0), im: values.filter((_, k) => k % 2 === 1), deviation: deviation?.subarray(at() * n, (at() + 1) * n) };
+}
+
+/** What there is to see, and what is not shown of what was computed. */
+export function receptancesLead(runs) {
+  const apart = runs.filter((run) => run.route_difference).map((run) => numbers(run.route_difference).reduce((a, b) => (b > a ? b : a), 0));
+  const of = apart.length ? ` The two ways of coupling differ by at most ${number(Math.max(...apart), 2)}, relative to the largest entry of their frequency (lower panel).` : '';
+  return `How far a point moves by a force, over frequency: a lower peak is a stiffer, better damped ${runs.some((run) => run.frf?.some((f) => f.name !== 'robot')) ? 'part' : 'robot'}.${of}`;
+}
+
+/** What the page leaves out: degrees of freedom, and lines between those that it draws. */
+function leftOut(runs) {
+  return runs.flatMap((run) => {
+    const of = runs.length > 1 ? `${run.label}: ` : '';
+    const thinned = (run.frf ?? []).filter((frf) => frf.thinned);
+    const lines = [...new Set(thinned.map(({ thinned: t }) => `${t.to} of ${t.from} lines`))].join(', ');
+    return [...(run.frf_left_out?.length ? [`${of}Left out of this page, in the result folder: ${run.frf_left_out.join(', ')}.`] : []),
+      ...(thinned.length ? [`${of}Drawn here: ${lines}; all of them are in the result folder.`] : [])];
+  }).map((text) => el('p', { class: 'note' }, text));
+}
+
+const label = (one, runs) => (runs.length > 1 ? `${one.run.label}: ` : '') + (names[one.frf.name] ?? one.frf.name);
+
+/** Colours say what it is, dashes of which run: matrices lie upon receptances, so their dashes are finer. */
+function style({ frf: { name }, i }, colours) {
+  const fine = name === 'coupled_spatial';
+  const dash = fine ? ['1px,3px', '6px,3px,1px,3px', '1px,6px'] : ['solid', 'dash', 'dashdot'];
+  return { simplify: false, color: colours[colour[name]] ?? colours.mark, width: fine ? 1.3 : 1.8, dash: dash[i % dash.length] };
+}
+
+function build(all, runs, state, colours, narrow) {
+  const shown = all.map((one) => ({ one, e: entry(one, state) })).filter(({ e }) => e);
+  const title = `${plain(state.response)} by a force at ${plain(state.force)}`;
+  const note = { text: title, xref: 'paper', yref: 'paper', x: 0.995, y: 0.99, xanchor: 'right', yanchor: 'top', showarrow: false, font: { size: 12 }, bgcolor: faint(colours.paper, 0.75) };
+  const margin = { l: narrow ? 54 : 70, r: narrow ? 10 : 18, t: 12, b: 46 };
+  return state.display === 'nyquist' ? nyquist(shown, runs, note, margin, colours, narrow) : overFrequency(shown, runs, state, note, margin, colours, narrow);
+}
+
+function overFrequency(shown, runs, state, note, margin, colours, narrow) {
+  const display = displays[state.display];
+  const data = shown.flatMap(({ one, e }) => {
+    const x = Array.from(e.hz);
+    const y = x.map((_, k) => display.of(e.re[k], e.im[k])).map((v) => (Number.isFinite(v) ? v : null));
+    const line = style(one, colours);
+    return [...(display.band && e.deviation && one.frf.name !== 'coupled_spatial' ? errorBand(x, y, e.deviation, line.color) : []),
+      { name: plain(label(one, runs)), x, y, mode: 'lines', line, hovertemplate: `%{y:.4~g} ${display.unit ?? 'µm/N'}`, meta: `${one.i} ${one.frf.name}` }];
+  });
+  const routes = runs.flatMap((run, i) => difference(run, i, runs, colours));
+  return { data: [...data, ...routes], layout: {
+    height: narrow ? 480 : 580, hovermode: 'x unified', hoversubplots: 'axis', uirevision: `${state.display} ${state.logFrequency}`, margin, annotations: [note],
+    xaxis: { title: 'Frequency (Hz)', anchor: routes.length ? 'y2' : 'y', ticks: '', unifiedhovertitle: { text: '%{x:.5~g} Hz' }, type: state.logFrequency ? 'log' : 'linear', dtick: state.logFrequency ? (narrow ? 1 : 'D2') : undefined },
+    yaxis: { title: display.axis, domain: [routes.length ? 0.34 : 0, 1], type: display.type ?? 'linear', dtick: display.type === 'log' ? 1 : state.display === 'phase' ? 90 : undefined },
+    ...(routes.length ? { yaxis2: { title: narrow ? 'Difference' : 'Difference of routes', domain: [0, 0.26], type: 'log', ...decades(routes.flatMap((r) => r.y), 0.01) } } : {}),
+  } };
+}
+
+function errorBand(x, y, deviation, color) {
+  const edge = (sign) => y.map((v, k) => (v === null || !Number.isFinite(deviation[k]) ? null : Math.max(v * 1e-3, v + sign * deviation[k] * 1e6)));
+  return [{ ...between(x, edge(-1), edge(1)), fillcolor: faint(color, 0.22) }];
+}
+
+function difference(run, i, runs, colours) {
+  const values = numbers(run.route_difference);
+  const coupled = run.frf?.find((f) => f.name.startsWith('coupled'));
+  if (!values || !coupled) return [];
+  return [{ name: plain(`${runs.length > 1 ? `${run.label}: ` : ''}difference of the two routes`), x: Array.from(numbers(coupled.hz)), y: Array.from(values, (v) => (v > 0 ? v : null)), yaxis: 'y2', mode: 'lines',
+    line: { color: colours.mark, width: 1.2, dash: i ? 'dash' : 'solid' }, hovertemplate: '%{y:.2~e}', meta: `${i} difference` }];
+}
+
+function nyquist(shown, runs, note, margin, colours, narrow) {
+  const data = shown.map(({ one, e }) => ({ name: plain(label(one, runs)), x: Array.from(e.re, (v) => v * 1e6), y: Array.from(e.im, (v) => v * 1e6), customdata: Array.from(e.hz), mode: 'lines', line: style(one, colours),
+    hovertemplate: '%{customdata:.5~g} Hz: %{x:.4~g}, %{y:.4~g} µm/N', meta: `${one.i} ${one.frf.name}` }));
+  return { data, layout: { height: narrow ? 480 : 580, hovermode: 'closest', uirevision: 'nyquist', margin, annotations: [note],
+    xaxis: { title: 'Re H (µm/N)', zeroline: true }, yaxis: { title: 'Im H (µm/N)', scaleanchor: 'x', zeroline: true } } };
+}
+
+function columns(all, runs, state) {
+  const of = `${state.response}/${state.force}`;
+  return all.flatMap((one) => {
+    const e = entry(one, state);
+    const name = `${one.run.label}, ${names[one.frf.name] ?? one.frf.name}`;
+    return e ? [{ name: `${name}: frequency (Hz)`, values: Array.from(e.hz) }, { name: `${name}: Re ${of} (m/N)`, values: Array.from(e.re) }, { name: `${name}: Im ${of} (m/N)`, values: Array.from(e.im) }] : [];
+  }).concat(runs.flatMap((run) => (run.route_difference ? [{ name: `${run.label}: difference of the routes (relative)`, values: Array.from(numbers(run.route_difference)) }] : [])));
+}

@@ -1,0 +1,276 @@
+// What the page says and draws of runs of different kinds: sentences, tiles, tables and marks by what there is.
+
+import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import { extent, shapeOf, surface } from '../src/shapes.js';
+import { colours, drawn, launch, open, slide, traces } from './browser.mjs';
+import { compose } from './compose.mjs';
+import { alongPath, measured, noArm, oneRun, pack, partAlone, toolOnly, twoRuns } from './synthetic.mjs';
+
+const folder = mkdtempSync(path.join(os.tmpdir(), 'thinwall-content-'));
+let browser;
+before(async () => { browser = await launch(); });
+after(async () => { await browser.close(); rmSync(folder, { recursive: true }); });
+
+/** The page of a document, all drawn, without trouble; `see` looks at it. */
+async function shown(data, see, options) {
+  const file = path.join(folder, 'page.html');
+  writeFileSync(file, compose(data));
+  const page = await open(browser, file, options);
+  try {
+    await drawn(page);
+    await see(page);
+    assert.deepEqual(page.trouble, []);
+  } finally {
+    await page.context().close();
+  }
+}
+
+const tiles = (page) => page.locator('.tiles > div').evaluateAll((list) => Object.fromEntries(list.map((d) => [d.querySelector('dt').textContent, [...d.querySelectorAll('dd')].map((x) => x.textContent).join(' | ')])));
+const pick = (page, label, value) => page.locator('#shapes label.control', { has: page.locator('span', { hasText: new RegExp(`^${label}$`) }) }).locator('select').selectOption(value);
+const lead = (page, id) => page.locator(`#${id} .lead`).first().textContent();
+const rows = (page, caption) => page.locator('table').evaluateAll((list, wanted) => list.filter((t) => t.caption.textContent === wanted).map((t) => [...t.rows].map((r) => [...r.cells].map((c) => c.textContent))), caption);
+
+describe('the answer', () => {
+  test('sentences stand once, five of them openly, and give the error alone', () => shown(oneRun(), async (page) => {
+    const data = oneRun();
+    const expected = [data.headline[1], ...data.runs[0].sentences];
+    assert.deepEqual(await page.locator('.sentences li').allTextContents(), expected);
+    assert.deepEqual(await page.locator('.sentences li:visible').allTextContents(), expected.slice(0, 5));
+    assert.ok('Estimated error of the limits' in await tiles(page));
+  }));
+
+  test('no tile says the error again where a sentence does', async () => {
+    const data = oneRun();
+    data.runs[0].sentences.push('Estimated error of the charts for this model: 0.01 %.');
+    await shown(data, async (page) => assert.ok(!('Estimated error of the limits' in await tiles(page))));
+  });
+
+  test('along a path the tiles are the path\'s', () => shown(alongPath(), async (page) => {
+    const list = await tiles(page);
+    assert.match(list['Deepest everywhere, with robot'], /^2\.03 mm \| at 10615 rpm; alone 0\.203 mm$/);
+    assert.match(list['Weakest of the path, with robot'], /^0\.512 mm \| position 3, \(0, 100, 100\) mm, at 11231 rpm$/);
+    assert.deepEqual(Object.keys(list).filter((name) => /^(Limit at|Lowest limit|Best pocket)/.test(name)), []);
+  }));
+
+  test('a tool alone has its tiles, and no sentence twice', () => shown(toolOnly(), async (page) => {
+    const list = await tiles(page);
+    assert.match(list['Limit at 1900 rpm, tool'], /^10 mm/);
+    assert.match(list['Lowest limit, tool'], /mm/);
+    assert.equal(await page.locator('.sentences').count(), 0);
+  }));
+
+  test('of two runs: both first lines, what differs, each run\'s own sentences', () => shown(twoRuns(), async (page) => {
+    assert.deepEqual(await page.locator('.answer').allTextContents(), ['first: 2 mm.', 'second: 3 mm.']);
+    assert.deepEqual(await rows(page, 'What differs'), [[['Key', 'first', 'second'], ['part.length', '0.39', '0.4'], ['robot.model', 'one_mode', '–']]]);
+    const sentences = await page.locator('.sentences li').allTextContents();
+    assert.deepEqual(sentences, ['an error.', ...twoRuns().runs[0].sentences, ...twoRuns().runs[1].sentences]);
+  }));
+});
+
+describe('sentences and sections by what there is', () => {
+  test('with everything', () => shown(oneRun(), async (page) => {
+    assert.match(await lead(page, 'receptances'), /differ by at most 2e−12.*lower panel/);
+    assert.match(await lead(page, 'modes'), /What the robot does/);
+    assert.match(await lead(page, 'lobes'), /The cut is at P\..*broad.*Stars.*Crosses.*○.Hopf, ◇.flip, □.fold/);
+    assert.match(await page.textContent('#receptances'), /Left out of this page.*Q\.y, Q\.z.*300 of 1500 lines/);
+    assert.equal(await page.textContent('#quality h2'), 'Reduction, mesh and coupling');
+  }));
+
+  test('a part alone speaks of no robot and of no second way', () => shown(partAlone(), async (page) => {
+    const text = await page.locator('main section:not(#provenance)').allTextContents();
+    assert.doesNotMatch(text.join(' '), /robot|two ways|Left out of this page|Operating point|Fitted/i);
+    assert.doesNotMatch(await page.textContent('#modes'), /changed its place/);
+    assert.equal(await page.textContent('#quality h2'), 'Reduction and mesh');
+  }));
+
+  test('a tool alone has no empty section', () => shown(toolOnly(), async (page) => {
+    assert.deepEqual(await page.locator('main section').evaluateAll((list) => list.map((s) => s.id)), ['lobes', 'provenance']);
+  }));
+
+  test('measured receptances: the main modes, and no empty section', () => shown(measured(), async (page) => {
+    assert.deepEqual(await page.locator('main section').evaluateAll((list) => list.map((s) => s.id)), ['receptances', 'modes', 'provenance']);
+    assert.deepEqual((await rows(page, 'Part with robot: main modes of the receptance'))[0][1], ['1', '36.328', '1.64']);
+    assert.doesNotMatch(await lead(page, 'receptances'), /lower panel/);
+  }));
+});
+
+describe('the charts', () => {
+  test('chatter frequencies: logarithmic where they spread, marks few and large, the line through all', () => shown(oneRun(), async (page) => {
+    const { type, trace } = await page.evaluate(() => { const { data, layout } = document.getElementById('plot-lobes'); const t = data.find((d) => d.meta === 'chatter 0 supported'); return { type: layout.yaxis2.type, trace: { y: Array.from(t.y), size: t.marker.size, symbol: t.marker.symbol, mode: t.mode } }; });
+    assert.equal(type, 'log');
+    assert.equal(trace.mode, 'lines+markers');
+    const marked = trace.size.filter((s) => s > 0);
+    assert.ok(marked.length <= 60 && marked.length >= 20 && Math.min(...marked) >= 7, `${marked.length} of ${marked[0]} px`);
+    assert.ok(new Set(trace.symbol.filter((_, k) => trace.size[k])).size >= 2);
+    assert.ok(trace.y.filter((y) => y !== null).length > marked.length);
+  }));
+
+  test('only pockets have stars', () => shown(oneRun(), async (page) => {
+    const best = (await traces(page, 'lobes')).find((t) => t.meta === 'pockets 0 supported');
+    assert.deepEqual(best.x, [2400, 1200]);
+  }));
+
+  test('two runs are told apart in every trace', () => shown(twoRuns(), async (page) => {
+    const look = (id) => page.evaluate((name) => document.getElementById(name).data.map((t) => ({ meta: t.meta, name: t.name, dash: t.line?.dash, symbol: t.marker?.symbol, size: t.marker?.size })), id);
+    const lobes = await look('plot-lobes');
+    const frf = await look('plot-receptance');
+    const pair = (list, kind) => [0, 1].map((i) => list.find((t) => t.meta === kind(i)));
+    for (const kind of [(i) => `${i} coupled_spatial`, (i) => `${i} coupled_receptance`, (i) => `${i} part`, (i) => `${i} difference`]) {
+      const [a, b] = pair(frf, kind);
+      assert.notEqual(a.dash, b.dash, kind(0));
+      assert.notEqual(a.name, b.name);
+    }
+    const [a, b] = pair(lobes, (i) => `chatter ${i} supported`);
+    const marks = (t) => new Set(t.symbol.filter((_, k) => t.size[k] > 0));
+    assert.ok(marks(a).size && [...marks(a)].every((symbol) => !marks(b).has(symbol)), 'no mark of one run is one of the other');
+    assert.notDeepEqual(...pair(lobes, (i) => `pockets ${i} supported`).map((t) => t.symbol));
+    const least = await look('plot-path');
+    for (const name of ['part', 'supported']) assert.notEqual(...pair(least, (i) => `least ${i} ${name}`).map((t) => t.dash));
+  }));
+
+  test('operating points: circle and cross on the chart, margins in the table', () => shown(oneRun(), async (page) => {
+    const list = await page.evaluate(() => document.getElementById('plot-lobes').data.filter((t) => t.meta?.startsWith('points')).map((t) => ({ meta: t.meta, x: Array.from(t.x), y: Array.from(t.y), symbol: t.marker.symbol, color: t.marker.color })));
+    assert.deepEqual(list.map((t) => [t.meta, t.x[0], t.y[0], t.symbol]), [['points 0 part chatter', 1500, 1, 'x'], ['points 0 supported stable', 1500, 1, 'circle-open']]);
+    assert.notEqual(list[0].color, list[1].color);
+    const [table] = await rows(page, 'Operating points');
+    assert.deepEqual(table[1].slice(0, 6), ['1500', '1', 'part alone', '✗ chatter', '−0.8 mm (−80 %)', '1410 to 1620']);
+    assert.deepEqual(table[2].slice(2, 6), ['with robot', '✓ stable', '1 mm (100 %)', 'lowest to highest']);
+  }));
+
+  test('tooth-passing speeds are the document\'s, and not offered without them', async () => {
+    await shown(toolOnly(), async (page) => {
+      await page.getByLabel('tooth-passing speeds').check();
+      const texts = await page.evaluate(() => document.getElementById('plot-lobes').layout.annotations.map((a) => a.text));
+      assert.ok(texts.includes('100 Hz') && texts.includes('180 Hz'), texts.join());
+    });
+    const data = oneRun();
+    data.runs[0].lobes.forEach((lobe) => { delete lobe.tooth_passing_hz; });
+    await shown(data, async (page) => assert.equal(await page.getByLabel('tooth-passing speeds').count(), 0));
+  });
+
+  test('labels of the axes lie apart on a phone and in print', async () => {
+    const apart = (page) => page.evaluate(() => ['#plot-receptance .y2tick text', '#plot-receptance .ytick text', '#plot-lobes .y2tick text', '#plot-lobes .ytick text'].filter((name) => {
+      const boxes = [...document.querySelectorAll(name)].map((t) => t.getBoundingClientRect()).sort((a, b) => a.top - b.top);
+      return boxes.length < 2 || boxes.some((box, i) => i && box.top < boxes[i - 1].bottom - 4); // a box is higher than its digits
+    }));
+    for (const decades of [1.5, 3, 8]) {
+      const data = oneRun();
+      data.runs[0].route_difference = pack('f32', [300], Array.from({ length: 300 }, (_, i) => 10 ** (-11.3 - decades * Math.abs(Math.sin(i)))));
+      await shown(data, async (page) => {
+        assert.deepEqual(await apart(page), [], `${decades} decades on a phone`);
+        await page.emulateMedia({ media: 'print' });
+        await page.waitForFunction(() => [...document.querySelectorAll('.plot')].every((p) => p.layout?.width === (p.closest('.columns') ? 316 : 660)));
+        assert.deepEqual(await apart(page), [], `${decades} decades in print`);
+      }, { viewport: { width: 360, height: 740 } });
+    }
+  });
+});
+
+describe('the tables', () => {
+  test('fits, robot\'s modes, units of checks', () => shown(oneRun(), async (page) => {
+    assert.deepEqual((await rows(page, 'Fitted parameters (SI units)'))[0][1], ['length of P', 'part.length', '0.3921', '0.4', '0.38 to 0.41']);
+    assert.deepEqual((await rows(page, 'What they were fitted to'))[0][1], ['length of P', 'part frequency', '212.9 Hz', '212 Hz']);
+    assert.deepEqual((await rows(page, 'Robot alone'))[0][1], ['1', '29.500', '2.10']);
+    const checks = Object.fromEntries((await rows(page, 'Checks'))[0].map((r) => [r[0], r.slice(1, 3)]));
+    assert.deepEqual(checks.fit, ['212.9 Hz', '212 ± 2 Hz']);
+    assert.deepEqual(checks['own unit'], ['3 kN', '3 kN']);
+    assert.deepEqual(checks['least depth'], ['2.1 mm', 'at least 2 mm']);
+  }));
+});
+
+describe('the moving shapes', () => {
+  const robot = (page) => colours(page, ([r, g, b]) => r < 10 && g > 70 && Math.abs(g / (b || 1) - 158 / 115) < 0.12);
+  const orange = (page) => colours(page, ([r, g, b]) => r > 100 && b < 12 && Math.abs(g / r - 94 / 213) < 0.06);
+
+  test('the list says of what a mode is', () => shown(oneRun(), async (page) => {
+    const options = await page.locator('#shapes select').first().locator('option').allTextContents();
+    assert.ok(options.includes('part 1: 200.1 Hz') && options.includes('part with robot 1: 250.1 Hz'), options.join());
+  }));
+
+  test('the arm is wholly in the picture, and out of it for the part alone', () => shown(oneRun(), async (page) => {
+    const seen = await robot(page);
+    assert.ok(seen.count > 300 && !seen.atBorder, JSON.stringify(seen));
+    const whole = seen.height;
+    await pick(page, 'View', 'part');
+    assert.ok((await robot(page)).height > 1.2 * whole || (await robot(page)).atBorder);
+    await pick(page, 'Mode', { label: 'part 1: 200.1 Hz' });
+    assert.equal((await robot(page)).count, 0);
+  }));
+
+  test('the robot\'s motion limits the amplitude', async () => {
+    const data = oneRun();
+    for (const m of data.runs[0].shapes.modes) if (m.robot) m.robot = [0, 40, 0];
+    await shown(data, async (page) => {
+      await slide(page, 'Amplitude', 1);
+      await slide(page, 'Phase', 0);
+      const seen = await robot(page);
+      assert.ok(seen.count > 300 && !seen.atBorder, JSON.stringify(seen));
+      assert.match(await page.textContent('#shapes figcaption'), /40 times as far as the part/);
+    });
+  });
+
+  test('a robot without an arm is seen where it pushes, of coupled modes only', () => shown(noArm(), async (page) => {
+    assert.ok((await robot(page)).count > 150);
+    assert.match(await page.textContent('#shapes .legend'), /robot/);
+    await pick(page, 'Mode', { label: 'part 1: 200.1 Hz' });
+    assert.equal((await robot(page)).count, 0);
+    assert.doesNotMatch(await page.textContent('#shapes .legend'), /robot/);
+  }));
+
+  test('it pushes from outside along what is joined, and is in the view', () => {
+    const { pushes: [point], direction } = surface(noArm().runs[0].shapes);
+    assert.deepEqual(point.push.map((x) => Math.round(x) + 0), point.normal.map((x) => -Math.round(x) + 0));
+    const facing = point.normal.reduce((sum, x, k) => sum + x * direction[k], 0);
+    assert.ok(facing > 0, 'the contact is on the side that is seen first');
+    assert.ok(direction[2] > 0);
+  });
+
+  test('arrows only where a contact joins', async () => {
+    const legend = (page) => page.textContent('#shapes .legend');
+    const select = (page) => pick(page, 'Mode', { label: 'part 1: 200.1 Hz' });
+    let joined;
+    await shown(oneRun(), async (page) => { await select(page); joined = (await orange(page)).count; assert.match(await legend(page), /arrows: directions joined/); });
+    const data = oneRun();
+    data.runs[0].shapes.points.forEach((p) => { delete p.joined; });
+    await shown(data, async (page) => { await select(page); assert.ok((await orange(page)).count < 0.8 * joined); assert.doesNotMatch(await legend(page), /arrows/); });
+  });
+
+  test('what is to be seen holds part and robot', () => {
+    const { shapes } = oneRun().runs[0];
+    const { centre, points } = extent(surface(shapes), true);
+    const inside = (p) => points.some((q) => q.every((x, k) => Math.abs(x + centre[k] - p[k]) < 1e-9));
+    assert.ok(shapes.robot_arm.every(inside));
+    assert.ok(!shapes.robot_arm.some((p) => extent(surface(shapes), false).points.some((q) => q.every((x, k) => Math.abs(x - p[k]) < 1e-9))));
+    assert.equal(shapeOf({ shape: shapes.modes[0].shape, step: 1, robot: [0, 3, 4] }).reach, 5);
+  });
+
+  test('thickness: the least is kept and in the range, faces across the wall are not', () => {
+    const { shapes } = oneRun().runs[0];
+    const n = shapes.triangles.shape[0];
+    const values = Array.from({ length: n }, (_, t) => (t === 1000 ? 0.0012 : t % 20 === 0 ? 0.02 : 0.006));
+    const { thickness } = surface({ ...shapes, thickness_m: pack('f32', [n], values) });
+    assert.ok(Math.abs(thickness.low - 0.0012) < 1e-8 && Math.abs(thickness.high - 0.006) < 1e-8 && Math.abs(thickness.median - 0.006) < 1e-8, JSON.stringify({ ...thickness, values: 0 }));
+    assert.ok(Math.abs(thickness.values[1000] - 0.0012) < 1e-8);
+  });
+
+  test('a wall of one thickness with narrow sides reads as that, and the thinnest place has its own colour', async () => {
+    const data = oneRun();
+    const n = data.runs[0].shapes.triangles.shape[0];
+    const thin = (some) => pack('f32', [n], Array.from({ length: n }, (_, t) => (some && t === 1001 ? 0.001 : t % 20 === 0 ? 0.0187 : 0.006)));
+    const viewed = async (page) => { await pick(page, 'Colour', 'thickness'); await slide(page, 'Amplitude', 0); };
+    data.runs[0].shapes.thickness_m = thin(false);
+    await shown(data, async (page) => { await viewed(page); assert.match(await page.textContent('#shapes .legend'), /6 mm\s+7\.2 mm and more/); });
+    data.runs[0].shapes.thickness_m = thin(true);
+    await shown(data, async (page) => {
+      await pick(page, 'Mode', { label: 'part 1: 200.1 Hz' });
+      await viewed(page);
+      assert.match(await page.textContent('#shapes .legend'), /1 mm\s+6 mm and more/);
+      assert.match(await page.textContent('#shapes figcaption'), /Thinnest 1 mm; half of the surface at most 6 mm/);
+      assert.ok((await colours(page, ([r, g, b]) => b > r && g < 20 && r > 25)).count > 3, 'the thinnest triangle is as dark as the scale is');
+    });
+  });
+});

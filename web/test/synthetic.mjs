@@ -1,0 +1,168 @@
+// Small invented documents. `oneRun` uses every part of the contract: a plate with sine shapes; the others lack what runs of other kinds lack.
+
+import { deflateSync } from 'node:zlib';
+
+const types = { f32: Float32Array, f64: Float64Array, i16: Int16Array, u32: Uint32Array };
+
+export function pack(type, shape, values, shuffled = false) {
+  const array = types[type].from(values);
+  let bytes = Buffer.from(array.buffer);
+  if (shuffled) {
+    const width = array.BYTES_PER_ELEMENT;
+    bytes = Buffer.from(Array.from({ length: bytes.length }, (_, i) => bytes[(i % array.length) * width + Math.floor(i / array.length)]));
+  }
+  return { type, shape, deflate: deflateSync(bytes).toString('base64'), ...(shuffled ? { shuffled } : {}) };
+}
+
+const range = (n) => Array.from({ length: n }, (_, i) => i);
+
+/** Depths over the speed with one pocket at `best` rpm, in m. */
+function lobe(name, floor, best) {
+  const n = 120;
+  const rpm = range(n).map((i) => 1000 + (2000 * i) / (n - 1));
+  const raw = rpm.map((x) => floor * (1 + 60 * Math.exp(-(((x - best) / 90) ** 2))));
+  const depth = raw.map((d) => Math.min(d, 0.02));
+  const status = raw.map((d, i) => (i === 5 ? 'not_converged' : d >= 0.02 ? 'stable_to_depth_limit' : 'converged'));
+  const kind = rpm.map((_, i) => ['hopf', 'flip', 'fold', ''][i % 4]);
+  const least = depth.reduce((best_, d, i) => (status[i] === 'converged' && d < depth[best_] ? i : best_), 0);
+  return {
+    document: { name, rpm: pack('f64', [n], rpm), depth_m: pack('f64', [n], depth), error_relative: pack('f32', [n], rpm.map(() => 0.02)), chatter_hz: pack('f32', [n], rpm.map((x, i) => (i > 60 && i < 66 ? 20 * x : x / 5))), kind, status,
+      truncation_m: pack('f32', [n], depth.map((d) => d * 0.03)), tooth_passing_hz: [100, 180],
+      crossings: { rpm: pack('f64', [n], rpm), depth_m: pack('f64', [n], depth), chatter_hz: pack('f32', [n], rpm.map((x) => x / 5)), kind } },
+    summary: { name, speeds: n, speeds_stable_to_depth_limit: status.filter((s) => s === 'stable_to_depth_limit').length, minimum_depth_m: depth[least], at_spindle_speed_rpm: rpm[least], error_estimate_relative: 0.02,
+      best_pockets: [{ depth_m: 0.02, at_depth_limit: true, limited_by: 'tool_length', spindle_speed_rpm: best, removal_rate_cm3_per_min: 8 }, { depth_m: floor * 2, spindle_speed_rpm: 1200, removal_rate_cm3_per_min: null }, { depth_m: floor * 1.1, spindle_speed_rpm: 1300, removal_rate_cm3_per_min: null }],
+      at_case_speed: { spindle_speed_rpm: 1900, limiting_depth_m: 0.01, at_depth_limit: false } },
+  };
+}
+
+/** One resonance a name; 1/(k (1 - r² + 2 i ζ r)) in m/N. The entry below the diagonal is left out (NaN). */
+function frf(name, responses, hz, f0, k) {
+  const n = responses.length;
+  const H = range(n * n).flatMap((e) => hz.flatMap((f) => {
+    if (Math.floor(e / n) > e % n) return [NaN, NaN];
+    const r = f / f0;
+    const [a, b] = [1 - r * r, 0.04 * r];
+    const scale = 1 / (k * (1 + (e % n)) * (a * a + b * b));
+    return [a * scale, -b * scale];
+  }));
+  return { name, hz: pack('f64', [hz.length], hz), thinned: { from: 5 * hz.length, to: hz.length }, responses, forces: responses, H: pack('f32', [n, n, hz.length, 2], H, true), deviation: pack('f32', [n, n, hz.length], H.filter((_, i) => i % 2).map((v) => Math.abs(v) * 0.05)) };
+}
+
+/** A plate of 200 x 100 mm in y and z, meshed as a grid, with its end y = 0 held. */
+function shapes(name) {
+  const [ny, nz] = [60, 30];
+  const vertices = range(ny * nz).flatMap((v) => [0, (v % ny) / (ny - 1), Math.floor(v / ny) / (nz - 1) / 2]);
+  const triangles = range((ny - 1) * (nz - 1)).flatMap((c) => { const v = (c % (ny - 1)) + Math.floor(c / (ny - 1)) * ny; return [v, v + 1, v + ny, v + 1, v + ny + 1, v + ny]; });
+  const mode = (of, number) => ({ of, number, hz: 200.1 * number + (of === 'part' ? 0 : 50), damping: 0.01, step: 1 / 30000,
+    shape: pack('i16', [ny * nz, 3], vertices.map((_, i) => (i % 3 ? 0 : Math.round(30000 * Math.sin((number * Math.PI * vertices[i + 1]) / 2) * (number > 2 ? vertices[i + 2] * 2 : 1))))),
+    ...(of === 'coupled' ? { robot: [1, 0, 0] } : {}) });
+  return {
+    vertices: pack('i16', [ny * nz, 3], vertices.map((x) => Math.round(x * 30000))), origin_m: [0, 0, 0], step_m: 0.2 / 30000, triangles: pack('u32', [triangles.length / 3, 3], triangles),
+    thinned: { from: 240000, to: ny * nz }, modes: [1, 2, 3].flatMap((k) => [mode('part', k), mode('coupled', k)]),
+    points: [{ name, position_m: [0, 0.2, 0.05], directions: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], joined: [[1, 0, 0]], contact: true }, { name: 'Q', position_m: [0, 0.1, 0.1], directions: [[1, 0, 0], [0, 1, 0]], contact: false }],
+    fixtures: [{ name: `${name} end`, triangles: pack('u32', [nz - 1], range(nz - 1).map((j) => 2 * j * (ny - 1))) }],
+    robot_arm: [[0.5, 0.2, -0.2], [0.5, 0.2, 0.2], [0.2, 0.2, 0.3], [0, 0.2, 0.05]], thickness_m: pack('f32', [triangles.length / 3], range(triangles.length / 3).map((t) => 0.002 + 1e-6 * t)),
+  };
+}
+
+function run(label, point, factor) {
+  const hz = range(300).map((i) => 1 + 2 * i);
+  const [alone, supported] = [lobe('part', 0.0002 * factor, 1800), lobe('supported', 0.002 * factor, 2400)];
+  const responses = [`${point}.x`, 'Q.x'];
+  const modes = (f) => [1, 2, 3].map((k) => ({ frequency_hz: f * k, damping_ratio: 0.01 * k }));
+  const path = (name, floor) => ({ name, positions: pack('f64', [5, 3], range(5).flatMap((i) => [0, 0.05 * i, 0.1])), rpm: pack('f64', [20], range(20).map((i) => 1000 + 100 * i)), depth_m: pack('f32', [5, 20], range(100).map((i) => floor * (1 + (i % 7)))) });
+  return {
+    label, sentences: range(7).map((i) => `Sentence ${i} of ${label}.`), frf_left_out: ['Q.y', 'Q.z'],
+    summary: { case: label, title: `A plate, ${label}`, status: 'ok', mesh: { nodes: 1800, elements: 900, order: 2, dofs: 5400, min_quality: 0.4 }, part: { mass_kg: 0.3, modes: modes(200.1 * factor) },
+      reduction: { method: 'craig_bampton', full_dofs: 5400, size: 30, interface_dofs: 6, kept_modes: 24, max_relative_frequency_error: 1e-4, max_relative_receptance_error: 2e-3 },
+      coupling: { modes: modes(250.1 * factor), main_modes: [{ frequency_hz: 250.1 }], reductions: [{ dof: `${point}.x`, frequency_hz: 200 }], route_difference: { max_relative: 1e-12, at_frequency_hz: 300 }, kernel_condition_max: 20 },
+      contacts: [{ part: point, robot: 'R' }], robot: { modes: [{ frequency_hz: 29.5, damping_ratio: 0.021 }] }, operating_points: points(factor), updating: fits(point), lobes: [alone.summary, supported.summary],
+      checks: [{ name: `${point} moves`, value: 212.9, expected: 212, tolerance: 2.1, origin: `published: ${point}`, ok: true }, { name: 'fails', value: 2, expected: null, at_most: 1, origin: 'analytic', ok: false },
+        { name: 'fit', quantity: 'updating[0].targets[0].reached', value: 212.9, expected: 212, tolerance: 2, origin: 'published', ok: true }, { name: 'own unit', quantity: 'x.y', unit: 'kN', value: 3, expected: 3, origin: 'analytic', ok: true }, { name: 'least depth', quantity: 'lobes[0].minimum_depth_m', value: 0.0021, at_least: 0.002, origin: 'analytic', ok: true }] },
+    manifest: { program: { name: 'thinwall', version: '0.0', built_with: 'a compiler' }, inputs: [{ name: `${point}.toml`, sha256: 'ab'.repeat(32) }], started_utc: '2020-01-01T00:00:00Z', threads: 2, timings_s: { mesh: 0.1, lobes: 1.5 } },
+    case: `[points."${point}"]\n`,
+    frf: [frf('part', responses, hz, 200 * factor, 1e6), frf('robot', ['R.x'], hz, 60, 1.7e6), frf('coupled_receptance', responses, hz, 250 * factor, 3e6), frf('coupled_spatial', responses, hz, 250 * factor, 3e6)],
+    route_difference: pack('f32', [300], hz.map((f) => 1e-12 * (1 + Math.sin(f)))),
+    lobes: [alone.document, supported.document], cutting: { teeth: 4, depth_limit_m: 0.02, spindle_speed_rpm: 1900, at: point, spindle_range_rpm: [1100, 2800], removal_cm3_per_min_per_m_rpm: 0.19 },
+    paths: [path('part', 0.0001), path('supported', 0.001)], shapes: shapes(point),
+    mac: { rows: 'part alone', columns: 'part with robot', values: pack('f32', [3, 3], [0.9, 0.1, 0, 0.1, 0.2, 0.7, 0, 0.8, 0.1]), row_hz: [200, 400, 600], column_hz: [250, 450, 650] },
+    auto_mac: { values: pack('f32', [3, 3], [1, 0, 0, 0, 1, 0, 0, 0, 1]), row_hz: [200, 400, 600] },
+    reduction_error: { modes: [5, 10, 20], error: [0.1, 0.01, 0.001] },
+  };
+}
+
+/** The same speed and depth in both charts, stable in one of them. */
+const points = (factor) => ['part', 'supported'].map((chart, i) => ({ chart, spindle_speed_rpm: 1500, depth_m: 0.001 * factor, stable: i === 1, depth_margin_m: (i ? 1 : -0.8) * 1e-3 * factor, depth_margin_relative: i ? 1 : -0.8,
+  depth_margin_at_limit: false, boundary_below_rpm: i ? null : 1410, boundary_above_rpm: i ? null : 1620, chatter_frequency_hz: 333, bifurcation: 'hopf' }));
+
+const fits = (point) => [{ name: `length of ${point}`, converged: true, evaluations: 3, parameters: [{ key: 'part.length', start: 0.4, fitted: 0.3921, lower: 0.38, upper: 0.41, at_bound: false }],
+  targets: [{ quantity: 'part_frequency', wanted: 212, reached: 212.9 }] }];
+
+const document = (headline, runs) => ({ schema: 1, program: 'thinwall 0.0', headline, runs });
+
+export const oneRun = () => document(['With the robot: stable up to 2 mm.', 'Part alone: 0.2 mm.'], [run('plate', 'P', 1)]);
+export const twoRuns = () => ({ ...document(['first: 2 mm.', 'first: an error.', 'second: 3 mm.'], [run('first', 'P', 1), run('second', 'P', 1.3)]), differences: [['part.length', 0.39, 0.4], ['robot.model', 'one_mode', null]] });
+
+/** As of `thinwall lobes`: a chart of the tool, no part, no robot, no receptances. */
+export function toolOnly() {
+  const { document: chart, summary } = lobe('tool', 0.002, 1800);
+  return document(['This tool: stable up to 2 mm at 1900 rpm.'], [{ label: 'tool', sentences: ['This tool: stable up to 2 mm at 1900 rpm.'], summary: { case: 'tool', title: 'Measured tool', status: 'ok', lobes: [summary], contacts: [], operating_points: [], updating: [], checks: [], points: [], error_budget: {} },
+    manifest: {}, case: '', frf: [], paths: [], lobes: [chart], cutting: { teeth: 4, depth_limit_m: 0.02, spindle_speed_rpm: 1900 } }]);
+}
+
+/** A part without a robot: nothing coupled, no path. */
+export function partAlone() {
+  const data = oneRun();
+  const [r] = data.runs;
+  r.frf = [r.frf[0]];
+  r.lobes = [r.lobes[0]];
+  r.summary.lobes = [r.summary.lobes[0]];
+  for (const key of ['coupling', 'robot', 'contacts', 'operating_points', 'updating']) delete r.summary[key];
+  for (const key of ['route_difference', 'mac', 'frf_left_out', 'sentences']) delete r[key];
+  delete r.frf[0].thinned;
+  r.paths = [];
+  r.shapes.modes = r.shapes.modes.filter((m) => m.of === 'part');
+  delete r.shapes.robot_arm;
+  r.shapes.points.forEach((p) => { p.contact = false; delete p.joined; });
+  return data;
+}
+
+/** Measured part and robot: receptances and their coupling, no mesh, no lobes; the coupled modes are those of the receptance. */
+export function measured() {
+  const data = oneRun();
+  const [r] = data.runs;
+  r.summary = { case: 'measured', title: 'Measured', status: 'ok', lobes: [], contacts: r.summary.contacts, checks: [], updating: [], operating_points: [], points: [], robot: { modes: [] },
+    coupling: { modes: [], main_modes: [{ frequency_hz: 36.328, damping_ratio: 0.0164 }], reductions: [], route_difference: null } };
+  for (const key of ['route_difference', 'mac', 'auto_mac', 'shapes', 'reduction_error', 'cutting']) delete r[key];
+  [r.lobes, r.paths] = [[], []];
+  return data;
+}
+
+/** A case along a path; its summary has the path's own answers. */
+export function alongPath() {
+  const data = oneRun();
+  const [{ summary }] = data.runs;
+  const path = (name, k) => ({ name, speeds: 20, error_estimate_relative: 3e-4, deepest_everywhere: { depth_m: 0.00203 * k, spindle_speed_rpm: 10615, at_depth_limit: false }, weakest: { position: 3, at_m: [0, 0.1, 0.1], minimum_depth_m: 0.000512 * k, at_spindle_speed_rpm: 11231 } });
+  summary.path = [path('part', 0.1), path('supported', 1)];
+  return data;
+}
+
+/** A robot without an arm, whose end moves `times` as far as the part. */
+export function noArm(times = 1) {
+  const data = oneRun();
+  const { shapes: s } = data.runs[0];
+  delete s.robot_arm;
+  for (const m of s.modes) if (m.robot) m.robot = [times, 0, 0];
+  return data;
+}
+
+/** The same with text that would run as a script, were it ever taken for HTML. */
+export function hostile() {
+  const evil = '</script><script>window.hacked=1</script><img src=x onerror="window.hacked=2"><b>%{x} <a href="javascript:window.hacked=3">a</a>';
+  const data = document([evil, evil], [run(evil, evil, 1), run(`${evil} 2`, evil, 1.3)]);
+  for (const r of data.runs) r.summary.title = evil;
+  data.runs[0].mac.rows = evil;
+  data.runs[0].lobes[0].kind[0] = evil;
+  data.program = evil;
+  return data;
+}
