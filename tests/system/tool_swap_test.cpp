@@ -67,8 +67,10 @@ density = "14400 kg/m^3"
          "[lobes]\nfrom = \"8000 rpm\"\nto = \"20000 rpm\"\ncount = 4\n";
 }
 
+/// Of the test's own name: tests run beside each other.
 fs::path measured_folder(const dynamics::FrequencyAxis& axis) {
-  const fs::path folder = scratch("tool_swap_case");
+  const fs::path folder =
+      scratch(std::string("tool_swap_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
   io::UffForm form;
   form.binary = true;
   io::write_uff(folder / "reference.uff", with_reference(axis), form);
