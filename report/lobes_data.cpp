@@ -50,6 +50,22 @@ struct Source {
   }
 };
 
+/// Limits of other methods, where the case asks for them.
+json compared_of(const fs::path& folder, const std::string& name, const json& summary) {
+  json list = json::array();
+  for (const json& other : summary.value("compared", json::array())) {
+    const auto method = other.at("name").get<std::string>();
+    const fs::path file = folder / (name + "_" + method + ".csv");
+    if (!fs::exists(file)) continue;
+    const Source chart(file);
+    list.push_back({{"name", method},
+                    {"rpm", chart.exact("spindle_speed_rpm")},
+                    {"depth_m", chart.rough("limiting_depth_m")},
+                    {"status", chart.statuses()}});
+  }
+  return list;
+}
+
 json chart_of(const fs::path& folder, const std::string& name) {
   const Source chart(folder / (name + ".csv"));
   json result = {{"name", name},
@@ -59,7 +75,7 @@ json chart_of(const fs::path& folder, const std::string& name) {
                  {"chatter_hz", chart.rough("chatter_frequency_hz")},
                  {"kind", chart.words("bifurcation")},
                  {"status", chart.statuses()}};
-  for (const char* column : {"truncation_m", "noise_deviation_m"}) {
+  for (const char* column : {"truncation_m", "noise_deviation_m", "robust_depth_m"}) {
     if (std::ranges::count(chart.table, column, &io::Column::name) > 0) result[column] = chart.rough(column);
   }
   const fs::path file = folder / (name + "_crossings.csv");
@@ -117,6 +133,8 @@ json lobes_data(const fs::path& results, const json& summary) {
     const std::string name = chart.at("name").get<std::string>();
     if (!fs::exists(folder / (name + ".csv"))) continue;
     run["lobes"].push_back(chart_of(folder, name));
+    if (json others = compared_of(folder, name, chart); !others.empty())
+      run["lobes"].back()["compared"] = std::move(others);
     if (chart.contains("main_modes_hz")) run["lobes"].back()["tooth_passing_hz"] = chart.at("main_modes_hz");
     if (fs::exists(folder / (name + "_path.csv"))) run["paths"].push_back(path_of(folder / (name + "_path.csv"), name));
   }

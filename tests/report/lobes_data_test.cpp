@@ -59,6 +59,29 @@ TEST(LobesData, TheArraysAreTheFile) {
   EXPECT_DOUBLE_EQ(run["cutting"]["removal_cm3_per_min_per_m_rpm"].get<double>(), 8.0 / (0.01 * 2000.0));
 }
 
+TEST(LobesData, RobustLimitsAndOtherMethodsAreThereWhereTheCaseAsksForThem) {
+  const fs::path folder = result_folder("lobes_asked");
+  const io::Table limits{
+      {"spindle_speed_rpm", Numbers{1000.0, 2000.0}},   {"limiting_depth_m", Numbers{0.001, 0.002}},
+      {"chatter_frequency_hz", Numbers{100.5, 110.0}},  {"bifurcation", Words{"hopf", "hopf"}},
+      {"error_estimate_relative", Numbers{1e-5, 2e-5}}, {"status", Words{"converged", "not_converged"}}};
+  io::Table robust = limits;
+  robust.push_back({"robust_depth_m", Numbers{0.0008, 0.0}});
+  io::write_csv(folder / "lobes" / "tool.csv", robust);
+  json with = summary();
+  EXPECT_FALSE(lobes_data(folder, with)["lobes"][0].contains("compared"));
+  with["lobes"][0]["compared"] = {{{"name", "zeroth_order"}}, {{"name", "left_out"}}};
+  io::write_csv(folder / "lobes" / "tool_zeroth_order.csv", limits);
+  const json chart = lobes_data(folder, with)["lobes"][0];
+  EXPECT_NEAR(unpacked<float>(chart["robust_depth_m"])[0], 0.0008, 1e-8);
+  EXPECT_EQ(unpacked<float>(chart["robust_depth_m"])[1], 0.0F) << "not robust at any depth";
+  ASSERT_EQ(chart["compared"].size(), 1U) << "a file that is gone is left out";
+  EXPECT_EQ(chart["compared"][0]["name"], "zeroth_order");
+  EXPECT_EQ(unpacked<double>(chart["compared"][0]["rpm"]), (Numbers{1000.0, 2000.0}));
+  EXPECT_NEAR(unpacked<float>(chart["compared"][0]["depth_m"])[1], 0.002, 1e-7) << "rounded for a picture";
+  EXPECT_EQ(chart["compared"][0]["status"], (Words{"converged", "not_converged"}));
+}
+
 TEST(LobesData, OfAPathAreRowsOfPositions) {
   const fs::path folder = result_folder("lobes_path");
   write_chart(folder, {"converged", "converged", "converged"});

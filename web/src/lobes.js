@@ -37,8 +37,10 @@ export function lobesLead(runs) {
   const has = (status) => all.some(({ lobe }) => lobe.status.includes(status));
   const kinds = Object.keys(signs).filter((kind) => all.some(({ lobe }) => lobe.kind.some((k, i) => k === kind && lobe.status[i] === 'converged')));
   const places = [...new Set(runs.map((run) => run.cutting?.at).filter((at) => typeof at === 'string' && at))];
+  const robust = [...new Set(runs.flatMap((run) => (run.summary.lobes ?? []).map((chart) => chart.robust?.confidence)).filter(isNumber))];
   return [places.length ? `The cut is at ${places.join(' or ')}.` : '', `Cuts below a line are stable${has('stable_to_depth_limit') ? '; where it is broad, down to the depth limit of the chart' : ''}.`,
-    all.some(({ run, lobe }) => starred(run, lobe).length) ? 'Stars mark the best pockets.' : '', has('not_converged') ? 'Crosses on the line did not converge.' : '',
+    all.some(({ run, lobe }) => starred(run, lobe).length) ? 'Stars mark the best pockets.' : '', robust.length ? `Dotted: the robust limit, which holds for ${robust.map((k) => number(k, 3)).join(' or ')} standard deviations of what the case calls uncertain.` : '',
+    all.some(({ lobe }) => lobe.compared) ? 'Thin lines: the limits of other methods, where they converged.' : '', has('not_converged') ? 'Crosses on the line did not converge.' : '',
     kinds.length ? `The lower panel gives the frequency of the chatter that begins at the line (${kinds.map((k) => signs[k]).join(', ')}${runs.length > 1 ? '; open of the first run, filled of the second' : ''}).` : '',
     runs.some((run) => pointsOf(run).length) ? 'Operating points are circles where they are stable, crosses where they chatter.' : ''].filter(Boolean).join(' ');
 }
@@ -67,7 +69,8 @@ function spread(lists) {
 function decodeLobe(lobe) {
   const [rpm, depth, error, chatter] = [lobe.rpm, lobe.depth_m, lobe.error_relative, lobe.chatter_hz].map(numbers);
   const found = lobe.status.map((s, k) => s === 'converged' && Number.isFinite(chatter[k]));
-  return { rpm, depth, error, chatter, found, truncation: numbers(lobe.truncation_m), noise: numbers(lobe.noise_deviation_m) };
+  const compared = (lobe.compared ?? []).map((other) => ({ name: other.name, rpm: numbers(other.rpm), depth: numbers(other.depth_m), status: other.status }));
+  return { rpm, depth, error, chatter, found, compared, robust: numbers(lobe.robust_depth_m), truncation: numbers(lobe.truncation_m), noise: numbers(lobe.noise_deviation_m) };
 }
 
 const label = (curve, runs) => plain((runs.length > 1 ? `${curve.run.label}: ` : '') + lobeTitle(curve.lobe.name));
@@ -105,7 +108,7 @@ function build(curves, runs, rate, options, colours, narrow) {
 }
 
 /** Whether the legend is one line. */
-const short = (runs, points) => runs.length === 1 && !points.length;
+const short = (runs, points) => runs.length === 1 && !points.length && runs[0].lobes.every((lobe) => !lobe.robust_depth_m && !lobe.compared);
 
 /** The limit with its error band, and the stretches that end at the chart's depth limit. */
 function limit(curve, runs, colours, log) {
@@ -126,7 +129,15 @@ function limit(curve, runs, colours, log) {
   if (lobe.status.includes('not_converged')) {
     result.push({ name: 'not converged', showlegend: false, x, y: at('not_converged'), mode: 'markers', marker: { color: colours.bad, symbol: 'x', size: 7 }, hovertemplate: '%{y:.4~g} mm', meta: `not converged ${group}` });
   }
-  return result;
+  return [...result, ...asked(curve, colour, name, group)];
+}
+
+/** The robust limit, dotted, and other methods' limits, thin: what the case asks for beside its chart. */
+function asked({ rpm, robust, lobe, compared }, colour, name, group) {
+  const line = (kind, dash, x, depth, status) => ({ name: `${name}, ${kind}`, x: Array.from(x), y: scaled(depth.map((d, k) => (status[k] === 'not_converged' ? NaN : d)), 1e3), mode: 'lines',
+    line: { simplify: false, color: faint(colour, 0.85), width: 1.4, dash }, legendgroup: `${group} ${kind}`, hovertemplate: '%{y:.4~g} mm', meta: `${kind} ${group}` });
+  return [...(robust ? [line('robust', 'dot', rpm, robust, lobe.status)] : []),
+    ...compared.map((other, k) => line(other.name.replaceAll('_', ' '), dashes[1 + (k % (dashes.length - 1))], other.rpm, other.depth, other.status))];
 }
 
 /** The chatter's frequency as a line that breaks where it jumps, with a mark of its kind here and there: one on every speed hides all others. */
@@ -243,10 +254,12 @@ function limitNotes(runs, curves, log, colours) {
 }
 
 function columns(curves) {
-  return curves.flatMap(({ run, lobe, rpm, depth, error, chatter }) => {
+  return curves.flatMap(({ run, lobe, rpm, depth, error, chatter, robust, compared }) => {
     const of = `${run.label}, ${lobeTitle(lobe.name)}`;
     return [{ name: `${of}: spindle speed (rpm)`, values: Array.from(rpm) }, { name: `${of}: limiting depth (mm)`, values: scaled(depth, 1e3) },
       { name: `${of}: estimated error (relative)`, values: Array.from(error ?? []) }, { name: `${of}: chatter frequency (Hz)`, values: Array.from(chatter) },
-      { name: `${of}: kind`, values: lobe.kind }, { name: `${of}: status`, values: lobe.status }];
+      { name: `${of}: kind`, values: lobe.kind }, { name: `${of}: status`, values: lobe.status },
+      ...(robust ? [{ name: `${of}: robust depth (mm)`, values: scaled(robust, 1e3) }] : []),
+      ...compared.flatMap((other) => [{ name: `${of}, ${other.name}: spindle speed (rpm)`, values: Array.from(other.rpm) }, { name: `${of}, ${other.name}: limiting depth (mm)`, values: scaled(other.depth, 1e3) }])];
   });
 }

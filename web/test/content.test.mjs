@@ -8,7 +8,7 @@ import { after, before, describe, test } from 'node:test';
 import { extent, shapeOf, surface } from '../src/shapes.js';
 import { colours, drawn, launch, open, slide, traces } from './browser.mjs';
 import { compose } from './compose.mjs';
-import { alongPath, measured, noArm, oneRun, pack, partAlone, toolOnly, twoRuns } from './synthetic.mjs';
+import { alongPath, measured, noArm, oneRun, pack, partAlone, robust, toolOnly, twoRuns } from './synthetic.mjs';
 
 const folder = mkdtempSync(path.join(os.tmpdir(), 'thinwall-content-'));
 let browser;
@@ -113,6 +113,19 @@ describe('the charts', () => {
     const best = (await traces(page, 'lobes')).find((t) => t.meta === 'pockets 0 supported');
     assert.deepEqual(best.x, [2400, 1200]);
   }));
+
+  test('robust limits and other methods are drawn where they are, and said', async () => {
+    await shown(oneRun(), async (page) => assert.doesNotMatch(await lead(page, 'lobes'), /robust|other methods/));
+    await shown(robust(), async (page) => {
+      assert.match(await lead(page, 'lobes'), /Dotted: the robust limit, which holds for 2 standard deviations .* Thin lines: the limits of other methods, where they converged\./);
+      const list = await traces(page, 'lobes');
+      const [limit, dotted, other] = ['limit', 'robust', 'zeroth order'].map((kind) => list.find((t) => t.meta === `${kind} 0 supported`));
+      assert.equal(dotted.line.dash, 'dot');
+      dotted.y.forEach((y, k) => (limit.y[k] === null ? assert.equal(y, null) : assert.ok(Math.abs(y - 0.8 * limit.y[k]) < 1e-5 * y)));
+      assert.deepEqual(other.x, [1000, 2000, 3000]);
+      assert.deepEqual(other.y.map((y) => y && Number(y.toPrecision(5))), [2, null, 3]);
+    });
+  });
 
   test('two runs are told apart in every trace', () => shown(twoRuns(), async (page) => {
     const look = (id) => page.evaluate((name) => document.getElementById(name).data.map((t) => ({ meta: t.meta, name: t.name, dash: t.line?.dash, symbol: t.marker?.symbol, size: t.marker?.size })), id);

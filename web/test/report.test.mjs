@@ -114,8 +114,11 @@ for (const file of reports) {
         const limit = shown.find((t) => t.meta === `limit 0 ${name}`);
         const chatter = shown.find((t) => t.meta === `chatter 0 ${name}`);
         assert.equal(limit.x.length, rows.length);
+        const dotted = shown.find((t) => t.meta === `robust 0 ${name}`);
+        assert.equal(Boolean(dotted), 'robust_depth_m' in rows[0]);
         rows.forEach((row, i) => {
           close(limit.x[i], row.spindle_speed_rpm);
+          if (dotted && row.status !== 'not_converged') close(dotted.y[i], row.robust_depth_m * 1e3, rounded);
           if (row.status === 'not_converged') assert.equal(limit.y[i], null);
           else close(limit.y[i], row.limiting_depth_m * 1e3);
           if (row.status === 'converged') assert.ok(chatter.x.some((x, k) => Math.abs(x - row.spindle_speed_rpm) < 1e-6 * x && Math.abs(chatter.y[k] - row.chatter_frequency_hz) <= rounded * row.chatter_frequency_hz), `${name}: chatter at ${row.spindle_speed_rpm} rpm`);

@@ -26,6 +26,7 @@ function lobe(name, floor, best) {
   const kind = rpm.map((_, i) => ['hopf', 'flip', 'fold', ''][i % 4]);
   const least = depth.reduce((best_, d, i) => (status[i] === 'converged' && d < depth[best_] ? i : best_), 0);
   return {
+    depth,
     document: { name, rpm: pack('f64', [n], rpm), depth_m: pack('f64', [n], depth), error_relative: pack('f32', [n], rpm.map(() => 0.02)), chatter_hz: pack('f32', [n], rpm.map((x, i) => (i > 60 && i < 66 ? 20 * x : x / 5))), kind, status,
       truncation_m: pack('f32', [n], depth.map((d) => d * 0.03)), tooth_passing_hz: [100, 180],
       crossings: { rpm: pack('f64', [n], rpm), depth_m: pack('f64', [n], depth), chatter_hz: pack('f32', [n], rpm.map((x) => x / 5)), kind } },
@@ -102,6 +103,16 @@ const document = (headline, runs) => ({ schema: 1, program: 'thinwall 0.0', head
 
 export const oneRun = () => document(['With the robot: stable up to 2 mm.', 'Part alone: 0.2 mm.'], [run('plate', 'P', 1)]);
 export const twoRuns = () => ({ ...document(['first: 2 mm.', 'first: an error.', 'second: 3 mm.'], [run('first', 'P', 1), run('second', 'P', 1.3)]), differences: [['part.length', 0.39, 0.4], ['robot.model', 'one_mode', null]] });
+
+/** With a robust limit at 0.8 of the other, and the limits of another method. */
+export function robust() {
+  const data = oneRun();
+  const [, chart] = data.runs[0].lobes;
+  chart.robust_depth_m = pack('f32', chart.rpm.shape, lobe('supported', 0.002, 2400).depth.map((d) => 0.8 * d));
+  chart.compared = [{ name: 'zeroth_order', rpm: pack('f64', [3], [1000, 2000, 3000]), depth_m: pack('f32', [3], [0.002, 0.001, 0.003]), status: ['converged', 'not_converged', 'converged'] }];
+  data.runs[0].summary.lobes[1].robust = { confidence: 2, minimum_depth_m: 0.0016, at_spindle_speed_rpm: 1000 };
+  return data;
+}
 
 /** As of `thinwall lobes`: a chart of the tool, no part, no robot, no receptances. */
 export function toolOnly() {
