@@ -117,10 +117,21 @@ void log_steps(const fem::Estimate& estimate) {
                  step.level, step.order, step.dofs, step.frequency_change.value_or(0.0),
                  step.receptance_change.value_or(0.0));
   }
-  if (!estimate.met) {
-    spdlog::warn("the tolerance of {} was not met{}: frequencies are right to about {:.1e}, receptances to {:.1e}",
-                 estimate.tolerance, estimate.held_back ? ", for the next model would be too large" : "",
-                 estimate.frequency, estimate.receptance);
+  if (estimate.met) return;
+  spdlog::warn("the tolerance of {} was not met{}: frequencies are right to about {:.1e}, receptances to {:.1e}",
+               estimate.tolerance, estimate.held_back ? ", for the next model would be too large" : "",
+               estimate.frequency, estimate.receptance);
+}
+
+/// A force on a single point of a solid moves it without bound as elements shrink.
+void warn_of_points_without_patch(const Case& source) {
+  for (const std::string& name : source.reduction.interface) {
+    if (point(source, name).patch_radius > 0.0) continue;
+    spdlog::warn(
+        "points.{} has no patch_radius: its own receptance grows as the elements shrink, and no tolerance on it is "
+        "met; "
+        "give the radius over which the cutter or the robot presses",
+        name);
   }
 }
 
@@ -163,6 +174,7 @@ Discretisation refined_surface(const Case& source) {
   options.modes.verify_count = false;
   options.supports = supports_of(source);
   options.points = watched_points(source);
+  options.points_hold = !source.reduction.interface.empty();
   options.attachments = attachments_of(source);
   options.materials = several_materials(source);
   options.divided = [&source](mesh::TetMesh mesh) { return cut_at_materials(source, std::move(mesh)); };
@@ -188,6 +200,7 @@ Discretisation refined_surface(const Case& source) {
 }
 
 Discretisation refined_to_tolerance(const Case& source) {
+  warn_of_points_without_patch(source);
   if (source.part->shape == "surface") return refined_surface(source);
   const MeshOptions& wanted = source.part->mesh;
   fem::SolidPart part{[&](int level) { return cut_at_materials(source, graded_mesh(source, level)); },
@@ -204,6 +217,7 @@ Discretisation refined_to_tolerance(const Case& source) {
   options.reentrant_edges = mesh::has_reentrant_edge(planar(*source.part).prism);
   if (options.reentrant_edges) options.levels = 2;  // more bring little: across a rib one element remains
   options.points = watched_points(source);
+  options.points_hold = !source.reduction.interface.empty();
   if (wanted.order) {
     options.last_order = std::max(2, *wanted.order);
     options.first_order = options.last_order - 1;

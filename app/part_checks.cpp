@@ -214,21 +214,41 @@ double tets_in(const Eigen::AlignedBox3d& cell, const Grading& grading) {
   return tets_in(lower, grading) + tets_in(upper, grading);
 }
 
+double area_of(const mesh::TriangleSurface& surface) {
+  double area = 0.0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    area += mesh::area_vector(surface, static_cast<int>(t)).norm();
+  return area;
+}
+
 /// Twice as many as an even layer of triangles of the usual size (mesh::SurfaceSize) on both sides of a wall, three
 /// tetrahedra for two triangles, as edges are lined with layers; five times as many on the second level, which edges
 /// that turn inwards call for.
 double elements_in_surface(const Part& part) {
   const mesh::SurfaceRepair& imported = *part.imported->surface;
-  double area = 0.0;
-  for (const auto& t : imported.surface.triangles) {
-    const auto& x = imported.surface.vertices;
-    const auto vertex = [&](int k) { return x[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])]; };
-    area += 0.5 * (vertex(1) - vertex(0)).cross(vertex(2) - vertex(0)).norm();
-  }
-  const double wall = 2.0 * imported.volume_m3 / area;
+  const double area = area_of(imported.surface), wall = 2.0 * imported.volume_m3 / area;
   const double size = part.mesh.element_size.value_or(std::min(9.0 * wall, part.imported->box.diagonal().norm() / 8.0));
   const bool finer = !part.mesh.element_size && fem::has_reentrant_edge(imported.surface);
   return (finer ? 5.0 : 1.0) * 2.0 * 1.5 * area / (0.433 * size * size);
+}
+
+/// Walls so thin that elements of their size are too many: most often the unit is another than stated.
+void check_surface_size(const Case& source, Findings& findings) {
+  const Part& part = *source.part;
+  const double dofs = estimate_size(source).dofs;
+  if (!(dofs > most_dofs)) return;
+  const mesh::SurfaceRepair& imported = *part.imported->surface;
+  const auto length = [](double value) { return core::readable_text(value, core::kind::length); };
+  const std::string wall = "walls of " + length(2.0 * imported.volume_m3 / area_of(imported.surface)) + " on the whole";
+  const std::string many =
+      "about " + core::readable_text(dofs, core::kind::number) + " degrees of freedom, at most 5e+06 are solved; ";
+  if (part.mesh.element_size) {
+    findings.report("part.mesh.element_size",
+                    length(*part.mesh.element_size) + " would make " + many + "take larger elements or a lower order");
+  } else {
+    findings.report("part.file", "in a part of its size, " + wall + " would make " + many +
+                                     "check part.unit, or give part.mesh.element_size");
+  }
 }
 
 /// What is too much, and the size or order that would do; a uniform mesh grows with the cube of its fineness.
@@ -246,6 +266,7 @@ void check_mesh_size(const Case& source, Findings& findings) {
     findings.report("part.mesh.tolerance", "a surface from a file is followed to 0.001 at best; take that or more");
   if (mesh.element_size && mesh.tolerance != usual_tolerance(*source.part))
     findings.report("part.mesh.tolerance", "nothing is estimated with a given element_size; remove one of the two");
+  if (source.part->shape == "surface") check_surface_size(source, findings);
   if (!by_tetgen(*source.part)) return;
   const int order_now = mesh.order.value_or(2);
   const SizeEstimate size = estimate_size(source);

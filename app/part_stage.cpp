@@ -18,8 +18,8 @@
 #include "core/memory.hpp"
 #include "core/units.hpp"
 #include "fem/closed_part.hpp"
-#include "fem/free_motions.hpp"
 #include "fem/points.hpp"
+#include "fem/seen_motions.hpp"
 #include "mesh/surface_to_volume.hpp"
 #include "mesh/tessellation.hpp"
 #include "mesh/triangle_tree.hpp"
@@ -32,20 +32,6 @@
 namespace thinwall::app {
 
 namespace {
-
-/// The part's rigid-body modes must all show at the interface: points on one line, say, do not see the turn about it.
-void require_held_by_interface(const PartResult& part) {
-  const Eigen::Index rigid = part.modes.rigid_motions;
-  if (rigid == 0) return;  // softly sprung
-  const Eigen::MatrixXd seen = part.interface.W.transpose() * part.modes.pairs.Phi.leftCols(rigid);
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(seen);
-  svd.setThreshold(1e-6);
-  if (svd.rank() == rigid) return;
-  throw core::InputError(
-      "the part can move rigidly in " + std::to_string(rigid) + " ways (" + fem::listed(part.model.free_motions) +
-      ") and its points see " + std::to_string(svd.rank()) +
-      " of them: add a support, or a point off the line of the others; without points, modes alone are computed");
-}
 
 void require_solved(double relative_residual) {
   if (relative_residual < 1e-6) return;
@@ -77,7 +63,8 @@ void reduce_to_tolerance(const Case& source, PartResult& part) {
 
 /// The reduced model and what it leaves out.
 void reduce(const Case& source, PartResult& part, const fem::Factored& factored) {
-  if (factored.sigma != 0.0) require_held_by_interface(part);
+  if (factored.sigma != 0.0)
+    fem::require_motions_seen(part.model, part.modes, part.interface.W.transpose() * part.modes.pairs.Phi);
   if (source.reduction.tolerance) return reduce_to_tolerance(source, part);
   const auto inner = static_cast<int>(part.model.K.rows() - part.interface.W.cols());  // a small model has few
   const reduction::CraigBamptonOptions options{std::min(source.reduction.fixed_interface.count.value_or(30), inner),

@@ -73,6 +73,7 @@ json part_of(const Results& results) {
                  {"mass_difference_relative", part.mass_difference},
                  {"rigid_body_modes", part.modes.rigid_motions},
                  {"modes", modes}};
+  if (!part.model.mesh.tets.empty()) result["free_motions"] = part.model.free_motions;
   if (part.modes.count_verified) result["count_verified"] = *part.modes.count_verified;
   for (const auto& found : part.identified) {
     json entry = mode(found.frequency_hz, found.damping_ratio);

@@ -52,14 +52,23 @@ void answer(std::string& out, const json& summary) {
   if (!out.empty()) out += '\n';
 }
 
-/// Frequencies and damping ratios in two lines; rigid-body modes are counted, not listed.
-void modes(std::string& out, const std::string& title, const json& list, std::size_t most) {
+/// ": translation along x, rotation about y", the ways in which the part moves rigidly.
+std::string free_motions(const json& part) {
+  std::string words;
+  for (const json& motion : part.value("free_motions", json::array()))
+    words += (words.empty() ? ": " : ", ") + motion.get<std::string>();
+  return words;
+}
+
+/// Frequencies and damping ratios in two lines; rigid-body modes are counted, with `words` of them.
+void modes(std::string& out, const std::string& title, const json& list, std::size_t most,
+           const std::string& words = "") {
   std::vector<const json*> elastic;
   for (const json& mode : list) {
     if (!mode.contains("rigid_body")) elastic.push_back(&mode);
   }
   if (elastic.size() < list.size())
-    out += fmt::format("  {:<22}{:>9}\n", "rigid-body modes", list.size() - elastic.size());
+    out += fmt::format("  {:<22}{:>9}{}\n", "rigid-body modes", list.size() - elastic.size(), words);
   if (elastic.empty()) return;
   const std::size_t shown = std::min(most, elastic.size());
   std::string frequencies;
@@ -68,7 +77,7 @@ void modes(std::string& out, const std::string& title, const json& list, std::si
   for (std::size_t k = 0; k < shown; ++k) {
     const json& given = (*elastic[k])["damping_ratio"];
     const double ratio = given.is_null() ? 0.0 : given.get<double>();
-    frequencies += fmt::format("{:>9.2f}", (*elastic[k])["frequency_hz"].get<double>());
+    frequencies += fmt::format(" {:>8.2f}", (*elastic[k])["frequency_hz"].get<double>());
     ratios += fmt::format("{:>9.2f}", ratio * 100.0);
     damped = damped || ratio > 0.0;
   }
@@ -147,6 +156,11 @@ void trust(std::string& out, const json& summary) {
     out += fmt::format("  mesh        {} tetrahedra of order {}, {} degrees of freedom, lowest quality {:.2f}\n",
                        summary["mesh"]["elements"].get<int>(), summary["mesh"]["order"].get<int>(),
                        summary["mesh"]["dofs"].get<int>(), summary["mesh"]["min_quality"].get<double>());
+    if (const json& estimate = summary["mesh"]["error_estimate"]; estimate.is_object())
+      out += fmt::format("    by estimate frequencies within {:.1e}, receptances within {:.1e}; asked for {:g}{}\n",
+                         estimate["max_relative_frequency_error"].get<double>(),
+                         estimate["max_relative_receptance_error"].get<double>(), estimate["tolerance"].get<double>(),
+                         estimate["met"].get<bool>() ? "" : ", NOT MET: see run.log");
   }
   if (summary.contains("reduction")) {
     const json& r = summary["reduction"];
@@ -181,7 +195,8 @@ std::string terminal_report(const json& summary, const std::string& result_folde
   answer(out, summary);
   const std::string title = summary["title"].get<std::string>();
   out.insert(0, "\n" + (title.empty() ? summary["case"].get<std::string>() : title) + "\n\n");
-  if (summary.contains("part")) modes(out, "modes of the part", summary["part"]["modes"], 6);
+  if (summary.contains("part"))
+    modes(out, "modes of the part", summary["part"]["modes"], 6, free_motions(summary["part"]));
   if (summary.contains("robot")) modes(out, "modes of the robot", summary["robot"]["modes"], 6);
   if (summary.contains("coupling")) {
     const json& coupling = summary["coupling"];

@@ -99,6 +99,7 @@ ClosedPart refine_closed_part(const mesh::TriangleSurface& surface, const Materi
   steps.tolerance = (1.0 - share_of_surface) * options.tolerance;
   steps.modes = options.modes;
   steps.points = options.points;
+  steps.points_hold = options.points_hold;
   steps.first_order = options.first_order;
   steps.last_order = options.last_order;
   steps.levels = options.levels;

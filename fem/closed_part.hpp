@@ -21,6 +21,7 @@ struct ClosedPartOptions {
   ModeOptions modes{.count = 5, .up_to_hz = {}, .verify_count = false};
   std::vector<Support> supports;   ///< none: a free part
   std::vector<NamedPoint> points;  ///< where receptances count
+  bool points_hold = false;        ///< as ToleranceOptions has it
   Attachments attachments{};
   std::function<Materials(const mesh::TetMesh&)> materials{};  ///< of a part of several, on each mesh
   std::function<mesh::TetMesh(mesh::TetMesh)> divided{};       ///< each mesh, before it is used; none: as it is

@@ -17,5 +17,6 @@
 #include "fem/points.hpp"
 #include "fem/rigid_body.hpp"
 #include "fem/rigid_patch.hpp"
+#include "fem/seen_motions.hpp"
 #include "fem/supports.hpp"
 #include "fem/to_tolerance.hpp"

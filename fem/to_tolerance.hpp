@@ -29,6 +29,7 @@ struct ToleranceOptions {
   double tolerance = 1e-3;  ///< on frequencies and receptances, relative; 1e-6 to 0.1
   ModeOptions modes;
   std::vector<NamedPoint> points;  ///< where receptances count
+  bool points_hold = false;        ///< whether the points must see what rigid motions there are (require_motions_seen)
   int first_order = 4;             ///< of a level; 1 to 5
   int last_order = 6;              ///< of a level; above first_order, to 6
   int levels = 4;
@@ -76,8 +77,8 @@ struct [[nodiscard]] Refined {
 /// convergence with elements graded to edges and rising order). Receptances between the points are compared at zero (or
 /// at the shift of a free part) and between resonances that lie more than a quarter apart; nearer to a resonance they
 /// magnify the error of its frequency. Throws InputError for options out of range and for largest_dofs below what the
-/// first two orders of the first level have, and what the steps throw. Cost: that
-/// of the last step, and about a third more for those before.
+/// first two orders of the first level have, points that do not see what they must, and what the steps throw. Cost:
+/// that of the last step, and about a third more for those before.
 Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& options);
 
 }  // namespace thinwall::fem

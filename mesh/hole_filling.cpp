@@ -99,7 +99,7 @@ SurfaceFinding fill_holes(TriangleSoup& soup, int largest_edges, const ProcessLi
 
 SurfaceFinding open_edges(const TriangleSoup& soup) {
   SurfaceFinding finding{.what = "edges with one triangle: the surface is open",
-                         .remedy = "close it, or ask for small holes to be filled"};
+                         .remedy = "close it, or let small holes be filled (repair.largest_hole)"};
   for_each_edge(sorted_edges(soup.triangles), [&](std::span<const EdgeUse> uses) {
     if (uses.size() != 1) return;
     const auto at = [&](std::size_t k) { return soup.points[static_cast<std::size_t>(uses[0].ends[k])]; };

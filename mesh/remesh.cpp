@@ -7,8 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 
+#include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/units.hpp"
 
 namespace thinwall::mesh {
 
@@ -43,6 +46,7 @@ struct Work {
   Mesh::Property_map<Edge, int> line;  // −1: not sharp
   Mesh::Property_map<Vertex, bool> is_corner;
   Mesh::Property_map<Vertex, std::vector<Place>> places;
+  std::size_t most_vertices = 500000;  // models of a tenth of that are too large to be solved
 
   explicit Work(const SizeSpace& size_space)
       : space(size_space),
@@ -168,12 +172,23 @@ void split(Work& work, Edge e, const Eigen::Vector3d& x) {
   }
 }
 
+[[noreturn]] void refuse_so_fine(const Work& work, Edge e) {
+  const Eigen::Vector3d x = 1e3 * work.mesh.point(work.mesh.vertex(e, 0));
+  throw core::InputError(
+      "a surface of more than " + std::to_string(work.most_vertices) + " vertices would be needed, at last near (" +
+      core::number_text(x(0), 3) + ", " + core::number_text(x(1), 3) + ", " + core::number_text(x(2), 3) +
+      ") mm: the wall is too thin there for a part of this size; check the unit, thicken it, or take "
+      "larger elements");
+}
+
 int split_long_edges(Work& work) {
   int splits = 0;
   auto edges = measured_edges(work);
   for (auto it = edges.rbegin(); it != edges.rend() && it->first > too_long; ++it) {
     const auto [now, patch] = longest(work, it->second);
     if (!(now > too_long)) continue;  // its other half, after a split of this sweep
+    core::check_interrupt();
+    if (work.mesh.number_of_vertices() > work.most_vertices) refuse_so_fine(work, it->second);
     split(work, it->second, halving_point(work, it->second, patch));
     ++splits;
   }
@@ -266,7 +281,10 @@ void flip_edges(Work& work) {
   bool changed = true;
   for (int sweep = 0; sweep < sweeps && changed; ++sweep) {
     changed = false;
-    for (const Edge e : work.mesh.edges()) changed = flip_if_better(work, e) || changed;
+    for (const Edge e : work.mesh.edges()) {
+      core::check_interrupt();
+      changed = flip_if_better(work, e) || changed;
+    }
   }
 }
 
@@ -388,6 +406,7 @@ Remeshed unload(Work& work) {
 Remeshed remesh(const TriangleSurface& surface, const SurfaceFeatures& features, const SizeSpace& space) {
   Work work(space);
   load(work, surface, features);
+  work.most_vertices = std::max(work.most_vertices, 2 * surface.vertices.size());
   for (int round = 0; round < rounds; ++round) {
     core::check_interrupt();
     const int changes = split_down(work) + collapse_short_edges(work);

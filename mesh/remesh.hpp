@@ -20,7 +20,8 @@ struct Remeshed {
 /// worse triangle gets better, all measured in the space of wanted edges (mesh::SizeSpace): incremental remeshing
 /// (Botsch & Kobbelt 2004) with an anisotropic size. Sharp lines are split and collapsed along themselves only. A new
 /// triangle turns no more than 45° from the surface and lies within SizeSpace::allowed_deviation_m of it.
-/// The surface must be closed (mesh::require_closed). Deterministic. Cost O(n log n) for n input triangles.
+/// The surface must be closed (mesh::require_closed). Deterministic. Throws InputError, with the place, where more than
+/// 500 000 vertices and twice those of the input would be needed; Interrupted. Cost O(n log n) for n input triangles.
 [[nodiscard]] Remeshed remesh(const TriangleSurface& surface, const SurfaceFeatures& features, const SizeSpace& space);
 
 }  // namespace thinwall::mesh

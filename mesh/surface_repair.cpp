@@ -76,7 +76,8 @@ void merge(Bench& bench, const TriangleSoup& soup, const SurfaceRepairOptions& o
     throw core::InputError("merging points moves the surface by " + core::number_text(1e3 * merged.largest_way, 3) +
                            " mm, more than " + core::number_text(1e3 * bound, 3) + " mm (" +
                            core::number_text(options.largest_movement, 3) + " of its diagonal), the first at " +
-                           place_text(merged.first_merged) + "; merge within less");
+                           place_text(merged.first_merged) +
+                           "; merge within less (repair.merge_tolerance), or allow more (repair.largest_movement)");
   }
 }
 

@@ -17,10 +17,11 @@
 namespace thinwall::app {
 namespace {
 
-/// A plate 100 x 60 x 4 mm with a corner at `corner` (m), in mm, with its first facets left out.
+/// A plate 100 x 60 x 4 mm, or of another thickness, with a corner at `corner` (m), in mm, with its first facets left
+/// out.
 void write_plate(const std::filesystem::path& file, const Eigen::Vector3d& corner = Eigen::Vector3d::Zero(),
-                 int left_out = 0) {
-  mesh::TriangleSoup soup = mesh::soup(mesh::triangulated(mesh::surface(mesh::Box{{0.1, 0.06, 0.004}})));
+                 int left_out = 0, double thickness_m = 0.004) {
+  mesh::TriangleSoup soup = mesh::soup(mesh::triangulated(mesh::surface(mesh::Box{{0.1, 0.06, thickness_m}})));
   for (auto& x : soup.points) x += corner;
   soup.triangles.erase(soup.triangles.begin(), soup.triangles.begin() + left_out);
   io::write_stl(file, soup, 1e-3);
@@ -104,6 +105,19 @@ TEST(PartFile, WhatTheFileHoldsIsRefusedWithItsNameAndPlace) {
   EXPECT_EQ(problem_of("file = \"far.stl\"\nunit = \"mm\"\norigin = [\"1000 m\", 0, 0]", folder.path), "no problem");
   EXPECT_EQ(problem_of("file = \"open.stl\"\nunit = \"mm\"\n[part.repair]\nlargest_hole = 3", folder.path),
             "no problem");
+}
+
+TEST(PartFile, AFoilIsRefusedBeforeItIsMeshed) {
+  const TemporaryFolder folder;
+  const std::string foil = "file = \"foil.stl\"\nunit = \"mm\"";
+  for (const double thickness : {1e-6, 1e-5}) {
+    write_plate(folder.path / "foil.stl", Eigen::Vector3d::Zero(), 0, thickness);
+    expect_problem(foil, folder.path, "at most 5e+06 are solved; check part.unit, or give part.mesh.element_size");
+    EXPECT_EQ(problem_of(foil + "\n[part.mesh]\nelement_size = \"5 mm\"", folder.path), "no problem");
+    expect_problem(foil + "\n[part.mesh]\nelement_size = \"0.01 mm\"", folder.path, "take larger elements");
+  }
+  write_plate(folder.path / "foil.stl", Eigen::Vector3d::Zero(), 0, 5e-4);
+  EXPECT_EQ(problem_of(foil, folder.path), "no problem");
 }
 
 /// Two masses on springs, the first to ground, as Matrix Market in mm and t.

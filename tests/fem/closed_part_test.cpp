@@ -71,6 +71,35 @@ TEST(ClosedPart, KeepsWithinTheBoundOnDegreesOfFreedomAndSaysSo) {
   }
 }
 
+TEST(ClosedPart, PointsThatDoNotSeeHowAFreePartMovesEndItBeforeItIsRefined) {
+  const mesh::TriangleSurface surface = plate_surface();
+  ClosedPartOptions options;
+  options.tolerance = 1e-3;
+  options.levels = 2;
+  options.points_hold = true;
+  const auto at = [&](std::size_t vertex) {
+    return NamedPoint{"P" + std::to_string(vertex),
+                      surface.vertices[vertex],
+                      0.0,
+                      {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()}};
+  };
+  options.points = {at(0)};
+  try {
+    (void)refine_closed_part(surface, steel, options);
+    FAIL() << "one point sees no turn";
+  } catch (const core::InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("in 6 ways (translation along x"), std::string::npos) << text;
+    EXPECT_NE(text.find("see 3 of them: add a support, or a point"), std::string::npos) << text;
+  }
+  options.points = {at(0), at(1)};
+  EXPECT_THROW((void)refine_closed_part(surface, steel, options), core::InputError) << "the turn about their line";
+  options.tolerance = 0.1;
+  options.levels = 1;
+  options.points = {at(0), at(1), at(2)};
+  EXPECT_EQ(refine_closed_part(surface, steel, options).refined.modes.rigid_motions, 6);
+}
+
 TEST(ClosedPart, RefusesWhatCannotBe) {
   ClosedPartOptions options;
   options.tolerance = 1e-4;

@@ -5,6 +5,7 @@
 #include "app/case_reader.hpp"
 #include "app/pipeline.hpp"
 #include "app/reduce_command.hpp"
+#include "app/terminal_report.hpp"
 #include "core/atomic_file.hpp"
 #include "fem/model.hpp"
 #include "fem/modes.hpp"
@@ -230,6 +231,9 @@ TEST(PartFile, ClampsGoFromFreeToHeldAndMassesCount) {
   const auto free = run_with("", "free");
   const auto soft = run_with(clamps("1 N/m^3"), "soft");
   EXPECT_EQ(free["part"]["rigid_body_modes"], 6);
+  EXPECT_EQ(free["part"]["free_motions"].size(), 6U) << free["part"].dump();
+  EXPECT_NE(terminal_report(free, "r").find("6: translation along x, "), std::string::npos)
+      << terminal_report(free, "r");
   EXPECT_NEAR(frequencies(soft).back() / frequencies(free).back(), 1.0, 1e-6);
   const std::string mass =
       "[[part.masses]]\nat = \"P\"\nmass = \"20 g\"\n[points.P]\nposition = [0.03, 0.1, 0.004]\npatch_radius = \"5 "
@@ -344,6 +348,16 @@ TEST(PartFile, APointOnACurvedSurfaceIsHeldToTheFileAndMovedToTheMesh) {
       run_case(parse_case(text(there, "patch_radius = \"2 mm\"\n"), folder), {folder / "disc", true, -1, false})
           .summary;
   EXPECT_EQ(at_point["status"], "ok");
+  // What the mesh costs stands in the answer, and whether that is what was asked for; and no free motion is there.
+  const std::string text_of_run = terminal_report(at_point, "results");
+  const auto& estimate = at_point["mesh"]["error_estimate"];
+  EXPECT_NE(text_of_run.find("by estimate frequencies within"), std::string::npos) << text_of_run;
+  EXPECT_EQ(text_of_run.find("NOT MET") == std::string::npos, estimate["met"].get<bool>()) << text_of_run;
+  nlohmann::json missed = at_point;
+  missed["mesh"]["error_estimate"]["met"] = !estimate["met"].get<bool>();
+  EXPECT_EQ(terminal_report(missed, "results").find("NOT MET") == std::string::npos, !estimate["met"].get<bool>());
+  EXPECT_TRUE(at_point["part"]["free_motions"].empty());
+  EXPECT_EQ(text_of_run.find("rigid-body modes"), std::string::npos) << text_of_run;
   EXPECT_EQ(over_disc["status"], "ok");
   try {
     (void)parse_case(text("[\"3.158 mm\", \"3.4 mm\", \"60 mm\"]", ""), folder);

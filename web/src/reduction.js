@@ -36,12 +36,14 @@ function meshTable(runs) {
     ['Worst quality (1 is best)', of((m) => (isNumber(m.min_quality) ? number(m.min_quality, 3) : null))],
     ['Smallest dihedral angle', of((m) => (isNumber(m.smallest_dihedral_deg) ? `${number(m.smallest_dihedral_deg, 3)}°` : null))],
     ['Worst aspect ratio', of((m) => (isNumber(m.worst_aspect_ratio) ? number(m.worst_aspect_ratio, 3) : null))],
-    ['Estimated error of the frequencies', of((m) => relative(m.error_estimate?.max_relative_frequency_error))],
-    ['Estimated error of the receptances', of((m) => relative(m.error_estimate?.max_relative_receptance_error))],
+    ['Estimated error of the frequencies', of((m) => estimated(m, 'max_relative_frequency_error'))],
+    ['Estimated error of the receptances', of((m) => estimated(m, 'max_relative_receptance_error'))],
     ['Mass of the part', of((_, s) => (isNumber(s.part?.mass_kg) ? `${number(s.part.mass_kg, 4)} kg` : null))],
   ]);
 }
 
+/** With what was asked for, where it was not reached. */
+const estimated = ({ error_estimate: e }, key) => (isNumber(e?.[key]) ? percent(e[key], 2) + (e.met === false && e[key] > e.tolerance ? `, more than the ${percent(e.tolerance, 2)} asked for` : '') : null);
 const relative = (x) => (isNumber(x) ? percent(x, 2) : null);
 const truncated = (budget) => (budget?.truncation ? `${percent(budget.truncation.largest_relative, 2)} at ${hertz(budget.truncation.at_frequency_hz)}` : null);
 
