@@ -14,6 +14,7 @@
 #include "app/command_sweep.hpp"
 #include "app/compare.hpp"
 #include "app/completion.hpp"
+#include "app/discretisation.hpp"
 #include "app/doctor.hpp"
 #include "app/imported_part.hpp"
 #include "app/inspect_command.hpp"
@@ -150,6 +151,7 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
     out << "  DOFs      about " << rounded(size.dofs) << '\n'
         << "  time      about " << core::readable_text(std::max(1.0, size.seconds), core::kind::time)
         << " for mesh, modes and reduction on two cores\n";
+    for (const std::string& warning : unreachable_tolerances(source)) out << "  warning   " << warning << '\n';
   }
   if (source.lobes) out << "  lobes     " << source.lobes->count << " speeds\n";
   if (!expectations.empty()) out << "  expected  " << expectations.size() << " figures\n";

@@ -123,18 +123,6 @@ void log_steps(const fem::Estimate& estimate) {
                estimate.frequency, estimate.receptance);
 }
 
-/// A force on a single point of a solid moves it without bound as elements shrink.
-void warn_of_points_without_patch(const Case& source) {
-  for (const std::string& name : source.reduction.interface) {
-    if (point(source, name).patch_radius > 0.0) continue;
-    spdlog::warn(
-        "points.{} has no patch_radius: its own receptance grows as the elements shrink, and no tolerance on it is "
-        "met; "
-        "give the radius over which the cutter or the robot presses",
-        name);
-  }
-}
-
 /// Says what spheres of another material cost; returns their share of the part.
 double warn_of_misplaced(const Case& source, const mesh::TetMesh& mesh) {
   const double share = misplaced_share(source, mesh);
@@ -200,7 +188,7 @@ Discretisation refined_surface(const Case& source) {
 }
 
 Discretisation refined_to_tolerance(const Case& source) {
-  warn_of_points_without_patch(source);
+  for (const std::string& warning : unreachable_tolerances(source)) spdlog::warn("{}", warning);
   if (source.part->shape == "surface") return refined_surface(source);
   const MeshOptions& wanted = source.part->mesh;
   fem::SolidPart part{[&](int level) { return cut_at_materials(source, graded_mesh(source, level)); },
@@ -336,6 +324,19 @@ fem::NamedPoint named_point(const Case& source, const std::string& name) {
 
 fem::ModeOptions mode_options(const Case& source) {
   return {source.modes.range.count.value_or(10), source.modes.range.up_to_hz, source.modes.verify_count};
+}
+
+std::vector<std::string> unreachable_tolerances(const Case& source) {
+  std::vector<std::string> warnings;
+  if (!source.part || source.part->mesh.element_size) return warnings;
+  if (source.part->shape == "matrices" || source.part->shape == "mesh") return warnings;
+  for (const std::string& name : source.reduction.interface) {
+    if (point(source, name).patch_radius > 0.0) continue;
+    warnings.push_back("points." + name +
+                       " has no patch_radius: its receptance grows as the elements shrink, and no tolerance on it is "
+                       "met; give the radius over which cutter or robot press");
+  }
+  return warnings;
 }
 
 Discretisation discretise(const Case& source) {

@@ -66,6 +66,10 @@ struct PlanarPart {
 [[nodiscard]] fem::NamedPoint named_point(const Case& source, const std::string& name);
 [[nodiscard]] fem::ModeOptions mode_options(const Case& source);
 
+/// A line for each point on whose receptance no tolerance can be met, for it has no patch: a force on a single place of
+/// a solid moves it without bound as elements shrink. None where size or mesh are given.
+[[nodiscard]] std::vector<std::string> unreachable_tolerances(const Case& source);
+
 /// Mesh and order: from the tolerance (fem::refine_to_tolerance), or as the case gives them.
 [[nodiscard]] Discretisation discretise(const Case& source);
 

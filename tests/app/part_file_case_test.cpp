@@ -4,6 +4,7 @@
 
 #include "app/case_checks.hpp"
 #include "app/case_reader.hpp"
+#include "app/discretisation.hpp"
 #include "app/imported_part.hpp"
 #include "app/part_materials.hpp"
 #include "app/stage_keys.hpp"
@@ -118,6 +119,20 @@ TEST(PartFile, AFoilIsRefusedBeforeItIsMeshed) {
   }
   write_plate(folder.path / "foil.stl", Eigen::Vector3d::Zero(), 0, 5e-4);
   EXPECT_EQ(problem_of(foil, folder.path), "no problem");
+}
+
+TEST(PartFile, APointWithoutAPatchIsToldOfWhereAToleranceIsHeld) {
+  const TemporaryFolder folder;
+  write_plate(folder.path / "plate.stl");
+  const std::string plate = surface_case("file = \"plate.stl\"\nunit = \"mm\"");
+  const std::string at = "[points.P]\nposition = [\"50 mm\", \"60 mm\", \"2 mm\"]\n";
+  const auto told = [&](const std::string& text) {
+    return unreachable_tolerances(parse_case(text, folder.path)).size();
+  };
+  EXPECT_EQ(told(plate), 0U);
+  EXPECT_EQ(told(plate + at), 1U);
+  EXPECT_EQ(told(plate + at + "patch_radius = \"2 mm\"\n"), 0U);
+  EXPECT_EQ(told(plate + at + "[part.mesh]\nelement_size = \"10 mm\"\n"), 0U);
 }
 
 /// Two masses on springs, the first to ground, as Matrix Market in mm and t.
