@@ -1,5 +1,7 @@
 #include "report/lobes_data.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -55,7 +57,7 @@ json compared_of(const fs::path& folder, const std::string& name, const json& su
   json list = json::array();
   for (const json& other : summary.value("compared", json::array())) {
     const auto method = other.at("name").get<std::string>();
-    const fs::path file = folder / (name + "_" + method + ".csv");
+    const fs::path file = folder / fmt::format("{}_{}.csv", name, method);
     if (!fs::exists(file)) continue;
     const Source chart(file);
     list.push_back({{"name", method},
