@@ -7,11 +7,26 @@
 #include "app/case_binding.hpp"
 #include "app/case_checks.hpp"
 #include "app/imported_part.hpp"
+#include "app/matrix_faults.hpp"
 #include "app/schema.hpp"
 #include "app/toml_values.hpp"
 #include "core/atomic_file.hpp"
 
 namespace thinwall::app {
+
+namespace {
+
+/// The part's file; of matrices that are refused the one at fault is named.
+std::shared_ptr<const ImportedPart> read_imported(const Part& part) {
+  try {
+    return read_part_file(part);
+  } catch (const core::InputError&) {
+    if (part.shape == "matrices") require_plausible_files(part.file.matrices);
+    throw;
+  }
+}
+
+}  // namespace
 
 std::filesystem::path case_file(const std::filesystem::path& folder_or_file) {
   std::error_code ignored;
@@ -32,7 +47,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& folder, co
   std::ranges::move(check_case(result), std::back_inserter(problems));
   if (!problems.empty()) throw CaseError({name, text, overrides}, std::move(problems));
   if (!result.part || !from_file(*result.part)) return result;
-  result.part->imported = read_part_file(*result.part);
+  result.part->imported = read_imported(*result.part);
   problems = check_case(result);  // what could not be told before its size was known
   if (!problems.empty()) throw CaseError({name, text, overrides}, std::move(problems));
   return result;

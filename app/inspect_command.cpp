@@ -6,6 +6,7 @@
 #include "app/model_report_json.hpp"
 #include "core/error.hpp"
 #include "io/json_file.hpp"
+#include "io/matrix_format.hpp"
 #include "reduction/sparse_report.hpp"
 
 namespace thinwall::app {
@@ -14,10 +15,23 @@ namespace {
 
 constexpr Eigen::Index largest_dense = 1500;  // rows; a dense report takes some ten seconds there
 
+/// What matrices need beside their file; the options that state it are named.
+void require_inspectable(const io::MatrixFiles& files) {
+  if (files.stiffness.empty())
+    throw core::UsageError("nothing to inspect: name a model, or matrices with --stiffness and --mass");
+  if (files.length_unit.empty())
+    throw core::UsageError("the files do not tell their unit of length: add --unit mm, or --unit m");
+  if (files.mass_unit.empty())
+    throw core::UsageError(
+        "the files do not tell their unit of mass: add --mass-unit t (beside mm, N and s) or --mass-unit kg (beside m, "
+        "N and s)");
+  if (files.mass.empty() && !io::may_hold_several_matrices(files.stiffness))
+    throw core::UsageError(files.stiffness.string() + " holds one matrix only: add --mass FILE");
+}
+
 /// Of matrices from files: dense where they are small enough, which tells more.
 reduction::ReducedModelReport report_of(const InspectRequest& request, std::string& notes) {
-  if (request.files.stiffness.empty())
-    throw core::InputError("nothing to inspect: name a model, or matrices with --stiffness and --mass");
+  require_inspectable(request.files);
   const io::ImportedMatrices imported = io::read_matrices(request.files);
   notes = "read as " + imported.format + "\n";
   for (const auto& note : imported.notes) notes += note + "\n";

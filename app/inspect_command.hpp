@@ -23,7 +23,8 @@ struct Inspection {
   bool trustworthy = false;
 };
 
-/// Throws DataError for files that cannot be read, InputError for what no model is.
+/// Throws UsageError for options that are missing, DataError for files that cannot be read, InputError for what no
+/// model is.
 [[nodiscard]] Inspection inspect(const InspectRequest& request);
 
 }  // namespace thinwall::app

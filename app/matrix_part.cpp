@@ -10,9 +10,11 @@
 #include <numbers>
 
 #include "app/imported_part.hpp"
+#include "app/matrix_faults.hpp"
 #include "core/error.hpp"
 #include "core/memory.hpp"
 #include "fem/modes.hpp"
+#include "linalg/sparse_cholesky.hpp"
 #include "reduction/rigid_count.hpp"
 
 namespace thinwall::app {
@@ -33,6 +35,25 @@ fem::Model model_of(const dynamics::SparseModel& matrices) {
     model.node_of_row.push_back(node);
   }
   return model;
+}
+
+/// Whether M is positive semi-definite: with another a search for modes may end with numbers all the same. Rows scaled
+/// to a unit diagonal; 1e-9 is round-off and holds rows without mass.
+bool has_definite_mass(const fem::Model& model) {
+  const Eigen::VectorXd diagonal = model.M.diagonal();
+  const Eigen::VectorXd scale = diagonal.cwiseMax(1e-14 * diagonal.maxCoeff()).cwiseSqrt().cwiseInverse();
+  const linalg::SparseMatrix scaled = scale.asDiagonal() * model.M * scale.asDiagonal();
+  linalg::SparseMatrix unit(model.M.rows(), model.M.rows());
+  unit.setIdentity();
+  try {
+    const linalg::SparseCholesky factor(linalg::combine(1.0, scaled, 1e-9, unit), model.node_of_row,
+                                        {core::available_memory_bytes()});
+    return true;
+  } catch (const linalg::MemoryLimitError&) {
+    throw;
+  } catch (const core::NumericalError&) {
+    return false;
+  }
 }
 
 /// What is counted as free though K holds it: by a soft suspension, or by the digits that a file has lost.
@@ -71,10 +92,10 @@ void count_rigid_motions(fem::Model& model) {
                   point, node, "xyz"[axis]));
 }
 
-}  // namespace
-
-Solution matrix_solution(const Case& source) {
+Solution solved_matrices(const Case& source) {
   fem::Model model = model_of(*source.part->imported->matrices);
+  if (!has_definite_mass(model))
+    require_definite_files(source.part->file.matrices, *source.part->imported->matrices);  // or the file's digits
   count_rigid_motions(model);
   fem::Factored factored = fem::factorise(model, core::available_memory_bytes());
   fem::ModeOptions options = mode_options(source);
@@ -85,6 +106,19 @@ Solution matrix_solution(const Case& source) {
   }
   fem::Modes modes = fem::modes(model, factored, options);
   return {std::move(model), std::move(factored), std::move(modes)};
+}
+
+}  // namespace
+
+Solution matrix_solution(const Case& source) {
+  try {
+    return solved_matrices(source);
+  } catch (const linalg::MemoryLimitError&) {
+    throw;
+  } catch (const core::NumericalError&) {
+    require_definite_files(source.part->file.matrices, *source.part->imported->matrices);
+    throw;
+  }
 }
 
 reduction::Interface matrix_interface(const Case& source) {

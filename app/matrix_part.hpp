@@ -10,7 +10,8 @@ namespace thinwall::app {
 
 /// Factor and modes of the matrices. How many motions nothing holds is told by the eigenvalues: those below 1e-6 of the
 /// next (|λ|, K shifted by −1e-8 tr K / tr M), at most twelve. Throws NumericalError where no such gap tells rigid from
-/// elastic modes or K is indefinite beyond round-off. Cost: a factorisation, twice for a held part, and the modes.
+/// elastic modes, DataError that names the file where K or M is indefinite beyond round-off. Cost: a factorisation
+/// of M and one of K, two for a held part, and the modes.
 [[nodiscard]] Solution matrix_solution(const Case& source);
 
 /// The points of the reduction by the rows of their nodes: a column for each direction n, Σ n_i of component i. Throws

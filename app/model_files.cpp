@@ -1,5 +1,6 @@
 #include "app/model_files.hpp"
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "dynamics/sparse_spatial.hpp"
 #include "io/dof_table_csv.hpp"
@@ -35,10 +36,9 @@ PlacedModel read_mat_file(const fs::path& path) {
   }
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw core::DataError("cannot make the folder \"" + folder.string() + "\": " + error.message());
+[[noreturn]] void refuse_model_folder(const fs::path& folder, const std::string& cause) {
+  throw core::DataError("cannot write the model to \"" + folder.string() + "\": " + cause +
+                        "; choose another folder with -o");
 }
 
 }  // namespace
@@ -53,8 +53,22 @@ PlacedModel placed(const dynamics::SparseModel& sparse) {
   return result;
 }
 
+void make_model_folder(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    refuse_model_folder(folder, "it is a file, not a folder");
+  fs::create_directories(folder, error);
+  if (error) refuse_model_folder(folder, error.message());
+  try {
+    const core::PartialFile never_committed(folder / "trial");
+    core::write_file_atomically(never_committed.partial(), std::string(16384, '\n'));  // a full disk shows
+  } catch (const core::DataError& unwritable) {
+    refuse_model_folder(folder, unwritable.what());
+  }
+}
+
 std::string write_model(const fs::path& folder, const PlacedModel& model) {
-  make_folder(folder);
+  make_model_folder(folder);
   io::write_mat(folder / "model.mat", model.model);
   std::error_code ignored;  // of an earlier model; what remains is written over
   for (const char* name : {"stiffness.mtx", "mass.mtx", "damping.mtx", "dofs.csv"}) fs::remove(folder / name, ignored);

@@ -19,6 +19,10 @@ struct PlacedModel {
 /// Imported matrices as a dense model with named DOFs. Throws InputError as dynamics::spatial_model().
 [[nodiscard]] PlacedModel placed(const dynamics::SparseModel& sparse);
 
+/// Makes the folder of a model if need be and tries to write there. Throws DataError, with the cause and "-o" as the
+/// remedy.
+void make_model_folder(const std::filesystem::path& folder);
+
 /// Writes model.mat (io/mat.hpp), and, where every row is a node's component along an axis, stiffness.mtx, mass.mtx,
 /// damping.mtx where there is damping, and dofs.csv, in SI: numbers that read back as they were. The folder is made if
 /// need be. Returns what could not be written and why, "" if nothing. Throws DataError if a file cannot be written.

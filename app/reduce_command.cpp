@@ -13,6 +13,7 @@
 #include "app/stages.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "fem/patch.hpp"
 #include "io/json_file.hpp"
 #include "reduction/comparison.hpp"
@@ -31,12 +32,36 @@ struct ReducedPart {
   std::string chosen;  ///< why so many modes; "" where they were given
 };
 
-void require_reducible(const Case& source, const ReduceRequest& request) {
+/// The method of --method, which must give matrices.
+Method method_of(const ReduceRequest& request) {
+  Method method = Method::craig_bampton;
+  try {
+    method = reduction::method_named(request.method);
+  } catch (const core::InputError& error) {
+    throw core::UsageError(std::string("--method: ") + error.what());
+  }
+  if (method == Method::modal_truncation)
+    throw core::UsageError(
+        "--method: modal_truncation gives poles, no matrices to write; \"thinwall run\" writes them as modes");
+  return method;
+}
+
+/// What the options alone tell, before anything is computed.
+void require_options(const ReduceRequest& request) {
+  const Method method = method_of(request);
+  if (!request.tolerance) return;
+  if (!(*request.tolerance >= 1e-8 && *request.tolerance <= 1.0))
+    throw core::UsageError("--tolerance is " + core::number_text(*request.tolerance) +
+                           "; it is relative, a number from 1e-8 to 1, as 0.01");
+  if (method != Method::craig_bampton)
+    throw core::UsageError("--tolerance chooses the modes of craig_bampton; give --modes with --method " +
+                           request.method);
+}
+
+void require_reducible(const Case& source) {
   if (!source.part) throw core::InputError("there is no modelled part to reduce; describe it in [part]");
   if (source.reduction.interface.empty())
     throw core::InputError("the part has no points to be reduced to; name them in [points]");
-  if (reduction::method_named(request.method) == Method::modal_truncation)
-    throw core::InputError("modal_truncation gives poles, no matrices to write; \"thinwall run\" writes them as modes");
 }
 
 /// A model is not written over the matrices that it comes from.
@@ -55,7 +80,12 @@ reduction::Band band_of(const Case& source, const ReduceRequest& request) {
   reduction::Band band;
   band.from_hz = request.from_hz.value_or(source.response.from_hz);
   band.to_hz = request.to_hz.value_or(source.response.to_hz);
-  reduction::validate(band);
+  try {
+    reduction::validate(band);
+  } catch (const core::InputError& error) {
+    if (!request.from_hz && !request.to_hz) throw;  // it is the case's
+    throw core::UsageError(std::string("--from, --to: ") + error.what());
+  }
   return band;
 }
 
@@ -108,10 +138,7 @@ ReducedPart by_tolerance(const reduction::FullModel& full, const reduction::Inte
 ReducedPart reduced_part(const Case& source, const ReduceRequest& request, std::optional<int> modes,
                          const reduction::FullModel& full, const reduction::Interface& interface,
                          const reduction::Band& band, const reduction::BandTruth& truth) {
-  const Method method = reduction::method_named(request.method);
-  if (request.tolerance && method != Method::craig_bampton)
-    throw core::InputError("a tolerance chooses the modes of craig_bampton; give --modes with --method " +
-                           request.method);
+  const Method method = method_of(request);
   if (request.tolerance || (!modes && method == Method::craig_bampton))
     return by_tolerance(full, interface, band, truth,
                         request.tolerance.value_or(source.reduction.tolerance.value_or(0.01)));
@@ -173,9 +200,11 @@ std::string written(const Case& source, const ReduceRequest& request, const Redu
 }  // namespace
 
 std::string reduce_part(const Case& source, const ReduceRequest& request) {
-  require_reducible(source, request);
+  require_options(request);
+  require_reducible(source);
   require_apart(source, request);
   reduction::Band band = band_of(source, request);
+  make_model_folder(request.out);
   Stages stages(request.display);
   stages.begin("mesh, order and modes");
   const Solution part = solved_part(source, discretise(source), stages);

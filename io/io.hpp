@@ -19,6 +19,7 @@
 #include "io/mat_response.hpp"
 #include "io/mat_sparse.hpp"
 #include "io/matrix_files.hpp"
+#include "io/matrix_format.hpp"
 #include "io/matrix_market.hpp"
 #include "io/matrix_triplets.hpp"
 #include "io/measured_response.hpp"

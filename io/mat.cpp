@@ -10,16 +10,9 @@ namespace thinwall::io {
 
 using dynamics::SpatialModel;
 
-void write_mat(const std::filesystem::path& path, const SpatialModel& model) {
-  dynamics::require_consistent(model);
-  std::vector<MatVariable> variables{mat_matrix("M", model.M), mat_matrix("C", model.C), mat_matrix("K", model.K)};
-  if (model.has_structural_damping()) variables.push_back(mat_matrix("D", model.D));
-  if (model.has_own_coordinates()) variables.push_back(mat_matrix("T", model.T));
-  for (MatVariable& table : dof_variables("dof", model.dofs)) variables.push_back(std::move(table));
-  write_mat_variables(path, "reduced model by thinwall", variables);
-}
+namespace {
 
-SpatialModel read_mat(const std::filesystem::path& path) {
+SpatialModel model_in(const std::filesystem::path& path) {
   std::vector<std::string> names{"M", "C", "K", "D", "T"};
   for (const std::string& name : dof_variable_names("dof")) names.push_back(name);
   const MatVariables variables = read_mat_variables(path, names);
@@ -40,6 +33,21 @@ SpatialModel read_mat(const std::filesystem::path& path) {
   }
   model.dofs = dofs_of(variables, "dof", model.has_own_coordinates() ? model.T.rows() : n, path);
   return model;
+}
+
+}  // namespace
+
+void write_mat(const std::filesystem::path& path, const SpatialModel& model) {
+  dynamics::require_consistent(model);
+  std::vector<MatVariable> variables{mat_matrix("M", model.M), mat_matrix("C", model.C), mat_matrix("K", model.K)};
+  if (model.has_structural_damping()) variables.push_back(mat_matrix("D", model.D));
+  if (model.has_own_coordinates()) variables.push_back(mat_matrix("T", model.T));
+  for (MatVariable& table : dof_variables("dof", model.dofs)) variables.push_back(std::move(table));
+  write_mat_variables(path, "reduced model by thinwall", variables);
+}
+
+SpatialModel read_mat(const std::filesystem::path& path) {
+  return in_memory(path, [&] { return model_in(path); });
 }
 
 }  // namespace thinwall::io

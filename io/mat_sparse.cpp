@@ -55,6 +55,33 @@ bool is_elsewhere(const MatVariables& variables, const std::string& name, const 
                         " is stated for; leave it out of one of them");
 }
 
+SparseModel sparse_model_in(const MatFiles& files) {
+  const std::filesystem::path& path = files.stiffness;
+  const MatVariables variables = read_mat_variables(path, {"K", "M", "C", "dof_node", "dof_component", "dof_point",
+                                                           "node_number", "node_position", "name_number", "name_text"});
+  const bool other_mass = is_elsewhere(variables, "M", path, files.mass);
+  const bool other_damping = is_elsewhere(variables, "C", path, files.damping);
+  SparseModel model;
+  if (variables.contains("dof_point")) {
+    model = dynamics::sparse_model(read_mat(path));
+    if (other_damping) model.C = read_mat_matrix(files.damping, "C");
+    return model;
+  }
+  model.K = sparse_of(variable(variables, "K", path), path);
+  model.M = other_mass ? read_mat_matrix(files.mass, "M") : sparse_of(variable(variables, "M", path), path);
+  if (other_damping) model.C = read_mat_matrix(files.damping, "C");
+  if (!other_damping && variables.contains("C")) model.C = sparse_of(variables.at("C"), path);
+  if (variables.contains("dof_node")) {
+    const std::vector<int> nodes = integers(variables.at("dof_node"), path);
+    const std::vector<int> components = integers(variable(variables, "dof_component", path), path);
+    if (nodes.size() != components.size())
+      throw core::DataError(path.string() + ": the variables dof_node and dof_component differ in length");
+    for (std::size_t i = 0; i < nodes.size(); ++i) model.dofs.push_back({nodes[i], components[i]});
+  }
+  read_nodes(variables, path, model);
+  return model;
+}
+
 }  // namespace
 
 void write_mat(const std::filesystem::path& path, const SparseModel& model) {
@@ -92,7 +119,7 @@ void write_mat(const std::filesystem::path& path, const SparseModel& model) {
 }
 
 Eigen::SparseMatrix<double> read_mat_matrix(const std::filesystem::path& path, const std::string& name) {
-  return sparse_of(variable(read_mat_variables(path, {name}), name, path), path);
+  return in_memory(path, [&] { return sparse_of(variable(read_mat_variables(path, {name}), name, path), path); });
 }
 
 SparseModel read_sparse_mat(const std::filesystem::path& path) {
@@ -100,30 +127,7 @@ SparseModel read_sparse_mat(const std::filesystem::path& path) {
 }
 
 SparseModel read_sparse_mat(const MatFiles& files) {
-  const std::filesystem::path& path = files.stiffness;
-  const MatVariables variables = read_mat_variables(path, {"K", "M", "C", "dof_node", "dof_component", "dof_point",
-                                                           "node_number", "node_position", "name_number", "name_text"});
-  const bool other_mass = is_elsewhere(variables, "M", path, files.mass);
-  const bool other_damping = is_elsewhere(variables, "C", path, files.damping);
-  SparseModel model;
-  if (variables.contains("dof_point")) {
-    model = dynamics::sparse_model(read_mat(path));
-    if (other_damping) model.C = read_mat_matrix(files.damping, "C");
-    return model;
-  }
-  model.K = sparse_of(variable(variables, "K", path), path);
-  model.M = other_mass ? read_mat_matrix(files.mass, "M") : sparse_of(variable(variables, "M", path), path);
-  if (other_damping) model.C = read_mat_matrix(files.damping, "C");
-  if (!other_damping && variables.contains("C")) model.C = sparse_of(variables.at("C"), path);
-  if (variables.contains("dof_node")) {
-    const std::vector<int> nodes = integers(variables.at("dof_node"), path);
-    const std::vector<int> components = integers(variable(variables, "dof_component", path), path);
-    if (nodes.size() != components.size())
-      throw core::DataError(path.string() + ": the variables dof_node and dof_component differ in length");
-    for (std::size_t i = 0; i < nodes.size(); ++i) model.dofs.push_back({nodes[i], components[i]});
-  }
-  read_nodes(variables, path, model);
-  return model;
+  return in_memory(files.stiffness, [&] { return sparse_model_in(files); });
 }
 
 }  // namespace thinwall::io

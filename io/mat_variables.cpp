@@ -138,25 +138,74 @@ Variable encoded(const MatVariable& variable) {
 
 // ---- Reading ----
 
+/// The head of an array that is not compressed: flags, dimensions, whose product its `size` bytes must be able to hold,
+/// and the name. What states more takes matio minutes.
+void require_head(const std::string& bytes, std::size_t at, std::size_t size, const std::filesystem::path& path) {
+  constexpr std::size_t head_size = 24;  // the tag of the flags, the flags, the tag of the dimensions
+  std::array<std::uint32_t, 6> head{};
+  if (size < head_size || at + size > bytes.size()) return;  // refused as not whole, or empty
+  std::memcpy(head.data(), bytes.data() + at, head_size);
+  const std::uint32_t kind = head[2] & 0xFFU;
+  if (kind == MAT_C_STRUCT || kind == MAT_C_OBJECT || kind > MAT_C_UINT64) return;  // we read none of these
+  const std::size_t dimensions = head[5] / 4;
+  bool whole = head[0] == MAT_T_UINT32 && head[1] == 8 && head[4] == MAT_T_INT32 && head[5] <= size - head_size;
+  std::size_t left = size;
+  for (std::size_t i = kind == MAT_C_SPARSE ? 1 : 0; whole && i < dimensions; ++i) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + at + head_size + 4 * i, sizeof length);
+    left = length == 0 ? size : left / length;
+    whole = left > 0;
+  }
+  const std::size_t name_at = head_size + (head[5] + 7) / 8 * 8;
+  std::array<std::uint32_t, 2> name{};
+  whole = whole && name_at + 8 <= size;
+  if (whole) std::memcpy(name.data(), bytes.data() + at + name_at, 8);
+  whole = whole && (name[0] > 0xFFFFU || name[1] <= size - name_at - 8);  // a short name lies within its tag
+  if (!whole) fail_in(path, "has a variable that states more than its bytes hold; write it again");
+}
+
 /// matio reads a variable whose end is missing as if its last entries were zero; the lengths in the file tell. An
-/// element is a tag (type, bytes), then its data in whole words of 8 bytes unless they are compressed.
-void require_whole(const std::filesystem::path& path) {
+/// element is a tag (type, bytes), then its data in whole words of 8 bytes unless they are compressed. Returns the
+/// largest number of bytes that a variable can have.
+std::size_t require_whole(const std::filesystem::path& path) {
   constexpr std::size_t header_size = 128;
   constexpr std::size_t tag_size = 8;
   const std::string bytes = core::read_file(path);
   std::size_t at = header_size;
+  bool compressed = false;
   while (at + tag_size <= bytes.size()) {
     std::array<std::uint32_t, 2> tag{};
     std::memcpy(tag.data(), bytes.data() + at, tag_size);
     const std::size_t size = tag[1];
+    if (tag[0] == MAT_T_MATRIX) require_head(bytes, at + tag_size, size, path);
+    compressed = compressed || tag[0] == MAT_T_COMPRESSED;
     at += tag_size + (tag[0] == MAT_T_COMPRESSED ? size : (size + 7) / 8 * 8);
   }
   if (at != bytes.size()) fail_in(path, "is no whole MAT file of version 5; write it again with that version");
+  constexpr std::size_t most_by_deflate = 1032;
+  return bytes.size() * (compressed ? most_by_deflate : 1);
+}
+
+/// Every entry of an array or a list takes a byte at least, every column of a sparse matrix four: what states more is
+/// not given to matio, which would ask for the memory.
+void require_entries_within(const matvar_t& stated, std::size_t bytes, const std::string& name,
+                            const std::filesystem::path& path) {
+  const bool is_sparse = stated.class_type == MAT_C_SPARSE && stated.rank == 2;
+  std::size_t left = bytes;
+  for (int i = is_sparse ? 1 : 0; i < stated.rank && left > 0; ++i) {
+    if (stated.dims[i] == 0) return;
+    left /= stated.dims[i];
+  }
+  if (left == 0) fail_in(path, "the variable " + name + " states more entries than the file holds: write it again");
 }
 
 /// The characters of a cell as UTF-8; MATLAB writes 16-bit characters, other programs bytes.
 std::string utf8_text(const matvar_t& cell, const std::filesystem::path& path) {
   const std::size_t length = cell.dims[0] * cell.dims[1];
+  const auto size = static_cast<std::size_t>(std::max(cell.data_size, 1));
+  if (length > cell.nbytes / size || (length > 0 && cell.data == nullptr))
+    fail_in(path, "holds a name without its characters; write it again");
+  if (length == 0) return {};
   if (cell.data_size != 2) return {static_cast<const char*>(cell.data), length};
   try {
     return utf8::utf16to8(std::u16string(static_cast<const char16_t*>(cell.data), length));
@@ -195,6 +244,8 @@ std::vector<double> numbers_of(const void* data, std::size_t count, const std::f
 template <typename Number>
 void take_numbers(const matvar_t& stored, const std::filesystem::path& path, MatVariable& variable) {
   const std::size_t count = count_of(variable.size);
+  if (count > stored.nbytes / sizeof(Number))
+    fail_in(path, "the variable " + variable.name + " has fewer values than it states: write it again");
   if (stored.isComplex == 0) {
     variable.re = numbers_of<Number>(stored.data, count, path, variable.name);
     return;
@@ -285,15 +336,20 @@ void write_mat_variables(const std::filesystem::path& path, const std::string& t
 }
 
 MatVariables read_mat_variables(const std::filesystem::path& path, const std::vector<std::string>& names) {
-  require_whole(path);
-  const MatFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
-  if (!file) fail_in(path, "cannot be read as a MAT file");
-  MatVariables variables;
-  for (const std::string& name : names) {
-    const Variable stored(Mat_VarRead(file.get(), name.c_str()));
-    if (stored) variables.emplace(name, decoded(*stored, name, path));
-  }
-  return variables;
+  return in_memory(path, [&] {
+    const std::size_t most_bytes = require_whole(path);
+    const MatFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
+    if (!file) fail_in(path, "cannot be read as a MAT file");
+    MatVariables variables;
+    for (const std::string& name : names) {
+      const Variable stated(Mat_VarReadInfo(file.get(), name.c_str()));
+      if (!stated) continue;
+      require_entries_within(*stated, most_bytes, name, path);
+      const Variable stored(Mat_VarRead(file.get(), name.c_str()));
+      if (stored) variables.emplace(name, decoded(*stored, name, path));
+    }
+    return variables;
+  });
 }
 
 const MatVariable& variable(const MatVariables& variables, const std::string& name, const std::filesystem::path& path) {

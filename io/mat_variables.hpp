@@ -5,6 +5,8 @@
 #include <Eigen/SparseCore>
 #include <filesystem>
 #include <map>
+#include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,19 @@ using MatVariables = std::map<std::string, MatVariable>;
 /// Throws DataError "path: cause".
 [[noreturn]] void fail_in(const std::filesystem::path& path, const std::string& cause);
 
+/// What `read` returns. Sizes that a damaged file states and no memory holds are thrown as DataError, with its path.
+template <typename Read>
+auto in_memory(const std::filesystem::path& path, const Read& read) {
+  constexpr const char* cause = "states more than the memory holds: it is damaged, or too large; write it again";
+  try {
+    return read();
+  } catch (const std::bad_alloc&) {
+    fail_in(path, cause);
+  } catch (const std::length_error&) {
+    fail_in(path, cause);
+  }
+}
+
 /// Writes the variables in their order; `title` (100 bytes at most) opens the file behind "MATLAB 5.0 MAT-file, ". The
 /// bytes depend on the arguments only. Written in one step. Throws InputError if a value is not finite, a text is not
 /// UTF-8, or a variable exceeds the 2 GiB of the format; DataError if the file cannot be written.
@@ -38,8 +53,8 @@ void write_mat_variables(const std::filesystem::path& path, const std::string& t
 
 /// Those of the named variables that the file has: arrays of doubles or singles, real sparse matrices of doubles, cell
 /// arrays of texts. Throws DataError
-/// that names the file, and the variable if it is of another kind or holds NaN or infinity; a file of version 7.3
-/// (HDF5) or one that is cut short is refused.
+/// that names the file, and the variable if it is of another kind, holds NaN or infinity or states more entries than
+/// the file can hold; a file of version 7.3 (HDF5) or one that is cut short is refused.
 [[nodiscard]] MatVariables read_mat_variables(const std::filesystem::path& path, const std::vector<std::string>& names);
 
 /// The variable; throws DataError "path: has no variable name".

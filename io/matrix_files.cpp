@@ -11,6 +11,7 @@
 #include "io/dof_table_csv.hpp"
 #include "io/mat_sparse.hpp"
 #include "io/matrix_entries.hpp"
+#include "io/matrix_format.hpp"
 #include "io/matrix_market.hpp"
 #include "io/matrix_triplets.hpp"
 #include "io/surface_text.hpp"
@@ -204,7 +205,24 @@ void settle_positions(SparseModel& model, std::vector<std::string>& notes) {
                     std::to_string(first));
 }
 
+/// A DOF that the table names twice: the file is at fault, not the matrices.
+void require_each_once(const std::vector<NodeDof>& dofs, const std::filesystem::path& path) {
+  std::map<NodeDof, std::size_t> first;
+  for (std::size_t row = 0; row < dofs.size(); ++row) {
+    const auto [known, is_new] = first.emplace(dofs[row], row);
+    if (is_new) continue;
+    throw core::DataError(path.string() + ": rows " + std::to_string(known->second + 1) + " and " +
+                          std::to_string(row + 1) + " are both " + name(dynamics::named({}, dofs[row])) +
+                          "; the table must name each DOF once: export it again");
+  }
+}
+
 }  // namespace
+
+bool may_hold_several_matrices(const std::filesystem::path& path) {
+  const Format format = format_of(core::read_file(path), path.string());
+  return format == Format::mat || format == Format::dmig;
+}
 
 std::filesystem::path dof_table_path(const MatrixFiles& files) {
   if (!files.dofs.empty() || files.stiffness.empty()) return files.dofs;
@@ -220,6 +238,7 @@ ImportedMatrices read_matrices(const MatrixFiles& files) {
   Matrices matrices = take_files(files);
   imported.format = name_of(matrices.format);
   const std::optional<DofTableFile> table = table_of(dof_table_path(files));
+  if (table) require_each_once(table->dofs, dof_table_path(files));
   if (matrices.format == Format::mat) {
     imported.model = read_sparse_mat(MatFiles{files.stiffness, files.mass, files.damping});
     if (table) imported.model.dofs = table->dofs;

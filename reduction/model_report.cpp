@@ -20,9 +20,31 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-MatrixState state_of(const std::string& name, const MatrixXd& A, const VectorXd& floor, double bound) {
+/// The DOF of a row, or the row's number where coordinates are the model's own.
+std::string coordinate_name(const dynamics::SpatialModel& model, Index row) {
+  return model.has_own_coordinates() ? "coordinate " + std::to_string(row + 1)
+                                     : name(model.dofs[static_cast<std::size_t>(row)]);
+}
+
+/// The pair of coordinates in which S differs most from its transpose.
+std::string asymmetric_place(const dynamics::SpatialModel& model, const MatrixXd& S) {
+  Index row = 0, column = 0;
+  (S - S.transpose()).cwiseAbs().maxCoeff(&row, &column);
+  return coordinate_name(model, std::min(row, column)) + ", " + coordinate_name(model, std::max(row, column));
+}
+
+/// The coordinate that moves most in the eigenvector of the least eigenvalue of a symmetric matrix.
+std::string indefinite_place(const dynamics::SpatialModel& model, const MatrixXd& S) {
+  const MatrixXd vectors = Eigen::SelfAdjointEigenSolver<MatrixXd>(S).eigenvectors();
+  Index row = 0;
+  vectors.col(0).cwiseAbs().maxCoeff(&row);
+  return coordinate_name(model, row);
+}
+
+MatrixState state_of(const dynamics::SpatialModel& model, const std::string& letter, const MatrixXd& A,
+                     const VectorXd& floor, const ReportOptions& options) {
   MatrixState state;
-  state.name = name;
+  state.name = letter;
   const double largest = A.cwiseAbs().maxCoeff();
   if (largest == 0.0) {
     state.zero = static_cast<int>(A.rows());
@@ -32,12 +54,13 @@ MatrixState state_of(const std::string& name, const MatrixXd& A, const VectorXd&
   const VectorXd scale = own.cwiseSqrt().cwiseInverse();
   const MatrixXd S = scale.asDiagonal() * A * scale.asDiagonal();
   state.asymmetry = (S - S.transpose()).cwiseAbs().maxCoeff() / S.cwiseAbs().maxCoeff();
-  const VectorXd values =
-      Eigen::SelfAdjointEigenSolver<MatrixXd>(MatrixXd(0.5 * (S + S.transpose())), Eigen::EigenvaluesOnly)
-          .eigenvalues();
+  const MatrixXd symmetric = 0.5 * (S + S.transpose());
+  const VectorXd values = Eigen::SelfAdjointEigenSolver<MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
   state.least = values.minCoeff();
-  state.negative = static_cast<int>((values.array() < -bound).count());
-  state.zero = static_cast<int>((values.array().abs() <= bound).count());
+  state.negative = static_cast<int>((values.array() < -options.definiteness).count());
+  state.zero = static_cast<int>((values.array().abs() <= options.definiteness).count());
+  if (state.asymmetry > options.symmetry) state.place = asymmetric_place(model, S);
+  if (state.place.empty() && state.negative > 0) state.place = indefinite_place(model, symmetric);
   return state;
 }
 
@@ -123,8 +146,7 @@ std::vector<std::string> bare_coordinates(const dynamics::SpatialModel& model) {
   const auto empty = [](const MatrixXd& A, Index i) { return A.row(i).isZero(0.0) && A.col(i).isZero(0.0); };
   for (Index i = 0; i < model.size(); ++i) {
     if (!empty(model.K, i) || !empty(model.M, i)) continue;
-    names.push_back(model.has_own_coordinates() ? "coordinate " + std::to_string(i + 1)
-                                                : name(model.dofs[static_cast<std::size_t>(i)]));
+    names.push_back(coordinate_name(model, i));
   }
   return names;
 }
@@ -178,11 +200,11 @@ ReducedModelReport report(const dynamics::SpatialModel& model, const ReportOptio
   const double lowest = result.frequencies_hz.empty() ? 0.0 : result.frequencies_hz.front();
   const double lambda = std::pow(2.0 * std::numbers::pi * lowest, 2);
   const VectorXd none = VectorXd::Zero(model.size());
-  result.matrices.push_back(state_of("M", model.M, none, options.definiteness));
-  result.matrices.push_back(state_of("C", model.C, none, options.definiteness));
-  result.matrices.push_back(state_of("K", model.K, lambda * model.M.diagonal(), options.definiteness));
+  result.matrices.push_back(state_of(model, "M", model.M, none, options));
+  result.matrices.push_back(state_of(model, "C", model.C, none, options));
+  result.matrices.push_back(state_of(model, "K", model.K, lambda * model.M.diagonal(), options));
   if (model.has_structural_damping())
-    result.matrices.push_back(state_of("D", model.D, lambda * model.M.diagonal(), options.definiteness));
+    result.matrices.push_back(state_of(model, "D", model.D, lambda * model.M.diagonal(), options));
   if (!options.positions.empty()) result.rigid = rigid_body_state(model, options, lowest);
   check_receptances(model, result);
   find_bare(bare_coordinates(model), result);

@@ -36,7 +36,7 @@ struct MatrixState {
   int negative = 0;        ///< eigenvalues below −bound
   int zero = 0;            ///< eigenvalues within ±bound: for K, rigid motions and massless mechanisms
   bool told = true;  ///< whether the eigenvalues could be counted (sparse models: no shift without a vanishing pivot)
-  std::string place{};  ///< the DOF, or pair, that shows it; of sparse models where something is wrong
+  std::string place{};  ///< the DOF, or pair, that shows what is wrong; "" where nothing is
 };
 
 /// What moving the model as a rigid body costs and weighs.

@@ -380,7 +380,8 @@ TEST_F(MatrixFile, WithATableThatDoesNotFitIsRefused) {
     EXPECT_TRUE(has(message, part)) << message;
   }
   const MatrixFiles twice = si({path("K.mtx"), path("M.mtx"), "", write("dofs.csv", "node,component\n7,x\n7,x\n")});
-  EXPECT_TRUE(has(message_of<core::InputError>([&] { (void)read_matrices(twice); }), "are both node 7.x"));
+  const std::string both = message_of<core::DataError>([&] { (void)read_matrices(twice); });
+  EXPECT_TRUE(has(both, "dofs.csv: rows 1 and 2 are both node 7.x")) << both;
   const MatrixFiles none = si({path("K.mtx"), path("M.mtx")});
   EXPECT_TRUE(has(message_of<core::DataError>([&] { (void)read_matrices(none); }), "state the DOF table"));
 }

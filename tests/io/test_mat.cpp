@@ -3,6 +3,8 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "io/mat.hpp"
+#include "io/mat_sparse.hpp"
+#include "matrix_model.hpp"
 #include "scratch_folder.hpp"
 
 namespace thinwall::io::test {
@@ -25,6 +27,20 @@ dynamics::SpatialModel random_model(bool structural) {
   model.K = Eigen::MatrixXd::Random(6, 6) * 1e9;
   if (structural) model.D = Eigen::MatrixXd::Random(6, 6) * 1e6;
   return model;
+}
+
+/// What reading a file leads to; anything but a model or a DataError that names the file fails the test.
+template <typename Read>
+bool is_read(const std::filesystem::path& file, const std::string& what, const Read& read) {
+  try {
+    read();
+    return true;
+  } catch (const core::DataError& error) {
+    EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos) << what << ": " << error.what();
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << what << ": another kind of error: " << error.what();
+  }
+  return false;
 }
 
 }  // namespace
@@ -99,6 +115,26 @@ TEST_F(MatFile, CutShortIsRefused) {
   for (const std::size_t length : {std::size_t{100}, std::size_t{130}, bytes.size() / 2, bytes.size() - 40}) {
     const auto file = write("cut.mat", bytes.substr(0, length));
     EXPECT_THROW((void)read_mat(file), core::DataError) << length;
+  }
+}
+
+// A damaged file states sizes that no memory holds, or that its bytes do not fill.
+TEST_F(MatFile, WithOneByteChangedIsReadOrRefusedByName) {
+  write_mat(path("dense.mat"), random_model(true));
+  write_mat(path("sparse.mat"), matrix_model(2, true));
+  for (const bool dense : {true, false}) {
+    const std::string whole = core::read_file(path(dense ? "dense.mat" : "sparse.mat"));
+    std::size_t refused = 0;
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+      std::string bytes = whole;
+      bytes[at] = '\xff';
+      const auto file = write("changed.mat", bytes);
+      const std::string what = (dense ? "dense, byte " : "sparse, byte ") + std::to_string(at);
+      const bool read = dense ? is_read(file, what, [&] { (void)read_mat(file); })
+                              : is_read(file, what, [&] { (void)read_sparse_mat(file); });
+      refused += read ? 0 : 1;
+    }
+    EXPECT_GT(refused, 100U);
   }
 }
 

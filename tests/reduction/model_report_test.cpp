@@ -133,6 +133,32 @@ TEST(ModelReport, FindsWhatIsWrong) {
   contains(wrong([](auto& model, auto&) { model.M.row(0) *= 1.1, model.M.col(0) *= 1.1; }), "mass along the axes");
 }
 
+/// Three masses on springs: what is spoilt is named by its DOFs, in the report and in its text.
+TEST(ModelReport, NamesTheDofsThatShowWhatIsWrong) {
+  dynamics::SpatialModel good{
+      MatrixXd::Identity(3, 3), MatrixXd::Zero(3, 3), MatrixXd(3, 3), {}, dynamics::translations("A")};
+  good.K << 2e6, -1e6, 0, -1e6, 2e6, -1e6, 0, -1e6, 2e6;
+  const auto place = [](const dynamics::SpatialModel& model, const std::string& letter) {
+    const ReducedModelReport found = report(model);
+    for (const MatrixState& matrix : found.matrices) {
+      if (matrix.name != letter) continue;
+      EXPECT_EQ(matrix.place.empty(), text(found).find("; see " + matrix.place + "\n") == std::string::npos);
+      return matrix.place;
+    }
+    return std::string("no matrix");
+  };
+  EXPECT_EQ(place(good, "K"), "");
+  dynamics::SpatialModel asymmetric = good, indefinite = good, negative = good;
+  asymmetric.K(2, 1) = -0.5e6;
+  indefinite.K(1, 1) = -9e6;
+  negative.M(2, 2) = -1.0;
+  EXPECT_EQ(place(asymmetric, "K"), "A.y, A.z");
+  EXPECT_EQ(place(indefinite, "K"), "A.y");
+  EXPECT_EQ(place(negative, "M"), "A.z");
+  indefinite.T = MatrixXd::Identity(3, 3);
+  EXPECT_EQ(place(indefinite, "K"), "coordinate 2");
+}
+
 TEST(ModelReport, AHingeIsFreeWhateverItsAxis) {
   const dynamics::RigidBody body{2.0, Eigen::Vector3d::Zero(), Eigen::Vector3d(0.02, 0.03, 0.04).asDiagonal()};
   for (const Eigen::Vector3d& axis :

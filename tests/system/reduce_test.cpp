@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -154,17 +155,42 @@ TEST(Reduce, WhatCannotBeReducedOrInspectedIsSaid) {
     EXPECT_EQ(answer.code, code) << answer.err;
     EXPECT_NE(answer.err.find(part), std::string::npos) << answer.err;
   };
-  refused({"reduce", file, "--method", "rubbin"}, 3, "rubin");
-  refused({"reduce", file, "--method", "rubin", "--tolerance", "0.01"}, 3, "chooses the modes of craig_bampton");
-  refused({"reduce", file, "--from", "100", "--to", "50"}, 3, "band");
+  refused({"reduce", file, "--method", "rubbin"}, 2, "rubin");
+  refused({"reduce", file, "--method", "modal_truncation"}, 2, "no matrices to write");
+  refused({"reduce", file, "--method", "rubin", "--tolerance", "0.01"}, 2, "chooses the modes of craig_bampton");
+  refused({"reduce", file, "--from", "100", "--to", "50"}, 2, "band");
   refused({"reduce", file, "--modes", "4", "--tolerance", "0.1"}, 2, "excludes");
   refused({"inspect", (folder / "nothing").string()}, 4, "nothing");
   refused({"inspect", folder.string()}, 4, "neither stiffness.mtx nor model.mat");
-  refused({"inspect"}, 3, "nothing to inspect");
+  refused({"inspect"}, 2, "nothing to inspect");
   core::write_file_atomically(folder / "k.mtx", "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 5\n");
   refused({"inspect", "--stiffness", (folder / "k.mtx").string(), "--mass", (folder / "k.mtx").string(), "--mass-unit",
            "kg"},
-          3, "unit");
+          2, "add --unit mm");
+}
+
+/// What is wrong with the options or the folder is said before the part is meshed: a mesh of this size takes minutes.
+TEST(Reduce, OptionsAndFolderAreRefusedBeforeAnythingIsComputed) {
+  const fs::path folder = scratch("reduce_early");
+  const std::string file = written_case(folder, "").string();
+  core::write_file_atomically(folder / "a_file", "x");
+  const std::vector<std::string> fine{"reduce", file, "--set", "part.mesh.element_size=\"1.5 mm\""};
+  const auto refused = [&](std::vector<std::string> words, int code, const std::string& part) {
+    words.insert(words.begin(), fine.begin(), fine.end());
+    const auto start = std::chrono::steady_clock::now();
+    const Answer answer = command(words);
+    EXPECT_EQ(answer.code, code) << answer.err;
+    EXPECT_NE(answer.err.find(part), std::string::npos) << answer.err;
+    EXPECT_EQ(answer.err.find('\n'), answer.err.size() - 1) << answer.err;
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+  };
+  const std::string out = (folder / "model").string();
+  refused({"-o", out, "--tolerance", "5"}, 2, "--tolerance is 5; it is relative, a number from 1e-8 to 1");
+  refused({"-o", out, "--tolerance", "0"}, 2, "--tolerance is 0");
+  refused({"-o", out, "--tolerance", "0.1", "--method", "guyan"}, 2, "give --modes with --method guyan");
+  EXPECT_FALSE(fs::exists(out)) << "a folder for nothing";
+  for (const std::string& bad : {std::string("/proc/x"), (folder / "a_file").string(), (folder / "a_file/x").string()})
+    refused({"-o", bad}, 4, "choose another folder with -o");
 }
 
 /// A model reduced from matrices, written where they lie, would take their place: the files are as they were.
@@ -214,6 +240,77 @@ to = "4000 Hz"
   EXPECT_EQ(answer.code, 3) << answer.err;
   EXPECT_NE(answer.err.find("dofs.csv"), std::string::npos) << answer.err;
   EXPECT_EQ(core::read_file(folder / "out" / "dofs.csv"), before);
+}
+
+const std::string symmetric_head = "%%MatrixMarket matrix coordinate real symmetric\n";
+
+/// Two masses on springs, whose entries are given; what `run` and `inspect` say of them.
+struct TwoMasses {
+  fs::path folder;
+  explicit TwoMasses(const std::string& name) : folder(scratch(name)) {
+    write("k.mtx", "2 2 3\n1 1 200\n2 1 -100\n2 2 100\n");
+    write("m.mtx", "2 2 2\n1 1 1\n2 2 1\n");
+    core::write_file_atomically(folder / "dofs.csv", "node,component,point\n1,x,A\n2,x,B\n");
+    core::write_file_atomically(folder / "case.toml",
+                                "[part]\nunit = \"m\"\nmass_unit = \"kg\"\n[part.matrices]\nstiffness = \"k.mtx\"\n"
+                                "mass = \"m.mtx\"\ndofs = \"dofs.csv\"\n");
+  }
+  void write(const std::string& file, const std::string& entries) const {
+    core::write_file_atomically(folder / file, symmetric_head + entries);
+  }
+  [[nodiscard]] Answer run() const {
+    return command({"run", folder.string(), "--out", (folder / "out").string(), "-q"});
+  }
+  [[nodiscard]] Answer inspect(const std::vector<std::string>& more) const {
+    std::vector<std::string> words{"inspect", "--stiffness", (folder / "k.mtx").string(), "--dofs",
+                                   (folder / "dofs.csv").string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return command(words);
+  }
+};
+
+void expect_answer(const Answer& answer, int code, const std::string& part) {
+  EXPECT_EQ(answer.code, code) << answer.err << answer.out;
+  EXPECT_NE((answer.err + answer.out).find(part), std::string::npos) << answer.err << answer.out;
+}
+
+TEST(Inspect, NamesTheOptionOrTheFileThatIsAtFault) {
+  const TwoMasses part("inspect_usage");
+  const std::string mass = (part.folder / "m.mtx").string();
+  expect_answer(part.inspect({"--mass", mass, "--mass-unit", "kg"}), 2, "add --unit mm");
+  expect_answer(part.inspect({"--mass", mass, "--unit", "m"}), 2, "add --mass-unit t");
+  expect_answer(part.inspect({"--unit", "m", "--mass-unit", "kg"}), 2, "k.mtx holds one matrix only: add --mass FILE");
+  core::write_file_atomically(part.folder / "dofs.csv", "node,component,point\n1,x,A\n1,x,A\n");
+  expect_answer(part.inspect({"--mass", mass, "--unit", "m", "--mass-unit", "kg"}), 4,
+                "dofs.csv: rows 1 and 2 are both node 1.x");
+}
+
+TEST(Inspect, NamesTheDofsOfSmallMatricesThatShowWhatIsWrong) {
+  const TwoMasses part("inspect_place");
+  const std::vector<std::string> rest{"--mass", (part.folder / "m.mtx").string(), "--unit", "m", "--mass-unit", "kg"};
+  part.write("k.mtx", "2 2 3\n1 1 200\n2 1 -100\n2 2 10\n");
+  expect_answer(part.inspect(rest), 6, "; see B.x");
+  core::write_file_atomically(part.folder / "k.mtx",
+                              "%%MatrixMarket matrix coordinate real general\n2 2 4\n1 1 200\n"
+                              "2 1 -100\n1 2 -90\n2 2 100\n");
+  expect_answer(part.inspect(rest), 6, "; see A.x, B.x");
+}
+
+/// Matrices that no part has: the file, the DOF and the remedy are said, not what finite elements would need.
+TEST(MatricesOfAPart, ThatCannotBeAreToldByFileAndDof) {
+  const TwoMasses part("matrices_at_fault");
+  EXPECT_EQ(part.run().code, 0) << part.run().err;
+  part.write("m.mtx", "2 2 2\n1 1 -1\n2 2 1\n");
+  expect_answer(part.run(), 4, "m.mtx: imported matrices: M(A.x, A.x) = -1 is negative");
+  EXPECT_EQ(part.run().err.find("k.mtx"), std::string::npos);
+  part.write("m.mtx", "2 2 3\n1 1 1\n2 1 2\n2 2 1\n");
+  expect_answer(part.run(), 4, "m.mtx: the mass matrix is indefinite");
+  part.write("m.mtx", "2 2 2\n1 1 1\n2 2 1\n");
+  part.write("k.mtx", "2 2 3\n1 1 200\n2 1 -100\n2 2 10\n");
+  const Answer stiffness = part.run();
+  expect_answer(stiffness, 4, "k.mtx: the stiffness matrix is indefinite");
+  EXPECT_NE(stiffness.err.find("most at B.x; export the matrix again"), std::string::npos) << stiffness.err;
+  EXPECT_EQ(stiffness.err.find("element"), std::string::npos) << stiffness.err;
 }
 
 /// Without places no motion can be named, but their number is held to.
