@@ -21,7 +21,7 @@
 #include "app/schema.hpp"
 #include "app/tool_checks.hpp"
 #include "core/units.hpp"
-#include "io/frf_quantity.hpp"
+#include "io/frf/frf_quantity.hpp"
 
 namespace thinwall::app {
 

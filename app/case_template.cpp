@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
 #include "core/units.hpp"
-#include "io/stl.hpp"
+#include "io/surface/stl.hpp"
 
 namespace thinwall::app {
 

@@ -13,7 +13,7 @@
 #include "app/part_checks.hpp"
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
-#include "io/measured_response.hpp"
+#include "io/frf/measured_response.hpp"
 
 namespace thinwall::app {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "io/csv_table.hpp"
+#include "io/results/csv_table.hpp"
 
 namespace thinwall::app {
 

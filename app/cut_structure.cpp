@@ -12,7 +12,7 @@
 #include "app/tool_swap.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
-#include "milling/passivity.hpp"
+#include "milling/direct/passivity.hpp"
 
 namespace thinwall::app {
 

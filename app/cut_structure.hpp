@@ -9,9 +9,9 @@
 #include "app/case.hpp"
 #include "dynamics/modal_model.hpp"
 #include "dynamics/response_model.hpp"
-#include "milling/relative_structure.hpp"
-#include "milling/sampled_stability.hpp"
-#include "milling/tool.hpp"
+#include "milling/chart/sampled_stability.hpp"
+#include "milling/cut/tool.hpp"
+#include "milling/structure/relative_structure.hpp"
 
 namespace thinwall::app {
 

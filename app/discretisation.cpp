@@ -14,12 +14,12 @@
 #include "app/path.hpp"
 #include "core/memory.hpp"
 #include "fem/closed_part.hpp"
-#include "mesh/bend.hpp"
-#include "mesh/box_mesh.hpp"
-#include "mesh/prism_mesh.hpp"
+#include "mesh/planar/bend.hpp"
+#include "mesh/planar/box_mesh.hpp"
+#include "mesh/planar/prism_mesh.hpp"
 #include "mesh/selection.hpp"
-#include "mesh/surface_to_volume.hpp"
-#include "mesh/tetgen.hpp"
+#include "mesh/volume/surface_to_volume.hpp"
+#include "mesh/volume/tetgen.hpp"
 
 namespace thinwall::app {
 

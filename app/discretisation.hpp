@@ -8,9 +8,9 @@
 
 #include "app/case.hpp"
 #include "fem/to_tolerance.hpp"
-#include "mesh/bend.hpp"
+#include "mesh/planar/bend.hpp"
 #include "mesh/selection.hpp"
-#include "mesh/solid_mesh.hpp"
+#include "mesh/solid/solid_mesh.hpp"
 #include "mesh/tet_mesh.hpp"
 
 namespace thinwall::app {

@@ -17,7 +17,7 @@
 #include "app/self_test.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
-#include "io/step.hpp"
+#include "io/surface/step.hpp"
 
 namespace thinwall::app {
 

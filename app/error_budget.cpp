@@ -36,8 +36,8 @@ coupling::Deviations coupled_noise(const Case& source, const Results& results, c
       .noise;
 }
 
-/// The part with what its reduction left out (reduction/truncation.hpp), damped as the part is. None of a measured
-/// part, or where nothing was left out.
+/// The part with what its reduction left out (reduction/trust/truncation.hpp), damped as the part is. None of a
+/// measured part, or where nothing was left out.
 std::optional<Component> richer_part(const Case& source, const Results& results, const dynamics::FrequencyAxis& axis) {
   if (!results.finite_elements || !results.finite_elements->damped) return std::nullopt;
   const reduction::CraigBampton& reduced = *results.finite_elements->reduced;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/csv_table.hpp"
+#include "io/results/csv_table.hpp"
 
 namespace thinwall::app {
 

@@ -7,8 +7,8 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "io/matrix_files.hpp"
-#include "io/surface_file.hpp"
+#include "io/matrices/matrix_files.hpp"
+#include "io/surface/surface_file.hpp"
 
 namespace thinwall::app {
 

@@ -10,8 +10,8 @@
 
 #include "app/case.hpp"
 #include "dynamics/sparse_model.hpp"
-#include "io/mesh_file.hpp"
-#include "mesh/surface_repair.hpp"
+#include "io/mesh/mesh_file.hpp"
+#include "mesh/surface/surface_repair.hpp"
 
 namespace thinwall::app {
 

@@ -6,8 +6,8 @@
 #include "app/model_report_json.hpp"
 #include "core/error.hpp"
 #include "io/json_file.hpp"
-#include "io/matrix_format.hpp"
-#include "reduction/sparse_report.hpp"
+#include "io/matrices/matrix_format.hpp"
+#include "reduction/trust/sparse_report.hpp"
 
 namespace thinwall::app {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "io/matrix_files.hpp"
+#include "io/matrices/matrix_files.hpp"
 
 namespace thinwall::app {
 

@@ -6,7 +6,7 @@
 #include "app/case.hpp"
 #include "app/checkpoint.hpp"
 #include "app/results.hpp"
-#include "milling/lobes.hpp"
+#include "milling/chart/lobes.hpp"
 
 namespace thinwall::app {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "milling/sensitivity.hpp"
+#include "milling/chart/sensitivity.hpp"
 
 namespace thinwall::app {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "app/results.hpp"
-#include "milling/process.hpp"
-#include "milling/relative_structure.hpp"
+#include "milling/cut/process.hpp"
+#include "milling/structure/relative_structure.hpp"
 
 namespace thinwall::app {
 

@@ -8,8 +8,8 @@
 
 #include "app/measured_noise.hpp"
 #include "app/milling_process.hpp"
-#include "milling/lobe_method.hpp"
-#include "milling/robust_lobes.hpp"
+#include "milling/chart/lobe_method.hpp"
+#include "milling/chart/robust_lobes.hpp"
 
 namespace thinwall::app {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/csv_table.hpp"
-#include "milling/stability.hpp"
+#include "io/results/csv_table.hpp"
+#include "milling/direct/stability.hpp"
 
 namespace thinwall::app {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/case.hpp"
-#include "milling/operating_point.hpp"
+#include "milling/chart/operating_point.hpp"
 
 namespace thinwall::app {
 

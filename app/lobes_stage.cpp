@@ -16,8 +16,8 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
-#include "milling/sampled_stability.hpp"
-#include "milling/stability.hpp"
+#include "milling/chart/sampled_stability.hpp"
+#include "milling/direct/stability.hpp"
 
 namespace thinwall::app {
 

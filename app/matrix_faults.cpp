@@ -5,7 +5,7 @@
 #include <array>
 
 #include "core/error.hpp"
-#include "reduction/sparse_report.hpp"
+#include "reduction/trust/sparse_report.hpp"
 
 namespace thinwall::app {
 

@@ -10,7 +10,7 @@ namespace thinwall::app {
 void require_plausible_files(const io::MatrixFiles& files);
 
 /// Throws DataError with file, DOF and remedy if K, M or C of an imported part, in SI, is indefinite. Cost:
-/// factorisations of each (reduction/sparse_report.hpp), for when the modes were not found.
+/// factorisations of each (reduction/trust/sparse_report.hpp), for when the modes were not found.
 void require_definite_files(const io::MatrixFiles& files, const dynamics::SparseModel& matrices);
 
 }  // namespace thinwall::app

@@ -12,10 +12,10 @@
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 #include "dynamics/frf_checks.hpp"
-#include "io/frf_csv.hpp"
-#include "io/frf_cutpro.hpp"
-#include "io/mat_response.hpp"
-#include "io/uff.hpp"
+#include "io/frf/frf_csv.hpp"
+#include "io/frf/frf_cutpro.hpp"
+#include "io/frf/mat_response.hpp"
+#include "io/frf/uff.hpp"
 #include "reduction/damping.hpp"
 
 namespace thinwall::app {

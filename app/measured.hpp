@@ -8,7 +8,7 @@
 #include "app/case.hpp"
 #include "dynamics/response_model.hpp"
 #include "dynamics/spatial_model.hpp"
-#include "io/measured_response.hpp"
+#include "io/frf/measured_response.hpp"
 #include "reduction/identification.hpp"
 
 namespace thinwall::app {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "milling/chip_load.hpp"
-#include "milling/oblique_cutting.hpp"
+#include "milling/cut/chip_load.hpp"
+#include "milling/cut/oblique_cutting.hpp"
 
 namespace thinwall::app {
 

@@ -2,7 +2,7 @@
 // The cut that a case describes, as milling/ knows it.
 
 #include "app/case.hpp"
-#include "milling/process.hpp"
+#include "milling/cut/process.hpp"
 
 namespace thinwall::app {
 

@@ -3,11 +3,11 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "dynamics/sparse_spatial.hpp"
-#include "io/dof_table_csv.hpp"
-#include "io/mat.hpp"
-#include "io/mat_sparse.hpp"
-#include "io/matrix_files.hpp"
-#include "io/matrix_market.hpp"
+#include "io/matrices/dof_table_csv.hpp"
+#include "io/matrices/mat.hpp"
+#include "io/matrices/mat_sparse.hpp"
+#include "io/matrices/matrix_files.hpp"
+#include "io/matrices/matrix_market.hpp"
 
 namespace thinwall::app {
 

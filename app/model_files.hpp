@@ -6,7 +6,7 @@
 
 #include "dynamics/sparse_model.hpp"
 #include "dynamics/spatial_model.hpp"
-#include "reduction/rigid_sets.hpp"
+#include "reduction/trust/rigid_sets.hpp"
 
 namespace thinwall::app {
 
@@ -23,13 +23,14 @@ struct PlacedModel {
 /// remedy.
 void make_model_folder(const std::filesystem::path& folder);
 
-/// Writes model.mat (io/mat.hpp), and, where every row is a node's component along an axis, stiffness.mtx, mass.mtx,
-/// damping.mtx where there is damping, and dofs.csv, in SI: numbers that read back as they were. The folder is made if
-/// need be. Returns what could not be written and why, "" if nothing. Throws DataError if a file cannot be written.
+/// Writes model.mat (io/matrices/mat.hpp), and, where every row is a node's component along an axis, stiffness.mtx,
+/// mass.mtx, damping.mtx where there is damping, and dofs.csv, in SI: numbers that read back as they were. The folder
+/// is made if need be. Returns what could not be written and why, "" if nothing. Throws DataError if a file cannot be
+/// written.
 std::string write_model(const std::filesystem::path& folder, const PlacedModel& model);
 
-/// What write_model() left in a folder, or a MAT file of io/mat.hpp or io/mat_sparse.hpp in SI. Throws DataError that
-/// says what is missing.
+/// What write_model() left in a folder, or a MAT file of io/matrices/mat.hpp or io/matrices/mat_sparse.hpp in SI.
+/// Throws DataError that says what is missing.
 [[nodiscard]] PlacedModel read_model(const std::filesystem::path& path);
 
 }  // namespace thinwall::app

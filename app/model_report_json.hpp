@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reduction/model_report.hpp"
+#include "reduction/trust/model_report.hpp"
 
 namespace thinwall::app {
 

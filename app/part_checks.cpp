@@ -16,9 +16,9 @@
 #include "dynamics/unit_system.hpp"
 #include "fem/closed_part.hpp"
 #include "io/surface_unit.hpp"
-#include "mesh/bend.hpp"
 #include "mesh/box.hpp"
 #include "mesh/nearest_point.hpp"
+#include "mesh/planar/bend.hpp"
 
 namespace thinwall::app {
 

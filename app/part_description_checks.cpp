@@ -5,7 +5,7 @@
 
 #include "app/imported_part.hpp"
 #include "app/part_materials.hpp"
-#include "io/inp_text.hpp"
+#include "io/mesh/inp_text.hpp"
 #include "mesh/box.hpp"
 
 namespace thinwall::app {

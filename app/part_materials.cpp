@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "io/surface_unit.hpp"
-#include "mesh/plane_cut.hpp"
+#include "mesh/solid/plane_cut.hpp"
 
 namespace thinwall::app {
 

@@ -20,14 +20,14 @@
 #include "fem/closed_part.hpp"
 #include "fem/points.hpp"
 #include "fem/seen_motions.hpp"
-#include "mesh/surface_to_volume.hpp"
-#include "mesh/tessellation.hpp"
-#include "mesh/triangle_tree.hpp"
-#include "mesh/wall_thickness.hpp"
-#include "reduction/accuracy.hpp"
+#include "mesh/solid/tessellation.hpp"
+#include "mesh/surface/triangle_tree.hpp"
+#include "mesh/surface/wall_thickness.hpp"
+#include "mesh/volume/surface_to_volume.hpp"
 #include "reduction/damping.hpp"
-#include "reduction/full_response.hpp"
-#include "reduction/mode_count.hpp"
+#include "reduction/trust/accuracy.hpp"
+#include "reduction/trust/full_response.hpp"
+#include "reduction/trust/mode_count.hpp"
 
 namespace thinwall::app {
 

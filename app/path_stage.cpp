@@ -18,8 +18,8 @@
 #include "core/error.hpp"
 #include "core/progress.hpp"
 #include "coupling/spatial.hpp"
-#include "milling/lobe_field.hpp"
-#include "reduction/attachment_modes.hpp"
+#include "milling/chart/lobe_field.hpp"
+#include "reduction/methods/attachment_modes.hpp"
 
 namespace thinwall::app {
 

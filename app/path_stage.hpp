@@ -12,8 +12,8 @@ namespace thinwall::app {
 
 /// Undamped models of the part at each position of the case's path, between the cut and the contacts there. Mesh,
 /// factor (`inverse`, at zero shift) and modes are those of the part as it was reduced; a position costs a solve of
-/// three right-hand sides, and as many a contact (reduction/attachment_modes.hpp). Throws InputError for a position off
-/// the part's surface, with its number.
+/// three right-hand sides, and as many a contact (reduction/methods/attachment_modes.hpp). Throws InputError for a
+/// position off the part's surface, with its number.
 [[nodiscard]] std::vector<dynamics::SpatialModel> models_along_path(const Case& source, const PartResult& part,
                                                                     const linalg::ShiftedInverse& inverse);
 

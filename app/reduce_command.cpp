@@ -16,9 +16,9 @@
 #include "core/units.hpp"
 #include "fem/patch.hpp"
 #include "io/json_file.hpp"
-#include "reduction/comparison.hpp"
 #include "reduction/damping.hpp"
-#include "reduction/mode_count.hpp"
+#include "reduction/trust/comparison.hpp"
+#include "reduction/trust/mode_count.hpp"
 
 namespace thinwall::app {
 

@@ -17,15 +17,15 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "io/csv_table.hpp"
+#include "io/frf/mat_response.hpp"
+#include "io/frf/response_csv.hpp"
+#include "io/frf/uff.hpp"
 #include "io/json_file.hpp"
 #include "io/manifest.hpp"
-#include "io/mat.hpp"
-#include "io/mat_response.hpp"
-#include "io/response_csv.hpp"
-#include "io/uff.hpp"
-#include "io/vtp.hpp"
-#include "mesh/wall_thickness.hpp"
+#include "io/matrices/mat.hpp"
+#include "io/results/csv_table.hpp"
+#include "io/results/vtp.hpp"
+#include "mesh/surface/wall_thickness.hpp"
 
 namespace thinwall::app {
 

@@ -13,7 +13,7 @@
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
-#include "io/modal_table_csv.hpp"
+#include "io/frf/modal_table_csv.hpp"
 #include "robot/arm_kinematics.hpp"
 #include "robot/flexible_joints.hpp"
 #include "robot/inverse_kinematics.hpp"

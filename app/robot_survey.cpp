@@ -13,8 +13,8 @@
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
-#include "io/csv_table.hpp"
-#include "io/polyline_vtu.hpp"
+#include "io/results/csv_table.hpp"
+#include "io/results/polyline_vtu.hpp"
 #include "robot/arm_kinematics.hpp"
 
 namespace thinwall::app {

@@ -12,11 +12,11 @@
 #include "app/imported_part.hpp"
 #include "app/part_damping.hpp"
 #include "dynamics/mac.hpp"
-#include "io/csv_table.hpp"
-#include "io/pvd.hpp"
-#include "io/vtp.hpp"
-#include "io/vtu.hpp"
-#include "mesh/tessellation.hpp"
+#include "io/results/csv_table.hpp"
+#include "io/results/pvd.hpp"
+#include "io/results/vtp.hpp"
+#include "io/results/vtu.hpp"
+#include "mesh/solid/tessellation.hpp"
 
 namespace thinwall::app {
 

@@ -11,7 +11,7 @@
 #include "app/support_stage.hpp"
 #include "core/error.hpp"
 #include "coupling/error_budget.hpp"
-#include "milling/sensitivity.hpp"
+#include "milling/chart/sensitivity.hpp"
 
 namespace thinwall::app {
 

@@ -7,7 +7,7 @@
 #include "app/case.hpp"
 #include "app/cut_structure.hpp"
 #include "app/results.hpp"
-#include "milling/sampled_uncertainty.hpp"
+#include "milling/chart/sampled_uncertainty.hpp"
 
 namespace thinwall::app {
 
@@ -30,9 +30,9 @@ struct StructureErrors {
 [[nodiscard]] StructureErrors sampled_structure_errors(const Case& source, const milling::ToolFrame& frame,
                                                        const Results& results);
 
-/// Of one crossing of a chart, first order in both (milling/sensitivity.hpp, milling/sampled_uncertainty.hpp). Where
-/// the crossing is not found again, or stands where its depth has no derivative, nothing is known. Errors as theirs
-/// otherwise.
+/// Of one crossing of a chart, first order in both (milling/chart/sensitivity.hpp,
+/// milling/chart/sampled_uncertainty.hpp). Where the crossing is not found again, or stands where its depth has no
+/// derivative, nothing is known. Errors as theirs otherwise.
 [[nodiscard]] DepthError depth_error(const CutStructure& structure, const StructureErrors& errors,
                                      const milling::MillingProcess& process, double spindle_speed_rpm,
                                      const milling::LobePoint& point, const milling::StabilityOptions& options);

@@ -13,7 +13,7 @@
 #include "app/path_report.hpp"
 #include "app/robot_survey.hpp"
 #include "app/support_stage.hpp"
-#include "milling/stability.hpp"
+#include "milling/direct/stability.hpp"
 
 namespace thinwall::app {
 

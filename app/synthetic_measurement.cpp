@@ -8,7 +8,7 @@
 #include "app/robot_stage.hpp"
 #include "app/support_stage.hpp"
 #include "core/atomic_file.hpp"
-#include "reduction/full_response.hpp"
+#include "reduction/trust/full_response.hpp"
 
 namespace thinwall::app {
 

@@ -3,7 +3,7 @@
 
 #include "app/case.hpp"
 #include "coupling/tool_swap.hpp"
-#include "milling/sampled_receptance.hpp"
+#include "milling/direct/sampled_receptance.hpp"
 
 namespace thinwall::app {
 

@@ -17,11 +17,11 @@
 #include "bench/stages.hpp"
 #include "core/memory.hpp"
 #include "core/parallel.hpp"
-#include "io/inp.hpp"
+#include "io/mesh/inp.hpp"
 #include "mesh/box.hpp"
-#include "mesh/delaunay_volume.hpp"
-#include "mesh/prism_mesh.hpp"
-#include "mesh/tetgen.hpp"
+#include "mesh/volume/delaunay_volume.hpp"
+#include "mesh/planar/prism_mesh.hpp"
+#include "mesh/volume/tetgen.hpp"
 
 namespace {
 

@@ -18,10 +18,10 @@
 #include "core/memory.hpp"
 #include "core/parallel.hpp"
 #include "fem/assembly.hpp"
-#include "io/inp.hpp"
+#include "io/mesh/inp.hpp"
 #include "linalg/eigenpairs.hpp"
 #include "linalg/sparse_cholesky.hpp"
-#include "reduction/craig_bampton.hpp"
+#include "reduction/methods/craig_bampton.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // Times of stability charts: the two-DOF benchmark, a plate backed by a robot with 20 modes, at one point and along a
 // path, a map of |mu|; beside a dense semi-discretization as the literature writes it.
 
-#include "milling/lobes.hpp"
+#include "milling/chart/lobes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +11,8 @@
 #include <numbers>
 
 #include "bench/dense_semi_discretization.hpp"
-#include "milling/lobe_field.hpp"
-#include "milling/stability_map.hpp"
+#include "milling/chart/lobe_field.hpp"
+#include "milling/chart/stability_map.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "milling/critical_depths.hpp"
-#include "milling/cut_at_speed.hpp"
+#include "milling/direct/critical_depths.hpp"
+#include "milling/direct/cut_at_speed.hpp"
 
 namespace {
 

@@ -7,10 +7,10 @@
 #include <exception>
 
 #include "bench/stages.hpp"
-#include "io/inp.hpp"
+#include "io/mesh/inp.hpp"
 #include "mesh/box.hpp"
 #include "mesh/selection.hpp"
-#include "mesh/tetgen.hpp"
+#include "mesh/volume/tetgen.hpp"
 
 namespace {
 

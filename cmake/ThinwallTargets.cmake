@@ -1,4 +1,4 @@
-# thinwall_library(<folder> LINKS ...)   the target thinwall::<folder> from every .cpp of the folder but those whose
+# thinwall_library(<folder> LINKS ...)   the target thinwall::<folder> from every .cpp of the folder and its sub-folders but those whose
 #                                        path matches EXCLUDES: they belong to a target of their own
 # thinwall_test(<name> LINKS ...)        one GoogleTest program from every .cpp of the current folder
 
@@ -37,7 +37,7 @@ set(THINWALL_COMMON_HEADERS <Eigen/Geometry> <Eigen/LU> <Eigen/SparseCore> <algo
 
 function(thinwall_library name)
   cmake_parse_arguments(ARG "" "EXCLUDES" "LINKS;PRIVATE_LINKS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
   if(ARG_EXCLUDES)
     list(FILTER sources EXCLUDE REGEX "${ARG_EXCLUDES}[^/]*$")

@@ -31,13 +31,13 @@ for everything in ("python", "bench", "tests", "fuzz"):
 OWNERS = [
     (re.compile(r"^Eigen/(Eigenvalues|Cholesky|Dense|QR|SVD)$"),
      ("core/dense_eigenvalues.hpp", "core/dense_factorisations.hpp")),
-    (re.compile(r"^vtk.*\.h$"), ("io/vtu.cpp", "io/vtp.cpp", "io/polyline_vtu.cpp", "tests/io/")),
-    (re.compile(r"^matio\.h$"), ("io/mat_variables.cpp",)),
-    (re.compile(r"^pugixml\.hpp$"), ("io/vtu_reader.cpp",)),
-    (re.compile(r"^zlib\.h$"), ("io/vtu_array.cpp", "io/base64.cpp")),
+    (re.compile(r"^vtk.*\.h$"), ("io/results/vtu.cpp", "io/results/vtp.cpp", "io/results/polyline_vtu.cpp", "tests/io/")),
+    (re.compile(r"^matio\.h$"), ("io/matrices/mat_variables.cpp",)),
+    (re.compile(r"^pugixml\.hpp$"), ("io/mesh/vtu_reader.cpp",)),
+    (re.compile(r"^zlib\.h$"), ("io/mesh/vtu_array.cpp", "io/base64.cpp")),
     (re.compile(r"^openssl/"), ("io/manifest.cpp", "io/base64.cpp")),
     (re.compile(r"^(urdf|console_bridge)"), ("io/urdf.cpp",)),
-    (re.compile(r"^[A-Za-z]+_?[A-Za-z]*\.hxx$"), ("io/step",)),
+    (re.compile(r"^[A-Za-z]+_?[A-Za-z]*\.hxx$"), ("io/surface/step",)),
     (re.compile(r"^tetgen\.h$"), ("mesh/",)),
     (re.compile(r"^(suitesparse/)?cholmod\.h$"), ("linalg/", "tests/linalg/")),
 ]

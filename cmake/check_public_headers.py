@@ -15,10 +15,10 @@ def violations(root, folder):
     """What is wrong with a folder's public header, as lines of text."""
     name = f"{folder}/{folder}.hpp"
     text = (root / name).read_text(encoding="utf-8")
-    included = set(re.findall(rf'#include "{folder}/(\w+)\.hpp"', text))
+    included = set(re.findall(rf'#include "{folder}/(?:\w+/)*(\w+)\.hpp"', text))
     comment = re.search(r"// Internal: ((?:.*\n//)*.*)\.\n", text)
     internal = set(re.findall(r"\w+", comment.group(1).replace("//", " "))) if comment else set()
-    present = {header.stem for header in (root / folder).glob("*.hpp")} - {folder}
+    present = {header.stem for header in (root / folder).rglob("*.hpp")} - {folder}
     return (
         [f"{name}: {h}.hpp is neither included nor named as internal" for h in sorted(present - included - internal)]
         + [f"{name}: {h}.hpp does not exist" for h in sorted((included | internal) - present)]

@@ -2,12 +2,12 @@
 # the root ("mesh/box.hpp"); where many libraries share one include directory they do so under the library's name
 # ("thinwall/mesh/box.hpp"), so that no `mesh` or `io` of another comes between. Those that need headers of CHOLMOD and of
 # Open CASCADE stay here; no other header names them.
-set(internal linalg/cholmod.hpp io/step_triangles.hpp)
+set(internal linalg/cholmod.hpp io/surface/step_triangles.hpp)
 list(JOIN THINWALL_FOLDERS "|" folders)
 set(staged ${THINWALL_BINARY_DIR}/installed_headers)
 file(REMOVE_RECURSE ${staged})
 foreach(folder IN LISTS THINWALL_FOLDERS)
-  file(GLOB headers RELATIVE ${THINWALL_SOURCE_DIR} ${THINWALL_SOURCE_DIR}/${folder}/*.hpp)
+  file(GLOB_RECURSE headers RELATIVE ${THINWALL_SOURCE_DIR} ${THINWALL_SOURCE_DIR}/${folder}/*.hpp)
   list(REMOVE_ITEM headers ${internal})
   foreach(header IN LISTS headers)
     file(READ ${THINWALL_SOURCE_DIR}/${header} text)

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "mesh/surface_to_volume.hpp"
+#include "mesh/volume/surface_to_volume.hpp"
 
 namespace thinwall::fem {
 

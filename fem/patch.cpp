@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "fem/face_points.hpp"
 #include "fem/reference_element.hpp"
-#include "mesh/locate.hpp"
+#include "mesh/solid/locate.hpp"
 
 namespace thinwall::fem {
 

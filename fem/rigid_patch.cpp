@@ -5,7 +5,7 @@
 
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
-#include "mesh/locate.hpp"
+#include "mesh/solid/locate.hpp"
 
 namespace thinwall::fem {
 

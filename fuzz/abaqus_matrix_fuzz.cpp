@@ -2,7 +2,7 @@
 // fuzz/corpus/abaqus_matrix.
 
 #include "fuzz/matrix_fuzz.hpp"
-#include "io/matrix_triplets.hpp"
+#include "io/matrices/matrix_triplets.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return thinwall::fuzz::read_matrix_bytes(data, size, [](std::string_view bytes) {

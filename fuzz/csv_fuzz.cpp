@@ -2,11 +2,11 @@
 // fuzz/corpus/csv.
 
 #include "fuzz/file_fuzz.hpp"
-#include "io/csv_table.hpp"
-#include "io/frf_csv.hpp"
-#include "io/frf_cutpro.hpp"
-#include "io/modal_table_csv.hpp"
-#include "io/response_csv.hpp"
+#include "io/frf/frf_csv.hpp"
+#include "io/frf/frf_cutpro.hpp"
+#include "io/frf/modal_table_csv.hpp"
+#include "io/frf/response_csv.hpp"
+#include "io/results/csv_table.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace thinwall;

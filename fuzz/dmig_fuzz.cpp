@@ -1,7 +1,7 @@
 // Bytes as DMIG and GRID entries: built and run by fuzz/run, with the corpus fuzz/corpus/dmig.
 
 #include "fuzz/matrix_fuzz.hpp"
-#include "io/dmig.hpp"
+#include "io/matrices/dmig.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return thinwall::fuzz::read_matrix_bytes(data, size, [](std::string_view bytes) {

@@ -1,7 +1,7 @@
 // Bytes as a table of DOFs and as one of positions: built and run by fuzz/run, with the corpus fuzz/corpus/dof_table.
 
 #include "fuzz/file_fuzz.hpp"
-#include "io/dof_table_csv.hpp"
+#include "io/matrices/dof_table_csv.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const thinwall::fuzz::BytesAsFile file(data, size);

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
-#include "io/matrix_entries.hpp"
+#include "io/matrices/matrix_entries.hpp"
 
 namespace thinwall::fuzz {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
-#include "mesh/solid_mesh.hpp"
+#include "mesh/solid/solid_mesh.hpp"
 
 namespace thinwall::fuzz {
 

@@ -1,7 +1,7 @@
 // Bytes as OFF: built and run by fuzz/run, with the corpus fuzz/corpus/off.
 
 #include "fuzz/surface_fuzz.hpp"
-#include "io/off.hpp"
+#include "io/surface/off.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return thinwall::fuzz::read_surface_bytes(data, size, thinwall::io::off_surface);

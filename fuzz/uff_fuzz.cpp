@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include "core/error.hpp"
-#include "io/uff.hpp"
-#include "io/uff_mesh.hpp"
-#include "io/uff_shapes.hpp"
+#include "io/frf/uff.hpp"
+#include "io/frf/uff_mesh.hpp"
+#include "io/frf/uff_shapes.hpp"
 
 namespace {
 

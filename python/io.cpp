@@ -1,7 +1,7 @@
 // Measured receptances from files.
 
-#include "io/frf_csv.hpp"
-#include "io/response_csv.hpp"
+#include "io/frf/frf_csv.hpp"
+#include "io/frf/response_csv.hpp"
 #include "python/bindings.hpp"
 
 namespace thinwall::python {

@@ -1,9 +1,9 @@
 // Meshes: boxes, prisms, files; and the regions that choose their faces.
 
 #include "core/error.hpp"
-#include "io/mesh_file.hpp"
-#include "mesh/box_mesh.hpp"
-#include "mesh/quality.hpp"
+#include "io/mesh/mesh_file.hpp"
+#include "mesh/planar/box_mesh.hpp"
+#include "mesh/solid/quality.hpp"
 #include "python/bindings.hpp"
 
 namespace thinwall::python {

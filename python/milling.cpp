@@ -7,9 +7,9 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "dynamics/conversion.hpp"
-#include "milling/lobes.hpp"
-#include "milling/sampled_stability.hpp"
-#include "milling/stability_map.hpp"
+#include "milling/chart/lobes.hpp"
+#include "milling/chart/sampled_stability.hpp"
+#include "milling/chart/stability_map.hpp"
 #include "python/bindings.hpp"
 
 namespace thinwall::python {

@@ -5,10 +5,10 @@
 #include "fem/points.hpp"
 #include "linalg/sparse_cholesky.hpp"
 #include "python/bindings.hpp"
-#include "reduction/craig_bampton.hpp"
 #include "reduction/damping.hpp"
 #include "reduction/identification.hpp"
-#include "reduction/reduce.hpp"
+#include "reduction/methods/craig_bampton.hpp"
+#include "reduction/methods/reduce.hpp"
 
 namespace thinwall::python {
 

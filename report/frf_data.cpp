@@ -8,8 +8,8 @@
 #include <optional>
 #include <set>
 
-#include "io/csv_table.hpp"
-#include "io/response_csv.hpp"
+#include "io/frf/response_csv.hpp"
+#include "io/results/csv_table.hpp"
 #include "report/arrays.hpp"
 #include "report/thinned_lines.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "io/csv_table.hpp"
+#include "io/results/csv_table.hpp"
 #include "report/arrays.hpp"
 #include "report/json_number.hpp"
 

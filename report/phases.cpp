@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "io/pvd.hpp"
-#include "io/vtp.hpp"
+#include "io/results/pvd.hpp"
+#include "io/results/vtp.hpp"
 
 namespace thinwall::report {
 

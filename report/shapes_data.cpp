@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "io/csv_table.hpp"
-#include "io/vtp.hpp"
+#include "io/results/csv_table.hpp"
+#include "io/results/vtp.hpp"
 #include "report/arrays.hpp"
 #include "report/surface.hpp"
 

@@ -40,7 +40,7 @@ def filtered(text):
 
 def main():
     out = pathlib.Path(sys.argv[1])
-    for header in (path for folder in FOLDERS for path in sorted((ROOT / folder).glob("*.hpp"))):
+    for header in (path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.hpp"))):
         copy = out / header.relative_to(ROOT)
         copy.parent.mkdir(parents=True, exist_ok=True)
         copy.write_text(filtered(header.read_text(encoding="utf-8")), encoding="utf-8")

@@ -13,8 +13,8 @@
 #include "app/problem.hpp"
 #include "app/schema.hpp"
 #include "core/atomic_file.hpp"
-#include "io/csv_table.hpp"
-#include "milling/lobe_method.hpp"
+#include "io/results/csv_table.hpp"
+#include "milling/chart/lobe_method.hpp"
 #include "temporary_folder.hpp"
 
 namespace thinwall::app {

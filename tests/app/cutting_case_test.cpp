@@ -10,7 +10,7 @@
 #include "app/milling_process.hpp"
 #include "app/problem.hpp"
 #include "case_text.hpp"
-#include "milling/chip_load.hpp"
+#include "milling/cut/chip_load.hpp"
 
 namespace thinwall::app {
 namespace {

@@ -23,7 +23,7 @@
 #include "case_text.hpp"
 #include "core/atomic_file.hpp"
 #include "dynamics/conversion.hpp"
-#include "io/uff.hpp"
+#include "io/frf/uff.hpp"
 #include "temporary_folder.hpp"
 
 namespace thinwall::app {

@@ -9,9 +9,9 @@
 #include "app/part_materials.hpp"
 #include "app/stage_keys.hpp"
 #include "core/atomic_file.hpp"
-#include "io/stl.hpp"
+#include "io/surface/stl.hpp"
 #include "mesh/box.hpp"
-#include "mesh/shapes.hpp"
+#include "mesh/surface/shapes.hpp"
 #include "temporary_folder.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 

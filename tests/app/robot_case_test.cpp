@@ -10,7 +10,7 @@
 #include "app/problem.hpp"
 #include "app/robot_stage.hpp"
 #include "core/atomic_file.hpp"
-#include "io/uff.hpp"
+#include "io/frf/uff.hpp"
 #include "robot/arm_kinematics.hpp"
 #include "temporary_folder.hpp"
 

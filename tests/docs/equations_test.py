@@ -37,7 +37,7 @@ def main():
     for chapter, numbers in chapters.items():
         faults += [f"docs/theory/{chapter}.md: two equations ({number})" for number in sorted(set(numbers))
                    if numbers.count(number) > 1]
-    files = [path for pattern in ("*/*.hpp", "*/*.cpp", "tests/**/*.cpp", "docs/**/*.md", "cases/*/README.md", "*.md")
+    files = [path for pattern in ("*/**/*.hpp", "*/**/*.cpp", "tests/**/*.cpp", "docs/**/*.md", "cases/*/README.md", "*.md")
              for path in sorted(root.glob(pattern)) if "build" not in path.relative_to(root).parts[:1]]
     for path in files:
         text = path.read_text(encoding="utf-8")

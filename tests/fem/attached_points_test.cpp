@@ -12,7 +12,7 @@
 #include "fem/interpolation.hpp"
 #include "fem/points.hpp"
 #include "fem/to_tolerance.hpp"
-#include "mesh/bend.hpp"
+#include "mesh/planar/bend.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
 namespace thinwall::fem {

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "mesh/box.hpp"
-#include "mesh/shapes.hpp"
+#include "mesh/surface/shapes.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
 namespace thinwall::fem {

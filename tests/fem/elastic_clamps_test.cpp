@@ -14,7 +14,7 @@
 #include "core/error.hpp"
 #include "fem/modes.hpp"
 #include "fem/supports.hpp"
-#include "mesh/bend.hpp"
+#include "mesh/planar/bend.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
 namespace thinwall::fem {

@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "fem/assembly.hpp"
 #include "fem/model.hpp"
-#include "mesh/bend.hpp"
+#include "mesh/planar/bend.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
 namespace thinwall::fem {

@@ -7,8 +7,8 @@
 
 #include "fem/modes.hpp"
 #include "fem/supports.hpp"
-#include "mesh/bend.hpp"
-#include "mesh/prism_mesh.hpp"
+#include "mesh/planar/bend.hpp"
+#include "mesh/planar/prism_mesh.hpp"
 #include "tests/linalg/thread_count.hpp"
 
 namespace thinwall::fem {

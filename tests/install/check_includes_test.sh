@@ -22,7 +22,7 @@ only() {  # path, line: the one source of the tree
 fine="every include looks downwards"
 expect_equal "downwards" "$fine" "$(only mesh/a.cpp '#include "core/error.hpp"')"
 expect_equal "beside a test" "$fine" "$(only tests/io/a.cpp '#include "scratch.hpp"')"
-expect_equal "VTK in its file" "$fine" "$(only io/vtu.cpp '#include <vtkCellArray.h>')"
+expect_equal "VTK in its file" "$fine" "$(only io/results/vtu.cpp '#include <vtkCellArray.h>')"
 expect_equal "upwards" 'core/a.cpp:1: core/ may not include mesh/' "$(only core/a.cpp '#include "mesh/tet_mesh.hpp"')"
 expect_equal "sideways" 'dynamics/a.hpp:1: dynamics/ may not include mesh/' \
   "$(only dynamics/a.hpp '  #  include "mesh/tet_mesh.hpp"')"

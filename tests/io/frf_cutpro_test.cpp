@@ -1,4 +1,4 @@
-#include "io/frf_cutpro.hpp"
+#include "io/frf/frf_cutpro.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "io/frf_csv.hpp"
+#include "io/frf/frf_csv.hpp"
 #include "scratch_folder.hpp"
 
 namespace thinwall::io::test {

@@ -1,6 +1,6 @@
 // Meshes that Gmsh wrote, in all its formats, and the same ones by way of its Abaqus files.
 
-#include "io/gmsh.hpp"
+#include "io/mesh/gmsh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "io/mesh_file.hpp"
+#include "io/mesh/mesh_file.hpp"
 #include "mesh_bytes.hpp"
 #include "scratch_folder.hpp"
 

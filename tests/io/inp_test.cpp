@@ -1,6 +1,6 @@
 // Input files of Abaqus and CalculiX: what is written comes back, and what is wrong is told with its line.
 
-#include "io/inp.hpp"
+#include "io/mesh/inp.hpp"
 
 #include <gtest/gtest.h>
 

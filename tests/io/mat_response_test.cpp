@@ -1,4 +1,4 @@
-#include "io/mat_response.hpp"
+#include "io/frf/mat_response.hpp"
 
 #include <cmath>
 #include <complex>
@@ -10,7 +10,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "io/mat_variables.hpp"
+#include "io/matrices/mat_variables.hpp"
 #include "scratch_folder.hpp"
 
 namespace thinwall::io::test {

@@ -1,6 +1,6 @@
 // Component matrices by way of every format: what comes back, and what is refused with its place.
 
-#include "io/matrix_files.hpp"
+#include "io/matrices/matrix_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,13 +14,13 @@
 #include "dynamics/conversion.hpp"
 #include "dynamics/sparse_spatial.hpp"
 #include "dynamics/unit_system.hpp"
-#include "io/dmig.hpp"
-#include "io/dof_table_csv.hpp"
-#include "io/mat.hpp"
-#include "io/mat_sparse.hpp"
-#include "io/mat_variables.hpp"
-#include "io/matrix_market.hpp"
-#include "io/nastran_cards.hpp"
+#include "io/matrices/dmig.hpp"
+#include "io/matrices/dof_table_csv.hpp"
+#include "io/matrices/mat.hpp"
+#include "io/matrices/mat_sparse.hpp"
+#include "io/matrices/mat_variables.hpp"
+#include "io/matrices/matrix_market.hpp"
+#include "io/matrices/nastran_cards.hpp"
 #include "matrix_model.hpp"
 #include "scratch_folder.hpp"
 

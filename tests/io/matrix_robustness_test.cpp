@@ -15,9 +15,9 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "io/dmig.hpp"
-#include "io/matrix_market.hpp"
-#include "io/matrix_triplets.hpp"
+#include "io/matrices/dmig.hpp"
+#include "io/matrices/matrix_market.hpp"
+#include "io/matrices/matrix_triplets.hpp"
 
 namespace thinwall::io::test {
 

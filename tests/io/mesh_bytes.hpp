@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/atomic_file.hpp"
-#include "io/gmsh.hpp"
-#include "io/inp.hpp"
-#include "io/vtu_reader.hpp"
+#include "io/mesh/gmsh.hpp"
+#include "io/mesh/inp.hpp"
+#include "io/mesh/vtu_reader.hpp"
 #include "tests/mesh/curved_volume.hpp"
 
 namespace thinwall::io::test {

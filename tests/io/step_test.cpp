@@ -1,6 +1,6 @@
 // STEP: a solid is read as its closed form says; everything else is refused in one line, and crashes nothing.
 
-#include "io/step.hpp"
+#include "io/surface/step.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "io/surface_file.hpp"
-#include "mesh/surface_repair.hpp"
+#include "io/surface/surface_file.hpp"
+#include "mesh/surface/surface_repair.hpp"
 #include "scratch_folder.hpp"
 
 namespace thinwall::io::test {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/units.hpp"
-#include "io/stl.hpp"
+#include "io/surface/stl.hpp"
 #include "mesh/triangle_soup.hpp"
 
 namespace thinwall::io::test {

@@ -8,12 +8,12 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "io/obj.hpp"
-#include "io/off.hpp"
-#include "io/ply.hpp"
-#include "io/stl.hpp"
-#include "io/surface_file.hpp"
-#include "mesh/surface_repair.hpp"
+#include "io/surface/obj.hpp"
+#include "io/surface/off.hpp"
+#include "io/surface/ply.hpp"
+#include "io/surface/stl.hpp"
+#include "io/surface/surface_file.hpp"
+#include "mesh/surface/surface_repair.hpp"
 #include "scratch_folder.hpp"
 #include "surface_bytes.hpp"
 #include "tests/mesh/solid_shapes.hpp"

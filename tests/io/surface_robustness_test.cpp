@@ -14,10 +14,10 @@
 
 #include "byte_mutation.hpp"
 #include "core/error.hpp"
-#include "io/obj.hpp"
-#include "io/off.hpp"
-#include "io/ply.hpp"
-#include "io/stl.hpp"
+#include "io/surface/obj.hpp"
+#include "io/surface/off.hpp"
+#include "io/surface/ply.hpp"
+#include "io/surface/stl.hpp"
 #include "surface_bytes.hpp"
 
 namespace thinwall::io::test {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "io/stl.hpp"
-#include "mesh/surface_repair.hpp"
+#include "io/surface/stl.hpp"
+#include "mesh/surface/surface_repair.hpp"
 #include "scratch_folder.hpp"
 #include "tests/mesh/solid_shapes.hpp"
 

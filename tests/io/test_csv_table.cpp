@@ -4,7 +4,7 @@
 #include <random>
 
 #include "core/error.hpp"
-#include "io/csv_table.hpp"
+#include "io/results/csv_table.hpp"
 #include "scratch_folder.hpp"
 
 namespace thinwall::io::test {

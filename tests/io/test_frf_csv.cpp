@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "io/frf_csv.hpp"
+#include "io/frf/frf_csv.hpp"
 #include "scratch_folder.hpp"
 
 namespace thinwall::io::test {

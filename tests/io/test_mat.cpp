@@ -2,8 +2,8 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "io/mat.hpp"
-#include "io/mat_sparse.hpp"
+#include "io/matrices/mat.hpp"
+#include "io/matrices/mat_sparse.hpp"
 #include "matrix_model.hpp"
 #include "scratch_folder.hpp"
 

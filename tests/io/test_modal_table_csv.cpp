@@ -1,7 +1,7 @@
 #include <chrono>
 
 #include "core/error.hpp"
-#include "io/modal_table_csv.hpp"
+#include "io/frf/modal_table_csv.hpp"
 #include "scratch_folder.hpp"
 
 namespace thinwall::io::test {

@@ -1,6 +1,6 @@
 #include "core/error.hpp"
-#include "io/frf_csv.hpp"
-#include "io/response_csv.hpp"
+#include "io/frf/frf_csv.hpp"
+#include "io/frf/response_csv.hpp"
 #include "scratch_folder.hpp"
 
 namespace thinwall::io::test {

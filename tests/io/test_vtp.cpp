@@ -9,10 +9,10 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "io/vtp.hpp"
-#include "mesh/shapes.hpp"
-#include "mesh/tessellation.hpp"
-#include "mesh/wall_thickness.hpp"
+#include "io/results/vtp.hpp"
+#include "mesh/solid/tessellation.hpp"
+#include "mesh/surface/shapes.hpp"
+#include "mesh/surface/wall_thickness.hpp"
 #include "scratch_folder.hpp"
 
 namespace thinwall::io::test {

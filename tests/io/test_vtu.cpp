@@ -15,9 +15,9 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "io/pvd.hpp"
-#include "io/vtp.hpp"
-#include "io/vtu.hpp"
+#include "io/results/pvd.hpp"
+#include "io/results/vtp.hpp"
+#include "io/results/vtu.hpp"
 #include "mesh/tet_mesh.hpp"
 #include "scratch_folder.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "io/uff.hpp"
+#include "io/frf/uff.hpp"
 #include "scratch_folder.hpp"
 #include "uff_bytes.hpp"
 

@@ -1,4 +1,4 @@
-#include "io/uff_mesh.hpp"
+#include "io/frf/uff_mesh.hpp"
 
 #include <cmath>
 #include <string>

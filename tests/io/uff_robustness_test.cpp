@@ -14,9 +14,9 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "io/uff.hpp"
-#include "io/uff_mesh.hpp"
-#include "io/uff_shapes.hpp"
+#include "io/frf/uff.hpp"
+#include "io/frf/uff_mesh.hpp"
+#include "io/frf/uff_shapes.hpp"
 #include "scratch_folder.hpp"
 #include "uff_bytes.hpp"
 

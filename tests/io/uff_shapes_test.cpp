@@ -1,4 +1,4 @@
-#include "io/uff_shapes.hpp"
+#include "io/frf/uff_shapes.hpp"
 
 #include <cmath>
 #include <complex>

@@ -1,4 +1,4 @@
-#include "io/uff.hpp"
+#include "io/frf/uff.hpp"
 
 #include <cmath>
 #include <complex>

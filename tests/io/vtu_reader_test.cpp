@@ -1,6 +1,6 @@
 // VTU files that VTK's own writer made, in every encoding it knows, are one mesh.
 
-#include "io/vtu_reader.hpp"
+#include "io/mesh/vtu_reader.hpp"
 
 #include <gtest/gtest.h>
 #include <vtkCellData.h>
@@ -12,8 +12,8 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include "core/error.hpp"
-#include "io/mesh_file.hpp"
-#include "io/vtu.hpp"
+#include "io/mesh/mesh_file.hpp"
+#include "io/results/vtu.hpp"
 #include "mesh_bytes.hpp"
 #include "scratch_folder.hpp"
 #include "tests/mesh/labelled_grids.hpp"

@@ -1,4 +1,4 @@
-#include "mesh/bend.hpp"
+#include "mesh/planar/bend.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "mesh/lagrange_nodes.hpp"
-#include "mesh/prism_mesh.hpp"
+#include "mesh/planar/prism_mesh.hpp"
 #include "tests/mesh/plane_shapes.hpp"
 
 namespace thinwall::mesh {

@@ -1,6 +1,6 @@
 // A box's mesh fills the box, whichever of its sides is the thin one.
 
-#include "mesh/box_mesh.hpp"
+#include "mesh/planar/box_mesh.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/LU>
 
-#include "mesh/solid_mesh.hpp"
+#include "mesh/solid/solid_mesh.hpp"
 
 namespace thinwall::mesh {
 

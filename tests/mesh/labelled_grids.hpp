@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "mesh/labelled_mesh.hpp"
+#include "mesh/solid/labelled_mesh.hpp"
 
 namespace thinwall::mesh {
 

@@ -1,4 +1,4 @@
-#include "mesh/locate.hpp"
+#include "mesh/solid/locate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "mesh/box.hpp"
-#include "mesh/shapes.hpp"
+#include "mesh/surface/shapes.hpp"
 
 namespace thinwall::mesh {
 namespace {

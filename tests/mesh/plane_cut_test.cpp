@@ -1,4 +1,4 @@
-#include "mesh/plane_cut.hpp"
+#include "mesh/solid/plane_cut.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/prism.hpp"
+#include "mesh/planar/prism.hpp"
 
 namespace thinwall::mesh {
 

@@ -1,4 +1,4 @@
-#include "mesh/prism_mesh.hpp"
+#include "mesh/planar/prism_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "mesh/planar_mesh.hpp"
-#include "mesh/quality.hpp"
-#include "mesh/sweep.hpp"
+#include "mesh/planar/planar_mesh.hpp"
+#include "mesh/planar/sweep.hpp"
+#include "mesh/solid/quality.hpp"
 #include "tests/mesh/plane_shapes.hpp"
 
 namespace thinwall::mesh {

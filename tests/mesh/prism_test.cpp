@@ -1,4 +1,4 @@
-#include "mesh/prism.hpp"
+#include "mesh/planar/prism.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "core/error.hpp"
-#include "mesh/border_graph.hpp"
+#include "mesh/planar/border_graph.hpp"
 #include "tests/mesh/plane_shapes.hpp"
 
 namespace thinwall::mesh {

@@ -1,4 +1,4 @@
-#include "mesh/quality.hpp"
+#include "mesh/solid/quality.hpp"
 
 #include <gtest/gtest.h>
 

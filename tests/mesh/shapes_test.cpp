@@ -1,4 +1,4 @@
-#include "mesh/shapes.hpp"
+#include "mesh/surface/shapes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "mesh/box.hpp"
-#include "mesh/closed_surface.hpp"
+#include "mesh/surface/closed_surface.hpp"
 
 namespace thinwall::mesh {
 namespace {

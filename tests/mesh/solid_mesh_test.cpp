@@ -1,7 +1,7 @@
 // Meshes of other programs as tetrahedra: split meshes fill the same volume and fit together, and what is wrong is
 // told.
 
-#include "mesh/solid_mesh.hpp"
+#include "mesh/solid/solid_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "curved_volume.hpp"
 #include "labelled_grids.hpp"
-#include "mesh/tet_jacobian.hpp"
+#include "mesh/solid/tet_jacobian.hpp"
 
 namespace thinwall::mesh {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/shapes.hpp"
+#include "mesh/surface/shapes.hpp"
 #include "mesh/triangle_soup.hpp"
 
 namespace thinwall::mesh {

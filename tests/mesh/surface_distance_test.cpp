@@ -1,4 +1,4 @@
-#include "mesh/surface_distance.hpp"
+#include "mesh/surface/surface_distance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 
 #include "core/error.hpp"
 #include "mesh/polyline.hpp"
-#include "mesh/shapes.hpp"
-#include "mesh/triangle_tree.hpp"
+#include "mesh/surface/shapes.hpp"
+#include "mesh/surface/triangle_tree.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
 namespace thinwall::mesh {

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "mesh/closed_surface.hpp"
-#include "mesh/surface_repair.hpp"
+#include "mesh/surface/closed_surface.hpp"
+#include "mesh/surface/surface_repair.hpp"
 #include "solid_shapes.hpp"
 
 namespace thinwall::mesh {

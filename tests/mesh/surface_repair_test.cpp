@@ -1,6 +1,6 @@
 // What is mended, and that the surface is then the one that was damaged.
 
-#include "mesh/surface_repair.hpp"
+#include "mesh/surface/surface_repair.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "mesh/closed_surface.hpp"
-#include "mesh/surface_distance.hpp"
-#include "mesh/surface_to_volume.hpp"
+#include "mesh/surface/closed_surface.hpp"
+#include "mesh/surface/surface_distance.hpp"
+#include "mesh/volume/surface_to_volume.hpp"
 #include "solid_shapes.hpp"
 
 namespace thinwall::mesh {

@@ -1,4 +1,4 @@
-#include "mesh/surface_to_volume.hpp"
+#include "mesh/volume/surface_to_volume.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@
 
 #include "core/error.hpp"
 #include "mesh/box.hpp"
-#include "mesh/closed_surface.hpp"
-#include "mesh/delaunay_volume.hpp"
-#include "mesh/shapes.hpp"
-#include "mesh/surface_distance.hpp"
-#include "mesh/tetgen.hpp"
+#include "mesh/surface/closed_surface.hpp"
+#include "mesh/surface/shapes.hpp"
+#include "mesh/surface/surface_distance.hpp"
+#include "mesh/volume/delaunay_volume.hpp"
+#include "mesh/volume/tetgen.hpp"
 
 namespace thinwall::mesh {
 namespace {

@@ -1,4 +1,4 @@
-#include "mesh/tessellation.hpp"
+#include "mesh/solid/tessellation.hpp"
 
 #include <gtest/gtest.h>
 

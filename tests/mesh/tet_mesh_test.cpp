@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "mesh/box.hpp"
 #include "mesh/lagrange_nodes.hpp"
-#include "mesh/tetgen.hpp"
+#include "mesh/volume/tetgen.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
 namespace thinwall::mesh {

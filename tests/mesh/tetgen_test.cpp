@@ -1,4 +1,4 @@
-#include "mesh/tetgen.hpp"
+#include "mesh/volume/tetgen.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "core/error.hpp"
-#include "mesh/edge_uses.hpp"
+#include "mesh/surface/edge_uses.hpp"
 #include "solid_shapes.hpp"
 
 namespace thinwall::mesh {

@@ -1,4 +1,4 @@
-#include "mesh/wall_thickness.hpp"
+#include "mesh/surface/wall_thickness.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/shapes.hpp"
-#include "mesh/surface_features.hpp"
+#include "mesh/surface/shapes.hpp"
+#include "mesh/surface/surface_features.hpp"
 
 namespace thinwall::mesh {
 namespace {

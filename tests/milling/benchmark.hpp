@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "milling/lobe_row.hpp"
-#include "milling/process.hpp"
-#include "milling/relative_structure.hpp"
+#include "milling/cut/process.hpp"
+#include "milling/direct/lobe_row.hpp"
+#include "milling/structure/relative_structure.hpp"
 #include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling::testing {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "milling/lobes.hpp"
+#include "milling/chart/lobes.hpp"
 
 namespace thinwall::milling {
 namespace {

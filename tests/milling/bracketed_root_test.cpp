@@ -1,4 +1,4 @@
-#include "milling/bracketed_root.hpp"
+#include "milling/direct/bracketed_root.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "milling/complex_eigenvalues.hpp"
+#include "milling/direct/complex_eigenvalues.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Force and torque of an edge with the feed in its chip, against slices.
 
-#include "milling/cutting_load.hpp"
+#include "milling/cut/cutting_load.hpp"
 
 #include <gtest/gtest.h>
 

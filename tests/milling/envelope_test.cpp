@@ -1,6 +1,6 @@
 // The meridian of general end mills, and integrals along their edges.
 
-#include "milling/envelope.hpp"
+#include "milling/cut/envelope.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "milling/edge.hpp"
+#include "milling/cut/edge.hpp"
 
 namespace thinwall::milling {
 namespace {

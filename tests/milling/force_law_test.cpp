@@ -1,6 +1,6 @@
 // Laws of the cutting force and their tangents; chips, runout; coefficients from orthogonal cutting.
 
-#include "milling/force_law.hpp"
+#include "milling/cut/force_law.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "milling/chip_load.hpp"
-#include "milling/oblique_cutting.hpp"
-#include "milling/process.hpp"
+#include "milling/cut/chip_load.hpp"
+#include "milling/cut/oblique_cutting.hpp"
+#include "milling/cut/process.hpp"
 
 namespace thinwall::milling {
 namespace {

@@ -1,7 +1,7 @@
 // The periodic motion of a stable cut: harmonic balance, quasi-static limits, marching in time, mean forces in closed
 // form.
 
-#include "milling/forced_vibration.hpp"
+#include "milling/forced/forced_vibration.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "milling/cutting_load.hpp"
-#include "milling/periodic_motion.hpp"
-#include "milling/stability.hpp"
+#include "milling/cut/cutting_load.hpp"
+#include "milling/direct/stability.hpp"
+#include "milling/structure/periodic_motion.hpp"
 #include "tests/milling/marching.hpp"
 #include "tests/milling/single_mode.hpp"
 

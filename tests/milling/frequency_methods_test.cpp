@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "milling/multi_frequency.hpp"
-#include "milling/stability.hpp"
-#include "milling/zeroth_order.hpp"
+#include "milling/classical/multi_frequency.hpp"
+#include "milling/classical/zeroth_order.hpp"
+#include "milling/direct/stability.hpp"
 #include "tests/milling/benchmark.hpp"
 
 namespace thinwall::milling {

@@ -7,13 +7,13 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "milling/contact_grid.hpp"
-#include "milling/edge.hpp"
-#include "milling/lobe_method.hpp"
-#include "milling/product_rule.hpp"
-#include "milling/sampled_receptance.hpp"
-#include "milling/stability.hpp"
-#include "milling/step_coefficients.hpp"
+#include "milling/chart/lobe_method.hpp"
+#include "milling/cut/contact_grid.hpp"
+#include "milling/cut/edge.hpp"
+#include "milling/cut/product_rule.hpp"
+#include "milling/cut/step_coefficients.hpp"
+#include "milling/direct/sampled_receptance.hpp"
+#include "milling/direct/stability.hpp"
 #include "tests/milling/marching.hpp"
 #include "tests/milling/single_mode.hpp"
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "milling/stability.hpp"
+#include "milling/direct/stability.hpp"
 #include "tests/milling/marching.hpp"
 #include "tests/milling/single_mode.hpp"
 

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "core/parallel.hpp"
-#include "milling/cut_at_speed.hpp"
-#include "milling/lobes.hpp"
+#include "milling/chart/lobes.hpp"
+#include "milling/direct/cut_at_speed.hpp"
 
 namespace thinwall::milling {
 namespace {

@@ -1,4 +1,4 @@
-#include "milling/lobe_field.hpp"
+#include "milling/chart/lobe_field.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // All methods through their one interface.
 
-#include "milling/lobe_method.hpp"
+#include "milling/chart/lobe_method.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "milling/lobes.hpp"
+#include "milling/chart/lobes.hpp"
 #include "tests/milling/benchmark.hpp"
 
 namespace thinwall::milling {

@@ -1,4 +1,4 @@
-#include "milling/lobes.hpp"
+#include "milling/chart/lobes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "milling/regenerative_loop.hpp"
+#include "milling/structure/regenerative_loop.hpp"
 #include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling {

@@ -1,6 +1,6 @@
 // Power, torque and removal rate of a static cut, and pockets within a machine's limits.
 
-#include "milling/machine_limits.hpp"
+#include "milling/chart/machine_limits.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "milling/forced_vibration.hpp"
-#include "milling/pockets.hpp"
+#include "milling/chart/pockets.hpp"
+#include "milling/forced/forced_vibration.hpp"
 
 namespace thinwall::milling {
 namespace {

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
-#include "milling/process.hpp"
-#include "milling/product_rule.hpp"
+#include "milling/cut/process.hpp"
+#include "milling/cut/product_rule.hpp"
 #include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling::testing {

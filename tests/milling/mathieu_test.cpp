@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "milling/cut_at_speed.hpp"
-#include "milling/product_rule.hpp"
+#include "milling/cut/product_rule.hpp"
+#include "milling/direct/cut_at_speed.hpp"
 
 namespace thinwall::milling {
 namespace {

@@ -1,4 +1,4 @@
-#include "milling/operating_point.hpp"
+#include "milling/chart/operating_point.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "milling/lobes.hpp"
-#include "milling/pockets.hpp"
+#include "milling/chart/lobes.hpp"
+#include "milling/chart/pockets.hpp"
 #include "tests/milling/benchmark.hpp"
 
 namespace thinwall::milling {

@@ -1,4 +1,4 @@
-#include "milling/process.hpp"
+#include "milling/cut/process.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Charts that hold under uncertainty: closed forms, and the share of random structures that is stable.
 
-#include "milling/robust_lobes.hpp"
+#include "milling/chart/robust_lobes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <random>
 
 #include "core/error.hpp"
-#include "milling/lobes.hpp"
-#include "milling/parameter_change.hpp"
-#include "milling/stability.hpp"
+#include "milling/chart/lobes.hpp"
+#include "milling/direct/stability.hpp"
+#include "milling/structure/parameter_change.hpp"
 #include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling {

@@ -1,7 +1,7 @@
 // Stability from samples of a receptance, without poles, against the same structures by their poles and against the
 // benchmark's independent values.
 
-#include "milling/sampled_stability.hpp"
+#include "milling/chart/sampled_stability.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "milling/critical_depths.hpp"
-#include "milling/cut_at_speed.hpp"
-#include "milling/passivity.hpp"
-#include "milling/stability.hpp"
-#include "milling/unstable_count.hpp"
+#include "milling/direct/critical_depths.hpp"
+#include "milling/direct/cut_at_speed.hpp"
+#include "milling/direct/passivity.hpp"
+#include "milling/direct/stability.hpp"
+#include "milling/direct/unstable_count.hpp"
 #include "tests/milling/benchmark.hpp"
 
 namespace thinwall::milling {

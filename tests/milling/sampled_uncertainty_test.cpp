@@ -1,6 +1,6 @@
 // How a limiting depth follows the samples of a receptance: a cut with a closed form, differences, and draws.
 
-#include "milling/sampled_uncertainty.hpp"
+#include "milling/chart/sampled_uncertainty.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "milling/sensitivity.hpp"
+#include "milling/chart/sensitivity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "milling/stability.hpp"
+#include "milling/direct/stability.hpp"
 #include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling {

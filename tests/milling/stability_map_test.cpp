@@ -1,4 +1,4 @@
-#include "milling/stability_map.hpp"
+#include "milling/chart/stability_map.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "milling/lobes.hpp"
+#include "milling/chart/lobes.hpp"
 #include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "milling/contact_state.hpp"
+#include "milling/structure/contact_state.hpp"
 #include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling {

@@ -10,7 +10,7 @@
 
 #include "core/dense_eigenvalues.hpp"
 #include "core/dense_factorisations.hpp"
-#include "milling/stability.hpp"
+#include "milling/direct/stability.hpp"
 #include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling {

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <string>
 
-#include "milling/lobe_method.hpp"
-#include "milling/stability.hpp"
-#include "milling/uniform_step_stability.hpp"
+#include "milling/chart/lobe_method.hpp"
+#include "milling/classical/uniform_step_stability.hpp"
+#include "milling/direct/stability.hpp"
 #include "tests/milling/marching.hpp"
 #include "tests/milling/single_mode.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
-#include "milling/stability.hpp"
-#include "milling/uniform_step_stability.hpp"
+#include "milling/classical/uniform_step_stability.hpp"
+#include "milling/direct/stability.hpp"
 #include "tests/milling/benchmark.hpp"
 
 namespace thinwall::milling {

@@ -1,4 +1,4 @@
-#include "milling/vanishing_powers.hpp"
+#include "milling/direct/vanishing_powers.hpp"
 
 #include <gtest/gtest.h>
 

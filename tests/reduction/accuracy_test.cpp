@@ -1,4 +1,4 @@
-#include "reduction/accuracy.hpp"
+#include "reduction/trust/accuracy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "dynamics/conversion.hpp"
 #include "fem/modes.hpp"
 #include "reduction/damping.hpp"
-#include "reduction/full_response.hpp"
+#include "reduction/trust/full_response.hpp"
 #include "reduction/worst.hpp"
 #include "tests/reduction/solid_part.hpp"
 

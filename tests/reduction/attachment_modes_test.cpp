@@ -1,4 +1,4 @@
-#include "reduction/attachment_modes.hpp"
+#include "reduction/methods/attachment_modes.hpp"
 
 #include <gtest/gtest.h>
 

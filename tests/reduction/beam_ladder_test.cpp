@@ -10,7 +10,7 @@
 #include "core/dense_factorisations.hpp"
 #include "dynamics/conversion.hpp"
 #include "linalg/sparse_cholesky.hpp"
-#include "reduction/craig_bampton.hpp"
+#include "reduction/methods/craig_bampton.hpp"
 
 namespace thinwall::reduction {
 namespace {

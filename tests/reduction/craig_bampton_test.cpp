@@ -1,4 +1,4 @@
-#include "reduction/craig_bampton.hpp"
+#include "reduction/methods/craig_bampton.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "reduction/mode_count.hpp"
+#include "reduction/trust/mode_count.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <random>
 
 #include "core/error.hpp"
-#include "reduction/free_interface.hpp"
-#include "reduction/held_interface.hpp"
+#include "reduction/methods/free_interface.hpp"
+#include "reduction/methods/held_interface.hpp"
 #include "tests/reduction/reducible_part.hpp"
 
 namespace thinwall::reduction {

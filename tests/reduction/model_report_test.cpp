@@ -1,4 +1,4 @@
-#include "reduction/model_report.hpp"
+#include "reduction/trust/model_report.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
-#include "reduction/reduce.hpp"
+#include "reduction/methods/reduce.hpp"
 #include "tests/reduction/reducible_part.hpp"
 
 namespace thinwall::reduction {

@@ -1,4 +1,4 @@
-#include "reduction/reduce.hpp"
+#include "reduction/methods/reduce.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
-#include "reduction/band.hpp"
-#include "reduction/comparison.hpp"
-#include "reduction/free_interface.hpp"
-#include "reduction/static_flexibility.hpp"
+#include "reduction/methods/free_interface.hpp"
+#include "reduction/methods/static_flexibility.hpp"
+#include "reduction/trust/band.hpp"
+#include "reduction/trust/comparison.hpp"
 #include "tests/reduction/reducible_part.hpp"
 
 namespace thinwall::reduction {

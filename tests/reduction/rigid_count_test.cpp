@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "reduction/comparison.hpp"
-#include "reduction/free_interface.hpp"
-#include "reduction/rigid_sets.hpp"
-#include "reduction/static_flexibility.hpp"
+#include "reduction/methods/free_interface.hpp"
+#include "reduction/methods/static_flexibility.hpp"
+#include "reduction/trust/comparison.hpp"
+#include "reduction/trust/rigid_sets.hpp"
 #include "tests/reduction/reducible_part.hpp"
 
 namespace thinwall::reduction {

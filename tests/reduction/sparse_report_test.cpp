@@ -1,4 +1,4 @@
-#include "reduction/sparse_report.hpp"
+#include "reduction/trust/sparse_report.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "reduction/truncation.hpp"
+#include "reduction/trust/truncation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
-#include "reduction/craig_bampton.hpp"
+#include "reduction/methods/craig_bampton.hpp"
 #include "tests/reduction/solid_part.hpp"
 
 namespace thinwall::reduction {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "io/csv_table.hpp"
+#include "io/results/csv_table.hpp"
 #include "result_folder.hpp"
 #include "unpacked.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "io/vtp.hpp"
+#include "io/results/vtp.hpp"
 
 namespace thinwall::report {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "core/atomic_file.hpp"
 #include "dynamics/response_model.hpp"
-#include "io/response_csv.hpp"
+#include "io/frf/response_csv.hpp"
 
 namespace thinwall::report {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "io/csv_table.hpp"
-#include "io/vtp.hpp"
+#include "io/results/csv_table.hpp"
+#include "io/results/vtp.hpp"
 #include "result_folder.hpp"
 #include "unpacked.hpp"
 

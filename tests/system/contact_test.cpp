@@ -12,7 +12,7 @@
 #include "app/terminal_report.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "io/response_csv.hpp"
+#include "io/frf/response_csv.hpp"
 #include "tests/system/run_in_folder.hpp"
 
 namespace thinwall::app {

@@ -12,7 +12,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "io/response_csv.hpp"
+#include "io/frf/response_csv.hpp"
 #include "tests/system/run_in_folder.hpp"
 
 namespace thinwall::app {
@@ -116,7 +116,8 @@ TEST(ErrorBudget, OfAReductionIsWhatMoreModesShow) {
   const Eigen::VectorXcd off = dynamics::entry(G, "P.x", "P.x") - dynamics::entry(truth, "P.x", "P.x");
   double largest = 0.0;
   for (Eigen::Index line = 0; line < off.size(); ++line) {
-    // Told to a share (ω/ω_25)⁴ of itself (reduction/truncation.hpp); and the reference of 150 modes leaves out, too.
+    // Told to a share (ω/ω_25)⁴ of itself (reduction/trust/truncation.hpp); and the reference of 150 modes leaves out,
+    // too.
     EXPECT_NEAR(told[static_cast<std::size_t>(line)], std::abs(off(line)), 0.02 * std::abs(off(line)) + 1e-13)
         << G.axis.hz(line) << " Hz";
     largest = std::max(largest, std::abs(off(line)));

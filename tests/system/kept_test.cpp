@@ -11,7 +11,7 @@
 #include "app/program_id.hpp"
 #include "app/stage_keys.hpp"
 #include "core/atomic_file.hpp"
-#include "io/response_csv.hpp"
+#include "io/frf/response_csv.hpp"
 #include "report/document.hpp"
 #include "run_in_folder.hpp"
 #include "tests/report/unpacked.hpp"

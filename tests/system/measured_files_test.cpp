@@ -12,7 +12,7 @@
 #include "app/stages.hpp"
 #include "app/support_stage.hpp"
 #include "app/synthetic_measurement.hpp"
-#include "io/response_csv.hpp"
+#include "io/frf/response_csv.hpp"
 #include "tests/system/run_in_folder.hpp"
 
 namespace thinwall {

@@ -10,10 +10,10 @@
 #include "fem/model.hpp"
 #include "fem/modes.hpp"
 #include "fem/supports.hpp"
-#include "io/mesh_file.hpp"
-#include "io/stl.hpp"
+#include "io/mesh/mesh_file.hpp"
+#include "io/surface/stl.hpp"
 #include "mesh/box.hpp"
-#include "mesh/shapes.hpp"
+#include "mesh/surface/shapes.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
 namespace thinwall::app {

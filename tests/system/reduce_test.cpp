@@ -13,7 +13,7 @@
 #include "app/pipeline.hpp"
 #include "app/reduce_command.hpp"
 #include "core/atomic_file.hpp"
-#include "io/mat.hpp"
+#include "io/matrices/mat.hpp"
 
 namespace thinwall::app {
 namespace {

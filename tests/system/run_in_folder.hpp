@@ -10,7 +10,7 @@
 
 #include "app/case_reader.hpp"
 #include "app/pipeline.hpp"
-#include "io/csv_table.hpp"
+#include "io/results/csv_table.hpp"
 
 namespace thinwall::app {
 

@@ -13,8 +13,8 @@
 #include <thread>
 
 #include "core/atomic_file.hpp"
+#include "io/frf/response_csv.hpp"
 #include "io/manifest.hpp"
-#include "io/response_csv.hpp"
 #include "report/document.hpp"
 
 namespace thinwall {

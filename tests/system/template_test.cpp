@@ -9,8 +9,8 @@
 #include "app/case_template.hpp"
 #include "core/atomic_file.hpp"
 #include "dynamics/response_model.hpp"
-#include "io/response_csv.hpp"
-#include "io/vtp.hpp"
+#include "io/frf/response_csv.hpp"
+#include "io/results/vtp.hpp"
 #include "tests/system/run_in_folder.hpp"
 
 namespace thinwall::app {

@@ -11,7 +11,7 @@
 #include "app/case_reader.hpp"
 #include "app/pipeline.hpp"
 #include "app/problem.hpp"
-#include "io/uff.hpp"
+#include "io/frf/uff.hpp"
 #include "tests/system/run_in_folder.hpp"
 #include "tests/verification/tool_swap/machine.hpp"
 

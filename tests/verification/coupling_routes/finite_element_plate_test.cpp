@@ -11,9 +11,9 @@
 #include "fem/model.hpp"
 #include "fem/points.hpp"
 #include "fem/supports.hpp"
-#include "mesh/tetgen.hpp"
-#include "reduction/craig_bampton.hpp"
+#include "mesh/volume/tetgen.hpp"
 #include "reduction/damping.hpp"
+#include "reduction/methods/craig_bampton.hpp"
 #include "robot/one_mode.hpp"
 
 namespace thinwall {

@@ -14,7 +14,7 @@
 
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
-#include "io/modal_table_csv.hpp"
+#include "io/frf/modal_table_csv.hpp"
 
 namespace thinwall {
 namespace {

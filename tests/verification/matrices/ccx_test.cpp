@@ -15,9 +15,9 @@
 #include "core/dense_eigenvalues.hpp"
 #include "dynamics/sparse_spatial.hpp"
 #include "fem/modes.hpp"
-#include "io/inp.hpp"
-#include "io/mat_sparse.hpp"
-#include "io/matrix_files.hpp"
+#include "io/matrices/mat_sparse.hpp"
+#include "io/matrices/matrix_files.hpp"
+#include "io/mesh/inp.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
 namespace thinwall {

@@ -1,6 +1,6 @@
 // The report on imported matrices: a body whose mass and inertia are known, and each fault that it is there to find.
 
-#include "reduction/sparse_report.hpp"
+#include "reduction/trust/sparse_report.hpp"
 
 #include <gtest/gtest.h>
 

@@ -13,11 +13,11 @@
 
 #include "core/error.hpp"
 #include "fem/closed_part.hpp"
-#include "io/step.hpp"
-#include "io/surface_file.hpp"
-#include "mesh/surface_repair.hpp"
-#include "mesh/surface_to_volume.hpp"
+#include "io/surface/step.hpp"
+#include "io/surface/surface_file.hpp"
+#include "mesh/surface/surface_repair.hpp"
 #include "mesh/tet_mesh.hpp"
+#include "mesh/volume/surface_to_volume.hpp"
 
 namespace thinwall {
 namespace {

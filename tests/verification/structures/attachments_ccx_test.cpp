@@ -15,7 +15,7 @@
 
 #include "fem/modes.hpp"
 #include "fem/supports.hpp"
-#include "io/inp.hpp"
+#include "io/mesh/inp.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
 namespace thinwall {

@@ -14,7 +14,7 @@
 #include "core/dense_eigenvalues.hpp"
 #include "fem/modes.hpp"
 #include "fem/reference_element.hpp"
-#include "io/inp.hpp"
+#include "io/mesh/inp.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 #include "tests/verification/structures/ccx_run.hpp"
 

@@ -8,7 +8,7 @@
 #include "fem/modes.hpp"
 #include "fem/supports.hpp"
 #include "mesh/box.hpp"
-#include "mesh/surface_to_volume.hpp"
+#include "mesh/volume/surface_to_volume.hpp"
 
 namespace thinwall {
 namespace {

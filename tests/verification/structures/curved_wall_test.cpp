@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "mesh/bend.hpp"
+#include "mesh/planar/bend.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 #include "tests/verification/structures/prism_part.hpp"
 

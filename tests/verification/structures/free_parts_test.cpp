@@ -4,9 +4,9 @@
 
 #include <cstdio>
 
-#include "mesh/bend.hpp"
-#include "mesh/shapes.hpp"
-#include "mesh/surface_to_volume.hpp"
+#include "mesh/planar/bend.hpp"
+#include "mesh/surface/shapes.hpp"
+#include "mesh/volume/surface_to_volume.hpp"
 #include "tests/mesh/plane_shapes.hpp"
 #include "tests/verification/structures/prism_part.hpp"
 

@@ -14,7 +14,7 @@
 #include "fem/curved_element.hpp"
 #include "fem/model.hpp"
 #include "fem/reference_element.hpp"
-#include "io/mesh_file.hpp"
+#include "io/mesh/mesh_file.hpp"
 #include "tests/mesh/curved_volume.hpp"
 #include "tests/mesh/labelled_grids.hpp"
 #include "tests/verification/structures/ccx_run.hpp"

@@ -8,7 +8,7 @@
 #include "fem/modes.hpp"
 #include "fem/supports.hpp"
 #include "linalg/sparse_indefinite.hpp"
-#include "mesh/tetgen.hpp"
+#include "mesh/volume/tetgen.hpp"
 
 namespace thinwall {
 namespace {

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "fem/reference_element.hpp"
-#include "io/inp.hpp"
+#include "io/mesh/inp.hpp"
 #include "tests/mesh/plane_shapes.hpp"
 #include "tests/verification/structures/ccx_run.hpp"
 #include "tests/verification/structures/prism_part.hpp"

@@ -9,7 +9,7 @@
 
 #include "fem/modes.hpp"
 #include "fem/supports.hpp"
-#include "mesh/prism_mesh.hpp"
+#include "mesh/planar/prism_mesh.hpp"
 
 namespace thinwall {
 

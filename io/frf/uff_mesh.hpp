@@ -1,0 +1,69 @@
+#pragma once
+// The geometry of a test or a model as a universal file: nodes (2411), elements (2412), trace lines (82).
+//
+// Layout: "Universal File Datasets Summary" (SDRC, I-DEAS).
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/frf/universal_file.hpp"
+
+namespace thinwall::io {
+
+namespace uff {
+/// Descriptors of elements, as far as a drawing needs them.
+constexpr int linear_beam = 21;
+constexpr int linear_triangle = 91;
+constexpr int linear_quadrilateral = 94;
+constexpr int linear_tetrahedron = 111;
+}  // namespace uff
+
+/// A node with its position in the part's axes, m.
+struct UffNode {
+  long label = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+};
+
+/// An element of data set 2412.
+struct UffElement {
+  long label = 0;
+  int descriptor = uff::linear_triangle;
+  std::vector<long> nodes;  ///< labels
+};
+
+/// A drawing: a line from node to node; label 0 lifts the pen.
+struct UffTraceLine {
+  long label = 0;
+  std::string name = "NONE";
+  std::vector<long> nodes;
+};
+
+/// Nodes, elements and trace lines of a file.
+struct UffMesh {
+  std::vector<UffNode> nodes;
+  std::vector<UffElement> elements;
+  std::vector<UffTraceLine> lines;
+  UffNotes notes{};  ///< what was odd where it was read
+};
+
+/// Writes data sets 151, 164 (SI), 2411 (coordinates with 17 digits), 2412 and one 82 a trace line; beams (descriptors
+/// 11 and 21 to 24) without orientation or cross-sections. Written in one step. Throws InputError if labels are not
+/// positive or above 9 digits, labels of nodes are there twice, an element or a line names a node that is none, a line
+/// has more than 250 nodes, or a position is not finite; DataError if the file cannot be written.
+void write_uff_mesh(const std::filesystem::path& path, const UffMesh& mesh);
+
+/// Reads nodes (2411, and 15, their older form with six digits), elements and trace lines of a file; positions in m by
+/// data set 164, or times `unit_in_m` if that is stated. Elements or lines that name unknown nodes, and trace lines of
+/// another length than is stated, are noted. Throws DataError with file and line: no nodes, no unit, nodes in other
+/// coordinate systems than the global one (0 or 1), fields that are no numbers. Memory and cost O(bytes).
+[[nodiscard]] UffMesh uff_mesh(std::string_view bytes, const std::string& source,
+                               std::optional<double> unit_in_m = std::nullopt);
+
+/// The same from a file.
+[[nodiscard]] UffMesh read_uff_mesh(const std::filesystem::path& path, std::optional<double> unit_in_m = std::nullopt);
+
+}  // namespace thinwall::io

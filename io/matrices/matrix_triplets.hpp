@@ -1,0 +1,34 @@
+#pragma once
+// Matrices as lines of numbers: CalculiX MATRIXSTORAGE (.sti, .mas, .dof) and Abaqus *MATRIX OUTPUT (.mtx).
+//
+// CalculiX: "row column value", from 1, the upper triangle; "node.component" a line names the rows (Dhondt, CalculiX
+// CrunchiX User's Manual 2.20, *FREQUENCY). Abaqus FORMAT=COORDINATE: "row column value"; FORMAT=MATRIX INPUT and
+// LABELS: "row node, component, column node, component, value", one triangle of symmetric matrices or both (Abaqus
+// Keywords Reference, *MATRIX INPUT, *MATRIX OUTPUT). Fields are separated by blanks or commas; lines from "**" are
+// comments.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/matrices/matrix_entries.hpp"
+
+namespace thinwall::io {
+
+/// Numbers on the first line that holds any: 3, 5, or what stands there.
+[[nodiscard]] int fields_of_first_line(std::string_view bytes);
+
+/// Lines of "row column value"; the size is the largest row or column. Throws DataError with file and line: another
+/// number of fields, an index that is none, a number that is not finite, no entry. Cost O(bytes).
+[[nodiscard]] MatrixEntries triplet_entries(std::string_view bytes, const std::string& name);
+
+/// Lines of "row node, component, column node, component, value"; a line that begins with '*' is a keyword and passed
+/// over. Nodes that Abaqus made itself have negative numbers. Errors as triplet_entries(), and a component other than 0
+/// to 6 (temperatures, pressures). Cost O(bytes).
+[[nodiscard]] LabelledEntries labelled_triplets(std::string_view bytes, const std::string& name);
+
+/// The lines "node.component" of a .dof file, in the order of the rows. Throws DataError with file and line. Cost
+/// O(bytes).
+[[nodiscard]] std::vector<dynamics::NodeDof> ccx_dofs(std::string_view bytes, const std::string& name);
+
+}  // namespace thinwall::io

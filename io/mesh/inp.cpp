@@ -1,0 +1,237 @@
+#include "io/mesh/inp.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "core/atomic_file.hpp"
+#include "io/mesh/inp_text.hpp"
+#include "io/surface_unit.hpp"
+#include "mesh/solid/labelled_checks.hpp"
+
+namespace thinwall::io {
+
+namespace {
+
+using Labels = std::vector<std::int64_t>;
+using TextSets = std::map<std::string, InpTextSet>;
+
+// What steps cost, in units of one label that is looked at: about the time they take.
+constexpr std::size_t set_cost = 25, range_cost = 5, member_cost = 5;
+
+/// Turns ranges into labels, and keeps count of the work: text of a few bytes may name every node, or every set.
+class Expansion {
+ public:
+  explicit Expansion(const InpText& text) : text_(text) {
+    for (const mesh::LabelledNode& node : text.mesh.nodes) node_labels_.push_back(node.label);
+    for (std::size_t c = 0; c < text.mesh.cells.size(); ++c) cells_[text.mesh.cells[c].label] = c;
+    for (const auto& [label, cell] : cells_) cell_labels_.push_back(label);
+    for (const InpTextFlat& element : text.flat) flat_[element.label] = &element;
+    for (const auto& [label, element] : flat_) flat_labels_.push_back(label);
+    left_ = 120000000 + 1200 * (node_labels_.size() + cell_labels_.size());
+  }
+
+  /// The ranges of a set and of those that are part of it, directly or through others.
+  std::vector<InpLabelRange> all_ranges(const TextSets& sets, const std::string& name) {
+    std::vector<InpLabelRange> ranges;
+    std::vector<const InpTextSet*> open{&sets.at(name)};
+    std::set<const InpTextSet*> seen{open.back()};
+    while (!open.empty()) {
+      const InpTextSet& set = *open.back();
+      open.pop_back();
+      charge(set_cost * (1 + set.others.size()) + set.ranges.size(), 0);
+      ranges.insert(ranges.end(), set.ranges.begin(), set.ranges.end());
+      for (const std::string& other : set.others)
+        if (const InpTextSet* part = &sets.at(other); seen.insert(part).second) open.push_back(part);
+    }
+    return ranges;
+  }
+
+  Labels nodes(const std::vector<InpLabelRange>& ranges) {
+    for (const InpLabelRange& range : ranges)
+      if (!range.gaps_allowed) static_cast<void>(mesh::row_of_node(text_.mesh, range.first, range.line));
+    return expanded(ranges, node_labels_);
+  }
+
+  /// Elements that are no solids are not among the cells, and left out.
+  Labels cells(const std::vector<InpLabelRange>& ranges) { return expanded(ranges, cell_labels_); }
+
+  /// The nodes of the elements that are no solids.
+  Labels nodes_of_flat(const std::vector<InpLabelRange>& ranges) {
+    Labels nodes;
+    for (const std::int64_t label : expanded(ranges, flat_labels_)) {
+      const InpTextFlat& element = *flat_.at(label);
+      for (std::size_t a = element.first; a < element.first + element.nodes; ++a) {
+        const std::int64_t node = text_.flat_nodes[a];
+        if (std::binary_search(node_labels_.begin(), node_labels_.end(), node)) add(node, 0, nodes);
+      }
+    }
+    return nodes;
+  }
+
+  /// The nodes of the faces of a surface.
+  Labels faces(const std::vector<InpTextFace>& faces) {
+    Labels nodes;
+    for (const InpTextFace& face : faces) {
+      for (const std::int64_t label : members(face)) {
+        if (face.face == 0) nodes.push_back(label);
+        if (face.face > 0) add_face(face, text_.mesh.cells[cells_.at(label)], nodes);
+      }
+    }
+    return nodes;
+  }
+
+ private:
+  Labels expanded(const std::vector<InpLabelRange>& ranges, const Labels& known) {
+    Labels labels;
+    if (known.empty()) return labels;
+    for (const InpLabelRange& range : ranges) add_range(range, known, labels);
+    std::sort(labels.begin(), labels.end());
+    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+    return labels;
+  }
+
+  /// Goes by the labels that are there, or by the steps where those are far fewer.
+  void add_range(const InpLabelRange& range, const Labels& known, Labels& labels) {
+    const auto begin = std::lower_bound(known.begin(), known.end(), range.first);
+    const auto end = std::upper_bound(begin, known.end(), range.last);
+    const std::int64_t steps = (range.last - range.first) / range.step + 1;
+    charge(range_cost, range.line);
+    if (steps < (end - begin) / 16) {
+      charge(2 * range_cost * static_cast<std::size_t>(steps), range.line);
+      for (std::int64_t label = range.first; label <= range.last; label += range.step)
+        if (std::binary_search(begin, end, label)) add(label, range.line, labels);
+      return;
+    }
+    charge(static_cast<std::size_t>(end - begin), range.line);
+    for (auto label = begin; label != end; ++label)
+      if ((*label - range.first) % range.step == 0) add(*label, range.line, labels);
+  }
+
+  void charge(std::size_t cost, int line) {
+    if (cost > left_)
+      mesh::fail_at(text_.mesh, line,
+                    "the sets of the file have too many members, or too many sets in each other; drop some of them");
+    left_ -= cost;
+  }
+
+  void add(std::int64_t label, int line, Labels& labels) {
+    charge(member_cost, line);
+    labels.push_back(label);
+  }
+
+  Labels members(const InpTextFace& face) {
+    const bool of_nodes = face.face == 0;
+    const TextSets& sets = of_nodes ? text_.node_sets : text_.element_sets;
+    if (!face.set.empty() && !sets.contains(face.set))
+      mesh::fail_at(text_.mesh, face.line, "the set \"" + face.set + "\" of a surface is not in the file");
+    const std::vector<InpLabelRange> ranges =
+        face.set.empty() ? std::vector<InpLabelRange>{{face.label, face.label, 1, face.line, false}}
+                         : all_ranges(sets, face.set);
+    return of_nodes ? nodes(ranges) : cells(ranges);
+  }
+
+  /// Corners of the face and the nodes of the edges between them.
+  void add_face(const InpTextFace& face, const mesh::LabelledCell& cell, Labels& nodes) {
+    // For each shape and number of a face in the format its place in mesh::topology.
+    constexpr std::array<std::array<std::size_t, 6>, 4> places{
+        {{3, 2, 0, 1, 9, 9}, {0, 1, 2, 3, 4, 5}, {0, 1, 2, 3, 4, 9}, {0, 1, 2, 3, 4, 9}}};
+    const mesh::CellTopology& shape = mesh::topology(cell.shape);
+    const std::size_t place = places[static_cast<std::size_t>(cell.shape)][static_cast<std::size_t>(face.face - 1)];
+    if (place >= shape.faces.size())
+      mesh::fail_at(text_.mesh, face.line,
+                    "element " + std::to_string(cell.label) + " has no face S" + std::to_string(face.face));
+    const auto& corners = shape.faces[place];
+    const auto is_in = [&corners](std::size_t c) {
+      return std::find(corners.begin(), corners.end(), c) != corners.end();
+    };
+    for (const std::size_t corner : corners) add(text_.mesh.cell_nodes[cell.first + corner], face.line, nodes);
+    if (mesh::cell_order(cell.shape, cell.nodes) != 2) return;
+    for (std::size_t e = 0; e < shape.edges.size(); ++e)
+      if (is_in(shape.edges[e][0]) && is_in(shape.edges[e][1]))
+        add(text_.mesh.cell_nodes[cell.first + shape.corners + e], face.line, nodes);
+  }
+
+  const InpText& text_;
+  Labels node_labels_;
+  Labels cell_labels_;
+  Labels flat_labels_;
+  std::map<std::int64_t, std::size_t> cells_;
+  std::map<std::int64_t, const InpTextFlat*> flat_;
+  std::size_t left_ = 0;
+};
+
+void expand_sets(InpText& text) {
+  Expansion expansion(text);
+  std::vector<mesh::LabelledSet> node_sets;
+  std::vector<mesh::LabelledSet> cell_sets;
+  for (const auto& [name, set] : text.node_sets)
+    node_sets.push_back({name, expansion.nodes(expansion.all_ranges(text.node_sets, name))});
+  for (const auto& [name, set] : text.element_sets) {
+    const auto ranges = expansion.all_ranges(text.element_sets, name);
+    Labels cells = expansion.cells(ranges);
+    Labels nodes = expansion.nodes_of_flat(ranges);
+    if (!cells.empty() || nodes.empty()) cell_sets.push_back({name, std::move(cells)});
+    if (!nodes.empty() && !text.node_sets.contains(name)) node_sets.push_back({name, std::move(nodes)});
+  }
+  for (const auto& [name, faces] : text.surfaces)
+    node_sets.push_back({text.node_sets.contains(name) ? name + "_SURFACE" : name, expansion.faces(faces)});
+  text.mesh.node_sets = std::move(node_sets);
+  text.mesh.cell_sets = std::move(cell_sets);
+}
+
+std::vector<InpMaterial> section_materials(const InpText& text) {
+  std::vector<InpMaterial> result;
+  std::map<std::string, const InpTextMaterial*> by_name;
+  for (const InpTextMaterial& material : text.materials) by_name.emplace(material.name, &material);
+  for (const InpTextSection& section : text.sections) {
+    const auto found = by_name.find(section.material);
+    if (found == by_name.end())
+      mesh::fail_at(text.mesh, section.line, "the material \"" + section.material + "\" is not in the file");
+    const InpTextMaterial& material = *found->second;
+    result.push_back(
+        {section.element_set, material.name, material.youngs_modulus, material.poisson_ratio, material.density});
+  }
+  return result;
+}
+
+}  // namespace
+
+InpLabelled inp_mesh(std::string_view bytes, const std::string& name, double metres_per_unit) {
+  require_metres_per_unit(metres_per_unit, name);
+  InpText text = inp_text(bytes, name, metres_per_unit);
+  if (text.mesh.cells.empty()) mesh::fail_at(text.mesh, 0, "holds no *ELEMENT of a solid, such as TYPE=C3D10");
+  mesh::sort_nodes(text.mesh);
+  expand_sets(text);
+  std::vector<InpMaterial> materials = section_materials(text);
+  return {std::move(text.mesh), std::move(materials)};
+}
+
+InpPart read_inp_part(const std::filesystem::path& path, double metres_per_unit) {
+  InpLabelled labelled = inp_mesh(core::read_file(path), path.string(), metres_per_unit);
+  return {mesh::solid_mesh(std::move(labelled.mesh)), std::move(labelled.materials)};
+}
+
+mesh::SolidMesh read_inp(const std::filesystem::path& path, double metres_per_unit) {
+  return read_inp_part(path, metres_per_unit).solid;
+}
+
+std::string what_lacks(const InpMaterial& material) {
+  std::string text;
+  const auto add = [&text](const std::optional<double>& value, const char* name) {
+    if (!value) text += (text.empty() ? "" : ", ") + std::string(name);
+  };
+  add(material.youngs_modulus, "Young's modulus");
+  add(material.poisson_ratio, "Poisson's ratio");
+  add(material.density, "density");
+  return text;
+}
+
+InpMaterial in_si(InpMaterial material, double metres_per_unit, double kg_per_mass_unit) {
+  if (material.youngs_modulus) *material.youngs_modulus *= kg_per_mass_unit / metres_per_unit;
+  if (material.density) *material.density *= kg_per_mass_unit / (metres_per_unit * metres_per_unit * metres_per_unit);
+  return material;
+}
+
+}  // namespace thinwall::io

@@ -1,0 +1,82 @@
+#pragma once
+// Meshes in the input format of Abaqus and CalculiX: nodes, solid elements, sets, surfaces, materials.
+//
+// Layout: Dhondt, CalculiX CrunchiX User's Manual 2.20, "Element types" and "Input deck format". Fields are
+// separated by commas, "**" starts a comment, keywords and names do not depend on case.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesh/lagrange_nodes.hpp"
+#include "mesh/solid/solid_mesh.hpp"
+
+namespace thinwall::io {
+
+/// What a *SOLID SECTION gives to a set of elements, in the file's own units; absent where the file does not say it, or
+/// where the material is not isotropic.
+struct InpMaterial {
+  std::string element_set;
+  std::string name;
+  std::optional<double> youngs_modulus;  ///< mass / (length time²)
+  std::optional<double> poisson_ratio;
+  std::optional<double> density;  ///< mass / length³
+};
+
+/// A mesh and its materials.
+struct InpPart {
+  mesh::SolidMesh solid;
+  std::vector<InpMaterial> materials;  ///< a section each
+};
+
+/// The file's nodes and elements under its own numbers.
+struct InpLabelled {
+  mesh::LabelledMesh mesh;
+  std::vector<InpMaterial> materials;
+};
+
+/// Reads *NODE, *ELEMENT of TYPE=C3D4, C3D10, C3D8, C3D20, C3D6, C3D15 and C3D5 with whatever letter follows, *NSET and
+/// *ELSET (also GENERATE, and sets by name), with NSET= of *NODE and ELSET= of *ELEMENT; *SURFACE of element faces or
+/// nodes, whose nodes become a node set; *MATERIAL, *ELASTIC, *DENSITY (first line of each) and *SOLID SECTION.
+/// Elements that are no solids are passed over and counted in a notice, the nodes of a set of them become a node set;
+/// other keywords are passed over with their lines. A file does not tell its unit: `metres_per_unit` does. `name` is
+/// what messages call the file; names of sets are in capitals. Throws DataError with file and line: a keyword that
+/// makes or moves nodes or elements and is not read (*INCLUDE, *SYSTEM, *NGEN, an *INSTANCE that moves ...), another
+/// solid element, text where a number belongs, a value that is not finite, a node that is missing, sets that together
+/// hold over 6 million members and 60 of every node, or are part of each other over two million times. Nodes that a
+/// range of GENERATE passes over may be absent. Cost O(bytes) and of the members of the sets.
+[[nodiscard]] InpLabelled inp_mesh(std::string_view bytes, const std::string& name, double metres_per_unit);
+
+/// The file as tetrahedra: mesh::solid_mesh of inp_mesh.
+[[nodiscard]] InpPart read_inp_part(const std::filesystem::path& path, double metres_per_unit);
+
+/// The same without the materials.
+[[nodiscard]] mesh::SolidMesh read_inp(const std::filesystem::path& path, double metres_per_unit);
+
+/// "Young's modulus, density": what a section does not say; "" if it says all.
+[[nodiscard]] std::string what_lacks(const InpMaterial& material);
+
+/// E in Pa and ρ in kg/m³ of a file whose unit of time is the second: E · kg / m, ρ · kg / m³, with the metres in its
+/// unit of length and the kilograms in its unit of mass (mm, t, s: 1e-3 and 1e3).
+[[nodiscard]] InpMaterial in_si(InpMaterial material, double metres_per_unit, double kg_per_mass_unit);
+
+/// A homogeneous part whose natural modes are wanted.
+struct InpFrequencyStep {
+  double youngs_modulus_Pa = 0.0;
+  double poisson_ratio = 0.0;
+  double density_kg_m3 = 0.0;
+  std::vector<std::string> fixed;  ///< sets whose nodes cannot move
+  int modes = 10;
+};
+
+/// Writes nodes and elements of order 1 or 2 in SI, numbered from 1 in their order, the sets, and for CalculiX a
+/// material and a *FREQUENCY step. Its fields are twenty characters wide, so that coordinates are written with at least
+/// 14 significant digits (relative 5e-14). Written in one step. Throws InputError for another order, a set with an
+/// empty name or one that the format cannot hold, or an unknown set in `fixed`; NumericalError for a coordinate that is
+/// not finite; DataError if the file cannot be written.
+void write_inp(const std::filesystem::path& path, const mesh::LagrangeNodes& nodes,
+               const std::vector<mesh::NodeSet>& sets, const std::optional<InpFrequencyStep>& step = {});
+
+}  // namespace thinwall::io

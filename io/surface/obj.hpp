@@ -1,0 +1,23 @@
+#pragma once
+// Surfaces in OBJ (Wavefront, "Object Files (.obj)", appendix B1 of the Advanced Visualizer manual).
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "mesh/triangle_soup.hpp"
+
+namespace thinwall::io {
+
+/// The triangles of an OBJ file in m; `metres_per_unit` tells its unit. Read are `v` and `f` (numbers from 1, or from
+/// the end if negative; texture and normal numbers after '/' passed over; '\' goes on in the next line); groups,
+/// materials, normals, lines and points are passed over. Facets of up to 1000 corners become fans
+/// (io/surface/surface_facets.hpp).
+/// Throws InputError for a unit that is not positive; DataError with the line: a free-form surface (`surf`), whose
+/// shape would be missing, a coordinate that is not finite, a corner that is no point, no facets. Cost O(bytes).
+[[nodiscard]] mesh::TriangleSoup read_obj(const std::filesystem::path& path, double metres_per_unit);
+
+/// The same from bytes; `name` is what messages call them.
+[[nodiscard]] mesh::TriangleSoup obj_surface(std::string_view bytes, const std::string& name, double metres_per_unit);
+
+}  // namespace thinwall::io

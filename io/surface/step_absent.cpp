@@ -1,0 +1,18 @@
+// In place of step.cpp in a program that is built without Open CASCADE.
+
+#include "core/error.hpp"
+#include "io/surface/step.hpp"
+
+namespace thinwall::io {
+
+bool reads_step() {
+  return false;
+}
+
+StepSurface read_step(const std::filesystem::path& path, const StepOptions& /*options*/) {
+  throw core::InputError("\"" + path.string() +
+                         "\": this build has no STEP reader; install libocct-data-exchange-dev and build again, or "
+                         "export the part as STL");
+}
+
+}  // namespace thinwall::io

@@ -1,0 +1,159 @@
+#include "mesh/solid/locate.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "mesh/nearest_point.hpp"
+
+namespace thinwall::mesh {
+
+namespace {
+
+const Eigen::Vector3d& vertex(const TetMesh& mesh, int index) {
+  return mesh.vertices[static_cast<std::size_t>(index)];
+}
+
+Eigen::Vector4d barycentric(const TetMesh& mesh, int tet, const Eigen::Vector3d& x) {
+  const auto& t = mesh.tets[static_cast<std::size_t>(tet)];
+  Eigen::Matrix3d edges;
+  edges << vertex(mesh, t[1]) - vertex(mesh, t[0]), vertex(mesh, t[2]) - vertex(mesh, t[0]),
+      vertex(mesh, t[3]) - vertex(mesh, t[0]);
+  const Eigen::Vector3d last = edges.inverse() * (x - vertex(mesh, t[0]));
+  return {1.0 - last.sum(), last.x(), last.y(), last.z()};
+}
+
+Eigen::Vector3d position(const TetMesh& mesh, const Location& location) {
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 4; ++k) {
+    x += location.lambda(k) *
+         vertex(mesh, mesh.tets[static_cast<std::size_t>(location.tet)][static_cast<std::size_t>(k)]);
+  }
+  return x;
+}
+
+double diagonal(const TetMesh& mesh) {
+  Eigen::Vector3d low = mesh.vertices.front();
+  Eigen::Vector3d high = low;
+  for (const auto& v : mesh.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  return (high - low).norm();
+}
+
+/// Of these boundary triangles the one nearest to x, and its point.
+struct OnBoundary {
+  const BoundaryTriangle* triangle = nullptr;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double distance_m = std::numeric_limits<double>::max();
+};
+OnBoundary nearest(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary, const Eigen::Vector3d& x) {
+  OnBoundary best;
+  for (const auto& triangle : boundary) {
+    const auto& v = triangle.vertices;
+    const Eigen::Vector3d p = nearest_on_triangle(x, vertex(mesh, v[0]), vertex(mesh, v[1]), vertex(mesh, v[2]));
+    if ((p - x).norm() < best.distance_m) best = {&triangle, p, (p - x).norm()};
+  }
+  return best;
+}
+
+/// The place in its tetrahedron of a point of the boundary.
+Location location_of(const TetMesh& mesh, const OnBoundary& at) {
+  const Eigen::Vector4d lambda = barycentric(mesh, at.triangle->tet, at.point).cwiseMax(0.0);
+  return {at.triangle->tet, lambda / lambda.sum()};
+}
+
+[[noreturn]] void off_the_part(const Eigen::Vector3d& x, double distance, const char* what) {
+  std::ostringstream text;
+  text << "the point (" << x.x() * 1e3 << ", " << x.y() * 1e3 << ", " << x.z() * 1e3 << ") mm lies " << distance * 1e3
+       << " mm off " << what << "; move it onto the part";
+  throw core::InputError(text.str());
+}
+
+/// Outward normal of a boundary triangle.
+Eigen::Vector3d normal(const TetMesh& mesh, const BoundaryTriangle& triangle) {
+  const auto& v = triangle.vertices;
+  const Eigen::Vector3d a = vertex(mesh, v[0]);
+  return (vertex(mesh, v[1]) - a).cross(vertex(mesh, v[2]) - a).normalized();
+}
+
+}  // namespace
+
+Located locate(const TetMesh& mesh, const Eigen::Vector3d& x) {
+  Location best;
+  double worst = -std::numeric_limits<double>::max();
+  for (int tet = 0; tet < static_cast<int>(mesh.tets.size()); ++tet) {
+    const Eigen::Vector4d lambda = barycentric(mesh, tet, x);
+    if (lambda.minCoeff() > worst) {
+      worst = lambda.minCoeff();
+      best = {tet, lambda};
+      if (worst >= 0.0) return {best, 0.0};
+    }
+  }
+  best.lambda = best.lambda.cwiseMax(0.0);
+  best.lambda /= best.lambda.sum();
+  return {best, (position(mesh, best) - x).norm()};
+}
+
+DiscFace disc_face(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary, const Eigen::Vector3d& x,
+                   double radius_m, double off_m) {
+  const double tolerance = 1e-6 * diagonal(mesh);
+  const OnBoundary centre = nearest(mesh, boundary, x);
+  if (centre.distance_m > tolerance + off_m)
+    off_the_part(x, centre.distance_m, "the part's surface, where a patch must lie");
+  DiscFace face{centre.point, normal(mesh, *centre.triangle), tolerance, {*centre.triangle}};
+  if (off_m > 0.0) face.depth_m += off_m + 0.25 * radius_m;
+  const double reach = radius_m + face.depth_m;
+  for (const auto& triangle : boundary) {
+    Eigen::AlignedBox3d box;
+    for (const int corner : triangle.vertices) box.extend(vertex(mesh, corner));
+    if (&triangle != centre.triangle && box.squaredExteriorDistance(face.centre_m) <= reach * reach &&
+        normal(mesh, triangle).dot(face.normal) > 0.5)
+      face.triangles.push_back(triangle);
+  }
+  return face;
+}
+
+std::vector<PatchSample> patch_samples(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary,
+                                       const Eigen::Vector3d& x, double radius_m, double off_m) {
+  const double tolerance = 1e-6 * diagonal(mesh);
+  if (radius_m <= 0.0) {
+    const Located found = locate(mesh, x);
+    if (found.distance_m <= tolerance) return {{found.location, 1.0}};
+    const OnBoundary moved = nearest(mesh, boundary, x);  // locate() moves x by more than its distance
+    if (moved.distance_m > tolerance + off_m) off_the_part(x, moved.distance_m, "the part");
+    return {{location_of(mesh, moved), 1.0}};
+  }
+  const DiscFace face = disc_face(mesh, boundary, x, radius_m, off_m);
+  const auto& v = face.triangles.front().vertices;
+  const Eigen::Vector3d e1 = (vertex(mesh, v[1]) - vertex(mesh, v[0])).normalized();
+  const Eigen::Vector3d e2 = face.normal.cross(e1);
+  constexpr int rings = 8;
+  constexpr int sectors = 24;
+  std::vector<PatchSample> samples;
+  for (int ring = 0; ring < rings; ++ring) {
+    const double r = radius_m * std::sqrt((ring + 0.5) / rings);
+    for (int sector = 0; sector < sectors; ++sector) {
+      // A quarter of a sector on, so that no ray lies on an edge of the part along e1, where half a sector would count
+      // whole.
+      const double angle = 2.0 * std::numbers::pi * (sector + 0.25 + 0.5 * (ring % 2)) / sectors;
+      const Eigen::Vector3d wanted = face.centre_m + r * (std::cos(angle) * e1 + std::sin(angle) * e2);
+      const OnBoundary found = nearest(mesh, face.triangles, wanted);
+      const Eigen::Vector3d moved = found.point - wanted;
+      const double fall = std::abs(moved.dot(face.normal));
+      const double aside = (moved - moved.dot(face.normal) * face.normal).norm();
+      if (fall <= face.depth_m && aside <= tolerance + fall) samples.push_back({location_of(mesh, found), 1.0});
+    }
+  }
+  if (samples.empty()) off_the_part(x, radius_m, "the part's surface, where a patch must lie");
+  for (auto& sample : samples) sample.weight = 1.0 / static_cast<double>(samples.size());
+  return samples;
+}
+
+}  // namespace thinwall::mesh

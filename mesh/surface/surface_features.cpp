@@ -1,0 +1,125 @@
+#include "mesh/surface/surface_features.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace thinwall::mesh {
+
+namespace {
+
+using Edge = std::array<int, 2>;
+
+/// For each directed edge its triangle.
+std::map<Edge, int> triangles_along(const TriangleSurface& surface) {
+  std::map<Edge, int> result;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& v = surface.triangles[t];
+    for (std::size_t k = 0; k < 3; ++k) result[{v[k], v[(k + 1) % 3]}] = static_cast<int>(t);
+  }
+  return result;
+}
+
+double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// Sharp edges, each once, with the triangles on both sides.
+std::map<Edge, Edge> sharp_edges(const TriangleSurface& surface, const std::map<Edge, int>& along, double angle) {
+  std::map<Edge, Edge> result;
+  for (const auto& [edge, left] : along) {
+    if (edge[0] > edge[1]) continue;
+    const int right = along.at({edge[1], edge[0]});
+    if (angle_between(area_vector(surface, left), area_vector(surface, right)) > angle) result[edge] = {left, right};
+  }
+  return result;
+}
+
+/// Numbers the patches by flooding from triangle to triangle over smooth edges; returns how many there are.
+int flood(const TriangleSurface& surface, const std::map<Edge, int>& along, const std::map<Edge, Edge>& sharp,
+          std::vector<int>& patch) {
+  patch.assign(surface.triangles.size(), -1);
+  int patches = 0;
+  for (std::size_t seed = 0; seed < patch.size(); ++seed) {
+    if (patch[seed] >= 0) continue;
+    std::vector<int> waiting{static_cast<int>(seed)};
+    patch[seed] = patches;
+    while (!waiting.empty()) {
+      const auto& v = surface.triangles[static_cast<std::size_t>(waiting.back())];
+      waiting.pop_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int a = v[k];
+        const int b = v[(k + 1) % 3];
+        if (sharp.contains({std::min(a, b), std::max(a, b)})) continue;
+        const int next = along.at({b, a});
+        if (patch[static_cast<std::size_t>(next)] >= 0) continue;
+        patch[static_cast<std::size_t>(next)] = patches;
+        waiting.push_back(next);
+      }
+    }
+    ++patches;
+  }
+  return patches;
+}
+
+std::vector<bool> corners(const TriangleSurface& surface, const std::vector<std::vector<int>>& neighbours,
+                          double angle) {
+  std::vector<bool> is_corner(surface.vertices.size(), false);
+  for (std::size_t v = 0; v < neighbours.size(); ++v) {
+    const auto& next = neighbours[v];
+    if (next.empty()) continue;
+    const auto to = [&](std::size_t k) {
+      return Eigen::Vector3d(surface.vertices[static_cast<std::size_t>(next[k])] - surface.vertices[v]);
+    };
+    is_corner[v] = next.size() != 2 || angle_between(to(0), -to(1)) > angle;
+  }
+  return is_corner;
+}
+
+/// Walks from `from` over `to` until a corner, or back to the start.
+std::vector<int> walk(int from, int to, const std::vector<std::vector<int>>& neighbours,
+                      const std::vector<bool>& is_corner) {
+  std::vector<int> line{from, to};
+  while (!is_corner[static_cast<std::size_t>(line.back())] && line.back() != from) {
+    const auto& next = neighbours[static_cast<std::size_t>(line.back())];
+    line.push_back(next[0] == line[line.size() - 2] ? next[1] : next[0]);
+  }
+  return line;
+}
+
+}  // namespace
+
+SurfaceFeatures surface_features(const TriangleSurface& surface, double sharp_angle_rad) {
+  const auto along = triangles_along(surface);
+  const auto sharp = sharp_edges(surface, along, sharp_angle_rad);
+  SurfaceFeatures result;
+  result.patches = flood(surface, along, sharp, result.patch_of_triangle);
+  std::vector<std::vector<int>> neighbours(surface.vertices.size());
+  for (const auto& [edge, sides] : sharp) {
+    neighbours[static_cast<std::size_t>(edge[0])].push_back(edge[1]);
+    neighbours[static_cast<std::size_t>(edge[1])].push_back(edge[0]);
+  }
+  result.is_corner = corners(surface, neighbours, sharp_angle_rad);
+  std::map<Edge, bool> walked;
+  const auto key = [](int a, int b) { return Edge{std::min(a, b), std::max(a, b)}; };
+  const auto add_line = [&](int from, int to) {
+    if (walked[key(from, to)]) return;
+    FeatureLine line{walk(from, to, neighbours, result.is_corner), {}};
+    for (std::size_t i = 0; i + 1 < line.vertices.size(); ++i)
+      walked[key(line.vertices[i], line.vertices[i + 1])] = true;
+    const auto& sides = sharp.at(key(from, to));
+    for (std::size_t k = 0; k < 2; ++k) line.patches[k] = result.patch_of_triangle[static_cast<std::size_t>(sides[k])];
+    result.lines.push_back(std::move(line));
+  };
+  // From the corners first; what is left are closed lines without a corner.
+  for (const bool from_corners : {true, false}) {
+    for (std::size_t v = 0; v < neighbours.size(); ++v) {
+      if (from_corners && !result.is_corner[v]) continue;
+      for (const int to : neighbours[v]) add_line(static_cast<int>(v), to);
+    }
+  }
+  return result;
+}
+
+}  // namespace thinwall::mesh

@@ -1,0 +1,234 @@
+#include "mesh/surface/surface_repair.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <span>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "mesh/surface/closed_surface.hpp"
+#include "mesh/surface/edge_uses.hpp"
+#include "mesh/surface/facet_repair.hpp"
+#include "mesh/surface/hole_filling.hpp"
+#include "mesh/surface/orientation.hpp"
+#include "mesh/surface/thin_walls.hpp"
+
+namespace thinwall::mesh {
+
+namespace {
+
+/// Beyond, a double resolves less than 2e-8 of the diagonal.
+constexpr double farthest_diagonals = 1e8;
+/// Crossings that are looked for; one is enough to refuse, more tell where to look.
+constexpr int most_crossings = 1000;
+
+void require_within(double value, double least, double most, const char* name) {
+  if (value >= least && value <= most) return;
+  throw core::InputError(std::string(name) + " of a surface's repair is " + core::number_text(value, 3) + "; choose " +
+                         core::number_text(least, 3) + " to " + core::number_text(most, 3));
+}
+
+void validate(const SurfaceRepairOptions& options) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  require_within(options.merge_tolerance_m, 0.0, largest, "merge_tolerance_m");
+  require_within(options.largest_hole_edges, 0, 100, "largest_hole_edges");
+  require_within(options.largest_movement, 0.0, 0.1, "largest_movement");
+  require_within(options.thinnest_wall_m, 0.0, largest, "thinnest_wall_m");
+  require_within(options.far_diagonals, 1.0, farthest_diagonals, "far_diagonals");
+}
+
+/// Throws one line with every fault that was found; places go back to the frame of the file.
+void refuse_if_any(std::vector<SurfaceFinding> faults, const Eigen::Vector3d& moved_by) {
+  std::string all;
+  for (SurfaceFinding& fault : faults) {
+    if (fault.count == 0) continue;
+    fault.first_m -= moved_by;
+    all += (all.empty() ? "" : "; ") + text(fault);
+  }
+  if (!all.empty()) throw core::InputError("the surface cannot be repaired: " + all);
+}
+
+/// The surface under repair and what was done to it.
+struct Bench {
+  TriangleSoup soup;
+  SurfaceRepair result;
+
+  void note(SurfaceFinding finding) {
+    if (finding.count == 0) return;
+    finding.first_m -= result.moved_by;
+    result.mended.push_back(std::move(finding));
+  }
+};
+
+void merge(Bench& bench, const TriangleSoup& soup, const SurfaceRepairOptions& options) {
+  MergedPoints merged = merged_points(soup, options.merge_tolerance_m);
+  bench.soup = std::move(merged.soup);
+  if (bench.soup.triangles.empty()) throw core::InputError("the surface has no triangles; give a closed surface");
+  bench.result.largest_movement_m = merged.largest_way;
+  bench.note({"points that lay on another", merged.merged, merged.first_merged, ""});
+  bench.note({"points that no facet uses", merged.unused, merged.first_unused, ""});
+  const SoupBounds block = bounds(bench.soup);
+  const double bound = options.largest_movement * (block.largest - block.least).norm();
+  if (merged.largest_way > bound) {
+    throw core::InputError("merging points moves the surface by " + core::number_text(1e3 * merged.largest_way, 3) +
+                           " mm, more than " + core::number_text(1e3 * bound, 3) + " mm (" +
+                           core::number_text(options.largest_movement, 3) + " of its diagonal), the first at " +
+                           place_text(merged.first_merged) +
+                           "; merge within less (repair.merge_tolerance), or allow more (repair.largest_movement)");
+  }
+}
+
+/// Far from the origin the digits go into the offset: differences are exact once it is taken off.
+void move_to_centre_if_far(Bench& bench, const SurfaceRepairOptions& options) {
+  const SoupBounds block = bounds(bench.soup);
+  const Eigen::Vector3d centre = 0.5 * (block.least + block.largest);
+  const double diagonal = (block.largest - block.least).norm();
+  const double ratio = centre.norm() / diagonal;
+  if (!(diagonal > 0.0) || ratio <= options.far_diagonals) return;
+  const std::string where =
+      "coordinates lie " + core::number_text(ratio, 3) + " diagonals from the origin, around " + place_text(centre);
+  if (ratio > farthest_diagonals) {
+    throw core::InputError(where + ", too far to resolve the surface; export it near the origin");
+  }
+  bench.result.moved_by = -centre;
+  for (auto& x : bench.soup.points) x -= centre;
+  const double single = std::numeric_limits<float>::epsilon() / 2 * ratio;
+  SurfaceFinding finding{.what = "surface moved to its centre: " + where + "; a file in single precision resolves " +
+                                 core::number_text(single, 3) + " of its diagonal there"};
+  finding.add(block.least - centre);
+  bench.note(finding);
+}
+
+/// Facets that stood twice, once from each side, and are no part of a closed surface.
+SurfaceFinding coincident_walls(const TriangleSoup& soup, const std::vector<int>& opposite) {
+  SurfaceFinding finding{.what = "facets that coincide with another that looks the other way: a wall without thickness",
+                         .remedy = "give it a thickness or remove it"};
+  std::vector<bool> is_bad(soup.triangles.size());
+  for_each_edge(sorted_edges(soup.triangles), [&](std::span<const EdgeUse> uses) {
+    if (uses.size() == 2) return;
+    for (const EdgeUse& use : uses) is_bad[static_cast<std::size_t>(use.triangle)] = true;
+  });
+  for (const int t : opposite) {
+    const auto& corners = soup.triangles[static_cast<std::size_t>(t)];
+    const auto at = [&](std::size_t k) { return soup.points[static_cast<std::size_t>(corners[k])]; };
+    if (is_bad[static_cast<std::size_t>(t)]) finding.add((at(0) + at(1) + at(2)) / 3.0);
+  }
+  return finding;
+}
+
+SurfaceFinding crowded_edges(const TriangleSoup& soup) {
+  SurfaceFinding finding{.what = "edges in which more than two triangles meet", .remedy = "separate or join the parts"};
+  for_each_edge(sorted_edges(soup.triangles), [&](std::span<const EdgeUse> uses) {
+    if (uses.size() <= 2) return;
+    const auto at = [&](std::size_t k) { return soup.points[static_cast<std::size_t>(uses[0].ends[k])]; };
+    finding.add(0.5 * (at(0) + at(1)));
+  });
+  return finding;
+}
+
+/// Facets to a soup in which every edge has two triangles, or the faults.
+void mend_facets(Bench& bench, const SurfaceRepairOptions& options) {
+  bench.note(drop_collapsed(bench.soup));
+  auto [doubled, opposite] = drop_duplicates(bench.soup);
+  const SurfaceFinding walls = coincident_walls(bench.soup, opposite);
+  bench.note(doubled);
+  const auto [removed, left] = split_flat(bench.soup);
+  bench.note(removed);
+  bench.note(drop_duplicates(bench.soup).dropped);
+  if (options.largest_hole_edges > 0) bench.note(fill_holes(bench.soup, options.largest_hole_edges, options.limits));
+  if (bench.soup.triangles.empty())
+    throw core::InputError("all facets of the surface lie on lines; give a closed surface");
+  refuse_if_any({walls, crowded_edges(bench.soup), open_edges(bench.soup), left}, bench.result.moved_by);
+}
+
+/// Shells beside the largest, told apart by whether their first point lies within it.
+std::vector<SurfaceFinding> other_shells(const TriangleSoup& soup, const Orientation& orientation) {
+  constexpr int most_looked_at = 20;
+  SurfaceFinding bodies{.what = "bodies beside the largest", .remedy = "give one body, or join them"};
+  SurfaceFinding cavities{.what = "closed cavities within the body", .remedy = "fill or open them"};
+  const auto& volumes = orientation.volumes_m3;
+  const int main = static_cast<int>(std::max_element(volumes.begin(), volumes.end()) - volumes.begin());
+  std::vector<bool> is_seen(volumes.size());
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const int shell = orientation.shell_of_triangle[t];
+    if (shell == main || is_seen[static_cast<std::size_t>(shell)]) continue;
+    is_seen[static_cast<std::size_t>(shell)] = true;
+    const Eigen::Vector3d& x = soup.points[static_cast<std::size_t>(soup.triangles[t][0])];
+    const bool is_looked_at = bodies.count + cavities.count < most_looked_at;
+    const bool is_within = is_looked_at && winding_number(soup, orientation.shell_of_triangle, main, x) > 0.5;
+    (is_within ? cavities : bodies).add(x);
+  }
+  return {bodies, cavities};
+}
+
+/// CGAL takes quadratic time where everything overlaps: in a process of its own.
+SurfaceFinding crossings(const TriangleSurface& surface, const ProcessLimits& limits) {
+  SurfaceFinding finding{.what = "pairs of triangles that cross or cover each other", .remedy = "separate them"};
+  std::vector<char> bytes;
+  try {
+    bytes = run_confined(
+        [&] {
+          const auto pairs = self_intersections(surface, most_crossings);
+          std::vector<char> raw(pairs.size() * sizeof(std::array<int, 2>));
+          if (!raw.empty()) std::memcpy(raw.data(), pairs.data(), raw.size());
+          return raw;
+        },
+        limits.time_s, limits.memory_bytes);
+  } catch (const core::NumericalError& error) {
+    throw core::NumericalError(std::string("the search for triangles that cross failed: ") + error.what() +
+                               "; most of the surface may overlap, export it again");
+  }
+  std::vector<std::array<int, 2>> pairs(bytes.size() / sizeof(std::array<int, 2>));
+  if (!pairs.empty()) std::memcpy(pairs.data(), bytes.data(), pairs.size() * sizeof pairs[0]);
+  std::sort(pairs.begin(), pairs.end());
+  for (const auto& pair : pairs) finding.add(centroid(surface, pair[0]));
+  return finding;
+}
+
+void turn_outwards(Bench& bench, const SurfaceRepairOptions& options) {
+  refuse_if_any({touching_vertices(bench.soup)}, bench.result.moved_by);
+  const Orientation orientation = orient(bench.soup);
+  refuse_if_any({orientation.one_sided}, bench.result.moved_by);
+  bench.note(orientation.turned);
+  auto faults = other_shells(bench.soup, orientation);
+  const MergedPoints compact = merged_points(bench.soup);  // without points that facets no longer use
+  bench.result.surface = {compact.soup.points, compact.soup.triangles};
+  faults.push_back(crossings(bench.result.surface, options.limits));
+  refuse_if_any(faults, bench.result.moved_by);
+}
+
+void require_thick_enough(SurfaceRepair& result, double thinnest_m) {
+  const ThinWalls walls = thin_walls(result.surface, thinnest_m);
+  result.thinnest_wall_m = walls.thinnest_m;
+  SurfaceFinding thin{.what = "facets above a wall thinner than " + core::number_text(1e3 * thinnest_m, 3) +
+                              " mm, the thinnest " + core::number_text(1e3 * walls.thinnest_m, 3) + " mm",
+                      .remedy = "thicken it, lower the tolerance, or correct the unit"};
+  for (const int t : walls.triangles) thin.add(centroid(result.surface, t));
+  refuse_if_any({thin}, result.moved_by);
+}
+
+}  // namespace
+
+SurfaceRepair repaired_surface(const TriangleSoup& soup, const SurfaceRepairOptions& options) {
+  validate(options);
+  Bench bench;
+  merge(bench, soup, options);
+  move_to_centre_if_far(bench, options);
+  mend_facets(bench, options);
+  turn_outwards(bench, options);
+  require_closed_shell(bench.result.surface);
+  bench.result.volume_m3 = volume(bench.result.surface);
+  if (options.thinnest_wall_m > 0.0) require_thick_enough(bench.result, options.thinnest_wall_m);
+  return std::move(bench.result);
+}
+
+std::string text(const SurfaceRepair& repair) {
+  std::string all;
+  for (const auto& finding : repair.mended) all += (all.empty() ? "" : "; ") + text(finding);
+  return all.empty() ? "nothing to mend" : all;
+}
+
+}  // namespace thinwall::mesh

@@ -1,0 +1,91 @@
+#include "milling/chart/pockets.hpp"
+
+#include <algorithm>
+
+#include "milling/cut/process.hpp"
+
+namespace thinwall::milling {
+
+namespace {
+
+/// Rates that differ by less are one: along a bound of power the rate is constant but for round-off.
+constexpr double same = 1.0 + 1e-9;
+
+double rate(const Pocket& cut) {
+  return cut.spindle_speed_rpm * cut.depth_m;
+}
+
+/// The deepest cut of a row's speed, and what keeps it from being deeper.
+Pocket deepest_cut(const LobeRow& row, const MachineLimits& machine, const std::optional<CutLoad>& load) {
+  Pocket cut{row.spindle_speed_rpm, row.limiting_depth_m, row.at_limit,
+             row.at_limit ? PocketLimit::depth_limit : PocketLimit::stability};
+  if (!load) return cut;
+  const auto bound = [&](double depth_m, PocketLimit limit) {
+    if (depth_m >= cut.depth_m) return;
+    cut = {cut.spindle_speed_rpm, depth_m, false, limit};
+  };
+  bound(depth_for_torque(*load, machine), PocketLimit::torque);
+  bound(depth_for_power(*load, machine, cut.spindle_speed_rpm), PocketLimit::power);
+  cut.removal_rate_m3_s = rate(cut) * load->removal_per_depth_turn_m2 / 60.0;
+  return cut;
+}
+
+}  // namespace
+
+std::string name(PocketLimit limit) {
+  switch (limit) {
+    case PocketLimit::stability:
+      return "stability";
+    case PocketLimit::depth_limit:
+      return "depth_limit";
+    case PocketLimit::power:
+      return "power";
+    case PocketLimit::torque:
+      return "torque";
+    case PocketLimit::spindle_speed:
+      return "spindle_speed";
+    case PocketLimit::feed_rate:
+      break;
+  }
+  return "feed_rate";
+}
+
+std::vector<Pocket> best_pockets(const std::vector<LobeRow>& rows, std::size_t most) {
+  return best_pockets(rows, {}, {}, most);
+}
+
+std::vector<Pocket> best_pockets(const std::vector<LobeRow>& rows, const MachineLimits& machine,
+                                 const std::optional<CutLoad>& load, std::size_t most) {
+  require_valid(validate(machine));
+  std::vector<Pocket> cuts;
+  cuts.reserve(rows.size());
+  for (const LobeRow& row : rows) cuts.push_back(deepest_cut(row, machine, load));
+  const double fastest = load ? speed_for_feed_rate(*load, machine) : MachineLimits::none;
+  const auto reached = [&](const Pocket& cut) {
+    return cut.spindle_speed_rpm >= machine.min_spindle_speed_rpm &&
+           cut.spindle_speed_rpm <= std::min(fastest, machine.max_spindle_speed_rpm);
+  };
+  std::vector<Pocket> tops;
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    if (!reached(cuts[i])) continue;
+    // Neighbours beyond the machine's speeds do not compete, but tell that speed is what bounds this one.
+    const auto beaten_by = [&](std::size_t j, double by) {
+      return j < cuts.size() && rate(cuts[j]) > rate(cuts[i]) * by;
+    };
+    const std::size_t before = i == 0 ? cuts.size() : i - 1;
+    const bool within_before = before < cuts.size() && reached(cuts[before]);
+    const bool within_after = i + 1 < cuts.size() && reached(cuts[i + 1]);
+    if (within_before && !(rate(cuts[i]) > rate(cuts[before]) * same)) continue;
+    if (within_after && beaten_by(i + 1, same)) continue;
+    Pocket top = cuts[i];
+    if (!within_after && beaten_by(i + 1, same))
+      top.limited_by = fastest < machine.max_spindle_speed_rpm ? PocketLimit::feed_rate : PocketLimit::spindle_speed;
+    if (!within_before && beaten_by(before, same)) top.limited_by = PocketLimit::spindle_speed;
+    tops.push_back(top);
+  }
+  std::stable_sort(tops.begin(), tops.end(), [](const Pocket& a, const Pocket& b) { return rate(a) > rate(b); });
+  tops.resize(std::min(tops.size(), most));
+  return tops;
+}
+
+}  // namespace thinwall::milling

@@ -1,0 +1,229 @@
+#include "milling/direct/critical_depths.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "core/dense_eigenvalues.hpp"
+#include "core/error.hpp"
+#include "milling/direct/complex_eigenvalues.hpp"
+
+namespace thinwall::milling {
+
+namespace {
+
+using Eigen::Index;
+using std::complex;
+
+using std::numbers::pi;
+
+void require_found(bool found) {
+  if (found) return;
+  throw core::NumericalError(
+      "stability: eigenvalues of the loop's gain were not found; check the structure at the cut");
+}
+
+/// Eigenvalues of −Z.
+Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXcd& Z, double theta) {
+  if (theta == 0.0 || theta == pi) {
+    const Eigen::EigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(Z.real()), false);
+    require_found(eigen.info() == Eigen::Success);
+    return -eigen.eigenvalues();
+  }
+  const std::optional<Eigen::VectorXcd> eigenvalues = complex_eigenvalues(Z);
+  require_found(eigenvalues.has_value());
+  return -*eigenvalues;
+}
+
+/// No eigenvalue exceeds ‖Z⁴‖^¼ (Frobenius), and it is rarely more than a fifth above the largest.
+double radius_bound(const Eigen::MatrixXcd& Z) {
+  const Eigen::MatrixXcd square = Z * Z;
+  return std::sqrt(std::sqrt((square * square).norm()));
+}
+
+using Path = CriticalDepths::Path;
+
+/// Pairs of eigenvalues that follow each other from one stop to the next, nearest to where the path leads first; those
+/// without partner came from, or went to, values too small to matter.
+struct Step {
+  complex<double> from, to;
+  complex<double> change;     ///< of the path's slope, rad⁻¹
+  double miss = 0.0;          ///< distance of `to` from where the path stood or led to
+  double next_nearest = 0.0;  ///< the same of the second choice
+  bool slope_known = false;
+};
+
+struct Matching {
+  std::vector<Step> steps;
+  double largest_alone = 0.0;  ///< |ν| of those without partner
+};
+
+/// `b` receives the slopes of the paths that lead to it over `length_rad`.
+Matching matched(const std::vector<Path>& a, std::vector<Path>& b, double length_rad) {
+  struct Candidate {
+    double distance;
+    std::size_t i, j;
+  };
+  std::vector<Candidate> candidates;
+  const auto distance = [&](const Path& x, const Path& y) {
+    return std::sqrt(std::min(std::norm(x.nu - y.nu), std::norm(x.nu + x.slope * length_rad - y.nu)));
+  };
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j) candidates.push_back({distance(a[i], b[j]), i, j});
+  }
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& x, const Candidate& y) { return x.distance < y.distance; });
+  std::vector<char> used_a(a.size(), 0), used_b(b.size(), 0);
+  Matching result;
+  for (const Candidate& c : candidates) {
+    if (used_a[c.i] != 0 || used_b[c.j] != 0) continue;
+    used_a[c.i] = used_b[c.j] = 1;
+    double second = INFINITY;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      if (j != c.j) second = std::min(second, distance(a[c.i], b[j]));
+    }
+    const Path& from = a[c.i];
+    Path& to = b[c.j];
+    to.slope = (to.nu - from.nu) / length_rad;
+    to.slope_known = true;
+    result.steps.push_back({from.nu, to.nu, to.slope - from.slope, c.distance, second, from.slope_known});
+  }
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (used_a[i] == 0) result.largest_alone = std::max(result.largest_alone, std::abs(a[i].nu));
+  }
+  for (std::size_t j = 0; j < b.size(); ++j) {
+    if (used_b[j] == 0) result.largest_alone = std::max(result.largest_alone, std::abs(b[j].nu));
+  }
+  return result;
+}
+
+/// Whether a step between stops may hide something: a match that is not clear, or a path near the positive real axis
+/// that could cross it twice. A path bends away from its chord by about an eighth of the change of its slope over the
+/// step; four times as much is allowed for.
+bool unclear(const Step& s, double length_rad, double smallest) {
+  const double jump = std::abs(s.to - s.from);
+  const double size = std::max(std::abs(s.from), std::abs(s.to));
+  if (std::max(s.from.real(), s.to.real()) <= 0.0) return false;
+  if (size < 1.5 * smallest) return false;
+  const bool crosses = s.from.imag() * s.to.imag() < 0.0;
+  const double off_axis = std::min(std::abs(s.from.imag()), std::abs(s.to.imag()));
+  if (!crosses && jump <= off_axis) return false;  // any other partner as near lies on the same side of the axis
+  if (s.miss > 0.5 * s.next_nearest && s.miss > 0.1 * size) return true;
+  if (crosses) return jump > 0.8 * size;
+  if (jump <= 1.5 * off_axis || jump <= 0.02 * size) return false;
+  return !s.slope_known || 0.5 * std::abs(s.change.imag()) * length_rad > off_axis;
+}
+
+/// The crossings of steps between two stops; nothing if one could not be brought to the axis between them.
+std::optional<std::vector<Crossing>> crossings_of(const GainOnCircle& gain, double from_rad, double to_rad,
+                                                  const std::vector<Step>& steps, double depth_limit_m) {
+  std::vector<Crossing> crossings;
+  for (const Step& s : steps) {
+    if (s.from.imag() * s.to.imag() >= 0.0) continue;
+    const double share = s.from.imag() / (s.from.imag() - s.to.imag());
+    const double real = s.from.real() + share * (s.to.real() - s.from.real());
+    if (real <= 0.5 / depth_limit_m) continue;
+    Crossing crossing{0.0, from_rad + share * (to_rad - from_rad), 0, {}};
+    if (!to_axis(gain, real, crossing) || crossing.theta_rad < from_rad || crossing.theta_rad > to_rad) {
+      return std::nullopt;
+    }
+    if (crossing.depth_m <= depth_limit_m) crossings.push_back(std::move(crossing));
+  }
+  return crossings;
+}
+
+/// Real eigenvalues at the ends of the half circle, where a multiplier is −1 or 1.
+void add_at_end(const GainOnCircle& gain, double theta, const std::vector<Path>& values, double depth_limit_m,
+                std::vector<Crossing>& found) {
+  for (const auto& [nu, slope, slope_known] : values) {
+    if (nu.imag() != 0.0 || nu.real() * depth_limit_m < 1.0) continue;
+    Crossing crossing{0.0, theta, 0, {}};
+    if (to_axis(gain, nu, crossing)) found.push_back(std::move(crossing));
+  }
+}
+
+}  // namespace
+
+CriticalDepths::CriticalDepths(GainOnCircle gain) : gain_(std::move(gain)) {
+  for (const double theta : gain_.stops) largest_ = std::max(largest_, at(theta).bound);
+}
+
+CriticalDepths::Stop& CriticalDepths::at(double theta_rad) {
+  const auto [place, is_new] = stops_.try_emplace(theta_rad);
+  Stop& stop = place->second;
+  if (is_new) {
+    stop.Z = gain_.Z(theta_rad);
+    require_found(stop.Z.allFinite());
+    stop.bound = radius_bound(stop.Z);
+  }
+  return stop;
+}
+
+std::vector<Path> CriticalDepths::reached_at(double theta_rad, double depth_limit_m) {
+  const double smallest = 0.5 / depth_limit_m;
+  Stop& stop = at(theta_rad);
+  std::vector<Path> reached;
+  if (stop.bound <= smallest) return reached;
+  if (stop.nu.size() == 0) stop.nu = eigenvalues_of(stop.Z, theta_rad);
+  for (const complex<double> nu : stop.nu) {
+    if (std::norm(nu) > smallest * smallest) reached.push_back({nu});
+  }
+  return reached;
+}
+
+void CriticalDepths::between(double from_rad, const std::vector<Path>& from, double to_rad, std::vector<Path>& to,
+                             int halvings, double depth_limit_m) {
+  const double smallest = 0.5 / depth_limit_m;
+  const double length = to_rad - from_rad;
+  const auto [steps, largest_alone] = matched(from, to, length);
+  const bool clear =
+      halvings == 0 || (largest_alone < 1.5 * smallest && std::none_of(steps.begin(), steps.end(), [&](const Step& s) {
+                          return unclear(s, length, smallest);
+                        }));
+  if (clear) {
+    auto crossings = crossings_of(gain_, from_rad, to_rad, steps, depth_limit_m);
+    if (crossings || halvings == 0) {
+      if (crossings) std::move(crossings->begin(), crossings->end(), std::back_inserter(found_));
+      return;
+    }
+  }
+  const double middle_rad = 0.5 * (from_rad + to_rad);
+  std::vector<Path> middle = reached_at(middle_rad, depth_limit_m);
+  between(from_rad, from, middle_rad, middle, halvings - 1, depth_limit_m);
+  between(middle_rad, middle, to_rad, to, halvings - 1, depth_limit_m);
+}
+
+std::vector<Crossing> CriticalDepths::up_to(double depth_limit_m) {
+  found_.clear();
+  double last_rad = gain_.stops.front();
+  std::vector<Path> last = reached_at(last_rad, depth_limit_m);
+  add_at_end(gain_, last_rad, last, depth_limit_m, found_);
+  for (std::size_t i = 1; i < gain_.stops.size(); ++i) {
+    const double next_rad = gain_.stops[i];
+    std::vector<Path> next = reached_at(next_rad, depth_limit_m);
+    between(last_rad, last, next_rad, next, 10, depth_limit_m);
+    last_rad = next_rad;
+    last = std::move(next);
+  }
+  add_at_end(gain_, last_rad, last, depth_limit_m, found_);
+  std::sort(found_.begin(), found_.end(), [](const Crossing& a, const Crossing& b) { return a.depth_m < b.depth_m; });
+  return std::exchange(found_, {});
+}
+
+std::vector<double> stops_between(const Eigen::VectorXcd& flow) {
+  std::vector<double> stops{0.0};
+  while (stops.back() < pi) {
+    const complex<double> at = std::polar(1.0, stops.back());
+    double square = INFINITY;  // of the distance to the nearest
+    for (const complex<double> f : flow) square = std::min({square, std::norm(at - f), std::norm(at - std::conj(f))});
+    const double step = std::min(0.35, 0.6 * std::sqrt(square));
+    stops.push_back(stops.back() + std::max(step, 1e-4));
+  }
+  stops.back() = pi;
+  return stops;
+}
+
+}  // namespace thinwall::milling

@@ -1,0 +1,62 @@
+#pragma once
+// All depths at which a multiplier crosses the unit circle at one speed, directly: no search over depths.
+
+#include <Eigen/Core>
+#include <complex>
+#include <map>
+#include <vector>
+
+#include "milling/direct/crossing.hpp"
+
+namespace thinwall::milling {
+
+/// On the boundary det(I + w Z(e^{iθ})) = 0: the depths are the reciprocals of real positive eigenvalues ν of
+/// −Z(e^{iθ}) as θ runs over the half circle. The eigenvalues are followed between stops; where the nearest match is
+/// not clear or a path so near to the real axis that it could touch it the step is halved. A path that crosses the axis
+/// is brought to it by to_axis(). At θ = π (and 0) real eigenvalues count as they are. Eigenvalues are found only where
+/// a bound of them says that the depth can reach one, and kept, so that a search to a greater depth costs little more.
+class CriticalDepths {
+ public:
+  /// What `gain` refers to must outlive the search. Throws NumericalError if an eigen-solution fails. Cost: Z at
+  /// every stop and two products.
+  explicit CriticalDepths(GainOnCircle gain);
+
+  /// An eigenvalue ν(θ) of −Z, and how it came there.
+  struct Path {
+    std::complex<double> nu;
+    std::complex<double> slope = 0.0;  ///< over the last step, rad⁻¹
+    bool slope_known = false;
+  };
+
+  /// Below this depth, m, hardly any crossing lies: 1/max |ν| over the stops, less a quarter for what lies between
+  /// them. Where a search may begin; up_to() finds what lies below all the same.
+  [[nodiscard]] double none_below_m() const { return 0.75 / largest_; }
+
+  /// Depths from 0 to depth_limit_m (> 0), ascending. Throws NumericalError as above. Cost: an eigenvalue problem of
+  /// the size of Z at every stop that matters.
+  [[nodiscard]] std::vector<Crossing> up_to(double depth_limit_m);
+
+ private:
+  struct Stop {
+    Eigen::MatrixXcd Z;
+    double bound = 0.0;   ///< of the eigenvalues' moduli
+    Eigen::VectorXcd nu;  ///< of −Z; empty as long as no depth asked for them
+  };
+
+  Stop& at(double theta_rad);
+  /// Eigenvalues of −Z that a depth within twice the limit can reach.
+  std::vector<Path> reached_at(double theta_rad, double depth_limit_m);
+  void between(double from_rad, const std::vector<Path>& from, double to_rad, std::vector<Path>& to, int halvings,
+               double depth_limit_m);
+
+  GainOnCircle gain_;
+  std::map<double, Stop> stops_;  ///< by angle
+  double largest_ = 0.0;
+  std::vector<Crossing> found_;
+};
+
+/// Stops that Z needs with poles whose flow over a period is `flow` (e^{λT}): steps of at most 0.35 rad, and of 0.6 of
+/// the distance to the nearest.
+[[nodiscard]] std::vector<double> stops_between(const Eigen::VectorXcd& flow);
+
+}  // namespace thinwall::milling

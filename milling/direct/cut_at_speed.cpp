@@ -1,0 +1,128 @@
+#include "milling/direct/cut_at_speed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "core/dense_eigenvalues.hpp"
+#include "core/dense_factorisations.hpp"
+#include "core/error.hpp"
+#include "milling/cut/edge.hpp"
+#include "milling/direct/chatter_frequency.hpp"
+#include "milling/direct/vanishing_powers.hpp"
+
+namespace thinwall::milling {
+
+namespace {
+
+using Eigen::Index;
+using std::complex;
+
+/// ‖mean directional matrix‖ over a turn at a depth, the arcs' added up, N/m².
+double mean_stiffness(const MillingProcess& process, double depth_m) {
+  double sum = 0.0;
+  for (const Engagement& arc : arcs(process))
+    sum += process.cutter.teeth * arc.arc_rad() / (2.0 * std::numbers::pi) * arc_mean(process, arc, depth_m).norm();
+  return sum;
+}
+
+/// ‖φ‖ ‖b‖ / |Re λ| of each mode, m/N.
+Eigen::ArrayXd peaks(const RelativeStructure& s) {
+  return s.phi.colwise().norm().transpose().array() * s.b.colwise().norm().transpose().array() /
+         s.poles.real().cwiseAbs().array();
+}
+
+}  // namespace
+
+CutAtSpeed cut_at_speed(const RelativeStructure& structure, const MillingProcess& process, double spindle_speed_rpm) {
+  (void)tooth_period_s(process.cutter, spindle_speed_rpm);  // refuses a bad speed
+  CutAtSpeed cut{in_tool_axes(structure, process.frame), process, {}, spindle_speed_rpm};
+  const Envelope& envelope = process.cutter.envelope;
+  cut.yielding = yielding_directions(cut.structure, !envelope.straight() || envelope.taper_rad != 0.0);
+  return cut;
+}
+
+DiscreteCut discrete(const CutAtSpeed& cut, Resolution resolution, double depth_m) {
+  DiscreteCut d{contact_grid(cut.process, cut.yielding, resolution, depth_m), {}};
+  d.loop = regenerative_loop(cut.structure, d.grid, cut.spindle_speed_rpm);
+  return d;
+}
+
+GainOnCircle gain_of(const DiscreteCut& d) {
+  const auto on_circle = [](double theta) { return theta == std::numbers::pi ? -1.0 : std::polar(1.0, theta); };
+  return {d.loop.K.rows(), [&d, on_circle](double theta) { return loop_gain(d.loop, on_circle(theta)); },
+          [&d, on_circle](double theta) { return loop_gain_slope(d.loop, on_circle(theta)); },
+          stops_between(d.loop.flow)};
+}
+
+double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m) {
+  const RelativeStructure& s = cut.structure;
+  const Eigen::ArrayXd peak = peaks(s);
+  const double regenerates = 0.25 / (depth_m * stiffness);
+  double fastest = 0.0;
+  for (Index i = 0; i < s.poles.size(); ++i) {
+    if (peak(i) >= std::min(0.05 * peak.maxCoeff(), regenerates)) fastest = std::max(fastest, std::abs(s.poles(i)));
+  }
+  return fastest;
+}
+
+Resolution resolving(const CutAtSpeed& cut, double depth_m) {
+  const double fastest = fastest_that_matters(cut, mean_stiffness(cut.process, depth_m), depth_m);
+  const double phase =
+      fastest * longest_stretch_rad(cut.process, depth_m) * 30.0 / (std::numbers::pi * cut.spindle_speed_rpm);
+  const int elements = std::max(1, static_cast<int>(std::ceil(phase / 14.0)));
+  return {elements, static_cast<int>(std::ceil(3.0 + 0.35 * phase / elements))};
+}
+
+Resolution finer(Resolution r) {
+  return r.nodes < 14 ? Resolution{r.elements, r.nodes + 3} : Resolution{2 * r.elements, r.nodes - 3};
+}
+
+double surely_stable_depth_m(const CutAtSpeed& cut) {
+  const double peak = peaks(cut.structure).sum();
+  double depth = std::min(cut.process.cutter.envelope.height_m, 1e-3);
+  if (!cut.process.cutter.envelope.straight()) {
+    // Towards the tip of a ball the mean grows as 1/√depth, so that these steps halve the error's logarithm.
+    for (int i = 0; i < 12; ++i)
+      depth = std::min(cut.process.cutter.envelope.height_m, 0.25 / (mean_stiffness(cut.process, depth) * peak));
+  }
+  return 0.25 / (mean_stiffness(cut.process, depth) * peak);
+}
+
+Eigen::VectorXcd multipliers(const DiscreteCut& d, double depth_m) {
+  // A count over NaN would call the cut stable.
+  const Eigen::MatrixXd map = period_map(d.loop, depth_m);
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(map.allFinite() ? map : Eigen::MatrixXd::Zero(1, 1), false);
+  if (!map.allFinite() || eigen.info() != Eigen::Success) {
+    throw core::NumericalError("stability: the multipliers at a depth of " + std::to_string(depth_m) +
+                               " m were not found; check the structure at the cut, or ask for smaller depths");
+  }
+  return eigen.eigenvalues();
+}
+
+int unstable(const DiscreteCut& d, double depth_m) {
+  return static_cast<int>((multipliers(d, depth_m).cwiseAbs().array() > 1.0).count());
+}
+
+bool stable(const DiscreteCut& d, double depth_m) {
+  return powers_vanish(period_map(d.loop, depth_m)) || unstable(d, depth_m) == 0;
+}
+
+double chatter_frequency_hz(const CutAtSpeed& cut, const DiscreteCut& d, double theta, const Eigen::VectorXcd& c) {
+  double fastest = 0.0;
+  for (const complex<double> pole : cut.structure.poles) fastest = std::max(fastest, std::abs(pole));
+  const auto at = [&](double omega) { return receptance(cut.structure, omega); };
+  return chatter_frequency_hz(d.grid, d.loop.period_s, at, 1.5 * fastest, theta, c);
+}
+
+Eigen::VectorXcd modulation(const DiscreteCut& d, double depth_m, complex<double> mu) {
+  Eigen::MatrixXcd loop = depth_m * loop_gain(d.loop, mu);
+  loop.diagonal().array() += 1.0 + 1e-10;
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(loop);
+  Eigen::VectorXcd c = Eigen::VectorXcd::Ones(loop.rows());
+  for (int i = 0; i < 3; ++i) c = lu.solve(c).normalized().eval();
+  return c;
+}
+
+}  // namespace thinwall::milling

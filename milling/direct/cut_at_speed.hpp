@@ -1,0 +1,67 @@
+#pragma once
+// One cut at one speed, discretised as finely as is asked.
+
+#include <Eigen/Core>
+#include <complex>
+
+#include "milling/direct/critical_depths.hpp"
+#include "milling/structure/regenerative_loop.hpp"
+
+namespace thinwall::milling {
+
+/// What does not change with resolution and depth. Keeps a reference to the process.
+struct CutAtSpeed {
+  RelativeStructure structure;  ///< tool axes
+  const MillingProcess& process;
+  Eigen::Matrix3Xd yielding;  ///< yielding_directions() of the structure
+  double spindle_speed_rpm = 0.0;
+};
+
+/// `structure` in part axes. Throws InputError unless the speed is positive and the structure moves in the cut's plane.
+[[nodiscard]] CutAtSpeed cut_at_speed(const RelativeStructure& structure, const MillingProcess& process,
+                                      double spindle_speed_rpm);
+
+/// The loop on one grid. With a helix it belongs to one depth.
+struct DiscreteCut {
+  ContactGrid grid;
+  RegenerativeLoop loop;
+};
+
+/// On a grid of a resolution; depth in m.
+[[nodiscard]] DiscreteCut discrete(const CutAtSpeed& cut, Resolution resolution, double depth_m);
+
+/// Keeps a reference to the loop.
+[[nodiscard]] GainOnCircle gain_of(const DiscreteCut& d);
+
+/// Elements of at most 14 rad, and nodes for the phase, of the fastest mode that matters: every mode that could
+/// regenerate at this depth, with loop gain 2 w ‖D̄‖ ‖φ‖ ‖b‖ / |Re λ| of at least a half, and any with a twentieth of
+/// the highest resonance. A grid that does not see a mode would call it stable.
+[[nodiscard]] Resolution resolving(const CutAtSpeed& cut, double depth_m);
+
+/// |λ| of that mode, rad/s; `stiffness` is the norm of the mean directional matrix, N/m².
+[[nodiscard]] double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m);
+
+/// Half as fine again, or about.
+[[nodiscard]] Resolution finer(Resolution r);
+
+/// A depth, m, at which the loop gain 2 w ‖D̄‖ Σ ‖φ‖ ‖b‖ / |Re λ|, each mode at its own resonance, is a half.
+[[nodiscard]] double surely_stable_depth_m(const CutAtSpeed& cut);
+
+/// All Floquet multipliers of the period at a depth (that of the grid, with a helix). Throws NumericalError if the
+/// eigen-solution fails.
+[[nodiscard]] Eigen::VectorXcd multipliers(const DiscreteCut& d, double depth_m);
+
+/// How many of them lie outside of the unit circle.
+[[nodiscard]] int unstable(const DiscreteCut& d, double depth_m);
+
+/// Whether none does: by powers_vanish(), or where that cannot tell by the count.
+[[nodiscard]] bool stable(const DiscreteCut& d, double depth_m);
+
+/// The same of chatter_frequency.hpp, from the poles.
+[[nodiscard]] double chatter_frequency_hz(const CutAtSpeed& cut, const DiscreteCut& d, double theta_rad,
+                                          const Eigen::VectorXcd& c);
+
+/// The modulation that belongs to a multiplier at a depth: the null vector of I + w Z(μ).
+[[nodiscard]] Eigen::VectorXcd modulation(const DiscreteCut& d, double depth_m, std::complex<double> mu);
+
+}  // namespace thinwall::milling

@@ -1,0 +1,309 @@
+#include "milling/direct/helical_row.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <iterator>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "milling/direct/critical_depths.hpp"
+#include "milling/direct/refined_crossing.hpp"
+
+namespace thinwall::milling {
+
+namespace {
+
+using std::complex;
+
+Resolution finer_by(Resolution r, std::size_t levels) {
+  for (std::size_t i = 0; i < levels; ++i) r = finer(r);
+  return r;
+}
+
+/// The eigenvalue ν of −Z near 1/depth on a grid of this depth, with its change with the depth of the grid.
+struct PairAtDepth {
+  Eigenpair pair;
+  complex<double> by_depth;
+};
+
+PairAtDepth pair_at(const CutAtSpeed& cut, Resolution resolution, double depth_m, double theta) {
+  const DiscreteCut d = discrete(cut, resolution, depth_m);
+  PairAtDepth result{eigenpair_near(gain_of(d), theta, 1.0 / depth_m), INFINITY};
+  // Where a stretch of the cut appears with the depth ν jumps by the error of the grid: not on both sides.
+  const double above = std::min(1e-6 * depth_m, cut.process.cutter.envelope.height_m - depth_m);
+  for (const double step_m : {-1e-6 * depth_m, above}) {
+    if (step_m == 0.0 || std::abs(result.by_depth) * depth_m * depth_m < 100.0) continue;
+    const DiscreteCut beside = discrete(cut, resolution, depth_m + step_m);
+    const complex<double> change = eigenpair_near(gain_of(beside), theta, result.pair.nu).nu - result.pair.nu;
+    if (std::abs(change / step_m) < std::abs(result.by_depth)) result.by_depth = change / step_m;
+  }
+  return result;
+}
+
+/// Brings a crossing to where ν(θ, w) = 1/w on grids of its own depth, by Newton's rule for angle and depth together.
+/// A multiplier leaves the circle as the depth rises where
+///
+///     d ln|μ|/dw = −Re[i (∂ν/∂w + 1/w²) / (∂ν/∂θ)] > 0.
+///
+/// False if the depth does not settle to 1e-7 (relative) between two depths and among the edges. Throws NumericalError
+/// if an eigenvalue is not found.
+bool settled(const CutAtSpeed& cut, Resolution resolution, double from_m, double to_m, Crossing& crossing) {
+  constexpr complex<double> i(0.0, 1.0);
+  constexpr double tolerance = 1e-7;
+  const double height = std::min(to_m, cut.process.cutter.envelope.height_m);
+  const bool at_end = crossing.theta_rad == 0.0 || crossing.theta_rad == std::numbers::pi;
+  double depth = std::min(crossing.depth_m, height);
+  double theta = crossing.theta_rad;
+  for (int step = 0; step < 12; ++step) {
+    const PairAtDepth at = pair_at(cut, resolution, depth, theta);
+    const complex<double> miss = at.pair.nu - 1.0 / depth;
+    const complex<double> by_depth = at.by_depth + 1.0 / (depth * depth);
+    Eigen::Matrix2d rows;
+    rows << at.pair.slope.real(), by_depth.real(), at.pair.slope.imag(), by_depth.imag();
+    const Eigen::Vector2d change = at_end
+                                       ? Eigen::Vector2d(0.0, -miss.real() / by_depth.real())
+                                       : Eigen::Vector2d(-rows.inverse() * Eigen::Vector2d(miss.real(), miss.imag()));
+    if (!change.allFinite()) return false;
+    // A short step alone may come from a derivative over a jump of the grid: ν must be there, too, as near as the step
+    // allows where it changes a hundred times as fast as 1/w.
+    if (std::abs(miss) * depth <= 100.0 * tolerance && std::abs(change(1)) <= tolerance * depth) {
+      const double leaves = -(i * by_depth / at.pair.slope).real();
+      crossing = {depth + change(1), theta + change(0), (at_end ? 1 : 2) * (leaves > 0.0 ? 1 : -1), at.pair.right};
+      return crossing.depth_m <= height;
+    }
+    const double shorter = std::min({1.0, 0.1 * depth / std::abs(change(1)), 0.5 / std::abs(change(0))});
+    const double before = std::exchange(depth, std::min(depth + shorter * change(1), height));
+    theta += shorter * change(0);
+    if (depth == before || depth < from_m || theta < 0.0 || theta > std::numbers::pi) return false;
+  }
+  return false;
+}
+
+/// The same, false where a guess leads to no eigenvalue.
+bool settle(const CutAtSpeed& cut, Resolution resolution, double from_m, double to_m, Crossing& crossing) {
+  try {
+    return settled(cut, resolution, from_m, to_m, crossing);
+  } catch (const core::NumericalError&) {
+    return false;
+  }
+}
+
+/// What is known of the cut at one depth.
+struct Probe {
+  double depth_m = 0.0;
+  int unstable = 0;               ///< multipliers outside of the unit circle
+  std::vector<Crossing> guesses;  ///< where crossings of other depths may lie
+};
+
+/// Crossings on grids of one resolution.
+struct Scan {
+  std::vector<Crossing> found;
+  double searched_m = 0.0;  ///< up to here they explain the counts
+};
+
+/// The search for the crossings of a speed on grids of one resolution, so many times finer than is needed.
+class HelicalSearch {
+ public:
+  HelicalSearch(const CutAtSpeed& cut, std::size_t refinements) : cut_(cut), refinements_(refinements) {}
+
+  [[nodiscard]] Resolution resolution(double depth_m) const {
+    return finer_by(resolving(cut_, std::min(depth_m, cut_.process.cutter.envelope.height_m)), refinements_);
+  }
+
+  /// The cut keeps the shape of this depth while its force grows: what crosses the unit circle up to a sixth beyond,
+  /// pairs that leave no trace in a count among it. Below the depth of interest a search costs less than a count.
+  [[nodiscard]] Probe frozen(double depth_m) const {
+    constexpr double beyond = 7.0 / 6.0;
+    const DiscreteCut d = discrete(cut_, resolution(beyond * depth_m), depth_m);
+    Probe probe{depth_m, 0, CriticalDepths(gain_of(d)).up_to(beyond * depth_m)};
+    for (const Crossing& c : probe.guesses) probe.unstable += c.depth_m <= depth_m ? c.unstable_change : 0;
+    return probe;
+  }
+
+  /// The multipliers at this depth, those nearest to the circle for guesses.
+  [[nodiscard]] Probe counted(double depth_m) const {
+    constexpr std::size_t most = 6;
+    const DiscreteCut d = discrete(cut_, resolution(depth_m), depth_m);
+    std::vector<complex<double>> near;
+    Probe probe{depth_m, 0, {}};
+    for (const complex<double> mu : multipliers(d, depth_m)) {
+      probe.unstable += std::abs(mu) > 1.0 ? 1 : 0;
+      if (mu.imag() >= 0.0 && std::abs(mu) > 0.2) near.push_back(mu);
+    }
+    std::ranges::sort(near, {}, [](complex<double> mu) { return std::abs(std::log(std::abs(mu))); });
+    near.resize(std::min(near.size(), most));
+    for (const complex<double> mu : near) {
+      const double theta = mu.imag() > 0.0 ? std::arg(mu) : mu.real() > 0.0 ? 0.0 : std::numbers::pi;
+      probe.guesses.push_back({depth_m, theta, 0, {}});
+    }
+    return probe;
+  }
+
+  /// Deep in an unstable range counts are cheaper, and crossings that cancel there do not matter.
+  [[nodiscard]] Probe after(const Probe& low, double depth_m) const {
+    return low.unstable > 0 ? counted(depth_m) : frozen(depth_m);
+  }
+
+  /// Steps in which neither the stretch of a tooth in the cut grows by more than 12 % nor, with unequal helices, the
+  /// delay by more than a radian of the fastest mode; on round ends the depth itself shapes the cut.
+  [[nodiscard]] double next_depth(double depth_m) const {
+    constexpr double growth = 0.12;
+    const MillingProcess& process = cut_.process;
+    if (!process.cutter.envelope.straight())
+      return depth_m > 0.0 ? (1.0 + growth) * depth_m : surely_stable_depth_m(cut_);
+    double steepest = 0.0;
+    double least = INFINITY;
+    for (int tooth = 0; tooth < process.cutter.teeth; ++tooth) {
+      steepest = std::max(steepest, process.cutter.lag_rad_per_m(tooth));
+      least = std::min(least, process.cutter.lag_rad_per_m(tooth));
+    }
+    double shortest = INFINITY;
+    for (const Engagement& arc : arcs(process)) shortest = std::min(shortest, arc.arc_rad());
+    const double step_m = growth * (depth_m + shortest / steepest);
+    if (steepest == least) return depth_m + step_m;
+    const double spindle_rad_s = cut_.spindle_speed_rpm * std::numbers::pi / 30.0;
+    const double phase_rad_per_m = (steepest - least) * fastest_that_matters(cut_, 0.0, depth_m) / spindle_rad_s;
+    return depth_m + std::max(0.05 * depth_m, std::min(step_m, 1.0 / phase_rad_per_m));
+  }
+
+  /// Adds the crossings between two depths; false if from some depth on, searched_m then, what is found does not
+  /// explain the counts, however often the step is halved.
+  [[nodiscard]] bool between(const Probe& low, const Probe& high, int halvings, Scan& scan) const {
+    std::vector<Crossing> inside;
+    int change = 0;
+    const auto add_from = [&](const std::vector<Crossing>& guesses) {
+      for (const Crossing& guess : guesses) {
+        Crossing c = guess;
+        if (!settle(cut_, resolution(high.depth_m), 0.9 * low.depth_m, 1.1 * high.depth_m, c)) continue;
+        if (c.depth_m <= low.depth_m || c.depth_m > high.depth_m || is_known(c, inside)) continue;
+        change += c.unstable_change;
+        inside.push_back(std::move(c));
+      }
+    };
+    if (low.unstable == 0 || high.unstable != low.unstable) add_from(high.guesses);
+    if (change != high.unstable - low.unstable) add_from(low.guesses);
+    if (change == high.unstable - low.unstable) {
+      std::move(inside.begin(), inside.end(), std::back_inserter(scan.found));
+      scan.searched_m = high.depth_m;
+      return true;
+    }
+    if (halvings == 0) return false;
+    const Probe middle = after(low, 0.5 * (low.depth_m + high.depth_m));
+    return between(low, middle, halvings - 1, scan) && between(middle, high, halvings - 1, scan);
+  }
+
+ private:
+  [[nodiscard]] static bool is_known(const Crossing& c, const std::vector<Crossing>& all) {
+    return std::any_of(all.begin(), all.end(), [&](const Crossing& other) {
+      return std::abs(other.depth_m / c.depth_m - 1.0) < 1e-5 && other.unstable_change == c.unstable_change;
+    });
+  }
+
+  const CutAtSpeed& cut_;
+  std::size_t refinements_;
+};
+
+double wanted_m(const std::vector<Crossing>& found, const StabilityOptions& options) {
+  if (found.empty()) return options.depth_limit_m;
+  return std::min(options.depth_limit_m, options.follow * found.front().depth_m);
+}
+
+Scan scan(const HelicalSearch& search, const StabilityOptions& options) {
+  Scan result;
+  Probe low;
+  while (low.depth_m < wanted_m(result.found, options)) {
+    Probe high = search.after(low, std::min(search.next_depth(low.depth_m), wanted_m(result.found, options)));
+    const bool explained = search.between(low, high, 5, result);
+    std::ranges::sort(result.found, {}, &Crossing::depth_m);
+    if (!explained) break;
+    low = std::move(high);
+  }
+  return result;
+}
+
+/// On finer grids: to the tolerance those that bound a stable range.
+std::vector<RefinedCrossing> refined(const CutAtSpeed& cut, const HelicalSearch& search, Scan scan,
+                                     const StabilityOptions& options, LobeRow& row) {
+  std::vector<RefinedCrossing> all;
+  all.reserve(scan.found.size());
+  const double first_m = scan.found.empty() ? 0.0 : scan.found.front().depth_m;
+  int count = 0;
+  for (Crossing& crossing : scan.found) {
+    RefinedCrossing c{std::move(crossing)};
+    const Resolution coarsest = search.resolution(c.crossing.depth_m);
+    const auto to_level = [&](std::size_t level, Crossing& moved) {
+      const Resolution next = finer_by(coarsest, level);
+      if (level > 2 && next.elements * next.nodes > options.most_nodes) return OnFinerGrid::none_finer;
+      row.nodes = std::max(row.nodes, next.elements * next.nodes);
+      return settle(cut, next, 0.9 * moved.depth_m, 1.1 * moved.depth_m, moved) ? OnFinerGrid::kept : OnFinerGrid::lost;
+    };
+    const bool beside_first = c.crossing.depth_m <= 1.01 * first_m;
+    const bool bounds = count == 0 || count + c.crossing.unstable_change == 0 || beside_first;
+    count += c.crossing.unstable_change;
+    refine_until(bounds ? 2 : 1, bounds ? options.error_tolerance : 1.0, to_level, c);
+    if (!c.kept && all.size() > 1 && !beside_first) {  // what lies as deep is not known
+      row.searched_m = std::min(row.searched_m, std::sqrt(all.back().crossing.depth_m * c.crossing.depth_m));
+      break;
+    }
+    if (!c.kept) row.status = StabilityStatus::crossing_missed;
+    else if (bounds && c.error_estimate > options.error_tolerance && row.status == StabilityStatus::converged)
+      row.status = StabilityStatus::node_limit_reached;
+    all.push_back(std::move(c));
+  }
+  std::ranges::stable_sort(all, {}, [](const RefinedCrossing& c) { return c.crossing.depth_m; });
+  return all;
+}
+
+/// A row that the counts of multipliers at its end and below its first crossing agree with; deep crossings that do not
+/// add up are left out.
+LobeRow row_of(const CutAtSpeed& cut, std::size_t refinements, const StabilityOptions& options) {
+  const HelicalSearch search(cut, refinements);
+  LobeRow row;
+  row.spindle_speed_rpm = cut.spindle_speed_rpm;
+  Scan found = scan(search, options);
+  row.searched_m = found.searched_m;
+  if (found.found.empty() && found.searched_m < options.depth_limit_m) row.status = StabilityStatus::crossing_missed;
+  if (found.searched_m == 0.0) return row;  // not even near zero
+  std::vector<RefinedCrossing> all = refined(cut, search, std::move(found), options, row);
+  const auto count_at = [&](double depth_m, std::size_t level) {
+    return unstable(discrete(cut, finer_by(search.resolution(depth_m), level), depth_m), depth_m);
+  };
+  int count = 0;
+  for (const RefinedCrossing& c : all) count += c.crossing.unstable_change;
+  while (options.follow > 1.0 && count_at(row.searched_m, 0) != count) {
+    if (all.size() <= 1) {
+      row.status = StabilityStatus::crossing_missed;
+      break;
+    }
+    count -= all.back().crossing.unstable_change;
+    const double deepest = all.back().crossing.depth_m;
+    all.pop_back();
+    row.searched_m = std::sqrt(all.back().crossing.depth_m * std::min(deepest, row.searched_m));
+  }
+  for (const RefinedCrossing& c : all) {
+    const Resolution finest = finer_by(search.resolution(c.crossing.depth_m), c.level);
+    const DiscreteCut d = discrete(cut, finest, c.crossing.depth_m);
+    const double theta = c.crossing.theta_rad;
+    const complex<double> mu = theta == std::numbers::pi ? complex<double>(-1.0) : std::polar(1.0, theta);
+    row.crossings.push_back(lobe_point(c, chatter_frequency_hz(cut, d, theta, modulation(d, c.crossing.depth_m, mu))));
+  }
+  const double below = all.empty() ? row.searched_m : 0.999 * all.front().crossing.depth_m;
+  if (count_at(below, all.empty() ? 1 : all.front().level) != 0) row.status = StabilityStatus::crossing_missed;
+  take_limit_from_crossings(row);
+  return row;
+}
+
+}  // namespace
+
+LobeRow helical_row(const CutAtSpeed& cut, const StabilityOptions& options) {
+  for (std::size_t refinements = 0;; ++refinements) {
+    LobeRow row = row_of(cut, refinements, options);
+    if (row.status != StabilityStatus::crossing_missed || refinements == 2) return row;
+  }
+}
+
+}  // namespace thinwall::milling

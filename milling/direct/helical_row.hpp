@@ -1,0 +1,24 @@
+#pragma once
+// The crossings of one speed where the cut changes with its depth.
+
+#include "milling/direct/cut_at_speed.hpp"
+#include "milling/direct/lobe_row.hpp"
+
+namespace thinwall::milling {
+
+/// With a helix the directional matrix changes with the depth. It is frozen at depths in steps in which the stretch of
+/// a tooth in the cut grows by 12 % (with unequal helices the delay by a radian of the fastest mode at most; on round
+/// ends the depth itself by 12 %): what crosses the unit circle as the force alone grows (CriticalDepths) tells whether
+/// the cut is stable there, and where crossings of other depths lie near. Those are brought to grids of their own depth
+/// by Newton's rule for angle and depth. Where they do not add up to the change from one depth to the next the step is
+/// halved. Deep in an unstable range multipliers are counted instead, and crossings that cancel within a step are left
+/// out.
+///
+/// Checked as rows without helix (stability.hpp): no multiplier outside just below the first crossing, as many as the
+/// crossings say at the end of the search, or the search ends earlier (searched_m). A row that fails is searched again
+/// on finer grids, twice at most, then `crossing_missed`. The limit of a row without crossings is not filled in. Throws
+/// NumericalError if an eigen-solution fails. Cost: some five searches and five counts, some four factorisations of
+/// the gain a step of Newton's rule.
+[[nodiscard]] LobeRow helical_row(const CutAtSpeed& cut, const StabilityOptions& options);
+
+}  // namespace thinwall::milling

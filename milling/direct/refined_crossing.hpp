@@ -1,0 +1,39 @@
+#pragma once
+// A crossing on finer and finer grids, until its error estimate meets a tolerance.
+
+#include <cstddef>
+#include <functional>
+
+#include "milling/direct/crossing.hpp"
+#include "milling/direct/lobe_row.hpp"
+
+namespace thinwall::milling {
+
+/// Error of the value on the finest grid from the last two changes, relative. A change alone may be small by chance,
+/// where the error of two neighbours is the same: the one before stands in with a tenth. 1e-11 is the round-off of an
+/// eigenvalue.
+[[nodiscard]] double estimate_from(double change, double change_before);
+
+/// A crossing on the finest grid so far.
+struct RefinedCrossing {
+  Crossing crossing;
+  double change = 1.0;  ///< of its depth by the last grid, relative
+  double error_estimate = 1.0;
+  std::size_t level = 0;  ///< grids since the one it was found on
+  bool kept = true;       ///< it has not been lost on the way
+};
+
+/// What became of a crossing on the next grid.
+enum class OnFinerGrid { kept, lost, none_finer };
+
+/// Moves a crossing to the grid of a level.
+using ToLevel = std::function<OnFinerGrid(std::size_t level, Crossing& crossing)>;
+
+/// On finer grids, at least `levels` of them, until the tolerance is met, the crossing is lost or no finer grid is
+/// left.
+void refine_until(std::size_t levels, double tolerance, const ToLevel& to_level, RefinedCrossing& crossing);
+
+/// As it stands in a row.
+[[nodiscard]] LobePoint lobe_point(const RefinedCrossing& crossing, double chatter_frequency_hz);
+
+}  // namespace thinwall::milling

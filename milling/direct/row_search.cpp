@@ -1,0 +1,143 @@
+#include "milling/direct/row_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace thinwall::milling {
+
+namespace {
+
+void sort_by_depth(std::vector<RefinedCrossing>& all) {
+  std::stable_sort(all.begin(), all.end(), [](const RefinedCrossing& a, const RefinedCrossing& b) {
+    return a.crossing.depth_m < b.crossing.depth_m;
+  });
+}
+
+/// Without the last: what lies as deep is not known.
+void drop_last(std::vector<RefinedCrossing>& all, LobeRow& row) {
+  const double deepest = all.back().crossing.depth_m;
+  all.pop_back();
+  row.searched_m = std::sqrt(all.back().crossing.depth_m * std::min(deepest, row.searched_m));
+}
+
+/// The crossings that bound a stable range to the tolerance; `all` ends before one that gets lost. The changes of all.
+int refine_boundaries(SearchGrids& grids, std::vector<RefinedCrossing>& all, const StabilityOptions& options,
+                      LobeRow& row) {
+  // What lies this near to the first may turn out to be the first.
+  const double beside_first_m = 1.01 * all.front().crossing.depth_m;
+  int count = 0;  // of unstable multipliers above the crossings so far
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    RefinedCrossing& c = all[i];
+    const bool bounds = count == 0 || count + c.crossing.unstable_change == 0 || c.crossing.depth_m <= beside_first_m;
+    count += c.crossing.unstable_change;
+    if (!bounds || c.crossing.depth_m > options.depth_limit_m) continue;
+    refine_until(2, options.error_tolerance, grids.to_level(), c);
+    if (!c.kept && i > 0 && c.crossing.depth_m > beside_first_m) {
+      count -= c.crossing.unstable_change;
+      while (all.size() > i) drop_last(all, row);
+      return count;
+    }
+    const double beyond_grids = c.kept ? grids.error_beyond_grids(c.level, c.crossing) : 0.0;
+    if (!c.kept) row.status = StabilityStatus::crossing_missed;
+    else if (row.status == StabilityStatus::crossing_missed) continue;
+    else if (c.error_estimate > options.error_tolerance) row.status = StabilityStatus::node_limit_reached;
+    else if (beyond_grids > options.error_tolerance) row.status = StabilityStatus::range_limited;
+    c.error_estimate += beyond_grids;
+  }
+  return count;
+}
+
+/// All crossings in ascending depth, as deep as they add up to the count of unstable multipliers.
+std::vector<RefinedCrossing> refined(SearchGrids& grids, std::vector<Crossing> found, const StabilityOptions& options,
+                                     LobeRow& row) {
+  std::vector<RefinedCrossing> all;
+  all.reserve(found.size());
+  for (Crossing& crossing : found) {
+    all.push_back({std::move(crossing)});
+    refine_until(1, 1.0, grids.to_level(), all.back());
+  }
+  sort_by_depth(all);
+  int count = all.empty() ? 0 : refine_boundaries(grids, all, options, row);
+  if (options.follow > 1.0) {
+    while (grids.unstable(0, row.searched_m) != count) {
+      if (all.size() <= 1) {
+        row.status = StabilityStatus::crossing_missed;
+        break;
+      }
+      count -= all.back().crossing.unstable_change;
+      drop_last(all, row);
+    }
+  }
+  sort_by_depth(all);
+  return all;
+}
+
+}  // namespace
+
+ToLevel SearchGrids::to_level() {
+  return [this](std::size_t level, Crossing& crossing) {
+    if (level > 1 && !more_after(level - 1)) return OnFinerGrid::none_finer;
+    return refine(gain(level), crossing) ? OnFinerGrid::kept : OnFinerGrid::lost;
+  };
+}
+
+StabilityOptions beyond_limit(StabilityOptions options) {
+  options.depth_limit_m *= 1.05;
+  return options;
+}
+
+FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& options) {
+  constexpr double step = 1.5;
+  FirstCrossing first{CriticalDepths(gain), {}, 0.0};
+  const double expected = 1.1 * options.expected_depth_m.value_or(0.75 * first.search.none_below_m());
+  first.searched_m = std::max(expected, first.search.none_below_m()) / step;
+  do {
+    first.searched_m = std::min(options.depth_limit_m, step * first.searched_m);
+    first.found = first.search.up_to(first.searched_m);
+  } while (first.found.empty() && first.searched_m < options.depth_limit_m);
+  return first;
+}
+
+double wanted_m(const FirstCrossing& first, const StabilityOptions& options) {
+  if (first.found.empty()) return std::min(options.depth_limit_m, first.searched_m);
+  return std::min(options.depth_limit_m, options.follow * first.found.front().depth_m);
+}
+
+double follow(FirstCrossing& first, const StabilityOptions& options) {
+  if (first.found.empty()) return first.searched_m;
+  const double wanted = wanted_m(first, options);
+  if (options.follow == 1.0) {
+    std::erase_if(first.found, [&](const Crossing& c) { return c.depth_m > 1.1 * wanted; });
+    return wanted;
+  }
+  if (wanted <= first.searched_m) return first.searched_m;
+  first.found = first.search.up_to(wanted);
+  return wanted;
+}
+
+LobeRow row_from(SearchGrids& grids, FirstCrossing first, double spindle_speed_rpm, const StabilityOptions& options) {
+  LobeRow row;
+  row.spindle_speed_rpm = spindle_speed_rpm;
+  row.searched_m = follow(first, beyond_limit(options));
+  std::size_t finest = 1;
+  const std::vector<RefinedCrossing> all = refined(grids, std::move(first.found), options, row);
+  row.searched_m = std::min(row.searched_m, options.depth_limit_m);
+  for (const RefinedCrossing& c : all) {
+    if (c.crossing.depth_m > options.depth_limit_m) continue;
+    finest = std::max(finest, c.level);
+    row.crossings.push_back(lobe_point(c, grids.chatter_frequency_hz(c.level, c.crossing)));
+  }
+  row.nodes = grids.nodes(finest);
+  const double below = row.crossings.empty() ? row.searched_m : 0.999 * row.crossings.front().depth_m;
+  if (!grids.stable(finest, below)) row.status = StabilityStatus::crossing_missed;
+  take_limit_from_crossings(row);
+  return row;
+}
+
+bool sound(const LobeRow& row) {
+  return row.status == StabilityStatus::converged || row.status == StabilityStatus::range_limited ||
+         row.status == StabilityStatus::stable_to_depth_limit;
+}
+
+}  // namespace thinwall::milling

@@ -1,0 +1,74 @@
+#pragma once
+// The crossings of one speed on grids from coarse to fine, checked, however the loop's gain was come by.
+
+#include <vector>
+
+#include "milling/direct/critical_depths.hpp"
+#include "milling/direct/lobe_row.hpp"
+#include "milling/direct/refined_crossing.hpp"
+
+namespace thinwall::milling {
+
+/// Grids of one cut without helix, the search's view of them: level 0 is searched, finer ones are made when they are
+/// asked for.
+class SearchGrids {
+ public:
+  SearchGrids() = default;
+  virtual ~SearchGrids() = default;
+  SearchGrids(const SearchGrids&) = delete;
+  SearchGrids& operator=(const SearchGrids&) = delete;
+
+  /// The loop's gain on the grid of a level.
+  [[nodiscard]] virtual const GainOnCircle& gain(std::size_t level) = 0;
+  /// Nodes of that grid.
+  [[nodiscard]] virtual int nodes(std::size_t level) = 0;
+  /// Whether a level beyond this one may be made.
+  [[nodiscard]] virtual bool more_after(std::size_t level) = 0;
+  /// Multipliers outside of the unit circle.
+  [[nodiscard]] virtual int unstable(std::size_t level, double depth_m) = 0;
+  /// Whether there is none.
+  [[nodiscard]] virtual bool stable(std::size_t level, double depth_m) { return unstable(level, depth_m) == 0; }
+  /// Of a crossing of that grid, Hz.
+  [[nodiscard]] virtual double chatter_frequency_hz(std::size_t level, const Crossing& crossing) = 0;
+  /// Error of a depth, relative, that no finer grid shows.
+  [[nodiscard]] virtual double error_beyond_grids(std::size_t /*level*/, const Crossing& /*crossing*/) { return 0.0; }
+
+  /// For refine_until().
+  [[nodiscard]] ToLevel to_level();
+};
+
+/// The options of a search: a twentieth beyond the depth limit, for a crossing that lies there on a coarse grid may lie
+/// within on a finer one (a flip at 22.785 of 22.856 mm was 1 % deeper on the coarse grid, and its stable gap was
+/// lost).
+[[nodiscard]] StabilityOptions beyond_limit(StabilityOptions options);
+
+/// A search of the coarse grid from small depths on until a crossing is found.
+struct FirstCrossing {
+  CriticalDepths search;
+  std::vector<Crossing> found;  ///< empty: stable up to the limit
+  double searched_m = 0.0;
+
+  /// Of the first; of the search where there is none.
+  [[nodiscard]] double depth_m() const { return found.empty() ? searched_m : found.front().depth_m; }
+};
+
+/// The search as said above.
+[[nodiscard]] FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& options);
+
+/// The depth up to which a row's crossings are wanted, m: `follow` times the first, or the depth limit.
+[[nodiscard]] double wanted_m(const FirstCrossing& first, const StabilityOptions& options);
+
+/// Goes on to `follow` times the first crossing, if there is one; with `follow` = 1 those within a tenth of it are
+/// kept, one of which may turn out to be the first on a finer grid. Returns the depth that was searched, m.
+[[nodiscard]] double follow(FirstCrossing& first, const StabilityOptions& options);
+
+/// The row that follows from there: crossings up to `follow` times the first, each on a finer grid, those that bound a
+/// stable range to the tolerance; the two counts of limiting_depth() (stability.hpp). The status tells what failed. The
+/// limit is filled in if there is a crossing. Throws NumericalError as CriticalDepths.
+[[nodiscard]] LobeRow row_from(SearchGrids& grids, FirstCrossing first, double spindle_speed_rpm,
+                               const StabilityOptions& options);
+
+/// Whether nothing failed that a finer grid could mend.
+[[nodiscard]] bool sound(const LobeRow& row);
+
+}  // namespace thinwall::milling

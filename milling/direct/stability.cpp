@@ -1,0 +1,169 @@
+#include "milling/direct/stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "core/error.hpp"
+#include "milling/direct/cut_at_speed.hpp"
+#include "milling/direct/helical_row.hpp"
+#include "milling/direct/refined_crossing.hpp"
+#include "milling/direct/row_search.hpp"
+
+namespace thinwall::milling {
+
+namespace {
+
+using Eigen::Index;
+using std::complex;
+
+/// Dominant eigenvalue of the map, Im ≥ 0.
+complex<double> dominant(const Eigen::VectorXcd& eigenvalues) {
+  Index at = 0;
+  eigenvalues.cwiseAbs().maxCoeff(&at);
+  return {eigenvalues(at).real(), std::abs(eigenvalues(at).imag())};
+}
+
+/// Grids of a cut known by its poles.
+class PoleGrids : public SearchGrids {
+ public:
+  PoleGrids(const CutAtSpeed& cut, Resolution first, double depth_m, int most_nodes)
+      : cut_(cut), next_(first), depth_m_(depth_m), most_nodes_(most_nodes) {}
+
+  const DiscreteCut& operator[](std::size_t level) { return made(level).cut; }
+  [[nodiscard]] const GainOnCircle& gain(std::size_t level) override { return made(level).gain; }
+  [[nodiscard]] int nodes(std::size_t level) override { return static_cast<int>((*this)[level].grid.node_rad.size()); }
+  [[nodiscard]] bool more_after(std::size_t level) override { return 3 * nodes(level) < 2 * most_nodes_; }
+  [[nodiscard]] int unstable(std::size_t level, double depth_m) override {
+    return milling::unstable((*this)[level], depth_m);
+  }
+  [[nodiscard]] bool stable(std::size_t level, double depth_m) override {
+    return milling::stable((*this)[level], depth_m);
+  }
+  [[nodiscard]] double chatter_frequency_hz(std::size_t level, const Crossing& crossing) override {
+    return milling::chatter_frequency_hz(cut_, (*this)[level], crossing.theta_rad, crossing.mode);
+  }
+
+ private:
+  struct Level {
+    DiscreteCut cut;
+    GainOnCircle gain;
+  };
+
+  const Level& made(std::size_t level) {
+    while (levels_.size() <= level) {
+      levels_.push_back(std::make_unique<Level>(Level{discrete(cut_, next_, depth_m_), {}}));
+      levels_.back()->gain = gain_of(levels_.back()->cut);
+      next_ = finer(next_);
+    }
+    return *levels_[level];
+  }
+
+  const CutAtSpeed& cut_;
+  Resolution next_;
+  double depth_m_;
+  int most_nodes_;
+  std::vector<std::unique_ptr<Level>> levels_;
+};
+
+Multiplier multiplier_of(const CutAtSpeed& cut, double depth_m, const StabilityOptions& options) {
+  PoleGrids grids(cut, resolving(cut, depth_m), depth_m, options.most_nodes);
+  double before = std::abs(dominant(multipliers(grids[0], depth_m)));
+  double change = 1.0;
+  for (std::size_t level = 1;; ++level) {
+    const DiscreteCut& fine = grids[level];
+    Multiplier result;
+    result.value = dominant(multipliers(fine, depth_m));
+    result.modulus = std::abs(result.value);
+    const double change_before = std::exchange(change, std::abs(before / result.modulus - 1.0));
+    before = result.modulus;
+    result.error_estimate = estimate_from(change, change_before);
+    result.nodes = grids.nodes(level);
+    const bool enough = level > 1 && result.error_estimate <= options.error_tolerance;
+    if (!enough && grids.more_after(level)) continue;
+    result.status = enough ? StabilityStatus::converged : StabilityStatus::node_limit_reached;
+    result.kind = bifurcation_of(result.value);
+    result.chatter_frequency_hz =
+        chatter_frequency_hz(cut, fine, std::arg(result.value), modulation(fine, depth_m, result.value * (1.0 + 1e-9)));
+    return result;
+  }
+}
+
+/// Of a row without crossings: the multiplier at the depth limit.
+void describe_depth_limit(LobeRow& row, const CutAtSpeed& cut, const StabilityOptions& options) {
+  const Multiplier mu = multiplier_of(cut, options.depth_limit_m, options);
+  row.limiting_depth_m = options.depth_limit_m;
+  row.at_limit = true;
+  row.chatter_frequency_hz = mu.chatter_frequency_hz;
+  row.kind = mu.kind;
+  row.error_estimate = mu.error_estimate;
+  if (row.status == StabilityStatus::converged) {
+    row.status = mu.status == StabilityStatus::converged ? StabilityStatus::stable_to_depth_limit : mu.status;
+  }
+}
+
+LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
+  if (cut.process.cutter.depends_on_depth()) {
+    LobeRow row = helical_row(cut, options);
+    if (row.crossings.empty() && row.status == StabilityStatus::crossing_missed) {
+      // As deep as it is known to be stable.
+      row.limiting_depth_m = std::max(row.searched_m, std::min(surely_stable_depth_m(cut), options.depth_limit_m));
+      row.error_estimate = 1.0;
+    } else if (row.crossings.empty()) {
+      describe_depth_limit(row, cut, options);
+    }
+    return row;
+  }
+  const auto fewer = [](Resolution a, Resolution b) { return a.elements * a.nodes < b.elements * b.nodes; };
+  const double likely = options.expected_depth_m.value_or(8.0 * surely_stable_depth_m(cut));
+  Resolution resolution = resolving(cut, std::min(options.depth_limit_m, likely));
+  while (true) {
+    PoleGrids grids(cut, resolution, 0.0, options.most_nodes);
+    FirstCrossing first = first_crossing(grids.gain(0), beyond_limit(options));
+    // What is stable up to a depth must be so with every mode that could regenerate there.
+    const Resolution needed = resolving(cut, std::min(options.depth_limit_m, first.depth_m()));
+    if (fewer(resolution, needed)) {
+      resolution = needed;
+      continue;
+    }
+    const double wanted = wanted_m(first, options);
+    LobeRow row = row_from(grids, std::move(first), cut.spindle_speed_rpm, options);
+    if (row.crossings.empty()) describe_depth_limit(row, cut, options);
+    // By the nodes of the search: a crossing that is none on finer grids (two flips that become one Hopf crossing
+    // beside them) has been sought on many without avail, and another search with a few more nodes sees it as it is.
+    if ((sound(row) && row.searched_m >= wanted) || 3 * grids.nodes(0) >= options.most_nodes) return row;
+    resolution = finer(resolution);
+  }
+}
+
+}  // namespace
+
+void require_usable(const MillingProcess& process, const StabilityOptions& options) {
+  std::vector<std::string> violations = validate(process);
+  const auto more = validate(options);
+  violations.insert(violations.end(), more.begin(), more.end());
+  require_valid(violations);
+}
+
+Multiplier multiplier_at(const RelativeStructure& structure, const MillingProcess& process, double spindle_speed_rpm,
+                         double depth_m, const StabilityOptions& options) {
+  require_usable(process, options);
+  if (!(depth_m > 0.0) || !std::isfinite(depth_m)) {
+    std::ostringstream text;
+    text << "stability: depth of cut " << depth_m << " m, must be positive; correct the operating point";
+    throw core::InputError(text.str());
+  }
+  return multiplier_of(cut_at_speed(structure, process, spindle_speed_rpm), depth_m, options);
+}
+
+LobeRow limiting_depth(const RelativeStructure& structure, const MillingProcess& process, double spindle_speed_rpm,
+                       const StabilityOptions& options) {
+  require_usable(process, options);
+  return row_of(cut_at_speed(structure, process, spindle_speed_rpm), options);
+}
+
+}  // namespace thinwall::milling

@@ -1,0 +1,290 @@
+#include "milling/structure/regenerative_loop.hpp"
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "core/dense_factorisations.hpp"
+#include "milling/cut/product_rule.hpp"
+
+namespace thinwall::milling {
+
+namespace {
+
+using Eigen::Index;
+using std::complex;
+
+/// What polynomial forces of an element of `length_s` do to the modes. The last few are kept, each thread its own:
+/// along a path the poles often stay while shapes change.
+std::shared_ptr<const ModeMoments> moments_of(const Eigen::VectorXcd& poles, int nodes, double length_s) {
+  struct Known {
+    Eigen::VectorXcd poles;
+    int nodes = 0;
+    double length_s = 0.0;
+    std::shared_ptr<const ModeMoments> moments;
+  };
+  thread_local std::array<Known, 6> known;  // the grids of a row
+  thread_local std::size_t oldest = 0;
+  for (const Known& k : known) {
+    if (k.nodes == nodes && k.length_s == length_s && k.poles.size() == poles.size() && k.poles == poles)
+      return k.moments;
+  }
+  const Eigen::VectorXcd exponent = poles * length_s;
+  ModeMoments moments = shared_product_rule(nodes, exponent.lpNorm<Eigen::Infinity>()).moments(exponent);
+  for (Eigen::MatrixXcd& at_node : moments.inside) at_node *= length_s;
+  moments.end *= length_s;
+  known[oldest] = {poles, nodes, length_s, std::make_shared<const ModeMoments>(std::move(moments))};
+  return known[std::exchange(oldest, (oldest + 1) % known.size())].moments;
+}
+
+/// What unit modal forces at the nodes do to the modes: at a node, and at the end of the period.
+class ModeHistory {
+ public:
+  ModeHistory(const Eigen::VectorXcd& poles, const ContactGrid& grid, double seconds_per_rad)
+      : poles_(poles), grid_(grid), seconds_per_rad_(seconds_per_rad) {
+    double last_length = -1.0;
+    moments_.reserve(grid.elements.size());
+    for (const CutElement& e : grid.elements) {
+      const double length = (e.to_rad - e.from_rad) * seconds_per_rad;
+      const bool as_before = !moments_.empty() && std::abs(length - last_length) <= 1e-12 * length;
+      moments_.push_back(as_before ? moments_.back() : moments_of(poles, e.nodes, length));
+      if (!as_before) last_length = length;
+    }
+  }
+
+  /// e^{λ t}, poles.
+  [[nodiscard]] Eigen::VectorXcd flow(double rad) const { return (poles_ * (rad * seconds_per_rad_)).array().exp(); }
+
+  /// At a node, poles × the nodes up to the end of its element; later ones have no part in it.
+  [[nodiscard]] Eigen::MatrixXcd at_node(int node) const {
+    Eigen::MatrixXcd history;
+    for (std::size_t e = moments_.size(); e-- > 0;) {
+      const CutElement& element = grid_.elements[e];
+      const int inside = node - element.first_node;
+      if (inside < 0) continue;
+      if (inside < element.nodes) {
+        history.resize(poles_.size(), element.first_node + element.nodes);
+        history.rightCols(element.nodes) = moments_[e]->inside[static_cast<std::size_t>(inside)];
+      } else {
+        history.middleCols(element.first_node, element.nodes).noalias() =
+            flow(grid_.node_rad(node) - element.to_rad).asDiagonal() * moments_[e]->end;
+      }
+    }
+    return history;
+  }
+
+  /// At the end of the period, poles × nodes.
+  [[nodiscard]] Eigen::MatrixXcd at_end() const {
+    Eigen::MatrixXcd history(poles_.size(), grid_.node_rad.size());
+    for (std::size_t e = 0; e < moments_.size(); ++e) {
+      const CutElement& element = grid_.elements[e];
+      history.middleCols(element.first_node, element.nodes) =
+          flow(grid_.period_rad - element.to_rad).asDiagonal() * moments_[e]->end;
+    }
+    return history;
+  }
+
+ private:
+  const Eigen::VectorXcd& poles_;
+  const ContactGrid& grid_;
+  double seconds_per_rad_;
+  std::vector<std::shared_ptr<const ModeMoments>> moments_;  ///< of each element
+};
+
+/// What a contact sees of a node: chipᵀ q.
+struct Seen {
+  Index row;
+  Eigen::Vector3d chip;
+};
+
+/// Which contacts see a node in this period (their own, less the past within it), and in the next one.
+struct Sight {
+  std::vector<std::vector<Seen>> now, before;  ///< of each node
+};
+
+Sight sight(const ContactGrid& grid) {
+  const auto nodes = static_cast<std::size_t>(grid.node_rad.size());
+  Sight result{std::vector<std::vector<Seen>>(nodes), std::vector<std::vector<Seen>>(nodes)};
+  for (std::size_t k = 0; k < grid.contacts.size(); ++k) {
+    const auto row = static_cast<Index>(k);
+    result.now[static_cast<std::size_t>(grid.contacts[k].node)].push_back({row, grid.contacts[k].chip});
+    for (const Past& past : grid.contacts[k].past) {
+      const auto node = static_cast<std::size_t>(past.node);
+      if (past.previous_period) result.before[node].push_back({row, past.chip});
+      else result.now[node].push_back({row, -past.chip});
+    }
+  }
+  return result;
+}
+
+/// What the contacts that see a node see of the modes there: `flow` e^{λt}, and `forced`, the motion by unit forces at
+/// all contacts, poles × contacts.
+void add_motion(const RelativeStructure& structure, const std::vector<Seen>& seen, const Eigen::VectorXcd& flow,
+                const Eigen::MatrixXcd& forced, const Eigen::VectorXd& share, Eigen::MatrixXd& E, Eigen::MatrixXd& K) {
+  const Index poles = flow.size();
+  for (const Seen& s : seen) {
+    const Eigen::RowVectorXcd shape = s.chip.transpose() * structure.phi;
+    const Eigen::RowVectorXcd free = shape.cwiseProduct(flow.transpose());
+    E.row(s.row).head(poles) += free.real();
+    E.row(s.row).tail(poles) += free.imag();
+    K.row(s.row) += 2.0 * (shape.cwiseProduct(share.transpose()) * forced).real();
+  }
+}
+
+void add_residual(const RelativeStructure& structure, const ContactGrid& grid,
+                  const std::vector<std::vector<Seen>>& seen, Eigen::MatrixXd& K) {
+  if (structure.R.isZero(0.0)) return;
+  for (Index l = 0; l < K.cols(); ++l) {
+    const Contact& from = grid.contacts[static_cast<std::size_t>(l)];
+    const Eigen::Vector3d motion = structure.R * from.force;
+    for (const Seen& s : seen[static_cast<std::size_t>(from.node)]) K(s.row, l) += s.chip.dot(motion);
+  }
+}
+
+const Eigen::MatrixXd& before(const Eigen::MatrixXd& now, const Eigen::MatrixXd& previous) {
+  return previous.size() > 0 ? previous : now;
+}
+
+/// X with Σ E_k a_k L_k + Ē_k a'_k L̄_k = [Re E, Im E] X, real and imaginary parts of X side by side: half the products
+/// of the complex sum, and real ones. Shape 2 poles × 2 contacts.
+Eigen::MatrixXd modal_motion(const Eigen::MatrixXd& L, const Eigen::ArrayXcd& a, const Eigen::ArrayXcd& conjugate) {
+  const Index poles = a.size(), contacts = L.cols();
+  const Eigen::ArrayXcd even = a + conjugate;
+  const Eigen::ArrayXcd odd = complex<double>(0.0, 1.0) * (a - conjugate);
+  Eigen::MatrixXd X(2 * poles, 2 * contacts);
+  const auto fill = [&](Index first, const Eigen::ArrayXd& of_even, const Eigen::ArrayXd& of_odd) {
+    for (Index l = 0; l < contacts; ++l) {
+      const auto re = L.col(l).head(poles).array(), im = L.col(l).tail(poles).array();
+      X.col(first + l).head(poles) = of_even * re + of_odd * im;
+      X.col(first + l).tail(poles) = of_odd * re - of_even * im;
+    }
+  };
+  fill(0, even.real(), odd.real());
+  fill(contacts, even.imag(), odd.imag());
+  return X;
+}
+
+/// [Re E, Im E] X as complex numbers, contacts × contacts.
+Eigen::MatrixXcd seen_motion(const Eigen::MatrixXd& E, const Eigen::MatrixXd& X) {
+  const Index contacts = E.rows();
+  const Eigen::MatrixXd product = E * X;
+  Eigen::MatrixXcd result(contacts, contacts);
+  result.real() = product.leftCols(contacts);
+  result.imag() = product.rightCols(contacts);
+  return result;
+}
+
+}  // namespace
+
+RegenerativeLoop regenerative_loop(const RelativeStructure& structure, const ContactGrid& grid,
+                                   double spindle_speed_rpm) {
+  const double seconds_per_rad = 30.0 / (std::numbers::pi * spindle_speed_rpm);
+  const Index poles = structure.poles.size();
+  const auto contacts = static_cast<Index>(grid.contacts.size());
+  RegenerativeLoop loop;
+  loop.period_s = grid.period_rad * seconds_per_rad;
+  loop.flow = (structure.poles * loop.period_s).array().exp();
+  loop.share = structure.poles.imag().unaryExpr([](double w) { return w != 0.0 ? 1.0 : 0.5; });
+  loop.E = Eigen::MatrixXd::Zero(contacts, 2 * poles);
+  loop.K = Eigen::MatrixXd::Zero(contacts, contacts);
+  if (!grid.one_delay) {
+    loop.E_previous = loop.E;
+    loop.K_previous = loop.K;
+  }
+  const ModeHistory history(structure.poles, grid, seconds_per_rad);
+  Eigen::MatrixXcd modal_force(poles, contacts);
+  for (Index l = 0; l < contacts; ++l)
+    modal_force.col(l) = structure.b.transpose() * grid.contacts[static_cast<std::size_t>(l)].force;
+  const auto forced_by_contacts = [&](const Eigen::MatrixXcd& by_nodes) {
+    Eigen::MatrixXcd forced(poles, contacts);
+    for (Index l = 0; l < contacts; ++l) {
+      const Index node = grid.contacts[static_cast<std::size_t>(l)].node;
+      if (node < by_nodes.cols()) forced.col(l) = modal_force.col(l).cwiseProduct(by_nodes.col(node));
+      else forced.col(l).setZero();
+    }
+    return forced;
+  };
+  const Sight seen = sight(grid);
+  for (int node = 0; node < static_cast<int>(grid.node_rad.size()); ++node) {
+    const Eigen::VectorXcd flow = history.flow(grid.node_rad(node));
+    const Eigen::MatrixXcd forced = forced_by_contacts(history.at_node(node));
+    const auto i = static_cast<std::size_t>(node);
+    add_motion(structure, seen.now[i], flow, forced, loop.share, loop.E, loop.K);
+    if (!grid.one_delay)
+      add_motion(structure, seen.before[i], flow, forced, loop.share, loop.E_previous, loop.K_previous);
+  }
+  const Eigen::MatrixXcd L = forced_by_contacts(history.at_end());
+  loop.L.resize(2 * poles, contacts);
+  loop.L << L.real(), L.imag();
+  add_residual(structure, grid, seen.now, loop.K);
+  if (!grid.one_delay) add_residual(structure, grid, seen.before, loop.K_previous);
+  return loop;
+}
+
+Eigen::MatrixXd period_map(const RegenerativeLoop& loop, double depth_m) {
+  const Index poles = loop.flow.size();
+  const Index contacts = loop.K.rows();
+  const Index states = poles + (loop.share.array() == 1.0).count();
+  // Real columns and rows of the modes: Re z of all, Im z of pairs.
+  Eigen::MatrixXd E(contacts, states), E_previous(contacts, states), L(states, contacts);
+  Eigen::MatrixXd map = Eigen::MatrixXd::Zero(states + contacts, states + contacts);
+  const Eigen::MatrixXd& E_before = before(loop.E, loop.E_previous);
+  Index im = poles;
+  for (Index k = 0; k < poles; ++k) {
+    const double twice = 2.0 * loop.share(k);
+    E.col(k) = twice * loop.E.col(k);
+    E_previous.col(k) = twice * E_before.col(k);
+    L.row(k) = loop.L.row(k);
+    map(k, k) = loop.flow(k).real();
+    if (loop.share(k) != 1.0) continue;
+    E.col(im) = -twice * loop.E.col(poles + k);
+    E_previous.col(im) = -twice * E_before.col(poles + k);
+    L.row(im) = loop.L.row(poles + k);
+    map(im, im) = loop.flow(k).real();
+    map(im, k) = loop.flow(k).imag();
+    map(k, im) = -loop.flow(k).imag();
+    ++im;
+  }
+  // c = (I + wK)⁻¹ (E z − h)
+  Eigen::MatrixXd c(contacts, states + contacts);
+  c << E, -Eigen::MatrixXd::Identity(contacts, contacts);
+  const Eigen::MatrixXd system = Eigen::MatrixXd::Identity(contacts, contacts) + depth_m * loop.K;
+  c = Eigen::PartialPivLU<Eigen::MatrixXd>(system).solve(c).eval();
+  map.topRows(states).noalias() -= depth_m * (L * c);
+  map.bottomLeftCorner(contacts, states) = E_previous;
+  map.bottomRows(contacts).noalias() -= depth_m * (before(loop.K, loop.K_previous) * c);
+  return map;
+}
+
+Eigen::MatrixXcd loop_gain(const RegenerativeLoop& loop, complex<double> mu) {
+  const complex<double> past = 1.0 / mu;
+  const Eigen::ArrayXcd gain = loop.share.array() / (mu - loop.flow.array());
+  const Eigen::ArrayXcd conjugate_gain = loop.share.array() / (mu - loop.flow.conjugate().array());
+  const Eigen::MatrixXd motion = modal_motion(loop.L, gain, conjugate_gain);
+  if (loop.K_previous.size() == 0) return (1.0 - past) * (loop.K.cast<complex<double>>() + seen_motion(loop.E, motion));
+  return loop.K.cast<complex<double>>() + seen_motion(loop.E, motion) -
+         past * (loop.K_previous.cast<complex<double>>() + seen_motion(loop.E_previous, motion));
+}
+
+Eigen::MatrixXcd loop_gain_slope(const RegenerativeLoop& loop, complex<double> mu) {
+  // dZ/dμ = K⁻/μ² + Σ (E − E⁻/μ) g' L + Σ E⁻ (g/μ²) L + the same of the conjugates, g = share/(μ − Φ)
+  const complex<double> past = 1.0 / mu;
+  const Eigen::ArrayXcd resonance = 1.0 / (mu - loop.flow.array());
+  const Eigen::ArrayXcd conjugate_resonance = 1.0 / (mu - loop.flow.array().conjugate());
+  const auto changes = [&](complex<double> of_resonance, complex<double> of_slope) {
+    const auto change = [&](const Eigen::ArrayXcd& r) -> Eigen::ArrayXcd {
+      return loop.share.array() * r * (of_resonance - of_slope * r);
+    };
+    return modal_motion(loop.L, change(resonance), change(conjugate_resonance));
+  };
+  const complex<double> along = complex<double>(0.0, 1.0) * mu;
+  const Eigen::MatrixXcd K = past * past * before(loop.K, loop.K_previous).cast<complex<double>>();
+  if (loop.K_previous.size() == 0) return along * (K + seen_motion(loop.E, changes(past * past, 1.0 - past)));
+  return along *
+         (K + seen_motion(loop.E, changes(0.0, 1.0)) + seen_motion(loop.E_previous, changes(past * past, -past)));
+}
+
+}  // namespace thinwall::milling

@@ -1,0 +1,132 @@
+#include "reduction/trust/receptance_sum.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "core/dense_eigenvalues.hpp"
+#include "core/error.hpp"
+#include "linalg/tall.hpp"
+
+namespace thinwall::reduction {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// M-orthonormal columns, the first `columns` in use, and M times them.
+struct Basis {
+  MatrixXd V;
+  MatrixXd MV;
+  Eigen::Index columns = 0;
+
+  void append(const MatrixXd& X, const MatrixXd& MX) {
+    V.middleCols(columns, X.cols()) = X;
+    MV.middleCols(columns, X.cols()) = MX;
+    columns += X.cols();
+  }
+};
+
+/// Z with (XZ)ᵀM(XZ) = I from the Gram matrix G = XᵀMX; fewer columns where squares in G are no
+/// larger than `noise` or columns depend on each other.
+MatrixXd normalising(const MatrixXd& G, double noise) {
+  const VectorXd scale =
+      G.diagonal().unaryExpr([noise](double square) { return square > noise ? 1.0 / std::sqrt(square) : 0.0; });
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(scale.asDiagonal() * G * scale.asDiagonal()));
+  const Eigen::Index kept = (eigen.eigenvalues().array() > 1e-16).count();
+  const VectorXd length = eigen.eigenvalues().tail(kept).cwiseSqrt();
+  return scale.asDiagonal() * eigen.eigenvectors().rightCols(kept) * length.cwiseInverse().asDiagonal();
+}
+
+/// Adds to the basis what X has outside of it, if that is more than round-off; twice, for once leaves round-off of the
+/// order of what was taken out.
+void extend(Basis& basis, const linalg::SparseMatrix& M, MatrixXd X) {
+  MatrixXd MX;
+  for (int pass = 0; pass < 2 && X.cols() > 0; ++pass) {
+    MX = linalg::symmetric_product(M, X);
+    const double noise = pass == 0 ? 1e-24 * X.cwiseProduct(MX).colwise().sum().maxCoeff() : 1e-6;
+    const MatrixXd C = linalg::tall_gram(basis.V.leftCols(basis.columns), MX);
+    linalg::tall_subtract(X, basis.V.leftCols(basis.columns), C);
+    linalg::tall_subtract(MX, basis.MV.leftCols(basis.columns), C);
+    const MatrixXd Z = normalising(linalg::tall_gram(X, MX), noise);
+    X = linalg::tall_product(X, Z);
+    MX = linalg::tall_product(MX, Z);
+  }
+  if (X.cols() > 0) basis.append(X, MX);
+}
+
+/// Steps after which the receptances are exact to round-off: a step brings the error of a Krylov space in ω²K⁻¹M, whose
+/// eigenvalues there lie in 0 … q, down by ((1 − √(1−q)) / (1 + √(1−q)))², twice the conjugate gradients' rate.
+int steps_for(double quotient) {
+  const double root = std::sqrt(1.0 - quotient);
+  const double rate = (1.0 - root) / (1.0 + root);
+  return static_cast<int>(std::ceil(std::log(1e-17) / (2.0 * std::log(rate))));
+}
+
+/// Ritz pairs of the Krylov space K⁻¹W, (K⁻¹M) K⁻¹W … outside of the known modes: M-normalised vectors and their λ.
+linalg::Eigenpairs rest_of_the_model(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M,
+                                     const linalg::ShiftedInverse& inverse, const MatrixXd& Phi, const MatrixXd& W,
+                                     int steps) {
+  Basis basis;
+  basis.V.resize(Phi.rows(), Phi.cols() + steps * W.cols());
+  basis.MV.resizeLike(basis.V);
+  basis.append(Phi, linalg::symmetric_product(M, Phi));
+  Eigen::Index last = 0;
+  for (int step = 0; step < steps && (step == 0 || last < basis.columns); ++step) {
+    const MatrixXd load = step == 0 ? W : MatrixXd(basis.MV.middleCols(last, basis.columns - last));
+    last = basis.columns;
+    extend(basis, M, inverse.apply(load));
+  }
+  const auto V = basis.V.middleCols(Phi.cols(), basis.columns - Phi.cols());
+  const MatrixXd Kr = linalg::tall_gram(V, linalg::symmetric_product(K, V));
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(MatrixXd(0.5 * (Kr + Kr.transpose())));
+  linalg::Eigenpairs rest;
+  rest.lambda = ritz.eigenvalues();
+  rest.Phi = linalg::tall_product(V, ritz.eigenvectors());
+  return rest;
+}
+
+/// ‖(K − ω²M) x − w‖ / ‖w‖ of x = Σ φ (φᵀw) / (λ − ω²), the largest over the columns w of W.
+double residual(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M, const linalg::Eigenpairs& pairs,
+                const linalg::Eigenpairs& rest, const MatrixXd& W, double omega) {
+  MatrixXd X = MatrixXd::Zero(W.rows(), W.cols());
+  for (const linalg::Eigenpairs* part : {&pairs, &rest}) {
+    const VectorXd dynamic = (omega * omega - part->lambda.array()).inverse();
+    linalg::tall_subtract(X, part->Phi, dynamic.asDiagonal() * linalg::tall_gram(part->Phi, W));
+  }
+  const MatrixXd R = linalg::symmetric_product(K, X) - omega * omega * linalg::symmetric_product(M, X) - W;
+  return (R.colwise().norm().array() / W.colwise().norm().array()).maxCoeff();
+}
+
+}  // namespace
+
+ReceptanceSum receptance_sum(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M,
+                             const linalg::ShiftedInverse& inverse, const linalg::Eigenpairs& pairs,
+                             const Interface& interface, double omega_max_rad_s) {
+  const bool complete = pairs.lambda.size() == K.rows();
+  const double quotient = omega_max_rad_s * omega_max_rad_s / pairs.lambda(pairs.lambda.size() - 1);
+  if (!complete && !(quotient <= 0.81)) {
+    throw core::InputError("the band reaches to " + std::to_string(omega_max_rad_s / (2.0 * std::numbers::pi)) +
+                           " Hz, beyond 0.9 of the highest mode known: compute more modes (modes.up_to)");
+  }
+  const MatrixXd W = interface.W;
+  const linalg::Eigenpairs rest = complete
+                                      ? linalg::Eigenpairs{VectorXd(), MatrixXd(K.rows(), 0), VectorXd(), pairs.status}
+                                      : rest_of_the_model(K, M, inverse, pairs.Phi, W, steps_for(quotient));
+  ReceptanceSum sum;
+  sum.modes = pairs.lambda.size();
+  sum.max_relative_residual = residual(K, M, pairs, rest, W, omega_max_rad_s);
+  sum.lambda.resize(sum.modes + rest.lambda.size());
+  sum.lambda << pairs.lambda, rest.lambda;
+  sum.amplitude.resize(W.cols(), sum.lambda.size());
+  sum.amplitude << interface.W.transpose() * pairs.Phi, interface.W.transpose() * rest.Phi;
+  return sum;
+}
+
+Eigen::MatrixXcd receptance_at(const ReceptanceSum& sum, std::complex<double> z) {
+  const Eigen::VectorXcd weight = (sum.lambda.cast<std::complex<double>>().array() - z).inverse();
+  return sum.amplitude * weight.asDiagonal() * sum.amplitude.transpose();
+}
+
+}  // namespace thinwall::reduction

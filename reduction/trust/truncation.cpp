@@ -1,0 +1,86 @@
+#include "reduction/trust/truncation.hpp"
+
+#include <string>
+
+#include "core/dense_eigenvalues.hpp"
+#include "core/error.hpp"
+#include "linalg/tall.hpp"
+#include "reduction/symmetric_part.hpp"
+
+namespace thinwall::reduction {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// The directions of the interface in which something was left out: VᵀAV = I. `own` measures round-off.
+MatrixXd whitening(const MatrixXd& A, const VectorXd& own) {
+  const VectorXd scale = own.cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(scale.asDiagonal() * A * scale.asDiagonal()));
+  const Index kept = (eigen.eigenvalues().array() > 1e-12).count();
+  const VectorXd root = eigen.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse();
+  return scale.asDiagonal() * eigen.eigenvectors().rightCols(kept) * root.asDiagonal();
+}
+
+/// A matrix with zeros for what is added.
+MatrixXd extended(const MatrixXd& matrix, Index size) {
+  MatrixXd result = MatrixXd::Zero(size, size);
+  result.topLeftCorner(matrix.rows(), matrix.cols()) = matrix;
+  return result;
+}
+
+}  // namespace
+
+Truncation truncation(const CraigBampton& reduced, const linalg::SparseMatrix& M, const linalg::ShiftedInverse& inverse,
+                      const Interface& interface) {
+  const Index nb = interface.W.cols(), nm = reduced.fixed_interface_hz.size();
+  if (reduced.T.rows() != M.rows() || reduced.T.cols() != nb + nm || interface.W.rows() != M.rows()) {
+    throw core::InputError("truncation: a reduced model of " + std::to_string(reduced.T.cols()) +
+                           " DOFs does not belong to an interface of " + std::to_string(nb) + " and these matrices");
+  }
+  const auto Psi = reduced.T.leftCols(nb), Phi = reduced.T.rightCols(nm);
+  const MatrixXd M_Psi = linalg::symmetric_product(M, Psi);
+  MatrixXd X = inverse.apply(M_Psi);
+  linalg::tall_subtract(X, Psi, interface.W.transpose() * X);  // S₀ = S − Ψ Wᵀ S
+  if (nm > 0) {
+    const VectorXd lambda = reduced.model.K.diagonal().tail(nm);
+    linalg::tall_subtract(X, Phi, lambda.cwiseInverse().asDiagonal() * linalg::tall_gram(Phi, M_Psi));
+  }
+  return {symmetric_part(linalg::tall_gram(M_Psi, X)),
+          symmetric_part(linalg::tall_gram(X, linalg::symmetric_product(M, X)))};
+}
+
+dynamics::SpatialModel with_left_out(const dynamics::SpatialModel& reduced, const Truncation& truncation) {
+  const Index nb = truncation.A.rows(), n = reduced.size();
+  if (nb > n || truncation.B.rows() != nb || truncation.A.cols() != nb || truncation.B.cols() != nb) {
+    throw core::InputError("truncation: moments of " + std::to_string(nb) + " interface DOFs for a reduced model of " +
+                           std::to_string(n) + "; take those of the same reduction");
+  }
+  // What the kept modes have of A is at most the interface's inertia over the lowest λ: round-off is measured by it.
+  const double lowest = n > nb ? reduced.K.diagonal().tail(n - nb).minCoeff() : 0.0;
+  const VectorXd own = lowest > 0.0 ? VectorXd(reduced.M.diagonal().head(nb) / lowest) : truncation.A.diagonal();
+  const MatrixXd V = whitening(truncation.A, own);
+  if (V.cols() == 0) return reduced;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(symmetric_part(V.transpose() * truncation.B * V));
+  const Index added = V.cols();
+  // Round-off of a direction in which hardly anything was left out must not make its frequency infinite.
+  const double least = 1e-8 * eigen.eigenvalues().maxCoeff();
+  const VectorXd omega = eigen.eigenvalues().cwiseMax(least).cwiseSqrt().cwiseInverse();
+  const MatrixXd L = truncation.A * V * eigen.eigenvectors() * omega.asDiagonal();
+  dynamics::SpatialModel model = reduced;
+  model.M = extended(reduced.M, n + added);
+  model.K = extended(reduced.K, n + added);
+  model.C = extended(reduced.C, n + added);
+  if (reduced.has_structural_damping()) model.D = extended(reduced.D, n + added);
+  model.M.bottomRightCorner(added, added).setIdentity();
+  model.M.topRightCorner(nb, added) = L;
+  model.M.bottomLeftCorner(added, nb) = L.transpose();
+  model.K.diagonal().tail(added) = omega.cwiseAbs2();
+  for (Index k = 0; k < added; ++k)
+    model.dofs.push_back({"left out " + std::to_string(k + 1), Eigen::Vector3d::Zero(), dynamics::DofKind::modal});
+  return model;
+}
+
+}  // namespace thinwall::reduction
