@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "app/pipeline.hpp"
+#include "study/run.hpp"
 
 namespace thinwall::app {
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "app/model_files.hpp"
-#include "app/model_report_json.hpp"
 #include "core/error.hpp"
 #include "io/json_file.hpp"
 #include "io/matrices/matrix_format.hpp"
 #include "reduction/trust/sparse_report.hpp"
+#include "report/model_files.hpp"
+#include "report/model_report_json.hpp"
 
 namespace thinwall::app {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "app/case_reader.hpp"
+#include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"

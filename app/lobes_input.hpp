@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/case.hpp"
+#include "case/case.hpp"
 #include "milling/chart/operating_point.hpp"
 
 namespace thinwall::app {

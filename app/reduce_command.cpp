@@ -5,12 +5,6 @@
 
 #include <algorithm>
 
-#include "app/discretisation.hpp"
-#include "app/model_files.hpp"
-#include "app/model_report_json.hpp"
-#include "app/part_stage.hpp"
-#include "app/results.hpp"
-#include "app/stages.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -19,6 +13,12 @@
 #include "reduction/damping.hpp"
 #include "reduction/trust/comparison.hpp"
 #include "reduction/trust/mode_count.hpp"
+#include "report/model_files.hpp"
+#include "report/model_report_json.hpp"
+#include "study/part/discretisation.hpp"
+#include "study/part/part_stage.hpp"
+#include "study/results.hpp"
+#include "study/stages.hpp"
 
 namespace thinwall::app {
 

@@ -5,11 +5,11 @@
 #include <exception>
 #include <numbers>
 
-#include "app/case_reader.hpp"
-#include "app/discretisation.hpp"
-#include "app/part_stage.hpp"
-#include "app/stages.hpp"
+#include "case/reader.hpp"
 #include "core/error.hpp"
+#include "study/part/discretisation.hpp"
+#include "study/part/part_stage.hpp"
+#include "study/stages.hpp"
 
 namespace thinwall::app {
 

@@ -11,16 +11,16 @@
 #include <system_error>
 #include <utility>
 
-#include "app/case_reader.hpp"
 #include "app/log.hpp"
-#include "app/result_folder.hpp"
-#include "app/schema.hpp"
-#include "app/stages.hpp"
 #include "app/sweep_record.hpp"
-#include "app/sweep_table.hpp"
 #include "app/terminal.hpp"
+#include "case/reader.hpp"
+#include "case/schema.hpp"
 #include "core/atomic_file.hpp"
 #include "core/interrupt.hpp"
+#include "report/result_folder.hpp"
+#include "report/sweep_table.hpp"
+#include "study/stages.hpp"
 
 namespace thinwall::app {
 

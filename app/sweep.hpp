@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/pipeline.hpp"
 #include "core/error.hpp"
+#include "study/run.hpp"
 
 namespace thinwall::app {
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/case_reader.hpp"
-#include "app/checkpoint.hpp"
 #include "app/doctor.hpp"
+#include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "io/json_file.hpp"
 #include "io/manifest.hpp"
+#include "study/kept/checkpoint.hpp"
 
 namespace thinwall::app {
 

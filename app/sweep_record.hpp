@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/case.hpp"
-#include "app/sweep_table.hpp"
+#include "case/case.hpp"
+#include "report/sweep_table.hpp"
 
 namespace thinwall::app {
 

@@ -4,7 +4,7 @@
 #include <ostream>
 #include <string>
 
-#include "app/stages.hpp"
+#include "study/stages.hpp"
 
 namespace thinwall::app {
 

@@ -12,8 +12,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "app/case_reader.hpp"
-#include "app/discretisation.hpp"
+#include "case/reader.hpp"
+#include "study/part/discretisation.hpp"
 #include "bench/stages.hpp"
 #include "core/memory.hpp"
 #include "core/parallel.hpp"

@@ -3,11 +3,11 @@
 
 #include <cstdio>
 
-#include "app/case_reader.hpp"
-#include "app/part_stage.hpp"
-#include "app/stages.hpp"
-#include "app/synthetic_measurement.hpp"
-#include "app/updating.hpp"
+#include "case/reader.hpp"
+#include "study/part/part_stage.hpp"
+#include "study/stages.hpp"
+#include "tests/measurement/synthetic_measurement.hpp"
+#include "study/updating.hpp"
 
 int main(int argc, char** argv) {
   using namespace thinwall;

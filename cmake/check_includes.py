@@ -21,11 +21,16 @@ ALLOWED = {
     "milling": ["linalg", "dynamics", "core"],
     "io": ["mesh", "dynamics", "core"],
 }
-ALLOWED["report"] = ["io", "mesh", "core", "dynamics"]
+NUMERICS = list(ALLOWED)
+ALLOWED["setup"] = NUMERICS
+ALLOWED["case"] = [*NUMERICS, "setup"]
+ALLOWED["study"] = [*NUMERICS, "setup"]
+ALLOWED["report"] = [*NUMERICS, "setup", "study"]
 LIBRARY_FOLDERS = list(ALLOWED)
 ALLOWED["app"] = LIBRARY_FOLDERS
 for everything in ("python", "bench", "tests", "fuzz"):
     ALLOWED[everything] = [*LIBRARY_FOLDERS, "app"]
+ALLOWED["bench"] = [*ALLOWED["bench"], "tests"]
 
 # Libraries with one owner: a pattern of their headers, and where it may appear.
 OWNERS = [

@@ -8,7 +8,7 @@ cd "$(dirname "$(readlink -f "$0")")/.."
 
 mkdir -p build
 build=$PWD/build/tidy
-folders="core|dynamics|linalg|mesh|fem|reduction|robot|coupling|milling|io|report|app"
+folders="core|dynamics|linalg|mesh|fem|reduction|robot|coupling|milling|io|setup|case|study|report|app"
 pattern=${1:-"^($build|$PWD)/($folders)/.*\.(cxx|cpp)$"}
 batches=ON
 [[ $# -eq 0 ]] || batches=OFF

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/case_checks.hpp"
-#include "app/case_reader.hpp"
+#include "case/checks.hpp"
+#include "case/reader.hpp"
 #include "case_text.hpp"
 #include "core/atomic_file.hpp"
 

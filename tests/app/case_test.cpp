@@ -1,12 +1,12 @@
-#include "app/case.hpp"
+#include "case/case.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "app/case_reader.hpp"
-#include "app/case_writer.hpp"
+#include "case/reader.hpp"
+#include "case/writer.hpp"
 #include "case_text.hpp"
 #include "core/error.hpp"
 

@@ -7,14 +7,14 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "app/case_reader.hpp"
 #include "app/command_line.hpp"
-#include "app/lobes_answers.hpp"
-#include "app/problem.hpp"
-#include "app/schema.hpp"
+#include "case/problem.hpp"
+#include "case/reader.hpp"
+#include "case/schema.hpp"
 #include "core/atomic_file.hpp"
 #include "io/results/csv_table.hpp"
 #include "milling/chart/lobe_method.hpp"
+#include "report/lobes_answers.hpp"
 #include "temporary_folder.hpp"
 
 namespace thinwall::app {

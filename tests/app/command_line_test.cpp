@@ -10,14 +10,14 @@
 #include <sstream>
 #include <thread>
 
-#include "app/case_reader.hpp"
-#include "app/case_template.hpp"
-#include "app/compare.hpp"
 #include "app/self_test.hpp"
-#include "app/summary.hpp"
+#include "case/reader.hpp"
+#include "case/templates.hpp"
 #include "case_text.hpp"
 #include "core/atomic_file.hpp"
 #include "core/interrupt.hpp"
+#include "report/compare.hpp"
+#include "report/summary.hpp"
 #include "temporary_folder.hpp"
 
 namespace thinwall::app {

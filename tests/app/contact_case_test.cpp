@@ -6,17 +6,17 @@
 #include <filesystem>
 #include <string>
 
-#include "app/case_reader.hpp"
-#include "app/case_writer.hpp"
-#include "app/contact_identification.hpp"
-#include "app/contact_model.hpp"
-#include "app/path.hpp"
-#include "app/problem.hpp"
-#include "app/support_stage.hpp"
+#include "case/problem.hpp"
+#include "case/reader.hpp"
+#include "case/writer.hpp"
 #include "case_text.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "coupling/hertz_contact.hpp"
+#include "setup/contact_model.hpp"
+#include "setup/path.hpp"
+#include "study/support/contact_identification.hpp"
+#include "study/support/support_stage.hpp"
 #include "temporary_folder.hpp"
 
 namespace thinwall::app {

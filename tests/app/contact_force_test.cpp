@@ -1,6 +1,6 @@
 // The force between part and robot while the cutter cuts, against two masses on three springs by hand.
 
-#include "app/contact_force.hpp"
+#include "study/support/contact_force.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/case_reader.hpp"
-#include "app/case_writer.hpp"
-#include "app/milling_process.hpp"
-#include "app/problem.hpp"
+#include "case/problem.hpp"
+#include "case/reader.hpp"
+#include "case/writer.hpp"
 #include "case_text.hpp"
 #include "milling/cut/chip_load.hpp"
+#include "setup/milling_process.hpp"
 
 namespace thinwall::app {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/case_reader.hpp"
-#include "app/problem.hpp"
+#include "case/problem.hpp"
+#include "case/reader.hpp"
 #include "case_text.hpp"
 
 namespace thinwall::app {

@@ -1,13 +1,13 @@
 // The JSON Schema that editors get says what the table of keys says.
 
-#include "app/json_schema.hpp"
+#include "case/json_schema.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <cstdio>
 
-#include "app/case_template.hpp"
+#include "case/templates.hpp"
 #include "case_text.hpp"
 #include "core/atomic_file.hpp"
 #include "temporary_folder.hpp"

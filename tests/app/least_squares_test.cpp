@@ -1,6 +1,6 @@
 // The search behind a fit: the minimum within the bounds, with either Jacobian.
 
-#include "app/least_squares.hpp"
+#include "study/least_squares.hpp"
 
 #include <gtest/gtest.h>
 

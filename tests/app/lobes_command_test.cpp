@@ -6,9 +6,9 @@
 #include <numbers>
 #include <sstream>
 
-#include "app/case_reader.hpp"
 #include "app/command_line.hpp"
 #include "app/lobes_input.hpp"
+#include "case/reader.hpp"
 #include "case_text.hpp"
 #include "core/atomic_file.hpp"
 #include "temporary_folder.hpp"

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "app/part_stage.hpp"
+#include "study/part/part_stage.hpp"
 
 namespace thinwall::app {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/measured.hpp"
 #include "core/error.hpp"
+#include "setup/measured.hpp"
 
 namespace thinwall::app {
 namespace {

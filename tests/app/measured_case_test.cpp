@@ -11,19 +11,19 @@
 #include <random>
 #include <sstream>
 
-#include "app/case_reader.hpp"
 #include "app/command_line.hpp"
-#include "app/measured.hpp"
-#include "app/measured_layout.hpp"
-#include "app/pipeline.hpp"
-#include "app/problem.hpp"
-#include "app/robot_stage.hpp"
-#include "app/sensor_mass.hpp"
-#include "app/support_stage.hpp"
+#include "case/problem.hpp"
+#include "case/reader.hpp"
 #include "case_text.hpp"
 #include "core/atomic_file.hpp"
 #include "dynamics/conversion.hpp"
 #include "io/frf/uff.hpp"
+#include "setup/measured.hpp"
+#include "setup/measured_layout.hpp"
+#include "setup/robot_tip.hpp"
+#include "study/run.hpp"
+#include "study/sensor_mass.hpp"
+#include "study/support/support_stage.hpp"
 #include "temporary_folder.hpp"
 
 namespace thinwall::app {

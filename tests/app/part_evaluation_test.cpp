@@ -1,12 +1,12 @@
 // A fit of the part: the derivatives of its frequencies, the solution that it leaves, and the search itself.
 
-#include "app/part_evaluation.hpp"
+#include "study/part/part_evaluation.hpp"
 
 #include <gtest/gtest.h>
 
-#include "app/case_reader.hpp"
-#include "app/updating.hpp"
+#include "case/reader.hpp"
 #include "case_text.hpp"
+#include "study/updating.hpp"
 
 namespace thinwall::app {
 namespace {

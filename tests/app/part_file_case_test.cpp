@@ -2,16 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include "app/case_checks.hpp"
-#include "app/case_reader.hpp"
-#include "app/discretisation.hpp"
-#include "app/imported_part.hpp"
-#include "app/part_materials.hpp"
-#include "app/stage_keys.hpp"
+#include "case/checks.hpp"
+#include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "io/surface/stl.hpp"
 #include "mesh/box.hpp"
 #include "mesh/surface/shapes.hpp"
+#include "setup/imported_part.hpp"
+#include "setup/part_materials.hpp"
+#include "study/kept/keys.hpp"
+#include "study/part/discretisation.hpp"
 #include "temporary_folder.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "app/case_reader.hpp"
-#include "app/case_writer.hpp"
-#include "app/path.hpp"
-#include "app/path_report.hpp"
-#include "app/problem.hpp"
+#include "case/problem.hpp"
+#include "case/reader.hpp"
+#include "case/writer.hpp"
 #include "case_text.hpp"
+#include "report/path_report.hpp"
+#include "setup/path.hpp"
 
 namespace thinwall::app {
 namespace {

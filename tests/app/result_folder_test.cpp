@@ -1,4 +1,4 @@
-#include "app/result_folder.hpp"
+#include "report/result_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

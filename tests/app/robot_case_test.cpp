@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <numbers>
 
-#include "app/case_reader.hpp"
-#include "app/measured.hpp"
-#include "app/problem.hpp"
-#include "app/robot_stage.hpp"
+#include "case/problem.hpp"
+#include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "io/frf/uff.hpp"
 #include "robot/arm_kinematics.hpp"
+#include "setup/measured.hpp"
+#include "setup/robot_tip.hpp"
 #include "temporary_folder.hpp"
 
 namespace thinwall::app {

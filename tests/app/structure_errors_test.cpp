@@ -1,6 +1,6 @@
 // What is told of a depth's errors where first order has no number: nothing, and the chart is written all the same.
 
-#include "app/structure_errors.hpp"
+#include "study/lobes/structure_errors.hpp"
 
 #include <gtest/gtest.h>
 

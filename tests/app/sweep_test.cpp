@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <sstream>
 
-#include "app/case_reader.hpp"
-#include "app/sweep_table.hpp"
+#include "case/reader.hpp"
 #include "case_text.hpp"
 #include "core/atomic_file.hpp"
 #include "core/interrupt.hpp"
 #include "core/units.hpp"
+#include "report/sweep_table.hpp"
 #include "temporary_folder.hpp"
 
 namespace thinwall::app {

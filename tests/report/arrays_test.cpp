@@ -1,4 +1,4 @@
-#include "report/arrays.hpp"
+#include "report/page/arrays.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "report/document.hpp"
+#include "report/page/document.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "report/case_differences.hpp"
-#include "report/page.hpp"
+#include "report/page/case_differences.hpp"
+#include "report/page/page.hpp"
 #include "result_folder.hpp"
 
 namespace thinwall::report {

@@ -1,10 +1,10 @@
-#include "report/frf_data.hpp"
+#include "report/page/frf_data.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "report/thinned_lines.hpp"
+#include "report/page/thinned_lines.hpp"
 #include "result_folder.hpp"
 #include "unpacked.hpp"
 

@@ -1,4 +1,4 @@
-#include "report/headline.hpp"
+#include "report/page/headline.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "report/lobes_data.hpp"
+#include "report/page/lobes_data.hpp"
 
 #include <gtest/gtest.h>
 

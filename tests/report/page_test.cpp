@@ -1,12 +1,12 @@
-#include "report/page.hpp"
+#include "report/page/page.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/atomic_file.hpp"
 #include "io/base64.hpp"
 #include "io/manifest.hpp"
-#include "report/bundle.hpp"
-#include "report/document.hpp"
+#include "report/page/bundle.hpp"
+#include "report/page/document.hpp"
 #include "result_folder.hpp"
 
 namespace thinwall::report {

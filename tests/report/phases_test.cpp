@@ -1,4 +1,4 @@
-#include "report/phases.hpp"
+#include "report/page/phases.hpp"
 
 #include <gtest/gtest.h>
 

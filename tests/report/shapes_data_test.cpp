@@ -1,4 +1,4 @@
-#include "report/shapes_data.hpp"
+#include "report/page/shapes_data.hpp"
 
 #include <gtest/gtest.h>
 

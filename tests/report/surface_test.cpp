@@ -1,4 +1,4 @@
-#include "report/surface.hpp"
+#include "report/page/surface.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,11 +8,11 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "app/synthetic_measurement.hpp"
-#include "app/terminal_report.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "io/frf/response_csv.hpp"
+#include "report/terminal_report.hpp"
+#include "tests/measurement/synthetic_measurement.hpp"
 #include "tests/system/run_in_folder.hpp"
 
 namespace thinwall::app {

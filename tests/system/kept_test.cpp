@@ -7,13 +7,13 @@
 #include <cmath>
 #include <fstream>
 
-#include "app/checkpoint.hpp"
-#include "app/program_id.hpp"
-#include "app/stage_keys.hpp"
 #include "core/atomic_file.hpp"
 #include "io/frf/response_csv.hpp"
-#include "report/document.hpp"
+#include "report/page/document.hpp"
 #include "run_in_folder.hpp"
+#include "study/kept/checkpoint.hpp"
+#include "study/kept/keys.hpp"
+#include "study/kept/program_id.hpp"
 #include "tests/report/unpacked.hpp"
 
 namespace thinwall::app {

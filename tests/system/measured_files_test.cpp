@@ -5,14 +5,14 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/case_reader.hpp"
-#include "app/part_stage.hpp"
-#include "app/pipeline.hpp"
-#include "app/robot_stage.hpp"
-#include "app/stages.hpp"
-#include "app/support_stage.hpp"
-#include "app/synthetic_measurement.hpp"
+#include "case/reader.hpp"
 #include "io/frf/response_csv.hpp"
+#include "setup/robot_tip.hpp"
+#include "study/part/part_stage.hpp"
+#include "study/run.hpp"
+#include "study/stages.hpp"
+#include "study/support/support_stage.hpp"
+#include "tests/measurement/synthetic_measurement.hpp"
 #include "tests/system/run_in_folder.hpp"
 
 namespace thinwall {

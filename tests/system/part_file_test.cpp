@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/case_reader.hpp"
-#include "app/pipeline.hpp"
 #include "app/reduce_command.hpp"
-#include "app/terminal_report.hpp"
+#include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "fem/model.hpp"
 #include "fem/modes.hpp"
@@ -14,6 +12,8 @@
 #include "io/surface/stl.hpp"
 #include "mesh/box.hpp"
 #include "mesh/surface/shapes.hpp"
+#include "report/terminal_report.hpp"
+#include "study/run.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
 namespace thinwall::app {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "app/case_reader.hpp"
-#include "app/pipeline.hpp"
+#include "case/reader.hpp"
 #include "io/results/csv_table.hpp"
+#include "study/run.hpp"
 
 namespace thinwall::app {
 

@@ -15,7 +15,7 @@
 #include "core/atomic_file.hpp"
 #include "io/frf/response_csv.hpp"
 #include "io/manifest.hpp"
-#include "report/document.hpp"
+#include "report/page/document.hpp"
 
 namespace thinwall {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <complex>
 
-#include "app/case_template.hpp"
+#include "case/templates.hpp"
 #include "core/atomic_file.hpp"
 #include "dynamics/response_model.hpp"
 #include "io/frf/response_csv.hpp"

@@ -1,6 +1,6 @@
 // A case whose tool is another than the one that was measured, against the assembled machine with that tool.
 
-#include "app/tool_swap.hpp"
+#include "study/lobes/tool_swap.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "app/case_reader.hpp"
-#include "app/pipeline.hpp"
-#include "app/problem.hpp"
+#include "case/problem.hpp"
+#include "case/reader.hpp"
 #include "io/frf/uff.hpp"
+#include "study/run.hpp"
 #include "tests/system/run_in_folder.hpp"
 #include "tests/verification/tool_swap/machine.hpp"
 

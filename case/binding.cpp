@@ -1,0 +1,437 @@
+#include "case/binding.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "case/lobes_binding.hpp"
+#include "case/robot_binding.hpp"
+#include "case/schema.hpp"
+#include "case/table.hpp"
+#include "core/error.hpp"
+#include "setup/imported_part.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Any of these makes a modelled part.
+constexpr std::array geometry_keys{"part.matrices.stiffness",
+                                   "part.length",
+                                   "part.height",
+                                   "part.thickness",
+                                   "part.outline",
+                                   "part.file",
+                                   "part.shape"};
+
+int axis_index(const std::string& letter) {
+  return letter == "x" ? 0 : letter == "y" ? 1 : letter == "z" ? 2 : -1;
+}
+
+MeasuredFrf bind_measured(const Table& table, const std::filesystem::path& folder) {
+  const std::string file = table.text("file");
+  const auto integer = [&](const char* key) {
+    return table.has(key) ? std::optional(table.integer(key)) : std::nullopt;
+  };
+  return {table.text("response"), table.text("force"),     file.empty() ? std::filesystem::path() : folder / file,
+          table.text("quantity"), table.text("unit"),      table.text("frequency_unit"),
+          integer("record"),      table.optional("noise"), integer("averages")};
+}
+
+std::vector<MeasuredFrf> bind_all_measured(const std::vector<Table>& tables, const std::filesystem::path& folder) {
+  std::vector<MeasuredFrf> list;
+  list.reserve(tables.size());
+  for (const auto& table : tables) list.push_back(bind_measured(table, folder));
+  return list;
+}
+
+std::vector<Sensor> bind_sensors(const std::vector<Table>& tables) {
+  std::vector<Sensor> sensors;
+  sensors.reserve(tables.size());
+  for (const Table& table : tables) sensors.push_back({table.text("at"), table.number("mass")});
+  return sensors;
+}
+
+mesh::Polygon bind_polygon(const Table& table) {
+  const auto list = table.numbers("outline");
+  mesh::Polygon polygon;
+  for (std::size_t i = 0; i + 1 < list.size(); i += 2) polygon.emplace_back(list[i], list[i + 1]);
+  return polygon;
+}
+
+mesh::Prism bind_prism(const Table& table) {
+  mesh::Prism prism;
+  prism.outline = bind_polygon(table);
+  prism.top = table.number("thickness");
+  for (const auto& hole : table.tables("holes")) prism.holes.push_back(bind_polygon(hole));
+  for (const auto& zone : table.tables("zones")) {
+    const double bottom = zone.number("bottom");
+    prism.zones.push_back({bind_polygon(zone), bottom, bottom + zone.number("thickness")});
+  }
+  return prism;
+}
+
+PartFile bind_part_file(const Table& table, const std::filesystem::path& folder) {
+  PartFile file;
+  if (const std::string name = table.text("file"); !name.empty()) file.path = folder / name;
+  file.unit = table.text("unit");
+  file.mass_unit = table.text("mass_unit");
+  if (table.has("origin")) file.origin = table.vector("origin");
+  const Table matrices = table.table("matrices");
+  const auto matrix = [&](const char* key) {
+    const std::string name = matrices.text(key);
+    return name.empty() ? std::filesystem::path() : folder / name;
+  };
+  file.matrices.stiffness = matrix("stiffness");
+  file.matrices.mass = matrix("mass");
+  file.matrices.damping = matrix("damping");
+  file.matrices.dofs = matrix("dofs");
+  file.matrices.positions = matrix("positions");
+  file.matrices.length_unit = file.unit;
+  file.matrices.mass_unit = file.mass_unit;
+  const Table repair = table.table("repair");
+  mesh::SurfaceRepairOptions& options = file.repair;
+  options.merge_tolerance_m = repair.optional("merge_tolerance").value_or(0.0);
+  options.largest_hole_edges = repair.has("largest_hole") ? repair.integer("largest_hole") : 0;
+  options.largest_movement = repair.optional("largest_movement").value_or(options.largest_movement);
+  options.thinnest_wall_m = repair.optional("thinnest_wall").value_or(0.0);
+  return file;
+}
+
+Material bind_material(const Table& table) {
+  return {table.number("youngs_modulus"), table.number("poisson_ratio"), table.number("density")};
+}
+
+void bind_attachments(const Table& table, Part& part) {
+  for (const auto& region : table.tables("materials"))
+    part.materials.push_back({region.text("on"), bind_material(region)});
+  for (const auto& clamp : table.tables("clamps"))
+    part.clamps.push_back({clamp.text("on"), clamp.number("normal_stiffness"), clamp.number("tangential_stiffness")});
+  for (const auto& mass : table.tables("masses"))
+    part.masses.push_back({mass.text("at"), mass.number("mass"), mass.vector("inertia"), mass.vector("offset")});
+  for (const auto& spring : table.tables("springs"))
+    part.springs.push_back(
+        {spring.text("at"), spring.vector("stiffness"), spring.vector("rotation_stiffness"), spring.vector("offset")});
+}
+
+Part bind_part(const Table& table, const std::filesystem::path& folder) {
+  Part part;
+  part.file = bind_part_file(table, folder);
+  part.shape = table.has("shape")                ? table.text("shape")
+               : table.has("matrices.stiffness") ? "matrices"
+               : table.has("file")               ? shape_of_file(part.file.path)
+                                                 : "box";
+  if (part.shape == "prism") part.prism = bind_prism(table);
+  if (const Table bend = table.table("bend"); bend.exists()) {
+    part.bend = Bend{bend.number("radius"), {}};
+    if (bend.has("along")) part.bend->along = axis_index(bend.text("along"));
+  }
+  part.length = table.number("length");
+  part.height = table.number("height");
+  part.thickness = table.number("thickness");
+  part.length_axis = axis_index(table.text("axes.length"));
+  part.height_axis = axis_index(table.text("axes.height"));
+  part.thickness_axis = axis_index(table.text("axes.thickness"));
+  const Table material = table.table("material"), mesh = table.table("mesh");
+  part.material = bind_material(material);
+  bind_attachments(table, part);
+  const auto number = [&](const char* key) {
+    const double value = mesh.number(key);  // NaN for "auto"
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  };
+  const auto order = number("order");
+  part.mesh = {number("element_size"),
+               mesh.optional("tolerance").value_or(usual_tolerance(part)),
+               order ? std::optional(static_cast<int>(*order)) : std::nullopt,
+               mesh.number("quality"),
+               mesh.optional("grading"),
+               mesh.optional("point_element_size"),
+               mesh.number("time_limit"),
+               mesh.number("memory_limit")};
+  for (const auto& support : table.tables("supports")) {
+    Support bound{support.text("on"), {}};
+    for (const auto& letter : support.names("fixed")) bound.fixed.push_back(axis_index(letter));
+    part.supports.push_back(std::move(bound));
+  }
+  return part;
+}
+
+std::vector<Selection> bind_selections(const Table& table) {
+  std::vector<Selection> list;
+  for (const auto& name : children(table.values, table.path)) {
+    const Table selection = table.table(name);
+    Selection bound;
+    bound.name = name;
+    if (const Table plane = selection.table("plane"); plane.exists()) {
+      bound.plane = {plane.vector("point"), plane.direction("normal")};
+    }
+    if (const Table box = selection.table("box"); box.exists()) bound.box = {box.vector("min"), box.vector("max")};
+    if (const Table sphere = selection.table("sphere"); sphere.exists()) {
+      bound.sphere = {sphere.vector("centre"), sphere.number("radius")};
+    }
+    list.push_back(std::move(bound));
+  }
+  return list;
+}
+
+std::vector<Point> bind_points(const Table& table) {
+  std::vector<Point> list;
+  for (const auto& name : children(table.values, table.path)) {
+    const Table point = table.table(name);
+    Point bound;
+    bound.name = name;
+    if (point.has("at")) bound.at = point.vector("at");
+    if (point.has("position")) bound.position = point.vector("position");
+    if (point.has("node")) bound.node = point.integer("node");
+    bound.offset = point.vector("offset");
+    bound.patch_radius = point.number("patch_radius");
+    bound.rigid = point.text("connection") == "rigid";
+    bound.directions = point.directions("directions");
+    list.push_back(std::move(bound));
+  }
+  return list;
+}
+
+/// count or up_to; `otherwise` modes if neither is given.
+ModeRange bind_range(const Table& table, std::string_view count, int otherwise) {
+  ModeRange range;
+  if (table.has(count)) range.count = table.integer(count);
+  range.up_to_hz = table.optional("up_to");
+  if (!range.count && !range.up_to_hz) range.count = otherwise;
+  return range;
+}
+
+Damping bind_damping(const Table& table, const std::filesystem::path& folder) {
+  Damping damping;
+  if (!table.exists()) return damping;
+  damping.model = table.text("model");
+  damping.ratio = table.number("ratio");
+  damping.ratios = table.numbers("ratios");
+  damping.alpha = table.number("alpha");
+  damping.beta = table.number("beta");
+  damping.loss_factor = table.number("loss_factor");
+  if (const Table frf = table.table("from_frf"); frf.exists()) damping.from_frf = bind_measured(frf, folder);
+  return damping;
+}
+
+/// One value for every direction, where one was given for all.
+std::vector<double> spread(std::vector<double> list, std::size_t count) {
+  return list.size() == 1 ? std::vector<double>(count, list.front()) : list;
+}
+
+ContactBall bind_ball(const Table& table) {
+  return {table.number("radius"),
+          {table.number("youngs_modulus"), table.number("poisson_ratio")},
+          table.has("supports") ? std::optional(table.integer("supports")) : std::nullopt,
+          table.optional("support_radius"),
+          table.optional("support_angle")};
+}
+
+Contact bind_contact(const Table& table, const std::filesystem::path& folder) {
+  Contact contact;
+  contact.part_point = table.text("part");
+  contact.robot_point = table.text("robot");
+  contact.directions = table.directions("directions");
+  contact.stiffness = spread(table.numbers("stiffness"), contact.directions.size());
+  contact.damping = spread(table.numbers("damping"), contact.directions.size());
+  contact.loss_factor = table.number("loss_factor");
+  contact.model = table.text("model");
+  contact.preload = table.optional("preload");
+  if (const std::string file = table.text("table"); !file.empty()) contact.table = folder / file;
+  if (const Table ball = table.table("ball"); ball.exists()) contact.ball = bind_ball(ball);
+  if (const Table surface = table.table("surface"); surface.exists())
+    contact.surface = {surface.number("youngs_modulus"), surface.number("poisson_ratio")};
+  contact.measured = bind_all_measured(table.tables("measured"), folder);
+  contact.damping_model = table.text("damping_model");
+  contact.noise = spread(table.numbers("noise"), 3);
+  return contact;
+}
+
+std::vector<Contact> bind_contacts(const std::vector<Table>& tables, const std::filesystem::path& folder) {
+  std::vector<Contact> list;
+  list.reserve(tables.size());
+  for (const auto& table : tables) list.push_back(bind_contact(table, folder));
+  return list;
+}
+
+ResponseOptions bind_response(const Table& table) {
+  if (!table.exists()) return {};
+  return {table.number("from"), table.number("to"), table.integer("lines"), table.text("spacing") == "logarithmic",
+          table.names("points")};
+}
+
+/// An amount in the unit of `kind`; NaN if it is not such a quantity (check_case() says why).
+double bind_amount(const std::string& text, const core::QuantityKind& kind) {
+  try {
+    return core::parse_quantity(text, kind);
+  } catch (const core::InputError&) {
+    return nan;
+  }
+}
+
+std::vector<Updating> bind_updating(const std::vector<Table>& tables) {
+  std::vector<Updating> list;
+  for (const auto& table : tables) {
+    Updating updating{table.text("name"), table.text("on"), {}, {}};
+    for (const auto& parameter : table.tables("parameters")) {
+      const std::string key = full_path(case_schema(), parameter.text("key"));
+      const Key* described = find_key(case_schema(), pattern_of(case_schema(), key));
+      const auto& kind = described == nullptr ? core::kind::number : described->kind;
+      updating.parameters.push_back(
+          {key, bind_amount(parameter.text("lower"), kind), bind_amount(parameter.text("upper"), kind)});
+    }
+    for (const auto& target : table.tables("targets")) {
+      UpdatingTarget bound;
+      bound.quantity = target.text("quantity");
+      bound.value = bind_amount(target.text("value"),
+                                bound.quantity == "reduction_at" ? core::kind::number : core::kind::frequency);
+      bound.point = target.text("point");
+      bound.match = target.text("match");
+      bound.rank = target.integer("rank");
+      bound.frequency_hz = target.has("frequency") ? target.number("frequency") : 0.0;
+      bound.weight = target.number("weight");
+      updating.targets.push_back(std::move(bound));
+    }
+    list.push_back(std::move(updating));
+  }
+  return list;
+}
+
+std::vector<ToolStep> bind_steps(const std::vector<Table>& tables) {
+  std::vector<ToolStep> steps;
+  steps.reserve(tables.size());
+  for (const Table& step : tables) {
+    steps.push_back({step.number("length"), step.number("outer_diameter"), step.number("inner_diameter"),
+                     step.number("youngs_modulus"), step.number("poisson_ratio"), step.number("density")});
+  }
+  return steps;
+}
+
+ToolSwap bind_swap(const Table& table, const std::filesystem::path& folder) {
+  return {bind_all_measured(table.tables("measured"), folder),
+          table.text("tip"),
+          table.text("up"),
+          table.number("distance"),
+          table.text("rotations"),
+          bind_steps(table.tables("reference")),
+          bind_steps(table.tables("target"))};
+}
+
+Tool bind_tool(const Table& table, const std::filesystem::path& folder) {
+  Tool tool;
+  tool.teeth = table.integer("teeth");
+  tool.diameter = table.number("diameter");
+  tool.length = table.number("length");
+  tool.pitches = table.numbers("pitches");
+  tool.helices = table.numbers("helices");
+  tool.runout = table.numbers("runout");
+  tool.end = table.text("end");
+  tool.corner_radius = table.optional("corner_radius").value_or(0.0);
+  tool.corner_radial = table.optional("corner_radial").value_or(0.0);
+  tool.corner_axial = table.optional("corner_axial").value_or(0.0);
+  tool.tip_angle = table.optional("tip_angle").value_or(0.0);
+  tool.taper = table.optional("taper").value_or(0.0);
+  if (tool.helices.size() == 1) tool.helices.resize(static_cast<std::size_t>(tool.teeth), tool.helices.front());
+  tool.modes = bind_modes(table.tables("modes"));
+  tool.measured = bind_all_measured(table.tables("measured"), folder);
+  if (const Table swap = table.table("swap"); swap.exists()) tool.swap = bind_swap(swap, folder);
+  for (MeasuredFrf& frf : tool.measured) {
+    for (std::string* dof : {&frf.response, &frf.force}) {
+      if (!dof->empty()) *dof = "tool." + *dof;
+    }
+  }
+  return tool;
+}
+
+Cutting bind_cutting(const Table& table) {
+  Cutting cutting;
+  cutting.radial_depth = table.optional("radial_depth");
+  cutting.entry_angles = table.numbers("entry_angle");
+  cutting.exit_angles = table.numbers("exit_angle");
+  cutting.lead_angle = table.number("lead_angle");
+  cutting.down_milling = table.text("mode") != "up";
+  cutting.feed_direction = table.direction("feed_direction");
+  cutting.tool_axis = table.direction("tool_axis");
+  cutting.at = table.text("at");
+  cutting.Kt = table.number("Kt");
+  cutting.Kr = table.number("Kr");
+  cutting.Ka = table.number("Ka");
+  cutting.Kte = table.number("Kte");
+  cutting.Kre = table.number("Kre");
+  cutting.Kae = table.number("Kae");
+  cutting.law = table.text("law");
+  cutting.exponents = spread(table.numbers("exponents"), 3);
+  cutting.chip_scale = table.optional("chip_scale");
+  cutting.stiffness_ratio = table.optional("stiffness_ratio");
+  cutting.orthogonal = {table.optional("shear_stress"), table.optional("shear_angle"), table.optional("friction_angle"),
+                        table.optional("rake_angle")};
+  cutting.process_damping = table.number("process_damping");
+  cutting.process_damping_friction = table.number("process_damping_friction");
+  cutting.spindle_speed_rpm = table.optional("spindle_speed");
+  cutting.feed_rate = table.optional("feed_rate");
+  cutting.feed_per_tooth = table.optional("feed_per_tooth");
+  return cutting;
+}
+
+std::vector<std::string> point_names(const std::vector<Point>& points) {
+  std::vector<std::string> names;
+  names.reserve(points.size());
+  for (const auto& point : points) names.push_back(point.name);
+  return names;
+}
+
+}  // namespace
+
+Case bind_case(CaseValues values, const std::filesystem::path& folder) {
+  const Table root{values, ""};
+  Case bound;
+  bound.folder = folder;
+  bound.title = root.text("title");
+  const auto has = [&](const char* key) { return root.has(key); };
+  if (std::ranges::any_of(geometry_keys, has)) bound.part = bind_part(root.table("part"), folder);
+  bound.measured_part = bind_all_measured(root.tables("part.measured"), folder);
+  bound.part_sensors = bind_sensors(root.tables("part.sensors"));
+  bound.selections = bind_selections(root.table("selections"));
+  bound.points = bind_points(root.table("points"));
+  bound.modes = {bind_range(root.table("modes"), "count", 10), root.flag("modes.verify_count")};
+  bound.reduction.fixed_interface = bind_range(root.table("reduction"), "modes", 30);
+  bound.reduction.tolerance = root.table("reduction").optional("tolerance");
+  bound.reduction.interface = root.names("reduction.interface");
+  if (bound.reduction.interface.empty()) bound.reduction.interface = point_names(bound.points);
+  if (root.has("reduction.check_frequencies"))
+    bound.reduction.check_frequencies = root.integer("reduction.check_frequencies");
+  bound.damping = bind_damping(root.table("damping"), folder);
+  if (root.table("robot").exists()) {
+    bound.robot = bind_robot(root.table("robot"), bind_all_measured(root.tables("robot.measured"), folder), folder);
+    bound.robot->sensors = bind_sensors(root.tables("robot.sensors"));
+  }
+  bound.contacts = bind_contacts(root.tables("contacts"), folder);
+  if (root.table("coupling").exists())
+    bound.coupling = {root.text("coupling.regularisation"), root.number("coupling.threshold")};
+  bound.response = bind_response(root.table("response"));
+  if (bound.response.points.empty()) bound.response.points = bound.reduction.interface;
+  bound.updating = bind_updating(root.tables("updating"));
+  if (root.table("tool").exists()) bound.tool = bind_tool(root.table("tool"), folder);
+  if (root.table("cutting").exists()) bound.cutting = bind_cutting(root.table("cutting"));
+  if (root.table("lobes").exists()) bound.lobes = bind_lobes(root.table("lobes"), bound.tool);
+  if (root.table("machine").exists()) bound.machine = bind_machine(root.table("machine"));
+  if (root.table("path").exists()) bound.path = bind_path(root.table("path"));
+  bound.values = std::move(values);
+  return bound;
+}
+
+std::vector<Expectation> bind_expectations(const CaseValues& values) {
+  std::vector<Expectation> list;
+  for (const auto& table : Table{values, ""}.tables("expect")) {
+    list.push_back({table.text("name"), table.text("quantity"), table.optional("value"), table.optional("tolerance"),
+                    table.optional("relative"), table.optional("at_least"), table.optional("at_most"),
+                    table.text("origin"), table.text("same_as")});
+  }
+  return list;
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,15 @@
+#pragma once
+// The typed Case from its values.
+
+#include "case/case.hpp"
+#include "case/expectation.hpp"
+
+namespace thinwall::app {
+
+/// Fills every typed member from the values; `folder` is put before relative file names. A number that could not be
+/// read is NaN, a name that could not be read is empty: check_case() passes over those, the reader has reported them.
+[[nodiscard]] Case bind_case(CaseValues values, const std::filesystem::path& folder);
+
+[[nodiscard]] std::vector<Expectation> bind_expectations(const CaseValues& values);
+
+}  // namespace thinwall::app

@@ -1,0 +1,187 @@
+#include "case/case.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "case/binding.hpp"
+#include "case/schema.hpp"
+#include "core/error.hpp"
+#include "core/nearest_name.hpp"
+#include "setup/imported_part.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+/// "damping.ratios[2]" → {"damping.ratios", 2}; −1 where no entry of a list is meant.
+std::pair<std::string, int> split_index(const std::string& key) {
+  const auto bracket = key.rfind('[');
+  if (bracket == std::string::npos || !key.ends_with(']')) return {key, -1};
+  int index = -1;
+  std::from_chars(key.data() + bracket + 1, key.data() + key.size() - 1, index);
+  return {key.substr(0, bracket), index};
+}
+
+std::vector<std::string> numeric_keys(const CaseValues& values) {
+  std::vector<std::string> keys;
+  for (const auto& value : values) {
+    if (std::holds_alternative<double>(value.value)) keys.push_back(value.key);
+    if (const auto* list = std::get_if<std::vector<double>>(&value.value)) {
+      for (std::size_t i = 0; i < list->size(); ++i) keys.push_back(value.key + "[" + std::to_string(i) + "]");
+    }
+  }
+  return keys;
+}
+
+/// The number behind a dotted key; nullptr if the case has none.
+double* number_behind(CaseValues& values, const std::string& key) {
+  const auto [name, index] = split_index(full_path(case_schema(), key));
+  const auto found = std::ranges::find(values, index < 0 ? full_path(case_schema(), key) : name, &CaseValue::key);
+  if (found == values.end()) return nullptr;
+  if (index < 0) {
+    if (auto* number = std::get_if<double>(&found->value)) return number;
+    auto* list = std::get_if<std::vector<double>>(&found->value);
+    return list != nullptr && list->size() == 1 ? list->data() : nullptr;
+  }
+  auto* list = std::get_if<std::vector<double>>(&found->value);
+  const bool inside = list != nullptr && static_cast<std::size_t>(index) < list->size();
+  return inside ? &(*list)[static_cast<std::size_t>(index)] : nullptr;
+}
+
+[[noreturn]] void no_such_number(const CaseValues& values, const std::string& key) {
+  throw core::InputError("the case has no number \"" + key + "\"" + core::did_you_mean(key, numeric_keys(values)) +
+                         "; only what the case gives or its defaults fill can be varied");
+}
+
+}  // namespace
+
+Eigen::AlignedBox3d bounds(const Part& part) {
+  Eigen::AlignedBox3d box;
+  if (from_file(part)) return part.imported ? part.imported->box : box;
+  if (part.shape == "prism") {
+    for (const auto& corner : part.prism.outline)
+      box.extend(Eigen::Vector3d(corner.x(), corner.y(), part.prism.bottom));
+    if (!box.isEmpty()) box.max().z() = part.prism.top;
+    for (const auto& zone : part.prism.zones) {
+      box.min().z() = std::min(box.min().z(), zone.bottom);
+      box.max().z() = std::max(box.max().z(), zone.top);
+    }
+    return box;
+  }
+  box.min().setZero();
+  box.max()[part.length_axis] = part.length;
+  box.max()[part.height_axis] = part.height;
+  box.max()[part.thickness_axis] = part.thickness;
+  return box;
+}
+
+double usual_tolerance(const Part& part) {
+  return part.shape == "surface" ? 1e-2 : 1e-3;
+}
+
+bool names_node_set(const Case& source, const std::string& name) {
+  const bool face = name.size() == 5 && std::string("xyz").find(name[0]) != std::string::npos &&
+                    (name.ends_with("_min") || name.ends_with("_max"));
+  return source.part && source.part->shape == "mesh" && !face &&
+         std::ranges::find(source.selections, name, &Selection::name) == source.selections.end();
+}
+
+bool may_be_held(const Part& part) {
+  return !part.supports.empty() || !part.clamps.empty() || !part.springs.empty() || part.shape == "matrices";
+}
+
+Eigen::Vector3d box_size(const Part& part) {
+  return bounds(part).sizes();
+}
+
+Eigen::Vector3d position(const Part& part, const Point& point) {
+  if (point.position) return *point.position + point.offset;
+  if (part.imported && (point.node || part.shape == "matrices"))
+    return node_position(part, node_of(*part.imported, point).value_or(-1));
+  return bounds(part).min() + point.at->cwiseProduct(box_size(part)) + point.offset;
+}
+
+const Point& point(const Case& source, const std::string& name) {
+  const auto found = std::ranges::find(source.points, name, &Point::name);
+  if (found != source.points.end()) return *found;
+  std::vector<std::string> names;
+  for (const auto& known : source.points) names.push_back(known.name);
+  throw core::InputError("the case has no point \"" + name + "\"" + core::did_you_mean(name, names));
+}
+
+bool contains(const Selection& selection, const Eigen::Vector3d& p, double tolerance) {
+  if (selection.plane) return std::abs((p - selection.plane->point).dot(selection.plane->normal)) <= tolerance;
+  if (selection.box) {
+    return ((p - selection.box->min).array() >= -tolerance).all() &&
+           ((selection.box->max - p).array() >= -tolerance).all();
+  }
+  return selection.sphere && (p - selection.sphere->centre).norm() <= selection.sphere->radius + tolerance;
+}
+
+std::vector<std::filesystem::path> input_files(const Case& source) {
+  return input_files(source, {});
+}
+
+std::vector<std::filesystem::path> input_files(const Case& source, const std::vector<std::string>& without_sections) {
+  std::vector<std::filesystem::path> files;
+  std::string section;
+  const auto add = [&](const std::filesystem::path& file) {
+    const bool wanted = std::ranges::find(without_sections, section) == without_sections.end();
+    if (wanted && !file.empty()) files.push_back(file);
+  };
+  const auto add_measured = [&](const std::vector<MeasuredFrf>& all) {
+    for (const MeasuredFrf& frf : all) add(frf.file);
+  };
+  section = "part";
+  if (source.part && from_file(*source.part)) {
+    const io::MatrixFiles& matrices = source.part->file.matrices;
+    for (const auto& file : {source.part->file.path, matrices.stiffness, matrices.mass, matrices.damping,
+                             io::dof_table_path(matrices), matrices.positions})
+      add(file);
+  }
+  add_measured(source.measured_part);
+  section = "robot";
+  if (source.robot) {
+    add_measured(source.robot->measured);
+    for (const auto& file : {source.robot->table, source.robot->urdf, source.robot->joints}) add(file);
+  }
+  section = "contacts";
+  for (const Contact& contact : source.contacts) {
+    add(contact.table);
+    add_measured(contact.measured);
+  }
+  section = "tool";
+  if (source.tool) add_measured(source.tool->measured);
+  if (source.tool && source.tool->swap) add_measured(source.tool->swap->measured);
+  section = "damping";
+  if (source.damping.from_frf) add(source.damping.from_frf->file);
+  return files;
+}
+
+double get_value(const Case& source, const std::string& key) {
+  CaseValues values = source.values;
+  const double* number = number_behind(values, key);
+  if (number == nullptr) no_such_number(source.values, key);
+  return *number;
+}
+
+void set_value(Case& target, const std::string& key, double value) {
+  CaseValues values = target.values;
+  double* number = number_behind(values, key);
+  if (number == nullptr) no_such_number(target.values, key);
+  try {
+    require_within_bounds(*find_key(case_schema(), pattern_of(case_schema(), full_path(case_schema(), key))), value);
+  } catch (const core::InputError& error) {
+    throw core::InputError(key + ": " + error.what());
+  }
+  *number = value;
+  Case bound = bind_case(std::move(values), target.folder);
+  if (bound.part && target.part) bound.part->imported = target.part->imported;
+  bound.name = target.name;
+  bound.file = target.file;
+  bound.source = target.source;
+  target = std::move(bound);
+}
+
+}  // namespace thinwall::app

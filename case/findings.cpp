@@ -1,0 +1,32 @@
+#include "case/findings.hpp"
+
+#include <algorithm>
+
+#include "core/nearest_name.hpp"
+
+namespace thinwall::app {
+
+void Findings::report(const std::string& key, const std::string& text) {
+  const CaseValue* place = find(values, key);
+  if (place != nullptr && place->line == 0) place = nullptr;  // a default stands nowhere: point at its table
+  for (std::string table = key; place == nullptr && !table.empty();) {
+    const auto found = std::ranges::find_if(values, [&](const CaseValue& value) {
+      return value.from_file && value.key.starts_with(table) && value.key.size() > table.size();
+    });
+    if (found != values.end()) place = &*found;
+    const auto dot = table.rfind('.');
+    table = dot == std::string::npos ? "" : table.substr(0, dot);
+  }
+  problems.push_back({place == nullptr ? 0 : place->line, place == nullptr ? 0 : place->column, key + ": " + text});
+}
+
+void Findings::require_known(const std::string& key, const std::string& name, const std::vector<std::string>& known,
+                             const std::string& what) {
+  if (name.empty() || std::ranges::find(known, name) != known.end()) return;
+  std::string list;
+  for (const auto& candidate : known) list += (list.empty() ? "" : ", ") + candidate;
+  report(key, "there is no " + what + " \"" + name + "\"" + core::did_you_mean(name, known) +
+                  (list.empty() ? "; the case names none" : "; the case has " + list));
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,27 @@
+#pragma once
+// Where a check puts what it finds.
+
+#include <string>
+#include <vector>
+
+#include "case/problem.hpp"
+#include "case/values.hpp"
+
+namespace thinwall::app {
+
+/// Gathers problems, each placed at the key it is about (or at the first key of its table).
+struct Findings {
+  const CaseValues& values;
+  std::vector<Problem> problems;
+
+  /// "key: text" at the place of the key.
+  void report(const std::string& key, const std::string& text);
+
+  [[nodiscard]] bool given(const std::string& key) const { return find(values, key) != nullptr; }
+
+  /// Reports unless `name` is among `known`, naming the nearest; an empty name was reported before.
+  void require_known(const std::string& key, const std::string& name, const std::vector<std::string>& known,
+                     const std::string& what);
+};
+
+}  // namespace thinwall::app

@@ -1,0 +1,55 @@
+#include "case/lobes_binding.hpp"
+
+namespace thinwall::app {
+
+LobesOptions bind_lobes(const Table& table, const std::optional<Tool>& tool) {
+  LobesOptions lobes;
+  lobes.from_rpm = table.number("from");
+  lobes.to_rpm = table.number("to");
+  lobes.count = table.integer("count");
+  lobes.depth_limit = table.optional("depth_limit").value_or(tool ? tool->length : NAN);
+  lobes.tolerance = table.number("tolerance");
+  lobes.modes_up_to_hz = table.optional("modes_up_to");
+  lobes.method = table.text("method");
+  lobes.compare = table.names("compare");
+  const auto integer = [&](const char* key) {
+    return table.has(key) ? std::optional(table.integer(key)) : std::nullopt;
+  };
+  lobes.steps_per_period = integer("steps_per_period");
+  lobes.harmonics = integer("harmonics");
+  lobes.map_depths = integer("map_depths");
+  lobes.noise_samples = integer("noise_samples");
+  lobes.seed = table.integer("seed");
+  if (const Table u = table.table("uncertainty"); u.exists()) {
+    lobes.robust = RobustOptions{
+        {u.number("frequency"), u.number("damping_ratio"), u.number("receptance"), u.number("coefficients")},
+        u.number("confidence")};
+  }
+  return lobes;
+}
+
+milling::MachineLimits bind_machine(const Table& table) {
+  milling::MachineLimits machine;
+  const auto bound = [&](const char* key, double& value) { value = table.optional(key).value_or(value); };
+  bound("min_spindle_speed", machine.min_spindle_speed_rpm);
+  bound("max_spindle_speed", machine.max_spindle_speed_rpm);
+  bound("max_power", machine.max_power_W);
+  bound("max_torque", machine.max_torque_Nm);
+  bound("max_feed_rate", machine.max_feed_rate_m_s);
+  machine.efficiency = table.number("efficiency");
+  return machine;
+}
+
+Path bind_path(const Table& table) {
+  Path path{{}, table.text("support") == "follows"};
+  const auto list = table.numbers("points");
+  for (std::size_t i = 0; i + 2 < list.size(); i += 3) path.positions.emplace_back(list[i], list[i + 1], list[i + 2]);
+  const int count = table.has("positions") ? table.integer("positions") : 11;
+  if (!table.has("from") || !table.has("to") || table.has("points") || count < 2) return path;
+  const Eigen::Vector3d from = table.vector("from"), to = table.vector("to");
+  path.positions.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) path.positions.emplace_back(from + (to - from) * i / (count - 1));
+  return path;
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,13 @@
+#pragma once
+// What a part is made of and what holds on to it: names that must be known, keys that must be there.
+
+#include "case/case.hpp"
+#include "case/findings.hpp"
+
+namespace thinwall::app {
+
+/// Materials, supports, clamps, masses and springs of a modelled part, and what a given mesh cannot be asked for. What
+/// only a file tells is checked once it is read.
+void check_description(const Case& source, Findings& findings);
+
+}  // namespace thinwall::app

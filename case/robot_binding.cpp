@@ -1,0 +1,207 @@
+#include "case/robot_binding.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "case/urdf_arm.hpp"
+#include "core/error.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+/// Turned about x, then y, then z of the frame before.
+Eigen::Isometry3d bind_frame(const Table& table) {
+  const Eigen::Vector3d turn = table.vector("rotation");
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  frame.linear() =
+      (Eigen::AngleAxisd(turn.z(), Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(turn.y(), Eigen::Vector3d::UnitY()) *
+       Eigen::AngleAxisd(turn.x(), Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
+  frame.translation() = table.vector("position");
+  return frame;
+}
+
+/// xx, yy, zz, or these and xy, xz, yz; NaN for another number of them.
+Eigen::Matrix3d bind_inertia(const std::vector<double>& list) {
+  Eigen::Matrix3d I = Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (list.size() != 3 && list.size() != 6) return I;
+  I = Eigen::Vector3d(list[0], list[1], list[2]).asDiagonal();
+  if (list.size() == 3) return I;
+  I(0, 1) = I(1, 0) = list[3];
+  I(0, 2) = I(2, 0) = list[4];
+  I(1, 2) = I(2, 1) = list[5];
+  return I;
+}
+
+robot::Link bind_link(const Table& table) {
+  robot::Link link;
+  link.name = table.text("name");
+  link.placement = bind_frame(table);
+  link.axis = table.direction("axis");
+  link.joint = bind_joint(table);
+  link.mass = table.number("mass");
+  link.centre = table.vector("centre");
+  link.inertia = bind_inertia(table.numbers("inertia"));
+  return link;
+}
+
+/// Number of the link of that name, −1 of the base; beyond them all if there is none.
+int link_number(const std::string& name, const std::vector<robot::Link>& links) {
+  if (name == "base") return -1;
+  return static_cast<int>(std::ranges::find(links, name, &robot::Link::name) - links.begin());
+}
+
+/// Counterbalances, base and gravity: what the case tells of an arm wherever its links come from.
+void bind_surroundings(const Table& table, robot::SerialArm& arm) {
+  for (const Table& spring : table.tables("counterbalances")) {
+    arm.counterbalances.push_back({link_number(spring.text("from"), arm.links), spring.vector("from_point"),
+                                   link_number(spring.text("to"), arm.links), spring.vector("to_point"),
+                                   spring.number("force"), spring.number("length"), spring.number("stiffness")});
+  }
+  if (const Table base = table.table("base"); base.exists()) {
+    const Eigen::Vector3d x = base.direction("x"), z = base.direction("z");
+    arm.base.linear() << x, z.cross(x), z;
+    arm.base.translation() = base.vector("position");
+  }
+  if (const Table tip = table.table("tip"); tip.exists()) arm.tip = arm.tip * bind_frame(tip);
+  arm.gravity = table.has("gravity") ? table.vector("gravity") : Eigen::Vector3d(-9.81 * arm.base.linear().col(2));
+}
+
+robot::SerialArm bind_arm(const Table& table, const std::filesystem::path& folder) {
+  if (table.has("urdf")) {
+    try {
+      return bind_urdf(table, folder);
+    } catch (const core::Error&) {
+      return {};
+    }
+  }
+  robot::SerialArm arm;
+  for (const Table& link : table.tables("links")) arm.links.push_back(bind_link(link));
+  bind_surroundings(table, arm);
+  return arm;
+}
+
+robot::ChainElement bind_element(const Table& table) {
+  const std::string kind = table.text("kind");
+  if (kind == "offset") return robot::RigidLink{bind_frame(table)};
+  if (kind == "body")
+    return dynamics::RigidBody{table.number("mass"), table.vector("centre"), bind_inertia(table.numbers("inertia"))};
+  if (kind == "beam") {
+    const dynamics::Tube tube{table.number("outer_diameter"), table.number("inner_diameter"),
+                              table.number("youngs_modulus"), table.number("poisson_ratio"), table.number("density")};
+    return robot::BeamLink{dynamics::section(tube), table.number("length")};
+  }
+  const bool turns = kind == "rotation";
+  return robot::VirtualJoint{turns ? robot::VirtualJoint::Motion::rotation : robot::VirtualJoint::Motion::translation,
+                             table.direction("axis"), table.number(turns ? "angle" : "distance"),
+                             table.optional(turns ? "stiffness" : "linear_stiffness").value_or(0.0),
+                             table.number(turns ? "damping" : "linear_damping")};
+}
+
+PostureWish bind_posture(const Table& table) {
+  PostureWish wish;
+  if (!table.exists()) return wish;
+  wish.joints = table.numbers("joints");
+  if (table.has("tip")) wish.tip = table.vector("tip");
+  wish.pitch = table.optional("pitch");
+  wish.elbow_up = table.text("elbow") != "down";
+  wish.ahead = table.text("facing") != "behind";
+  if (table.has("approach")) wish.approach = table.direction("approach");
+  wish.angle = table.number("angle");
+  wish.start = table.numbers("start");
+  return wish;
+}
+
+/// The places of the grid, x fastest; none where it could not be read.
+std::vector<Eigen::Vector3d> bind_workspace(const Table& table) {
+  std::vector<Eigen::Vector3d> places;
+  if (!table.exists()) return places;
+  const Eigen::Vector3d from = table.vector("from"), to = table.vector("to"), counts = table.vector("counts");
+  if (!counts.allFinite() || !from.allFinite() || !to.allFinite()) return places;
+  const auto at = [&](int axis, double i) {
+    return counts[axis] > 1.5 ? from[axis] + (to[axis] - from[axis]) * i / (std::round(counts[axis]) - 1.0)
+                              : from[axis];
+  };
+  for (int k = 0; k < std::lround(counts.z()); ++k) {
+    for (int j = 0; j < std::lround(counts.y()); ++j) {
+      for (int i = 0; i < std::lround(counts.x()); ++i) places.emplace_back(at(0, i), at(1, j), at(2, k));
+    }
+  }
+  return places;
+}
+
+}  // namespace
+
+robot::Joint bind_joint(const Table& table) {
+  return {table.number("stiffness"),  table.number("damping"),         table.number("motor_inertia"),
+          table.number("gear_ratio"), table.number("servo_stiffness"), table.number("servo_damping")};
+}
+
+robot::SerialArm bind_urdf(const Table& robot, const std::filesystem::path& folder) {
+  robot::SerialArm arm = urdf_arm(folder / robot.text("urdf"), robot.text("urdf_base"), robot.text("urdf_tip"),
+                                  folder / robot.text("joints"));
+  bind_surroundings(robot, arm);
+  return arm;
+}
+
+std::vector<robot::Chain> bind_chains(const Table& robot) {
+  std::vector<robot::Chain> chains;
+  const Eigen::Isometry3d base = bind_arm(robot, {}).base;
+  for (const Table& element : robot.tables("elements")) {
+    const auto number = static_cast<std::size_t>(std::max(element.integer("chain"), 1));
+    while (chains.size() < number) chains.push_back({base, {}});
+    chains[number - 1].elements.push_back(bind_element(element));
+  }
+  return chains;
+}
+
+std::vector<TipMode> bind_modes(const std::vector<Table>& tables) {
+  std::vector<TipMode> modes;
+  modes.reserve(tables.size());
+  for (const Table& mode : tables) {
+    modes.push_back({mode.number("frequency"), mode.number("damping_ratio"), mode.number("stiffness"),
+                     mode.direction("direction")});
+  }
+  return modes;
+}
+
+Robot bind_robot(const Table& table, std::vector<MeasuredFrf> measured, const std::filesystem::path& folder) {
+  // A section that no beam has is told by the checks, which bind the chains once more.
+  const auto chains = [&]() -> std::vector<robot::Chain> {
+    try {
+      return bind_chains(table);
+    } catch (const core::InputError&) {
+      return {};
+    }
+  };
+  const auto file = [&](const char* key) {
+    return table.has(key) ? folder / table.text(key) : std::filesystem::path();
+  };
+  return {table.text("model"),
+          table.text("point"),
+          table.direction("direction"),
+          table.optional("frequency"),
+          table.optional("damping_ratio"),
+          table.optional("mass"),
+          table.optional("stiffness"),
+          table.optional("damping"),
+          bind_modes(table.tables("modes")),
+          std::move(measured),
+          bind_arm(table, folder),
+          chains(),
+          file("table"),
+          table.text("table_point"),
+          table.text("left_unit"),
+          table.text("right_unit"),
+          table.flag("cross_terms"),
+          file("urdf"),
+          file("joints"),
+          bind_posture(table.table("posture")),
+          table.vector("preload"),
+          bind_workspace(table.table("workspace"))};
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,28 @@
+#pragma once
+// [robot], typed.
+
+#include <vector>
+
+#include "case/case.hpp"
+#include "case/table.hpp"
+
+namespace thinwall::app {
+
+/// `measured`: its FRF files, bound as those of the part and the tool; data files are in `folder`. An arm's world is
+/// the part's axes; one whose URDF cannot be read has no links (check_robot() says why).
+[[nodiscard]] Robot bind_robot(const Table& table, std::vector<MeasuredFrf> measured,
+                               const std::filesystem::path& folder);
+
+/// Stiffness, damping, motor and servo of a joint, from [[robot.links]] or [[joints]].
+[[nodiscard]] robot::Joint bind_joint(const Table& table);
+
+/// The chains of [[robot.elements]]. Throws InputError for a section that no beam has.
+[[nodiscard]] std::vector<robot::Chain> bind_chains(const Table& robot);
+
+/// The arm of robot.urdf where the case stands it. Errors as urdf_arm().
+[[nodiscard]] robot::SerialArm bind_urdf(const Table& robot, const std::filesystem::path& folder);
+
+/// [[robot.modes]] or [[tool.modes]].
+[[nodiscard]] std::vector<TipMode> bind_modes(const std::vector<Table>& tables);
+
+}  // namespace thinwall::app

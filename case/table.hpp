@@ -1,0 +1,79 @@
+#pragma once
+// One table of a case's values, read as typed members: what a binding is written with. A key that is absent, or could
+// not be read, gives NaN, an empty text or an empty list; the checks have said so then.
+
+#include <Eigen/Core>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "case/values.hpp"
+
+namespace thinwall::app {
+
+/// The values below one table.
+struct Table {
+  const CaseValues& values;
+  std::string path;
+
+  [[nodiscard]] const CaseValue* get(std::string_view name) const {
+    return find(values, path.empty() ? std::string(name) : path + "." + std::string(name));
+  }
+  [[nodiscard]] bool has(std::string_view name) const { return get(name) != nullptr; }
+
+  template <typename T>
+  [[nodiscard]] T value(std::string_view name, T otherwise) const {
+    const CaseValue* found = get(name);
+    const T* held = found == nullptr ? nullptr : std::get_if<T>(&found->value);
+    return held == nullptr ? otherwise : *held;
+  }
+  [[nodiscard]] double number(std::string_view name) const {
+    return value<double>(name, std::numeric_limits<double>::quiet_NaN());
+  }
+  [[nodiscard]] std::optional<double> optional(std::string_view name) const {
+    return has(name) ? std::optional(number(name)) : std::nullopt;
+  }
+  /// Whole numbers; −1 stands for one that could not be read.
+  [[nodiscard]] int integer(std::string_view name) const {
+    const double held = number(name);
+    return std::isfinite(held) ? static_cast<int>(held) : -1;
+  }
+  [[nodiscard]] std::string text(std::string_view name) const { return value<std::string>(name, ""); }
+  [[nodiscard]] bool flag(std::string_view name) const { return value<bool>(name, false); }
+  [[nodiscard]] std::vector<double> numbers(std::string_view name) const {
+    return value<std::vector<double>>(name, {});
+  }
+  [[nodiscard]] std::vector<std::string> names(std::string_view name) const {
+    return value<std::vector<std::string>>(name, {});
+  }
+  [[nodiscard]] std::vector<Eigen::Vector3d> directions(std::string_view name) const {
+    return value<std::vector<Eigen::Vector3d>>(name, {});
+  }
+  [[nodiscard]] Eigen::Vector3d direction(std::string_view name) const {
+    const auto list = directions(name);
+    return list.empty() ? Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()) : list.front();
+  }
+  [[nodiscard]] Eigen::Vector3d vector(std::string_view name) const {
+    const auto list = numbers(name);
+    return list.size() == 3 ? Eigen::Vector3d(list[0], list[1], list[2])
+                            : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+  [[nodiscard]] Table table(std::string_view name) const {
+    return {values, path.empty() ? std::string(name) : path + "." + std::string(name)};
+  }
+  [[nodiscard]] std::vector<Table> tables(std::string_view name) const {
+    const std::string prefix = table(name).path;
+    const int count = array_size(values, prefix);
+    std::vector<Table> list;
+    list.reserve(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) list.push_back({values, prefix + "[" + std::to_string(i) + "]"});
+    return list;
+  }
+  [[nodiscard]] bool exists() const { return has_table(values, path); }
+};
+
+}  // namespace thinwall::app

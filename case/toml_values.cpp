@@ -1,0 +1,439 @@
+#include "case/toml_values.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/nearest_name.hpp"
+#include "dynamics/dof.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+using core::InputError;
+
+std::string join(const std::string& parent, std::string_view name) {
+  return parent.empty() ? std::string(name) : parent + "." + std::string(name);
+}
+
+std::string_view node_type(const toml::node& node) {
+  if (node.is_string()) return "a text";
+  if (node.is_integer() || node.is_floating_point()) return "a number";
+  if (node.is_boolean()) return "true or false";
+  if (node.is_array()) return "a list";
+  if (node.is_table()) return "a table";
+  return "a date or time";
+}
+
+[[noreturn]] void wrong_type(const toml::node& node, std::string_view expected) {
+  throw InputError("got " + std::string(node_type(node)) + ", expected " + std::string(expected));
+}
+
+std::string read_text(const toml::node& node) {
+  if (!node.is_string()) wrong_type(node, "a text in quotes");
+  return *node.value<std::string>();
+}
+
+double read_quantity(const toml::node& node, const Key& key) {
+  double value = 0.0;
+  if (const auto text = node.value_exact<std::string>()) {
+    const bool infinite = key.bounds.infinity_allowed && (*text == "inf" || *text == "infinite");
+    value = infinite ? std::numeric_limits<double>::infinity() : core::parse_quantity(*text, key.kind);
+  } else if (node.is_integer() || node.is_floating_point()) {
+    value = *node.value<double>();
+    if (!(key.bounds.infinity_allowed && value > 0.0 && std::isinf(value))) value = core::bare_number(value, key.kind);
+  } else {
+    wrong_type(node, "a " + std::string(key.kind.name) + " such as \"" + std::string(key.kind.example) + "\"");
+  }
+  require_within_bounds(key, value);
+  return value;
+}
+
+double read_integer(const toml::node& node, const Key& key) {
+  if (!node.is_integer()) wrong_type(node, "a whole number");
+  const auto value = static_cast<double>(*node.value<std::int64_t>());
+  require_within_bounds(key, value);
+  return value;
+}
+
+std::string read_choice(const toml::node& node, const Key& key) {
+  std::string text = read_text(node);
+  const auto allowed = choices(key);
+  if (allowed.empty() || std::ranges::find(allowed, text) != allowed.end()) return text;
+  std::string list;
+  for (const auto& choice : allowed) list += (list.empty() ? "\"" : ", \"") + choice + "\"";
+  throw InputError("\"" + text + "\" is none of " + list + core::did_you_mean(text, allowed));
+}
+
+/// Applies `read` to every entry of a list, or to a value that stands alone.
+template <typename Read>
+auto read_list(const toml::node& node, Read read) {
+  std::vector<decltype(read(node))> list;
+  if (const auto* array = node.as_array()) {
+    for (const auto& entry : *array) list.push_back(read(entry));
+  } else {
+    list.push_back(read(node));
+  }
+  return list;
+}
+
+std::vector<double> read_vector(const toml::node& node, const Key& key) {
+  const auto* array = node.as_array();
+  if (array == nullptr || array->size() != 3) {
+    throw InputError("must be a list of three, along x, y, z, such as [\"0 mm\", \"20 mm\", \"0 mm\"]");
+  }
+  return read_list(node, [&](const toml::node& entry) { return read_quantity(entry, key); });
+}
+
+/// Corners one after the other: x₀, y₀, x₁, y₁ …
+std::vector<double> read_polygon(const toml::node& node, const Key& key) {
+  constexpr auto expected = "must be a list of at least three corners [x, y], such as [[\"0 mm\", \"0 mm\"], …]";
+  const auto* corners = node.as_array();
+  if (corners == nullptr || corners->size() < 3) throw InputError(expected);
+  std::vector<double> list;
+  for (const auto& corner : *corners) {
+    const auto* pair = corner.as_array();
+    if (pair == nullptr || pair->size() != 2) throw InputError(expected);
+    for (const auto& coordinate : *pair) list.push_back(read_quantity(coordinate, key));
+  }
+  return list;
+}
+
+/// Positions one after the other: x₀, y₀, z₀, x₁ …
+std::vector<double> read_positions(const toml::node& node, const Key& key) {
+  const auto* positions = node.as_array();
+  if (positions == nullptr || positions->size() < 2 || positions->size() > 200)
+    throw InputError("must be a list of 2 to 200 positions [x, y, z], such as [[\"6 mm\", \"0 mm\", \"50 mm\"], …]");
+  std::vector<double> list;
+  list.reserve(3 * positions->size());
+  for (const auto& position : *positions) std::ranges::copy(read_vector(position, key), std::back_inserter(list));
+  return list;
+}
+
+/// A word that the key allows in place of a number.
+bool is_choice(const toml::node& node, const Key& key) {
+  const auto allowed = choices(key);
+  return node.is_string() && std::ranges::find(allowed, read_text(node)) != allowed.end();
+}
+
+Eigen::Vector3d read_direction(const toml::node& node) {
+  if (node.is_string()) return dynamics::axis(read_text(node));
+  const auto* array = node.as_array();
+  if (array == nullptr || array->size() != 3) wrong_type(node, "a direction, \"x\", \"-y\" or [0.6, 0.8, 0]");
+  Eigen::Vector3d direction;
+  for (int i = 0; i < 3; ++i) {
+    const auto component = (*array)[static_cast<std::size_t>(i)].value<double>();
+    if (!component || !std::isfinite(*component)) throw InputError("must have three finite numbers");
+    direction[i] = *component;
+  }
+  const double norm = direction.norm();
+  if (norm < 1e-12) throw InputError("has no length; write a direction such as [0.6, 0.8, 0]");
+  // A unit vector stays as it is written, so that a resolved case reads back to the last bit.
+  return std::abs(norm - 1.0) < 1e-12 ? direction : Eigen::Vector3d(direction / norm);
+}
+
+/// A list of directions, unless it is a single one written as three numbers.
+std::vector<Eigen::Vector3d> read_directions(const toml::node& node) {
+  const auto* array = node.as_array();
+  if (array == nullptr || (array->size() == 3 && (*array)[0].is_number())) return {read_direction(node)};
+  return read_list(node, read_direction);
+}
+
+/// The text of a quantity whose dimension is known only later; a bare number as its exact text.
+std::string read_amount(const toml::node& node) {
+  if (node.is_integer() || node.is_floating_point()) return core::number_text(*node.value<double>());
+  return read_text(node);
+}
+
+Value read_value(const toml::node& node, const Key& key) {
+  switch (key.type) {
+    case Type::text:
+    case Type::file:
+    case Type::name:
+      return read_text(node);
+    case Type::choice:
+      return read_choice(node, key);
+    case Type::names:
+      return read_list(node, [&](const toml::node& entry) { return read_choice(entry, key); });
+    case Type::boolean:
+      if (!node.is_boolean()) wrong_type(node, "true or false");
+      return *node.value<bool>();
+    case Type::integer:
+      if (is_choice(node, key)) return read_text(node);
+      return read_integer(node, key);
+    case Type::quantity:
+      if (is_choice(node, key)) return read_text(node);
+      return read_quantity(node, key);
+    case Type::quantities:
+      return read_list(node, [&](const toml::node& entry) { return read_quantity(entry, key); });
+    case Type::vector:
+      return read_vector(node, key);
+    case Type::polygon:
+      return read_polygon(node, key);
+    case Type::positions:
+      return read_positions(node, key);
+    case Type::direction:
+      return std::vector<Eigen::Vector3d>{read_direction(node)};
+    case Type::directions:
+      return read_directions(node);
+    case Type::amount:
+      return read_amount(node);
+  }
+  return {};
+}
+
+/// What stands for a value that could not be read: later checks see that the key is there, and pass over it.
+Value unread_value(const Key& key) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  switch (key.type) {
+    case Type::integer:
+    case Type::quantity:
+      return nan;
+    case Type::vector:
+      return std::vector<double>(3, nan);
+    case Type::quantities:
+    case Type::polygon:
+    case Type::positions:
+      return std::vector<double>();
+    case Type::boolean:
+      return false;
+    case Type::names:
+      return std::vector<std::string>();
+    case Type::direction:
+    case Type::directions:
+      return std::vector<Eigen::Vector3d>();
+    default:
+      return std::string();
+  }
+}
+
+/// A --set that was put over the document: its key in full, and where its value starts in the option's text.
+struct Override {
+  std::string path;
+  int value_column = 1;
+};
+
+/// Walks the document along the schema and gathers values and problems.
+class Walk {
+ public:
+  Walk(const Schema& schema, const std::vector<Override>& overrides) : schema_(schema), overrides_(overrides) {}
+
+  void table(const toml::table& table, const std::string& path, const std::string& pattern) {
+    for (const auto& [name, node] : in_file_order(table)) entry(*name, *node, path, pattern);
+    for (const auto& key : schema_.keys) absent_key(key, table, path, pattern);
+    for (const auto& section : schema_.sections) implied_section(section, table, path, pattern);
+  }
+
+  CaseValues values;
+  std::vector<Problem> problems;
+
+ private:
+  using Entries = std::vector<std::pair<const toml::key*, const toml::node*>>;
+
+  static Entries in_file_order(const toml::table& table) {
+    Entries entries;
+    for (const auto& [name, node] : table) entries.emplace_back(&name, &node);
+    std::ranges::stable_sort(entries, [](const auto& a, const auto& b) {
+      const auto x = a.first->source().begin, y = b.first->source().begin;
+      return std::pair(x.line, x.column) < std::pair(y.line, y.column);
+    });
+    return entries;
+  }
+
+  /// Where `path` stands: its place in the file; else in the last --set that is it, lies in it or holds it.
+  [[nodiscard]] Problem place_of(const toml::source_position& place, const std::string& path) const {
+    if (place.line > 0) return {static_cast<int>(place.line), static_cast<int>(place.column), ""};
+    const auto within = [](const std::string& inner, const std::string& outer) {
+      return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '.');
+    };
+    for (auto i = overrides_.size(); i > 0; --i) {
+      const Override& option = overrides_[i - 1];
+      if (!within(option.path, path) && !within(path, option.path.substr(0, option.path.find('[')))) continue;
+      return {-static_cast<int>(i), find_key(schema_, pattern_of(schema_, option.path)) ? option.value_column : 1, ""};
+    }
+    return {};
+  }
+
+  void report(const toml::source_position& place, const std::string& path, const std::string& text) {
+    problems.push_back(place_of(place, path));
+    problems.back().text = path + ": " + text;
+  }
+
+  void entry(const toml::key& name, const toml::node& node, const std::string& path, const std::string& pattern) {
+    const auto below = names_below(schema_, pattern);
+    const bool named_by_user = below.size() == 1 && below.front() == "*";
+    const std::string child_path = join(path, name.str());
+    const std::string child = join(pattern, named_by_user ? "*" : name.str());
+    if (named_by_user && !is_name(name.str())) {
+      report(name.source().begin, child_path, "a name starts with a letter and goes on with letters, digits and _");
+    } else if (const Key* key = find_key(schema_, child)) {
+      value(*key, node, child_path);
+    } else if (find_section(schema_, child + "[]") != nullptr) {
+      array(name, node, child_path, child + "[]");
+    } else if (!names_below(schema_, child).empty()) {
+      if (const auto* inner = node.as_table()) {
+        table(*inner, child_path, child);
+      } else {
+        report(name.source().begin, child_path,
+               "got " + std::string(node_type(node)) + ", expected a table [" + child_path + "]");
+      }
+    } else {
+      report(name.source().begin, child_path, "unknown key" + core::did_you_mean(name.str(), below) + place_hint(name));
+    }
+  }
+
+  /// "; it belongs to [part.mesh]" where exactly one other table knows the name.
+  [[nodiscard]] std::string place_hint(const toml::key& name) const {
+    std::vector<std::string> places;
+    for (const auto& key : schema_.keys) {
+      const auto dot = key.path.rfind('.');
+      if (dot != std::string_view::npos && key.path.substr(dot + 1) == name.str()) {
+        places.emplace_back(key.path.substr(0, dot));
+      }
+    }
+    return places.size() == 1 ? "; " + std::string(name.str()) + " belongs to [" + places.front() + "]" : "";
+  }
+
+  static bool is_name(std::string_view name) {
+    return !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) != 0 &&
+           std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+  }
+
+  void array(const toml::key& name, const toml::node& node, const std::string& path, const std::string& pattern) {
+    const auto* list = node.as_array();
+    if (list == nullptr || !std::ranges::all_of(*list, [](const toml::node& entry) { return entry.is_table(); })) {
+      return report(name.source().begin, path,
+                    "got " + std::string(node_type(node)) + ", expected tables [[" + path + "]], one for each");
+    }
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const std::string item = path + "[" + std::to_string(i) + "]";
+      table_place_ = (*list)[i].source().begin;
+      table(*(*list)[i].as_table(), item, pattern);
+    }
+  }
+
+  void value(const Key& key, const toml::node& node, const std::string& path) {
+    // What --set puts into the document has no place in the file: toml++ says line 0.
+    const auto source = node.source().begin;
+    const Problem place = place_of(source, path);
+    CaseValue read{path, {}, place.line, place.column, true};
+    try {
+      read.value = read_value(node, key);
+    } catch (const InputError& error) {
+      read.value = unread_value(key);
+      report(source, path, error.what());
+    }
+    values.push_back(std::move(read));
+  }
+
+  void absent_key(const Key& key, const toml::table& table, const std::string& path, const std::string& pattern) {
+    const auto dot = key.path.rfind('.');
+    const std::string_view parent = dot == std::string_view::npos ? std::string_view() : key.path.substr(0, dot);
+    const std::string_view name = dot == std::string_view::npos ? key.path : key.path.substr(dot + 1);
+    if (parent != pattern || table.contains(name)) return;
+    if (key.required) {
+      const auto place = table.source().begin.line == 0 ? table_place_ : table.source().begin;
+      problems.push_back(place_of(place, path));
+      problems.back().text = join(path, name) + ": missing; " + std::string(key.meaning);
+      values.push_back({join(path, name), unread_value(key)});
+    } else if (!key.fallback.empty()) {
+      const auto document = toml::parse("value = " + std::string(key.fallback));
+      values.push_back({join(path, name), read_value(*document.get("value"), key)});
+    }
+  }
+
+  void implied_section(const Section& section, const toml::table& table, const std::string& path,
+                       const std::string& pattern) {
+    const auto dot = section.path.rfind('.');
+    const std::string_view parent = dot == std::string_view::npos ? std::string_view() : section.path.substr(0, dot);
+    const std::string_view name = dot == std::string_view::npos ? section.path : section.path.substr(dot + 1);
+    if (section.implied_by.empty() || parent != pattern || table.contains(name)) return;
+    const auto there = [&](const std::string& key) { return find(values, key) != nullptr || has_table(values, key); };
+    if (std::ranges::none_of(implying_keys(section), there)) return;
+    table_place_ = table.source().begin;
+    this->table(toml::table{}, join(path, name), join(pattern, name));
+  }
+
+  const Schema& schema_;
+  const std::vector<Override>& overrides_;
+  toml::source_position table_place_{};
+};
+
+toml::table parse_document(const std::string& text, const std::string& name) {
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    const auto place = error.source().begin;
+    throw CaseError({name, text}, {{static_cast<int>(place.line), static_cast<int>(place.column),
+                                    "not TOML: " + std::string(error.description()) +
+                                        "; quantities with units go in quotes, \"6 mm\""}});
+  }
+}
+
+/// The table or array entry `name` ("part", "contacts[1]") below `table`; made if it is a plain table that is not
+/// there.
+toml::table& descend(toml::table& table, std::string_view name, const std::string& path) {
+  const auto bracket = name.find('[');
+  if (bracket == std::string_view::npos) {
+    table.insert(name, toml::table{});
+    if (auto* inner = table.get(name)->as_table()) return *inner;
+  } else if (auto* array = table[name.substr(0, bracket)].as_array()) {
+    const std::size_t index = std::stoul("0" + std::string(name.substr(bracket + 1)));
+    if (index < array->size() && (*array)[index].is_table()) return *(*array)[index].as_table();
+  }
+  throw InputError("--set " + path + ": the case has no " + std::string(name));
+}
+
+/// The value of an override: TOML if it is TOML, else a text, so that the quotes of "8 mm" may be left to the shell.
+toml::table override_document(const std::string& text) {
+  try {
+    return toml::parse("value = " + text);
+  } catch (const toml::parse_error&) {
+    return toml::table{{"value", text}};
+  }
+}
+
+Override apply_override(toml::table& document, const Schema& schema, const std::string& assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw core::UsageError("--set \"" + assignment + "\": write key=value, for example --set part.length=\"390 mm\"");
+  }
+  const std::string path = full_path(schema, assignment.substr(0, equals));
+  Override applied{path, static_cast<int>(equals) + 2};
+  toml::table* table = &document;
+  std::string_view rest = path;
+  for (auto dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
+    table = &descend(*table, rest.substr(0, dot), path);
+    rest.remove_prefix(dot + 1);
+  }
+  auto value = override_document(assignment.substr(equals + 1));
+  const auto bracket = rest.find('[');
+  if (bracket == std::string_view::npos) {
+    table->insert_or_assign(rest, *value.get("value"));
+    return applied;
+  }
+  auto* list = (*table)[rest.substr(0, bracket)].as_array();
+  const std::size_t index = std::stoul("0" + std::string(rest.substr(bracket + 1)));
+  if (list == nullptr || index >= list->size()) throw InputError("--set " + path + ": the case has no such entry");
+  list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(index), *value.get("value"));
+  return applied;
+}
+
+}  // namespace
+
+ReadValues read_values(const std::string& text, const std::string& name, const Schema& schema,
+                       const std::vector<std::string>& overrides) {
+  toml::table document = parse_document(text, name);
+  std::vector<Override> applied;
+  applied.reserve(overrides.size());
+  for (const auto& assignment : overrides) applied.push_back(apply_override(document, schema, assignment));
+  Walk walk(schema, applied);
+  walk.table(document, "", "");
+  return {std::move(walk.values), std::move(walk.problems)};
+}
+
+}  // namespace thinwall::app

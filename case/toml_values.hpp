@@ -1,0 +1,24 @@
+#pragma once
+// From the text of a TOML file to values, by the schema that says what it may hold.
+
+#include <string>
+#include <vector>
+
+#include "case/problem.hpp"
+#include "case/schema.hpp"
+#include "case/values.hpp"
+
+namespace thinwall::app {
+
+/// What a file says, defaults filled in, and what is wrong with it: unknown keys, wrong types, dimensions, bounds.
+struct ReadValues {
+  CaseValues values;
+  std::vector<Problem> problems;
+};
+
+/// `overrides` are "key=value", put over the file before it is read. Throws CaseError, which shows `name`, if the text
+/// is not TOML; UsageError or InputError for an override that fits no key.
+[[nodiscard]] ReadValues read_values(const std::string& text, const std::string& name, const Schema& schema,
+                                     const std::vector<std::string>& overrides = {});
+
+}  // namespace thinwall::app

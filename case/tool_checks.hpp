@@ -1,0 +1,13 @@
+#pragma once
+// What a tool that is known by measured FRFs can be asked.
+
+#include "case/case.hpp"
+#include "case/findings.hpp"
+
+namespace thinwall::app {
+
+/// Samples of a receptance have no poles: reports modes beside them, a helix, unequal pitches, and an entry of the FRF
+/// matrix that is given twice. `tool.measured` is not empty.
+void check_measured_tool(const Tool& tool, Findings& findings);
+
+}  // namespace thinwall::app

@@ -1,0 +1,28 @@
+#pragma once
+// The contacts in summary.json and on the terminal: what was joined, and what was found of it.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "study/results.hpp"
+
+namespace thinwall::app {
+
+/// One entry a contact, N/m and N s/m a direction, null for a rigid one; with its preload, what a ball makes of it, and
+/// the identified joint with half widths of 95 % intervals, where there are any.
+[[nodiscard]] nlohmann::json contacts_summary(const Results& results);
+
+/// K (N/m), C (N s/m) and η along one direction of a contact.
+struct ContactAlong {
+  double stiffness = 0.0, damping = 0.0, loss_factor = 0.0;
+};
+[[nodiscard]] ContactAlong along(const coupling::Contact& contact, std::size_t direction);
+
+/// What a regularised kernel dropped; null without a regularisation.
+[[nodiscard]] nlohmann::json regularisation_summary(const std::string& regularisation, double threshold,
+                                                    const coupling::CoupledResponse& receptance);
+
+/// A line a contact, more where it was found from FRFs; from a summary. Empty without a contact.
+[[nodiscard]] std::string contacts_text(const nlohmann::json& summary);
+
+}  // namespace thinwall::app

@@ -1,0 +1,124 @@
+#include "report/error_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/results/csv_table.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+using Eigen::Index;
+using nlohmann::json;
+
+/// |a| of the largest entry.
+template <typename Matrix>
+double largest_entry(const Matrix& A) {
+  return std::sqrt(A.cwiseAbs2().maxCoeff());
+}
+
+/// The largest entry of `errors` relative to the largest of the response on its line.
+template <typename Matrix>
+json largest(const dynamics::ResponseModel& response, const std::vector<Matrix>& errors) {
+  double relative = 0.0, at_hz = response.axis.hz(0);
+  for (std::size_t line = 0; line < errors.size(); ++line) {
+    const double here = largest_entry(errors[line]) / largest_entry(response.H[line]);
+    if (!(here > relative)) continue;
+    relative = here;
+    at_hz = response.axis.hz(static_cast<Index>(line));
+  }
+  return {{"largest_relative", relative}, {"at_frequency_hz", at_hz}};
+}
+
+json response_errors(const dynamics::ResponseModel& response, const ResponseErrors& errors) {
+  json result = json::object();
+  if (!errors.truncation.empty()) result["truncation"] = largest(response, errors.truncation);
+  if (!errors.noise.empty()) result["noise"] = largest(response, errors.noise);
+  return result;
+}
+
+json known(const std::optional<double>& value) {
+  return value ? json(*value) : json(nullptr);
+}
+
+/// Rows of the response between the points; all if there is none of them.
+std::vector<Index> rows_at(const dynamics::ResponseModel& response, const std::vector<std::string>& points) {
+  std::vector<Index> chosen, all;
+  for (std::size_t i = 0; i < response.responses.size(); ++i) {
+    all.push_back(static_cast<Index>(i));
+    if (std::ranges::find(points, response.responses[i].point) != points.end()) chosen.push_back(all.back());
+  }
+  return chosen.empty() ? all : chosen;
+}
+
+template <typename Matrix>
+void add_columns(io::Table& table, const std::string& what, const dynamics::ResponseModel& response,
+                 const std::vector<Matrix>& errors, const std::vector<Index>& rows) {
+  if (errors.empty()) return;
+  for (const Index i : rows) {
+    for (const Index j : rows) {
+      std::vector<double> values;
+      values.reserve(errors.size());
+      for (const Matrix& line : errors) values.push_back(std::abs(line(i, j)));
+      table.push_back({what + " " + dynamics::name(response.responses[static_cast<std::size_t>(i)]) + "/" +
+                           dynamics::name(response.forces[static_cast<std::size_t>(j)]),
+                       values});
+    }
+  }
+}
+
+}  // namespace
+
+json error_budget_summary(const Results& results) {
+  json budget = json::object();
+  const auto add = [&](const char* name, const dynamics::ResponseModel& response, const ResponseErrors& errors) {
+    if (json entry = response_errors(response, errors); !entry.empty()) budget[name] = std::move(entry);
+  };
+  if (results.part) add("part", results.part->response, results.errors.part);
+  if (results.robot) add("robot", results.robot->response, results.errors.robot);
+  if (results.coupled) add("coupled", results.coupled->receptance.response, results.errors.coupled);
+  return budget;
+}
+
+json chart_errors_summary(const NamedLobes& named) {
+  if (named.errors.empty()) return nullptr;
+  std::optional<double> truncation, noise;
+  const DepthError* least = nullptr;
+  for (std::size_t i = 0; i < named.errors.size(); ++i) {
+    const DepthError& error = named.errors[i];
+    const double depth = named.lobes.rows[i].limiting_depth_m;
+    if (named.lobes.rows[i].spindle_speed_rpm == named.lobes.at_spindle_speed_rpm) least = &error;
+    if (error.truncation_m) truncation = std::max(truncation.value_or(0.0), std::abs(*error.truncation_m) / depth);
+    if (error.noise_m) noise = std::max(noise.value_or(0.0), *error.noise_m / depth);
+  }
+  json result = {{"largest_truncation_relative", known(truncation)}, {"largest_noise_relative", known(noise)}};
+  if (least != nullptr) result["at_minimum"] = row_errors_summary(*least, std::nullopt, 0);
+  return result;
+}
+
+json row_errors_summary(const DepthError& error, const std::optional<milling::DepthScatter>& scatter, int seed) {
+  json result = {{"truncation_m", known(error.truncation_m)}, {"noise_deviation_m", known(error.noise_m)}};
+  if (!scatter) return result;
+  const int with_limit = static_cast<int>(scatter->depth_m.size()) - scatter->without_limit;
+  result["sampled"] = {{"draws", scatter->depth_m.size()},
+                       {"seed", seed},
+                       {"mean_m", with_limit > 0 ? json(scatter->mean_m) : json(nullptr)},
+                       {"deviation_m", with_limit > 1 ? json(scatter->deviation_m) : json(nullptr)},
+                       {"without_limit", scatter->without_limit}};
+  return result;
+}
+
+void write_response_errors(const std::filesystem::path& file, const dynamics::ResponseModel& response,
+                           const ResponseErrors& errors, const std::vector<std::string>& points) {
+  io::Table table{{"frequency_hz", std::vector<double>(response.axis.hz.begin(), response.axis.hz.end())}};
+  const std::vector<Index> rows = rows_at(response, points);
+  add_columns(table, "noise_deviation", response, errors.noise, rows);
+  add_columns(table, "truncation", response, errors.truncation, rows);
+  io::write_csv(
+      file, table,
+      {"of each entry, in its unit (m/N): noise_deviation, the standard deviation of its real and imaginary part",
+       "by the noise of the measured FRFs; truncation, the modulus of what the part's reduction leaves out"});
+}
+
+}  // namespace thinwall::app

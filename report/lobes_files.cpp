@@ -1,0 +1,147 @@
+#include "report/lobes_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "io/results/csv_table.hpp"
+#include "milling/direct/stability.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Every crossing of every speed, so that islands and gaps above the limiting depth are there, too.
+void write_crossings(const fs::path& folder, const NamedLobes& named) {
+  std::vector<double> speed, depth, chatter, change, error;
+  std::vector<std::string> kind;
+  for (const milling::LobeRow& row : named.lobes.rows) {
+    for (const milling::LobePoint& point : row.crossings) {
+      speed.push_back(row.spindle_speed_rpm);
+      depth.push_back(point.depth_m);
+      chatter.push_back(point.chatter_frequency_hz);
+      kind.push_back(milling::name(point.kind));
+      change.push_back(point.unstable_change);
+      error.push_back(point.error_estimate);
+    }
+  }
+  io::write_csv(folder / (named.name + "_crossings.csv"),
+                {{"spindle_speed_rpm", speed},
+                 {"depth_m", depth},
+                 {"chatter_frequency_hz", chatter},
+                 {"bifurcation", kind},
+                 {"unstable_change", change},
+                 {"error_estimate_relative", error}},
+                {"unstable_change: Floquet multipliers that leave the unit circle there as the depth rises; negative: "
+                 "that return. A cut is stable where the sum of those below its depth is 0"});
+}
+
+/// A column of errors that are known of some row at least; inf stands for one that is not.
+void add_error_column(io::Table& table, const std::string& name, const std::vector<DepthError>& errors,
+                      std::optional<double> DepthError::*which) {
+  if (std::ranges::none_of(errors, [&](const DepthError& e) { return (e.*which).has_value(); })) return;
+  std::vector<double> values;
+  values.reserve(errors.size());
+  for (const DepthError& error : errors) values.push_back((error.*which).value_or(HUGE_VAL));
+  table.push_back({name, values});
+}
+
+/// Limits of one method; with what is robust of them, and what they are off by, where that is known.
+void write_chart(const fs::path& file, const milling::Lobes& lobes, const milling::RobustLobes* robust,
+                 const std::vector<DepthError>& errors) {
+  std::vector<double> speed, depth, chatter, error, uncertainty, robust_depth;
+  std::vector<std::string> kind, status;
+  for (const milling::LobeRow& row : lobes.rows) {
+    speed.push_back(row.spindle_speed_rpm);
+    depth.push_back(row.limiting_depth_m);
+    chatter.push_back(row.chatter_frequency_hz);
+    error.push_back(row.error_estimate);
+    kind.push_back(milling::name(row.kind));
+    status.push_back(milling::name(row.status));
+  }
+  io::Table table{{"spindle_speed_rpm", speed}, {"limiting_depth_m", depth},        {"chatter_frequency_hz", chatter},
+                  {"bifurcation", kind},        {"error_estimate_relative", error}, {"status", status}};
+  std::vector<std::string> comments{
+      "method: " + lobes.method,
+      "rows with status stable_to_depth_limit are stable up to the depth given, the limit of the chart"};
+  if (robust != nullptr) {
+    for (const milling::RobustRow& row : robust->rows) {
+      uncertainty.push_back(row.relative_uncertainty);
+      robust_depth.push_back(row.depth_m);
+    }
+    table.push_back({"relative_uncertainty", uncertainty});
+    table.push_back({"robust_depth_m", robust_depth});
+    comments.emplace_back(
+        "relative_uncertainty: standard, of the limiting depth, first order; 0 where the cut is stable as far "
+        "as was looked. robust_depth_m: docs/theory/lobes.md; 0 where the cut is not robust at any depth");
+  }
+  add_error_column(table, "truncation_m", errors, &DepthError::truncation_m);
+  add_error_column(table, "noise_deviation_m", errors, &DepthError::noise_m);
+  if (!errors.empty()) {
+    comments.emplace_back(
+        "truncation_m: this depth less that with what the part's reduction leaves out. noise_deviation_m: standard, by "
+        "the noise of what was measured. First order; inf where it is not known");
+  }
+  io::write_csv(file, table, comments);
+}
+
+void write_map(const fs::path& file, const milling::StabilityMap& map) {
+  std::vector<double> speed, depth, modulus;
+  for (std::size_t s = 0; s < map.spindle_speeds_rpm.size(); ++s) {
+    for (std::size_t d = 0; d < map.depths_m.size(); ++d) {
+      speed.push_back(map.spindle_speeds_rpm[s]);
+      depth.push_back(map.depths_m[d]);
+      modulus.push_back(map.modulus(static_cast<Eigen::Index>(d), static_cast<Eigen::Index>(s)));
+    }
+  }
+  io::write_csv(file, {{"spindle_speed_rpm", speed}, {"depth_m", depth}, {"multiplier_modulus", modulus}},
+                {"of the largest Floquet multiplier, by contact-phase collocation; stable below 1"});
+}
+
+}  // namespace
+
+void write_lobes(const fs::path& folder, const NamedLobes& named) {
+  write_chart(folder / (named.name + ".csv"), named.lobes, named.robust ? &*named.robust : nullptr, named.errors);
+  write_crossings(folder, named);
+  for (const ComparedLobes& other : named.compared)
+    write_chart(folder / (named.name + "_" + other.method + ".csv"), other.lobes, nullptr, {});
+  if (named.map) write_map(folder / (named.name + "_map.csv"), *named.map);
+}
+
+void write_path(const fs::path& folder, const Case& source, const PathLobes& path) {
+  std::vector<double> number, x, y, z, speed, depth, chatter, error;
+  std::vector<std::string> kind, status;
+  for (std::size_t i = 0; i < path.lobes.size(); ++i) {
+    const Eigen::Vector3d& at = source.path->positions[i];
+    for (const milling::LobeRow& row : path.lobes[i].rows) {
+      number.push_back(static_cast<double>(i + 1));
+      x.push_back(at.x());
+      y.push_back(at.y());
+      z.push_back(at.z());
+      speed.push_back(row.spindle_speed_rpm);
+      depth.push_back(row.limiting_depth_m);
+      chatter.push_back(row.chatter_frequency_hz);
+      error.push_back(row.error_estimate);
+      kind.push_back(milling::name(row.kind));
+      status.push_back(milling::name(row.status));
+    }
+  }
+  io::write_csv(folder / (path.name + "_path.csv"),
+                {{"position", number},
+                 {"x_m", x},
+                 {"y_m", y},
+                 {"z_m", z},
+                 {"spindle_speed_rpm", speed},
+                 {"limiting_depth_m", depth},
+                 {"chatter_frequency_hz", chatter},
+                 {"bifurcation", kind},
+                 {"error_estimate_relative", error},
+                 {"status", status}},
+                {"method: " + path.lobes.front().method,
+                 "rows with status stable_to_depth_limit are stable up to the depth given, the limit of the chart"});
+}
+
+}  // namespace thinwall::app

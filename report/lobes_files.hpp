@@ -1,0 +1,18 @@
+#pragma once
+// The tables of a chart: limits, crossings, charts by other methods, a map.
+
+#include <filesystem>
+
+#include "case/case.hpp"
+#include "study/results.hpp"
+
+namespace thinwall::app {
+
+/// lobes/<name>.csv, <name>_crossings.csv, and where they were asked for <name>_<method>.csv and <name>_map.csv, into
+/// `folder`. Throws as io::write_csv.
+void write_lobes(const std::filesystem::path& folder, const NamedLobes& named);
+
+/// lobes/<name>_path.csv: position by position, in each the speeds of the chart. Throws as io::write_csv.
+void write_path(const std::filesystem::path& folder, const Case& source, const PathLobes& path);
+
+}  // namespace thinwall::app

@@ -1,0 +1,147 @@
+#include "report/page/lobes_data.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "io/results/csv_table.hpp"
+#include "report/json_number.hpp"
+#include "report/page/arrays.hpp"
+
+namespace thinwall::report {
+
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+/// A table with its file's name for messages.
+struct Source {
+  fs::path file;
+  io::Table table;
+
+  explicit Source(const fs::path& path) : file(path), table(io::read_csv(path)) {}
+  [[nodiscard]] const std::vector<double>& numbers(const std::string& name) const {
+    return io::numbers(table, name, file);
+  }
+  [[nodiscard]] json words(const std::string& name) const {
+    const auto column = std::ranges::find(table, name, &io::Column::name);
+    if (column == table.end()) throw core::DataError(file.string() + ": no column \"" + name + "\"");
+    const auto* texts = std::get_if<std::vector<std::string>>(&column->values);
+    return texts == nullptr ? json::array() : json(*texts);
+  }
+  /// Whatever keeps a row from being right is "not_converged" on a page.
+  [[nodiscard]] json statuses() const {
+    json list = words("status");
+    for (json& status : list) {
+      if (status != "converged" && status != "stable_to_depth_limit") status = "not_converged";
+    }
+    return list;
+  }
+  [[nodiscard]] json exact(const std::string& name) const { return packed(numbers(name), {numbers(name).size()}); }
+  [[nodiscard]] json rough(const std::string& name) const {
+    std::vector<float> values;
+    for (const double value : numbers(name))
+      values.push_back(std::isfinite(value) ? for_picture(value) : std::numeric_limits<float>::quiet_NaN());
+    return packed(values, {values.size()});
+  }
+};
+
+/// Limits of other methods, where the case asks for them.
+json compared_of(const fs::path& folder, const std::string& name, const json& summary) {
+  json list = json::array();
+  for (const json& other : summary.value("compared", json::array())) {
+    const auto method = other.at("name").get<std::string>();
+    const fs::path file = folder / fmt::format("{}_{}.csv", name, method);
+    if (!fs::exists(file)) continue;
+    const Source chart(file);
+    list.push_back({{"name", method},
+                    {"rpm", chart.exact("spindle_speed_rpm")},
+                    {"depth_m", chart.rough("limiting_depth_m")},
+                    {"status", chart.statuses()}});
+  }
+  return list;
+}
+
+json chart_of(const fs::path& folder, const std::string& name) {
+  const Source chart(folder / (name + ".csv"));
+  json result = {{"name", name},
+                 {"rpm", chart.exact("spindle_speed_rpm")},
+                 {"depth_m", chart.exact("limiting_depth_m")},
+                 {"error_relative", chart.rough("error_estimate_relative")},
+                 {"chatter_hz", chart.rough("chatter_frequency_hz")},
+                 {"kind", chart.words("bifurcation")},
+                 {"status", chart.statuses()}};
+  for (const char* column : {"truncation_m", "noise_deviation_m", "robust_depth_m"}) {
+    if (std::ranges::count(chart.table, column, &io::Column::name) > 0) result[column] = chart.rough(column);
+  }
+  const fs::path file = folder / (name + "_crossings.csv");
+  if (!fs::exists(file)) return result;
+  const Source crossings(file);
+  result["crossings"] = {{"rpm", crossings.exact("spindle_speed_rpm")},
+                         {"depth_m", crossings.exact("depth_m")},
+                         {"chatter_hz", crossings.rough("chatter_frequency_hz")},
+                         {"kind", crossings.words("bifurcation")}};
+  return result;
+}
+
+/// Depths over position and speed; every position has the same speeds.
+json path_of(const fs::path& file, const std::string& name) {
+  const Source path(file);
+  const auto& position = path.numbers("position");
+  const auto& rpm = path.numbers("spindle_speed_rpm");
+  const auto& depth = path.numbers("limiting_depth_m");
+  std::vector<double> places, speeds;
+  std::vector<float> depths;
+  for (std::size_t row = 0; row < position.size(); ++row) {
+    if (row == 0 || position[row] != position[row - 1]) {
+      for (const char* axis : {"x_m", "y_m", "z_m"}) places.push_back(path.numbers(axis)[row]);
+    }
+    if (position[row] == position.front()) speeds.push_back(rpm[row]);
+    depths.push_back(for_picture(depth[row]));
+  }
+  const std::size_t positions = places.size() / 3;
+  return {{"name", name},
+          {"positions", packed(places, {positions, 3})},
+          {"rpm", packed(speeds, {speeds.size()})},
+          {"depth_m", packed(depths, {positions, speeds.size()})}};
+}
+
+/// What the lobes are drawn over; the removal rate's factor follows from a pocket, if there is one.
+json cutting_of(const json& summary) {
+  json cutting = summary.value("cutting", json::object());
+  for (const json& chart : summary.at("lobes")) {
+    for (const json& pocket : chart.value("best_pockets", json::array())) {
+      const double rate = number(pocket, "removal_rate_cm3_per_min").value_or(0.0);
+      const double per = number(pocket, "depth_m").value_or(0.0) * number(pocket, "spindle_speed_rpm").value_or(0.0);
+      if (rate > 0.0 && per > 0.0) cutting["removal_cm3_per_min_per_m_rpm"] = rate / per;
+    }
+  }
+  return cutting;
+}
+
+}  // namespace
+
+json lobes_data(const fs::path& results, const json& summary) {
+  json run = {{"lobes", json::array()}, {"paths", json::array()}};
+  const fs::path folder = results / "lobes";
+  if (!summary.contains("lobes") || summary.at("lobes").empty()) return run;
+  for (const json& chart : summary.at("lobes")) {
+    const std::string name = chart.at("name").get<std::string>();
+    if (!fs::exists(folder / (name + ".csv"))) continue;
+    run["lobes"].push_back(chart_of(folder, name));
+    if (json others = compared_of(folder, name, chart); !others.empty())
+      run["lobes"].back()["compared"] = std::move(others);
+    if (chart.contains("main_modes_hz")) run["lobes"].back()["tooth_passing_hz"] = chart.at("main_modes_hz");
+    if (fs::exists(folder / (name + "_path.csv"))) run["paths"].push_back(path_of(folder / (name + "_path.csv"), name));
+  }
+  run["cutting"] = cutting_of(summary);
+  return run;
+}
+
+}  // namespace thinwall::report

@@ -1,0 +1,141 @@
+#include "report/path_report.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/finite_number.hpp"
+#include "report/lobes_report.hpp"
+#include "study/support/robot_survey.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+using nlohmann::json;
+
+json position_summary(const Case& source, const PathLobes& path, std::size_t i) {
+  const milling::Lobes& lobes = path.lobes[i];
+  const Eigen::Vector3d& at = source.path->positions[i];
+  json result = {{"position", i + 1},
+                 {"at_m", {at.x(), at.y(), at.z()}},
+                 {"minimum_depth_m", lobes.minimum_depth_m},
+                 {"at_spindle_speed_rpm", lobes.at_spindle_speed_rpm},
+                 {"speeds_stable_to_depth_limit", lobes.rows_at_limit},
+                 {"speeds_not_converged", lobes.rows_not_converged},
+                 {"error_estimate_relative", finite(lobes.worst_error_estimate)}};
+  if (!path.robot.empty()) result["robot"] = posture_summary(path.robot[i]);
+  return result;
+}
+
+/// The position with the least depth at speed number i, the first of equals.
+std::size_t weakest_at(const PathLobes& path, std::size_t i) {
+  const auto least = std::ranges::min_element(
+      path.lobes, {}, [i](const milling::Lobes& lobes) { return lobes.rows[i].limiting_depth_m; });
+  return static_cast<std::size_t>(least - path.lobes.begin());
+}
+
+/// The speed at which the least depth of all positions is greatest.
+json deepest_everywhere(const PathLobes& path) {
+  const milling::LobeRow* best = nullptr;
+  std::size_t position = 0;
+  for (std::size_t i = 0; i < path.lobes.front().rows.size(); ++i) {
+    const std::size_t weakest = weakest_at(path, i);
+    const milling::LobeRow& row = path.lobes[weakest].rows[i];
+    if (best != nullptr && row.limiting_depth_m <= best->limiting_depth_m) continue;
+    best = &row;
+    position = weakest;
+  }
+  return {{"spindle_speed_rpm", best->spindle_speed_rpm},
+          {"depth_m", best->limiting_depth_m},
+          {"at_depth_limit", best->at_limit},
+          {"limited_at_position", position + 1}};
+}
+
+/// The least depth of all positions at the case's own speed.
+json at_case_speed(const std::vector<milling::LobeRow>& rows) {
+  const auto weakest = std::ranges::min_element(rows, {}, &milling::LobeRow::limiting_depth_m);
+  const auto open = std::ranges::count_if(rows, [](const milling::LobeRow& row) {
+    return row.status != milling::StabilityStatus::converged &&
+           row.status != milling::StabilityStatus::stable_to_depth_limit;
+  });
+  return {{"spindle_speed_rpm", weakest->spindle_speed_rpm},
+          {"limiting_depth_m", weakest->limiting_depth_m},
+          {"at_depth_limit", weakest->at_limit},
+          {"limited_at_position", weakest - rows.begin() + 1},
+          {"error_estimate_relative", finite(weakest->error_estimate)},
+          {"status", milling::name(weakest->status)},
+          {"positions_not_converged", open}};
+}
+
+std::string depth_text(double depth_m, bool at_limit) {
+  return fmt::format("{}{:.3f} mm", at_limit ? "over " : "", depth_m * 1e3);
+}
+
+std::string place_text(const json& at_m) {
+  const auto mm = [&](std::size_t i) { return at_m[i].get<double>() * 1e3; };
+  return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", mm(0), mm(1), mm(2));
+}
+
+std::string chart_text(const json& path) {
+  const json& weakest = path["weakest"];
+  const json& deepest = path["deepest_everywhere"];
+  const json& error = path["error_estimate_relative"];
+  const bool unlimited = weakest["speeds_stable_to_depth_limit"] == path["speeds"];
+  std::string text = fmt::format("  along the path, {}: ", chart_title(path["name"].get<std::string>()));
+  text += unlimited ? fmt::format("{} at every position and speed\n", depth_text(weakest["minimum_depth_m"], true))
+                    : fmt::format("weakest at position {} of {}, {}\n    {} at {:.0f} rpm; error {} (estimate)\n",
+                                  weakest["position"].get<int>(), path["positions"].size(), place_text(weakest["at_m"]),
+                                  depth_text(weakest["minimum_depth_m"], false),
+                                  weakest["at_spindle_speed_rpm"].get<double>(),
+                                  error.is_null() ? "unknown" : fmt::format("{:.2g} %", error.get<double>() * 100.0));
+  if (!unlimited)
+    text += fmt::format("    the whole path up to {} at {:.0f} rpm, limited at position {}\n",
+                        depth_text(deepest["depth_m"], deepest["at_depth_limit"]),
+                        deepest["spindle_speed_rpm"].get<double>(), deepest["limited_at_position"].get<int>());
+  if (path.contains("at_case_speed")) {
+    const json& row = path["at_case_speed"];
+    text +=
+        fmt::format("    at {:.0f} rpm {}, limited at position {}\n", row["spindle_speed_rpm"].get<double>(),
+                    depth_text(row["limiting_depth_m"], row["at_depth_limit"]), row["limited_at_position"].get<int>());
+  }
+  if (const int missed = path["rows_not_converged"].get<int>(); missed > 0)
+    text += fmt::format("    {} rows did not reach the tolerance: see the status column of lobes/{}_path.csv\n", missed,
+                        path["name"].get<std::string>());
+  return text;
+}
+
+}  // namespace
+
+json path_summary(const Case& source, const PathLobes& path) {
+  json positions = json::array();
+  int not_converged = 0;
+  double error = 0.0;
+  for (std::size_t i = 0; i < path.lobes.size(); ++i) {
+    positions.push_back(position_summary(source, path, i));
+    not_converged += path.lobes[i].rows_not_converged;
+    error = std::max(error, path.lobes[i].worst_error_estimate);
+  }
+  const auto weakest = std::ranges::min_element(path.lobes, {}, &milling::Lobes::minimum_depth_m);
+  json result = {{"name", path.name},
+                 {"method", path.lobes.front().method},
+                 {"support", source.path->robot_follows ? "follows" : "held"},
+                 {"speeds", path.lobes.front().rows.size()},
+                 {"weakest", positions[static_cast<std::size_t>(weakest - path.lobes.begin())]},
+                 {"deepest_everywhere", deepest_everywhere(path)},
+                 {"error_estimate_relative", finite(error)},
+                 {"rows_not_converged", not_converged},
+                 {"positions", positions}};
+  if (!path.at_spindle_speed.empty()) result["at_case_speed"] = at_case_speed(path.at_spindle_speed);
+  return result;
+}
+
+std::string path_text(const json& summary) {
+  std::string text;
+  if (!summary.contains("path")) return text;
+  for (const json& path : summary["path"]) text += chart_text(path);
+  return text;
+}
+
+}  // namespace thinwall::app

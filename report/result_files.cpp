@@ -1,0 +1,191 @@
+#include "report/result_files.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+#include "app/doctor.hpp"
+#include "case/writer.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "io/frf/mat_response.hpp"
+#include "io/frf/response_csv.hpp"
+#include "io/frf/uff.hpp"
+#include "io/json_file.hpp"
+#include "io/manifest.hpp"
+#include "io/matrices/mat.hpp"
+#include "io/results/csv_table.hpp"
+#include "io/results/vtp.hpp"
+#include "mesh/surface/wall_thickness.hpp"
+#include "report/error_summary.hpp"
+#include "report/lobes_files.hpp"
+#include "report/result_folder.hpp"
+#include "report/shape_files.hpp"
+#include "setup/imported_part.hpp"
+#include "study/support/robot_survey.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The part's own surface with the thickness of the wall beneath each triangle.
+void write_wall_thickness(const fs::path& file, const mesh::TriangleSurface& surface) {
+  io::write_vtp(file, surface, {{"wall_thickness_m", mesh::wall_thickness(surface, mesh::TriangleTree(surface))}});
+}
+
+void write_frf(const fs::path& folder, const std::string& name, const dynamics::ResponseModel& response) {
+  io::write_response(folder / (name + ".csv"), response);
+  io::write_mat_response(folder / (name + ".mat"), {response, {}, {}});
+  try {
+    io::write_uff(folder / (name + ".uff"), response);
+  } catch (const core::InputError& error) {
+    // The format holds six digits of a frequency; a finer axis is in the CSV only.
+    spdlog::warn("{}.uff was not written: {}", name, error.what());
+  }
+}
+
+/// Only the DOFs of the points that the case wants written; all of a component of which it names none (the robot).
+dynamics::ResponseModel at_points(const dynamics::ResponseModel& all, const std::vector<std::string>& points) {
+  std::vector<Eigen::Index> kept;
+  for (std::size_t i = 0; i < all.responses.size(); ++i) {
+    if (std::find(points.begin(), points.end(), all.responses[i].point) != points.end())
+      kept.push_back(static_cast<Eigen::Index>(i));
+  }
+  if (kept.empty() || kept.size() == all.responses.size()) return all;
+  dynamics::ResponseModel chosen;
+  chosen.axis = all.axis;
+  for (const Eigen::Index i : kept) chosen.responses.push_back(all.responses[static_cast<std::size_t>(i)]);
+  chosen.forces = chosen.responses;
+  for (const auto& H : all.H) chosen.H.emplace_back(H(kept, kept));
+  return chosen;
+}
+
+nlohmann::json records(const std::vector<io::FileRecord>& files) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const auto& file : files) list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
+  return list;
+}
+
+}  // namespace
+
+void write_structure(const fs::path& folder, const Case& source, const Results& results) {
+  constexpr std::array subfolders{"modes", "frf", "robot", "models"};
+  for (const char* name : subfolders) fs::create_directories(folder / name);
+  FileTasks files;
+  if (results.finite_elements) {
+    write_shapes(files, folder / "modes", source, results);
+    if (const auto& imported = source.part->imported; imported && imported->surface) {
+      files.emplace_back([&surface = imported->surface->surface, path = folder / "modes" / "wall_thickness.vtp"] {
+        write_wall_thickness(path, surface);
+      });
+    }
+  }
+  if (results.finite_elements && results.finite_elements->damped)
+    files.emplace_back([&] { io::write_mat(folder / "models" / "part.mat", *results.finite_elements->damped); });
+  const auto add_frf = [&](const std::string& name, const dynamics::ResponseModel& response) {
+    files.emplace_back([&, name] { write_frf(folder / "frf", name, at_points(response, source.response.points)); });
+  };
+  if (results.part) add_frf("part", results.part->response);
+  if (results.coupled) {
+    add_frf("coupled_receptance", results.coupled->receptance.response);
+    if (results.coupled->spatial_response) add_frf("coupled_spatial", *results.coupled->spatial_response);
+  }
+  const auto add_errors = [&](const std::string& name, const dynamics::ResponseModel& response,
+                              const ResponseErrors& errors) {
+    if (errors.noise.empty() && errors.truncation.empty()) return;
+    files.emplace_back([&, name] {
+      write_response_errors(folder / "frf" / (name + "_error.csv"), response, errors, source.response.points);
+    });
+  };
+  if (results.part) add_errors("part", results.part->response, results.errors.part);
+  if (results.robot) add_errors("robot", results.robot->response, results.errors.robot);
+  if (results.coupled) add_errors("coupled", results.coupled->receptance.response, results.errors.coupled);
+  if (results.robot) files.emplace_back([&] { write_frf(folder / "frf", "robot", results.robot->response); });
+  if (results.survey) files.emplace_back([&] { write_survey(folder, source, *results.survey); });
+  const std::size_t done = files.empty() ? 0 : 1;
+  if (done > 0) files.front()();  // alone: VTK's first objects set up what all share
+  core::parallel_for(files.size() - done, [&](std::size_t i) { files[done + i](); });
+  for (const char* name : subfolders) {
+    if (fs::is_empty(folder / name)) fs::remove(folder / name);
+  }
+}
+
+void write_cuts(const fs::path& folder, const Case& source, const Results& results) {
+  if (results.lobes.empty() && results.path.empty()) return;
+  fs::create_directories(folder / "lobes");
+  for (const auto& lobes : results.lobes) write_lobes(folder / "lobes", lobes);
+  for (const auto& path : results.path) write_path(folder / "lobes", source, path);
+}
+
+void publish(const fs::path& staging, const fs::path& folder) {
+  const fs::path earlier = core::partial_path(folder / "earlier");
+  try {
+    fs::create_directory(earlier);
+    for (const char* name : result_subfolders) {
+      if (fs::exists(folder / name)) fs::rename(folder / name, earlier / name);
+      if (fs::exists(staging / name)) fs::rename(staging / name, folder / name);
+    }
+    // The summary comes last but one: where it is, everything it speaks of is there.
+    for (const char* name :
+         {"case.toml", "case.resolved.toml", "case.fitted.toml", "report.html", "summary.json", "manifest.json"}) {
+      if (fs::exists(staging / name)) {
+        fs::rename(staging / name, folder / name);
+      } else {
+        fs::remove(folder / name);
+      }
+    }
+    fs::remove_all(staging);
+    fs::remove_all(earlier);
+  } catch (const fs::filesystem_error& error) {
+    throw core::DataError(std::string("cannot replace the results of an earlier run: ") + error.what());
+  }
+}
+
+nlohmann::json manifest_of(const Case& source, const nlohmann::json& summary, const std::string& started_utc) {
+  nlohmann::json manifest;
+  manifest["program"] = {{"name", "thinwall"}, {"version", program_version()}, {"built_with", doctor_report()}};
+  if (!program_commit().empty()) manifest["program"]["commit"] = program_commit();
+  manifest["threads"] = core::thread_count();
+  manifest["started_utc"] = started_utc;
+  manifest["inputs"] = nlohmann::json::array();
+  for (const auto& input : input_files(source))
+    manifest["inputs"].push_back({{"name", input.string()}, {"sha256", io::sha256_of_file(input)}});
+  manifest["inputs"].push_back({{"name", source.file.string()}, {"sha256", io::sha256(source.source)}});
+  const fs::path expected = source.file.parent_path() / "expected.toml";
+  if (fs::exists(expected)) {
+    manifest["inputs"].push_back({{"name", expected.string()}, {"sha256", io::sha256_of_file(expected)}});
+  }
+  manifest["seeds"] = nlohmann::json::array();
+  const auto drawn = [](const nlohmann::json& chart) {
+    return chart.contains("at_case_speed") && chart["at_case_speed"].contains("error_budget") &&
+           chart["at_case_speed"]["error_budget"].contains("sampled");
+  };
+  if (std::ranges::any_of(summary["lobes"], drawn)) manifest["seeds"].push_back(source.lobes->seed);
+  return manifest;
+}
+
+void write_cases(const fs::path& folder, const Case& source, const Case& fitted) {
+  core::write_file_atomically(folder / "case.toml", source.source);
+  core::write_file_atomically(folder / "case.resolved.toml", resolved_text(source));
+  if (!source.updating.empty()) core::write_file_atomically(folder / "case.fitted.toml", resolved_text(fitted));
+}
+
+void write_summary(const fs::path& folder, const nlohmann::json& summary, nlohmann::json& manifest) {
+  io::write_json(folder / "summary.json", summary);
+  manifest["timings_s"] = summary["timings_s"];
+  io::write_json(folder / "manifest.json", manifest);
+}
+
+void record_outputs(const fs::path& folder, nlohmann::json& manifest) {
+  auto files = io::file_records(folder);
+  std::erase_if(files, [](const auto& file) { return file.name == "manifest.json" || file.name == "run.log"; });
+  manifest["outputs"] = records(files);
+  io::write_json(folder / "manifest.json", manifest);
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,38 @@
+#pragma once
+// Where a run leaves its results: one run at a time, and nothing that is not whole.
+
+#include <array>
+#include <filesystem>
+
+#include "case/case.hpp"
+
+namespace thinwall::app {
+
+/// Folders of a result folder, which a run replaces whole.
+inline constexpr std::array result_subfolders{"modes", "frf", "robot", "lobes", "models"};
+
+/// results/<case>/ below the working directory.
+[[nodiscard]] std::filesystem::path default_result_folder(const Case& source);
+
+/// A result folder held by this process alone for as long as the object lives.
+class ResultFolder {
+ public:
+  /// Makes the folder if need be, takes an advisory lock (flock) on it, removes unfinished files of a killed run, and
+  /// writes a trial file, all before anything is computed. Throws DataError: not a folder, not writable, disk full, or
+  /// in use by another run.
+  explicit ResultFolder(std::filesystem::path folder);
+  ~ResultFolder();
+  ResultFolder(const ResultFolder&) = delete;
+  ResultFolder& operator=(const ResultFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  int lock_ = -1;
+};
+
+/// Removes unfinished files (core::is_partial_name) anywhere below `folder`.
+void remove_unfinished_files(const std::filesystem::path& folder);
+
+}  // namespace thinwall::app

@@ -1,0 +1,22 @@
+#pragma once
+// Mode shapes of the part, alone and with the robot, as files.
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "case/case.hpp"
+#include "study/results.hpp"
+
+namespace thinwall::app {
+
+/// Files to be written side by side, each by one call; what they refer to must outlive them.
+using FileTasks = std::vector<std::function<void()>>;
+
+/// Tables of modes (modes.csv, coupled_modes.csv), how alike the shapes of the part alone and with the robot are
+/// (mac.csv, auto_mac.csv; dynamics::mac), each shape on the elements (VTU, PVD) and all of them on the surface
+/// (part_surface.vtp, coupled_surface.vtp) with what is held, by each support (shape_files.cpp), and how thick the wall
+/// is. `source` is the case as the part was computed, fitted sizes included. The tables are written at once.
+void write_shapes(FileTasks& files, const std::filesystem::path& folder, const Case& source, const Results& results);
+
+}  // namespace thinwall::app

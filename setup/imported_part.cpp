@@ -1,0 +1,180 @@
+#include "setup/imported_part.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "io/matrices/matrix_files.hpp"
+#include "io/surface/surface_file.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+constexpr std::array surface_endings{".stl", ".off", ".obj", ".ply", ".step", ".stp"};
+constexpr std::array mesh_endings{".msh", ".inp", ".vtu"};
+
+std::string ending(const std::filesystem::path& file) {
+  std::string text = file.extension().string();
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
+  return text;
+}
+
+/// A place of the file in the digits that part.origin takes.
+std::string as_origin(const Eigen::Vector3d& x) {
+  std::string list;
+  for (int i = 0; i < 3; ++i) list += (i == 0 ? "[" : ", ") + core::readable_text(x[i], core::kind::length);
+  return list + "]";
+}
+
+/// The file that people know the part by.
+const std::filesystem::path& main_file(const Part& part) {
+  return part.shape == "matrices" ? part.file.matrices.stiffness : part.file.path;
+}
+
+ImportedPart read_surface_part(const PartFile& file) {
+  mesh::TriangleSoup soup = io::read_surface(file.path, file.unit);
+  for (auto& x : soup.points) x -= file.origin;
+  ImportedPart part;
+  part.surface = mesh::repaired_surface(soup, file.repair);
+  if (part.surface->moved_by != Eigen::Vector3d::Zero()) {
+    throw core::InputError("the part lies far from the origin for its size of " + mesh::size_text(soup) +
+                           "; set part.origin to a place on it, such as " +
+                           as_origin(file.origin - part.surface->moved_by));
+  }
+  for (const auto& x : part.surface->surface.vertices) part.box.extend(x);
+  part.said = mesh::size_text(soup) + ", " + std::to_string(part.surface->surface.triangles.size()) +
+              " triangles; mended: " + mesh::text(*part.surface);
+  return part;
+}
+
+ImportedPart read_mesh_part(const PartFile& file) {
+  ImportedPart part;
+  part.mesh = io::read_mesh_file(file.path, file.unit);
+  mesh::SolidMesh& solid = part.mesh->solid;
+  for (auto& x : solid.mesh.vertices) part.box.extend(x -= file.origin);
+  solid.nodes.positions.rowwise() -= file.origin.transpose();
+  const Eigen::Vector3d size = 1e3 * part.box.sizes();
+  part.said = fmt::format("{:.4g} x {:.4g} x {:.4g} mm, {} tetrahedra of order {}", size.x(), size.y(), size.z(),
+                          solid.mesh.tets.size(), solid.nodes.order);
+  if (solid.pieces > 1) part.said += fmt::format(", {} pieces that share no node", solid.pieces);
+  part.notes = solid.notices;
+  for (const io::InpMaterial& m : part.mesh->materials) {
+    if (const std::string lacking = io::what_lacks(m); !lacking.empty())
+      part.notes.push_back("the material \"" + m.name + "\" of the set " + m.element_set + " has no " + lacking +
+                           ": the case's takes its place");
+  }
+  return part;
+}
+
+ImportedPart read_matrix_part(const PartFile& file) {
+  io::ImportedMatrices imported = io::read_matrices(file.matrices);
+  dynamics::require_consistent(imported.model);
+  dynamics::require_plausible(imported.model);
+  ImportedPart part;
+  for (auto& [node, x] : imported.model.positions) part.box.extend(x -= file.origin);
+  part.said = imported.format + ", " + std::to_string(imported.model.size()) + " rows";
+  part.notes = std::move(imported.notes);
+  part.matrices = std::move(imported.model);
+  return part;
+}
+
+nlohmann::json vector_json(const Eigen::Vector3d& x) {
+  return {x.x(), x.y(), x.z()};
+}
+
+void add_surface(nlohmann::json& result, const mesh::SurfaceRepair& surface) {
+  result["triangles"] = surface.surface.triangles.size();
+  result["volume_m3"] = surface.volume_m3;
+  result["largest_movement_m"] = surface.largest_movement_m;
+  result["mended"] = nlohmann::json::array();
+  for (const auto& found : surface.mended)
+    result["mended"].push_back({{"what", found.what}, {"count", found.count}, {"first_m", vector_json(found.first_m)}});
+}
+
+}  // namespace
+
+std::string shape_of_file(const std::filesystem::path& file) {
+  const auto among = [end = ending(file)](const auto& endings) {
+    return std::ranges::find(endings, end) != endings.end();
+  };
+  return among(surface_endings) ? "surface" : among(mesh_endings) ? "mesh" : "";
+}
+
+bool tells_its_unit(const std::filesystem::path& file) {
+  return ending(file) == ".step" || ending(file) == ".stp";
+}
+
+bool from_file(const Part& part) {
+  return part.shape == "surface" || part.shape == "mesh" || part.shape == "matrices";
+}
+
+Eigen::Vector3d node_position(const Part& part, int node) {
+  Eigen::Vector3d unknown = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (!part.imported) return unknown;
+  if (part.imported->mesh) {
+    const auto& solid = part.imported->mesh->solid;
+    const auto label = std::ranges::find(solid.node_labels, node);
+    if (label == solid.node_labels.end()) return unknown;
+    return solid.nodes.positions.row(label - solid.node_labels.begin()).transpose();
+  }
+  if (!part.imported->matrices) return unknown;
+  const auto& positions = part.imported->matrices->positions;
+  const auto found = positions.find(node);
+  return found == positions.end() ? unknown : found->second;
+}
+
+const mesh::SolidMesh* solid_of(const Part& part) {
+  return part.imported && part.imported->mesh ? &part.imported->mesh->solid : nullptr;
+}
+
+std::optional<int> node_of(const ImportedPart& part, const Point& point) {
+  if (point.node || !part.matrices) return point.node;
+  for (const auto& [node, name] : part.matrices->names) {
+    if (name == point.name) return node;
+  }
+  return std::nullopt;
+}
+
+std::vector<int> node_numbers(const ImportedPart& part) {
+  std::vector<int> nodes;
+  if (part.mesh) {
+    for (const auto label : part.mesh->solid.node_labels) {
+      if (label >= 0) nodes.push_back(static_cast<int>(label));
+    }
+  }
+  if (part.matrices) {
+    for (const auto& dof : part.matrices->dofs) {
+      if (dof.component > 0) nodes.push_back(dof.node);
+    }
+  }
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+std::shared_ptr<const ImportedPart> read_part_file(const Part& part) {
+  try {
+    return std::make_shared<ImportedPart>(part.shape == "matrices" ? read_matrix_part(part.file)
+                                          : part.shape == "mesh"   ? read_mesh_part(part.file)
+                                                                   : read_surface_part(part.file));
+  } catch (const core::InputError& error) {
+    throw core::InputError(main_file(part).string() + ": " + error.what());
+  }
+}
+
+nlohmann::json geometry_summary(const Part& part) {
+  const ImportedPart& imported = *part.imported;
+  nlohmann::json result = {
+      {"file", main_file(part).filename().string()}, {"unit", part.file.unit}, {"read", imported.said}};
+  result["size_m"] = imported.box.isEmpty() ? nlohmann::json(nullptr) : vector_json(imported.box.sizes());
+  result["notes"] = imported.notes;
+  if (imported.surface) add_surface(result, *imported.surface);
+  if (imported.mesh) result["least_jacobian"] = imported.mesh->solid.least_jacobian;
+  return result;
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,57 @@
+#pragma once
+// A part whose shape comes from a file: read once, when the case is read.
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "case/case.hpp"
+#include "dynamics/sparse_model.hpp"
+#include "io/mesh/mesh_file.hpp"
+#include "mesh/surface/surface_repair.hpp"
+
+namespace thinwall::app {
+
+/// What the file of a part holds, in m, in the part's axes.
+struct ImportedPart {
+  std::optional<mesh::SurfaceRepair> surface;     ///< of shape surface
+  std::optional<io::MeshFile> mesh;               ///< of shape mesh
+  std::optional<dynamics::SparseModel> matrices;  ///< of shape matrices
+  Eigen::AlignedBox3d box;
+  std::string said;                ///< what was read and mended, for people
+  std::vector<std::string> notes;  ///< what a reader noticed, a line each
+};
+
+/// The shape that a file's ending tells: "surface", "mesh"; empty for an ending that no reader knows.
+[[nodiscard]] std::string shape_of_file(const std::filesystem::path& file);
+
+/// Whether a file of that ending states its unit of length: STEP.
+[[nodiscard]] bool tells_its_unit(const std::filesystem::path& file);
+
+/// Whether the part's shape is one that a file holds.
+[[nodiscard]] bool from_file(const Part& part);
+
+/// The mesh of the part's file, once it is read; null for parts of other shapes.
+[[nodiscard]] const mesh::SolidMesh* solid_of(const Part& part);
+
+/// The node that a point stands for: by its number, or, where it has none, by its name in the part's DOF table.
+[[nodiscard]] std::optional<int> node_of(const ImportedPart& part, const Point& point);
+
+/// Where the numbered node of an imported part lies, m; NaN where no file says it.
+[[nodiscard]] Eigen::Vector3d node_position(const Part& part, int node);
+
+/// Numbers of the nodes that can move, ascending; empty for parts without numbered nodes.
+[[nodiscard]] std::vector<int> node_numbers(const ImportedPart& part);
+
+/// Reads the part's file. Throws DataError for one that cannot be read, InputError, with the file's name, for a unit
+/// that is none, for what mesh::repaired_surface refuses and for matrices that cannot be (require_plausible). Cost:
+/// that of reading and repair.
+[[nodiscard]] std::shared_ptr<const ImportedPart> read_part_file(const Part& part);
+
+/// What summary.json tells of it: file, unit, size, counts, what was mended. The part must have been read.
+[[nodiscard]] nlohmann::json geometry_summary(const Part& part);
+
+}  // namespace thinwall::app

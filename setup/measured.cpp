@@ -1,0 +1,179 @@
+#include "setup/measured.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "core/error.hpp"
+#include "dynamics/conversion.hpp"
+#include "dynamics/frf_checks.hpp"
+#include "io/frf/frf_csv.hpp"
+#include "io/frf/frf_cutpro.hpp"
+#include "io/frf/mat_response.hpp"
+#include "io/frf/uff.hpp"
+#include "reduction/damping.hpp"
+#include "setup/measured_layout.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+std::optional<io::FrfFormat> stated_format(const MeasuredFrf& measured) {
+  if (measured.quantity.empty() && measured.unit.empty()) return std::nullopt;
+  return io::frf_format(measured.quantity, measured.unit, measured.frequency_unit);
+}
+
+/// The FRFs of our own MAT file, row by row.
+io::MeasuredEntries entries_of(const io::MeasuredResponse& measured, const MeasuredFrf& file) {
+  io::MeasuredEntries list;
+  const dynamics::ResponseModel& model = measured.response;
+  for (std::size_t i = 0; i < model.responses.size(); ++i) {
+    for (std::size_t j = 0; j < model.forces.size(); ++j) {
+      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
+      Eigen::VectorXcd H(model.axis.size());
+      for (Eigen::Index line = 0; line < H.size(); ++line)
+        H(line) = model.H[static_cast<std::size_t>(line)](row, column);
+      list.entries.push_back({model.responses[i],
+                              model.forces[j],
+                              {model.axis, H, file.file.string(), io::coherence_of(measured, row, column)}});
+    }
+  }
+  return list;
+}
+
+/// The FRF with its signs: a sensor or hammer along −x turns it. One along another axis than the case names is warned
+/// of, for the axes of a test need not be the part's.
+io::MeasuredFrf along_named_axes(const io::MeasuredEntry& entry, const MeasuredFrf& measured) {
+  io::MeasuredFrf frf = entry.frf;
+  for (const auto& [dof, name] : {std::pair{&entry.response, &measured.response}, {&entry.force, &measured.force}}) {
+    if (dof->kind == dynamics::DofKind::rotation) {
+      throw core::InputError("\"" + measured.file.string() + "\" says " + dynamics::name(*dof) +
+                             ", a turn, where the case says " + *name + ": choose another record");
+    }
+    const double along = dof->direction.dot(dof_of(*name).direction);
+    const bool axis = dof->direction.cwiseAbs().maxCoeff() > 0.999;  // zero or slanted: the case knows better
+    if (axis && along < -0.999) {
+      frf.H = -frf.H;
+      spdlog::info("{}: {} points against {}: the FRF is turned", measured.file.string(), dynamics::name(*dof), *name);
+    } else if (axis && along < 0.999) {
+      spdlog::warn("{}: the file says {}, the case {}; check record and axes", measured.file.string(),
+                   dynamics::name(*dof), *name);
+    }
+  }
+  return frf;
+}
+
+/// The FRF that the case names; what was odd in the file, or filled in by the case, is logged.
+io::MeasuredFrf record_of(const io::MeasuredEntries& file, const MeasuredFrf& measured) {
+  for (const std::string& note : file.notes) spdlog::info("{}: {}", measured.file.string(), note);
+  const std::size_t count = file.entries.size();
+  const auto wanted = static_cast<std::size_t>(measured.record.value_or(1));
+  if (wanted <= count && (measured.record || count == 1)) return along_named_axes(file.entries[wanted - 1], measured);
+  std::string list;
+  constexpr std::size_t most = 12;
+  for (std::size_t i = 0; i < std::min(count, most); ++i) {
+    const io::MeasuredEntry& entry = file.entries[i];
+    list += (i == 0 ? "" : ", ") + std::to_string(i + 1) + " " + dynamics::name(entry.response) + "/" +
+            dynamics::name(entry.force);
+  }
+  if (count > most) list += ", …";
+  throw core::InputError("\"" + measured.file.string() + "\" holds " + std::to_string(count) + " FRFs (" + list +
+                         "): say which one by record");
+}
+
+}  // namespace
+
+FrfFileKind frf_file_kind(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (extension == ".frf") return FrfFileKind::cutpro;
+  if (extension == ".uff" || extension == ".unv") return FrfFileKind::universal;
+  return extension == ".mat" ? FrfFileKind::mat : FrfFileKind::csv;
+}
+
+io::MeasuredFrf read_measured(const MeasuredFrf& measured) {
+  const std::optional<io::FrfFormat> stated = stated_format(measured);
+  const FrfFileKind kind = frf_file_kind(measured.file);
+  if (kind == FrfFileKind::cutpro) return io::read_cutpro_frf(measured.file, stated);
+  if (kind == FrfFileKind::universal) return record_of(io::read_uff_entries(measured.file, {stated}), measured);
+  if (kind == FrfFileKind::mat && stated &&
+      (stated->quantity != io::FrfQuantity::receptance || stated->unit_in_si != 1.0))
+    throw core::InputError("\"" + measured.file.string() + "\" holds receptances in m/N: leave out quantity and unit");
+  if (kind == FrfFileKind::mat) return record_of(entries_of(io::read_mat_response(measured.file), measured), measured);
+  if (!stated)
+    throw core::InputError("\"" + measured.file.string() + "\" does not say what it holds: give quantity and unit");
+  return io::read_frf(measured.file, *stated);
+}
+
+dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files, const dynamics::FrequencyAxis& axis) {
+  if (const LayoutFault fault = fault_of_layout(files); !fault.text.empty()) throw core::InputError(fault.text);
+  const MeasuredLayout layout = measured_layout(files);
+  std::vector<Eigen::VectorXcd> values;
+  values.reserve(files.size());
+  for (const MeasuredFrf& file : files) values.push_back(io::resample(read_measured(file), axis));
+  dynamics::ResponseModel model;
+  model.axis = axis;
+  for (const auto& name : layout.dofs) model.responses.push_back(dof_of(name));
+  model.forces = model.responses;
+  const Eigen::Index n = layout.file.rows();
+  for (Eigen::Index line = 0; line < axis.size(); ++line) {
+    model.H.emplace_back(Eigen::MatrixXcd::NullaryExpr(n, n, [&](Eigen::Index a, Eigen::Index b) {
+      return values[static_cast<std::size_t>(layout.file(a, b))](line);
+    }));
+  }
+  return model;
+}
+
+void warn_of_doubts(const dynamics::ResponseModel& measured, const std::string& whose) {
+  for (const dynamics::DrivingPointSign& sign : dynamics::driving_point_signs(measured)) {
+    if (sign.verdict == dynamics::SignVerdict::passive) continue;
+    const char* cause = sign.verdict == dynamics::SignVerdict::turned
+                            ? "a sensor or a force counts in the other direction"
+                        : sign.verdict == dynamics::SignVerdict::conjugated ? "its phase is that of e^(-iwt)"
+                                                                            : "noise, or points that are not one";
+    spdlog::warn("{} FRF at {}: its imaginary part is not that of a passive structure ({})", whose,
+                 dynamics::name(measured.responses[static_cast<std::size_t>(sign.entry.row)]), cause);
+  }
+  if (const auto check = dynamics::reciprocity(measured); check && !check->holds) {
+    spdlog::warn("{} FRFs are not reciprocal: they differ by {:.0f} % of the largest at {:.1f} Hz", whose,
+                 check->figure * 100.0, check->frequency_hz);
+  }
+  if (const auto check = dynamics::passivity(measured); check && !check->holds) {
+    spdlog::warn("{} FRFs are not passive: they give energy at {:.1f} Hz, by {:.0f} % of their size", whose,
+                 check->frequency_hz, check->figure * 100.0);
+  }
+  if (measured.axis.size() < 26) return;
+  for (const dynamics::Collocated& at : dynamics::driving_points(measured)) {
+    Eigen::VectorXcd H(measured.axis.size());
+    for (Eigen::Index line = 0; line < H.size(); ++line)
+      H(line) = measured.H[static_cast<std::size_t>(line)](at.row, at.column);
+    const auto limit = dynamics::low_frequency_limit(measured.axis, H);
+    if (limit.cause == dynamics::LowFrequencyCause::none) continue;
+    spdlog::warn("{} FRF at {} is worth little below {:.1f} Hz: its lines scatter as an integrated accelerometer's do",
+                 whose, dynamics::name(measured.responses[static_cast<std::size_t>(at.row)]), limit.from_hz);
+  }
+}
+
+std::vector<double> matched_ratios(const dynamics::SpatialModel& reduced,
+                                   const std::vector<reduction::IdentifiedMode>& identified, double rest) {
+  const Eigen::VectorXd all_hz = dynamics::undamped_modes(reduced).omega_rad_s / (2.0 * std::numbers::pi);
+  const Eigen::VectorXd hz = all_hz.tail(all_hz.size() - reduction::rigid_motions(all_hz));
+  std::vector<double> ratios(static_cast<std::size_t>(hz.size()), rest);
+  for (const auto& mode : identified) {
+    Eigen::Index nearest = 0;
+    (hz.array() - mode.frequency_hz).abs().minCoeff(&nearest);
+    if (std::abs(hz(nearest) - mode.frequency_hz) > 0.1 * mode.frequency_hz) {
+      throw core::InputError(
+          "the measured resonance at " + std::to_string(mode.frequency_hz) +
+          " Hz has no mode of the part within 10 %: fit the part first (updating), or give damping.ratios");
+    }
+    ratios[static_cast<std::size_t>(nearest)] = mode.damping_ratio;
+  }
+  return ratios;
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,39 @@
+#pragma once
+// Measured FRFs of a case, read and put on the axis of the run.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "dynamics/response_model.hpp"
+#include "dynamics/spatial_model.hpp"
+#include "io/frf/measured_response.hpp"
+#include "reduction/identification.hpp"
+
+namespace thinwall::app {
+
+/// What a file of FRFs is, by the end of its name: .frf, .uff or .unv, .mat; anything else is a CSV.
+enum class FrfFileKind { csv, cutpro, universal, mat };
+[[nodiscard]] FrfFileKind frf_file_kind(const std::filesystem::path& file);
+
+/// One FRF of a file as receptance on its own axis. Errors as those of its format in io/, and InputError for a file of
+/// several FRFs of which the case does not say which (they are listed), or that does not say what it holds.
+[[nodiscard]] io::MeasuredFrf read_measured(const MeasuredFrf& measured);
+
+/// The files of one component as an FRF matrix on `axis`: rows and columns are the DOFs that the files name; an entry
+/// that only its transpose gives is taken from there (reciprocity). Throws InputError for files that make no matrix
+/// (setup/measured_layout.hpp), DataError as read_measured() and io::resample.
+[[nodiscard]] dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files,
+                                                        const dynamics::FrequencyAxis& axis);
+
+/// Warns of what speaks against a measured matrix: signs, reciprocity, passivity, scatter at low frequencies
+/// (dynamics/frf_checks.hpp). `whose`: "the robot's".
+void warn_of_doubts(const dynamics::ResponseModel& measured, const std::string& whose);
+
+/// Damping ratios of the reduced model's elastic modes, by rising frequency: each identified one at the mode nearest to
+/// it, `rest` at the others. Throws InputError where none is within 10 %.
+[[nodiscard]] std::vector<double> matched_ratios(const dynamics::SpatialModel& reduced,
+                                                 const std::vector<reduction::IdentifiedMode>& identified, double rest);
+
+}  // namespace thinwall::app

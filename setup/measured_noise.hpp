@@ -1,0 +1,30 @@
+#pragma once
+// How far the measured FRFs of a case scatter, by what the case says of them.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "coupling/frf_noise.hpp"
+
+namespace thinwall::app {
+
+/// Standard deviation of one file's FRF `H` (its values on `axis`): `noise` times |H|, or by the file's coherence and
+/// `averages`; none where the case gives neither. Throws InputError for averages of a file without coherence, DataError
+/// as read_measured() and io::coherence_on().
+[[nodiscard]] std::optional<Eigen::VectorXd> deviation_of(const MeasuredFrf& file, const dynamics::FrequencyAxis& axis,
+                                                          const Eigen::VectorXcd& H);
+
+/// Of a component's matrix, made of these files (measured_response(), or one file as a 1 × 1): an entry taken from its
+/// transpose scatters as that does, an entry without a statement not at all. Empty if no file has one.
+[[nodiscard]] coupling::Deviations measured_deviations(const std::vector<MeasuredFrf>& files,
+                                                       const dynamics::ResponseModel& response);
+
+/// Whether the case states the noise of one of them.
+[[nodiscard]] bool any_noise(const std::vector<MeasuredFrf>& files);
+
+/// Why `averages` of this file tell no noise: no coherence, or one of 0 at some line; empty if they do. Reads the file.
+[[nodiscard]] std::string fault_of_coherence(const MeasuredFrf& file);
+
+}  // namespace thinwall::app

@@ -1,0 +1,99 @@
+#include "setup/milling_process.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "milling/cut/chip_load.hpp"
+#include "milling/cut/oblique_cutting.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+void set_engagement(const Cutting& c, milling::MillingProcess& process) {
+  if (c.radial_depth) {
+    const auto direction = c.down_milling ? milling::MillingDirection::down : milling::MillingDirection::up;
+    process.engagement = milling::engagement_of(process.cutter, *c.radial_depth, direction);
+    return;
+  }
+  for (std::size_t i = 0; i < c.entry_angles.size(); ++i) {
+    const milling::Engagement arc{c.entry_angles[i], c.exit_angles[i]};
+    if (i == 0) process.engagement = arc;
+    else process.further_engagements.push_back(arc);
+  }
+}
+
+milling::CuttingCoefficients oblique(const Cutting& c, double helix) {
+  const OrthogonalData& o = c.orthogonal;
+  const double friction = o.friction_angle.value_or(0.0);
+  const double rake = o.rake_angle.value_or(0.0);
+  const double shear = o.shear_angle.value_or(milling::merchant_shear_angle(friction, rake));
+  auto k = milling::oblique_coefficients({o.shear_stress.value_or(0.0), shear, friction, rake, c.Kte, c.Kre}, helix);
+  k.K_ae = c.Kae;
+  return k;
+}
+
+/// Helices that differ give each tooth its own coefficients.
+void set_oblique(const Cutting& c, milling::MillingProcess& process) {
+  const auto& helices = process.cutter.helices_rad;
+  process.coefficients = oblique(c, helices.empty() ? 0.0 : helices.front());
+  if (process.cutter.equal_teeth()) return;
+  for (const double helix : helices) process.tooth_coefficients.push_back(oblique(c, helix));
+}
+
+void warn_of_missed_chips(const milling::MillingProcess& process, double feed_m) {
+  double least = 1.0;
+  for (const auto& load : milling::chip_loads(process.cutter, arcs(process), feed_m))
+    least = std::min(least, load.share_in_cut);
+  if (least >= 1.0) return;
+  spdlog::warn(
+      "runout lets a tooth cut in {:.1f} % of its arc only; what it misses the next one cuts with the delay of both "
+      "pitches, which the stability analysis does not follow",
+      100.0 * least);
+}
+
+milling::ForceLaw law_of(const Cutting& c) {
+  if (c.law == "power") return milling::PowerLaw{c.Kt, c.Kr, c.Ka, c.exponents[0], c.exponents[1], c.exponents[2]};
+  return milling::FractionalLaw{c.Kt, c.Kr, c.Ka, c.chip_scale.value_or(0.0), c.stiffness_ratio.value_or(0.0)};
+}
+
+void set_force(const Case& source, milling::MillingProcess& process) {
+  const Cutting& c = *source.cutting;
+  if (c.law == "oblique") set_oblique(c, process);
+  else if (c.law == "linear") process.coefficients = {c.Kt, c.Kr, c.Ka, c.Kte, c.Kre, c.Kae};
+  else milling::set_force_law(process, law_of(c), feed_per_tooth(source).value_or(0.0));
+  if (!process.cutter.runout_m.empty()) warn_of_missed_chips(process, feed_per_tooth(source).value_or(0.0));
+}
+
+}  // namespace
+
+milling::Cutter cutter_of(const Tool& tool) {
+  milling::Cutter cutter{tool.teeth, tool.diameter, tool.pitches, tool.helices, {}, tool.runout};
+  if (tool.end == "ball") cutter.envelope = milling::ball_end(tool.diameter);
+  else if (tool.end == "bull_nose") cutter.envelope = milling::bull_nose(tool.diameter, tool.corner_radius);
+  else if (tool.end == "general")
+    cutter.envelope = {tool.corner_radius, tool.corner_radial, tool.corner_axial, tool.tip_angle, tool.taper};
+  cutter.envelope.height_m = tool.length;
+  return cutter;
+}
+
+std::optional<double> feed_per_tooth(const Case& source) {
+  const Cutting& c = *source.cutting;
+  if (c.feed_per_tooth) return c.feed_per_tooth;
+  if (!c.feed_rate || !c.spindle_speed_rpm || !source.tool) return std::nullopt;
+  return milling::feed_per_tooth_m(cutter_of(*source.tool), *c.feed_rate, *c.spindle_speed_rpm);
+}
+
+milling::MillingProcess milling_process(const Case& source) {
+  const Cutting& c = *source.cutting;
+  milling::MillingProcess process;
+  process.cutter = cutter_of(*source.tool);
+  set_engagement(c, process);
+  process.frame = milling::leaning({c.feed_direction, c.tool_axis}, c.lead_angle);
+  set_force(source, process);
+  process.damping = {c.process_damping, c.process_damping_friction};
+  return process;
+}
+
+}  // namespace thinwall::app

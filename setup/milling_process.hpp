@@ -1,0 +1,21 @@
+#pragma once
+// The cut that a case describes, as milling/ knows it.
+
+#include "case/case.hpp"
+#include "milling/cut/process.hpp"
+
+namespace thinwall::app {
+
+/// The cutter of [tool]: `end`, `runout` and all; its edges as high as the tool is long.
+[[nodiscard]] milling::Cutter cutter_of(const Tool& tool);
+
+/// [tool] and [cutting] together. A law that is not linear is linearised at the mean chip of each tooth, at the feed
+/// per tooth, or the feed rate over teeth and spindle speed, whatever the speed of a row of the chart. Logs a warning
+/// where runout lets a tooth miss a part of its arcs, since what it misses is cut with the delay of two pitches. Throws
+/// InputError as milling::set_force_law and engagement_of do.
+[[nodiscard]] milling::MillingProcess milling_process(const Case& source);
+
+/// Feed per tooth in m, if the case gives it or what it follows from.
+[[nodiscard]] std::optional<double> feed_per_tooth(const Case& source);
+
+}  // namespace thinwall::app

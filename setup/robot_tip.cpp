@@ -1,0 +1,196 @@
+#include "setup/robot_tip.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/dense_factorisations.hpp"
+#include "core/error.hpp"
+#include "dynamics/conversion.hpp"
+#include "io/frf/modal_table_csv.hpp"
+#include "robot/arm_kinematics.hpp"
+#include "robot/flexible_joints.hpp"
+#include "robot/inverse_kinematics.hpp"
+#include "robot/measured.hpp"
+#include "robot/modal_table.hpp"
+#include "robot/one_mode.hpp"
+#include "setup/measured.hpp"
+#include "study/part/discretisation.hpp"
+#include "study/sensor_mass.hpp"
+#include "study/support/support_stage.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+using Eigen::Vector3d;
+
+robot::OneMode single_mode(const Robot& robot) {
+  const double k = *robot.stiffness;
+  if (!robot.mass) {
+    robot::OneMode mode = robot::one_mode(*robot.frequency_hz, robot.damping_ratio.value_or(0.0), k, robot.direction);
+    if (robot.damping) mode.damping = *robot.damping;
+    return mode;
+  }
+  const double c =
+      robot.damping ? *robot.damping : 2.0 * robot.damping_ratio.value_or(0.0) * std::sqrt(k * *robot.mass);
+  return {*robot.mass, c, k, robot.direction};
+}
+
+/// One file is along robot.direction, several are between the tip's axes; less the sensors.
+dynamics::ResponseModel measured_tip(const Robot& robot, const dynamics::FrequencyAxis& axis) {
+  dynamics::ResponseModel tip =
+      robot.measured.size() > 1
+          ? measured_response(robot.measured, axis)
+          : robot::measured_receptance(axis, io::resample(read_measured(robot.measured.front()), axis), robot.point,
+                                       robot.direction);
+  return without_sensors(std::move(tip), robot.sensors, "the robot's");
+}
+
+/// The tip's part of the table, its axes turned into the part's.
+dynamics::ModalModel tabled_tip(const Robot& robot) {
+  const io::ModalTableFormat format{
+      io::modal_unit(robot.left_unit), io::modal_unit(robot.right_unit), {{robot.table_point, {0.0}}}};
+  dynamics::ModalModel tip =
+      robot::modal_model(robot::at_point(io::read_modal_table(robot.table, format), robot.table_point));
+  if (!robot.cross_terms) tip = robot::without_cross_terms(tip);
+  for (dynamics::Dof& dof : tip.dofs) {
+    dof.point = robot.point;
+    dof.direction = robot.arm.base.linear() * dof.direction;
+  }
+  return tip;
+}
+
+/// Where the tip is to be, in space.
+Vector3d wanted_place(const Case& source) {
+  if (source.robot->posture.tip) return *source.robot->posture.tip;
+  if (const auto place = contact_place(source)) return *place;
+  throw core::InputError("the place of the robot's tip is not known; give robot.posture.tip or a contact");
+}
+
+/// The closed form's posture on the wanted side and with the wanted elbow.
+Eigen::VectorXd four_axis_posture(const Robot& robot, const Vector3d& place) {
+  const PostureWish& wish = robot.posture;
+  const Vector3d p = robot.arm.base.inverse() * place;
+  const double towards = std::atan2(p.y(), p.x());
+  for (const Eigen::Vector4d& q : robot::four_axis_postures(robot.arm, place, *wish.pitch)) {
+    const bool ahead = std::cos(q(0) - towards) >= 0.0;
+    if (ahead == wish.ahead && (q(2) >= 0.0) == wish.elbow_up) return q;
+  }
+  throw core::InputError(fmt::format("the place is reached with another elbow or facing only than \"{}\" and \"{}\"",
+                                     wish.elbow_up ? "up" : "down", wish.ahead ? "ahead" : "behind"));
+}
+
+/// z along the approach; x in the plane of it and the base's z, towards z, then turned by the angle.
+Eigen::Isometry3d tip_frame(const Robot& robot, const Vector3d& place) {
+  const Vector3d z = *robot.posture.approach;
+  const Eigen::Matrix3d base = robot.arm.base.linear();
+  Vector3d x = base.col(2) - base.col(2).dot(z) * z;
+  if (x.norm() < 1e-6) x = base.col(0) - base.col(0).dot(z) * z;  // approached along the base's axis
+  x.normalize();
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  frame.linear() << x, z.cross(x), z;
+  frame.linear() = Eigen::AngleAxisd(robot.posture.angle, z) * frame.linear();
+  frame.translation() = place;
+  return frame;
+}
+
+Eigen::VectorXd searched_posture(const Robot& robot, const Vector3d& place, const Eigen::VectorXd& start) {
+  const robot::Reached found = robot::reach(robot.arm, tip_frame(robot, place), start);
+  if (found.status != robot::ReachStatus::not_reached) return found.q;
+  throw core::InputError(fmt::format(
+      "the robot does not reach ({:.4g}, {:.4g}, {:.4g}) m: the search ends {:.3g} m and {:.3g} deg beside it; move "
+      "the "
+      "base, choose another approach or angle, or another start",
+      place.x(), place.y(), place.z(), found.position_error, found.rotation_error * 180.0 / std::numbers::pi));
+}
+
+Eigen::VectorXd joints_of(const Case& source, const std::optional<Eigen::VectorXd>& near) {
+  const Robot& robot = *source.robot;
+  const PostureWish& wish = robot.posture;
+  const auto as_vector = [](const std::vector<double>& list) -> Eigen::VectorXd {
+    return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
+  };
+  if (!wish.joints.empty()) return as_vector(wish.joints);
+  if (wish.pitch) return four_axis_posture(robot, wanted_place(source));
+  if (!wish.approach)
+    throw core::InputError("how the robot stands is not known; give robot.posture by joints, pitch or approach");
+  const Eigen::VectorXd start = wish.start.empty() ? Eigen::VectorXd::Zero(robot.arm.joints()) : as_vector(wish.start);
+  return searched_posture(robot, wanted_place(source), near.value_or(start));
+}
+
+/// Of the tip's Jacobian with 1 m a radian, smallest over largest.
+double smallest_singular(const robot::ArmPose& at) {
+  const Eigen::VectorXd s = Eigen::JacobiSVD<Eigen::MatrixXd>(robot::tip_jacobian(at)).singularValues();
+  return s(s.size() - 1) / s(0);
+}
+
+}  // namespace
+
+std::optional<Vector3d> contact_place(const Case& source) {
+  if (source.contacts.empty() || !source.part) return std::nullopt;
+  const Vector3d flat = position(*source.part, point(source, source.contacts.front().part_point));
+  if (!flat.allFinite()) return std::nullopt;  // a node of matrices whose place no file tells
+  return source.part->bend ? mesh::bent(bend_of(*source.part), flat) : flat;
+}
+
+std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list) {
+  std::vector<robot::OneMode> modes;
+  modes.reserve(list.size());
+  for (const TipMode& m : list)
+    modes.push_back(robot::one_mode(m.frequency_hz, m.damping_ratio, m.stiffness, m.direction));
+  return modes;
+}
+
+robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis) {
+  if (robot.model == "flexible_joints") return robot::flexible_joints(robot.arm, robot.point);
+  if (robot.model == "measured") return robot::in_one_posture(measured_tip(robot, axis));
+  if (robot.model == "modal_table") return robot::in_one_posture(tabled_tip(robot));
+  if (robot.model == "virtual_joints")
+    return robot::in_one_posture(robot::spatial_model(robot::reduced_tip(robot.chains), robot.point));
+  const auto modes = robot.model == "modes" ? one_modes(robot.modes) : std::vector{single_mode(robot)};
+  return robot::in_one_posture(robot::spatial_model(modes, robot.point));
+}
+
+RobotPosture robot_posture(const Case& source, const std::optional<Eigen::VectorXd>& near) {
+  const Robot& robot = *source.robot;
+  RobotPosture result;
+  result.posture.preload = robot.preload;
+  if (robot.model != "flexible_joints") return result;
+  result.posture.q = joints_of(source, near);
+  const robot::ArmPose at = robot::pose(robot.arm, result.posture.q);
+  result.tip = at.tip.translation();
+  result.smallest_singular = smallest_singular(at);
+  for (const auto& origin : at.origins.colwise()) result.arm.emplace_back(origin);
+  result.arm.push_back(*result.tip);
+  return result;
+}
+
+Component robot_component(const Case& source, const dynamics::FrequencyAxis& axis, const robot::Posture& posture) {
+  robot::Tip tip = tip_model(*source.robot, axis)(posture);
+  if (auto* spatial = std::get_if<dynamics::SpatialModel>(&tip)) return component(std::move(*spatial), axis);
+  Component result;
+  if (auto* modal = std::get_if<dynamics::ModalModel>(&tip)) {
+    result.response = dynamics::to_response(*modal, axis);
+    result.modal = std::move(*modal);
+    return result;
+  }
+  result.response = std::get<dynamics::ResponseModel>(std::move(tip));
+  return result;
+}
+
+dynamics::SpatialModel robot_matrices(const Robot& robot, const robot::Posture& posture) {
+  if (robot.model != "measured" && robot.model != "modal_table") {
+    robot::Tip tip = tip_model(robot, {})(posture);
+    if (auto* spatial = std::get_if<dynamics::SpatialModel>(&tip)) return std::move(*spatial);
+  }
+  throw core::InputError("robot.model = \"" + robot.model + "\" has no matrices; take a modelled robot");
+}
+
+dynamics::SpatialModel robot_matrices(const Case& source) {
+  return robot_matrices(*source.robot, robot_posture(source).posture);
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,32 @@
+#pragma once
+// The three kinds of models as bytes and back, for cereal, which looks in each type's own namespace.
+
+#include "dynamics/modal_model.hpp"
+#include "dynamics/response_model.hpp"
+#include "dynamics/spatial_model.hpp"
+#include "study/kept/archive.hpp"
+
+namespace thinwall::dynamics {
+
+template <class Archive>
+void serialize(Archive& archive, Dof& d) {
+  archive(d.point, d.direction, d.kind);
+}
+template <class Archive>
+void serialize(Archive& archive, SpatialModel& m) {
+  archive(m.M, m.C, m.K, m.D, m.dofs, m.T);
+}
+template <class Archive>
+void serialize(Archive& archive, ModalModel& m) {
+  archive(m.poles, m.right, m.left, m.scaling, m.residual, m.dofs);
+}
+template <class Archive>
+void serialize(Archive& archive, FrequencyAxis& a) {
+  archive(a.hz);
+}
+template <class Archive>
+void serialize(Archive& archive, ResponseModel& m) {
+  archive(m.axis, m.responses, m.forces, m.H);
+}
+
+}  // namespace thinwall::dynamics

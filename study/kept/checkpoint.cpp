@@ -1,0 +1,134 @@
+#include "study/kept/checkpoint.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <string_view>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "io/manifest.hpp"
+#include "study/kept/program_id.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t sum_length = 64;
+
+/// Lengths of name and bytes, the sum of both, and in the next line both.
+std::string record(const std::string& name, const std::string& bytes) {
+  return fmt::format("{} {} {}\n{}{}", name.size(), bytes.size(), io::sha256(name + bytes), name, bytes);
+}
+
+/// One value in a form that tells every bit of it.
+struct Exactly {
+  std::string operator()(double x) const { return fmt::format("{:a}", x); }
+  std::string operator()(bool x) const { return x ? "true" : "false"; }
+  std::string operator()(const std::string& x) const { return fmt::format("{}:{}", x.size(), x); }
+  std::string operator()(const Eigen::Vector3d& x) const { return fmt::format("{:a},{:a},{:a}", x.x(), x.y(), x.z()); }
+  template <class Item>
+  std::string operator()(const std::vector<Item>& list) const {
+    std::string text = "[";
+    for (const auto& item : list) text += (*this)(item) + ";";
+    return text + "]";
+  }
+};
+
+/// Whether the key is `name` or lies in the table of that name.
+bool lies_in(const std::string& key, const std::string& name) {
+  return key.starts_with(name) && (key.size() == name.size() || key[name.size()] == '.' || key[name.size()] == '[');
+}
+
+}  // namespace
+
+Checkpoint::Checkpoint(fs::path file, const std::string& key, bool fresh)
+    : file_(std::move(file)), heading_("thinwall-checkpoint 2 " + key + "\n") {
+  try {
+    read(fresh);
+  } catch (const core::DataError& error) {
+    spdlog::info("kept results are not used: {}", error.what());
+  }
+}
+
+void Checkpoint::read(bool fresh) {
+  std::error_code ignored;
+  if (fresh || !fs::exists(file_, ignored)) return;
+  const std::string all = core::read_file(file_);
+  if (!all.starts_with(heading_)) {
+    spdlog::debug("{} is of other inputs or of another program; begun anew", file_.filename().string());
+    return;
+  }
+  std::size_t at = heading_.size();
+  while (at < all.size()) {
+    const std::size_t end = all.find('\n', at);
+    std::size_t name_size = 0, size = 0;
+    char sum[sum_length + 1];
+    const std::string line = all.substr(at, end == std::string::npos ? 0 : end - at);
+    if (std::sscanf(line.c_str(), "%zu %zu %64s", &name_size, &size, sum) != 3) break;
+    const std::size_t left = all.size() - end - 1;
+    if (left < size || left - size < name_size) break;
+    const std::string_view both = std::string_view(all).substr(end + 1, name_size + size);
+    if (io::sha256(both) != sum) break;
+    pieces_[std::string(both.substr(0, name_size))] = both.substr(name_size);
+    at = end + 1 + name_size + size;
+  }
+  begun_ = true;
+  if (at == all.size()) return;
+  spdlog::info("the end of {} is damaged; what comes before is used", file_.filename().string());
+  fs::resize_file(file_, at, ignored);
+  begun_ = !ignored;
+}
+
+const std::string* Checkpoint::find(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = pieces_.find(name);
+  return found == pieces_.end() ? nullptr : &found->second;
+}
+
+void Checkpoint::add(const std::string& name, std::string bytes) {
+  const std::lock_guard lock(mutex_);
+  if (file_.empty()) return;
+  try {
+    write(record(name, bytes));
+    pieces_[name] = std::move(bytes);
+  } catch (const core::DataError& error) {
+    spdlog::warn("{}; the next run begins anew", error.what());
+    file_.clear();
+  }
+}
+
+void Checkpoint::write(const std::string& piece) {
+  if (!begun_) {
+    std::error_code ignored;
+    fs::create_directories(file_.parent_path(), ignored);
+    core::write_file_atomically(file_, heading_ + piece);
+    begun_ = true;
+    return;
+  }
+  std::ofstream out(file_, std::ios::binary | std::ios::app);
+  out << piece;
+  out.flush();
+  if (!out) throw core::DataError(file_.string() + " cannot be written");
+}
+
+std::string key_of(const Case& source, const std::vector<std::string>& without,
+                   const std::vector<std::string>& besides) {
+  std::string text = program_id() + "\n";
+  for (const CaseValue& value : source.values) {
+    if (std::ranges::any_of(without, [&](const std::string& name) { return lies_in(value.key, name); })) continue;
+    text += value.key + "=" + std::visit(Exactly{}, value.value) + "\n";
+  }
+  for (const std::string& point : source.reduction.interface) text += point + "\n";
+  // Their names are among the values, as the case gives them.
+  for (const fs::path& file : input_files(source, without)) text += io::sha256_of_file(file) + "\n";
+  for (const std::string& word : besides) text += std::to_string(word.size()) + ":" + word + "\n";
+  return io::sha256(text);
+}
+
+}  // namespace thinwall::app

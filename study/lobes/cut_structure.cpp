@@ -1,0 +1,136 @@
+#include "study/lobes/cut_structure.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "core/error.hpp"
+#include "dynamics/conversion.hpp"
+#include "milling/direct/passivity.hpp"
+#include "setup/measured.hpp"
+#include "setup/robot_tip.hpp"
+#include "study/lobes/tool_swap.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+milling::RelativeStructure tool_modes(const Tool& tool) {
+  return milling::relative_structure(dynamics::to_modal(robot::spatial_model(one_modes(tool.modes), "tool")), "tool");
+}
+
+milling::RelativeStructure part_structure(const Case& source, const dynamics::ModalModel& part) {
+  const auto& limit = source.lobes->modes_up_to_hz;
+  const auto kept = limit ? dynamics::truncate(part, 2.0 * std::numbers::pi * *limit, true) : part;
+  return milling::relative_structure(kept, source.cutting->at);
+}
+
+/// The tool's files as a matrix in part axes, on `axis`.
+milling::SampledReceptance measured_tip(const std::vector<MeasuredFrf>& files, const dynamics::FrequencyAxis& axis) {
+  milling::SampledReceptance tip{axis.hz, {}};
+  tip.H.assign(static_cast<std::size_t>(axis.size()), Eigen::Matrix3cd::Zero());
+  for (const MeasuredFrf& file : files) {
+    const Eigen::VectorXcd H = io::resample(read_measured(file), axis);
+    const int i = direction_of_dof(file.response);
+    const int j = direction_of_dof(file.force);
+    const bool reverse_given = gives_reverse(files, file);
+    for (Eigen::Index line = 0; line < axis.size(); ++line) {
+      auto& matrix = tip.H[static_cast<std::size_t>(line)];
+      matrix(i, j) = H(line);
+      if (!reverse_given) matrix(j, i) = H(line);
+    }
+  }
+  return tip;
+}
+
+void warn_of_doubts(const milling::SampledReceptance& tip, const std::string& whose) {
+  if (const auto doubt = milling::energy_given(tip)) {
+    spdlog::warn(
+        "{3} FRF along {0}{0} gives energy at {1:.1f} Hz (its imaginary part is {2:.2f} of its size and positive, a "
+        "passive structure's is not): check sign convention, quantity and unit",
+        "xyz"[doubt->direction], doubt -> frequency_hz, doubt -> share, whose);
+  }
+  const auto resonances = milling::resonances(tip);
+  if (resonances.empty()) return;
+  const auto highest = std::ranges::max_element(resonances, {}, &milling::Resonance::size);
+  const auto* begin = tip.frequency_hz.data();
+  const auto* line = std::lower_bound(begin, begin + tip.frequency_hz.size(), highest->frequency_hz);
+  const double spacing = *line - *(line - 1);
+  if (2.0 * spacing > highest->half_width_hz) {
+    spdlog::warn(
+        "lines {:.2g} Hz apart are few for the resonance at {:.1f} Hz, whose half width is {:.2g} Hz: the chart may be "
+        "off; measure with lines at half of that or closer",
+        spacing, highest->frequency_hz, highest->half_width_hz);
+  }
+}
+
+/// The swapped tip, with a warning where digits were lost.
+milling::SampledReceptance swapped(const Case& source) {
+  SwappedTip result = swapped_tip(source);
+  if (result.status == coupling::SwapStatus::ill_conditioned)
+    spdlog::warn("the tool swap lost more than half of its digits (condition {:.1e} at {:.1f} Hz): expect errors there",
+                 result.worst_condition, result.at_frequency_hz);
+  warn_of_doubts(result.tip, "the swapped tool's");
+  return std::move(result.tip);
+}
+
+milling::SampledReceptance in_tool_axes(milling::SampledReceptance tip, const milling::ToolFrame& frame) {
+  const Eigen::Matrix3d R = frame.rotation();
+  for (Eigen::Matrix3cd& H : tip.H) H = (R.transpose() * H * R).eval();
+  return tip;
+}
+
+}  // namespace
+
+int direction_of_dof(const std::string& dof) {
+  return dof.back() - 'x';
+}
+
+bool gives_reverse(const std::vector<MeasuredFrf>& files, const MeasuredFrf& file) {
+  return std::ranges::any_of(
+      files, [&](const MeasuredFrf& other) { return other.response == file.force && other.force == file.response; });
+}
+
+std::optional<milling::RelativeStructure> cut_poles(const Case& source, const dynamics::ModalModel* part) {
+  std::optional<milling::RelativeStructure> poles;
+  if (part != nullptr) poles = part_structure(source, *part);
+  if (source.tool->modes.empty()) return poles;
+  return poles ? milling::sum(*poles, tool_modes(*source.tool)) : tool_modes(*source.tool);
+}
+
+milling::SampledStructure sampled_structure(const Case& source, const milling::ToolFrame& frame,
+                                            const dynamics::ResponseModel& coupled) {
+  const dynamics::ResponseModel at_cut = dynamics::between(coupled, source.cutting->at, source.cutting->at);
+  const Eigen::Matrix3Xd D = dynamics::displacement_matrix(at_cut.responses, source.cutting->at);
+  milling::SampledReceptance felt{coupled.axis.hz, {}};
+  felt.H.reserve(at_cut.H.size());
+  for (const Eigen::MatrixXcd& H : at_cut.H) felt.H.emplace_back(D * H * D.transpose());
+  warn_of_doubts(felt, "the supported part's");
+  if (source.tool->swap) throw core::InputError("a swapped tool has lines of its own; give the tool by modes");
+  std::optional<milling::RelativeStructure> tool;
+  if (!source.tool->measured.empty()) {
+    const milling::SampledReceptance tip = measured_tip(source.tool->measured, coupled.axis);
+    for (std::size_t line = 0; line < felt.H.size(); ++line) felt.H[line] += tip.H[line];
+  } else if (!source.tool->modes.empty()) {
+    tool = tool_modes(*source.tool);
+  }
+  return {in_tool_axes(std::move(felt), frame), tool};
+}
+
+CutStructure cut_structure(const Case& source, const milling::ToolFrame& frame, const dynamics::ModalModel* part) {
+  const std::optional<milling::RelativeStructure> modal = cut_poles(source, part);
+  if (source.tool->swap) return milling::SampledStructure{in_tool_axes(swapped(source), frame), modal};
+  if (!source.tool->measured.empty()) {
+    milling::SampledReceptance tip =
+        measured_tip(source.tool->measured, read_measured(source.tool->measured.front()).axis);
+    warn_of_doubts(tip, "the tool's");
+    return milling::SampledStructure{in_tool_axes(std::move(tip), frame), modal};
+  }
+  if (!modal) throw core::InputError("lobes need something that moves: a part, tool.modes or tool.measured");
+  return *modal;
+}
+
+}  // namespace thinwall::app

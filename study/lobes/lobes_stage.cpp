@@ -1,0 +1,241 @@
+#include "study/lobes/lobes_stage.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <variant>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+#include "milling/chart/sampled_stability.hpp"
+#include "milling/direct/stability.hpp"
+#include "setup/milling_process.hpp"
+#include "study/kept/kept_part.hpp"
+#include "study/lobes/cut_structure.hpp"
+#include "study/lobes/lobe_sensitivity.hpp"
+#include "study/lobes/main_modes.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+milling::MethodOptions options_of(const LobesOptions& wanted) {
+  milling::MethodOptions options;
+  options.stability = stability_options(wanted);
+  options.steps_per_period = wanted.steps_per_period.value_or(options.steps_per_period);
+  options.harmonics = wanted.harmonics.value_or(options.harmonics);
+  return options;
+}
+
+/// What a chart and its answers are computed from; `poles` is null where the structure is known by samples.
+struct Chart {
+  CutStructure structure;
+  milling::MillingProcess process;
+  milling::MethodOptions options;
+  std::vector<double> speeds_rpm;
+  bool direct = true;
+
+  [[nodiscard]] const milling::RelativeStructure* poles() const {
+    return std::get_if<milling::RelativeStructure>(&structure);
+  }
+  [[nodiscard]] milling::Lobes by(const std::string& method, const milling::KeptRows& kept = {}) const {
+    if (const auto* sampled = std::get_if<milling::SampledStructure>(&structure))
+      return milling::stability_lobes(*sampled, process, speeds_rpm, options.stability, kept);
+    return milling::stability_lobes(*milling::lobe_method(milling::method_named(method), *poles(), process, options),
+                                    speeds_rpm, kept);
+  }
+  [[nodiscard]] milling::RowAt row_at(const std::string& method) const {
+    return [this, method](double rpm, const milling::StabilityOptions& with) {
+      if (const auto* sampled = std::get_if<milling::SampledStructure>(&structure))
+        return milling::limiting_depth(*sampled, process, rpm, with);
+      milling::MethodOptions all = options;
+      all.stability = with;
+      return milling::lobe_method(milling::method_named(method), *poles(), process, all)
+          ->limiting_depth(rpm, with.expected_depth_m);
+    };
+  }
+  /// Where the direct method gave the crossing from poles.
+  [[nodiscard]] std::vector<ParameterSensitivity> sensitivities(double rpm, const milling::LobePoint& point) const {
+    if (!direct || poles() == nullptr) return {};
+    return parameter_sensitivities(*poles(), process, rpm, point, options.stability);
+  }
+};
+
+/// Errors of the limiting depths, and at the case's own speed; the rows share out among the threads.
+void add_errors(const Case& source, const Chart& chart, const StructureErrors& errors, NamedLobes& result) {
+  if (errors.none() || (chart.poles() != nullptr && !chart.direct)) return;  // crossings of other methods are their own
+  const auto at = [&](const milling::LobeRow& row) {
+    if (row.crossings.empty()) return DepthError{};
+    return depth_error(chart.structure, errors, chart.process, row.spindle_speed_rpm, row.crossings.front(),
+                       chart.options.stability);
+  };
+  result.errors.resize(result.lobes.rows.size());
+  core::parallel_for(result.errors.size(), [&](std::size_t i) { result.errors[i] = at(result.lobes.rows[i]); });
+  if (!result.at_spindle_speed) return;
+  result.error_at_spindle_speed = at(*result.at_spindle_speed);
+  const auto* sampled = std::get_if<milling::SampledStructure>(&chart.structure);
+  if (!source.lobes->noise_samples || sampled == nullptr || errors.noise.empty()) return;
+  result.scatter = milling::sampled_depths(*sampled, chart.process, result.at_spindle_speed->spindle_speed_rpm,
+                                           chart.options.stability, errors.noise, *source.lobes->noise_samples,
+                                           static_cast<std::uint64_t>(source.lobes->seed));
+}
+
+/// Of a stable point; none without poles or a feed. What the library does not model is a warning.
+std::optional<milling::ForcedVibration> forced_at(const Case& source, const PointStability& found, const Chart& chart) {
+  const auto feed = feed_per_tooth(source);
+  if (chart.poles() == nullptr || !feed || !found.stable) return std::nullopt;
+  try {
+    return milling::forced_vibration(*chart.poles(), chart.process, found.point.spindle_speed_rpm, found.point.depth_m,
+                                     *feed);
+  } catch (const core::InputError& error) {
+    spdlog::warn("{}", error.what());
+  } catch (const core::NumericalError& error) {
+    spdlog::warn("no forced vibration: {}", error.what());
+  }
+  return std::nullopt;
+}
+
+/// |μ| where there are poles, and the margins to the boundary.
+PointStability stability_of(const milling::OperatingPoint& point, const Chart& chart, const std::string& method,
+                            const milling::Lobes& lobes) {
+  const milling::StabilityOptions& options = chart.options.stability;
+  const milling::RowAt row_at = chart.row_at(method);
+  PointStability result;
+  result.point = point;
+  const milling::LobeRow row = milling::row_to(row_at, point, options);
+  result.stable = milling::stable_at(row, point.depth_m);
+  result.depth = milling::depth_margin(row, point.depth_m);
+  result.speed = milling::speed_margin(row_at, lobes.rows, point, options);
+  result.status = row.status;
+  if (chart.poles() == nullptr) return result;
+  if (!result.depth.at_limit)
+    result.sensitivities = chart.sensitivities(point.spindle_speed_rpm, result.depth.boundary);
+  result.multiplier = milling::lobe_method(milling::method_named(method), *chart.poles(), chart.process, chart.options)
+                          ->multiplier_at(point.spindle_speed_rpm, point.depth_m);
+  if (result.multiplier->status != milling::StabilityStatus::converged) {
+    // The crossings' word, which converged by itself, stands.
+    if (result.status == milling::StabilityStatus::converged) result.status = result.multiplier->status;
+  } else if ((result.multiplier->modulus < 1.0) != result.stable) {
+    // The two disagree on the boundary itself only, unless a crossing was missed.
+    const bool on_boundary = std::abs(result.depth.margin_m) <= 1e-3 * point.depth_m;
+    if (!on_boundary) result.status = milling::StabilityStatus::crossing_missed;
+    result.stable = result.multiplier->modulus < 1.0;
+  }
+  return result;
+}
+
+ComparedLobes compared(const Chart& chart, const milling::Lobes& reference, const std::string& method) {
+  ComparedLobes result{method, chart.by(method)};
+  for (std::size_t i = 0; i < reference.rows.size(); ++i) {
+    const milling::LobeRow& row = reference.rows[i];
+    const double difference = std::abs(result.lobes.rows[i].limiting_depth_m / row.limiting_depth_m - 1.0);
+    if (i > 0 && difference <= result.largest_difference) continue;
+    result.largest_difference = difference;
+    result.at_spindle_speed_rpm = row.spindle_speed_rpm;
+  }
+  return result;
+}
+
+/// A comparison that fails leaves the chart as it is.
+void add_compared(const Chart& chart, const std::string& method, NamedLobes& result) {
+  try {
+    result.compared.push_back(compared(chart, result.lobes, method));
+  } catch (const core::InputError& error) {
+    spdlog::warn("no chart by {} to compare with: {}", method, error.what());
+  } catch (const core::NumericalError& error) {
+    spdlog::warn("no chart by {} to compare with: {}", method, error.what());
+  }
+}
+
+milling::StabilityMap map_of(const Chart& chart, const milling::Lobes& lobes, int count) {
+  double deepest = 0.0;
+  for (const milling::LobeRow& row : lobes.rows) deepest = std::max(deepest, row.limiting_depth_m);
+  std::vector<double> depths(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < depths.size(); ++i) depths[i] = deepest * static_cast<double>(i + 1) / count;
+  return milling::stability_map(*chart.poles(), chart.process, chart.speeds_rpm, depths, chart.options.stability);
+}
+
+/// The rows with the robust depths in place of the limits.
+std::vector<milling::LobeRow> robust_rows(std::vector<milling::LobeRow> rows, const milling::RobustLobes& robust) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].limiting_depth_m = robust.rows[i].depth_m;
+    rows[i].at_limit = robust.rows[i].at_limit;
+  }
+  return rows;
+}
+
+void add_pockets(const Case& source, const milling::MillingProcess& process, NamedLobes& result) {
+  constexpr std::size_t most = 5;
+  const milling::MachineLimits machine = source.machine.value_or(milling::MachineLimits{});
+  std::optional<milling::CutLoad> load;
+  if (const auto feed = feed_per_tooth(source); feed && source.tool->end == "flat")
+    load = milling::cut_load(process, *feed);
+  result.pockets = milling::best_pockets(result.lobes.rows, machine, load, most);
+  if (!result.robust) return;
+  result.robust_pockets = milling::best_pockets(robust_rows(result.lobes.rows, *result.robust), machine, load, most);
+  std::erase_if(result.robust_pockets, [](const milling::Pocket& pocket) { return pocket.depth_m == 0.0; });
+}
+
+}  // namespace
+
+milling::StabilityOptions stability_options(const LobesOptions& wanted) {
+  milling::StabilityOptions options;
+  options.depth_limit_m = wanted.depth_limit;
+  options.error_tolerance = wanted.tolerance;
+  return options;
+}
+
+NamedLobes compute_lobes(const Case& source, const std::string& name, CutStructure structure,
+                         const StructureErrors& errors, const std::vector<milling::OperatingPoint>& points,
+                         Checkpoint& kept) {
+  const LobesOptions& wanted = *source.lobes;
+  const milling::MillingProcess process = milling_process(source);
+  const Chart chart{std::move(structure), process, options_of(wanted),
+                    milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count), wanted.method == "direct"};
+  NamedLobes result;
+  result.name = name;
+  result.main_modes_hz = main_modes_hz(chart.structure);
+  result.lobes = chart.by(wanted.method, kept_rows(kept, name));
+  if (const auto rpm = source.cutting->spindle_speed_rpm) {
+    result.at_spindle_speed = chart.row_at(wanted.method)(*rpm, chart.options.stability);
+    if (!result.at_spindle_speed->crossings.empty())
+      result.sensitivities = chart.sensitivities(*rpm, result.at_spindle_speed->crossings.front());
+  }
+  add_errors(source, chart, errors, result);
+  for (const auto& point : points) {
+    result.points.push_back(stability_of(point, chart, wanted.method, result.lobes));
+    result.points.back().forced = forced_at(source, result.points.back(), chart);
+  }
+  if (chart.poles() == nullptr) {
+    // What needs poles is refused for a measured tool by the checks; a measured robot's chart goes without.
+    add_pockets(source, process, result);
+    return result;
+  }
+  for (const auto& method : wanted.compare) add_compared(chart, method, result);
+  if (wanted.map_depths) result.map = map_of(chart, result.lobes, *wanted.map_depths);
+  if (wanted.robust) {
+    result.robust = milling::robust_lobes(*chart.poles(), process, chart.speeds_rpm, chart.options.stability,
+                                          wanted.robust->uncertainty, wanted.robust->confidence);
+  }
+  add_pockets(source, process, result);
+  return result;
+}
+
+void require_chart_of(const Case& source, const std::vector<milling::OperatingPoint>& points) {
+  if (points.empty()) return;
+  if (!source.lobes || !source.cutting || !source.tool)
+    throw core::InputError("an operating point needs a chart; add [tool], [cutting] and [lobes] to the case");
+  for (const auto& point : points) {
+    if (point.depth_m <= source.lobes->depth_limit) continue;
+    throw core::InputError("operating point at " + core::readable_text(point.depth_m, core::kind::length) +
+                           ": deeper than the chart goes, " +
+                           core::readable_text(source.lobes->depth_limit, core::kind::length) +
+                           " (lobes.depth_limit, else tool.length); give a smaller depth or raise the limit");
+  }
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,130 @@
+#include "study/lobes/path_stage.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "core/error.hpp"
+#include "core/progress.hpp"
+#include "coupling/spatial.hpp"
+#include "milling/chart/lobe_field.hpp"
+#include "reduction/methods/attachment_modes.hpp"
+#include "setup/milling_process.hpp"
+#include "setup/path.hpp"
+#include "setup/robot_tip.hpp"
+#include "study/kept/kept_part.hpp"
+#include "study/lobes/cut_structure.hpp"
+#include "study/lobes/lobes_stage.hpp"
+#include "study/part/part_stage.hpp"
+#include "study/support/support_stage.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+/// What the cut feels at each position: of the part alone, and held by the robot, as it stands there (empty without
+/// one).
+struct StructuresAlongPath {
+  std::vector<milling::RelativeStructure> part, supported;
+  std::vector<RobotPosture> robot;
+};
+
+/// How the robot stands at each position: as it was surveyed along the path, or in its one posture.
+std::vector<RobotPosture> postures_along_path(const Case& source, const Results& results) {
+  const std::size_t count = source.path->positions.size();
+  const bool surveyed = results.survey && results.survey->over == "path";
+  if (!source.path->robot_follows) return std::vector<RobotPosture>(count, *results.robot_posture);
+  if (surveyed && !results.survey->out_of_reach.empty())
+    throw core::InputError(results.survey->out_of_reach.front().reason);
+  std::vector<RobotPosture> postures;
+  std::optional<Eigen::VectorXd> near;
+  for (std::size_t i = 0; i < count; ++i) {
+    postures.push_back(surveyed ? results.survey->tips[i].robot : robot_posture(at_position(source, i), near));
+    near = postures.back().posture.q;
+  }
+  return postures;
+}
+
+StructuresAlongPath structures_along_path(const Case& source, const Results& results, const milling::ToolFrame& frame) {
+  const auto& models = results.finite_elements->along_path;
+  const bool supported = results.coupled && results.coupled->model;
+  StructuresAlongPath structures;
+  core::Progress progress("positions", models.size());
+  structures.part.reserve(models.size());
+  structures.supported.reserve(models.size());
+  if (supported) structures.robot = postures_along_path(source, results);
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const Case there = at_position(source, i);
+    std::vector<reduction::IdentifiedMode> identified;
+    const dynamics::SpatialModel part = damped(there, models[i], identified);
+    const auto felt = [&](const dynamics::ModalModel& modal) {
+      return std::get<milling::RelativeStructure>(cut_structure(there, frame, &modal));
+    };
+    structures.part.push_back(felt(modes_of(part)));
+    progress.step();
+    if (!supported) continue;
+    const dynamics::SpatialModel robot = robot_matrices(*there.robot, structures.robot[i].posture);
+    structures.supported.push_back(felt(modes_of(coupling::couple(part, robot, contacts_of(there)))));
+  }
+  return structures;
+}
+
+PathLobes charts(const Case& source, const std::string& name, const std::string& method,
+                 const milling::MillingProcess& process, const std::vector<milling::RelativeStructure>& structures,
+                 Checkpoint& kept) {
+  const LobesOptions& wanted = *source.lobes;
+  const auto speeds = milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count);
+  auto rows =
+      milling::lobe_field(structures, process, speeds, stability_options(wanted), kept_rows(kept, "path-" + name)).rows;
+  PathLobes result{name, {}};
+  if (const auto rpm = source.cutting->spindle_speed_rpm) {
+    for (const auto& of_place : milling::lobe_field(structures, process, {*rpm}, stability_options(wanted)).rows)
+      result.at_spindle_speed.push_back(of_place.front());
+  }
+  result.lobes.reserve(structures.size());
+  for (std::size_t i = 0; i < structures.size(); ++i) {
+    result.lobes.push_back(milling::lobes_of(std::move(rows[i]), method));
+    result.lobes.back().residual_share = milling::residual_share(structures[i]);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<dynamics::SpatialModel> models_along_path(const Case& source, const PartResult& part,
+                                                      const linalg::ShiftedInverse& inverse) {
+  const reduction::PartModes modes = reduction::part_modes(*part.reduced, part.model.M, inverse);
+  const std::size_t count = source.path->positions.size();
+  std::vector<dynamics::SpatialModel> models;
+  core::Progress progress("positions", count);
+  models.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    try {
+      const reduction::Interface interface = part_interface(at_position(source, i), part.model);
+      models.push_back(reduction::with_attachment_modes(modes, part.model.M, inverse, interface));
+      progress.step();
+    } catch (const core::InputError& error) {
+      throw core::InputError("position " + std::to_string(i + 1) + " of the path: " + error.what());
+    }
+  }
+  return models;
+}
+
+std::vector<PathLobes> lobes_along_path(const Case& source, const Results& results, Checkpoint& kept) {
+  const milling::MillingProcess process = milling_process(source);
+  const StructuresAlongPath structures = structures_along_path(source, results, process.frame);
+  const std::string& method = results.lobes.front().lobes.method;
+  if (structures.supported.empty() && results.coupled)
+    spdlog::warn("no charts of the supported part along the path: part and robot are not joined by matrices");
+  std::vector<PathLobes> all{charts(source, "part", method, process, structures.part, kept)};
+  if (!structures.supported.empty()) {
+    all.push_back(charts(source, "supported", method, process, structures.supported, kept));
+    all.back().robot = structures.robot;
+  }
+  return all;
+}
+
+}  // namespace thinwall::app

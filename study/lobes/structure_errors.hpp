@@ -1,0 +1,40 @@
+#pragma once
+// What the structure of a chart is off by, and what that makes of its depths.
+
+#include <optional>
+#include <vector>
+
+#include "case/case.hpp"
+#include "milling/chart/sampled_uncertainty.hpp"
+#include "study/lobes/cut_structure.hpp"
+#include "study/results.hpp"
+
+namespace thinwall::app {
+
+/// Beside a CutStructure. What is empty is not known to be wrong.
+struct StructureErrors {
+  std::optional<milling::RelativeStructure> richer{};  ///< its poles with what a reduction left out, part axes
+  std::vector<Eigen::Matrix3cd> truncation{};          ///< of its samples, signed, tool axes, one a line
+  milling::SampleCovariance noise{};                   ///< of its samples, tool axes, one a line
+
+  [[nodiscard]] bool none() const { return !richer && truncation.empty() && noise.empty(); }
+};
+
+/// Of cut_structure() with the part (`richer_part`: with what its reduction left out, null if nothing was) or with the
+/// supported part by its poles: noise of a measured tool.
+[[nodiscard]] StructureErrors structure_errors(const Case& source, const milling::ToolFrame& frame,
+                                               const CutStructure& structure, const dynamics::ModalModel* richer_part);
+
+/// Of sampled_structure() with the coupled response of `results`: its noise and truncation at the point that is cut,
+/// and the noise of a measured tool.
+[[nodiscard]] StructureErrors sampled_structure_errors(const Case& source, const milling::ToolFrame& frame,
+                                                       const Results& results);
+
+/// Of one crossing of a chart, first order in both (milling/chart/sensitivity.hpp,
+/// milling/chart/sampled_uncertainty.hpp). Where the crossing is not found again, or stands where its depth has no
+/// derivative, nothing is known. Errors as theirs otherwise.
+[[nodiscard]] DepthError depth_error(const CutStructure& structure, const StructureErrors& errors,
+                                     const milling::MillingProcess& process, double spindle_speed_rpm,
+                                     const milling::LobePoint& point, const milling::StabilityOptions& options);
+
+}  // namespace thinwall::app

@@ -1,0 +1,141 @@
+#include "study/lobes/tool_swap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "coupling/finite_difference_rotations.hpp"
+#include "dynamics/conversion.hpp"
+#include "fem/beam.hpp"
+#include "setup/measured.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr auto root = "root";
+
+dynamics::Tube tube(const ToolStep& step) {
+  return {step.outer_diameter, step.inner_diameter, step.youngs_modulus, step.poisson_ratio, step.density};
+}
+
+/// The tool with the points that are wanted: its tip, its root and, where `up` is not empty, a point `distance` up.
+dynamics::SpatialModel free_tool(const std::vector<ToolStep>& steps, const ToolSwap& swap, const std::string& up,
+                                 const Vector3d& axis) {
+  constexpr int elements = 8;
+  std::vector<fem::CylinderStep> cylinders;
+  std::vector<std::string> names{swap.tip};
+  double from = 0.0;
+  for (const ToolStep& step : steps) {
+    const double to = from + step.length;
+    const bool inside = !up.empty() && swap.distance > from && swap.distance < to;
+    if (inside) {
+      cylinders.push_back({swap.distance - from, tube(step), elements});
+      names.push_back(up);
+      from = swap.distance;
+    }
+    cylinders.push_back({to - from, tube(step), elements});
+    names.push_back(!up.empty() && to == swap.distance ? up : "");
+    from = to;
+  }
+  if (!up.empty() && !(swap.distance < from))
+    throw core::InputError("tool.swap.distance: the second point lies beyond the overhang of the measured tool");
+  names.back() = root;
+  return fem::tool_beam(cylinders, names, axis);
+}
+
+/// H = U diag(1/(ω_r² − ω²)) Uᵀ over all its modes, rigid motions among them.
+dynamics::ResponseModel free_response(const dynamics::SpatialModel& tool, const dynamics::FrequencyAxis& axis) {
+  const dynamics::UndampedModes modes = dynamics::undamped_modes(tool);
+  const Eigen::MatrixXd U = dynamics::displacements(tool) * modes.Phi;
+  dynamics::ResponseModel response{axis, tool.dofs, tool.dofs, {}};
+  response.H.resize(static_cast<std::size_t>(axis.size()));
+  core::parallel_for(response.H.size(), [&](std::size_t line) {
+    const double omega = axis.omega_rad_s(static_cast<Eigen::Index>(line));
+    const Eigen::VectorXd gain = (modes.omega_rad_s.array().square() - omega * omega).inverse();
+    response.H[line] = (U * gain.asDiagonal() * U.transpose()).cast<std::complex<double>>();
+  });
+  return response;
+}
+
+/// Two directions across the axis, in the order in which the FRFs name them.
+std::vector<Vector3d> directions_of(const dynamics::ResponseModel& measured, const Vector3d& axis) {
+  std::vector<Vector3d> directions;
+  for (const dynamics::Dof& dof : measured.responses) {
+    if (std::abs(dof.direction.dot(axis)) > 1e-6)
+      throw core::InputError("tool.swap.measured: \"" + dynamics::name(dof) +
+                             "\" is not across cutting.tool_axis; measure in the two directions that are");
+    if (std::ranges::find(directions, dof.direction) == directions.end()) directions.push_back(dof.direction);
+  }
+  return directions;
+}
+
+/// Translations and the turns of bending in the same planes, held rigidly: what both tools have in common.
+coupling::Contact joint(const std::vector<Vector3d>& directions, const Vector3d& axis) {
+  coupling::Contact contact{root, "holder", {}};
+  for (const Vector3d& d : directions) {
+    coupling::ContactSpring along, about;
+    along.direction = d;
+    about.direction = axis.cross(d).normalized();
+    about.kind = dynamics::DofKind::rotation;
+    contact.springs.push_back(along);
+    contact.springs.push_back(about);
+  }
+  return contact;
+}
+
+coupling::RotationRule rule_of(const std::string& word) {
+  if (word == "rank_one") return coupling::RotationRule::rank_one;
+  return word == "corrected" ? coupling::RotationRule::corrected : coupling::RotationRule::second_difference;
+}
+
+/// The measured FRFs as they are, or as the tip's displacements and rotations.
+dynamics::ResponseModel with_rotations(const dynamics::ResponseModel& measured, const ToolSwap& swap,
+                                       const std::vector<Vector3d>& directions, const Vector3d& axis) {
+  if (swap.rotations == "none") return measured;
+  coupling::RotationOptions options;
+  options.rule = rule_of(swap.rotations);
+  options.tip_section = tube(swap.reference.front());
+  return coupling::finite_difference_rotations(measured, {swap.tip, swap.up, swap.distance, axis, directions}, options)
+      .T;
+}
+
+}  // namespace
+
+SwappedTip swapped_tip(const Case& source) {
+  const ToolSwap& swap = *source.tool->swap;
+  const Vector3d& axis = source.cutting->tool_axis;
+  const dynamics::FrequencyAxis lines = read_measured(swap.measured.front()).axis;
+  const dynamics::ResponseModel measured = measured_response(swap.measured, lines);
+  const std::vector<Vector3d> directions = directions_of(measured, axis);
+  const coupling::Contact held = joint(directions, axis);
+  const coupling::SwappedTool swapped =
+      coupling::tool_swap(with_rotations(measured, swap, directions, axis),
+                          {free_response(free_tool(swap.reference, swap, swap.up, axis), lines), held},
+                          {free_response(free_tool(swap.target, swap, "", axis), lines), held});
+  SwappedTip result;
+  result.status = swapped.status;
+  Eigen::Index worst = 0;
+  result.worst_condition = swapped.holder.condition.maxCoeff(&worst);
+  result.at_frequency_hz = lines.hz(worst);
+  if (swapped.status == coupling::SwapStatus::rank_deficient) {
+    throw core::NumericalError(
+        "tool.swap: at " + std::to_string(result.at_frequency_hz) +
+        " Hz the measured FRFs say nothing of the holder (they are those of the free tool, or not "
+        "independent); leave out such lines");
+  }
+  result.tip.frequency_hz = lines.hz;
+  const dynamics::ResponseModel tip = dynamics::between(swapped.coupled.response, swap.tip, swap.tip);
+  Eigen::Matrix3Xd D = dynamics::displacement_matrix(tip.responses, swap.tip);
+  for (auto d : D.colwise()) {
+    if (!(std::abs(d.dot(axis)) < 1e-6)) d.setZero();  // along its axis nothing holds the tool here
+  }
+  for (const Eigen::MatrixXcd& H : tip.H) result.tip.H.emplace_back(D * H * D.transpose());
+  return result;
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,307 @@
+#include "study/part/part_stage.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/dense_factorisations.hpp"
+#include "core/error.hpp"
+#include "core/memory.hpp"
+#include "core/units.hpp"
+#include "fem/closed_part.hpp"
+#include "fem/points.hpp"
+#include "fem/seen_motions.hpp"
+#include "mesh/solid/tessellation.hpp"
+#include "mesh/surface/triangle_tree.hpp"
+#include "mesh/surface/wall_thickness.hpp"
+#include "mesh/volume/surface_to_volume.hpp"
+#include "reduction/damping.hpp"
+#include "reduction/trust/accuracy.hpp"
+#include "reduction/trust/full_response.hpp"
+#include "reduction/trust/mode_count.hpp"
+#include "setup/imported_part.hpp"
+#include "setup/measured.hpp"
+#include "setup/part_attachments.hpp"
+#include "setup/part_materials.hpp"
+#include "study/lobes/path_stage.hpp"
+#include "study/part/matrix_part.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+void require_solved(double relative_residual) {
+  if (relative_residual < 1e-6) return;
+  throw core::NumericalError("the check of the reduced model did not solve the full one (residual " +
+                             std::to_string(relative_residual) + ")");
+}
+
+/// As many modes as a tolerance on the interface's receptance needs.
+void reduce_to_tolerance(const Case& source, PartResult& part) {
+  reduction::Band band{source.response.from_hz, source.response.to_hz};
+  if (const double least = least_loss_factor(source.damping, part.modes, band.from_hz, band.to_hz); least > 0.0)
+    band.loss_factor = least;
+  const reduction::FullModel full{part.model.K, part.model.M, part.model.node_of_row,
+                                  part.modes.pairs.Phi.leftCols(part.modes.rigid_motions)};
+  const auto truth = reduction::band_truth(full, part.interface, band);
+  require_solved(truth.max_relative_residual);
+  auto chosen = reduction::modes_for_tolerance(full, part.interface,
+                                               {.tolerance = *source.reduction.tolerance, .band = band}, truth);
+  if (chosen.status != reduction::ModeCountStatus::met) {
+    throw core::NumericalError("reduction.tolerance is not met with " + std::to_string(chosen.modes) +
+                               " modes: take a narrower response band, a larger tolerance, or reduction.modes");
+  }
+  spdlog::info("{} modes: the receptance of the interface is {:.1e} off by estimate", chosen.modes,
+               chosen.estimated_error);
+  part.reduced = std::move(chosen.reduced);
+  part.truncation = std::move(chosen.truncation);
+  part.estimated_receptance_error = chosen.estimated_error;
+}
+
+/// The reduced model and what it leaves out.
+void reduce(const Case& source, PartResult& part, const fem::Factored& factored) {
+  if (factored.sigma != 0.0)
+    fem::require_motions_seen(part.model, part.modes, part.interface.W.transpose() * part.modes.pairs.Phi);
+  if (source.reduction.tolerance) return reduce_to_tolerance(source, part);
+  const auto inner = static_cast<int>(part.model.K.rows() - part.interface.W.cols());  // a small model has few
+  const reduction::CraigBamptonOptions options{std::min(source.reduction.fixed_interface.count.value_or(30), inner),
+                                               source.reduction.fixed_interface.up_to_hz};
+  const auto by = [&](const linalg::ShiftedInverse& inverse) {
+    part.reduced = reduction::craig_bampton(part.model.K, part.model.M, inverse, part.interface, options);
+    part.truncation = reduction::truncation(*part.reduced, part.model.M, inverse, part.interface);
+  };
+  if (factored.sigma == 0.0) return by(fem::inverse_of(factored));
+  // A free part: the interface itself restrains it, if its points hold all rigid-body motions.
+  const linalg::SparseCholesky held(reduction::restrained(part.model.K, part.interface), part.model.node_of_row);
+  const linalg::ShiftedInverse inverse{[&held](const Eigen::Ref<const Eigen::MatrixXd>& B) { return held.solve(B); },
+                                       0.0};
+  by(inverse);
+}
+
+/// Undamped receptances of the full model at a few frequencies between its resonances. A held part's factor serves all
+/// of them; a free part, whose K has no inverse, is factored anew at each.
+std::vector<reduction::FullReceptance> full_receptances(const PartResult& part, const fem::Factored& factored,
+                                                        const std::vector<double>& hz) {
+  if (factored.sigma != 0.0) {
+    auto direct = reduction::full_receptances(part.model.K, part.model.M, part.model.node_of_row, part.interface, hz);
+    for (const auto& line : direct) require_solved(line.relative_residual);
+    return direct;
+  }
+  dynamics::FrequencyAxis axis;
+  axis.hz = Eigen::Map<const Eigen::VectorXd>(hz.data(), static_cast<Eigen::Index>(hz.size()));
+  const auto full = reduction::full_response(part.model.K, part.model.M, fem::inverse_of(factored), part.modes.pairs,
+                                             {}, 0.0, part.interface, axis);
+  require_solved(full.max_relative_residual);
+  std::vector<reduction::FullReceptance> result;
+  for (std::size_t i = 0; i < hz.size(); ++i)
+    result.push_back({hz[i], full.response.H[i].real(), full.max_relative_residual});
+  return result;
+}
+
+void check_reduction(const Case& source, PartResult& part, const fem::Factored& factored) {
+  const Eigen::Index rigid = part.modes.rigid_motions;
+  const Eigen::VectorXd elastic = part.modes.frequency_hz.tail(part.modes.frequency_hz.size() - rigid);
+  part.error_by_size = reduction::frequency_error_by_size(*part.reduced, elastic, static_cast<int>(rigid));
+  part.frequency_error = reduction::max_relative_frequency_error(part.reduced->model, elastic, static_cast<int>(rigid));
+  const double from = std::max(1.0, source.response.from_hz);
+  const double to = std::min(source.response.to_hz, 0.5 * elastic.maxCoeff());
+  if (source.reduction.check_frequencies == 0 || to <= from) return;
+  const auto frequencies = reduction::frequencies_between(elastic, from, to, source.reduction.check_frequencies);
+  part.receptance_error =
+      reduction::max_relative_receptance_error(part.reduced->model, full_receptances(part, factored, frequencies));
+}
+
+}  // namespace
+
+double least_loss_factor(const Damping& damping, const fem::Modes& modes, double from_hz, double to_hz) {
+  if (damping.model == "structural") return damping.loss_factor;
+  if (damping.model == "modal") {
+    double least = 2.0 * damping.ratio;
+    for (const double ratio : damping.ratios)
+      if (ratio > 0.0) least = least > 0.0 ? std::min(least, 2.0 * ratio) : 2.0 * ratio;
+    return least;
+  }
+  if (damping.model != "rayleigh") return 0.0;
+  double least = 0.0;
+  for (const double hz : modes.frequency_hz.tail(modes.frequency_hz.size() - modes.rigid_motions)) {
+    if (hz < from_hz || hz > to_hz) continue;
+    const double omega = 2.0 * std::numbers::pi * hz;
+    const double here = damping.alpha / omega + damping.beta * omega;
+    least = least > 0.0 ? std::min(least, here) : here;
+  }
+  return least;
+}
+
+namespace {
+
+/// The mesh of a file with its own nodes, curved where they are, or straight-sided of a higher order.
+fem::Model mesh_model(const Case& source, int order, const fem::Materials& materials) {
+  mesh::SolidMesh solid = source.part->imported->mesh->solid;
+  if (order == 2) solid = mesh::with_order(std::move(solid), 2);
+  mesh::LagrangeNodes nodes = order > 2 ? mesh::lagrange_nodes(solid.mesh, order) : solid.nodes;
+  std::vector<int> fixed = fem::fixed_rows(solid.mesh, nodes, supports_of(source));
+  if (order <= 2) {
+    for (const int row : rows_held_by_sets(source, solid)) fixed.push_back(row);
+  }
+  return fem::build_model(std::move(solid.mesh), std::move(nodes), materials, fixed, attachments_of(source));
+}
+
+}  // namespace
+
+mesh::TetMesh stretched(mesh::TetMesh mesh, const Eigen::Vector3d& from_size, const Eigen::Vector3d& to_size) {
+  const Eigen::Vector3d factor = to_size.cwiseQuotient(from_size);
+  for (auto& v : mesh.vertices) v = v.cwiseProduct(factor).eval();
+  return mesh;
+}
+
+fem::Model part_model(const Case& source, mesh::TetMesh mesh, int order) {
+  const fem::Materials materials = materials_on(source, mesh);
+  if (source.part->shape == "mesh") return mesh_model(source, order, materials);
+  return fem::supported_model(std::move(mesh), order, materials, supports_of(source), shaping(*source.part),
+                              attachments_of(source));
+}
+
+reduction::Interface part_interface(const Case& source, const fem::Model& model) {
+  if (source.part->shape == "matrices") return matrix_interface(source);
+  reduction::Interface interface;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const std::string& name : source.reduction.interface) {
+    const Point& p = point(source, name);
+    const linalg::SparseMatrix columns = fem::point_columns(model, named_point(source, name));
+    for (Eigen::Index j = 0; j < columns.cols(); ++j) {
+      for (linalg::SparseMatrix::InnerIterator it(columns, j); it; ++it) {
+        entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(interface.dofs.size()), it.value());
+      }
+      interface.dofs.push_back({p.name, p.directions[static_cast<std::size_t>(j)], dynamics::DofKind::translation});
+    }
+  }
+  interface.W.resize(model.K.rows(), static_cast<Eigen::Index>(interface.dofs.size()));
+  interface.W.setFromTriplets(entries.begin(), entries.end());
+  return interface;
+}
+
+dynamics::SpatialModel damped(const Case& source, const dynamics::SpatialModel& reduced,
+                              std::vector<reduction::IdentifiedMode>& identified) {
+  const Damping& damping = source.damping;
+  if (damping.model == "matrices") return reduced;
+  if (damping.model == "rayleigh") return reduction::with_rayleigh_damping(reduced, damping.alpha, damping.beta);
+  if (damping.model == "structural") return reduction::with_structural_damping(reduced, damping.loss_factor);
+  if (!damping.from_frf) return reduction::with_modal_damping(reduced, damping.ratios, damping.ratio);
+  const io::MeasuredFrf frf = read_measured(*damping.from_frf);
+  identified = reduction::identify_modes(frf.axis, frf.H);
+  return reduction::with_modal_damping(reduced, matched_ratios(reduced, identified, damping.ratio), damping.ratio);
+}
+
+namespace {
+
+/// C of the part's file on the reduced coordinates, TᵀCT.
+void take_damping_of_file(const Case& source, PartResult& part) {
+  if (source.part->shape != "matrices" || !source.part->imported->matrices->has_damping()) return;
+  if (source.damping.model == "matrices") {
+    const Eigen::MatrixXd C_T = source.part->imported->matrices->C * part.reduced->T;
+    part.reduced->model.C = part.reduced->T.transpose() * C_T;
+  } else {
+    spdlog::warn("the part's damping matrix is not used; set damping.model = \"matrices\" to take it");
+  }
+}
+
+/// Of the surface as it is drawn; a surface that no ray leaves has none.
+std::vector<double> thickness_of(const fem::Model& model) {
+  mesh::TriangleSurface surface{{}, mesh::surface_triangles(model.nodes, mesh::boundary(model.mesh))};
+  for (const auto& x : model.nodes.positions.rowwise()) surface.vertices.emplace_back(x);
+  try {
+    return mesh::wall_thickness(surface, mesh::TriangleTree(surface));
+  } catch (const core::NumericalError& error) {
+    spdlog::info("no wall thickness among the results: {}", error.what());
+    return {};
+  }
+}
+
+/// What a mesh costs in quality.
+void look_at_mesh(PartResult& part) {
+  part.min_quality = 1.0;
+  for (int tet = 0; tet < static_cast<int>(part.model.mesh.tets.size()); ++tet) {
+    part.min_quality = std::min(part.min_quality, mesh::mean_ratio(part.model.mesh, tet));
+  }
+  part.quality = mesh::quality(part.model.mesh);
+  part.wall_thickness_m = thickness_of(part.model);
+}
+
+/// The matrix's mass against the geometry's: exact for straight elements, to the accuracy of the curve for bent ones.
+void check_mass(const Case& source, PartResult& part) {
+  const bool summed = source.part->shape == "mesh" || !source.part->materials.empty();
+  if (summed && part.model.curved_elements > 0) return;  // nothing to compare with
+  const double expected =
+      summed ? mass(materials_on(source, part.model.mesh), part.model.mesh) : mass(*source.part, part.model.mesh);
+  part.mass_difference = std::abs(part.model.mass.mass_kg / expected - 1.0);
+  double bound = part.model.curved_elements > 0 ? 1e-4 : 1e-8;
+  if (source.part->shape == "surface" && !summed) {
+    const MeshOptions& mesh = source.part->mesh;
+    bound = mesh.element_size ? mesh::SurfaceMeshOptions{}.volume_tolerance : fem::share_of_surface * mesh.tolerance;
+  }
+  if (part.mass_difference < bound) return;
+  throw core::NumericalError("the mass of the mesh differs from the geometry's by " +
+                             core::number_text(part.mass_difference, 3) + " relative, more than " +
+                             core::number_text(bound, 3) +
+                             (part.model.curved_elements > 0 ? ": use smaller elements or a higher order" : ""));
+}
+
+}  // namespace
+
+Solution solved_part(const Case& source, Discretisation discretisation, Stages& stages) {
+  if (discretisation.solved) return std::move(*discretisation.solved);
+  stages.begin("assembly");
+  fem::Model model = part_model(source, std::move(discretisation.mesh), discretisation.order);
+  stages.begin("modes");
+  fem::Factored factored = fem::factorise(model, core::available_memory_bytes());
+  fem::Modes modes = fem::modes(model, factored, mode_options(source));
+  return {std::move(model), std::move(factored), std::move(modes)};
+}
+
+PartResult compute_part(const Case& source, Discretisation discretisation, Stages& stages) {
+  PartResult part;
+  part.estimate = discretisation.estimate;
+  Solution solved = solved_part(source, std::move(discretisation), stages);
+  part.model = std::move(solved.model);
+  part.modes = std::move(solved.modes);
+  const fem::Factored factored = std::move(solved.factored);
+  const bool meshed = !part.model.mesh.tets.empty();
+  if (meshed) check_mass(source, part);
+  if (part.modes.round_off > 1e-4) {
+    spdlog::warn(
+        "round-off may change the lowest frequency by {:.0e} of it, for the part is very thin: a lower order or "
+        "larger elements lose less",
+        part.modes.round_off);
+  }
+  if (meshed) look_at_mesh(part);
+  if (source.modes.verify_count && !part.modes.count_verified)
+    part.modes.count_verified = fem::none_missed(part.model, part.modes.pairs);
+  if (part.modes.count_verified && !*part.modes.count_verified) {
+    throw core::NumericalError("the Sturm count shows that the eigen-solver missed a mode: ask for a few more modes");
+  }
+  if (source.reduction.interface.empty()) return part;
+  stages.begin("reduction");
+  part.interface = part_interface(source, part.model);
+  reduce(source, part, factored);
+  if (part.reduced->status != linalg::EigenStatus::converged) {
+    throw core::NumericalError("the fixed-interface modes of the reduction did not converge (" +
+                               std::to_string(part.reduced->fixed_interface_hz.size()) +
+                               " found): ask for fewer in reduction.modes, or mesh more evenly");
+  }
+  take_damping_of_file(source, part);
+  part.damped = damped(source, part.reduced->model, part.identified);
+  if (source.path) {
+    stages.begin("path");
+    part.along_path = models_along_path(source, part, fem::inverse_of(factored));
+  }
+  stages.begin("reduction check");
+  check_reduction(source, part, factored);
+  spdlog::info("reduced to {} degrees of freedom; frequencies agree to {:.1e}", part.reduced->model.size(),
+               part.frequency_error);
+  return part;
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,21 @@
+#pragma once
+// Does the robot stay in touch while the cutter cuts?
+
+#include "case/case.hpp"
+#include "study/results.hpp"
+
+namespace thinwall::app {
+
+/// The force of the part on the robot's tip along the preload over a period of the cut, and whether it falls to zero.
+/// With the harmonics F_k of the cutting force on the part at the cut and Q of dG = P dY Q (coupling/sensitivity.hpp),
+/// whose rows at the tip are the joints' force there for a unit force on the part,
+///
+///     N(t) = N₀ + n · Re Σ_k Q(kω) F_k e^{ikωt},     ω = 2π/T
+///
+/// N₀ and n: preload and normal of an only contact (setup/contact_model.hpp), else size and direction of robot.preload;
+/// the mean force (k = 0) at a thousandth of the first harmonic. The coupling is two-sided: where N < 0 it is not what
+/// the robot does. `tip`: the robot in its posture. Throws InputError without preload. Cost: 65 lines of a coupling.
+[[nodiscard]] ContactForce contact_force(const Case& source, const Component& part, const Component& tip,
+                                         const milling::ForcedVibration& cut);
+
+}  // namespace thinwall::app

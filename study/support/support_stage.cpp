@@ -1,0 +1,182 @@
+#include "study/support/support_stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "dynamics/conversion.hpp"
+#include "setup/contact_model.hpp"
+#include "setup/measured.hpp"
+#include "study/sensor_mass.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+/// Names of a contact's directed DOFs on the part, "P.x".
+std::vector<std::string> contact_dofs(const Case& source) {
+  std::vector<std::string> names;
+  for (const Contact& c : source.contacts) {
+    for (const auto& n : c.directions)
+      names.push_back(dynamics::name({c.part_point, n, dynamics::DofKind::translation}));
+  }
+  return names;
+}
+
+bool has_dof(const dynamics::DofTable& dofs, const std::string& name) {
+  return std::any_of(dofs.begin(), dofs.end(), [&](const dynamics::Dof& d) { return dynamics::name(d) == name; });
+}
+
+/// Only the part's rows and columns of a coupled response.
+dynamics::ResponseModel part_block(const dynamics::ResponseModel& all, const dynamics::ResponseModel& part) {
+  dynamics::ResponseModel block;
+  block.axis = all.axis;
+  block.responses = part.responses;
+  block.forces = part.forces;
+  const auto n = static_cast<Eigen::Index>(part.responses.size());
+  for (const auto& H : all.H) block.H.emplace_back(H.topLeftCorner(n, n));
+  return block;
+}
+
+/// Peaks of a measured curve; none is an answer here.
+std::vector<reduction::IdentifiedMode> identified_peaks(const dynamics::FrequencyAxis& axis,
+                                                        const Eigen::VectorXcd& H) {
+  try {
+    return reduction::identify_modes(axis, H);
+  } catch (const core::InputError&) {
+    return {};
+  }
+}
+
+double peak_near(const dynamics::FrequencyAxis& axis, const Eigen::VectorXcd& H, double hz, Eigen::Index& line) {
+  double largest = -1.0;
+  for (Eigen::Index i = 0; i < axis.size(); ++i) {
+    if (std::abs(axis.hz(i) - hz) > 0.02 * hz || std::abs(H(i)) <= largest) continue;
+    largest = std::abs(H(i));
+    line = i;
+  }
+  return largest;
+}
+
+/// As far as matrices are known: the coupled model with its modes and response, or the part's response alone.
+void add_spatial_route(const Component& part, const Component& robot, const std::vector<coupling::Contact>& contacts,
+                       const dynamics::FrequencyAxis& axis, CouplingResult& result) {
+  if (part.spatial && robot.spatial) {
+    result.model = coupling::couple(*part.spatial, *robot.spatial, contacts);
+    result.modal = modes_of(*result.model);
+    result.spatial_response = part_block(dynamics::direct_response(*result.model, axis), part.response);
+  } else if (part.spatial) {
+    result.spatial_response = coupling::direct_response(*part.spatial, robot.response, contacts, axis);
+  }
+}
+
+}  // namespace
+
+dynamics::FrequencyAxis frequency_axis(const Case& source) {
+  const ResponseOptions& r = source.response;
+  return r.logarithmic ? dynamics::logarithmic_axis(r.from_hz, r.to_hz, r.lines)
+                       : dynamics::linear_axis(r.from_hz, r.to_hz, r.lines);
+}
+
+Component component(dynamics::SpatialModel model, const dynamics::FrequencyAxis& axis) {
+  Component result;
+  if (dynamics::undamped_modes(model).omega_rad_s.minCoeff() < 1e-3 * axis.omega_rad_s(0)) {
+    // A rigid-body motion has no decaying pole pair.
+    result.response = dynamics::direct_response(model, axis);
+    result.spatial = std::move(model);
+    return result;
+  }
+  result.modal = modes_of(model);
+  result.response = model.has_structural_damping() ? dynamics::direct_response(model, axis)
+                                                   : dynamics::to_response(*result.modal, axis);
+  result.spatial = std::move(model);
+  return result;
+}
+
+Component measured_part(const Case& source, const dynamics::FrequencyAxis& axis) {
+  Component part;
+  part.response = without_sensors(measured_response(source.measured_part, axis), source.part_sensors, "the part's");
+  return part;
+}
+
+std::vector<coupling::Contact> contacts_of(const Case& source) {
+  std::vector<coupling::Contact> contacts;
+  contacts.reserve(source.contacts.size());
+  for (JoinedContact& joined : joined_contacts(source)) contacts.push_back(std::move(joined.contact));
+  return contacts;
+}
+
+coupling::CouplingOptions coupling_options(const Case& source) {
+  coupling::CouplingOptions options;
+  if (source.coupling.regularisation == "truncated") options.regularisation = coupling::Regularisation::truncated;
+  if (source.coupling.regularisation == "tikhonov") options.regularisation = coupling::Regularisation::tikhonov;
+  options.threshold = source.coupling.threshold;
+  return options;
+}
+
+dynamics::ModalModel modes_of(const dynamics::SpatialModel& model) {
+  return dynamics::to_modal(model.has_structural_damping() ? dynamics::equivalent_viscous(model) : model);
+}
+
+CouplingResult couple(const Case& source, const Component& part, const Component& robot) {
+  const auto contacts = contacts_of(source);
+  const dynamics::FrequencyAxis& axis = part.response.axis;
+  const coupling::CouplingOptions options = coupling_options(source);
+  CouplingResult result{coupling::couple(part.response, robot.response, contacts, options), {}, {}, {}, {}, {}, {}};
+  try {
+    add_spatial_route(part, robot, contacts, axis, result);
+  } catch (const core::InputError& error) {
+    if (options.regularisation == coupling::Regularisation::none) throw;
+    result.model.reset();
+    result.no_spatial_route = error.what();
+  }
+  if (result.spatial_response) {
+    const std::string& point = source.contacts.front().part_point;
+    result.difference = coupling::route_difference(*result.spatial_response,
+                                                   part_block(result.receptance.response, part.response), point, point);
+  }
+  const std::string dof = contact_dofs(source).front();
+  if (!result.modal && has_dof(part.response.responses, dof)) {
+    result.identified = identified_peaks(axis, dynamics::entry(result.receptance.response, dof, dof));
+  }
+  return result;
+}
+
+std::vector<Participation> participating_modes(const dynamics::ModalModel& model, const std::string& dof) {
+  const int row = dynamics::row_of(model.dofs, dof);
+  std::vector<Participation> all;
+  double largest = 0.0;
+  for (const int k : dynamics::oscillating_modes(model)) {
+    const double omega = std::abs(model.poles(k));
+    const double share = 2.0 * std::abs(model.right(row, k) * model.left(row, k) / model.scaling(k)) / omega;
+    all.push_back({omega / (2.0 * std::numbers::pi), share});
+    largest = std::max(largest, share);
+  }
+  std::erase_if(all, [&](const Participation& p) { return p.share < 0.1 * largest; });
+  return all;
+}
+
+std::vector<AmplitudeReduction> reductions(const Case& source, const Component& part, const CouplingResult& coupled) {
+  std::vector<AmplitudeReduction> result;
+  const dynamics::FrequencyAxis& axis = part.response.axis;
+  for (const std::string& dof : contact_dofs(source)) {
+    if (!has_dof(part.response.responses, dof)) continue;
+    const Eigen::VectorXcd H = dynamics::entry(part.response, dof, dof);
+    const Eigen::VectorXcd G = dynamics::entry(coupled.receptance.response, dof, dof);
+    std::vector<double> resonances;
+    if (part.modal) {
+      for (const auto& mode : participating_modes(*part.modal, dof)) resonances.push_back(mode.frequency_hz);
+    } else {
+      for (const auto& mode : identified_peaks(axis, H)) resonances.push_back(mode.frequency_hz);
+    }
+    for (const double hz : resonances) {
+      Eigen::Index line = 0;
+      const double alone = peak_near(axis, H, hz, line);
+      if (alone > 0.0) result.push_back({dof, axis.hz(line), alone, std::abs(G(line))});
+    }
+  }
+  return result;
+}
+
+}  // namespace thinwall::app
