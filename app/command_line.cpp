@@ -64,62 +64,63 @@ std::vector<milling::OperatingPoint> operating_points(const Arguments& arguments
 }
 
 /// Sets the log up as -q, -v and --progress ask for it; returns how stages are shown.
-ProgressDisplay start_log(const Arguments& arguments) {
-  const ProgressDisplay display = progress_display(arguments.progress, arguments.quiet);
-  const bool lines_in_spite_of_quiet = arguments.quiet && display == ProgressDisplay::lines;
+study::ProgressDisplay start_log(const Arguments& arguments) {
+  const study::ProgressDisplay display = progress_display(arguments.progress, arguments.quiet);
+  const bool lines_in_spite_of_quiet = arguments.quiet && display == study::ProgressDisplay::lines;
   log_to_terminal(arguments.quiet && !lines_in_spite_of_quiet ? -1
                   : arguments.verbose                         ? 1
                                                               : 0,
-                  display == ProgressDisplay::line);
+                  display == study::ProgressDisplay::line);
   return display;
 }
 
 /// Computes a case into its result folder; `report` makes the text for the terminal.
 template <typename Report>
-ExitCode compute(const Arguments& arguments, const Case& source, const RunCase& run_case, std::ostream& out,
-                 const Report& report) {
+ExitCode compute(const Arguments& arguments, const cases::Case& source, const study::RunCase& run_case,
+                 std::ostream& out, const Report& report) {
   const int verbosity = arguments.quiet ? -1 : arguments.verbose ? 1 : 0;
-  const ProgressDisplay display = start_log(arguments);
+  const study::ProgressDisplay display = start_log(arguments);
   if (arguments.threads > 0) core::set_thread_count(arguments.threads);
   const std::vector<milling::OperatingPoint> points = operating_points(arguments);
-  const ResultFolder folder(arguments.out.empty() ? default_result_folder(source)
-                                                  : std::filesystem::path(arguments.out));
+  const report::ResultFolder folder(arguments.out.empty() ? report::default_result_folder(source)
+                                                          : std::filesystem::path(arguments.out));
   log_to_file(folder.path() / "run.log");
-  const RunResult result =
-      run_case(source, {folder.path(), arguments.fresh, verbosity, display == ProgressDisplay::line, points,
-                        display == ProgressDisplay::lines});
+  const study::RunResult result =
+      run_case(source, {folder.path(), arguments.fresh, verbosity, display == study::ProgressDisplay::line, points,
+                        display == study::ProgressDisplay::lines});
   out << coloured(report(result.summary, folder.path().string()), style_for(out));
   return result.expectations_hold ? ExitCode::done : ExitCode::expectation;
 }
 
-ExitCode run(const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
-  return compute(arguments, read_case(arguments.case_path, arguments.overrides), run_case, out, terminal_report);
+ExitCode run(const Arguments& arguments, const study::RunCase& run_case, std::ostream& out) {
+  return compute(arguments, cases::read_case(arguments.case_path, arguments.overrides), run_case, out,
+                 report::terminal_report);
 }
 
-ExitCode lobes(const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
+ExitCode lobes(const Arguments& arguments, const study::RunCase& run_case, std::ostream& out) {
   LobesInput input = arguments.lobes;
   input.overrides = arguments.overrides;
-  return compute(arguments, lobes_case(input), run_case, out, lobes_report);
+  return compute(arguments, lobes_case(input), run_case, out, report::lobes_report);
 }
 
 ExitCode robot(const Arguments& arguments, std::ostream& out) {
-  const Case source = read_case(arguments.case_path, arguments.overrides);
-  const RobotSurvey found = survey(source);
-  const ResultFolder folder(arguments.out.empty() ? default_result_folder(source)
-                                                  : std::filesystem::path(arguments.out));
+  const cases::Case source = cases::read_case(arguments.case_path, arguments.overrides);
+  const study::RobotSurvey found = study::survey(source);
+  const report::ResultFolder folder(arguments.out.empty() ? report::default_result_folder(source)
+                                                          : std::filesystem::path(arguments.out));
   log_to_file(folder.path() / "run.log");  // marks the folder as ours
   write_survey(folder.path(), source, found);
   if (found.tips.empty())
     throw core::InputError("the robot reaches none of the places; at the first, " + found.out_of_reach.front().reason);
   if (!source.title.empty()) out << source.title << '\n';
-  out << survey_text(found) << "  tables: " << (folder.path() / "robot").string() << '\n';
+  out << study::survey_text(found) << "  tables: " << (folder.path() / "robot").string() << '\n';
   return ExitCode::done;
 }
 
 ExitCode reduce(const Arguments& arguments, std::ostream& out) {
   ReduceRequest request = arguments.reduce;
   request.display = start_log(arguments);
-  out << reduce_part(read_case(arguments.case_path, arguments.overrides), request);
+  out << reduce_part(cases::read_case(arguments.case_path, arguments.overrides), request);
   return ExitCode::done;
 }
 
@@ -130,8 +131,8 @@ ExitCode inspect(const Arguments& arguments, std::ostream& out) {
 }
 
 ExitCode check(const Arguments& arguments, std::ostream& out) {
-  const Case source = read_case(arguments.case_path, arguments.overrides);
-  const auto expectations = read_expectations(source.file);
+  const cases::Case source = cases::read_case(arguments.case_path, arguments.overrides);
+  const auto expectations = cases::read_expectations(source.file);
   out << source.file.string() << ": no errors\n";
   if (!source.title.empty()) out << "  " << source.title << '\n';
   if (source.part && source.part->imported) {
@@ -139,7 +140,7 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
     for (const auto& note : source.part->imported->notes) out << "            " << note << '\n';
   }
   if (source.part) {
-    const SizeEstimate size = estimate_size(source);
+    const cases::SizeEstimate size = cases::estimate_size(source);
     const auto rounded = [](double value) { return core::readable_text(value, core::kind::number); };
     if (size.elements > 0.0)
       out << "  elements  about " << rounded(size.elements) << " of order " << size.order << ", "
@@ -151,7 +152,7 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
     out << "  DOFs      about " << rounded(size.dofs) << '\n'
         << "  time      about " << core::readable_text(std::max(1.0, size.seconds), core::kind::time)
         << " for mesh, modes and reduction on two cores\n";
-    for (const std::string& warning : unreachable_tolerances(source)) out << "  warning   " << warning << '\n';
+    for (const std::string& warning : study::unreachable_tolerances(source)) out << "  warning   " << warning << '\n';
   }
   if (source.lobes) out << "  lobes     " << source.lobes->count << " speeds\n";
   if (!expectations.empty()) out << "  expected  " << expectations.size() << " figures\n";
@@ -160,7 +161,7 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
 
 ExitCode compare(const Arguments& arguments, std::ostream& out) {
   constexpr std::size_t shown = 20;
-  const Comparison comparison = compare_results(arguments.left, arguments.right, arguments.tolerance);
+  const report::Comparison comparison = report::compare_results(arguments.left, arguments.right, arguments.tolerance);
   for (std::size_t i = 0; i < std::min(shown, comparison.differences.size()); ++i) {
     const auto& difference = comparison.differences[i];
     out << difference.where << ": " << difference.left << " against " << difference.right << '\n';
@@ -178,8 +179,11 @@ ExitCode compare(const Arguments& arguments, std::ostream& out) {
 ExitCode print_schema(const std::string& file, std::ostream& out) {
   if (file != "case" && file != "expected" && file != "joints")
     throw core::UsageError("there is no schema of \"" + file + "\"; there are case, expected, joints");
-  const Schema& schema = file == "case" ? case_schema() : file == "expected" ? expectation_schema() : joints_schema();
-  out << json_schema(schema, file == "joints" ? "joints beside a URDF" : file + ".toml of thinwall").dump(2) << '\n';
+  const cases::Schema& schema = file == "case"       ? cases::case_schema()
+                                : file == "expected" ? cases::expectation_schema()
+                                                     : cases::joints_schema();
+  out << cases::json_schema(schema, file == "joints" ? "joints beside a URDF" : file + ".toml of thinwall").dump(2)
+      << '\n';
   return ExitCode::done;
 }
 
@@ -193,7 +197,7 @@ ExitCode remake_report(const Arguments& arguments, std::ostream& out) {
 }
 
 ExitCode animate(const Arguments& arguments, std::ostream& out) {
-  require_results(arguments.folder);
+  report::require_results(arguments.folder);
   const std::filesystem::path file = report::write_phases(arguments.folder, arguments.phases);
   out << "wrote " << file.string() << "; open it in ParaView and press play\n";
   return ExitCode::done;
@@ -329,7 +333,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   describe_sweep(app, arguments.sweep, arguments.merge);
   auto* init = app.add_subcommand("init", "write a commented case to start from");
   init->add_option("--template", arguments.template_name, "what to start from (default: plate)")
-      ->type_name(alternatives(template_names()));
+      ->type_name(alternatives(cases::template_names()));
   init->add_option("DIR", arguments.folder, "folder for the case (default: the template's name)")->type_name("DIR");
   auto* compare_command = app.add_subcommand("compare", "compare two result folders, number by number");
   compare_command->add_option("A", arguments.left, "result folder")->type_name("DIR")->required();
@@ -351,7 +355,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_subcommand("doctor", "versions, libraries, threads, optional parts, and a self-test (exit 5: it fails)");
 }
 
-ExitCode execute(const CLI::App& app, const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
+ExitCode execute(const CLI::App& app, const Arguments& arguments, const study::RunCase& run_case, std::ostream& out) {
   if (app.got_subcommand("run")) return run(arguments, run_case, out);
   if (app.got_subcommand("lobes")) return lobes(arguments, run_case, out);
   if (app.got_subcommand("robot")) return robot(arguments, out);
@@ -365,7 +369,7 @@ ExitCode execute(const CLI::App& app, const Arguments& arguments, const RunCase&
   if (app.got_subcommand("report")) return remake_report(arguments, out);
   if (app.got_subcommand("init")) {
     const auto folder = arguments.folder.empty() ? arguments.template_name : arguments.folder;
-    const auto file = write_template(arguments.template_name, folder);
+    const auto file = cases::write_template(arguments.template_name, folder);
     out << "wrote " << file.string() << "; compute it with: thinwall run " << file.parent_path().string() << '\n';
     return ExitCode::done;
   }
@@ -399,24 +403,24 @@ ExitCode parse(CLI::App& app, int argc, const char* const* argv, std::ostream& o
     app.exit(success, out, err);
     throw;
   } catch (const CLI::ParseError& error) {
-    const std::string unknown = unknown_word(description_of(app), {argv + 1, argv + argc});
+    const std::string unknown = cases::unknown_word(description_of(app), {argv + 1, argv + argc});
     report(err, unknown.empty() ? std::string(error.what()) + "; \"thinwall --help\" lists the commands" : unknown);
     return ExitCode::usage;
   }
 }
 
 /// Every problem of a case with what it points at beneath.
-void report(std::ostream& err, const CaseError& error) {
-  for (const Problem& problem : error.problems) {
-    report(err, problem_line(error.source.name, problem));
-    err << excerpt(error.source, problem);
+void report(std::ostream& err, const cases::CaseError& error) {
+  for (const cases::Problem& problem : error.problems) {
+    report(err, cases::problem_line(error.source.name, problem));
+    err << cases::excerpt(error.source, problem);
   }
 }
 
 int guarded(const std::function<ExitCode()>& command, std::ostream& err) {
   try {
     return static_cast<int>(command());
-  } catch (const CaseError& error) {
+  } catch (const cases::CaseError& error) {
     report(err, error);
     return static_cast<int>(error.code());
   } catch (const core::Error& error) {
@@ -446,7 +450,8 @@ extern "C" void on_signal(int signal) {
 
 }  // namespace
 
-int run_command_line(int argc, const char* const* argv, const RunCase& run_case, std::ostream& out, std::ostream& err) {
+int run_command_line(int argc, const char* const* argv, const study::RunCase& run_case, std::ostream& out,
+                     std::ostream& err) {
   return guarded(
       [&] {
         Arguments arguments;

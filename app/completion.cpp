@@ -21,7 +21,7 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
 /// Keys that can be written without knowing the case: the first entry of an array, no table that the user names.
 std::vector<std::string> settable_keys() {
   std::vector<std::string> keys;
-  for (const Key& key : case_schema().keys) {
+  for (const cases::Key& key : cases::case_schema().keys) {
     std::string path(key.path);
     if (path.find('*') != std::string::npos) continue;
     for (auto at = path.find("[]"); at != std::string::npos; at = path.find("[]", at)) path.replace(at, 2, "[0]");

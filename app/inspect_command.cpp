@@ -37,7 +37,7 @@ reduction::ReducedModelReport report_of(const InspectRequest& request, std::stri
   for (const auto& note : imported.notes) notes += note + "\n";
   if (imported.model.size() > largest_dense)
     return reduction::sparse_report(imported.model, {.positions = {}, .rigid_motions = request.rigid_motions});
-  PlacedModel model = placed(imported.model);
+  report::PlacedModel model = report::placed(imported.model);
   const auto unplaced = [&](const dynamics::Dof& dof) {
     return dof.kind != dynamics::DofKind::modal && !model.positions.contains(dof.point);
   };
@@ -49,7 +49,7 @@ reduction::ReducedModelReport report_of(const InspectRequest& request, std::stri
 }
 
 reduction::ReducedModelReport report_of_model(const InspectRequest& request) {
-  const PlacedModel model = read_model(request.model);
+  const report::PlacedModel model = report::read_model(request.model);
   return reduction::report(model.model, {.positions = model.positions, .rigid_motions = request.rigid_motions});
 }
 
@@ -58,7 +58,7 @@ reduction::ReducedModelReport report_of_model(const InspectRequest& request) {
 Inspection inspect(const InspectRequest& request) {
   std::string notes;
   const auto report = request.model.empty() ? report_of(request, notes) : report_of_model(request);
-  if (request.json) io::write_json(*request.json, report_json(report));
+  if (request.json) io::write_json(*request.json, report::report_json(report));
   return {notes + reduction::text(report), report.trustworthy()};
 }
 

@@ -132,13 +132,13 @@ std::string structure_text(const LobesInput& input) {
   return toml;
 }
 
-Case from_case(const LobesInput& input) {
+cases::Case from_case(const LobesInput& input) {
   if (input.sources.size() > 1 || !input.tool.empty() || !input.quantity.empty() || !input.unit.empty() ||
       !input.frequency_unit.empty()) {
     throw UsageError("\"" + input.sources.front() +
                      "\" is a case: give it alone; --tool, --quantity, --unit and --frequency-unit go with CSV files");
   }
-  Case result = read_case(input.sources.front(), input.overrides);
+  cases::Case result = cases::read_case(input.sources.front(), input.overrides);
   if (!result.lobes || !result.cutting || !result.tool) {
     throw core::InputError(result.file.string() +
                            ": has no chart to compute; add [tool], [cutting] and [lobes] (docs/case-file.md)");
@@ -146,7 +146,7 @@ Case from_case(const LobesInput& input) {
   return result;
 }
 
-Case from_files(const LobesInput& input) {
+cases::Case from_files(const LobesInput& input) {
   if (input.tool.empty()) {
     throw UsageError("\"" + input.sources.front() +
                      "\" needs --tool TOOL.toml, a file with the tables [tool], [cutting] and [lobes] of a case");
@@ -155,7 +155,7 @@ Case from_files(const LobesInput& input) {
     throw core::DataError("--tool: there is no file \"" + input.tool + "\"; write one with [tool], [cutting], [lobes]");
   const fs::path file = input.tool;
   const std::string text = core::read_file(file) + structure_text(input);
-  Case result = parse_case(text, file.parent_path(), file.string(), input.overrides);
+  cases::Case result = cases::parse_case(text, file.parent_path(), file.string(), input.overrides);
   result.file = file;
   result.name = source_of(input.sources.front()).file.stem().string();
   if (!result.lobes || !result.cutting) {
@@ -167,7 +167,7 @@ Case from_files(const LobesInput& input) {
 
 }  // namespace
 
-Case lobes_case(const LobesInput& input) {
+cases::Case lobes_case(const LobesInput& input) {
   const fs::path first = input.sources.front();
   return fs::is_directory(first) || first.extension() == ".toml" ? from_case(input) : from_files(input);
 }

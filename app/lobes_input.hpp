@@ -24,7 +24,7 @@ struct LobesInput {
 /// damping_ratio, stiffness (N/m) or mass (kg), and direction ("x", "-y"; x where there is no such column). Throws
 /// UsageError for words that do not go together, CaseError for a case or tool with errors, InputError for a case
 /// without [lobes], DataError (file and line) for unreadable files or a mode that no structure has.
-[[nodiscard]] Case lobes_case(const LobesInput& input);
+[[nodiscard]] cases::Case lobes_case(const LobesInput& input);
 
 /// "5000 rpm, 0.5 mm". Throws UsageError: anything else, a wrong unit, zero or less.
 [[nodiscard]] milling::OperatingPoint operating_point(const std::string& text);

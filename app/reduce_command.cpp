@@ -58,14 +58,14 @@ void require_options(const ReduceRequest& request) {
                            request.method);
 }
 
-void require_reducible(const Case& source) {
+void require_reducible(const cases::Case& source) {
   if (!source.part) throw core::InputError("there is no modelled part to reduce; describe it in [part]");
   if (source.reduction.interface.empty())
     throw core::InputError("the part has no points to be reduced to; name them in [points]");
 }
 
 /// A model is not written over the matrices that it comes from.
-void require_apart(const Case& source, const ReduceRequest& request) {
+void require_apart(const cases::Case& source, const ReduceRequest& request) {
   const io::MatrixFiles& files = source.part->file.matrices;
   std::error_code ignored;
   const auto out = std::filesystem::weakly_canonical(request.out, ignored);
@@ -76,7 +76,7 @@ void require_apart(const Case& source, const ReduceRequest& request) {
   }
 }
 
-reduction::Band band_of(const Case& source, const ReduceRequest& request) {
+reduction::Band band_of(const cases::Case& source, const ReduceRequest& request) {
   reduction::Band band;
   band.from_hz = request.from_hz.value_or(source.response.from_hz);
   band.to_hz = request.to_hz.value_or(source.response.to_hz);
@@ -89,7 +89,7 @@ reduction::Band band_of(const Case& source, const ReduceRequest& request) {
   return band;
 }
 
-reduction::FullModel full_model(const Solution& part) {
+reduction::FullModel full_model(const study::Solution& part) {
   return {part.model.K, part.model.M, part.model.node_of_row, part.modes.pairs.Phi.leftCols(part.modes.rigid_motions)};
 }
 
@@ -100,7 +100,7 @@ void require_solved(const reduction::BandTruth& truth) {
 }
 
 /// Elastic modes that are asked for: by the command, or by the case's [reduction]; none where a tolerance is to choose.
-std::optional<int> wanted_modes(const Case& source, const ReduceRequest& request, const Solution& part) {
+std::optional<int> wanted_modes(const cases::Case& source, const ReduceRequest& request, const study::Solution& part) {
   if (request.modes || request.tolerance) return request.modes;
   if (source.reduction.fixed_interface.up_to_hz) {  // as many as the part itself has up to there
     const auto& hz = part.modes.frequency_hz;
@@ -110,7 +110,7 @@ std::optional<int> wanted_modes(const Case& source, const ReduceRequest& request
     return static_cast<int>((hz.array() <= *source.reduction.fixed_interface.up_to_hz).count()) -
            part.modes.rigid_motions;
   }
-  const auto* given = find(source.values, "reduction.modes");
+  const auto* given = cases::find(source.values, "reduction.modes");
   return given == nullptr ? std::nullopt : source.reduction.fixed_interface.count;
 }
 
@@ -135,7 +135,7 @@ ReducedPart by_tolerance(const reduction::FullModel& full, const reduction::Inte
   return result;
 }
 
-ReducedPart reduced_part(const Case& source, const ReduceRequest& request, std::optional<int> modes,
+ReducedPart reduced_part(const cases::Case& source, const ReduceRequest& request, std::optional<int> modes,
                          const reduction::FullModel& full, const reduction::Interface& interface,
                          const reduction::Band& band, const reduction::BandTruth& truth) {
   const Method method = method_of(request);
@@ -152,10 +152,10 @@ ReducedPart reduced_part(const Case& source, const ReduceRequest& request, std::
 
 /// Where the points are: the centres of their patches, which an edge may cut, or their nodes; empty unless all are
 /// known.
-reduction::Positions positions_of(const Case& source, const fem::Model& model) {
+reduction::Positions positions_of(const cases::Case& source, const fem::Model& model) {
   reduction::Positions positions;
   for (const std::string& name : source.reduction.interface) {
-    const fem::NamedPoint p = named_point(source, name);
+    const fem::NamedPoint p = study::named_point(source, name);
     const fem::Patch disc = fem::Disc{p.position_m, p.patch_radius_m, p.off_m};
     const Eigen::Vector3d x =
         model.mesh.tets.empty() ? p.position_m : fem::patch_average(model.mesh, model.nodes, disc, name).centre_m;
@@ -178,19 +178,20 @@ std::string error_text(const reduction::ComparisonRow& row, const reduction::Ban
 }
 
 /// The files, and what is to be said of them.
-std::string written(const Case& source, const ReduceRequest& request, const ReducedPart& reduced,
-                    const Solution& part) {
-  PlacedModel model{std::get<dynamics::SpatialModel>(reduced.reduction.model), positions_of(source, part.model)};
+std::string written(const cases::Case& source, const ReduceRequest& request, const ReducedPart& reduced,
+                    const study::Solution& part) {
+  report::PlacedModel model{std::get<dynamics::SpatialModel>(reduced.reduction.model),
+                            positions_of(source, part.model)};
   if (source.damping.model == "matrices") {
     spdlog::warn("the part's damping matrix is not carried into the reduced model; \"thinwall run\" does that");
   } else if (takes_damping(reduced.reduction.method)) {
     std::vector<reduction::IdentifiedMode> identified;
-    model.model = damped(source, model.model, identified);
+    model.model = study::damped(source, model.model, identified);
   }
-  const std::string left_out = write_model(request.out, model);
+  const std::string left_out = report::write_model(request.out, model);
   const reduction::ReducedModelReport report =
       reduction::report(model.model, {.positions = model.positions, .rigid_motions = part.modes.rigid_motions});
-  io::write_json(request.out / "report.json", report_json(report));
+  io::write_json(request.out / "report.json", report::report_json(report));
   core::write_file_atomically(request.out / "report.txt", reduction::text(report));
   std::string text = reduction::text(report) + "\n";
   if (!left_out.empty()) text += "  model.mat only: " + left_out + "\n";
@@ -199,18 +200,18 @@ std::string written(const Case& source, const ReduceRequest& request, const Redu
 
 }  // namespace
 
-std::string reduce_part(const Case& source, const ReduceRequest& request) {
+std::string reduce_part(const cases::Case& source, const ReduceRequest& request) {
   require_options(request);
   require_reducible(source);
   require_apart(source, request);
   reduction::Band band = band_of(source, request);
-  make_model_folder(request.out);
-  Stages stages(request.display);
+  report::make_model_folder(request.out);
+  study::Stages stages(request.display);
   stages.begin("mesh, order and modes");
-  const Solution part = solved_part(source, discretise(source), stages);
-  const double least = least_loss_factor(source.damping, part.modes, band.from_hz, band.to_hz);
+  const study::Solution part = study::solved_part(source, study::discretise(source), stages);
+  const double least = study::least_loss_factor(source.damping, part.modes, band.from_hz, band.to_hz);
   if (least > 0.0) band.loss_factor = least;
-  const reduction::Interface interface = part_interface(source, part.model);
+  const reduction::Interface interface = study::part_interface(source, part.model);
   const reduction::FullModel full = full_model(part);
   stages.begin("receptance of the full model");
   const reduction::BandTruth truth = reduction::band_truth(full, interface, band);

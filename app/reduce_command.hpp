@@ -19,7 +19,7 @@ struct ReduceRequest {
   std::optional<double> from_hz, to_hz;  ///< the band; the case's response if not given
   std::optional<int> characteristic;     ///< amplitudes of a reduced interface
   bool compare = false;                  ///< all methods side by side, at the size of this one
-  ProgressDisplay display = ProgressDisplay::lines;
+  study::ProgressDisplay display = study::ProgressDisplay::lines;
 };
 
 /// Meshes and reduces the part to its points, measures the error of the interface's receptance over the band against
@@ -29,6 +29,6 @@ struct ReduceRequest {
 /// %. Throws before anything is computed: UsageError for options that cannot be, InputError for a case without part or
 /// points, DataError for a folder that cannot be made or written to. Later InputError for what the method refuses;
 /// NumericalError where the mode count does not meet the tolerance.
-[[nodiscard]] std::string reduce_part(const Case& source, const ReduceRequest& request);
+[[nodiscard]] std::string reduce_part(const cases::Case& source, const ReduceRequest& request);
 
 }  // namespace thinwall::app

@@ -50,9 +50,9 @@ SelfTest self_test() {
   SelfTest test;
   test.expected_hz = cantilever_hz();
   try {
-    const Case source = parse_case(cantilever, ".");
-    Stages stages(ProgressDisplay::none);
-    test.found_hz = solved_part(source, discretise(source), stages).modes.frequency_hz(0);
+    const cases::Case source = cases::parse_case(cantilever, ".");
+    study::Stages stages(study::ProgressDisplay::none);
+    test.found_hz = study::solved_part(source, study::discretise(source), stages).modes.frequency_hz(0);
   } catch (const core::Interrupted&) {
     throw;
   } catch (const std::exception& error) {

@@ -13,13 +13,13 @@
 
 #include "app/log.hpp"
 #include "app/sweep_record.hpp"
+#include "app/sweep_table.hpp"
 #include "app/terminal.hpp"
 #include "case/reader.hpp"
 #include "case/schema.hpp"
 #include "core/atomic_file.hpp"
 #include "core/interrupt.hpp"
 #include "report/result_folder.hpp"
-#include "report/sweep_table.hpp"
 #include "study/stages.hpp"
 
 namespace thinwall::app {
@@ -102,9 +102,10 @@ void guard_point(SweepRow& row, const Body& body) {
 
 /// On a terminal the line of the stages beneath that of the point; elsewhere stages are told only if they are asked
 /// for.
-ProgressDisplay stage_display(const SweepRequest& request) {
-  const ProgressDisplay display = progress_display(request.progress, request.verbosity < 0);
-  return display == ProgressDisplay::lines && request.progress != "always" ? ProgressDisplay::none : display;
+study::ProgressDisplay stage_display(const SweepRequest& request) {
+  const study::ProgressDisplay display = progress_display(request.progress, request.verbosity < 0);
+  return display == study::ProgressDisplay::lines && request.progress != "always" ? study::ProgressDisplay::none
+                                                                                  : display;
 }
 
 /// Where the points of a sweep keep their parts: those that differ in the cut only share one.
@@ -112,32 +113,32 @@ fs::path shared_parts(const fs::path& sweep) {
   return sweep / "cache";
 }
 
-void run_point(const fs::path& folder, const SweepRequest& request, const Case& source, const RunCase& run_case,
-               SweepRow& row) {
-  const ResultFolder results(folder);
+void run_point(const fs::path& folder, const SweepRequest& request, const cases::Case& source,
+               const study::RunCase& run_case, SweepRow& row) {
+  const report::ResultFolder results(folder);
   fs::remove(folder / "point.json");
-  const ProgressDisplay display = stage_display(request);
-  log_to_terminal(request.verbosity > 0               ? 1
-                  : display == ProgressDisplay::lines ? 0
-                                                      : -1,
-                  display == ProgressDisplay::line);
+  const study::ProgressDisplay display = stage_display(request);
+  log_to_terminal(request.verbosity > 0                      ? 1
+                  : display == study::ProgressDisplay::lines ? 0
+                                                             : -1,
+                  display == study::ProgressDisplay::line);
   log_to_file(folder / "run.log");
-  RunOptions options{folder, request.fresh, request.verbosity, display == ProgressDisplay::line, {}};
+  study::RunOptions options{folder, request.fresh, request.verbosity, display == study::ProgressDisplay::line, {}};
   options.parts = shared_parts(folder.parent_path());
-  const RunResult found = run_case(source, options);
+  const study::RunResult found = run_case(source, options);
   row.status = found.summary.value("status", "ok");
   row.exit_code = static_cast<int>(found.expectations_hold ? ExitCode::done : ExitCode::expectation);
   row.figures = sweep_figures({&found.summary, "summary.json", ""});
 }
 
-void compute_point(const fs::path& folder, const SweepRequest& request, const SweepPlan& plan, const RunCase& run_case,
-                   SweepRow& row) {
+void compute_point(const fs::path& folder, const SweepRequest& request, const SweepPlan& plan,
+                   const study::RunCase& run_case, SweepRow& row) {
   const std::vector<std::string> values = overrides_at(plan.axes, row.point);
   std::vector<std::string> overrides = request.overrides;
   std::ranges::copy(values, std::back_inserter(overrides));
   std::string key;
   guard_point(row, [&] {
-    const Case source = read_case(request.case_path, overrides);
+    const cases::Case source = cases::read_case(request.case_path, overrides);
     key = point_key(source);
     if (auto kept = request.fresh ? std::nullopt : kept_point(folder, key)) {
       take(row, std::move(*kept));
@@ -171,7 +172,7 @@ ExitCode code_of(const SweepTable& table) {
 void announce(const SweepTable& table, const SweepRow& row, double seconds_left) {
   std::string values;
   for (const auto& value : overrides_at(table.axes, row.point)) values += (values.empty() ? "" : ", ") + value;
-  if (seconds_left > 0.0) values += "; about " + duration_text(seconds_left) + " left";
+  if (seconds_left > 0.0) values += "; about " + study::duration_text(seconds_left) + " left";
   spdlog::info("point {} of {}: {}", row.number, table.rows.size(), values);
 }
 
@@ -187,7 +188,7 @@ void require_one_value(const std::vector<SweepAxis>& axes, const std::vector<std
   for (const std::string& text : overrides) {
     std::string key = text.substr(0, text.find('='));
     std::erase(key, ' ');
-    key = full_path(case_schema(), key);
+    key = cases::full_path(cases::case_schema(), key);
     if (std::ranges::count(axes, key, &SweepAxis::key) == 0) continue;
     throw core::UsageError("\"" + key + "\" is swept and has a value by --set, too; leave one of them out");
   }
@@ -206,14 +207,14 @@ void require_same_sweep(const std::string& first, const SweepPlan& plan, const s
 
 }  // namespace
 
-ExitCode run_sweep(const SweepRequest& request, const RunCase& run_case, std::ostream& out) {
+ExitCode run_sweep(const SweepRequest& request, const study::RunCase& run_case, std::ostream& out) {
   using Clock = std::chrono::steady_clock;
   const Shard shard = shard_of(request.shard);
   (void)stage_display(request);
   SweepTable table = empty_table(sweep_axes(request.keys));
   require_one_value(table.axes, request.overrides);
   const std::string name =
-      fs::absolute(case_file(request.case_path)).lexically_normal().parent_path().filename().string();
+      fs::absolute(cases::case_file(request.case_path)).lexically_normal().parent_path().filename().string();
   const SweepPlan plan{name, sweep_key(request.case_path, request.overrides, table.axes), table.axes};
   const fs::path folder = request.out.empty() ? fs::path("results") / (name + "-sweep") : fs::path(request.out);
   log_to_terminal(request.verbosity);

@@ -63,15 +63,16 @@ double number_in(const std::string& quantity, const std::string& unit, const cor
                                              core::kind::number);
 }
 
-const Key& swept_key(const std::string& path, const std::string& text) {
-  if (const Key* key = find_key(case_schema(), pattern_of(case_schema(), path))) return *key;
+const cases::Key& swept_key(const std::string& path, const std::string& text) {
+  if (const cases::Key* key = cases::find_key(cases::case_schema(), cases::pattern_of(cases::case_schema(), path)))
+    return *key;
   std::vector<std::string> known;
-  for (const Key& key : case_schema().keys) known.emplace_back(key.path);
+  for (const cases::Key& key : cases::case_schema().keys) known.emplace_back(key.path);
   throw UsageError("sweep of \"" + text + "\": a case has no key " + path + core::did_you_mean(path, known) +
                    "; docs/case-file.md has them all");
 }
 
-void add_range(SweepAxis& axis, const Key& key, const std::vector<std::string>& ends, const std::string& text) {
+void add_range(SweepAxis& axis, const cases::Key& key, const std::vector<std::string>& ends, const std::string& text) {
   const auto refuse = [&](const std::string& why) {
     throw UsageError("sweep of \"" + text + "\": " + why + "; write " + axis.key + "=from:to:step, as in " +
                      "part.thickness=\"4 mm:8 mm:0.5 mm\"");
@@ -100,7 +101,7 @@ void add_range(SweepAxis& axis, const Key& key, const std::vector<std::string>& 
 }
 
 /// The list's values as numbers of one unit, where they are.
-void read_numbers(SweepAxis& axis, const Key& key) {
+void read_numbers(SweepAxis& axis, const cases::Key& key) {
   const std::string unit = unit_of(axis.values.front());
   std::vector<double> numbers;
   for (const auto& value : axis.values) {
@@ -115,8 +116,9 @@ void read_numbers(SweepAxis& axis, const Key& key) {
   axis.numbers = std::move(numbers);
 }
 
-bool is_number(Type type) {
-  return type == Type::quantity || type == Type::integer || type == Type::quantities || type == Type::vector;
+bool is_number(cases::Type type) {
+  return type == cases::Type::quantity || type == cases::Type::integer || type == cases::Type::quantities ||
+         type == cases::Type::vector;
 }
 
 }  // namespace
@@ -135,8 +137,8 @@ SweepAxis sweep_axis(const std::string& text) {
     throw UsageError("\"" + text +
                      "\" is no key with values; write part.thickness=\"4 mm:8 mm:0.5 mm\" or \"4 mm, 6 mm\"");
   SweepAxis axis;
-  axis.key = full_path(case_schema(), trimmed(text.substr(0, equals)));
-  const Key& key = swept_key(axis.key, text);
+  axis.key = cases::full_path(cases::case_schema(), trimmed(text.substr(0, equals)));
+  const cases::Key& key = swept_key(axis.key, text);
   const std::string values = without_quotes(trimmed(text.substr(equals + 1)));
   const auto ends = parts_between(values, ':');
   if (is_number(key.type) && ends.size() > 1) {

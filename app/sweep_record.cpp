@@ -50,11 +50,11 @@ SweepFigures figures_of(const fs::path& folder, const std::string& sha256) {
 
 std::string sweep_key(const fs::path& case_path, const std::vector<std::string>& overrides,
                       const std::vector<SweepAxis>& axes) {
-  const fs::path file = case_file(case_path);
+  const fs::path file = cases::case_file(case_path);
   std::vector<std::string> swept(axes.size());
   std::ranges::transform(axes, swept.begin(), &SweepAxis::key);
   try {
-    return with_expectations(key_of(read_case(case_path, overrides), swept), file);
+    return with_expectations(study::key_of(cases::read_case(case_path, overrides), swept), file);
   } catch (const core::UsageError&) {
     throw;
   } catch (const core::Error&) {  // what is wrong with it, if the swept keys do not mend it, each point tells
@@ -64,8 +64,8 @@ std::string sweep_key(const fs::path& case_path, const std::vector<std::string>&
   }
 }
 
-std::string point_key(const Case& source) {
-  return with_expectations(key_of(source, {}), source.file);
+std::string point_key(const cases::Case& source) {
+  return with_expectations(study::key_of(source, {}), source.file);
 }
 
 void write_plan(const fs::path& folder, const SweepPlan& plan) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/sweep_table.hpp"
 #include "case/case.hpp"
-#include "report/sweep_table.hpp"
 
 namespace thinwall::app {
 
@@ -25,7 +25,7 @@ struct SweepPlan {
                                     const std::vector<SweepAxis>& axes);
 
 /// Hash of the program, the case of one point with all its values, the files that it names and its expected.toml.
-[[nodiscard]] std::string point_key(const Case& source);
+[[nodiscard]] std::string point_key(const cases::Case& source);
 
 /// Writes sweep.json to the folder; throws DataError.
 void write_plan(const std::filesystem::path& folder, const SweepPlan& plan);

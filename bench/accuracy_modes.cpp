@@ -49,11 +49,11 @@ mesh::TetMesh turned(mesh::TetMesh mesh) {
 }
 
 /// One layer of tetrahedra through every wall of the flat part, `size_m` wide.
-mesh::TetMesh one_layer(const app::Part& part, double size_m) {
+mesh::TetMesh one_layer(const setup::Part& part, double size_m) {
   mesh::PrismMeshOptions options;
   options.size_m = size_m;
   options.layers = 0;
-  const app::PlanarPart planar = app::planar(part);
+  const study::PlanarPart planar = study::planar(part);
   mesh::TetMesh mesh = mesh::mesh_prism(planar.prism, options);
   for (auto& v : mesh.vertices) {
     Eigen::Vector3d x;
@@ -100,16 +100,16 @@ mesh::TetMesh subdivided(const mesh::TetMesh& mesh, int n) {
 }
 
 /// The closed surface of the flat part, in triangles as large as its borders allow.
-mesh::FacetedSurface flat_surface(const app::Part& part) {
-  if (part.shape == "box") return mesh::surface(mesh::Box{app::box_size(part)});
+mesh::FacetedSurface flat_surface(const setup::Part& part) {
+  if (part.shape == "box") return mesh::surface(mesh::Box{setup::box_size(part)});
   const mesh::TetMesh filled = one_layer(part, mesh::diagonal(part.prism));
   mesh::FacetedSurface surface{filled.vertices, {}};
   for (const auto& t : mesh::boundary(filled)) surface.facets.emplace_back(t.vertices.begin(), t.vertices.end());
   return surface;
 }
 
-mesh::TetMesh meshed(const app::Case& source, const Options& options) {
-  if (options.mesher == "graded") return app::graded_mesh(source, options.level);
+mesh::TetMesh meshed(const cases::Case& source, const Options& options) {
+  if (options.mesher == "graded") return study::graded_mesh(source, options.level);
   if (options.mesher == "nested") return subdivided(one_layer(*source.part, options.size_m), options.pieces);
   const mesh::FacetedSurface surface = flat_surface(*source.part);
   if (options.mesher == "tetgen") {
@@ -127,32 +127,32 @@ mesh::TetMesh meshed(const app::Case& source, const Options& options) {
 }
 
 /// For CalculiX, on the very nodes of the model. The supports hold nodes in all three directions.
-void write_inp(const std::string& path, const app::Case& source, const fem::Model& model) {
+void write_inp(const std::string& path, const cases::Case& source, const fem::Model& model) {
   std::vector<bool> is_free(static_cast<std::size_t>(model.nodes.positions.rows()), false);
   for (const int node : model.node_of_row) is_free[static_cast<std::size_t>(node)] = true;
   mesh::NodeSet fixed{"FIXED", {}};
   for (std::size_t node = 0; node < is_free.size(); ++node) {
     if (!is_free[node]) fixed.nodes.push_back(static_cast<int>(node));
   }
-  const fem::Material material = app::material_of(*source.part);
+  const fem::Material material = study::material_of(*source.part);
   io::write_inp(path, model.nodes, {fixed},
                 io::InpFrequencyStep{material.youngs_modulus_Pa,
                                      material.poisson_ratio,
                                      material.density_kg_m3,
                                      {fixed.name},
-                                     app::mode_options(source).count});
+                                     study::mode_options(source).count});
 }
 
 nlohmann::ordered_json run(const Options& options) {
   core::set_thread_count(options.threads);
-  const app::Case source = app::read_case(options.source);
+  const cases::Case source = cases::read_case(options.source);
   bench::Stopwatch watch;
   mesh::TetMesh mesh = meshed(source, options);
   nlohmann::ordered_json report{{"mesh_s", watch.lap()}, {"tets", mesh.tets.size()}, {"order", options.order}};
-  const fem::Model model = fem::supported_model(std::move(mesh), options.order, app::material_of(*source.part),
-                                                app::supports_of(source), app::shaping(*source.part));
+  const fem::Model model = fem::supported_model(std::move(mesh), options.order, study::material_of(*source.part),
+                                                study::supports_of(source), study::shaping(*source.part));
   const fem::Factored factored = fem::factorise(model, core::available_memory_bytes());
-  const fem::Modes modes = fem::modes(model, factored, app::mode_options(source));
+  const fem::Modes modes = fem::modes(model, factored, study::mode_options(source));
   report["solve_s"] = watch.lap();
   report["dofs"] = model.K.rows();
   report["frequencies_hz"] = modes.frequency_hz;

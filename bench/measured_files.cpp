@@ -16,21 +16,21 @@ int main(int argc, char** argv) {
     return 2;
   }
   constexpr double level = 0.005;
-  app::Case source = app::read_case(argv[1], {"response.from=1 Hz", "response.to=1000 Hz", "response.lines=1999"});
-  app::Stages stages(app::ProgressDisplay::none);
-  app::Discretisation discretisation = app::discretise(source);
+  cases::Case source = cases::read_case(argv[1], {"response.from=1 Hz", "response.to=1000 Hz", "response.lines=1999"});
+  study::Stages stages(study::ProgressDisplay::none);
+  study::Discretisation discretisation = study::discretise(source);
   discretisation.solved.reset();  // the fit changes the part
-  const Eigen::Vector3d meshed = app::box_size(*source.part);
+  const Eigen::Vector3d meshed = setup::box_size(*source.part);
   const auto fits = source.updating;
   for (const auto& fit : fits) {
-    if (fit.on == "part") static_cast<void>(app::update_part(source, fit, discretisation.mesh, discretisation.order));
+    if (fit.on == "part") static_cast<void>(study::update_part(source, fit, discretisation.mesh, discretisation.order));
   }
-  discretisation.mesh = app::stretched(std::move(discretisation.mesh), meshed, app::box_size(*source.part));
-  const app::PartResult part = app::compute_part(source, std::move(discretisation), stages);
+  discretisation.mesh = study::stretched(std::move(discretisation.mesh), meshed, setup::box_size(*source.part));
+  const study::PartResult part = study::compute_part(source, std::move(discretisation), stages);
   for (const auto& fit : fits) {
-    if (fit.on == "coupled") static_cast<void>(app::update_coupled(source, fit, part.reduced->model));
+    if (fit.on == "coupled") static_cast<void>(study::update_coupled(source, fit, part.reduced->model));
   }
-  const auto files = app::synthetic_measurement(source, part, "P");
+  const auto files = tests::synthetic_measurement(source, part, "P");
   const auto header = [&](const char* what, unsigned seed) {
     char text[512];
     std::snprintf(text, sizeof text,
@@ -41,10 +41,10 @@ int main(int argc, char** argv) {
     return std::string(text);
   };
   const std::string folder = argv[2];
-  app::write_measurement(folder + "/part_xx.csv", header("the part at P, full finite-element model", 2019), files.axis,
-                         app::with_noise(files.part, level, 2019));
-  app::write_measurement(folder + "/robot_xx.csv", header("the robot's tip, one mode", 2020), files.axis,
-                         app::with_noise(files.robot, level, 2020));
+  tests::write_measurement(folder + "/part_xx.csv", header("the part at P, full finite-element model", 2019), files.axis,
+                         tests::with_noise(files.part, level, 2019));
+  tests::write_measurement(folder + "/robot_xx.csv", header("the robot's tip, one mode", 2020), files.axis,
+                         tests::with_noise(files.robot, level, 2020));
   std::printf("relative residual of the full model %.1e\n", files.relative_residual);
   return 0;
 }

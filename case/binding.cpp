@@ -13,7 +13,7 @@
 #include "core/error.hpp"
 #include "setup/imported_part.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -32,7 +32,7 @@ int axis_index(const std::string& letter) {
   return letter == "x" ? 0 : letter == "y" ? 1 : letter == "z" ? 2 : -1;
 }
 
-MeasuredFrf bind_measured(const Table& table, const std::filesystem::path& folder) {
+setup::MeasuredFrf bind_measured(const Table& table, const std::filesystem::path& folder) {
   const std::string file = table.text("file");
   const auto integer = [&](const char* key) {
     return table.has(key) ? std::optional(table.integer(key)) : std::nullopt;
@@ -42,15 +42,16 @@ MeasuredFrf bind_measured(const Table& table, const std::filesystem::path& folde
           integer("record"),      table.optional("noise"), integer("averages")};
 }
 
-std::vector<MeasuredFrf> bind_all_measured(const std::vector<Table>& tables, const std::filesystem::path& folder) {
-  std::vector<MeasuredFrf> list;
+std::vector<setup::MeasuredFrf> bind_all_measured(const std::vector<Table>& tables,
+                                                  const std::filesystem::path& folder) {
+  std::vector<setup::MeasuredFrf> list;
   list.reserve(tables.size());
   for (const auto& table : tables) list.push_back(bind_measured(table, folder));
   return list;
 }
 
-std::vector<Sensor> bind_sensors(const std::vector<Table>& tables) {
-  std::vector<Sensor> sensors;
+std::vector<setup::Sensor> bind_sensors(const std::vector<Table>& tables) {
+  std::vector<setup::Sensor> sensors;
   sensors.reserve(tables.size());
   for (const Table& table : tables) sensors.push_back({table.text("at"), table.number("mass")});
   return sensors;
@@ -75,8 +76,8 @@ mesh::Prism bind_prism(const Table& table) {
   return prism;
 }
 
-PartFile bind_part_file(const Table& table, const std::filesystem::path& folder) {
-  PartFile file;
+setup::PartFile bind_part_file(const Table& table, const std::filesystem::path& folder) {
+  setup::PartFile file;
   if (const std::string name = table.text("file"); !name.empty()) file.path = folder / name;
   file.unit = table.text("unit");
   file.mass_unit = table.text("mass_unit");
@@ -102,11 +103,11 @@ PartFile bind_part_file(const Table& table, const std::filesystem::path& folder)
   return file;
 }
 
-Material bind_material(const Table& table) {
+setup::Material bind_material(const Table& table) {
   return {table.number("youngs_modulus"), table.number("poisson_ratio"), table.number("density")};
 }
 
-void bind_attachments(const Table& table, Part& part) {
+void bind_attachments(const Table& table, setup::Part& part) {
   for (const auto& region : table.tables("materials"))
     part.materials.push_back({region.text("on"), bind_material(region)});
   for (const auto& clamp : table.tables("clamps"))
@@ -118,16 +119,16 @@ void bind_attachments(const Table& table, Part& part) {
         {spring.text("at"), spring.vector("stiffness"), spring.vector("rotation_stiffness"), spring.vector("offset")});
 }
 
-Part bind_part(const Table& table, const std::filesystem::path& folder) {
-  Part part;
+setup::Part bind_part(const Table& table, const std::filesystem::path& folder) {
+  setup::Part part;
   part.file = bind_part_file(table, folder);
   part.shape = table.has("shape")                ? table.text("shape")
                : table.has("matrices.stiffness") ? "matrices"
-               : table.has("file")               ? shape_of_file(part.file.path)
+               : table.has("file")               ? setup::shape_of_file(part.file.path)
                                                  : "box";
   if (part.shape == "prism") part.prism = bind_prism(table);
   if (const Table bend = table.table("bend"); bend.exists()) {
-    part.bend = Bend{bend.number("radius"), {}};
+    part.bend = setup::Bend{bend.number("radius"), {}};
     if (bend.has("along")) part.bend->along = axis_index(bend.text("along"));
   }
   part.length = table.number("length");
@@ -145,7 +146,7 @@ Part bind_part(const Table& table, const std::filesystem::path& folder) {
   };
   const auto order = number("order");
   part.mesh = {number("element_size"),
-               mesh.optional("tolerance").value_or(usual_tolerance(part)),
+               mesh.optional("tolerance").value_or(setup::usual_tolerance(part)),
                order ? std::optional(static_cast<int>(*order)) : std::nullopt,
                mesh.number("quality"),
                mesh.optional("grading"),
@@ -153,18 +154,18 @@ Part bind_part(const Table& table, const std::filesystem::path& folder) {
                mesh.number("time_limit"),
                mesh.number("memory_limit")};
   for (const auto& support : table.tables("supports")) {
-    Support bound{support.text("on"), {}};
+    setup::Support bound{support.text("on"), {}};
     for (const auto& letter : support.names("fixed")) bound.fixed.push_back(axis_index(letter));
     part.supports.push_back(std::move(bound));
   }
   return part;
 }
 
-std::vector<Selection> bind_selections(const Table& table) {
-  std::vector<Selection> list;
+std::vector<setup::Selection> bind_selections(const Table& table) {
+  std::vector<setup::Selection> list;
   for (const auto& name : children(table.values, table.path)) {
     const Table selection = table.table(name);
-    Selection bound;
+    setup::Selection bound;
     bound.name = name;
     if (const Table plane = selection.table("plane"); plane.exists()) {
       bound.plane = {plane.vector("point"), plane.direction("normal")};
@@ -178,11 +179,11 @@ std::vector<Selection> bind_selections(const Table& table) {
   return list;
 }
 
-std::vector<Point> bind_points(const Table& table) {
-  std::vector<Point> list;
+std::vector<setup::Point> bind_points(const Table& table) {
+  std::vector<setup::Point> list;
   for (const auto& name : children(table.values, table.path)) {
     const Table point = table.table(name);
-    Point bound;
+    setup::Point bound;
     bound.name = name;
     if (point.has("at")) bound.at = point.vector("at");
     if (point.has("position")) bound.position = point.vector("position");
@@ -197,16 +198,16 @@ std::vector<Point> bind_points(const Table& table) {
 }
 
 /// count or up_to; `otherwise` modes if neither is given.
-ModeRange bind_range(const Table& table, std::string_view count, int otherwise) {
-  ModeRange range;
+setup::ModeRange bind_range(const Table& table, std::string_view count, int otherwise) {
+  setup::ModeRange range;
   if (table.has(count)) range.count = table.integer(count);
   range.up_to_hz = table.optional("up_to");
   if (!range.count && !range.up_to_hz) range.count = otherwise;
   return range;
 }
 
-Damping bind_damping(const Table& table, const std::filesystem::path& folder) {
-  Damping damping;
+setup::Damping bind_damping(const Table& table, const std::filesystem::path& folder) {
+  setup::Damping damping;
   if (!table.exists()) return damping;
   damping.model = table.text("model");
   damping.ratio = table.number("ratio");
@@ -223,7 +224,7 @@ std::vector<double> spread(std::vector<double> list, std::size_t count) {
   return list.size() == 1 ? std::vector<double>(count, list.front()) : list;
 }
 
-ContactBall bind_ball(const Table& table) {
+setup::ContactBall bind_ball(const Table& table) {
   return {table.number("radius"),
           {table.number("youngs_modulus"), table.number("poisson_ratio")},
           table.has("supports") ? std::optional(table.integer("supports")) : std::nullopt,
@@ -231,8 +232,8 @@ ContactBall bind_ball(const Table& table) {
           table.optional("support_angle")};
 }
 
-Contact bind_contact(const Table& table, const std::filesystem::path& folder) {
-  Contact contact;
+setup::Contact bind_contact(const Table& table, const std::filesystem::path& folder) {
+  setup::Contact contact;
   contact.part_point = table.text("part");
   contact.robot_point = table.text("robot");
   contact.directions = table.directions("directions");
@@ -251,14 +252,14 @@ Contact bind_contact(const Table& table, const std::filesystem::path& folder) {
   return contact;
 }
 
-std::vector<Contact> bind_contacts(const std::vector<Table>& tables, const std::filesystem::path& folder) {
-  std::vector<Contact> list;
+std::vector<setup::Contact> bind_contacts(const std::vector<Table>& tables, const std::filesystem::path& folder) {
+  std::vector<setup::Contact> list;
   list.reserve(tables.size());
   for (const auto& table : tables) list.push_back(bind_contact(table, folder));
   return list;
 }
 
-ResponseOptions bind_response(const Table& table) {
+setup::ResponseOptions bind_response(const Table& table) {
   if (!table.exists()) return {};
   return {table.number("from"), table.number("to"), table.integer("lines"), table.text("spacing") == "logarithmic",
           table.names("points")};
@@ -273,10 +274,10 @@ double bind_amount(const std::string& text, const core::QuantityKind& kind) {
   }
 }
 
-std::vector<Updating> bind_updating(const std::vector<Table>& tables) {
-  std::vector<Updating> list;
+std::vector<setup::Updating> bind_updating(const std::vector<Table>& tables) {
+  std::vector<setup::Updating> list;
   for (const auto& table : tables) {
-    Updating updating{table.text("name"), table.text("on"), {}, {}};
+    setup::Updating updating{table.text("name"), table.text("on"), {}, {}};
     for (const auto& parameter : table.tables("parameters")) {
       const std::string key = full_path(case_schema(), parameter.text("key"));
       const Key* described = find_key(case_schema(), pattern_of(case_schema(), key));
@@ -285,7 +286,7 @@ std::vector<Updating> bind_updating(const std::vector<Table>& tables) {
           {key, bind_amount(parameter.text("lower"), kind), bind_amount(parameter.text("upper"), kind)});
     }
     for (const auto& target : table.tables("targets")) {
-      UpdatingTarget bound;
+      setup::UpdatingTarget bound;
       bound.quantity = target.text("quantity");
       bound.value = bind_amount(target.text("value"),
                                 bound.quantity == "reduction_at" ? core::kind::number : core::kind::frequency);
@@ -301,8 +302,8 @@ std::vector<Updating> bind_updating(const std::vector<Table>& tables) {
   return list;
 }
 
-std::vector<ToolStep> bind_steps(const std::vector<Table>& tables) {
-  std::vector<ToolStep> steps;
+std::vector<setup::ToolStep> bind_steps(const std::vector<Table>& tables) {
+  std::vector<setup::ToolStep> steps;
   steps.reserve(tables.size());
   for (const Table& step : tables) {
     steps.push_back({step.number("length"), step.number("outer_diameter"), step.number("inner_diameter"),
@@ -311,7 +312,7 @@ std::vector<ToolStep> bind_steps(const std::vector<Table>& tables) {
   return steps;
 }
 
-ToolSwap bind_swap(const Table& table, const std::filesystem::path& folder) {
+setup::ToolSwap bind_swap(const Table& table, const std::filesystem::path& folder) {
   return {bind_all_measured(table.tables("measured"), folder),
           table.text("tip"),
           table.text("up"),
@@ -321,8 +322,8 @@ ToolSwap bind_swap(const Table& table, const std::filesystem::path& folder) {
           bind_steps(table.tables("target"))};
 }
 
-Tool bind_tool(const Table& table, const std::filesystem::path& folder) {
-  Tool tool;
+setup::Tool bind_tool(const Table& table, const std::filesystem::path& folder) {
+  setup::Tool tool;
   tool.teeth = table.integer("teeth");
   tool.diameter = table.number("diameter");
   tool.length = table.number("length");
@@ -339,7 +340,7 @@ Tool bind_tool(const Table& table, const std::filesystem::path& folder) {
   tool.modes = bind_modes(table.tables("modes"));
   tool.measured = bind_all_measured(table.tables("measured"), folder);
   if (const Table swap = table.table("swap"); swap.exists()) tool.swap = bind_swap(swap, folder);
-  for (MeasuredFrf& frf : tool.measured) {
+  for (setup::MeasuredFrf& frf : tool.measured) {
     for (std::string* dof : {&frf.response, &frf.force}) {
       if (!dof->empty()) *dof = "tool." + *dof;
     }
@@ -347,8 +348,8 @@ Tool bind_tool(const Table& table, const std::filesystem::path& folder) {
   return tool;
 }
 
-Cutting bind_cutting(const Table& table) {
-  Cutting cutting;
+setup::Cutting bind_cutting(const Table& table) {
+  setup::Cutting cutting;
   cutting.radial_depth = table.optional("radial_depth");
   cutting.entry_angles = table.numbers("entry_angle");
   cutting.exit_angles = table.numbers("exit_angle");
@@ -377,7 +378,7 @@ Cutting bind_cutting(const Table& table) {
   return cutting;
 }
 
-std::vector<std::string> point_names(const std::vector<Point>& points) {
+std::vector<std::string> point_names(const std::vector<setup::Point>& points) {
   std::vector<std::string> names;
   names.reserve(points.size());
   for (const auto& point : points) names.push_back(point.name);
@@ -434,4 +435,4 @@ std::vector<Expectation> bind_expectations(const CaseValues& values) {
   return list;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

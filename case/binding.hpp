@@ -4,7 +4,7 @@
 #include "case/case.hpp"
 #include "case/expectation.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// Fills every typed member from the values; `folder` is put before relative file names. A number that could not be
 /// read is NaN, a name that could not be read is empty: check_case() passes over those, the reader has reported them.
@@ -12,4 +12,4 @@ namespace thinwall::app {
 
 [[nodiscard]] std::vector<Expectation> bind_expectations(const CaseValues& values);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -10,7 +10,7 @@
 #include "core/nearest_name.hpp"
 #include "setup/imported_part.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -56,69 +56,6 @@ double* number_behind(CaseValues& values, const std::string& key) {
 
 }  // namespace
 
-Eigen::AlignedBox3d bounds(const Part& part) {
-  Eigen::AlignedBox3d box;
-  if (from_file(part)) return part.imported ? part.imported->box : box;
-  if (part.shape == "prism") {
-    for (const auto& corner : part.prism.outline)
-      box.extend(Eigen::Vector3d(corner.x(), corner.y(), part.prism.bottom));
-    if (!box.isEmpty()) box.max().z() = part.prism.top;
-    for (const auto& zone : part.prism.zones) {
-      box.min().z() = std::min(box.min().z(), zone.bottom);
-      box.max().z() = std::max(box.max().z(), zone.top);
-    }
-    return box;
-  }
-  box.min().setZero();
-  box.max()[part.length_axis] = part.length;
-  box.max()[part.height_axis] = part.height;
-  box.max()[part.thickness_axis] = part.thickness;
-  return box;
-}
-
-double usual_tolerance(const Part& part) {
-  return part.shape == "surface" ? 1e-2 : 1e-3;
-}
-
-bool names_node_set(const Case& source, const std::string& name) {
-  const bool face = name.size() == 5 && std::string("xyz").find(name[0]) != std::string::npos &&
-                    (name.ends_with("_min") || name.ends_with("_max"));
-  return source.part && source.part->shape == "mesh" && !face &&
-         std::ranges::find(source.selections, name, &Selection::name) == source.selections.end();
-}
-
-bool may_be_held(const Part& part) {
-  return !part.supports.empty() || !part.clamps.empty() || !part.springs.empty() || part.shape == "matrices";
-}
-
-Eigen::Vector3d box_size(const Part& part) {
-  return bounds(part).sizes();
-}
-
-Eigen::Vector3d position(const Part& part, const Point& point) {
-  if (point.position) return *point.position + point.offset;
-  if (part.imported && (point.node || part.shape == "matrices"))
-    return node_position(part, node_of(*part.imported, point).value_or(-1));
-  return bounds(part).min() + point.at->cwiseProduct(box_size(part)) + point.offset;
-}
-
-const Point& point(const Case& source, const std::string& name) {
-  const auto found = std::ranges::find(source.points, name, &Point::name);
-  if (found != source.points.end()) return *found;
-  std::vector<std::string> names;
-  for (const auto& known : source.points) names.push_back(known.name);
-  throw core::InputError("the case has no point \"" + name + "\"" + core::did_you_mean(name, names));
-}
-
-bool contains(const Selection& selection, const Eigen::Vector3d& p, double tolerance) {
-  if (selection.plane) return std::abs((p - selection.plane->point).dot(selection.plane->normal)) <= tolerance;
-  if (selection.box) {
-    return ((p - selection.box->min).array() >= -tolerance).all() &&
-           ((selection.box->max - p).array() >= -tolerance).all();
-  }
-  return selection.sphere && (p - selection.sphere->centre).norm() <= selection.sphere->radius + tolerance;
-}
-
 std::vector<std::filesystem::path> input_files(const Case& source) {
   return input_files(source, {});
 }
@@ -130,8 +67,8 @@ std::vector<std::filesystem::path> input_files(const Case& source, const std::ve
     const bool wanted = std::ranges::find(without_sections, section) == without_sections.end();
     if (wanted && !file.empty()) files.push_back(file);
   };
-  const auto add_measured = [&](const std::vector<MeasuredFrf>& all) {
-    for (const MeasuredFrf& frf : all) add(frf.file);
+  const auto add_measured = [&](const std::vector<setup::MeasuredFrf>& all) {
+    for (const setup::MeasuredFrf& frf : all) add(frf.file);
   };
   section = "part";
   if (source.part && from_file(*source.part)) {
@@ -147,7 +84,7 @@ std::vector<std::filesystem::path> input_files(const Case& source, const std::ve
     for (const auto& file : {source.robot->table, source.robot->urdf, source.robot->joints}) add(file);
   }
   section = "contacts";
-  for (const Contact& contact : source.contacts) {
+  for (const setup::Contact& contact : source.contacts) {
     add(contact.table);
     add_measured(contact.measured);
   }
@@ -184,4 +121,4 @@ void set_value(Case& target, const std::string& key, double value) {
   target = std::move(bound);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -23,7 +23,7 @@
 #include "setup/measured.hpp"
 #include "setup/measured_noise.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -64,7 +64,7 @@ void require_kept(const Case& source, const std::string& key, const std::string&
 }
 
 void check_damping(const Case& source, Findings& findings) {
-  const Damping& damping = source.damping;
+  const setup::Damping& damping = source.damping;
   const auto belongs_to = [&](const char* key, const char* model, bool used) {
     if (!used || damping.model.empty() || damping.model == model) return;
     findings.report(
@@ -98,8 +98,8 @@ bool is_frf_unit(const std::string& quantity, const std::string& unit) {
 }
 
 /// Dimension of an FRF per newton: m/N has s²/kg, a mobility s/kg, an accelerance 1/kg.
-void check_measured(const std::string& key, const MeasuredFrf& frf, Findings& findings) {
-  const bool tells_itself = frf_file_kind(frf.file) != FrfFileKind::csv;
+void check_measured(const std::string& key, const setup::MeasuredFrf& frf, Findings& findings) {
+  const bool tells_itself = setup::frf_file_kind(frf.file) != setup::FrfFileKind::csv;
   if (frf.quantity.empty() && !findings.given(key + ".quantity") && !tells_itself)
     findings.report(key + ".quantity", "missing; say what was measured: receptance, mobility or accelerance");
   if (frf.unit.empty() && !findings.given(key + ".unit") && !tells_itself)
@@ -132,11 +132,12 @@ void check_measured(const std::string& key, const MeasuredFrf& frf, Findings& fi
   if (!frf.file.empty() && !std::filesystem::is_regular_file(frf.file, ignored)) {
     findings.report(key + ".file", "there is no file \"" + frf.file.string() + "\"");
   } else if (frf.averages) {
-    if (const std::string fault = fault_of_coherence(frf); !fault.empty()) findings.report(key + ".averages", fault);
+    if (const std::string fault = setup::fault_of_coherence(frf); !fault.empty())
+      findings.report(key + ".averages", fault);
   }
 }
 
-void require_driving_point(const std::string& key, const MeasuredFrf& frf, Findings& findings) {
+void require_driving_point(const std::string& key, const setup::MeasuredFrf& frf, Findings& findings) {
   if (frf.response.empty() || frf.force.empty() || frf.response == frf.force) return;
   findings.report(key + ".force", "\"" + frf.force + "\" is not the DOF that moves; only a driving point, force = \"" +
                                       frf.response + "\", serves here");
@@ -175,7 +176,8 @@ void check_all_measured(const Case& source, Findings& findings) {
 }
 
 /// A contact joins what both sides can do: the part's point in its directions, the robot along its own.
-void check_contact_directions(const Case& source, const std::string& key, const Contact& contact, Findings& findings) {
+void check_contact_directions(const Case& source, const std::string& key, const setup::Contact& contact,
+                              Findings& findings) {
   const auto here = directions_at(source, contact.part_point);
   for (const auto& direction : contact.directions) {
     if (here.empty() || spanned(here, direction)) continue;
@@ -195,7 +197,7 @@ void check_contact_directions(const Case& source, const std::string& key, const 
   }
 }
 
-void check_contact(const Case& source, const std::string& key, const Contact& contact, Findings& findings) {
+void check_contact(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
   require_kept(source, key + ".part", contact.part_point, findings);
   check_contact_directions(source, key, contact, findings);
   if (!source.robot) {
@@ -236,7 +238,7 @@ void check_contacts(const Case& source, Findings& findings) {
 }
 
 void check_response(const Case& source, Findings& findings) {
-  const ResponseOptions& response = source.response;
+  const setup::ResponseOptions& response = source.response;
   if (response.from_hz >= response.to_hz)
     findings.report("response.from", "the first line must lie below the last (response.to)");
   if (response.logarithmic && response.from_hz == 0.0)
@@ -246,7 +248,7 @@ void check_response(const Case& source, Findings& findings) {
 }
 
 /// Part fits keep the mesh and stretch it; coupled fits keep the reduced part: other keys would change nothing.
-void require_effect(const std::string& on, const std::string& key, const UpdatingParameter& parameter,
+void require_effect(const std::string& on, const std::string& key, const setup::UpdatingParameter& parameter,
                     Findings& findings) {
   const auto starts = [&](const char* prefix) { return parameter.key.starts_with(prefix); };
   const bool on_part = parameter.key == "part.length" || parameter.key == "part.height" ||
@@ -265,7 +267,7 @@ void require_effect(const std::string& on, const std::string& key, const Updatin
 }
 
 /// Reports a stiffness that the contact does not read because it follows from the preload.
-bool unread_stiffness(const Case& source, const std::string& key, const UpdatingParameter& parameter,
+bool unread_stiffness(const Case& source, const std::string& key, const setup::UpdatingParameter& parameter,
                       Findings& findings) {
   for (std::size_t i = 0; i < source.contacts.size(); ++i) {
     const std::string& model = source.contacts[i].model;
@@ -278,7 +280,7 @@ bool unread_stiffness(const Case& source, const std::string& key, const Updating
 }
 
 void check_parameter(const Case& source, const std::string& on, const std::string& key,
-                     const UpdatingParameter& parameter, Findings& findings) {
+                     const setup::UpdatingParameter& parameter, Findings& findings) {
   double start = 0.0;
   try {
     start = get_value(source, parameter.key);
@@ -306,7 +308,7 @@ void check_parameter(const Case& source, const std::string& on, const std::strin
   }
 }
 
-void check_coupled_target(const Case& source, const std::string& key, const UpdatingTarget& target,
+void check_coupled_target(const Case& source, const std::string& key, const setup::UpdatingTarget& target,
                           Findings& findings) {
   if (target.quantity == "part_frequency") {
     findings.report(key + ".quantity",
@@ -320,8 +322,8 @@ void check_coupled_target(const Case& source, const std::string& key, const Upda
     findings.report(key + ".point", "\"" + target.point + "\" is none of the point's directions; add it to the point");
 }
 
-void check_target(const Case& source, const std::string& on, const std::string& key, const UpdatingTarget& target,
-                  Findings& findings) {
+void check_target(const Case& source, const std::string& on, const std::string& key,
+                  const setup::UpdatingTarget& target, Findings& findings) {
   const bool reduction = target.quantity == "reduction_at";
   if (on == "coupled") {
     require_kept(source, key + ".point", point_of(target.point), findings);
@@ -353,14 +355,14 @@ void check_coupled_fit(const Case& source, const std::string& key, Findings& fin
     findings.report(key + ".on", "\"coupled\" needs [robot], [[contacts]] and [points]");
   if (source.robot && (source.robot->model == "measured" || source.robot->model == "modal_table"))
     findings.report(key + ".on", "\"coupled\" needs a robot that is modelled, not a measured one; set robot.model");
-  if (!may_be_held(*source.part))
+  if (!setup::may_be_held(*source.part))
     findings.report(key + ".on", "\"coupled\" needs a part that is held; add [[part.supports]]");
 }
 
 void check_updating(const Case& source, Findings& findings) {
   for (std::size_t i = 0; i < source.updating.size(); ++i) {
     const std::string key = indexed("updating", i);
-    const Updating& updating = source.updating[i];
+    const setup::Updating& updating = source.updating[i];
     if (!source.part || (updating.on == "part" && source.part->shape == "matrices")) {
       findings.report(key, "there is no modelled part to fit; add part.length, part.height, part.thickness");
       continue;
@@ -378,7 +380,7 @@ void check_updating(const Case& source, Findings& findings) {
 }
 
 void check_cutting(const Case& source, Findings& findings) {
-  const Cutting& cutting = *source.cutting;
+  const setup::Cutting& cutting = *source.cutting;
   if (!source.tool) findings.report("cutting", "there is no cutter; add [tool]");
   check_engagement(source, findings);
   check_force_law(source, findings);
@@ -401,11 +403,11 @@ void check_cutting(const Case& source, Findings& findings) {
 }
 
 void check_lobes(const Case& source, Findings& findings) {
-  const LobesOptions& lobes = *source.lobes;
+  const setup::LobesOptions& lobes = *source.lobes;
   if (source.tool && (!source.tool->measured.empty() || source.tool->swap)) check_measured_tool(*source.tool, findings);
   if (!source.cutting) findings.report("lobes", "there is no cut; add [cutting]");
   check_chart_choices(source, findings);
-  if (source.part ? !may_be_held(*source.part) : !source.measured_part.empty()) {
+  if (source.part ? !setup::may_be_held(*source.part) : !source.measured_part.empty()) {
     findings.report("lobes", "lobes need a part that is held and modelled; " +
                                  std::string(source.part ? "add [[part.supports]]" : "describe it (part.length …)") +
                                  ", or remove [lobes]");
@@ -442,4 +444,4 @@ std::vector<Problem> check_case(const Case& source) {
   return std::move(findings.problems);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

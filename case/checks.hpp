@@ -4,7 +4,7 @@
 #include "case/case.hpp"
 #include "case/problem.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// Every problem that shows between keys: names that nothing bears, keys that exclude each other or are missing
 /// together, points outside the part, contacts on a clamped face or across the robot's direction, fits that can change
@@ -23,4 +23,4 @@ struct SizeEstimate {
 };
 [[nodiscard]] SizeEstimate estimate_size(const Case& source);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

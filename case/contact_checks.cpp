@@ -10,25 +10,25 @@
 #include "core/error.hpp"
 #include "setup/contact_model.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
-bool rolls(const Contact& contact) {
+bool rolls(const setup::Contact& contact) {
   return contact.model == "hertz" || contact.model == "caster";
 }
 
 // A resolved case writes defaults out: only another value shows that the user meant it.
-bool gives_stiffness(const Contact& contact) {
+bool gives_stiffness(const setup::Contact& contact) {
   return std::ranges::any_of(contact.stiffness, [](double k) { return std::isfinite(k); });
 }
 
-bool gives_damping(const Contact& contact) {
+bool gives_damping(const setup::Contact& contact) {
   return std::ranges::any_of(contact.damping, [](double c) { return c > 0.0; });
 }
 
 /// Keys that another model reads than the contact's.
-void check_belongings(const std::string& key, const Contact& contact, Findings& findings) {
+void check_belongings(const std::string& key, const setup::Contact& contact, Findings& findings) {
   const auto belongs = [&](const std::string& name, bool there, bool fits, const std::string& to) {
     if (there && !fits)
       findings.report(key + name, "belongs to contacts.model = " + to + ", but the model is \"" + contact.model + "\"");
@@ -46,7 +46,7 @@ void check_belongings(const std::string& key, const Contact& contact, Findings& 
   belongs(".ball.support_angle", contact.ball->support_angle.has_value(), false, "\"caster\"");
 }
 
-void check_directions(const std::string& key, const Contact& contact, Findings& findings) {
+void check_directions(const std::string& key, const setup::Contact& contact, Findings& findings) {
   const auto& directions = contact.directions;
   if (contact.model == "hertz") {
     const bool across = std::all_of(directions.begin() + 1, directions.end(), [&](const Eigen::Vector3d& d) {
@@ -63,7 +63,7 @@ void check_directions(const std::string& key, const Contact& contact, Findings& 
   }
 }
 
-void check_ball(const Case& source, const std::string& key, const Contact& contact, Findings& findings) {
+void check_ball(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
   if (!contact.ball) {
     findings.report(key + ".ball", "missing; give [contacts.ball] with its radius");
   } else if (contact.model == "caster") {
@@ -78,8 +78,8 @@ void check_ball(const Case& source, const std::string& key, const Contact& conta
     findings.report(key + ".surface", "missing; a measured part does not tell what the ball touches");
 }
 
-void check_preload(const Case& source, const std::string& key, const Contact& contact, Findings& findings) {
-  if (preload_of(source, contact)) return;
+void check_preload(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
+  if (setup::preload_of(source, contact)) return;
   const std::string text = "missing; the stiffness depends on the force that presses the contact together";
   findings.report(key + ".preload",
                   text + (source.contacts.size() > 1 ? ", and robot.preload is that of all contacts together"
@@ -87,21 +87,21 @@ void check_preload(const Case& source, const std::string& key, const Contact& co
 }
 
 /// What the model itself says of a contact that has all it needs. Numbers that could not be read were reported before.
-void try_contact(const Case& source, const std::string& key, const Contact& contact, Findings& findings) {
+void try_contact(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
   std::error_code ignored;
   if (contact.model == "table" && !std::filesystem::is_regular_file(contact.table, ignored)) {
     findings.report(key + ".table", contact.table.empty() ? "missing; name the CSV"
                                                           : "there is no file \"" + contact.table.string() + "\"");
     return;
   }
-  std::vector<double> numbers{preload_of(source, contact).value_or(0.0), contact.loss_factor};
+  std::vector<double> numbers{setup::preload_of(source, contact).value_or(0.0), contact.loss_factor};
   const coupling::Elastic surface =
       contact.surface ? *contact.surface
       : source.part && source.part->shape != "matrices"
           ? coupling::Elastic{source.part->material.youngs_modulus, source.part->material.poisson_ratio}
           : coupling::Elastic{};
   if (rolls(contact)) {
-    const ContactBall& ball = *contact.ball;
+    const setup::ContactBall& ball = *contact.ball;
     for (const double number : {ball.radius, ball.steel.E, ball.steel.nu, ball.support_radius.value_or(0.0),
                                 ball.support_angle.value_or(0.0), surface.E, surface.nu})
       numbers.push_back(number);
@@ -109,13 +109,13 @@ void try_contact(const Case& source, const std::string& key, const Contact& cont
   }
   if (!std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); })) return;
   try {
-    (void)joined_contact(source, contact);
+    (void)setup::joined_contact(source, contact);
   } catch (const core::Error& error) {
     findings.report(key + (contact.model == "table" ? ".table" : ".model"), error.what());
   }
 }
 
-void check_preloaded(const Case& source, const std::string& key, const Contact& contact, Findings& findings) {
+void check_preloaded(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
   if (contact.directions.empty()) return;
   const std::size_t before = findings.problems.size();
   check_directions(key, contact, findings);
@@ -126,9 +126,9 @@ void check_preloaded(const Case& source, const std::string& key, const Contact& 
 
 /// The points where the assembly moves (`response`), or where it is excited: one, that the part's model knows in the
 /// contact's directions.
-void check_measured_end(const Case& source, const std::string& key, const Contact& contact, bool response,
+void check_measured_end(const Case& source, const std::string& key, const setup::Contact& contact, bool response,
                         Findings& findings) {
-  const auto end = [&](const MeasuredFrf& frf) { return response ? frf.response : frf.force; };
+  const auto end = [&](const setup::MeasuredFrf& frf) { return response ? frf.response : frf.force; };
   const std::string point = point_of(end(contact.measured.front()));
   const auto points = part_points(source);
   std::vector<Eigen::Vector3d> seen;
@@ -154,17 +154,19 @@ void check_measured_end(const Case& source, const std::string& key, const Contac
                                            "fewer");
 }
 
-void check_measured_points(const Case& source, const std::string& key, const Contact& contact, Findings& findings) {
-  const auto unnamed = [](const MeasuredFrf& frf) { return frf.response.empty() || frf.force.empty(); };
+void check_measured_points(const Case& source, const std::string& key, const setup::Contact& contact,
+                           Findings& findings) {
+  const auto unnamed = [](const setup::MeasuredFrf& frf) { return frf.response.empty() || frf.force.empty(); };
   if (std::ranges::any_of(contact.measured, unnamed)) return;
   const std::size_t before = findings.problems.size();
   check_measured_end(source, key, contact, true, findings);
-  const MeasuredFrf& first = contact.measured.front();
+  const setup::MeasuredFrf& first = contact.measured.front();
   const bool same = point_of(first.response) == point_of(first.force);
   if (!same || findings.problems.size() == before) check_measured_end(source, key, contact, false, findings);
 }
 
-void check_identification(const Case& source, const std::string& key, const Contact& contact, Findings& findings) {
+void check_identification(const Case& source, const std::string& key, const setup::Contact& contact,
+                          Findings& findings) {
   if (source.contacts.size() > 1)
     findings.report(key + ".measured", "a joint is found where the robot has one contact; remove the other contacts");
   if (contact.model != "springs")
@@ -174,7 +176,7 @@ void check_identification(const Case& source, const std::string& key, const Cont
     findings.report(key + ".measured",
                     "finds stiffness and damping; remove stiffness, damping and loss_factor, or the FRFs");
   check_measured_points(source, key, contact, findings);
-  const auto coupled = [](const Updating& updating) { return updating.on == "coupled"; };
+  const auto coupled = [](const setup::Updating& updating) { return updating.on == "coupled"; };
   if (std::ranges::any_of(source.updating, coupled))
     findings.report(
         key + ".measured",
@@ -186,7 +188,7 @@ void check_identification(const Case& source, const std::string& key, const Cont
 void check_contact_models(const Case& source, Findings& findings) {
   for (std::size_t i = 0; i < source.contacts.size(); ++i) {
     const std::string key = "contacts[" + std::to_string(i) + "]";
-    const Contact& contact = source.contacts[i];
+    const setup::Contact& contact = source.contacts[i];
     if (contact.model.empty()) continue;  // it could not be read
     check_belongings(key, contact, findings);
     if (!contact.noise.empty() && contact.noise.size() != 3)
@@ -206,15 +208,15 @@ void check_contact_models(const Case& source, Findings& findings) {
 }
 
 void check_coupling(const Case& source, Findings& findings) {
-  const CouplingChoice& choice = source.coupling;
-  if (choice.regularisation == "none" && choice.threshold != CouplingChoice{}.threshold)
+  const setup::CouplingChoice& choice = source.coupling;
+  if (choice.regularisation == "none" && choice.threshold != setup::CouplingChoice{}.threshold)
     findings.report("coupling.threshold", "there is nothing to regularise; give coupling.regularisation, or remove it");
   if (choice.regularisation != "none" && source.contacts.empty())
     findings.report("coupling.regularisation", "nothing is coupled; add [[contacts]], or remove it");
   if (choice.regularisation == "none") return;
   for (std::size_t i = 0; i < source.updating.size(); ++i) {
     if (std::ranges::any_of(source.updating[i].targets,
-                            [](const UpdatingTarget& target) { return target.quantity == "coupled_frequency"; }))
+                            [](const setup::UpdatingTarget& target) { return target.quantity == "coupled_frequency"; }))
       findings.report(
           "updating[" + std::to_string(i) + "]",
           "coupled_frequency joins matrices, which coupling.regularisation does not reach; take reduction_at, "
@@ -222,4 +224,4 @@ void check_coupling(const Case& source, Findings& findings) {
   }
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

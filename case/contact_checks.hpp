@@ -4,7 +4,7 @@
 #include "case/case.hpp"
 #include "case/findings.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// The keys of each contact's model, its preload, its table, its ball; what a joint that is found from FRFs of the
 /// assembly needs. A contact whose model is complete is tried, so that what the model itself refuses is told too.
@@ -13,4 +13,4 @@ void check_contact_models(const Case& source, Findings& findings);
 /// The keys of [coupling].
 void check_coupling(const Case& source, Findings& findings);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

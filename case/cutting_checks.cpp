@@ -10,7 +10,7 @@
 #include "core/units.hpp"
 #include "setup/milling_process.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -30,7 +30,7 @@ struct Belongings {
   }
 };
 
-void check_end(const Tool& tool, Findings& findings) {
+void check_end(const setup::Tool& tool, Findings& findings) {
   const Belongings end{"tool.end", tool.end};
   end.allow("tool.corner_radius", {"bull_nose", "general"}, findings);
   for (const char* key : {"tool.corner_radial", "tool.corner_axial", "tool.tip_angle", "tool.taper"})
@@ -44,11 +44,11 @@ void check_end(const Tool& tool, Findings& findings) {
     return;
   }
   if (!(tool.diameter > 0.0) || !(tool.length > 0.0)) return;
-  for (const auto& violation : milling::validate(cutter_of(tool).envelope, tool.diameter))
+  for (const auto& violation : milling::validate(setup::cutter_of(tool).envelope, tool.diameter))
     findings.report("tool.end", violation);
 }
 
-void check_angles(const Cutting& cutting, Findings& findings) {
+void check_angles(const setup::Cutting& cutting, Findings& findings) {
   if (cutting.entry_angles.size() != cutting.exit_angles.size()) {
     findings.report("cutting.exit_angle", fmt::format("{} exits for {} entries; give one of each an arc",
                                                       cutting.exit_angles.size(), cutting.entry_angles.size()));
@@ -70,14 +70,14 @@ void check_angles(const Cutting& cutting, Findings& findings) {
 }
 
 void require_feed(const Case& source, const std::string& key, const std::string& why, Findings& findings) {
-  const Cutting& c = *source.cutting;
+  const setup::Cutting& c = *source.cutting;
   if (c.feed_per_tooth || (c.feed_rate && c.spindle_speed_rpm)) return;
   findings.report(key, why +
                            " depends on the feed; give cutting.feed_per_tooth, or cutting.feed_rate and "
                            "cutting.spindle_speed");
 }
 
-void check_law_keys(const Cutting& c, Findings& findings) {
+void check_law_keys(const setup::Cutting& c, Findings& findings) {
   const Belongings law{"cutting.law", c.law};
   law.allow("cutting.exponents", {"power"}, findings);
   law.allow("cutting.chip_scale", {"fractional"}, findings);
@@ -100,7 +100,7 @@ void check_law_keys(const Cutting& c, Findings& findings) {
 
 }  // namespace
 
-void check_tool(const Tool& tool, Findings& findings) {
+void check_tool(const setup::Tool& tool, Findings& findings) {
   const auto as_many = [&](const char* key, const std::vector<double>& values) {
     if (values.empty() || values.size() == static_cast<std::size_t>(tool.teeth)) return true;
     findings.report(
@@ -119,7 +119,7 @@ void check_tool(const Tool& tool, Findings& findings) {
 }
 
 void check_engagement(const Case& source, Findings& findings) {
-  const Cutting& cutting = *source.cutting;
+  const setup::Cutting& cutting = *source.cutting;
   const bool angles = !cutting.entry_angles.empty() || !cutting.exit_angles.empty();
   if (cutting.radial_depth && angles)
     findings.report("cutting.radial_depth", "give either the radial depth or entry and exit angles, not both");
@@ -127,7 +127,7 @@ void check_engagement(const Case& source, Findings& findings) {
     findings.report("cutting.radial_depth", "missing; or give cutting.entry_angle and cutting.exit_angle");
   if (angles) check_angles(cutting, findings);
   if (cutting.radial_depth && source.tool) {
-    const Tool& tool = *source.tool;
+    const setup::Tool& tool = *source.tool;
     const bool round_end = !tool.end.empty() && tool.end != "flat";
     if (*cutting.radial_depth > tool.diameter) {
       findings.report("cutting.radial_depth", core::readable_text(*cutting.radial_depth, core::kind::length) +
@@ -144,7 +144,7 @@ void check_engagement(const Case& source, Findings& findings) {
 }
 
 void check_force_law(const Case& source, Findings& findings) {
-  const Cutting& c = *source.cutting;
+  const setup::Cutting& c = *source.cutting;
   const bool curved = c.law == "power" || c.law == "fractional";
   check_law_keys(c, findings);
   if (curved) require_feed(source, "cutting.law", "a law that is not linear", findings);
@@ -159,4 +159,4 @@ void check_force_law(const Case& source, Findings& findings) {
     findings.report("cutting.process_damping", "is known for flat ends only; leave it out");
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -4,10 +4,10 @@
 #include "case/case.hpp"
 #include "case/findings.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// Pitches, helices and runout one a tooth; the envelope that `tool.end` asks for.
-void check_tool(const Tool& tool, Findings& findings);
+void check_tool(const setup::Tool& tool, Findings& findings);
 
 /// Arcs: by the radial depth or by angles, exit after entry; the feed across the axis.
 void check_engagement(const Case& source, Findings& findings);
@@ -15,4 +15,4 @@ void check_engagement(const Case& source, Findings& findings);
 /// The keys that `cutting.law` asks for, and no others; the feed where something depends on it.
 void check_force_law(const Case& source, Findings& findings);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

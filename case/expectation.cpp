@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -50,4 +50,4 @@ ExpectationResult compare(const Expectation& expected, const nlohmann::json& sum
   return result;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

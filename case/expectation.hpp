@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 struct Expectation {
   std::string name;
@@ -31,4 +31,4 @@ struct ExpectationResult {
 /// quantity, or one it is compared with, that the summary lacks, or that is not finite, does not hold.
 [[nodiscard]] ExpectationResult compare(const Expectation& expected, const nlohmann::json& summary);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -4,7 +4,7 @@
 
 #include "core/nearest_name.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 void Findings::report(const std::string& key, const std::string& text) {
   const CaseValue* place = find(values, key);
@@ -29,4 +29,4 @@ void Findings::require_known(const std::string& key, const std::string& name, co
                   (list.empty() ? "; the case names none" : "; the case has " + list));
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -7,7 +7,7 @@
 #include "case/problem.hpp"
 #include "case/values.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// Gathers problems, each placed at the key it is about (or at the first key of its table).
 struct Findings {
@@ -24,4 +24,4 @@ struct Findings {
                      const std::string& what);
 };
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -138,4 +138,4 @@ Json json_schema(const Schema& schema, const std::string& title) {
   return root;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -6,11 +6,11 @@
 
 #include "case/schema.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// Tables as objects without further properties, arrays of tables as arrays of these; each key with its meaning, unit,
 /// bounds, choices and default. What only shows between keys, and the dimension of a unit, it cannot tell: `thinwall
 /// check` does.
 [[nodiscard]] nlohmann::ordered_json json_schema(const Schema& schema, const std::string& title);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

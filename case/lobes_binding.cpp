@@ -1,9 +1,9 @@
 #include "case/lobes_binding.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
-LobesOptions bind_lobes(const Table& table, const std::optional<Tool>& tool) {
-  LobesOptions lobes;
+setup::LobesOptions bind_lobes(const Table& table, const std::optional<setup::Tool>& tool) {
+  setup::LobesOptions lobes;
   lobes.from_rpm = table.number("from");
   lobes.to_rpm = table.number("to");
   lobes.count = table.integer("count");
@@ -21,7 +21,7 @@ LobesOptions bind_lobes(const Table& table, const std::optional<Tool>& tool) {
   lobes.noise_samples = integer("noise_samples");
   lobes.seed = table.integer("seed");
   if (const Table u = table.table("uncertainty"); u.exists()) {
-    lobes.robust = RobustOptions{
+    lobes.robust = setup::RobustOptions{
         {u.number("frequency"), u.number("damping_ratio"), u.number("receptance"), u.number("coefficients")},
         u.number("confidence")};
   }
@@ -40,8 +40,8 @@ milling::MachineLimits bind_machine(const Table& table) {
   return machine;
 }
 
-Path bind_path(const Table& table) {
-  Path path{{}, table.text("support") == "follows"};
+setup::Path bind_path(const Table& table) {
+  setup::Path path{{}, table.text("support") == "follows"};
   const auto list = table.numbers("points");
   for (std::size_t i = 0; i + 2 < list.size(); i += 3) path.positions.emplace_back(list[i], list[i + 1], list[i + 2]);
   const int count = table.has("positions") ? table.integer("positions") : 11;
@@ -52,4 +52,4 @@ Path bind_path(const Table& table) {
   return path;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -6,15 +6,15 @@
 #include "case/case.hpp"
 #include "case/table.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// `tool` gives the depth limit where the table does not.
-[[nodiscard]] LobesOptions bind_lobes(const Table& table, const std::optional<Tool>& tool);
+[[nodiscard]] setup::LobesOptions bind_lobes(const Table& table, const std::optional<setup::Tool>& tool);
 
 /// What the table does not bound stays without bound.
 [[nodiscard]] milling::MachineLimits bind_machine(const Table& table);
 
 /// Positions as they are listed, or evenly on the line; none where the path could not be read.
-[[nodiscard]] Path bind_path(const Table& table);
+[[nodiscard]] setup::Path bind_path(const Table& table);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -11,17 +11,17 @@
 #include "setup/measured_noise.hpp"
 #include "setup/milling_process.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
 /// Whether the chart or one beside it is of a method whose name begins so.
-bool uses(const LobesOptions& lobes, std::string_view beginning) {
+bool uses(const setup::LobesOptions& lobes, std::string_view beginning) {
   return lobes.method.starts_with(beginning) ||
          std::ranges::any_of(lobes.compare, [&](const std::string& name) { return name.starts_with(beginning); });
 }
 
-void check_method_keys(const LobesOptions& lobes, Findings& findings) {
+void check_method_keys(const setup::LobesOptions& lobes, Findings& findings) {
   const auto belongs = [&](const char* key, std::initializer_list<const char*> methods, const char* which) {
     const auto used = [&](const char* beginning) { return uses(lobes, beginning); };
     if (!findings.given(key) || lobes.method.empty() || std::ranges::any_of(methods, used)) return;
@@ -37,7 +37,7 @@ void check_method_keys(const LobesOptions& lobes, Findings& findings) {
 /// The cut as far as it matters for what a method can take.
 milling::MillingProcess outline_of(const Case& source) {
   milling::MillingProcess process;
-  if (source.tool) process.cutter = cutter_of(*source.tool);
+  if (source.tool) process.cutter = setup::cutter_of(*source.tool);
   if (!source.cutting) return process;
   const std::size_t arcs = source.cutting->entry_angles.size();
   process.further_engagements.resize(arcs > 1 ? arcs - 1 : 0);
@@ -71,7 +71,7 @@ void check_compared(const Case& source, Findings& findings) {
   }
 }
 
-void check_robust(const LobesOptions& lobes, Findings& findings) {
+void check_robust(const setup::LobesOptions& lobes, Findings& findings) {
   const milling::Uncertainty& u = lobes.robust->uncertainty;
   if (lobes.method != "direct" && !lobes.method.empty())
     findings.report("lobes.uncertainty", "sensitivities are those of lobes.method = \"direct\", but it is \"" +
@@ -93,7 +93,7 @@ void check_robust(const LobesOptions& lobes, Findings& findings) {
 void check_noise_samples(const Case& source, Findings& findings) {
   if (source.cutting && !source.cutting->spindle_speed_rpm)
     findings.report("lobes.noise_samples", "draws are made at the case's own speed; give cutting.spindle_speed");
-  const bool noisy = (source.tool && any_noise(source.tool->measured)) || any_noise(source.measured_part) ||
+  const bool noisy = (source.tool && any_noise(source.tool->measured)) || setup::any_noise(source.measured_part) ||
                      (source.robot && any_noise(source.robot->measured));
   if (!noisy)
     findings.report("lobes.noise_samples",
@@ -103,7 +103,7 @@ void check_noise_samples(const Case& source, Findings& findings) {
 }  // namespace
 
 void check_chart_choices(const Case& source, Findings& findings) {
-  const LobesOptions& lobes = *source.lobes;
+  const setup::LobesOptions& lobes = *source.lobes;
   check_method_keys(lobes, findings);
   check_method(source, "lobes.method", lobes.method, findings);
   check_compared(source, findings);
@@ -141,4 +141,4 @@ void check_machine(const Case& source, Findings& findings) {
   }
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -4,7 +4,7 @@
 #include "case/case.hpp"
 #include "case/findings.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// `method` and `compare` against the cut, and keys that only some methods know; map and uncertainty need poles.
 void check_chart_choices(const Case& source, Findings& findings);
@@ -12,4 +12,4 @@ void check_chart_choices(const Case& source, Findings& findings);
 /// Limits that contradict each other or the chart's range, or that need a feed or a flat end.
 void check_machine(const Case& source, Findings& findings);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

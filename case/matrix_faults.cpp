@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "reduction/trust/sparse_report.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -66,4 +66,4 @@ void require_definite_files(const io::MatrixFiles& files, const dynamics::Sparse
   }
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

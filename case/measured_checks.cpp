@@ -5,19 +5,19 @@
 #include "case/part_checks.hpp"
 #include "setup/measured_layout.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
-void check_layout(const std::string& key, const std::vector<MeasuredFrf>& files, Findings& findings) {
+void check_layout(const std::string& key, const std::vector<setup::MeasuredFrf>& files, Findings& findings) {
   const bool named = std::ranges::all_of(
-      files, [](const MeasuredFrf& frf) { return direction_of(frf.response) && direction_of(frf.force); });
+      files, [](const setup::MeasuredFrf& frf) { return direction_of(frf.response) && direction_of(frf.force); });
   if (!named) return;
-  const LayoutFault fault = fault_of_layout(files);
+  const setup::LayoutFault fault = setup::fault_of_layout(files);
   if (fault.text.empty()) return;
   findings.report(fault.file ? key + "[" + std::to_string(*fault.file) + "].response" : key, fault.text);
 }
 
-void check_sensors(const std::string& key, const std::vector<Sensor>& sensors, const std::vector<std::string>& measured,
-                   Findings& findings) {
+void check_sensors(const std::string& key, const std::vector<setup::Sensor>& sensors,
+                   const std::vector<std::string>& measured, Findings& findings) {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     findings.require_known(key + "[" + std::to_string(i) + "].at", sensors[i].point, measured, "measured point");
   }
@@ -31,10 +31,10 @@ void check_measured_part(const Case& source, Findings& findings) {
     return;
   }
   std::vector<std::string> points;
-  for (const std::string& dof : measured_layout(source.measured_part).dofs) {
+  for (const std::string& dof : setup::measured_layout(source.measured_part).dofs) {
     if (std::ranges::find(points, point_of(dof)) == points.end()) points.push_back(point_of(dof));
   }
   check_sensors("part.sensors", source.part_sensors, points, findings);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

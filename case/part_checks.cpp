@@ -20,7 +20,7 @@
 #include "setup/imported_part.hpp"
 #include "study/part/discretisation.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -29,37 +29,37 @@ constexpr double tets_per_cube = 8.485281374238570;
 constexpr double most_tets = 2e7;
 constexpr double most_dofs = 5e6;
 
-bool axes_differ(const Part& part) {
+bool axes_differ(const setup::Part& part) {
   const int sum = (1 << std::max(part.length_axis, 0)) + (1 << std::max(part.height_axis, 0)) +
                   (1 << std::max(part.thickness_axis, 0));
   return std::min({part.length_axis, part.height_axis, part.thickness_axis}) >= 0 && sum == 7 &&
          part.length_axis != part.height_axis;
 }
 
-bool geometry_known(const Part& part) {
-  if (from_file(part)) return part.imported != nullptr;
+bool geometry_known(const setup::Part& part) {
+  if (setup::from_file(part)) return part.imported != nullptr;
   if (part.shape == "prism") return mesh::violations(part.prism).empty();
   return axes_differ(part) && std::isfinite(part.length) && std::isfinite(part.height) && std::isfinite(part.thickness);
 }
 
 /// Coordinates equal to a face's up to this are on it.
-double tolerance(const Part& part) {
+double tolerance(const setup::Part& part) {
   return 1e-9 * bounds(part).sizes().maxCoeff();
 }
 
 /// How near to a file's surface a point must be given: the nearest place of the surface is meant.
-double given_to(const Part& part) {
+double given_to(const setup::Part& part) {
   return 1e-4 * bounds(part).diagonal().norm();
 }
 
-bool on_face(const Part& part, const std::string& face, const Eigen::Vector3d& p) {
+bool on_face(const setup::Part& part, const std::string& face, const Eigen::Vector3d& p) {
   const int axis = face[0] - 'x';
-  const double coordinate = face.ends_with("max") ? bounds(part).max()[axis] : bounds(part).min()[axis];
+  const double coordinate = face.ends_with("max") ? setup::bounds(part).max()[axis] : setup::bounds(part).min()[axis];
   return std::abs(p[axis] - coordinate) <= tolerance(part);
 }
 
 /// Keys of other shapes than the part's.
-void check_belonging(const Part& part, Findings& findings) {
+void check_belonging(const setup::Part& part, Findings& findings) {
   struct Belonging {
     const char* key;
     std::vector<std::string> shapes;
@@ -93,7 +93,7 @@ void check_belonging(const Part& part, Findings& findings) {
   }
 }
 
-void check_matrices(const Part& part, Findings& findings) {
+void check_matrices(const setup::Part& part, Findings& findings) {
   if (!findings.given("part.matrices.stiffness"))
     return findings.report("part.matrices.stiffness", "missing; the file of K");
   try {
@@ -103,7 +103,7 @@ void check_matrices(const Part& part, Findings& findings) {
   }
 }
 
-void check_part_file(const Part& part, Findings& findings) {
+void check_part_file(const setup::Part& part, Findings& findings) {
   if (part.shape == "matrices") return check_matrices(part, findings);
   if (part.shape.empty()) {
     findings.report("part.file", "\"" + part.file.path.filename().string() +
@@ -112,7 +112,7 @@ void check_part_file(const Part& part, Findings& findings) {
     return;
   }
   if (!findings.given("part.file")) findings.report("part.file", "missing; the surface or the mesh of the part");
-  if (tells_its_unit(part.file.path) && !findings.given("part.unit")) return;
+  if (setup::tells_its_unit(part.file.path) && !findings.given("part.unit")) return;
   if (!findings.given("part.unit")) {
     findings.report("part.unit", "missing; the file does not tell its unit of length: \"mm\", \"m\", \"inch\"");
   } else {
@@ -124,7 +124,7 @@ void check_part_file(const Part& part, Findings& findings) {
   }
 }
 
-void check_prism(const Part& part, Findings& findings) {
+void check_prism(const setup::Part& part, Findings& findings) {
   for (const auto* key : {"part.outline", "part.thickness"}) {
     if (!findings.given(key)) findings.report(key, "missing; a prism has an outline and a thickness along z");
   }
@@ -136,27 +136,27 @@ void check_prism(const Part& part, Findings& findings) {
   for (const std::string& violation : mesh::violations(part.prism)) findings.report("part.outline", violation);
 }
 
-void check_bend(const Part& part, Findings& findings) {
-  if (!part.bend || from_file(part) || !geometry_known(part) || !std::isfinite(part.bend->radius)) return;
-  const int through = planar(part).axes[2];
-  const Eigen::AlignedBox3d box = bounds(part);
+void check_bend(const setup::Part& part, Findings& findings) {
+  if (!part.bend || setup::from_file(part) || !geometry_known(part) || !std::isfinite(part.bend->radius)) return;
+  const int through = study::planar(part).axes[2];
+  const Eigen::AlignedBox3d box = setup::bounds(part);
   if (part.bend->along && *part.bend->along == through) {
     findings.report("part.bend.along", "the part is bent along its wall, not through its thickness; name another axis");
     return;
   }
   mesh::Positions corners(2, 3);
   corners << box.min().transpose(), box.max().transpose();
-  for (const std::string& violation : mesh::violations(bend_of(part), corners))
+  for (const std::string& violation : mesh::violations(study::bend_of(part), corners))
     findings.report("part.bend.radius", violation);
 }
 
 void check_shape(const Case& source, Findings& findings) {
-  const Part& part = *source.part;
+  const setup::Part& part = *source.part;
   if (!source.measured_part.empty()) {
     findings.report("part.measured", "a part is either modelled (part.length …) or measured; remove one of the two");
   }
   if (!part.shape.empty()) check_belonging(part, findings);
-  if (part.shape.empty() || from_file(part)) return check_part_file(part, findings);
+  if (part.shape.empty() || setup::from_file(part)) return check_part_file(part, findings);
   if (part.shape == "prism") return check_prism(part, findings);
   for (const auto* extent : {"part.length", "part.height", "part.thickness"}) {
     if (!findings.given(extent)) findings.report(extent, "missing; a box has a length, a height and a thickness");
@@ -167,7 +167,7 @@ void check_shape(const Case& source, Findings& findings) {
 }
 
 /// Parts that TetGen meshes: boxes with a given element size.
-bool by_tetgen(const Part& part) {
+bool by_tetgen(const setup::Part& part) {
   return part.shape == "box" && !part.bend && part.mesh.element_size.has_value();
 }
 
@@ -185,14 +185,14 @@ struct Grading {
 };
 
 Grading grading_of(const Case& source) {
-  const Part& part = *source.part;
+  const setup::Part& part = *source.part;
   const double thinnest = std::min({part.length, part.height, part.thickness});
   // The quality bound lets a tetrahedron be about twice as wide as the wall is thick, however large it may be.
   const double far = std::min(*part.mesh.element_size, 2.0 * thinnest);
   Grading grading{{}, far, 0.0, far};
   if (!part.mesh.point_element_size) return grading;
-  for (const Point& p : source.points) {
-    if (p.at.has_value() != p.position.has_value()) grading.points.push_back(position(part, p));
+  for (const setup::Point& p : source.points) {
+    if (p.at.has_value() != p.position.has_value()) grading.points.push_back(setup::position(part, p));
   }
   if (grading.points.empty()) return grading;
   grading.near = *part.mesh.point_element_size;
@@ -224,7 +224,7 @@ double area_of(const mesh::TriangleSurface& surface) {
 /// Twice as many as an even layer of triangles of the usual size (mesh::SurfaceSize) on both sides of a wall, three
 /// tetrahedra for two triangles, as edges are lined with layers; five times as many on the second level, which edges
 /// that turn inwards call for.
-double elements_in_surface(const Part& part) {
+double elements_in_surface(const setup::Part& part) {
   const mesh::SurfaceRepair& imported = *part.imported->surface;
   const double area = area_of(imported.surface), wall = 2.0 * imported.volume_m3 / area;
   const double size = part.mesh.element_size.value_or(std::min(9.0 * wall, part.imported->box.diagonal().norm() / 8.0));
@@ -234,7 +234,7 @@ double elements_in_surface(const Part& part) {
 
 /// Walls so thin that elements of their size are too many: most often the unit is another than stated.
 void check_surface_size(const Case& source, Findings& findings) {
-  const Part& part = *source.part;
+  const setup::Part& part = *source.part;
   const double dofs = estimate_size(source).dofs;
   if (!(dofs > most_dofs)) return;
   const mesh::SurfaceRepair& imported = *part.imported->surface;
@@ -253,18 +253,18 @@ void check_surface_size(const Case& source, Findings& findings) {
 
 /// What is too much, and the size or order that would do; a uniform mesh grows with the cube of its fineness.
 void check_mesh_size(const Case& source, Findings& findings) {
-  const MeshOptions& mesh = source.part->mesh;
+  const setup::MeshOptions& mesh = source.part->mesh;
   if (mesh.grading && !findings.given("part.mesh.point_element_size"))
     findings.report("part.mesh.grading", "there is nothing to grade; give point_element_size, or remove grading");
   // A resolved case writes defaults out: only another value shows that the user meant it.
-  const bool other_quality = mesh.quality != MeshOptions{}.quality;
+  const bool other_quality = mesh.quality != setup::MeshOptions{}.quality;
   if (!by_tetgen(*source.part) && (mesh.point_element_size || other_quality)) {
     findings.report(other_quality ? "part.mesh.quality" : "part.mesh.point_element_size",
                     "belongs to boxes with a given element_size; elsewhere meshes are graded by rule; remove it");
   }
   if (source.part->shape == "surface" && !mesh.element_size && mesh.tolerance < 1e-3)
     findings.report("part.mesh.tolerance", "a surface from a file is followed to 0.001 at best; take that or more");
-  if (mesh.element_size && mesh.tolerance != usual_tolerance(*source.part))
+  if (mesh.element_size && mesh.tolerance != setup::usual_tolerance(*source.part))
     findings.report("part.mesh.tolerance", "nothing is estimated with a given element_size; remove one of the two");
   if (source.part->shape == "surface") check_surface_size(source, findings);
   if (!by_tetgen(*source.part)) return;
@@ -291,7 +291,7 @@ void check_mesh_size(const Case& source, Findings& findings) {
                       (many_tets || order_now == 1 ? "" : ", or a lower part.mesh.order"));
 }
 
-void check_selection(const Selection& selection, Findings& findings) {
+void check_selection(const setup::Selection& selection, Findings& findings) {
   const std::string key = "selections." + selection.name;
   const int predicates = (selection.plane ? 1 : 0) + (selection.box ? 1 : 0) + (selection.sphere ? 1 : 0);
   if (predicates != 1) findings.report(key, "give exactly one of plane, box, sphere");
@@ -311,7 +311,7 @@ std::string text(const Eigen::Vector3d& p) {
   return "(" + list + ")";
 }
 
-void check_node(const Case& source, const Point& point, Findings& findings) {
+void check_node(const Case& source, const setup::Point& point, Findings& findings) {
   const std::string key = "points." + point.name;
   if (!source.part || (source.part->shape != "matrices" && source.part->shape != "mesh"))
     return findings.report(key + ".node", "this part has no numbered nodes; give at or position");
@@ -320,8 +320,8 @@ void check_node(const Case& source, const Point& point, Findings& findings) {
   if (!independent(point.directions))
     findings.report(key + ".directions", "the directions must be independent, three at most");
   if (!source.part->imported) return;
-  const std::vector<int> known = node_numbers(*source.part->imported);
-  const std::optional<int> node = node_of(*source.part->imported, point);
+  const std::vector<int> known = setup::node_numbers(*source.part->imported);
+  const std::optional<int> node = setup::node_of(*source.part->imported, point);
   if (node && std::ranges::binary_search(known, *node)) return;
   const std::string which = node ? "node " + std::to_string(*node) : "point of this name; give its node";
   const std::string range =
@@ -330,7 +330,7 @@ void check_node(const Case& source, const Point& point, Findings& findings) {
                   "the part's file has no " + which + " (nodes are numbered " + range + ")");
 }
 
-void check_point(const Case& source, const Point& point, Findings& findings) {
+void check_point(const Case& source, const setup::Point& point, Findings& findings) {
   const std::string key = "points." + point.name;
   const bool matrices = source.part && source.part->shape == "matrices";
   if (matrices || point.node) return check_node(source, point, findings);
@@ -339,7 +339,7 @@ void check_point(const Case& source, const Point& point, Findings& findings) {
     return;
   }
   if (source.part && geometry_known(*source.part)) {
-    const std::string outside = outside_part(*source.part, position(*source.part, point), point.patch_radius);
+    const std::string outside = outside_part(*source.part, setup::position(*source.part, point), point.patch_radius);
     if (!outside.empty()) findings.report(point.at ? key + ".at" : key + ".position", outside);
   }
   if (!independent(point.directions)) {
@@ -348,8 +348,8 @@ void check_point(const Case& source, const Point& point, Findings& findings) {
 }
 
 /// Whether a box or sphere shares no volume with the block around the part.
-bool misses_part(const Part& part, const Selection& selection) {
-  const Eigen::AlignedBox3d block = bounds(part);
+bool misses_part(const setup::Part& part, const setup::Selection& selection) {
+  const Eigen::AlignedBox3d block = setup::bounds(part);
   if (selection.sphere) return block.exteriorDistance(selection.sphere->centre) >= selection.sphere->radius;
   return selection.box && !(block.intersection({selection.box->min, selection.box->max}).sizes().minCoeff() > 0.0);
 }
@@ -357,26 +357,27 @@ bool misses_part(const Part& part, const Selection& selection) {
 void check_material_places(const Case& source, Findings& findings) {
   for (std::size_t i = 0; i < source.part->materials.size(); ++i) {
     const std::string& on = source.part->materials[i].on;
-    const auto selection = std::ranges::find(source.selections, on, &Selection::name);
+    const auto selection = std::ranges::find(source.selections, on, &setup::Selection::name);
     if (selection != source.selections.end() && misses_part(*source.part, *selection))
       findings.report("part.materials[" + std::to_string(i) + "].on",
                       "the selection \"" + on + "\" does not meet the part, which reaches from " +
-                          text(bounds(*source.part).min()) + " to " + text(bounds(*source.part).max()) + "; move it");
+                          text(setup::bounds(*source.part).min()) + " to " + text(setup::bounds(*source.part).max()) +
+                          "; move it");
   }
 }
 
-bool holds(const Case& source, const Support& support, const Eigen::Vector3d& p) {
+bool holds(const Case& source, const setup::Support& support, const Eigen::Vector3d& p) {
   const auto& part = *source.part;
   if (std::ranges::find(mesh::face_names(), support.on) != mesh::face_names().end())
     return on_face(part, support.on, p);
-  const auto selection = std::ranges::find(source.selections, support.on, &Selection::name);
+  const auto selection = std::ranges::find(source.selections, support.on, &setup::Selection::name);
   return selection != source.selections.end() && contains(*selection, p, tolerance(part));
 }
 
 }  // namespace
 
 SizeEstimate estimate_size(const Case& source) {
-  const Part& part = *source.part;
+  const setup::Part& part = *source.part;
   SizeEstimate size;
   if (part.shape == "matrices") {
     size.dofs = static_cast<double>(part.imported->matrices->size());
@@ -385,11 +386,11 @@ SizeEstimate estimate_size(const Case& source) {
   }
   size.order = part.mesh.order.value_or(part.mesh.element_size ? 2 : 5);
   if (part.shape == "mesh") size.order = part.mesh.order.value_or(std::max(2, part.imported->mesh->solid.nodes.order));
-  size.elements = part.shape == "mesh" ? static_cast<double>(part.imported->mesh->solid.mesh.tets.size())
-                  : from_file(part)    ? elements_in_surface(part)
+  size.elements = part.shape == "mesh"     ? static_cast<double>(part.imported->mesh->solid.mesh.tets.size())
+                  : setup::from_file(part) ? elements_in_surface(part)
                   : by_tetgen(part)
-                      ? std::max(6.0, tets_in({Eigen::Vector3d::Zero(), box_size(part)}, grading_of(source)))
-                      : static_cast<double>(graded_mesh(source, 0).tets.size());
+                      ? std::max(6.0, tets_in({Eigen::Vector3d::Zero(), setup::box_size(part)}, grading_of(source)))
+                      : static_cast<double>(study::graded_mesh(source, 0).tets.size());
   // A tetrahedral mesh of a thin wall has about 0.3 vertices, 1.6 edges and 2.3 faces an element.
   const double p = size.order;
   size.nodes = size.elements * (0.3 + 1.6 * (p - 1) + 2.3 * (p - 1) * (p - 2) / 2 + (p - 1) * (p - 2) * (p - 3) / 6);
@@ -421,10 +422,10 @@ void check_part(const Case& source, Findings& findings) {
   for (const auto& point : source.points) check_point(source, point, findings);
 }
 
-std::string outside_part(const Part& part, const Eigen::Vector3d& p, double patch_radius) {
+std::string outside_part(const setup::Part& part, const Eigen::Vector3d& p, double patch_radius) {
   if (!geometry_known(part)) return "";
-  const Eigen::AlignedBox3d box = bounds(part);
-  const double slack = from_file(part) ? off_surface(part) : tolerance(part);
+  const Eigen::AlignedBox3d box = setup::bounds(part);
+  const double slack = setup::from_file(part) ? study::off_surface(part) : tolerance(part);
   if (((box.min() - p).array() > slack).any() || ((p - box.max()).array() > slack).any()) {
     return text(p) + " lies outside the part, which reaches from " +
            (box.min().isZero() ? "the origin" : text(box.min())) + " to " + text(box.max());
@@ -464,7 +465,7 @@ std::optional<Eigen::Vector3d> direction_of(const std::string& dof) {
 }
 
 std::vector<Eigen::Vector3d> directions_at(const Case& source, const std::string& name) {
-  const auto found = std::ranges::find(source.points, name, &Point::name);
+  const auto found = std::ranges::find(source.points, name, &setup::Point::name);
   if (source.part && found != source.points.end()) return found->directions;
   std::vector<Eigen::Vector3d> directions;
   for (const auto& frf : source.measured_part) {
@@ -490,11 +491,11 @@ bool spanned(const std::vector<Eigen::Vector3d>& directions, const Eigen::Vector
 }
 
 std::string clamped_by(const Case& source, const std::string& name, const Eigen::Vector3d& direction) {
-  const auto found = std::ranges::find(source.points, name, &Point::name);
+  const auto found = std::ranges::find(source.points, name, &setup::Point::name);
   if (!source.part || !geometry_known(*source.part) || found == source.points.end()) return "";
   if (found->at.has_value() == found->position.has_value()) return "";
   for (const auto& support : source.part->supports) {
-    if (!holds(source, support, position(*source.part, *found))) continue;
+    if (!holds(source, support, setup::position(*source.part, *found))) continue;
     double held = 0.0;
     for (const int axis : support.fixed) held += direction[axis] * direction[axis];
     if (held > 1e-12) return support.on;
@@ -502,4 +503,4 @@ std::string clamped_by(const Case& source, const std::string& name, const Eigen:
   return "";
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -4,7 +4,7 @@
 #include "case/case.hpp"
 #include "case/findings.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 void check_part(const Case& source, Findings& findings);
 
@@ -14,7 +14,7 @@ void check_part(const Case& source, Findings& findings);
 /// "(…) lies outside the part, which reaches from …" for a position (m) off the block around the part (before it is
 /// bent), more than 1e-4 of the diagonal outside a file's surface or, with a patch (radius, m; 0: none), off it; or ""
 /// if it lies within or the part is not known well enough. Cost O(triangles of the surface).
-[[nodiscard]] std::string outside_part(const Part& part, const Eigen::Vector3d& p, double patch_radius);
+[[nodiscard]] std::string outside_part(const setup::Part& part, const Eigen::Vector3d& p, double patch_radius);
 
 /// Name of the support that holds the point in the direction, or "" if it is free to move (or not known well enough).
 [[nodiscard]] std::string clamped_by(const Case& source, const std::string& point, const Eigen::Vector3d& direction);
@@ -34,4 +34,4 @@ void check_part(const Case& source, Findings& findings);
 /// "P.x" → "P".
 [[nodiscard]] std::string point_of(const std::string& dof);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

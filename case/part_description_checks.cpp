@@ -8,7 +8,7 @@
 #include "setup/imported_part.hpp"
 #include "setup/part_materials.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -27,7 +27,7 @@ std::string as_in_file(const std::string& name, const std::vector<std::string>& 
 
 void check_supports(const Case& source, Findings& findings) {
   const auto& supports = source.part->supports;
-  const mesh::SolidMesh* solid = solid_of(*source.part);
+  const mesh::SolidMesh* solid = setup::solid_of(*source.part);
   if (source.part->shape == "mesh" && solid == nullptr) return;
   std::vector<std::string> known = faces_and_selections(source);
   if (solid != nullptr) {
@@ -44,8 +44,9 @@ void check_supports(const Case& source, Findings& findings) {
 }
 
 void check_material(const Case& source, Findings& findings) {
-  const Part& part = *source.part;
-  if (part.shape == "matrices" || (part.shape == "mesh" && (part.imported == nullptr || materials_in_file(part))))
+  const setup::Part& part = *source.part;
+  if (part.shape == "matrices" ||
+      (part.shape == "mesh" && (part.imported == nullptr || setup::materials_in_file(part))))
     return;
   for (const auto& [key, meaning] : {std::pair{"part.material.youngs_modulus", "Young's modulus"},
                                      {"part.material.poisson_ratio", "Poisson's ratio"},
@@ -58,15 +59,15 @@ void check_material(const Case& source, Findings& findings) {
 }
 
 /// What the case gives to a set of the file goes before the file's own.
-bool given_by_case(const Part& part, const std::string& set) {
+bool given_by_case(const setup::Part& part, const std::string& set) {
   return std::ranges::any_of(part.materials,
-                             [&](const MaterialRegion& r) { return io::capitals(r.on) == io::capitals(set); });
+                             [&](const setup::MaterialRegion& r) { return io::capitals(r.on) == io::capitals(set); });
 }
 
 /// Sections of the file whose material lacks something, where the case gives nothing in its place.
 void check_materials_of_file(const Case& source, Findings& findings) {
-  const Part& part = *source.part;
-  if (!materials_in_file(part) || findings.given("part.material.youngs_modulus")) return;
+  const setup::Part& part = *source.part;
+  if (!setup::materials_in_file(part) || findings.given("part.material.youngs_modulus")) return;
   for (const io::InpMaterial& m : part.imported->mesh->materials) {
     const std::string lacking = io::what_lacks(m);
     if (lacking.empty() || given_by_case(part, m.element_set)) continue;
@@ -79,7 +80,7 @@ void check_materials_of_file(const Case& source, Findings& findings) {
 void check_materials(const Case& source, Findings& findings) {
   std::vector<std::string> known;
   for (const auto& selection : source.selections) known.push_back(selection.name);
-  const mesh::SolidMesh* solid = solid_of(*source.part);
+  const mesh::SolidMesh* solid = setup::solid_of(*source.part);
   if (source.part->shape == "mesh" && solid == nullptr) return;
   if (solid != nullptr) {
     for (const auto& set : solid->element_sets) known.push_back(set.name);
@@ -88,7 +89,7 @@ void check_materials(const Case& source, Findings& findings) {
     const std::string key = "part.materials[" + std::to_string(i) + "].on", &on = source.part->materials[i].on;
     findings.require_known(key, as_in_file(on, known), known,
                            solid == nullptr ? "selection" : "selection or set of elements");
-    const auto selection = std::ranges::find(source.selections, on, &Selection::name);
+    const auto selection = std::ranges::find(source.selections, on, &setup::Selection::name);
     if (selection != source.selections.end() && selection->plane)
       findings.report(key, "a plane holds no elements; take a box or a sphere");
   }
@@ -98,13 +99,13 @@ void check_carrier(const Case& source, const std::string& key, const std::string
   std::vector<std::string> known;
   for (const auto& point : source.points) known.push_back(point.name);
   findings.require_known(key + ".at", name, known, "point");
-  const auto found = std::ranges::find(source.points, name, &Point::name);
+  const auto found = std::ranges::find(source.points, name, &setup::Point::name);
   if (found != source.points.end() && !(found->patch_radius > 0.0))
     findings.report("points." + name, "carries a mass or springs and needs a patch: give patch_radius");
 }
 
 void check_attachments(const Case& source, Findings& findings) {
-  const Part& part = *source.part;
+  const setup::Part& part = *source.part;
   for (std::size_t i = 0; i < part.clamps.size(); ++i) {
     const std::string key = "part.clamps[" + std::to_string(i) + "]";
     findings.require_known(key + ".on", part.clamps[i].on, faces_and_selections(source), "face or selection");
@@ -123,10 +124,10 @@ void check_attachments(const Case& source, Findings& findings) {
 
 /// What a mesh from a file cannot be asked for.
 void check_given_mesh(const Case& source, Findings& findings) {
-  const Part& part = *source.part;
-  const mesh::SolidMesh* solid = solid_of(part);
+  const setup::Part& part = *source.part;
+  const mesh::SolidMesh* solid = setup::solid_of(part);
   for (const auto* key : {"part.mesh.element_size", "part.mesh.tolerance"}) {
-    const bool other = key == std::string("part.mesh.tolerance") ? part.mesh.tolerance != usual_tolerance(part)
+    const bool other = key == std::string("part.mesh.tolerance") ? part.mesh.tolerance != setup::usual_tolerance(part)
                                                                  : part.mesh.element_size.has_value();
     if (other) findings.report(key, "the mesh is given; part.mesh.order alone can make it better; remove this key");
   }
@@ -149,4 +150,4 @@ void check_description(const Case& source, Findings& findings) {
   if (source.part->shape == "mesh") check_given_mesh(source, findings);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

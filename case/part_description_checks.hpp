@@ -4,10 +4,10 @@
 #include "case/case.hpp"
 #include "case/findings.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// Materials, supports, clamps, masses and springs of a modelled part, and what a given mesh cannot be asked for. What
 /// only a file tells is checked once it is read.
 void check_description(const Case& source, Findings& findings);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -9,7 +9,7 @@
 #include "case/robot_checks.hpp"
 #include "setup/path.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -57,7 +57,7 @@ bool all_finite(const std::vector<Eigen::Vector3d>& positions) {
   return std::ranges::all_of(positions, [](const Eigen::Vector3d& p) { return p.allFinite(); });
 }
 
-void check_length(const Path& path, Findings& findings) {
+void check_length(const setup::Path& path, Findings& findings) {
   for (std::size_t i = 1; i < path.positions.size(); ++i) {
     if (path.positions[i] != path.positions[i - 1]) continue;
     findings.report(findings.given("path.points") ? "path.points" : "path.to",
@@ -68,7 +68,7 @@ void check_length(const Path& path, Findings& findings) {
 }
 
 /// What is wrong with a point of the case at one position; empty if nothing.
-std::string fault_at(const Case& there, const Point& p) {
+std::string fault_at(const Case& there, const setup::Point& p) {
   if (std::string outside = outside_part(*there.part, *p.position, p.patch_radius); !outside.empty()) return outside;
   for (const Eigen::Vector3d& direction : p.directions) {
     const std::string support = clamped_by(there, p.name, direction);
@@ -81,8 +81,8 @@ std::string fault_at(const Case& there, const Point& p) {
 bool check_position(const Case& source, std::size_t i, std::optional<Eigen::VectorXd>& near, Findings& findings) {
   const std::string number =
       "position " + std::to_string(i + 1) + " of " + std::to_string(source.path->positions.size());
-  const Case there = at_position(source, i);
-  for (const Point& p : there.points) {
+  const Case there = setup::at_position(source, i);
+  for (const setup::Point& p : there.points) {
     const bool is_cut = p.name == there.cutting->at;
     if (!is_cut && !source.path->robot_follows) continue;
     const std::string fault = fault_at(there, p);
@@ -107,11 +107,12 @@ bool check_position(const Case& source, std::size_t i, std::optional<Eigen::Vect
 
 bool points_known(const Case& source) {
   const auto known = [&](const std::string& name) {
-    return std::ranges::any_of(
-        source.points, [&](const Point& p) { return p.name == name && p.at.has_value() != p.position.has_value(); });
+    return std::ranges::any_of(source.points, [&](const setup::Point& p) {
+      return p.name == name && p.at.has_value() != p.position.has_value();
+    });
   };
   return known(source.cutting->at) &&
-         std::ranges::all_of(source.contacts, [&](const Contact& c) { return known(c.part_point); });
+         std::ranges::all_of(source.contacts, [&](const setup::Contact& c) { return known(c.part_point); });
 }
 
 }  // namespace
@@ -128,4 +129,4 @@ void check_path(const Case& source, Findings& findings) {
   }
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

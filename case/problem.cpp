@@ -4,7 +4,7 @@
 #include <sstream>
 #include <utility>
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -104,4 +104,4 @@ CaseError::CaseError(CaseText where, std::vector<Problem> found)
       source(std::move(where)),
       problems(in_order(std::move(found))) {}
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

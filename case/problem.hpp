@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// One thing wrong, with its place: a line of the file from 1; -1, -2 ... the first, second ... --set; 0 nowhere. The
 /// column counts characters from 1.
@@ -42,4 +42,4 @@ struct CaseError : core::InputError {
 /// "case.toml:12:5: part.length: …", or "case.toml: part.length: …" where the place is no line of the file.
 [[nodiscard]] std::string problem_line(const std::string& file, const Problem& problem);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

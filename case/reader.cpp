@@ -12,14 +12,14 @@
 #include "core/atomic_file.hpp"
 #include "setup/imported_part.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
 /// The part's file; of matrices that are refused the one at fault is named.
-std::shared_ptr<const ImportedPart> read_imported(const Part& part) {
+std::shared_ptr<const setup::ImportedPart> read_imported(const setup::Part& part) {
   try {
-    return read_part_file(part);
+    return setup::read_part_file(part);
   } catch (const core::InputError&) {
     if (part.shape == "matrices") require_plausible_files(part.file.matrices);
     throw;
@@ -46,7 +46,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& folder, co
   auto problems = std::move(read.problems);
   std::ranges::move(check_case(result), std::back_inserter(problems));
   if (!problems.empty()) throw CaseError({name, text, overrides}, std::move(problems));
-  if (!result.part || !from_file(*result.part)) return result;
+  if (!result.part || !setup::from_file(*result.part)) return result;
   result.part->imported = read_imported(*result.part);
   problems = check_case(result);  // what could not be told before its size was known
   if (!problems.empty()) throw CaseError({name, text, overrides}, std::move(problems));
@@ -80,4 +80,4 @@ std::vector<Expectation> read_expectations(const std::filesystem::path& case_fil
   return bind_expectations(read.values);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -9,7 +9,7 @@
 #include "case/expectation.hpp"
 #include "case/problem.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// The case file of a folder, or the file itself. Throws InputError if there is none.
 [[nodiscard]] std::filesystem::path case_file(const std::filesystem::path& folder_or_file);
@@ -27,4 +27,4 @@ namespace thinwall::app {
 /// The expectations that lie beside the case (expected.toml); none if there is no such file. Throws CaseError.
 [[nodiscard]] std::vector<Expectation> read_expectations(const std::filesystem::path& case_file);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

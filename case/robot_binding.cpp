@@ -8,7 +8,7 @@
 #include "case/urdf_arm.hpp"
 #include "core/error.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -101,8 +101,8 @@ robot::ChainElement bind_element(const Table& table) {
                              table.number(turns ? "damping" : "linear_damping")};
 }
 
-PostureWish bind_posture(const Table& table) {
-  PostureWish wish;
+setup::PostureWish bind_posture(const Table& table) {
+  setup::PostureWish wish;
   if (!table.exists()) return wish;
   wish.joints = table.numbers("joints");
   if (table.has("tip")) wish.tip = table.vector("tip");
@@ -158,8 +158,8 @@ std::vector<robot::Chain> bind_chains(const Table& robot) {
   return chains;
 }
 
-std::vector<TipMode> bind_modes(const std::vector<Table>& tables) {
-  std::vector<TipMode> modes;
+std::vector<setup::TipMode> bind_modes(const std::vector<Table>& tables) {
+  std::vector<setup::TipMode> modes;
   modes.reserve(tables.size());
   for (const Table& mode : tables) {
     modes.push_back({mode.number("frequency"), mode.number("damping_ratio"), mode.number("stiffness"),
@@ -168,7 +168,8 @@ std::vector<TipMode> bind_modes(const std::vector<Table>& tables) {
   return modes;
 }
 
-Robot bind_robot(const Table& table, std::vector<MeasuredFrf> measured, const std::filesystem::path& folder) {
+setup::Robot bind_robot(const Table& table, std::vector<setup::MeasuredFrf> measured,
+                        const std::filesystem::path& folder) {
   // A section that no beam has is told by the checks, which bind the chains once more.
   const auto chains = [&]() -> std::vector<robot::Chain> {
     try {
@@ -204,4 +205,4 @@ Robot bind_robot(const Table& table, std::vector<MeasuredFrf> measured, const st
           bind_workspace(table.table("workspace"))};
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

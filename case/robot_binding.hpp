@@ -6,12 +6,12 @@
 #include "case/case.hpp"
 #include "case/table.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// `measured`: its FRF files, bound as those of the part and the tool; data files are in `folder`. An arm's world is
 /// the part's axes; one whose URDF cannot be read has no links (check_robot() says why).
-[[nodiscard]] Robot bind_robot(const Table& table, std::vector<MeasuredFrf> measured,
-                               const std::filesystem::path& folder);
+[[nodiscard]] setup::Robot bind_robot(const Table& table, std::vector<setup::MeasuredFrf> measured,
+                                      const std::filesystem::path& folder);
 
 /// Stiffness, damping, motor and servo of a joint, from [[robot.links]] or [[joints]].
 [[nodiscard]] robot::Joint bind_joint(const Table& table);
@@ -23,6 +23,6 @@ namespace thinwall::app {
 [[nodiscard]] robot::SerialArm bind_urdf(const Table& robot, const std::filesystem::path& folder);
 
 /// [[robot.modes]] or [[tool.modes]].
-[[nodiscard]] std::vector<TipMode> bind_modes(const std::vector<Table>& tables);
+[[nodiscard]] std::vector<setup::TipMode> bind_modes(const std::vector<Table>& tables);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -10,7 +10,7 @@
 #include "robot/flexible_joints.hpp"
 #include "setup/robot_tip.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -59,7 +59,7 @@ void check_belongings(const Case& source, Findings& findings) {
   }
 }
 
-void check_one_mode(const Robot& robot, Findings& findings) {
+void check_one_mode(const setup::Robot& robot, Findings& findings) {
   if (!robot.stiffness) findings.report("robot.stiffness", "missing; one mode needs its stiffness at the tip");
   if (robot.mass.has_value() == robot.frequency_hz.has_value()) {
     findings.report("robot.frequency", "give either frequency or mass beside the stiffness");
@@ -70,7 +70,7 @@ void check_one_mode(const Robot& robot, Findings& findings) {
 }
 
 /// One file is a driving point along robot.direction; several name the tip's axes.
-void check_measured_robot(const Robot& robot, Findings& findings) {
+void check_measured_robot(const setup::Robot& robot, Findings& findings) {
   if (robot.measured.empty()) {
     findings.report("robot.model", "measured needs [[robot.measured]] with a file");
     return;
@@ -80,7 +80,7 @@ void check_measured_robot(const Robot& robot, Findings& findings) {
     check_layout("robot.measured", robot.measured, findings);
     return;
   }
-  const MeasuredFrf& frf = robot.measured.front();
+  const setup::MeasuredFrf& frf = robot.measured.front();
   if (!frf.response.empty() && !frf.force.empty() && frf.response != frf.force) {
     findings.report("robot.measured[0].force",
                     "\"" + frf.force + "\" is not the DOF that moves; a single file is a driving point, force = \"" +
@@ -122,8 +122,8 @@ void check_counterbalances(const Case& source, Findings& findings) {
 }
 
 /// How the arm is asked to stand.
-void check_posture_keys(const Robot& robot, Findings& findings) {
-  const PostureWish& wish = robot.posture;
+void check_posture_keys(const setup::Robot& robot, Findings& findings) {
+  const setup::PostureWish& wish = robot.posture;
   const int ways = (findings.given("robot.posture.joints") ? 1 : 0) + (wish.pitch ? 1 : 0) + (wish.approach ? 1 : 0);
   if (ways != 1) {
     findings.report("robot.posture", "give either joints, or pitch (four-axis arms), or approach (any arm)");
@@ -164,7 +164,7 @@ bool check_urdf(const Case& source, Findings& findings) {
 }
 
 void check_arm(const Case& source, Findings& findings) {
-  const Robot& robot = *source.robot;
+  const setup::Robot& robot = *source.robot;
   if (!robot.urdf.empty()) {
     if (!check_urdf(source, findings)) return;
   } else if (robot.arm.links.empty()) {
@@ -200,7 +200,7 @@ void check_table(const Case& source, Findings& findings) {
     return;
   }
   try {
-    (void)tip_model(*source.robot, {});
+    (void)setup::tip_model(*source.robot, {});
   } catch (const core::Error& error) {
     findings.report("robot.table", error.what());
   }
@@ -234,10 +234,10 @@ void check_elements(const Case& source, Findings& findings) {
 }
 
 /// Directions of a tip whose table or chains can be read.
-std::vector<Eigen::Vector3d> modelled_directions(const Robot& robot) {
+std::vector<Eigen::Vector3d> modelled_directions(const setup::Robot& robot) {
   std::vector<Eigen::Vector3d> directions;
   try {
-    const robot::Tip tip = tip_model(robot, {})({});
+    const robot::Tip tip = setup::tip_model(robot, {})({});
     const auto* modal = std::get_if<dynamics::ModalModel>(&tip);
     const auto* spatial = std::get_if<dynamics::SpatialModel>(&tip);
     for (const dynamics::Dof& dof : modal != nullptr ? modal->dofs : spatial->dofs) {
@@ -251,15 +251,15 @@ std::vector<Eigen::Vector3d> modelled_directions(const Robot& robot) {
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> tip_directions(const Robot& robot) {
+std::vector<Eigen::Vector3d> tip_directions(const setup::Robot& robot) {
   if (robot.model == "flexible_joints")
     return {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
   if (robot.model == "modal_table" || robot.model == "virtual_joints") return modelled_directions(robot);
   std::vector<Eigen::Vector3d> directions;
   if (robot.model == "modes") {
-    for (const TipMode& mode : robot.modes) directions.push_back(mode.direction);
+    for (const setup::TipMode& mode : robot.modes) directions.push_back(mode.direction);
   } else if (robot.model == "measured" && robot.measured.size() > 1) {
-    for (const MeasuredFrf& frf : robot.measured) {
+    for (const setup::MeasuredFrf& frf : robot.measured) {
       if (const auto d = direction_of(frf.response)) directions.push_back(*d);
     }
   } else {
@@ -271,7 +271,7 @@ std::vector<Eigen::Vector3d> tip_directions(const Robot& robot) {
 std::string fault_of_posture(const Case& source, std::optional<Eigen::VectorXd>& near) {
   if (source.robot->model != "flexible_joints") return "";
   try {
-    const RobotPosture stands = robot_posture(source, near);
+    const study::RobotPosture stands = setup::robot_posture(source, near);
     (void)robot::linearised(source.robot->arm, stands.posture, source.robot->point);
     near = stands.posture.q;
   } catch (const core::InputError& error) {
@@ -281,7 +281,7 @@ std::string fault_of_posture(const Case& source, std::optional<Eigen::VectorXd>&
 }
 
 void check_robot(const Case& source, Findings& findings) {
-  const Robot& robot = *source.robot;
+  const setup::Robot& robot = *source.robot;
   if (robot.model.empty()) return;  // reported by the reader
   check_belongings(source, findings);
   if (std::abs(robot.arm.base.linear().col(0).dot(robot.arm.base.linear().col(2))) > 1e-9) {
@@ -297,4 +297,4 @@ void check_robot(const Case& source, Findings& findings) {
   if (robot.model == "virtual_joints") check_elements(source, findings);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

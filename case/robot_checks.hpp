@@ -7,16 +7,16 @@
 #include "case/case.hpp"
 #include "case/findings.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// The keys of its model, the arm's bodies and joints, and that it can stand as it is asked to.
 void check_robot(const Case& source, Findings& findings);
 
 /// Directions in which the tip can be held; empty where the case does not tell.
-[[nodiscard]] std::vector<Eigen::Vector3d> tip_directions(const Robot& robot);
+[[nodiscard]] std::vector<Eigen::Vector3d> tip_directions(const setup::Robot& robot);
 
 /// What keeps the robot from standing as the case asks it to; empty if nothing, or where the case does not tell. A
 /// search starts from the joints `near`, if there are, which then are those found.
 [[nodiscard]] std::string fault_of_posture(const Case& source, std::optional<Eigen::VectorXd>& near);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -1,6 +1,6 @@
 #include "case/schema.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -543,4 +543,4 @@ const Schema& expectation_schema() {
   return schema;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -14,7 +14,7 @@
 
 #include "core/units.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 enum class Type {
   text,        ///< any string
@@ -105,4 +105,4 @@ void require_within_bounds(const Key& key, double value);
 /// The tables of docs/case-file.md, one a section, as Markdown.
 [[nodiscard]] std::string schema_markdown(const Schema& schema);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -5,7 +5,7 @@
 #include "case/schema.hpp"
 #include "core/error.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -219,4 +219,4 @@ std::string schema_markdown(const Schema& schema) {
   return text.str();
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

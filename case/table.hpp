@@ -13,7 +13,7 @@
 
 #include "case/values.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// The values below one table.
 struct Table {
@@ -76,4 +76,4 @@ struct Table {
   [[nodiscard]] bool exists() const { return has_table(values, path); }
 };
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -1,6 +1,6 @@
 #include "case/template_texts.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 const char* const plate_template =
     R"(# A plate clamped at both ends, held from behind by a robot and milled on its front.
@@ -359,4 +359,4 @@ to = "14000 rpm"
 count = 60
 )";
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

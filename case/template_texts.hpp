@@ -1,7 +1,7 @@
 #pragma once
 // Texts of the cases that `thinwall init` writes. Every key is in docs/case-file.md.
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 extern const char* const plate_template;
 extern const char* const wall_template;
@@ -10,4 +10,4 @@ extern const char* const robot_template;
 extern const char* const frf_only_template;
 extern const char* const lobes_template;
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

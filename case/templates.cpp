@@ -12,7 +12,7 @@
 #include "core/units.hpp"
 #include "io/surface/stl.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -139,4 +139,4 @@ std::filesystem::path write_template(const std::string& name, const std::filesys
   return folder / "case.toml";
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// A file that lies beside a template's case.toml.
 struct TemplateFile {
@@ -27,4 +27,4 @@ struct TemplateFile {
 /// DataError rather than overwrite any of them; then nothing is written.
 std::filesystem::path write_template(const std::string& name, const std::filesystem::path& folder);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

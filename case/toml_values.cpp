@@ -10,7 +10,7 @@
 #include "core/nearest_name.hpp"
 #include "dynamics/dof.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -436,4 +436,4 @@ ReadValues read_values(const std::string& text, const std::string& name, const S
   return {std::move(walk.values), std::move(walk.problems)};
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -8,7 +8,7 @@
 #include "case/schema.hpp"
 #include "case/values.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// What a file says, defaults filled in, and what is wrong with it: unknown keys, wrong types, dimensions, bounds.
 struct ReadValues {
@@ -21,4 +21,4 @@ struct ReadValues {
 [[nodiscard]] ReadValues read_values(const std::string& text, const std::string& name, const Schema& schema,
                                      const std::vector<std::string>& overrides = {});
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

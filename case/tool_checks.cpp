@@ -6,11 +6,11 @@
 
 #include "case/measured_checks.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
-void check_swap(const Tool& tool, Findings& findings) {
+void check_swap(const setup::Tool& tool, Findings& findings) {
   if (!tool.modes.empty() || !tool.measured.empty())
     findings.report("tool.swap", "stands in place of tool.modes and tool.measured; remove them");
   if (tool.swap->reference.empty())
@@ -22,7 +22,7 @@ void check_swap(const Tool& tool, Findings& findings) {
   }
   for (const std::string& point : {tool.swap->tip, tool.swap->up}) {
     const bool there = std::ranges::any_of(
-        tool.swap->measured, [&](const MeasuredFrf& frf) { return frf.response.starts_with(point + "."); });
+        tool.swap->measured, [&](const setup::MeasuredFrf& frf) { return frf.response.starts_with(point + "."); });
     if (!there)
       findings.report("tool.swap", "no FRF of tool.swap.measured is of point \"" + point + "\"; measure there too");
   }
@@ -31,7 +31,7 @@ void check_swap(const Tool& tool, Findings& findings) {
 
 }  // namespace
 
-void check_measured_tool(const Tool& tool, Findings& findings) {
+void check_measured_tool(const setup::Tool& tool, Findings& findings) {
   if (tool.swap) check_swap(tool, findings);
   if (!tool.modes.empty() && !tool.measured.empty())
     findings.report("tool.measured", "give either tool.modes or tool.measured, not both");
@@ -45,7 +45,7 @@ void check_measured_tool(const Tool& tool, Findings& findings) {
                     "a chart from tool.measured takes equal pitches only; remove it or give tool.modes");
   for (std::size_t i = 0; i < tool.measured.size(); ++i) {
     const auto& frf = tool.measured[i];
-    const auto same = [&](const MeasuredFrf& other) {
+    const auto same = [&](const setup::MeasuredFrf& other) {
       return other.response == frf.response && other.force == frf.force;
     };
     const auto first = std::ranges::find_if(tool.measured, same) - tool.measured.begin();
@@ -55,4 +55,4 @@ void check_measured_tool(const Tool& tool, Findings& findings) {
   }
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

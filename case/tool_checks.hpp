@@ -4,10 +4,10 @@
 #include "case/case.hpp"
 #include "case/findings.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// Samples of a receptance have no poles: reports modes beside them, a helix, unequal pitches, and an entry of the FRF
 /// matrix that is given twice. `tool.measured` is not empty.
-void check_measured_tool(const Tool& tool, Findings& findings);
+void check_measured_tool(const setup::Tool& tool, Findings& findings);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -9,7 +9,7 @@
 #include "core/atomic_file.hpp"
 #include "io/urdf.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -47,4 +47,4 @@ robot::SerialArm urdf_arm(const std::filesystem::path& urdf, const std::string& 
   return arm;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

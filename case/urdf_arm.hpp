@@ -6,7 +6,7 @@
 
 #include "robot/serial_arm.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// Links and tip from `urdf`, between the links called `base` and `tip` (io/urdf.hpp), the joints from `joints`, a TOML
 /// file with a [[joints]] for each of them. The arm stands at the origin, upright. Throws DataError as io::read_urdf
@@ -15,4 +15,4 @@ namespace thinwall::app {
 [[nodiscard]] robot::SerialArm urdf_arm(const std::filesystem::path& urdf, const std::string& base,
                                         const std::string& tip, const std::filesystem::path& joints);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -39,4 +39,4 @@ bool has_table(const CaseValues& values, std::string_view prefix) {
   return std::ranges::any_of(values, [&](const CaseValue& value) { return !below(value.key, prefix).empty(); });
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

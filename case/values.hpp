@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 /// A number is in the unit of its key (case/schema.hpp); directions are unit vectors.
 using Value = std::variant<double, bool, std::string, std::vector<double>, std::vector<std::string>,
@@ -37,4 +37,4 @@ using CaseValues = std::vector<CaseValue>;
 /// True if any key lies in the table `prefix`.
 [[nodiscard]] bool has_table(const CaseValues& values, std::string_view prefix);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

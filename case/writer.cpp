@@ -7,7 +7,7 @@
 #include "case/schema.hpp"
 #include "core/units.hpp"
 
-namespace thinwall::app {
+namespace thinwall::cases {
 
 namespace {
 
@@ -133,4 +133,4 @@ std::string resolved_text(const Case& source) {
   return text;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::cases

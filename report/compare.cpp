@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "io/json_file.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 namespace {
 
@@ -194,4 +194,4 @@ Comparison compare_results(const std::filesystem::path& left, const std::filesys
   return std::move(comparer.result);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 struct Difference {
   std::string where;  ///< "summary.json: coupling.modes[0].frequency_hz", "lobes/part.csv: line 12, column 2"
@@ -28,4 +28,4 @@ void require_results(const std::filesystem::path& folder);
 [[nodiscard]] Comparison compare_results(const std::filesystem::path& left, const std::filesystem::path& right,
                                          double tolerance);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

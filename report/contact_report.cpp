@@ -6,7 +6,7 @@
 
 #include "report/finite_number.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 namespace {
 
@@ -22,7 +22,7 @@ json rows_of(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
-json identified_of(const ContactIdentification& identification) {
+json identified_of(const study::ContactIdentification& identification) {
   const coupling::IdentifiedJoint& found = identification.found;
   json result = {{"stiffness_n_per_m", rows_of(found.joint.K)},
                  {"stiffness_half_width_n_per_m", rows_of(found.half_width.K)},
@@ -41,7 +41,7 @@ json identified_of(const ContactIdentification& identification) {
   return result;
 }
 
-json contact_of(const JoinedContact& joined) {
+json contact_of(const study::JoinedContact& joined) {
   const coupling::Contact& contact = joined.contact;
   json result = {{"part", contact.point_a}, {"robot", contact.point_b}, {"model", joined.model}};
   for (std::size_t i = 0; i < contact.springs.size(); ++i) {
@@ -132,9 +132,9 @@ ContactAlong along(const coupling::Contact& contact, std::size_t direction) {
           joint.D.size() > 0 ? joint.D(i, i) / joint.K(i, i) : 0.0};
 }
 
-json contacts_summary(const Results& results) {
+json contacts_summary(const study::Results& results) {
   json list = json::array();
-  for (const JoinedContact& contact : results.contacts) list.push_back(contact_of(contact));
+  for (const study::JoinedContact& contact : results.contacts) list.push_back(contact_of(contact));
   if (results.identification) list.front()["identified"] = identified_of(*results.identification);
   return list;
 }
@@ -169,4 +169,4 @@ std::string contacts_text(const json& summary) {
   return text;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

@@ -6,11 +6,11 @@
 
 #include "study/results.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 /// One entry a contact, N/m and N s/m a direction, null for a rigid one; with its preload, what a ball makes of it, and
 /// the identified joint with half widths of 95 % intervals, where there are any.
-[[nodiscard]] nlohmann::json contacts_summary(const Results& results);
+[[nodiscard]] nlohmann::json contacts_summary(const study::Results& results);
 
 /// K (N/m), C (N s/m) and η along one direction of a contact.
 struct ContactAlong {
@@ -25,4 +25,4 @@ struct ContactAlong {
 /// A line a contact, more where it was found from FRFs; from a summary. Empty without a contact.
 [[nodiscard]] std::string contacts_text(const nlohmann::json& summary);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

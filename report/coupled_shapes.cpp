@@ -7,16 +7,16 @@
 
 #include "dynamics/modal_model.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 namespace {
 
 /// The displacement of the robot's end from the DOFs of the coupled model, 3 × dofs: of its own point, or, where a
 /// rigid contact left the part's point only, of that along the contact's directions. Zero where there is no single
 /// contact.
-Eigen::Matrix3Xd end_of_robot(const Case& source, const dynamics::DofTable& dofs) {
+Eigen::Matrix3Xd end_of_robot(const cases::Case& source, const dynamics::DofTable& dofs) {
   if (source.contacts.empty()) return Eigen::Matrix3Xd::Zero(3, std::ssize(dofs));
-  const Contact& contact = source.contacts.front();
+  const setup::Contact& contact = source.contacts.front();
   const auto has = [&](const std::string& point) { return std::ranges::count(dofs, point, &dynamics::Dof::point) > 0; };
   if (has(contact.robot_point)) return dynamics::displacement_matrix(dofs, contact.robot_point);
   if (!has(contact.part_point)) return Eigen::Matrix3Xd::Zero(3, std::ssize(dofs));
@@ -44,7 +44,8 @@ void scale(Eigen::Ref<Eigen::VectorXd> part, Eigen::Ref<Eigen::Vector3d> robot) 
 
 }  // namespace
 
-CoupledShapes coupled_shapes(const Case& source, const PartResult& part, const CouplingResult& coupled) {
+CoupledShapes coupled_shapes(const cases::Case& source, const study::PartResult& part,
+                             const study::CouplingResult& coupled) {
   const dynamics::ModalModel& modal = *coupled.modal;
   const Eigen::MatrixXd& T = part.reduced->T;
   constexpr double round_off = 1e-9;  // a part that moves by less in a mode of the robot is at rest
@@ -74,4 +75,4 @@ CoupledShapes coupled_shapes(const Case& source, const PartResult& part, const C
   return shapes;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

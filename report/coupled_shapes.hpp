@@ -7,7 +7,7 @@
 #include "case/case.hpp"
 #include "study/results.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 /// Of each coupled mode up to the highest that was computed of the part.
 struct CoupledShapes {
@@ -20,6 +20,7 @@ struct CoupledShapes {
 /// displacement is real (a complex mode is drawn at the phase of that); zero in a mode of the robot alone, where they
 /// are round-off, 1e-9 of the mode's largest entry. The part must be reduced and the coupling have modes. Cost
 /// O(rows · kept · modes).
-[[nodiscard]] CoupledShapes coupled_shapes(const Case& source, const PartResult& part, const CouplingResult& coupled);
+[[nodiscard]] CoupledShapes coupled_shapes(const cases::Case& source, const study::PartResult& part,
+                                           const study::CouplingResult& coupled);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

@@ -5,7 +5,7 @@
 
 #include "io/results/csv_table.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 namespace {
 
@@ -31,7 +31,7 @@ json largest(const dynamics::ResponseModel& response, const std::vector<Matrix>&
   return {{"largest_relative", relative}, {"at_frequency_hz", at_hz}};
 }
 
-json response_errors(const dynamics::ResponseModel& response, const ResponseErrors& errors) {
+json response_errors(const dynamics::ResponseModel& response, const study::ResponseErrors& errors) {
   json result = json::object();
   if (!errors.truncation.empty()) result["truncation"] = largest(response, errors.truncation);
   if (!errors.noise.empty()) result["noise"] = largest(response, errors.noise);
@@ -70,9 +70,9 @@ void add_columns(io::Table& table, const std::string& what, const dynamics::Resp
 
 }  // namespace
 
-json error_budget_summary(const Results& results) {
+json error_budget_summary(const study::Results& results) {
   json budget = json::object();
-  const auto add = [&](const char* name, const dynamics::ResponseModel& response, const ResponseErrors& errors) {
+  const auto add = [&](const char* name, const dynamics::ResponseModel& response, const study::ResponseErrors& errors) {
     if (json entry = response_errors(response, errors); !entry.empty()) budget[name] = std::move(entry);
   };
   if (results.part) add("part", results.part->response, results.errors.part);
@@ -81,12 +81,12 @@ json error_budget_summary(const Results& results) {
   return budget;
 }
 
-json chart_errors_summary(const NamedLobes& named) {
+json chart_errors_summary(const study::NamedLobes& named) {
   if (named.errors.empty()) return nullptr;
   std::optional<double> truncation, noise;
-  const DepthError* least = nullptr;
+  const study::DepthError* least = nullptr;
   for (std::size_t i = 0; i < named.errors.size(); ++i) {
-    const DepthError& error = named.errors[i];
+    const study::DepthError& error = named.errors[i];
     const double depth = named.lobes.rows[i].limiting_depth_m;
     if (named.lobes.rows[i].spindle_speed_rpm == named.lobes.at_spindle_speed_rpm) least = &error;
     if (error.truncation_m) truncation = std::max(truncation.value_or(0.0), std::abs(*error.truncation_m) / depth);
@@ -97,7 +97,7 @@ json chart_errors_summary(const NamedLobes& named) {
   return result;
 }
 
-json row_errors_summary(const DepthError& error, const std::optional<milling::DepthScatter>& scatter, int seed) {
+json row_errors_summary(const study::DepthError& error, const std::optional<milling::DepthScatter>& scatter, int seed) {
   json result = {{"truncation_m", known(error.truncation_m)}, {"noise_deviation_m", known(error.noise_m)}};
   if (!scatter) return result;
   const int with_limit = static_cast<int>(scatter->depth_m.size()) - scatter->without_limit;
@@ -110,7 +110,7 @@ json row_errors_summary(const DepthError& error, const std::optional<milling::De
 }
 
 void write_response_errors(const std::filesystem::path& file, const dynamics::ResponseModel& response,
-                           const ResponseErrors& errors, const std::vector<std::string>& points) {
+                           const study::ResponseErrors& errors, const std::vector<std::string>& points) {
   io::Table table{{"frequency_hz", std::vector<double>(response.axis.hz.begin(), response.axis.hz.end())}};
   const std::vector<Index> rows = rows_at(response, points);
   add_columns(table, "noise_deviation", response, errors.noise, rows);
@@ -121,4 +121,4 @@ void write_response_errors(const std::filesystem::path& file, const dynamics::Re
        "by the noise of the measured FRFs; truncation, the modulus of what the part's reduction leaves out"});
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

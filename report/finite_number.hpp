@@ -4,11 +4,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 /// The number; JSON has no infinity, so what is not finite becomes null, and a script that needs the number notices.
 [[nodiscard]] inline nlohmann::json finite(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

@@ -38,11 +38,11 @@ void link_or_copy(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-bool take_files(const Checkpoint& kept, const fs::path& earlier, const fs::path& staging) {
+bool take_files(const study::Checkpoint& kept, const fs::path& earlier, const fs::path& staging) {
   const std::string* bytes = kept.find("files");
   if (bytes == nullptr) return false;
   std::vector<io::FileRecord> files;
-  from_bytes(*bytes, files);
+  study::from_bytes(*bytes, files);
   std::atomic<bool> as_written{true};
   core::parallel_for(files.size(), [&](std::size_t i) {
     if (as_written && !is_as_written(earlier / files[i].name, files[i])) as_written = false;
@@ -61,11 +61,11 @@ bool take_files(const Checkpoint& kept, const fs::path& earlier, const fs::path&
   return true;
 }
 
-void keep_files(Checkpoint& kept, const fs::path& staging) {
-  kept.add("files", to_bytes(io::file_records(staging)));
+void keep_files(study::Checkpoint& kept, const fs::path& staging) {
+  kept.add("files", study::to_bytes(io::file_records(staging)));
 }
 
-report::KeptSections kept_sections(Checkpoint& kept) {
+report::KeptSections kept_sections(study::Checkpoint& kept) {
   return {[&kept](const std::string& name) { return kept.find("page-" + name); },
           [&kept](const std::string& name, const std::string& text) { kept.add("page-" + name, text); }};
 }

@@ -8,7 +8,7 @@
 
 #include "report/lobes_report.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 using nlohmann::json;
 
@@ -157,4 +157,4 @@ std::vector<std::string> sentences(const json& summary) {
   return list;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 /// A line a pocket: depth, speed, removal rate and what limits it. `label` stands before the first.
 [[nodiscard]] std::string pockets_text(const nlohmann::json& pockets, std::string label);
@@ -26,4 +26,4 @@ namespace thinwall::app {
 /// as sentences.
 [[nodiscard]] std::vector<std::string> sentences(const nlohmann::json& summary);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

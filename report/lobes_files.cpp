@@ -8,14 +8,14 @@
 #include "io/results/csv_table.hpp"
 #include "milling/direct/stability.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 namespace {
 
 namespace fs = std::filesystem;
 
 /// Every crossing of every speed, so that islands and gaps above the limiting depth are there, too.
-void write_crossings(const fs::path& folder, const NamedLobes& named) {
+void write_crossings(const fs::path& folder, const study::NamedLobes& named) {
   std::vector<double> speed, depth, chatter, change, error;
   std::vector<std::string> kind;
   for (const milling::LobeRow& row : named.lobes.rows) {
@@ -40,18 +40,18 @@ void write_crossings(const fs::path& folder, const NamedLobes& named) {
 }
 
 /// A column of errors that are known of some row at least; inf stands for one that is not.
-void add_error_column(io::Table& table, const std::string& name, const std::vector<DepthError>& errors,
-                      std::optional<double> DepthError::*which) {
-  if (std::ranges::none_of(errors, [&](const DepthError& e) { return (e.*which).has_value(); })) return;
+void add_error_column(io::Table& table, const std::string& name, const std::vector<study::DepthError>& errors,
+                      std::optional<double> study::DepthError::*which) {
+  if (std::ranges::none_of(errors, [&](const study::DepthError& e) { return (e.*which).has_value(); })) return;
   std::vector<double> values;
   values.reserve(errors.size());
-  for (const DepthError& error : errors) values.push_back((error.*which).value_or(HUGE_VAL));
+  for (const study::DepthError& error : errors) values.push_back((error.*which).value_or(HUGE_VAL));
   table.push_back({name, values});
 }
 
 /// Limits of one method; with what is robust of them, and what they are off by, where that is known.
 void write_chart(const fs::path& file, const milling::Lobes& lobes, const milling::RobustLobes* robust,
-                 const std::vector<DepthError>& errors) {
+                 const std::vector<study::DepthError>& errors) {
   std::vector<double> speed, depth, chatter, error, uncertainty, robust_depth;
   std::vector<std::string> kind, status;
   for (const milling::LobeRow& row : lobes.rows) {
@@ -78,8 +78,8 @@ void write_chart(const fs::path& file, const milling::Lobes& lobes, const millin
         "relative_uncertainty: standard, of the limiting depth, first order; 0 where the cut is stable as far "
         "as was looked. robust_depth_m: docs/theory/lobes.md; 0 where the cut is not robust at any depth");
   }
-  add_error_column(table, "truncation_m", errors, &DepthError::truncation_m);
-  add_error_column(table, "noise_deviation_m", errors, &DepthError::noise_m);
+  add_error_column(table, "truncation_m", errors, &study::DepthError::truncation_m);
+  add_error_column(table, "noise_deviation_m", errors, &study::DepthError::noise_m);
   if (!errors.empty()) {
     comments.emplace_back(
         "truncation_m: this depth less that with what the part's reduction leaves out. noise_deviation_m: standard, by "
@@ -103,15 +103,15 @@ void write_map(const fs::path& file, const milling::StabilityMap& map) {
 
 }  // namespace
 
-void write_lobes(const fs::path& folder, const NamedLobes& named) {
+void write_lobes(const fs::path& folder, const study::NamedLobes& named) {
   write_chart(folder / (named.name + ".csv"), named.lobes, named.robust ? &*named.robust : nullptr, named.errors);
   write_crossings(folder, named);
-  for (const ComparedLobes& other : named.compared)
+  for (const study::ComparedLobes& other : named.compared)
     write_chart(folder / (named.name + "_" + other.method + ".csv"), other.lobes, nullptr, {});
   if (named.map) write_map(folder / (named.name + "_map.csv"), *named.map);
 }
 
-void write_path(const fs::path& folder, const Case& source, const PathLobes& path) {
+void write_path(const fs::path& folder, const cases::Case& source, const study::PathLobes& path) {
   std::vector<double> number, x, y, z, speed, depth, chatter, error;
   std::vector<std::string> kind, status;
   for (std::size_t i = 0; i < path.lobes.size(); ++i) {
@@ -144,4 +144,4 @@ void write_path(const fs::path& folder, const Case& source, const PathLobes& pat
                  "rows with status stable_to_depth_limit are stable up to the depth given, the limit of the chart"});
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

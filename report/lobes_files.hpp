@@ -6,13 +6,13 @@
 #include "case/case.hpp"
 #include "study/results.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 /// lobes/<name>.csv, <name>_crossings.csv, and where they were asked for <name>_<method>.csv and <name>_map.csv, into
 /// `folder`. Throws as io::write_csv.
-void write_lobes(const std::filesystem::path& folder, const NamedLobes& named);
+void write_lobes(const std::filesystem::path& folder, const study::NamedLobes& named);
 
 /// lobes/<name>_path.csv: position by position, in each the speeds of the chart. Throws as io::write_csv.
-void write_path(const std::filesystem::path& folder, const Case& source, const PathLobes& path);
+void write_path(const std::filesystem::path& folder, const cases::Case& source, const study::PathLobes& path);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

@@ -7,7 +7,7 @@
 #include "report/lobes_answers.hpp"
 #include "report/path_report.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 namespace {
 
@@ -120,4 +120,4 @@ std::string lobes_report(const json& summary, const std::string& result_folder) 
   return text + fmt::format("\n  {:.1f} s; results in {}\n", summary["timings_s"].value("total", 0.0), result_folder);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

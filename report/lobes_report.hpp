@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 /// Plain text, at most 100 columns, from a summary. Ends with a line break.
 [[nodiscard]] std::string lobes_report(const nlohmann::json& summary, const std::string& result_folder);
@@ -16,4 +16,4 @@ namespace thinwall::app {
 /// none.
 [[nodiscard]] std::string operating_points_text(const nlohmann::json& summary);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

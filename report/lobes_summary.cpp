@@ -2,23 +2,23 @@
 
 #include <cmath>
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 using nlohmann::json;
 
 namespace {
 
 /// The depth limit is the tool's length unless the case says less.
-std::string depth_limit_name(const Case& source) {
+std::string depth_limit_name(const cases::Case& source) {
   const bool whole_edge = source.tool && source.lobes->depth_limit >= source.tool->length;
   return whole_edge ? "tool_length" : milling::name(milling::PocketLimit::depth_limit);
 }
 
-std::string limit_name(const Case& source, milling::PocketLimit limit) {
+std::string limit_name(const cases::Case& source, milling::PocketLimit limit) {
   return limit == milling::PocketLimit::depth_limit ? depth_limit_name(source) : milling::name(limit);
 }
 
-json compared_summary(const ComparedLobes& other) {
+json compared_summary(const study::ComparedLobes& other) {
   const double error = other.lobes.worst_error_estimate;
   return {{"name", other.method},
           {"method", other.lobes.method},
@@ -42,7 +42,7 @@ json map_summary(const milling::StabilityMap& map) {
 
 }  // namespace
 
-json cutting_summary(const Case& source) {
+json cutting_summary(const cases::Case& source) {
   json cutting = {{"teeth", source.tool->teeth},
                   {"depth_limit_m", source.lobes->depth_limit},
                   {"depth_limit_is", depth_limit_name(source)}};
@@ -55,7 +55,7 @@ json cutting_summary(const Case& source) {
   return cutting;
 }
 
-json pockets_summary(const Case& source, const std::vector<milling::Pocket>& pockets) {
+json pockets_summary(const cases::Case& source, const std::vector<milling::Pocket>& pockets) {
   json list = json::array();
   for (const auto& pocket : pockets) {
     const auto& rate = pocket.removal_rate_m3_s;
@@ -68,7 +68,7 @@ json pockets_summary(const Case& source, const std::vector<milling::Pocket>& poc
   return list;
 }
 
-json sensitivities_summary(const std::vector<ParameterSensitivity>& list) {
+json sensitivities_summary(const std::vector<study::ParameterSensitivity>& list) {
   json entries = json::array();
   for (const auto& entry : list) {
     entries.push_back({{"parameter", entry.parameter},
@@ -78,8 +78,8 @@ json sensitivities_summary(const std::vector<ParameterSensitivity>& list) {
   return entries;
 }
 
-void add_what_was_asked(json& chart, const Case& source, const NamedLobes& named) {
-  for (const ComparedLobes& other : named.compared) chart["compared"].push_back(compared_summary(other));
+void add_what_was_asked(json& chart, const cases::Case& source, const study::NamedLobes& named) {
+  for (const study::ComparedLobes& other : named.compared) chart["compared"].push_back(compared_summary(other));
   if (named.map) chart["map"] = map_summary(*named.map);
   if (!named.robust) return;
   chart["robust"] = {{"confidence", source.lobes->robust->confidence},
@@ -90,4 +90,4 @@ void add_what_was_asked(json& chart, const Case& source, const NamedLobes& named
                      {"best_pockets", pockets_summary(source, named.robust_pockets)}};
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

@@ -9,7 +9,7 @@
 #include "io/matrices/matrix_files.hpp"
 #include "io/matrices/matrix_market.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 namespace {
 
@@ -97,4 +97,4 @@ PlacedModel read_model(const fs::path& path) {
                         ": neither stiffness.mtx nor model.mat is there; \"thinwall reduce\" writes both");
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

@@ -8,7 +8,7 @@
 #include "dynamics/spatial_model.hpp"
 #include "reduction/trust/rigid_sets.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 /// A model with the places of its points (m, the part's axes), as far as they are known.
 struct PlacedModel {
@@ -33,4 +33,4 @@ std::string write_model(const std::filesystem::path& folder, const PlacedModel& 
 /// Throws DataError that says what is missing.
 [[nodiscard]] PlacedModel read_model(const std::filesystem::path& path);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

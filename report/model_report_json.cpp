@@ -2,7 +2,7 @@
 
 #include "report/finite_number.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 namespace {
 
@@ -83,4 +83,4 @@ json report_json(const reduction::ReducedModelReport& report) {
   return result;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

@@ -9,13 +9,13 @@
 #include "report/lobes_report.hpp"
 #include "study/support/robot_survey.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 namespace {
 
 using nlohmann::json;
 
-json position_summary(const Case& source, const PathLobes& path, std::size_t i) {
+json position_summary(const cases::Case& source, const study::PathLobes& path, std::size_t i) {
   const milling::Lobes& lobes = path.lobes[i];
   const Eigen::Vector3d& at = source.path->positions[i];
   json result = {{"position", i + 1},
@@ -25,19 +25,19 @@ json position_summary(const Case& source, const PathLobes& path, std::size_t i) 
                  {"speeds_stable_to_depth_limit", lobes.rows_at_limit},
                  {"speeds_not_converged", lobes.rows_not_converged},
                  {"error_estimate_relative", finite(lobes.worst_error_estimate)}};
-  if (!path.robot.empty()) result["robot"] = posture_summary(path.robot[i]);
+  if (!path.robot.empty()) result["robot"] = study::posture_summary(path.robot[i]);
   return result;
 }
 
 /// The position with the least depth at speed number i, the first of equals.
-std::size_t weakest_at(const PathLobes& path, std::size_t i) {
+std::size_t weakest_at(const study::PathLobes& path, std::size_t i) {
   const auto least = std::ranges::min_element(
       path.lobes, {}, [i](const milling::Lobes& lobes) { return lobes.rows[i].limiting_depth_m; });
   return static_cast<std::size_t>(least - path.lobes.begin());
 }
 
 /// The speed at which the least depth of all positions is greatest.
-json deepest_everywhere(const PathLobes& path) {
+json deepest_everywhere(const study::PathLobes& path) {
   const milling::LobeRow* best = nullptr;
   std::size_t position = 0;
   for (std::size_t i = 0; i < path.lobes.front().rows.size(); ++i) {
@@ -108,7 +108,7 @@ std::string chart_text(const json& path) {
 
 }  // namespace
 
-json path_summary(const Case& source, const PathLobes& path) {
+json path_summary(const cases::Case& source, const study::PathLobes& path) {
   json positions = json::array();
   int not_converged = 0;
   double error = 0.0;
@@ -138,4 +138,4 @@ std::string path_text(const json& summary) {
   return text;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

@@ -7,14 +7,14 @@
 #include "case/case.hpp"
 #include "study/results.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 /// An entry of `path` in summary.json: the least depth of every position with its speed, the weakest of them, and the
 /// speed at which the whole path allows the most, with the position that limits it there, and the same at the case's
 /// own speed, if it has one. Positions are numbered from 1.
-[[nodiscard]] nlohmann::json path_summary(const Case& source, const PathLobes& path);
+[[nodiscard]] nlohmann::json path_summary(const cases::Case& source, const study::PathLobes& path);
 
 /// Three lines for every chart along the path of a summary; empty if it has none.
 [[nodiscard]] std::string path_text(const nlohmann::json& summary);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

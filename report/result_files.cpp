@@ -27,7 +27,7 @@
 #include "setup/imported_part.hpp"
 #include "study/support/robot_survey.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 namespace {
 
@@ -73,7 +73,7 @@ nlohmann::json records(const std::vector<io::FileRecord>& files) {
 
 }  // namespace
 
-void write_structure(const fs::path& folder, const Case& source, const Results& results) {
+void write_structure(const fs::path& folder, const cases::Case& source, const study::Results& results) {
   constexpr std::array subfolders{"modes", "frf", "robot", "models"};
   for (const char* name : subfolders) fs::create_directories(folder / name);
   FileTasks files;
@@ -96,7 +96,7 @@ void write_structure(const fs::path& folder, const Case& source, const Results& 
     if (results.coupled->spatial_response) add_frf("coupled_spatial", *results.coupled->spatial_response);
   }
   const auto add_errors = [&](const std::string& name, const dynamics::ResponseModel& response,
-                              const ResponseErrors& errors) {
+                              const study::ResponseErrors& errors) {
     if (errors.noise.empty() && errors.truncation.empty()) return;
     files.emplace_back([&, name] {
       write_response_errors(folder / "frf" / (name + "_error.csv"), response, errors, source.response.points);
@@ -106,7 +106,7 @@ void write_structure(const fs::path& folder, const Case& source, const Results& 
   if (results.robot) add_errors("robot", results.robot->response, results.errors.robot);
   if (results.coupled) add_errors("coupled", results.coupled->receptance.response, results.errors.coupled);
   if (results.robot) files.emplace_back([&] { write_frf(folder / "frf", "robot", results.robot->response); });
-  if (results.survey) files.emplace_back([&] { write_survey(folder, source, *results.survey); });
+  if (results.survey) files.emplace_back([&] { study::write_survey(folder, source, *results.survey); });
   const std::size_t done = files.empty() ? 0 : 1;
   if (done > 0) files.front()();  // alone: VTK's first objects set up what all share
   core::parallel_for(files.size() - done, [&](std::size_t i) { files[done + i](); });
@@ -115,7 +115,7 @@ void write_structure(const fs::path& folder, const Case& source, const Results& 
   }
 }
 
-void write_cuts(const fs::path& folder, const Case& source, const Results& results) {
+void write_cuts(const fs::path& folder, const cases::Case& source, const study::Results& results) {
   if (results.lobes.empty() && results.path.empty()) return;
   fs::create_directories(folder / "lobes");
   for (const auto& lobes : results.lobes) write_lobes(folder / "lobes", lobes);
@@ -146,14 +146,15 @@ void publish(const fs::path& staging, const fs::path& folder) {
   }
 }
 
-nlohmann::json manifest_of(const Case& source, const nlohmann::json& summary, const std::string& started_utc) {
+nlohmann::json manifest_of(const cases::Case& source, const nlohmann::json& summary, const std::string& started_utc) {
   nlohmann::json manifest;
-  manifest["program"] = {{"name", "thinwall"}, {"version", program_version()}, {"built_with", doctor_report()}};
-  if (!program_commit().empty()) manifest["program"]["commit"] = program_commit();
+  manifest["program"] = {
+      {"name", "thinwall"}, {"version", app::program_version()}, {"built_with", app::doctor_report()}};
+  if (!app::program_commit().empty()) manifest["program"]["commit"] = app::program_commit();
   manifest["threads"] = core::thread_count();
   manifest["started_utc"] = started_utc;
   manifest["inputs"] = nlohmann::json::array();
-  for (const auto& input : input_files(source))
+  for (const auto& input : cases::input_files(source))
     manifest["inputs"].push_back({{"name", input.string()}, {"sha256", io::sha256_of_file(input)}});
   manifest["inputs"].push_back({{"name", source.file.string()}, {"sha256", io::sha256(source.source)}});
   const fs::path expected = source.file.parent_path() / "expected.toml";
@@ -169,10 +170,10 @@ nlohmann::json manifest_of(const Case& source, const nlohmann::json& summary, co
   return manifest;
 }
 
-void write_cases(const fs::path& folder, const Case& source, const Case& fitted) {
+void write_cases(const fs::path& folder, const cases::Case& source, const cases::Case& fitted) {
   core::write_file_atomically(folder / "case.toml", source.source);
-  core::write_file_atomically(folder / "case.resolved.toml", resolved_text(source));
-  if (!source.updating.empty()) core::write_file_atomically(folder / "case.fitted.toml", resolved_text(fitted));
+  core::write_file_atomically(folder / "case.resolved.toml", cases::resolved_text(source));
+  if (!source.updating.empty()) core::write_file_atomically(folder / "case.fitted.toml", cases::resolved_text(fitted));
 }
 
 void write_summary(const fs::path& folder, const nlohmann::json& summary, nlohmann::json& manifest) {
@@ -188,4 +189,4 @@ void record_outputs(const fs::path& folder, nlohmann::json& manifest) {
   io::write_json(folder / "manifest.json", manifest);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

@@ -12,7 +12,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 namespace {
 
@@ -59,7 +59,7 @@ void try_to_write(const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::filesystem::path default_result_folder(const Case& source) {
+std::filesystem::path default_result_folder(const cases::Case& source) {
   return std::filesystem::path("results") / (source.name.empty() ? "case" : source.name);
 }
 
@@ -93,4 +93,4 @@ void remove_unfinished_files(const std::filesystem::path& folder) {
   for (const auto& path : unfinished) std::filesystem::remove_all(path);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

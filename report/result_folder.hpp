@@ -6,13 +6,13 @@
 
 #include "case/case.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 /// Folders of a result folder, which a run replaces whole.
 inline constexpr std::array result_subfolders{"modes", "frf", "robot", "lobes", "models"};
 
 /// results/<case>/ below the working directory.
-[[nodiscard]] std::filesystem::path default_result_folder(const Case& source);
+[[nodiscard]] std::filesystem::path default_result_folder(const cases::Case& source);
 
 /// A result folder held by this process alone for as long as the object lives.
 class ResultFolder {
@@ -35,4 +35,4 @@ class ResultFolder {
 /// Removes unfinished files (core::is_partial_name) anywhere below `folder`.
 void remove_unfinished_files(const std::filesystem::path& folder);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

@@ -18,7 +18,7 @@
 #include "study/part/discretisation.hpp"
 #include "study/part/part_damping.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 namespace {
 
@@ -70,14 +70,14 @@ std::vector<bool> held_nodes(const fem::Model& model) {
 }
 
 /// Nodes that supports of that name hold; those on sets of nodes are looked up in the part's file.
-std::vector<bool> nodes_held_by(const std::string& name, const Case& source, const fem::Model& model) {
-  Case one = source;
-  std::erase_if(one.part->supports, [&](const Support& support) { return support.on != name; });
-  std::vector<int> rows = fem::fixed_rows(model.mesh, model.nodes, supports_of(one));
-  if (names_node_set(source, name)) {
-    mesh::SolidMesh solid = *solid_of(*source.part);
+std::vector<bool> nodes_held_by(const std::string& name, const cases::Case& source, const fem::Model& model) {
+  cases::Case one = source;
+  std::erase_if(one.part->supports, [&](const setup::Support& support) { return support.on != name; });
+  std::vector<int> rows = fem::fixed_rows(model.mesh, model.nodes, study::supports_of(one));
+  if (setup::names_node_set(source, name)) {
+    mesh::SolidMesh solid = *setup::solid_of(*source.part);
     if (model.nodes.order == 2) solid = mesh::with_order(std::move(solid), 2);
-    rows = rows_held_by_sets(one, solid);
+    rows = study::rows_held_by_sets(one, solid);
   }
   std::vector<bool> held(static_cast<std::size_t>(model.nodes.positions.rows()), false);
   for (const int row : rows) held[static_cast<std::size_t>(row / 3)] = true;
@@ -86,10 +86,11 @@ std::vector<bool> nodes_held_by(const std::string& name, const Case& source, con
 
 /// What is known on the triangles of the surface: "held", the same of each support ("held by y_min"), the wall's
 /// thickness.
-std::vector<io::TriangleNumbers> fields(const Case& source, const PartResult& part, const Triangles& triangles) {
+std::vector<io::TriangleNumbers> fields(const cases::Case& source, const study::PartResult& part,
+                                        const Triangles& triangles) {
   std::vector<io::TriangleNumbers> numbers{{"held", covered(held_nodes(part.model), triangles)}};
   std::vector<std::string> names;
-  for (const Support& support : source.part->supports) {
+  for (const setup::Support& support : source.part->supports) {
     if (std::ranges::count(names, support.on) == 0) names.push_back(support.on);
   }
   for (const std::string& name : names)
@@ -100,8 +101,8 @@ std::vector<io::TriangleNumbers> fields(const Case& source, const PartResult& pa
 
 /// The surface with all shapes as fields "mode 01, 160.7 Hz": what a viewer that knows no high orders can show; with
 /// fields() of a case.
-void write_surface(const fs::path& file, const PartResult& part, const Eigen::MatrixXd& shapes,
-                   const std::vector<double>& hz, const Case* fields_of) {
+void write_surface(const fs::path& file, const study::PartResult& part, const Eigen::MatrixXd& shapes,
+                   const std::vector<double>& hz, const cases::Case* fields_of) {
   const fem::Model& model = part.model;
   std::vector<io::NodeVectors> vectors;
   for (std::size_t k = 0; k < hz.size(); ++k)
@@ -126,11 +127,12 @@ void write_mac(const fs::path& file, const Eigen::MatrixXd& values, const std::s
                  "robot in which the part is at rest"});
 }
 
-void write_part_modes(FileTasks& files, const fs::path& folder, const Case& source, const Results& results) {
-  const PartResult& part = *results.finite_elements;
+void write_part_modes(FileTasks& files, const fs::path& folder, const cases::Case& source,
+                      const study::Results& results) {
+  const study::PartResult& part = *results.finite_elements;
   const bool meshed = !part.model.mesh.tets.empty();
   ShapeSeries series{folder, "part_mode", {}};
-  const std::vector<double> damping = part_damping_ratios(results);
+  const std::vector<double> damping = study::part_damping_ratios(results);
   std::vector<double> number, frequency, residual;
   for (Eigen::Index k = 0; k < part.modes.frequency_hz.size(); ++k) {
     const double zeta = damping[static_cast<std::size_t>(k)];
@@ -153,8 +155,9 @@ void write_part_modes(FileTasks& files, const fs::path& folder, const Case& sour
   write_mac(folder / "auto_mac.csv", dynamics::mac(part.modes.pairs.Phi, part.modes.pairs.Phi), "part_mode");
 }
 
-void write_coupled_modes(FileTasks& files, const fs::path& folder, const Case& source, const Results& results) {
-  const PartResult& part = *results.finite_elements;
+void write_coupled_modes(FileTasks& files, const fs::path& folder, const cases::Case& source,
+                         const study::Results& results) {
+  const study::PartResult& part = *results.finite_elements;
   const auto shapes = std::make_shared<const CoupledShapes>(coupled_shapes(source, part, *results.coupled));
   const bool meshed = !part.model.mesh.tets.empty();
   ShapeSeries series{folder, "coupled_mode", {}};
@@ -184,9 +187,9 @@ void write_coupled_modes(FileTasks& files, const fs::path& folder, const Case& s
 
 }  // namespace
 
-void write_shapes(FileTasks& files, const fs::path& folder, const Case& source, const Results& results) {
+void write_shapes(FileTasks& files, const fs::path& folder, const cases::Case& source, const study::Results& results) {
   write_part_modes(files, folder, source, results);
   if (results.coupled && results.coupled->modal) write_coupled_modes(files, folder, source, results);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

@@ -8,7 +8,7 @@
 #include "case/case.hpp"
 #include "study/results.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 /// Files to be written side by side, each by one call; what they refer to must outlive them.
 using FileTasks = std::vector<std::function<void()>>;
@@ -17,6 +17,7 @@ using FileTasks = std::vector<std::function<void()>>;
 /// (mac.csv, auto_mac.csv; dynamics::mac), each shape on the elements (VTU, PVD) and all of them on the surface
 /// (part_surface.vtp, coupled_surface.vtp) with what is held, by each support (shape_files.cpp), and how thick the wall
 /// is. `source` is the case as the part was computed, fitted sizes included. The tables are written at once.
-void write_shapes(FileTasks& files, const std::filesystem::path& folder, const Case& source, const Results& results);
+void write_shapes(FileTasks& files, const std::filesystem::path& folder, const cases::Case& source,
+                  const study::Results& results);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

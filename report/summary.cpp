@@ -15,7 +15,7 @@
 #include "study/support/robot_survey.hpp"
 #include "study/support/support_stage.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 namespace {
 
@@ -26,7 +26,7 @@ json mode(double frequency_hz, double damping_ratio) {
 }
 
 /// The error that the mesh costs, by its own estimate; null where size and order were given.
-json estimate_of(const PartResult& part) {
+json estimate_of(const study::PartResult& part) {
   if (!part.estimate) return nullptr;
   json steps = json::array();
   for (const auto& step : part.estimate->steps) {
@@ -42,7 +42,7 @@ json estimate_of(const PartResult& part) {
           {"steps", steps}};
 }
 
-json mesh_of(const PartResult& part) {
+json mesh_of(const study::PartResult& part) {
   return {{"nodes", part.model.nodes.positions.rows()},
           {"elements", part.model.mesh.tets.size()},
           {"order", part.model.nodes.order},
@@ -56,10 +56,10 @@ json mesh_of(const PartResult& part) {
           {"error_estimate", estimate_of(part)}};
 }
 
-json part_of(const Results& results) {
-  const PartResult& part = *results.finite_elements;
+json part_of(const study::Results& results) {
+  const study::PartResult& part = *results.finite_elements;
   json modes = json::array();
-  const std::vector<double> ratios = part_damping_ratios(results);
+  const std::vector<double> ratios = study::part_damping_ratios(results);
   for (Eigen::Index k = 0; k < part.modes.frequency_hz.size(); ++k) {
     json entry = mode(part.modes.frequency_hz(k), ratios[static_cast<std::size_t>(k)]);
     entry["residual"] = part.modes.residual(k);
@@ -83,7 +83,7 @@ json part_of(const Results& results) {
   return result;
 }
 
-json reduction_of(const PartResult& part) {
+json reduction_of(const study::PartResult& part) {
   const auto& estimated = part.estimated_receptance_error;
   json by_size = json::array();
   for (const auto& [modes, error] : part.error_by_size)
@@ -109,10 +109,10 @@ json mode_list(const dynamics::ModalModel& model) {
 }
 
 /// The tip as it stands; what the model does not tell is absent.
-json robot_of(const Case& source, const Component& robot, const RobotPosture& posture) {
+json robot_of(const cases::Case& source, const study::Component& robot, const study::RobotPosture& posture) {
   json result = {{"model", source.robot->model}, {"modes", robot.modal ? mode_list(*robot.modal) : json::array()}};
-  result.update(posture_summary(posture));
-  const TipReport report = tip_report(posture, robot);
+  result.update(study::posture_summary(posture));
+  const study::TipReport report = study::tip_report(posture, robot);
   if (!report.stiffness) return result;
   result["static_stiffness_n_per_m"] = json::array();
   for (const double stiffness : *report.stiffness) result["static_stiffness_n_per_m"].push_back(finite(stiffness));
@@ -121,13 +121,13 @@ json robot_of(const Case& source, const Component& robot, const RobotPosture& po
   return result;
 }
 
-json coupling_of(const Case& source, const Results& results) {
-  const CouplingResult& coupled = *results.coupled;
+json coupling_of(const cases::Case& source, const study::Results& results) {
+  const study::CouplingResult& coupled = *results.coupled;
   json result;
   result["modes"] = coupled.modal ? mode_list(*coupled.modal) : json::array();
   result["main_modes"] = json::array();
   if (coupled.modal && !results.reductions.empty()) {
-    for (const auto& m : participating_modes(*coupled.modal, results.reductions.front().dof)) {
+    for (const auto& m : study::participating_modes(*coupled.modal, results.reductions.front().dof)) {
       result["main_modes"].push_back({{"frequency_hz", m.frequency_hz}, {"static_share_m_per_n", m.share}});
     }
   }
@@ -148,7 +148,7 @@ json coupling_of(const Case& source, const Results& results) {
       regularisation_summary(source.coupling.regularisation, source.coupling.threshold, coupled.receptance);
   result["kernel_condition_max"] = finite(coupled.receptance.kernel_condition.maxCoeff());
   result["reductions"] = json::array();
-  for (const AmplitudeReduction& r : results.reductions) {
+  for (const study::AmplitudeReduction& r : results.reductions) {
     result["reductions"].push_back({{"dof", r.dof},
                                     {"frequency_hz", r.frequency_hz},
                                     {"alone_m_per_n", r.alone},
@@ -176,7 +176,7 @@ json crossing_of(const milling::LobePoint& point) {
           {"error_estimate_relative", finite(point.error_estimate)}};
 }
 
-json lobes_of(const Case& source, const NamedLobes& named) {
+json lobes_of(const cases::Case& source, const study::NamedLobes& named) {
   const milling::Lobes& lobes = named.lobes;
   const auto deepest = std::max_element(lobes.rows.begin(), lobes.rows.end(), [](const auto& a, const auto& b) {
     return a.limiting_depth_m < b.limiting_depth_m;
@@ -217,7 +217,7 @@ json forced_of(const milling::ForcedVibration& v) {
           {"error_estimate_relative", finite(v.error_estimate)}};
 }
 
-json point_of(const std::string& chart, const PointStability& found) {
+json point_of(const std::string& chart, const study::PointStability& found) {
   const double depth = found.point.depth_m;
   const bool by_poles = found.multiplier.has_value();
   const auto& boundary = found.depth.boundary;
@@ -252,7 +252,7 @@ json point_of(const std::string& chart, const PointStability& found) {
   return result;
 }
 
-json updating_of(const UpdatingResult& fit) {
+json updating_of(const study::UpdatingResult& fit) {
   json result = {{"name", fit.name}, {"evaluations", fit.evaluations}, {"converged", fit.converged}};
   for (const auto& p : fit.parameters) {
     result["parameters"].push_back({{"key", p.key},
@@ -270,9 +270,9 @@ json updating_of(const UpdatingResult& fit) {
 }
 
 /// Directions in which contacts hold a point of the part: those of springs that resist.
-json joined_at(const std::string& point, const std::vector<JoinedContact>& contacts) {
+json joined_at(const std::string& point, const std::vector<study::JoinedContact>& contacts) {
   json joined = json::array();
-  for (const JoinedContact& contact : contacts) {
+  for (const study::JoinedContact& contact : contacts) {
     if (contact.contact.point_a != point) continue;
     const auto& springs = contact.contact.springs;
     for (std::size_t i = 0; i < springs.size(); ++i) {
@@ -284,13 +284,13 @@ json joined_at(const std::string& point, const std::vector<JoinedContact>& conta
 }
 
 /// The named points of a part whose shape is known.
-json points_of(const Case& source, const std::vector<JoinedContact>& contacts) {
+json points_of(const cases::Case& source, const std::vector<study::JoinedContact>& contacts) {
   json points = json::array();
   if (!source.part) return points;
-  for (const Point& p : source.points) {
-    const Eigen::Vector3d x = position(*source.part, p);
+  for (const setup::Point& p : source.points) {
+    const Eigen::Vector3d x = setup::position(*source.part, p);
     if (!x.allFinite()) continue;
-    const bool touched = std::ranges::count(source.contacts, p.name, &Contact::part_point) > 0;
+    const bool touched = std::ranges::count(source.contacts, p.name, &setup::Contact::part_point) > 0;
     points.push_back({{"name", p.name}, {"position_m", x}, {"patch_radius_m", p.patch_radius}, {"contact", touched}});
     points.back()["directions"] = json::array();
     for (const Eigen::Vector3d& direction : p.directions) points.back()["directions"].push_back(direction);
@@ -301,11 +301,11 @@ json points_of(const Case& source, const std::vector<JoinedContact>& contacts) {
 
 }  // namespace
 
-json summary_of(const Case& source, const Results& results) {
+json summary_of(const cases::Case& source, const study::Results& results) {
   json summary = {{"schema", 1}, {"case", source.name}, {"title", source.title}, {"status", "ok"}};
   summary["updating"] = json::array();
   for (const auto& fit : results.updating) summary["updating"].push_back(updating_of(fit));
-  if (source.part && source.part->imported) summary["geometry"] = geometry_summary(*source.part);
+  if (source.part && source.part->imported) summary["geometry"] = setup::geometry_summary(*source.part);
   if (results.finite_elements) {
     if (!results.finite_elements->model.mesh.tets.empty()) summary["mesh"] = mesh_of(*results.finite_elements);
     summary["part"] = part_of(results);
@@ -331,11 +331,11 @@ json summary_of(const Case& source, const Results& results) {
   return summary;
 }
 
-bool add_checks(json& summary, const std::vector<Expectation>& expectations) {
+bool add_checks(json& summary, const std::vector<cases::Expectation>& expectations) {
   bool all = true;
-  for (const Expectation& wanted : expectations) {
-    const ExpectationResult result = compare(wanted, summary);
-    const Expectation& expected = result.expected;
+  for (const cases::Expectation& wanted : expectations) {
+    const cases::ExpectationResult result = cases::compare(wanted, summary);
+    const cases::Expectation& expected = result.expected;
     json check = {
         {"name", expected.name}, {"quantity", expected.quantity}, {"origin", expected.origin}, {"ok", result.ok}};
     check["value"] = result.actual ? json(*result.actual) : json(nullptr);
@@ -350,4 +350,4 @@ bool add_checks(json& summary, const std::vector<Expectation>& expectations) {
   return all;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

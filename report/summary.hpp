@@ -8,12 +8,12 @@
 #include "case/expectation.hpp"
 #include "study/results.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 /// The summary of a run without its checks.
-[[nodiscard]] nlohmann::json summary_of(const Case& source, const Results& results);
+[[nodiscard]] nlohmann::json summary_of(const cases::Case& source, const study::Results& results);
 
 /// Adds the checks and returns whether all hold.
-bool add_checks(nlohmann::json& summary, const std::vector<Expectation>& expectations);
+bool add_checks(nlohmann::json& summary, const std::vector<cases::Expectation>& expectations);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

@@ -11,7 +11,7 @@
 #include "report/lobes_report.hpp"
 #include "report/path_report.hpp"
 
-namespace thinwall::app {
+namespace thinwall::report {
 
 namespace {
 
@@ -100,7 +100,8 @@ void charts(std::string& out, const json& summary) {
 
 /// In which the numbers of a fit are.
 std::string_view unit_of_key(const std::string& path) {
-  const Key* key = find_key(case_schema(), pattern_of(case_schema(), full_path(case_schema(), path)));
+  const cases::Key* key = cases::find_key(
+      cases::case_schema(), cases::pattern_of(cases::case_schema(), cases::full_path(cases::case_schema(), path)));
   return key == nullptr ? "" : key->kind.unit;
 }
 
@@ -214,4 +215,4 @@ std::string terminal_report(const json& summary, const std::string& result_folde
   return out;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::report

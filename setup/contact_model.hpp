@@ -9,12 +9,12 @@
 #include "coupling/contact_table.hpp"
 #include "study/results.hpp"
 
-namespace thinwall::app {
+namespace thinwall::setup {
 
 /// The force (N) that presses the contact together: its own, else |n·F| with its normal n (the first direction) and F
 /// of robot.preload. A part only pushes, so the sign of n·F tells on which side the tip is, no more. None where that is
 /// zero, or where several contacts share F.
-[[nodiscard]] std::optional<double> preload_of(const Case& source, const Contact& contact);
+[[nodiscard]] std::optional<double> preload_of(const cases::Case& source, const Contact& contact);
 
 /// Columns preload_n, stiffness_n_per_m and damping_n_s_per_m of a CSV, a row a preload. Throws DataError with the file
 /// for a column that is absent, and for a table that coupling::require_valid() refuses.
@@ -24,9 +24,9 @@ namespace thinwall::app {
 /// first direction and k_t along the others, which are at right angles to it. What was found from FRFs stands as
 /// matrices in place of springs. Throws InputError for a preload that is missing or outside the table, a ball or
 /// material that is none; DataError as read_contact_table(). Cost: microseconds, and one reading of the table.
-[[nodiscard]] JoinedContact joined_contact(const Case& source, const Contact& contact);
+[[nodiscard]] study::JoinedContact joined_contact(const cases::Case& source, const Contact& contact);
 
 /// All of them in their order; errors say which contact they are of.
-[[nodiscard]] std::vector<JoinedContact> joined_contacts(const Case& source);
+[[nodiscard]] std::vector<study::JoinedContact> joined_contacts(const cases::Case& source);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::setup

@@ -10,7 +10,7 @@
 #include "io/matrices/matrix_files.hpp"
 #include "io/surface/surface_file.hpp"
 
-namespace thinwall::app {
+namespace thinwall::setup {
 
 namespace {
 
@@ -177,4 +177,4 @@ nlohmann::json geometry_summary(const Part& part) {
   return result;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::setup

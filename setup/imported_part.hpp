@@ -13,7 +13,7 @@
 #include "io/mesh/mesh_file.hpp"
 #include "mesh/surface/surface_repair.hpp"
 
-namespace thinwall::app {
+namespace thinwall::setup {
 
 /// What the file of a part holds, in m, in the part's axes.
 struct ImportedPart {
@@ -54,4 +54,4 @@ struct ImportedPart {
 /// What summary.json tells of it: file, unit, size, counts, what was mended. The part must have been read.
 [[nodiscard]] nlohmann::json geometry_summary(const Part& part);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::setup

@@ -18,7 +18,7 @@
 #include "reduction/damping.hpp"
 #include "setup/measured_layout.hpp"
 
-namespace thinwall::app {
+namespace thinwall::setup {
 
 namespace {
 
@@ -176,4 +176,4 @@ std::vector<double> matched_ratios(const dynamics::SpatialModel& reduced,
   return ratios;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::setup

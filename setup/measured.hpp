@@ -11,7 +11,7 @@
 #include "io/frf/measured_response.hpp"
 #include "reduction/identification.hpp"
 
-namespace thinwall::app {
+namespace thinwall::setup {
 
 /// What a file of FRFs is, by the end of its name: .frf, .uff or .unv, .mat; anything else is a CSV.
 enum class FrfFileKind { csv, cutpro, universal, mat };
@@ -36,4 +36,4 @@ void warn_of_doubts(const dynamics::ResponseModel& measured, const std::string& 
 [[nodiscard]] std::vector<double> matched_ratios(const dynamics::SpatialModel& reduced,
                                                  const std::vector<reduction::IdentifiedMode>& identified, double rest);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::setup

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 
-namespace thinwall::app {
+namespace thinwall::setup {
 
 namespace {
 
@@ -87,4 +87,4 @@ LayoutFault fault_of_layout(const std::vector<MeasuredFrf>& files) {
   return {fault.empty() ? fault_of_gaps(layout) : fault, {}};
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::setup

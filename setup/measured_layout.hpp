@@ -9,7 +9,7 @@
 #include "case/case.hpp"
 #include "dynamics/dof.hpp"
 
-namespace thinwall::app {
+namespace thinwall::setup {
 
 /// "P.x" as a DOF. Throws InputError for a name without point or direction.
 [[nodiscard]] dynamics::Dof dof_of(const std::string& name);
@@ -34,4 +34,4 @@ struct LayoutFault {
 /// an entry that no file gives, nor its transpose (the first, and how many more). All names must be DOFs (dof_of()).
 [[nodiscard]] LayoutFault fault_of_layout(const std::vector<MeasuredFrf>& files);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::setup

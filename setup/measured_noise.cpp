@@ -7,7 +7,7 @@
 #include "setup/measured.hpp"
 #include "setup/measured_layout.hpp"
 
-namespace thinwall::app {
+namespace thinwall::setup {
 
 namespace {
 
@@ -93,4 +93,4 @@ std::string fault_of_coherence(const MeasuredFrf& file) {
   }
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::setup

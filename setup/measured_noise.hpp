@@ -8,7 +8,7 @@
 #include "case/case.hpp"
 #include "coupling/frf_noise.hpp"
 
-namespace thinwall::app {
+namespace thinwall::setup {
 
 /// Standard deviation of one file's FRF `H` (its values on `axis`): `noise` times |H|, or by the file's coherence and
 /// `averages`; none where the case gives neither. Throws InputError for averages of a file without coherence, DataError
@@ -27,4 +27,4 @@ namespace thinwall::app {
 /// Why `averages` of this file tell no noise: no coherence, or one of 0 at some line; empty if they do. Reads the file.
 [[nodiscard]] std::string fault_of_coherence(const MeasuredFrf& file);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::setup

@@ -7,7 +7,7 @@
 #include "milling/cut/chip_load.hpp"
 #include "milling/cut/oblique_cutting.hpp"
 
-namespace thinwall::app {
+namespace thinwall::setup {
 
 namespace {
 
@@ -58,7 +58,7 @@ milling::ForceLaw law_of(const Cutting& c) {
   return milling::FractionalLaw{c.Kt, c.Kr, c.Ka, c.chip_scale.value_or(0.0), c.stiffness_ratio.value_or(0.0)};
 }
 
-void set_force(const Case& source, milling::MillingProcess& process) {
+void set_force(const cases::Case& source, milling::MillingProcess& process) {
   const Cutting& c = *source.cutting;
   if (c.law == "oblique") set_oblique(c, process);
   else if (c.law == "linear") process.coefficients = {c.Kt, c.Kr, c.Ka, c.Kte, c.Kre, c.Kae};
@@ -78,14 +78,14 @@ milling::Cutter cutter_of(const Tool& tool) {
   return cutter;
 }
 
-std::optional<double> feed_per_tooth(const Case& source) {
+std::optional<double> feed_per_tooth(const cases::Case& source) {
   const Cutting& c = *source.cutting;
   if (c.feed_per_tooth) return c.feed_per_tooth;
   if (!c.feed_rate || !c.spindle_speed_rpm || !source.tool) return std::nullopt;
   return milling::feed_per_tooth_m(cutter_of(*source.tool), *c.feed_rate, *c.spindle_speed_rpm);
 }
 
-milling::MillingProcess milling_process(const Case& source) {
+milling::MillingProcess milling_process(const cases::Case& source) {
   const Cutting& c = *source.cutting;
   milling::MillingProcess process;
   process.cutter = cutter_of(*source.tool);
@@ -96,4 +96,4 @@ milling::MillingProcess milling_process(const Case& source) {
   return process;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::setup

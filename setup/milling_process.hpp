@@ -4,7 +4,7 @@
 #include "case/case.hpp"
 #include "milling/cut/process.hpp"
 
-namespace thinwall::app {
+namespace thinwall::setup {
 
 /// The cutter of [tool]: `end`, `runout` and all; its edges as high as the tool is long.
 [[nodiscard]] milling::Cutter cutter_of(const Tool& tool);
@@ -13,9 +13,9 @@ namespace thinwall::app {
 /// per tooth, or the feed rate over teeth and spindle speed, whatever the speed of a row of the chart. Logs a warning
 /// where runout lets a tooth miss a part of its arcs, since what it misses is cut with the delay of two pitches. Throws
 /// InputError as milling::set_force_law and engagement_of do.
-[[nodiscard]] milling::MillingProcess milling_process(const Case& source);
+[[nodiscard]] milling::MillingProcess milling_process(const cases::Case& source);
 
 /// Feed per tooth in m, if the case gives it or what it follows from.
-[[nodiscard]] std::optional<double> feed_per_tooth(const Case& source);
+[[nodiscard]] std::optional<double> feed_per_tooth(const cases::Case& source);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::setup

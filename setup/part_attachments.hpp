@@ -4,10 +4,10 @@
 #include "case/case.hpp"
 #include "fem/attachments.hpp"
 
-namespace thinwall::app {
+namespace thinwall::setup {
 
 /// Clamps on their faces; the points that carry masses or springs, or are rigid, with their patches; the masses and
 /// springs themselves.
-[[nodiscard]] fem::Attachments attachments_of(const Case& source);
+[[nodiscard]] fem::Attachments attachments_of(const cases::Case& source);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::setup

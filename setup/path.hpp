@@ -5,12 +5,12 @@
 
 #include "case/case.hpp"
 
-namespace thinwall::app {
+namespace thinwall::setup {
 
 /// The case as it would be written for one position of its path: its points are the one that is cut, moved there with
 /// its patch, and those of the contacts, moved by the same vector where the robot follows. These are the reduction's
 /// interface, in this order; `cutting.at` and the contacts name them, one point for both where they coincide.
 /// The case must have a path, a part and a known `cutting.at`; throws InputError for an unknown point.
-[[nodiscard]] Case at_position(const Case& source, std::size_t position);
+[[nodiscard]] cases::Case at_position(const cases::Case& source, std::size_t position);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::setup

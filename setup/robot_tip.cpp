@@ -21,7 +21,7 @@
 #include "study/sensor_mass.hpp"
 #include "study/support/support_stage.hpp"
 
-namespace thinwall::app {
+namespace thinwall::setup {
 
 namespace {
 
@@ -46,7 +46,7 @@ dynamics::ResponseModel measured_tip(const Robot& robot, const dynamics::Frequen
           ? measured_response(robot.measured, axis)
           : robot::measured_receptance(axis, io::resample(read_measured(robot.measured.front()), axis), robot.point,
                                        robot.direction);
-  return without_sensors(std::move(tip), robot.sensors, "the robot's");
+  return study::without_sensors(std::move(tip), robot.sensors, "the robot's");
 }
 
 /// The tip's part of the table, its axes turned into the part's.
@@ -64,7 +64,7 @@ dynamics::ModalModel tabled_tip(const Robot& robot) {
 }
 
 /// Where the tip is to be, in space.
-Vector3d wanted_place(const Case& source) {
+Vector3d wanted_place(const cases::Case& source) {
   if (source.robot->posture.tip) return *source.robot->posture.tip;
   if (const auto place = contact_place(source)) return *place;
   throw core::InputError("the place of the robot's tip is not known; give robot.posture.tip or a contact");
@@ -107,7 +107,7 @@ Eigen::VectorXd searched_posture(const Robot& robot, const Vector3d& place, cons
       place.x(), place.y(), place.z(), found.position_error, found.rotation_error * 180.0 / std::numbers::pi));
 }
 
-Eigen::VectorXd joints_of(const Case& source, const std::optional<Eigen::VectorXd>& near) {
+Eigen::VectorXd joints_of(const cases::Case& source, const std::optional<Eigen::VectorXd>& near) {
   const Robot& robot = *source.robot;
   const PostureWish& wish = robot.posture;
   const auto as_vector = [](const std::vector<double>& list) -> Eigen::VectorXd {
@@ -129,11 +129,11 @@ double smallest_singular(const robot::ArmPose& at) {
 
 }  // namespace
 
-std::optional<Vector3d> contact_place(const Case& source) {
+std::optional<Vector3d> contact_place(const cases::Case& source) {
   if (source.contacts.empty() || !source.part) return std::nullopt;
   const Vector3d flat = position(*source.part, point(source, source.contacts.front().part_point));
   if (!flat.allFinite()) return std::nullopt;  // a node of matrices whose place no file tells
-  return source.part->bend ? mesh::bent(bend_of(*source.part), flat) : flat;
+  return source.part->bend ? mesh::bent(study::bend_of(*source.part), flat) : flat;
 }
 
 std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list) {
@@ -154,9 +154,9 @@ robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axi
   return robot::in_one_posture(robot::spatial_model(modes, robot.point));
 }
 
-RobotPosture robot_posture(const Case& source, const std::optional<Eigen::VectorXd>& near) {
+study::RobotPosture robot_posture(const cases::Case& source, const std::optional<Eigen::VectorXd>& near) {
   const Robot& robot = *source.robot;
-  RobotPosture result;
+  study::RobotPosture result;
   result.posture.preload = robot.preload;
   if (robot.model != "flexible_joints") return result;
   result.posture.q = joints_of(source, near);
@@ -168,10 +168,11 @@ RobotPosture robot_posture(const Case& source, const std::optional<Eigen::Vector
   return result;
 }
 
-Component robot_component(const Case& source, const dynamics::FrequencyAxis& axis, const robot::Posture& posture) {
+study::Component robot_component(const cases::Case& source, const dynamics::FrequencyAxis& axis,
+                                 const robot::Posture& posture) {
   robot::Tip tip = tip_model(*source.robot, axis)(posture);
-  if (auto* spatial = std::get_if<dynamics::SpatialModel>(&tip)) return component(std::move(*spatial), axis);
-  Component result;
+  if (auto* spatial = std::get_if<dynamics::SpatialModel>(&tip)) return study::component(std::move(*spatial), axis);
+  study::Component result;
   if (auto* modal = std::get_if<dynamics::ModalModel>(&tip)) {
     result.response = dynamics::to_response(*modal, axis);
     result.modal = std::move(*modal);
@@ -189,8 +190,8 @@ dynamics::SpatialModel robot_matrices(const Robot& robot, const robot::Posture& 
   throw core::InputError("robot.model = \"" + robot.model + "\" has no matrices; take a modelled robot");
 }
 
-dynamics::SpatialModel robot_matrices(const Case& source) {
+dynamics::SpatialModel robot_matrices(const cases::Case& source) {
   return robot_matrices(*source.robot, robot_posture(source).posture);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::setup

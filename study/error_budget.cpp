@@ -8,7 +8,7 @@
 #include "study/part/part_stage.hpp"
 #include "study/support/support_stage.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
@@ -21,15 +21,15 @@ std::vector<Eigen::MatrixXcd> difference(const dynamics::ResponseModel& model, c
 }
 
 /// What the files' noise makes of a component; none where a sensor's mass was taken off, which changes the noise, too.
-coupling::Deviations noise_of(const std::string& whose, const std::vector<MeasuredFrf>& files,
-                              const std::vector<Sensor>& sensors, const dynamics::ResponseModel& response) {
-  if (sensors.empty() || !any_noise(files)) return measured_deviations(files, response);
+coupling::Deviations noise_of(const std::string& whose, const std::vector<setup::MeasuredFrf>& files,
+                              const std::vector<setup::Sensor>& sensors, const dynamics::ResponseModel& response) {
+  if (sensors.empty() || !setup::any_noise(files)) return setup::measured_deviations(files, response);
   spdlog::warn("the noise of the {}'s FRFs is not followed: a sensor's mass was taken off them", whose);
   return {};
 }
 
 /// Noise of both components into the coupled response, whose kernel is not regularised; empty if neither is noisy.
-coupling::Deviations coupled_noise(const Case& source, const Results& results, const ErrorBudget& budget) {
+coupling::Deviations coupled_noise(const cases::Case& source, const Results& results, const ErrorBudget& budget) {
   if (budget.part.noise.empty() && budget.robot.noise.empty()) return {};
   return coupling::error_budget({results.part->response, results.robot->response}, contacts_of(source),
                                 {{budget.part.noise}, {budget.robot.noise}})
@@ -38,7 +38,8 @@ coupling::Deviations coupled_noise(const Case& source, const Results& results, c
 
 /// The part with what its reduction left out (reduction/trust/truncation.hpp), damped as the part is. None of a
 /// measured part, or where nothing was left out.
-std::optional<Component> richer_part(const Case& source, const Results& results, const dynamics::FrequencyAxis& axis) {
+std::optional<Component> richer_part(const cases::Case& source, const Results& results,
+                                     const dynamics::FrequencyAxis& axis) {
   if (!results.finite_elements || !results.finite_elements->damped) return std::nullopt;
   const reduction::CraigBampton& reduced = *results.finite_elements->reduced;
   const dynamics::SpatialModel richer = reduction::with_left_out(reduced.model, *results.finite_elements->truncation);
@@ -47,7 +48,7 @@ std::optional<Component> richer_part(const Case& source, const Results& results,
   return component(damped(source, richer, identified), axis);
 }
 
-void add_coupled_truncation(const Case& source, const Results& results, ErrorBudget& budget) {
+void add_coupled_truncation(const cases::Case& source, const Results& results, ErrorBudget& budget) {
   const Component& richer = *budget.richer_part;
   const auto contacts = contacts_of(source);
   budget.coupled.truncation = difference(
@@ -59,7 +60,7 @@ void add_coupled_truncation(const Case& source, const Results& results, ErrorBud
 
 }  // namespace
 
-ErrorBudget error_budget(const Case& source, const Results& results) {
+ErrorBudget error_budget(const cases::Case& source, const Results& results) {
   ErrorBudget budget;
   if (results.part) {
     budget.richer_part = richer_part(source, results, results.part->response.axis);
@@ -79,4 +80,4 @@ ErrorBudget error_budget(const Case& source, const Results& results) {
   return budget;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -4,12 +4,12 @@
 #include "case/case.hpp"
 #include "study/results.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 /// Of the responses in `results`: noise as the case states it, carried into the coupled response to first order
 /// (coupling/error_budget.hpp); truncation as the difference of the models with and without what was left out, coupled
 /// anew: no expansion. With a regularised kernel the coupled response has neither, which is logged as a warning, as is
 /// noise that a sensor's mass hides. Errors as coupling::error_budget() and coupling::couple().
-[[nodiscard]] ErrorBudget error_budget(const Case& source, const Results& results);
+[[nodiscard]] ErrorBudget error_budget(const cases::Case& source, const Results& results);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -5,7 +5,7 @@
 
 #include "core/dense_factorisations.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
@@ -68,4 +68,4 @@ LeastSquares bounded_least_squares(const ResidualsAt& r, const JacobianAt& jacob
   return at;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 /// r(x), x scaled to [0, 1] between the parameters' bounds.
 using ResidualsAt = std::function<Eigen::VectorXd(const Eigen::VectorXd& x)>;
@@ -31,4 +31,4 @@ struct [[nodiscard]] LeastSquares {
 LeastSquares bounded_least_squares(const ResidualsAt& r, const JacobianAt& jacobian, const Eigen::VectorXd& start,
                                    double tolerance, int most_iterations);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -31,7 +31,7 @@
 #include "reduction/trust/truncation.hpp"
 #include "robot/tip_model.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 /// The part by finite elements, and its reduced model.
 struct PartResult {
@@ -243,4 +243,4 @@ struct Results {
   std::vector<std::pair<std::string, double>> timings_s;  ///< stage, seconds, in the order they ran
 };
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

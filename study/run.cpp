@@ -35,7 +35,7 @@
 #include "study/support/support_stage.hpp"
 #include "study/updating.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
@@ -49,50 +49,51 @@ std::string now_utc() {
 }
 
 /// Mesh, fits of the part, the part itself. Parameters that were fitted are written into `work`.
-void compute_part_of(Case& work, Results& results, Stages& stages) {
+void compute_part_of(cases::Case& work, Results& results, Stages& stages) {
   stages.begin(work.part->mesh.element_size ? "mesh" : "mesh, order and modes");
   Discretisation discretisation = discretise(work);
   const mesh::TetMesh& mesh = discretisation.mesh;
-  const Eigen::Vector3d meshed_size = box_size(*work.part);
+  const Eigen::Vector3d meshed_size = setup::box_size(*work.part);
   spdlog::info("{} tetrahedra, {} vertices, order {}", mesh.tets.size(), mesh.vertices.size(), discretisation.order);
-  const std::vector<Updating> fits = work.updating;  // a fit rewrites `work`
-  for (const Updating& updating : fits) {
+  const std::vector<setup::Updating> fits = work.updating;  // a fit rewrites `work`
+  for (const setup::Updating& updating : fits) {
     if (updating.on != "part") continue;
     stages.begin("updating");
-    const Eigen::Vector3d size_before = box_size(*work.part);
+    const Eigen::Vector3d size_before = setup::box_size(*work.part);
     discretisation.solved.reset();  // the part changes: mesh and order stay, the solution does not
     PartUpdating fit = update_part(work, updating, stretched(mesh, meshed_size, size_before), discretisation.order);
     results.updating.push_back(std::move(fit.result));
     discretisation.solved = std::move(fit.solved);
     spdlog::info("{}: {} evaluations", updating.name, results.updating.back().evaluations);
   }
-  discretisation.mesh = stretched(std::move(discretisation.mesh), meshed_size, box_size(*work.part));
+  discretisation.mesh = stretched(std::move(discretisation.mesh), meshed_size, setup::box_size(*work.part));
   results.finite_elements = compute_part(work, std::move(discretisation), stages);
 }
 
 /// The part's checkpoint: of this result folder, or one of those that several runs share.
-Checkpoint part_checkpoint(const Case& source, const RunOptions& options) {
+Checkpoint part_checkpoint(const cases::Case& source, const RunOptions& options) {
   const std::string key = part_key(source);
   if (options.parts.empty()) return {options.out / "cache" / "part.bin", key, options.fresh};
   return {options.parts / ("part-" + key.substr(0, 16) + ".bin"), key, false};
 }
 
 /// The same, or what an earlier run left of the same inputs.
-void run_part(const Case& source, Case& work, const RunOptions& options, Results& results, Stages& stages) {
+void run_part(const cases::Case& source, cases::Case& work, const RunOptions& options, Results& results,
+              Stages& stages) {
   stages.begin("kept results");
   Checkpoint kept = part_checkpoint(source, options);
-  part_of_checkpoint(kept, work, results, [&stages](Case& w, Results& r) { compute_part_of(w, r, stages); });
+  part_of_checkpoint(kept, work, results, [&stages](cases::Case& w, Results& r) { compute_part_of(w, r, stages); });
   PartResult& part = *results.finite_elements;
   if (part.reduced && !part.damped) part.damped = damped(work, part.reduced->model, part.identified);
 }
 
 /// Fits on the reduced part; damping may be among the parameters, so it is applied anew.
-void run_coupled_updating(Checkpoint& kept, Case& work, Results& results, Stages& stages) {
-  if (std::ranges::count(work.updating, "coupled", &Updating::on) == 0) return;
+void run_coupled_updating(Checkpoint& kept, cases::Case& work, Results& results, Stages& stages) {
+  if (std::ranges::count(work.updating, "coupled", &setup::Updating::on) == 0) return;
   stages.begin("updating");
-  fits_of_checkpoint(kept, work, results, [](Case& w, Results& r) {
-    const std::vector<Updating> fits = w.updating;  // a fit rewrites the case
-    for (const Updating& updating : fits) {
+  fits_of_checkpoint(kept, work, results, [](cases::Case& w, Results& r) {
+    const std::vector<setup::Updating> fits = w.updating;  // a fit rewrites the case
+    for (const setup::Updating& updating : fits) {
       if (updating.on != "coupled") continue;
       r.updating.push_back(update_coupled(w, updating, r.finite_elements->reduced->model));
     }
@@ -102,8 +103,8 @@ void run_coupled_updating(Checkpoint& kept, Case& work, Results& results, Stages
 }
 
 /// An arm that stands by its joints may stand elsewhere than at its contact.
-void warn_of_distance(const Case& work, const RobotPosture& robot) {
-  const auto place = contact_place(work);
+void warn_of_distance(const cases::Case& work, const RobotPosture& robot) {
+  const auto place = setup::contact_place(work);
   if (!robot.tip || !place || (*robot.tip - *place).norm() <= 1e-3) return;
   spdlog::warn(
       "the robot's tip stands {:.1f} mm from its contact at \"{}\": it is joined as if it touched; check "
@@ -112,7 +113,7 @@ void warn_of_distance(const Case& work, const RobotPosture& robot) {
 }
 
 /// A joint that is to be found takes its place in `work`, so that whatever joins the contact later has it.
-void find_contact(Case& work, Results& results, Stages& stages) {
+void find_contact(cases::Case& work, Results& results, Stages& stages) {
   if (work.contacts.front().measured.empty()) return;
   if (!work.part_sensors.empty()) {
     spdlog::warn(
@@ -126,7 +127,7 @@ void find_contact(Case& work, Results& results, Stages& stages) {
   work.contacts.front().identified = results.identification->joined;
 }
 
-void warn_of_kernel(const Case& work, const CouplingResult& coupled) {
+void warn_of_kernel(const cases::Case& work, const CouplingResult& coupled) {
   const coupling::CoupledResponse& receptance = coupled.receptance;
   if (receptance.status == coupling::KernelStatus::ill_conditioned) {
     spdlog::warn(
@@ -144,16 +145,16 @@ void warn_of_kernel(const Case& work, const CouplingResult& coupled) {
     spdlog::warn("no spatial route, so no modes of part and robot together: {}", coupled.no_spatial_route);
 }
 
-void run_coupling(Checkpoint& kept, Case& work, Results& results, Stages& stages) {
+void run_coupling(Checkpoint& kept, cases::Case& work, Results& results, Stages& stages) {
   find_contact(work, results, stages);
   stages.begin("coupling");
-  results.contacts = joined_contacts(work);
+  results.contacts = setup::joined_contacts(work);
   results.coupled = coupling_of_checkpoint(kept, [&] { return couple(work, *results.part, *results.robot); });
   results.reductions = reductions(work, *results.part, *results.coupled);
   warn_of_kernel(work, *results.coupled);
 }
 
-void run_responses(Checkpoint& kept, Case& work, Results& results, Stages& stages) {
+void run_responses(Checkpoint& kept, cases::Case& work, Results& results, Stages& stages) {
   const bool reduced = results.finite_elements && results.finite_elements->damped;
   const bool part = reduced || !work.measured_part.empty();
   if (!part && !work.robot) return;
@@ -161,14 +162,14 @@ void run_responses(Checkpoint& kept, Case& work, Results& results, Stages& stage
   const dynamics::FrequencyAxis axis = frequency_axis(work);
   if (part) results.part = reduced ? component(*results.finite_elements->damped, axis) : measured_part(work, axis);
   if (work.robot) {
-    results.robot_posture = robot_posture(work);
-    results.robot = robot_component(work, axis, results.robot_posture->posture);
+    results.robot_posture = setup::robot_posture(work);
+    results.robot = setup::robot_component(work, axis, results.robot_posture->posture);
     warn_of_distance(work, *results.robot_posture);
     results.survey = survey(work, tip_report(*results.robot_posture, *results.robot));
     if (results.survey->tips.empty()) spdlog::warn("the robot reaches no place of its workspace");
   }
-  if (!work.measured_part.empty()) warn_of_doubts(results.part->response, "the part's");
-  if (work.robot && work.robot->model == "measured") warn_of_doubts(results.robot->response, "the robot's");
+  if (!work.measured_part.empty()) setup::warn_of_doubts(results.part->response, "the part's");
+  if (work.robot && work.robot->model == "measured") setup::warn_of_doubts(results.robot->response, "the robot's");
   if (part && work.robot && !work.contacts.empty()) run_coupling(kept, work, results, stages);
   stages.begin("error budget");
   try {
@@ -181,7 +182,7 @@ void run_responses(Checkpoint& kept, Case& work, Results& results, Stages& stage
 }
 
 /// The supported part where the robot has no poles. What cannot be charted from samples leaves the rest of the run.
-void add_sampled_chart(const Case& work, const milling::ToolFrame& frame,
+void add_sampled_chart(const cases::Case& work, const milling::ToolFrame& frame,
                        const std::vector<milling::OperatingPoint>& points, Checkpoint& kept, Results& results) {
   try {
     const auto structure = sampled_structure(work, frame, results.coupled->receptance.response);
@@ -195,7 +196,7 @@ void add_sampled_chart(const Case& work, const milling::ToolFrame& frame,
 }
 
 /// What the contact bears at the operating points of the supported part; not told of a regularised kernel.
-void flag_contacts(const Case& work, Results& results) {
+void flag_contacts(const cases::Case& work, Results& results) {
   if (work.coupling.regularisation != "none") return;
   for (PointStability& point : results.lobes.back().points) {
     if (results.lobes.back().name != "supported" || !point.forced) continue;
@@ -206,10 +207,10 @@ void flag_contacts(const Case& work, Results& results) {
   }
 }
 
-void run_lobes(const Case& work, const std::vector<milling::OperatingPoint>& points, Checkpoint& kept, Results& results,
-               Stages& stages) {
+void run_lobes(const cases::Case& work, const std::vector<milling::OperatingPoint>& points, Checkpoint& kept,
+               Results& results, Stages& stages) {
   if (!work.lobes || !work.cutting || !work.tool) return;
-  const milling::ToolFrame frame = milling_process(work).frame;
+  const milling::ToolFrame frame = setup::milling_process(work).frame;
   const auto chart_of = [&](const std::string& name, const dynamics::ModalModel* part,
                             const dynamics::ModalModel* richer) {
     const CutStructure structure = cut_structure(work, frame, part);
@@ -244,7 +245,7 @@ void run_lobes(const Case& work, const std::vector<milling::OperatingPoint>& poi
 /// The page is a picture of results that are there; a run does not fail for it.
 void write_report(const std::filesystem::path& results, const report::KeptSections& kept) {
   try {
-    report::write_page(results / "report.html", {{results}, program_name(), kept});
+    report::write_page(results / "report.html", {{results}, app::program_name(), kept});
   } catch (const core::Interrupted&) {
     throw;
   } catch (const core::Error& error) {
@@ -254,15 +255,15 @@ void write_report(const std::filesystem::path& results, const report::KeptSectio
 
 }  // namespace
 
-RunResult run_case(const Case& source, const RunOptions& options) {
+RunResult run_case(const cases::Case& source, const RunOptions& options) {
   const std::string started = now_utc();
-  const auto expectations = read_expectations(source.file);
+  const auto expectations = cases::read_expectations(source.file);
   require_chart_of(source, options.points);
   Stages stages(options.progress      ? ProgressDisplay::line
                 : options.stage_lines ? ProgressDisplay::lines
                                       : ProgressDisplay::none);
   Results results;
-  Case work = source;
+  cases::Case work = source;
   if (work.part) run_part(source, work, options, results, stages);
   Checkpoint structure(options.out / "cache" / "structure.bin", structure_key(source), options.fresh);
   if (results.finite_elements && results.finite_elements->reduced)
@@ -272,26 +273,26 @@ RunResult run_case(const Case& source, const RunOptions& options) {
   run_lobes(work, options.points, kept, results, stages);
   stages.begin("output");
   const auto staging = core::partial_path(options.out / "results");
-  if (!take_files(structure, options.out, staging)) {
-    write_structure(staging, work, results);
-    keep_files(structure, staging);
+  if (!report::take_files(structure, options.out, staging)) {
+    report::write_structure(staging, work, results);
+    report::keep_files(structure, staging);
   }
-  write_cuts(staging, source, results);
-  write_cases(staging, source, work);
+  report::write_cuts(staging, source, results);
+  report::write_cases(staging, source, work);
   stages.begin("report");
   results.timings_s = stages.timings_s();
-  RunResult run{summary_of(work, results), true};
-  run.expectations_hold = add_checks(run.summary, expectations);
+  RunResult run{report::summary_of(work, results), true};
+  run.expectations_hold = report::add_checks(run.summary, expectations);
   if (!run.expectations_hold) run.summary["status"] = "expectation_not_met";
-  nlohmann::json manifest = manifest_of(source, run.summary, started);
-  write_summary(staging, run.summary, manifest);
-  write_report(staging, kept_sections(structure));
+  nlohmann::json manifest = report::manifest_of(source, run.summary, started);
+  report::write_summary(staging, run.summary, manifest);
+  write_report(staging, report::kept_sections(structure));
   stages.end();
   for (const auto& [stage, seconds] : stages.timings_s()) run.summary["timings_s"][stage] = seconds;
-  write_summary(staging, run.summary, manifest);
-  record_outputs(staging, manifest);
-  publish(staging, options.out);
+  report::write_summary(staging, run.summary, manifest);
+  report::record_outputs(staging, manifest);
+  report::publish(staging, options.out);
   return run;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

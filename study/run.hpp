@@ -9,7 +9,7 @@
 #include "case/case.hpp"
 #include "milling/chart/operating_point.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 struct RunOptions {
   std::filesystem::path out;                         ///< the result folder, already prepared (report/result_folder.hpp)
@@ -27,9 +27,9 @@ struct RunResult {
 };
 
 /// What `run`, `lobes` and `sweep` hand a case to; in the program this is run_case().
-using RunCase = std::function<RunResult(const Case&, const RunOptions&)>;
+using RunCase = std::function<RunResult(const cases::Case&, const RunOptions&)>;
 
 /// Does what the case holds and writes the result folder. Throws core::Error.
-[[nodiscard]] RunResult run_case(const Case& source, const RunOptions& options);
+[[nodiscard]] RunResult run_case(const cases::Case& source, const RunOptions& options);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -11,7 +11,7 @@
 #include "coupling/decoupling.hpp"
 #include "reduction/identification.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
@@ -58,9 +58,9 @@ std::vector<SensorEffect> sensor_effects(const dynamics::ResponseModel& with, co
   return effects;
 }
 
-dynamics::ResponseModel without_sensors(dynamics::ResponseModel measured, const std::vector<Sensor>& sensors,
+dynamics::ResponseModel without_sensors(dynamics::ResponseModel measured, const std::vector<setup::Sensor>& sensors,
                                         const std::string& whose) {
-  for (const Sensor& sensor : sensors) {
+  for (const setup::Sensor& sensor : sensors) {
     dynamics::ResponseModel without = coupling::remove_point_mass(measured, sensor.point, sensor.mass).response;
     const auto effects = sensor_effects(measured, without, sensor.point);
     spdlog::info("{} sensor of {} at {} is taken off, which changes {}", whose,
@@ -73,4 +73,4 @@ dynamics::ResponseModel without_sensors(dynamics::ResponseModel measured, const 
   return measured;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -9,7 +9,7 @@
 
 #include "core/interrupt.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 std::string duration_text(double seconds) {
   if (seconds <= 99.0) return fmt::format("{:.0f} s", std::ceil(seconds));
@@ -85,4 +85,4 @@ void Stages::clear_line() const {
   std::fflush(stderr);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -8,7 +8,7 @@
 
 #include "core/progress.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 /// How a run shows where it is.
 enum class ProgressDisplay {
@@ -54,4 +54,4 @@ class Stages {
   std::vector<std::pair<std::string, double>> timings_;
 };
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -13,16 +13,16 @@
 #include "study/part/part_stage.hpp"
 #include "study/support/support_stage.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
-double ranked(const UpdatingTarget& target, const std::vector<Participation>& modes) {
+double ranked(const setup::UpdatingTarget& target, const std::vector<Participation>& modes) {
   if (static_cast<std::size_t>(target.rank) > modes.size()) throw no_such_mode(target, modes.size());
   return modes[static_cast<std::size_t>(target.rank) - 1].frequency_hz;
 }
 
-double coupled_frequency(const UpdatingTarget& target, const dynamics::ModalModel& coupled) {
+double coupled_frequency(const setup::UpdatingTarget& target, const dynamics::ModalModel& coupled) {
   if (target.match == "participation") return ranked(target, participating_modes(coupled, target.point));
   const auto modes = dynamics::oscillating_modes(coupled);
   if (static_cast<std::size_t>(target.rank) > modes.size()) throw no_such_mode(target, modes.size());
@@ -30,20 +30,20 @@ double coupled_frequency(const UpdatingTarget& target, const dynamics::ModalMode
 }
 
 /// Frequency at which a reduction is read: the one given, or that of the part's mode.
-double reading_frequency(const UpdatingTarget& target, const dynamics::ModalModel& part) {
+double reading_frequency(const setup::UpdatingTarget& target, const dynamics::ModalModel& part) {
   if (target.frequency_hz > 0.0) return target.frequency_hz;
   return ranked(target, participating_modes(part, target.point));
 }
 
 /// 1 − |G|/|H| at the target's point, by receptances at one frequency.
-double reduction_at(const Case& now, const UpdatingTarget& target, const Component& part) {
+double reduction_at(const cases::Case& now, const setup::UpdatingTarget& target, const Component& part) {
   dynamics::FrequencyAxis line;
   line.hz = Eigen::VectorXd::Constant(1, reading_frequency(target, *part.modal));
   const dynamics::ResponseModel H = part.spatial->has_structural_damping()
                                         ? dynamics::direct_response(*part.spatial, line)
                                         : dynamics::to_response(*part.modal, line);
-  const auto G = coupling::couple(H, robot_component(now, line, robot_posture(now).posture).response, contacts_of(now),
-                                  coupling_options(now))
+  const auto G = coupling::couple(H, setup::robot_component(now, line, setup::robot_posture(now).posture).response,
+                                  contacts_of(now), coupling_options(now))
                      .response.H.front();
   const auto row = static_cast<Eigen::Index>(dynamics::row_of(H.responses, target.point));
   return 1.0 - std::abs(G(row, row)) / std::abs(H.H.front()(row, row));
@@ -55,8 +55,9 @@ void require_held(const dynamics::SpatialModel& part) {
 }
 
 /// Modes of part and robot joined only if a target asks for them, and receptances likewise.
-Eigen::VectorXd evaluate_coupled(const Case& now, const Updating& updating, const dynamics::SpatialModel& reduced) {
-  const auto is_frequency = [](const UpdatingTarget& target) { return target.quantity == "coupled_frequency"; };
+Eigen::VectorXd evaluate_coupled(const cases::Case& now, const setup::Updating& updating,
+                                 const dynamics::SpatialModel& reduced) {
+  const auto is_frequency = [](const setup::UpdatingTarget& target) { return target.quantity == "coupled_frequency"; };
   std::vector<reduction::IdentifiedMode> identified;
   Component part;
   part.spatial = damped(now, reduced, identified);
@@ -64,38 +65,39 @@ Eigen::VectorXd evaluate_coupled(const Case& now, const Updating& updating, cons
   if (!std::ranges::all_of(updating.targets, is_frequency)) part.modal = modes_of(*part.spatial);
   dynamics::ModalModel coupled;
   if (std::ranges::any_of(updating.targets, is_frequency))
-    coupled = modes_of(coupling::couple(*part.spatial, robot_matrices(now), contacts_of(now)));
+    coupled = modes_of(coupling::couple(*part.spatial, setup::robot_matrices(now), contacts_of(now)));
   Eigen::VectorXd values(static_cast<Eigen::Index>(updating.targets.size()));
   for (Eigen::Index i = 0; i < values.size(); ++i) {
-    const UpdatingTarget& target = updating.targets[static_cast<std::size_t>(i)];
+    const setup::UpdatingTarget& target = updating.targets[static_cast<std::size_t>(i)];
     values(i) = is_frequency(target) ? coupled_frequency(target, coupled) : reduction_at(now, target, part);
   }
   return values;
 }
 
-double residual(const UpdatingTarget& target, double value) {
+double residual(const setup::UpdatingTarget& target, double value) {
   if (target.quantity == "reduction_at") return target.weight * std::log((1.0 - value) / (1.0 - target.value));
   return target.weight * (value - target.value) / target.value;
 }
 
-Case with_parameters(const Case& source, const Updating& updating, const Eigen::VectorXd& scaled) {
-  Case now = source;
+cases::Case with_parameters(const cases::Case& source, const setup::Updating& updating, const Eigen::VectorXd& scaled) {
+  cases::Case now = source;
   for (std::size_t k = 0; k < updating.parameters.size(); ++k) {
     const auto& p = updating.parameters[k];
-    set_value(now, p.key, p.lower + scaled(static_cast<Eigen::Index>(k)) * (p.upper - p.lower));
+    cases::set_value(now, p.key, p.lower + scaled(static_cast<Eigen::Index>(k)) * (p.upper - p.lower));
   }
   return now;
 }
 
 /// `slopes`: ∂ values / ∂ scaled parameters of the case evaluated last; empty: by differences.
-UpdatingResult fit(Case& source, const Updating& updating, const std::function<Eigen::VectorXd(const Case&)>& evaluate,
-                   const std::function<Eigen::MatrixXd(const Case&)>& slopes) {
+UpdatingResult fit(cases::Case& source, const setup::Updating& updating,
+                   const std::function<Eigen::VectorXd(const cases::Case&)>& evaluate,
+                   const std::function<Eigen::MatrixXd(const cases::Case&)>& slopes) {
   Eigen::VectorXd start(static_cast<Eigen::Index>(updating.parameters.size()));
   UpdatingResult result;
   result.name = updating.name;
   for (Eigen::Index k = 0; k < start.size(); ++k) {
     const auto& p = updating.parameters[static_cast<std::size_t>(k)];
-    const double value = get_value(source, p.key);
+    const double value = cases::get_value(source, p.key);
     start(k) = (value - p.lower) / (p.upper - p.lower);
     result.parameters.push_back({p.key, value, 0.0, p.lower, p.upper, false});
   }
@@ -110,7 +112,7 @@ UpdatingResult fit(Case& source, const Updating& updating, const std::function<E
   const auto relative_slopes = [&](const Eigen::VectorXd& scaled, const Eigen::VectorXd&) {
     Eigen::MatrixXd jacobian = slopes(with_parameters(source, updating, scaled));
     for (Eigen::Index i = 0; i < jacobian.rows(); ++i) {
-      const UpdatingTarget& target = updating.targets[static_cast<std::size_t>(i)];
+      const setup::UpdatingTarget& target = updating.targets[static_cast<std::size_t>(i)];
       jacobian.row(i) *= target.weight / target.value;
     }
     return jacobian;
@@ -121,11 +123,11 @@ UpdatingResult fit(Case& source, const Updating& updating, const std::function<E
   source = with_parameters(source, updating, found.parameters);
   for (Eigen::Index k = 0; k < start.size(); ++k) {
     auto& p = result.parameters[static_cast<std::size_t>(k)];
-    p.fitted = get_value(source, p.key);
+    p.fitted = cases::get_value(source, p.key);
     p.at_bound = found.parameters(k) <= 0.0 || found.parameters(k) >= 1.0;
   }
   for (Eigen::Index i = 0; i < found.residuals.size(); ++i) {
-    const UpdatingTarget& target = updating.targets[static_cast<std::size_t>(i)];
+    const setup::UpdatingTarget& target = updating.targets[static_cast<std::size_t>(i)];
     UpdatingResult::Target reached{target.quantity, target.value, 0.0, {}};
     const double r = found.residuals(i) / target.weight;
     const bool remains = target.quantity == "reduction_at";
@@ -142,18 +144,19 @@ UpdatingResult fit(Case& source, const Updating& updating, const std::function<E
 
 }  // namespace
 
-PartUpdating update_part(Case& source, const Updating& updating, const mesh::TetMesh& mesh, int order) {
+PartUpdating update_part(cases::Case& source, const setup::Updating& updating, const mesh::TetMesh& mesh, int order) {
   PartEvaluation evaluation(source, updating, mesh, order);
   PartUpdating result{fit(
-                          source, updating, [&](const Case& now) { return evaluation(now); },
-                          [&](const Case& now) { return evaluation.slopes(now); }),
+                          source, updating, [&](const cases::Case& now) { return evaluation(now); },
+                          [&](const cases::Case& now) { return evaluation.slopes(now); }),
                       {}};
   result.solved = evaluation.take(source);
   return result;
 }
 
-UpdatingResult update_coupled(Case& source, const Updating& updating, const dynamics::SpatialModel& reduced) {
-  return fit(source, updating, [&](const Case& now) { return evaluate_coupled(now, updating, reduced); }, {});
+UpdatingResult update_coupled(cases::Case& source, const setup::Updating& updating,
+                              const dynamics::SpatialModel& reduced) {
+  return fit(source, updating, [&](const cases::Case& now) { return evaluate_coupled(now, updating, reduced); }, {});
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -60,7 +60,7 @@ void load(Archive& archive, SparseMatrix<Scalar, options, Index>& matrix) {
 
 }  // namespace Eigen
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 /// Everything given, in order, to the last bit; for the machine that wrote it.
 template <class... Items>
@@ -93,4 +93,4 @@ void from_bytes(const std::string& bytes, Items&... items) {
   }
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

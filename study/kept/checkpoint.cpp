@@ -13,7 +13,7 @@
 #include "io/manifest.hpp"
 #include "study/kept/program_id.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
@@ -117,18 +117,18 @@ void Checkpoint::write(const std::string& piece) {
   if (!out) throw core::DataError(file_.string() + " cannot be written");
 }
 
-std::string key_of(const Case& source, const std::vector<std::string>& without,
+std::string key_of(const cases::Case& source, const std::vector<std::string>& without,
                    const std::vector<std::string>& besides) {
   std::string text = program_id() + "\n";
-  for (const CaseValue& value : source.values) {
+  for (const cases::CaseValue& value : source.values) {
     if (std::ranges::any_of(without, [&](const std::string& name) { return lies_in(value.key, name); })) continue;
     text += value.key + "=" + std::visit(Exactly{}, value.value) + "\n";
   }
   for (const std::string& point : source.reduction.interface) text += point + "\n";
   // Their names are among the values, as the case gives them.
-  for (const fs::path& file : input_files(source, without)) text += io::sha256_of_file(file) + "\n";
+  for (const fs::path& file : cases::input_files(source, without)) text += io::sha256_of_file(file) + "\n";
   for (const std::string& word : besides) text += std::to_string(word.size()) + ":" + word + "\n";
   return io::sha256(text);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

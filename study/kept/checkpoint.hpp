@@ -9,7 +9,7 @@
 
 #include "case/case.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 /// Pieces of a result by name, in one file that grows as they are finished. They are of one key, which stands for all
 /// that they follow from; a file of another key, another program or another format is begun anew, and one whose end is
@@ -41,7 +41,7 @@ class Checkpoint {
 /// Hash of the program, of the case's values but those under the given keys or sections ("lobes.count", "cutting"), of
 /// the bytes of the files that the other sections name, and of words `besides`. Throws DataError for a file that cannot
 /// be read. Cost: of hashing these files.
-[[nodiscard]] std::string key_of(const Case& source, const std::vector<std::string>& without,
+[[nodiscard]] std::string key_of(const cases::Case& source, const std::vector<std::string>& without,
                                  const std::vector<std::string>& besides = {});
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

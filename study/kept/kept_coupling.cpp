@@ -22,7 +22,7 @@ void serialize(Archive& archive, RouteDifference& d) {
 }
 }  // namespace coupling
 
-namespace app {
+namespace study {
 
 template <class Archive>
 void serialize(Archive& archive, CouplingResult& r) {
@@ -39,6 +39,6 @@ CouplingResult coupling_of_checkpoint(Checkpoint& kept, const std::function<Coup
   return result;
 }
 
-}  // namespace app
+}  // namespace study
 
 }  // namespace thinwall

@@ -90,7 +90,7 @@ void serialize(Archive& archive, LobeRow& r) {
 }
 }  // namespace milling
 
-namespace app {
+namespace study {
 
 template <class Archive>
 void serialize(Archive& archive, PartResult& p) {
@@ -118,15 +118,15 @@ void drop_entries(linalg::SparseMatrix& A) {
   A = linalg::SparseMatrix(A.rows(), A.cols());
 }
 
-void take_fitted(Case& work, const std::vector<UpdatingResult>& fits) {
+void take_fitted(cases::Case& work, const std::vector<UpdatingResult>& fits) {
   for (const UpdatingResult& fit : fits)
-    for (const auto& parameter : fit.parameters) set_value(work, parameter.key, parameter.fitted);
+    for (const auto& parameter : fit.parameters) cases::set_value(work, parameter.key, parameter.fitted);
 }
 
 }  // namespace
 
-void part_of_checkpoint(Checkpoint& kept, Case& work, Results& results,
-                        const std::function<void(Case&, Results&)>& compute) {
+void part_of_checkpoint(Checkpoint& kept, cases::Case& work, Results& results,
+                        const std::function<void(cases::Case&, Results&)>& compute) {
   if (const std::string* bytes = kept.find("part")) {
     results.finite_elements.emplace();
     from_bytes(*bytes, *results.finite_elements, results.updating);
@@ -140,8 +140,8 @@ void part_of_checkpoint(Checkpoint& kept, Case& work, Results& results,
   kept.add("part", to_bytes(*results.finite_elements, results.updating));
 }
 
-void fits_of_checkpoint(Checkpoint& kept, Case& work, Results& results,
-                        const std::function<void(Case&, Results&)>& compute) {
+void fits_of_checkpoint(Checkpoint& kept, cases::Case& work, Results& results,
+                        const std::function<void(cases::Case&, Results&)>& compute) {
   std::vector<UpdatingResult> fits;
   if (const std::string* bytes = kept.find("fits")) {
     from_bytes(*bytes, fits);
@@ -167,6 +167,6 @@ milling::KeptRows kept_rows(Checkpoint& kept, const std::string& chart) {
           }};
 }
 
-}  // namespace app
+}  // namespace study
 
 }  // namespace thinwall

@@ -8,20 +8,20 @@
 #include "study/kept/checkpoint.hpp"
 #include "study/results.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 /// The computed part and its fits as an earlier run left them, or by `compute`, whose result is kept. What the fits
 /// changed is written into `work`. Not kept: the entries of the full model's K and M (their sizes are there), and the
 /// damped model.
-void part_of_checkpoint(Checkpoint& kept, Case& work, Results& results,
-                        const std::function<void(Case&, Results&)>& compute);
+void part_of_checkpoint(Checkpoint& kept, cases::Case& work, Results& results,
+                        const std::function<void(cases::Case&, Results&)>& compute);
 
 /// The fits of part and robot together as an earlier run left them, or by `compute`, which adds them to
 /// `results.updating`; they are kept. What they changed is written into `work`.
-void fits_of_checkpoint(Checkpoint& kept, Case& work, Results& results,
-                        const std::function<void(Case&, Results&)>& compute);
+void fits_of_checkpoint(Checkpoint& kept, cases::Case& work, Results& results,
+                        const std::function<void(cases::Case&, Results&)>& compute);
 
 /// Rows of a chart of that name from the checkpoint and into it.
 [[nodiscard]] milling::KeptRows kept_rows(Checkpoint& kept, const std::string& chart);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

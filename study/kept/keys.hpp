@@ -5,19 +5,19 @@
 
 #include "case/case.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 /// Of the part as it is meshed, solved and reduced (PartResult less its damping): all but the robot, the tool, the cut
 /// and the charts. Along a path the points of cut and contacts belong to it; damping only where the number of modes
 /// or a fit follows from it, or a file brings it. Throws DataError for a file that cannot be read, as the others do.
-[[nodiscard]] std::string part_key(const Case& source);
+[[nodiscard]] std::string part_key(const cases::Case& source);
 
 /// Of part, robot and their receptances: all but the tool, the cut and the charts. Along a path the robot's postures
 /// follow from the points of cut and contacts, so these belong to it.
-[[nodiscard]] std::string structure_key(const Case& source);
+[[nodiscard]] std::string structure_key(const cases::Case& source);
 
 /// Of the rows of the charts: all but the title, the machine's limits and the case's own speed, unless a force law
 /// asks for the feed of a tooth, which then follows from it.
-[[nodiscard]] std::string charts_key(const Case& source);
+[[nodiscard]] std::string charts_key(const cases::Case& source);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

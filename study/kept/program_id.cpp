@@ -11,7 +11,7 @@
 
 #include "io/manifest.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
@@ -61,4 +61,4 @@ const std::string& program_id() {
   return id;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -14,26 +14,28 @@
 #include "setup/robot_tip.hpp"
 #include "study/lobes/tool_swap.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
-milling::RelativeStructure tool_modes(const Tool& tool) {
-  return milling::relative_structure(dynamics::to_modal(robot::spatial_model(one_modes(tool.modes), "tool")), "tool");
+milling::RelativeStructure tool_modes(const setup::Tool& tool) {
+  return milling::relative_structure(dynamics::to_modal(robot::spatial_model(setup::one_modes(tool.modes), "tool")),
+                                     "tool");
 }
 
-milling::RelativeStructure part_structure(const Case& source, const dynamics::ModalModel& part) {
+milling::RelativeStructure part_structure(const cases::Case& source, const dynamics::ModalModel& part) {
   const auto& limit = source.lobes->modes_up_to_hz;
   const auto kept = limit ? dynamics::truncate(part, 2.0 * std::numbers::pi * *limit, true) : part;
   return milling::relative_structure(kept, source.cutting->at);
 }
 
 /// The tool's files as a matrix in part axes, on `axis`.
-milling::SampledReceptance measured_tip(const std::vector<MeasuredFrf>& files, const dynamics::FrequencyAxis& axis) {
+milling::SampledReceptance measured_tip(const std::vector<setup::MeasuredFrf>& files,
+                                        const dynamics::FrequencyAxis& axis) {
   milling::SampledReceptance tip{axis.hz, {}};
   tip.H.assign(static_cast<std::size_t>(axis.size()), Eigen::Matrix3cd::Zero());
-  for (const MeasuredFrf& file : files) {
-    const Eigen::VectorXcd H = io::resample(read_measured(file), axis);
+  for (const setup::MeasuredFrf& file : files) {
+    const Eigen::VectorXcd H = io::resample(setup::read_measured(file), axis);
     const int i = direction_of_dof(file.response);
     const int j = direction_of_dof(file.force);
     const bool reverse_given = gives_reverse(files, file);
@@ -68,7 +70,7 @@ void warn_of_doubts(const milling::SampledReceptance& tip, const std::string& wh
 }
 
 /// The swapped tip, with a warning where digits were lost.
-milling::SampledReceptance swapped(const Case& source) {
+milling::SampledReceptance swapped(const cases::Case& source) {
   SwappedTip result = swapped_tip(source);
   if (result.status == coupling::SwapStatus::ill_conditioned)
     spdlog::warn("the tool swap lost more than half of its digits (condition {:.1e} at {:.1f} Hz): expect errors there",
@@ -89,19 +91,20 @@ int direction_of_dof(const std::string& dof) {
   return dof.back() - 'x';
 }
 
-bool gives_reverse(const std::vector<MeasuredFrf>& files, const MeasuredFrf& file) {
-  return std::ranges::any_of(
-      files, [&](const MeasuredFrf& other) { return other.response == file.force && other.force == file.response; });
+bool gives_reverse(const std::vector<setup::MeasuredFrf>& files, const setup::MeasuredFrf& file) {
+  return std::ranges::any_of(files, [&](const setup::MeasuredFrf& other) {
+    return other.response == file.force && other.force == file.response;
+  });
 }
 
-std::optional<milling::RelativeStructure> cut_poles(const Case& source, const dynamics::ModalModel* part) {
+std::optional<milling::RelativeStructure> cut_poles(const cases::Case& source, const dynamics::ModalModel* part) {
   std::optional<milling::RelativeStructure> poles;
   if (part != nullptr) poles = part_structure(source, *part);
   if (source.tool->modes.empty()) return poles;
   return poles ? milling::sum(*poles, tool_modes(*source.tool)) : tool_modes(*source.tool);
 }
 
-milling::SampledStructure sampled_structure(const Case& source, const milling::ToolFrame& frame,
+milling::SampledStructure sampled_structure(const cases::Case& source, const milling::ToolFrame& frame,
                                             const dynamics::ResponseModel& coupled) {
   const dynamics::ResponseModel at_cut = dynamics::between(coupled, source.cutting->at, source.cutting->at);
   const Eigen::Matrix3Xd D = dynamics::displacement_matrix(at_cut.responses, source.cutting->at);
@@ -120,12 +123,13 @@ milling::SampledStructure sampled_structure(const Case& source, const milling::T
   return {in_tool_axes(std::move(felt), frame), tool};
 }
 
-CutStructure cut_structure(const Case& source, const milling::ToolFrame& frame, const dynamics::ModalModel* part) {
+CutStructure cut_structure(const cases::Case& source, const milling::ToolFrame& frame,
+                           const dynamics::ModalModel* part) {
   const std::optional<milling::RelativeStructure> modal = cut_poles(source, part);
   if (source.tool->swap) return milling::SampledStructure{in_tool_axes(swapped(source), frame), modal};
   if (!source.tool->measured.empty()) {
     milling::SampledReceptance tip =
-        measured_tip(source.tool->measured, read_measured(source.tool->measured.front()).axis);
+        measured_tip(source.tool->measured, setup::read_measured(source.tool->measured.front()).axis);
     warn_of_doubts(tip, "the tool's");
     return milling::SampledStructure{in_tool_axes(std::move(tip), frame), modal};
   }
@@ -133,4 +137,4 @@ CutStructure cut_structure(const Case& source, const milling::ToolFrame& frame, 
   return *modal;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -13,7 +13,7 @@
 #include "milling/cut/tool.hpp"
 #include "milling/structure/relative_structure.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 /// Poles where everything is known by its modes (part axes); samples, with the part's poles beside them, where the tool
 /// tip is measured.
@@ -21,25 +21,26 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::SampledSt
 
 /// What of the cut is known by its modes: the part (null: a rigid one), and the tool where it is given by modes. None
 /// if nothing is.
-[[nodiscard]] std::optional<milling::RelativeStructure> cut_poles(const Case& source, const dynamics::ModalModel* part);
+[[nodiscard]] std::optional<milling::RelativeStructure> cut_poles(const cases::Case& source,
+                                                                  const dynamics::ModalModel* part);
 
 /// 0, 1, 2 of "tool.x", "tool.y", "tool.z".
 [[nodiscard]] int direction_of_dof(const std::string& dof);
 
 /// Whether one of the files is the transpose of `file`, an entry off the diagonal.
-[[nodiscard]] bool gives_reverse(const std::vector<MeasuredFrf>& files, const MeasuredFrf& file);
+[[nodiscard]] bool gives_reverse(const std::vector<setup::MeasuredFrf>& files, const setup::MeasuredFrf& file);
 
 /// Part and tool together; `frame` is the cut's, `part` must hold the point that is cut, null: a rigid part. Samples
 /// lie on the lines of the first measured file; what speaks against them is logged as a warning: a driving point that
 /// gives energy, the highest resonance with fewer than two lines in half its width. Throws InputError if nothing moves,
 /// DataError as io::read_frf and io::resample.
-[[nodiscard]] CutStructure cut_structure(const Case& source, const milling::ToolFrame& frame,
+[[nodiscard]] CutStructure cut_structure(const cases::Case& source, const milling::ToolFrame& frame,
                                          const dynamics::ModalModel* part);
 
 /// The part as it is held by a robot that has no poles: samples of `coupled` (part axes) at the point that is cut, on
 /// its lines, and the tool: its modes as poles, or its measured receptance put on these lines. Warns as above. Throws
 /// DataError as io::resample.
-[[nodiscard]] milling::SampledStructure sampled_structure(const Case& source, const milling::ToolFrame& frame,
+[[nodiscard]] milling::SampledStructure sampled_structure(const cases::Case& source, const milling::ToolFrame& frame,
                                                           const dynamics::ResponseModel& coupled);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

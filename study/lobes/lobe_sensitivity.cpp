@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "milling/chart/sensitivity.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
@@ -44,4 +44,4 @@ std::vector<ParameterSensitivity> parameter_sensitivities(const milling::Relativ
   }
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

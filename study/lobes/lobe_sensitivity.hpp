@@ -7,7 +7,7 @@
 #include "milling/structure/relative_structure.hpp"
 #include "study/results.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 /// depth_sensitivity() of a crossing, an entry for each parameter, largest magnitude first. `receptance` is a mode's
 /// height, the reciprocal of its modal mass. Empty, with a warning in the log, where the crossing is not found again.
@@ -18,4 +18,4 @@ namespace thinwall::app {
                                                                         const milling::LobePoint& point,
                                                                         const milling::StabilityOptions& options);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

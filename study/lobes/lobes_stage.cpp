@@ -19,11 +19,11 @@
 #include "study/lobes/lobe_sensitivity.hpp"
 #include "study/lobes/main_modes.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
-milling::MethodOptions options_of(const LobesOptions& wanted) {
+milling::MethodOptions options_of(const setup::LobesOptions& wanted) {
   milling::MethodOptions options;
   options.stability = stability_options(wanted);
   options.steps_per_period = wanted.steps_per_period.value_or(options.steps_per_period);
@@ -66,7 +66,7 @@ struct Chart {
 };
 
 /// Errors of the limiting depths, and at the case's own speed; the rows share out among the threads.
-void add_errors(const Case& source, const Chart& chart, const StructureErrors& errors, NamedLobes& result) {
+void add_errors(const cases::Case& source, const Chart& chart, const StructureErrors& errors, NamedLobes& result) {
   if (errors.none() || (chart.poles() != nullptr && !chart.direct)) return;  // crossings of other methods are their own
   const auto at = [&](const milling::LobeRow& row) {
     if (row.crossings.empty()) return DepthError{};
@@ -85,8 +85,9 @@ void add_errors(const Case& source, const Chart& chart, const StructureErrors& e
 }
 
 /// Of a stable point; none without poles or a feed. What the library does not model is a warning.
-std::optional<milling::ForcedVibration> forced_at(const Case& source, const PointStability& found, const Chart& chart) {
-  const auto feed = feed_per_tooth(source);
+std::optional<milling::ForcedVibration> forced_at(const cases::Case& source, const PointStability& found,
+                                                  const Chart& chart) {
+  const auto feed = setup::feed_per_tooth(source);
   if (chart.poles() == nullptr || !feed || !found.stable) return std::nullopt;
   try {
     return milling::forced_vibration(*chart.poles(), chart.process, found.point.spindle_speed_rpm, found.point.depth_m,
@@ -168,11 +169,11 @@ std::vector<milling::LobeRow> robust_rows(std::vector<milling::LobeRow> rows, co
   return rows;
 }
 
-void add_pockets(const Case& source, const milling::MillingProcess& process, NamedLobes& result) {
+void add_pockets(const cases::Case& source, const milling::MillingProcess& process, NamedLobes& result) {
   constexpr std::size_t most = 5;
   const milling::MachineLimits machine = source.machine.value_or(milling::MachineLimits{});
   std::optional<milling::CutLoad> load;
-  if (const auto feed = feed_per_tooth(source); feed && source.tool->end == "flat")
+  if (const auto feed = setup::feed_per_tooth(source); feed && source.tool->end == "flat")
     load = milling::cut_load(process, *feed);
   result.pockets = milling::best_pockets(result.lobes.rows, machine, load, most);
   if (!result.robust) return;
@@ -182,18 +183,18 @@ void add_pockets(const Case& source, const milling::MillingProcess& process, Nam
 
 }  // namespace
 
-milling::StabilityOptions stability_options(const LobesOptions& wanted) {
+milling::StabilityOptions stability_options(const setup::LobesOptions& wanted) {
   milling::StabilityOptions options;
   options.depth_limit_m = wanted.depth_limit;
   options.error_tolerance = wanted.tolerance;
   return options;
 }
 
-NamedLobes compute_lobes(const Case& source, const std::string& name, CutStructure structure,
+NamedLobes compute_lobes(const cases::Case& source, const std::string& name, CutStructure structure,
                          const StructureErrors& errors, const std::vector<milling::OperatingPoint>& points,
                          Checkpoint& kept) {
-  const LobesOptions& wanted = *source.lobes;
-  const milling::MillingProcess process = milling_process(source);
+  const setup::LobesOptions& wanted = *source.lobes;
+  const milling::MillingProcess process = setup::milling_process(source);
   const Chart chart{std::move(structure), process, options_of(wanted),
                     milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count), wanted.method == "direct"};
   NamedLobes result;
@@ -225,7 +226,7 @@ NamedLobes compute_lobes(const Case& source, const std::string& name, CutStructu
   return result;
 }
 
-void require_chart_of(const Case& source, const std::vector<milling::OperatingPoint>& points) {
+void require_chart_of(const cases::Case& source, const std::vector<milling::OperatingPoint>& points) {
   if (points.empty()) return;
   if (!source.lobes || !source.cutting || !source.tool)
     throw core::InputError("an operating point needs a chart; add [tool], [cutting] and [lobes] to the case");
@@ -238,4 +239,4 @@ void require_chart_of(const Case& source, const std::vector<milling::OperatingPo
   }
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

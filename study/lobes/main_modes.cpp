@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
@@ -42,4 +42,4 @@ std::vector<double> main_modes_hz(const CutStructure& structure) {
   return frequencies;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -21,7 +21,7 @@
 #include "study/part/part_stage.hpp"
 #include "study/support/support_stage.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
@@ -33,7 +33,7 @@ struct StructuresAlongPath {
 };
 
 /// How the robot stands at each position: as it was surveyed along the path, or in its one posture.
-std::vector<RobotPosture> postures_along_path(const Case& source, const Results& results) {
+std::vector<RobotPosture> postures_along_path(const cases::Case& source, const Results& results) {
   const std::size_t count = source.path->positions.size();
   const bool surveyed = results.survey && results.survey->over == "path";
   if (!source.path->robot_follows) return std::vector<RobotPosture>(count, *results.robot_posture);
@@ -42,13 +42,15 @@ std::vector<RobotPosture> postures_along_path(const Case& source, const Results&
   std::vector<RobotPosture> postures;
   std::optional<Eigen::VectorXd> near;
   for (std::size_t i = 0; i < count; ++i) {
-    postures.push_back(surveyed ? results.survey->tips[i].robot : robot_posture(at_position(source, i), near));
+    postures.push_back(surveyed ? results.survey->tips[i].robot
+                                : setup::robot_posture(setup::at_position(source, i), near));
     near = postures.back().posture.q;
   }
   return postures;
 }
 
-StructuresAlongPath structures_along_path(const Case& source, const Results& results, const milling::ToolFrame& frame) {
+StructuresAlongPath structures_along_path(const cases::Case& source, const Results& results,
+                                          const milling::ToolFrame& frame) {
   const auto& models = results.finite_elements->along_path;
   const bool supported = results.coupled && results.coupled->model;
   StructuresAlongPath structures;
@@ -57,7 +59,7 @@ StructuresAlongPath structures_along_path(const Case& source, const Results& res
   structures.supported.reserve(models.size());
   if (supported) structures.robot = postures_along_path(source, results);
   for (std::size_t i = 0; i < models.size(); ++i) {
-    const Case there = at_position(source, i);
+    const cases::Case there = setup::at_position(source, i);
     std::vector<reduction::IdentifiedMode> identified;
     const dynamics::SpatialModel part = damped(there, models[i], identified);
     const auto felt = [&](const dynamics::ModalModel& modal) {
@@ -66,16 +68,16 @@ StructuresAlongPath structures_along_path(const Case& source, const Results& res
     structures.part.push_back(felt(modes_of(part)));
     progress.step();
     if (!supported) continue;
-    const dynamics::SpatialModel robot = robot_matrices(*there.robot, structures.robot[i].posture);
+    const dynamics::SpatialModel robot = setup::robot_matrices(*there.robot, structures.robot[i].posture);
     structures.supported.push_back(felt(modes_of(coupling::couple(part, robot, contacts_of(there)))));
   }
   return structures;
 }
 
-PathLobes charts(const Case& source, const std::string& name, const std::string& method,
+PathLobes charts(const cases::Case& source, const std::string& name, const std::string& method,
                  const milling::MillingProcess& process, const std::vector<milling::RelativeStructure>& structures,
                  Checkpoint& kept) {
-  const LobesOptions& wanted = *source.lobes;
+  const setup::LobesOptions& wanted = *source.lobes;
   const auto speeds = milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count);
   auto rows =
       milling::lobe_field(structures, process, speeds, stability_options(wanted), kept_rows(kept, "path-" + name)).rows;
@@ -94,7 +96,7 @@ PathLobes charts(const Case& source, const std::string& name, const std::string&
 
 }  // namespace
 
-std::vector<dynamics::SpatialModel> models_along_path(const Case& source, const PartResult& part,
+std::vector<dynamics::SpatialModel> models_along_path(const cases::Case& source, const PartResult& part,
                                                       const linalg::ShiftedInverse& inverse) {
   const reduction::PartModes modes = reduction::part_modes(*part.reduced, part.model.M, inverse);
   const std::size_t count = source.path->positions.size();
@@ -103,7 +105,7 @@ std::vector<dynamics::SpatialModel> models_along_path(const Case& source, const 
   models.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     try {
-      const reduction::Interface interface = part_interface(at_position(source, i), part.model);
+      const reduction::Interface interface = part_interface(setup::at_position(source, i), part.model);
       models.push_back(reduction::with_attachment_modes(modes, part.model.M, inverse, interface));
       progress.step();
     } catch (const core::InputError& error) {
@@ -113,8 +115,8 @@ std::vector<dynamics::SpatialModel> models_along_path(const Case& source, const 
   return models;
 }
 
-std::vector<PathLobes> lobes_along_path(const Case& source, const Results& results, Checkpoint& kept) {
-  const milling::MillingProcess process = milling_process(source);
+std::vector<PathLobes> lobes_along_path(const cases::Case& source, const Results& results, Checkpoint& kept) {
+  const milling::MillingProcess process = setup::milling_process(source);
   const StructuresAlongPath structures = structures_along_path(source, results, process.frame);
   const std::string& method = results.lobes.front().lobes.method;
   if (structures.supported.empty() && results.coupled)
@@ -127,4 +129,4 @@ std::vector<PathLobes> lobes_along_path(const Case& source, const Results& resul
   return all;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

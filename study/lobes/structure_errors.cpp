@@ -13,7 +13,7 @@
 #include "setup/measured_noise.hpp"
 #include "study/support/support_stage.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
@@ -28,11 +28,12 @@ Matrix9d turn_of_entries(const milling::ToolFrame& frame) {
 }
 
 /// Of the tool's files on `axis`, part axes: an entry that serves as its transpose, too, scatters with it.
-milling::SampleCovariance tip_covariance(const std::vector<MeasuredFrf>& files, const dynamics::FrequencyAxis& axis) {
+milling::SampleCovariance tip_covariance(const std::vector<setup::MeasuredFrf>& files,
+                                         const dynamics::FrequencyAxis& axis) {
   milling::SampleCovariance covariance;
-  for (const MeasuredFrf& file : files) {
+  for (const setup::MeasuredFrf& file : files) {
     if (!file.noise && !file.averages) continue;
-    const Eigen::VectorXd sigma = *deviation_of(file, axis, io::resample(read_measured(file), axis));
+    const Eigen::VectorXd sigma = *setup::deviation_of(file, axis, io::resample(setup::read_measured(file), axis));
     const Index i = direction_of_dof(file.response), j = direction_of_dof(file.force);
     Eigen::Vector<double, 9> felt = Eigen::Vector<double, 9>::Unit(i + 3 * j);
     if (!gives_reverse(files, file)) felt(j + 3 * i) = 1.0;
@@ -43,7 +44,7 @@ milling::SampleCovariance tip_covariance(const std::vector<MeasuredFrf>& files, 
   return covariance;
 }
 
-void add_tool_noise(const Case& source, const milling::ToolFrame& frame, const dynamics::FrequencyAxis& axis,
+void add_tool_noise(const cases::Case& source, const milling::ToolFrame& frame, const dynamics::FrequencyAxis& axis,
                     milling::SampleCovariance& noise) {
   const Matrix9d turn = turn_of_entries(frame);
   const milling::SampleCovariance tool = tip_covariance(source.tool->measured, axis);
@@ -52,7 +53,8 @@ void add_tool_noise(const Case& source, const milling::ToolFrame& frame, const d
 }
 
 /// Of the coupled response at the point that is cut, tool axes.
-milling::SampleCovariance coupled_noise(const Case& source, const milling::ToolFrame& frame, const Results& results) {
+milling::SampleCovariance coupled_noise(const cases::Case& source, const milling::ToolFrame& frame,
+                                        const Results& results) {
   const std::string& at = source.cutting->at;
   const dynamics::DofTable dofs = dynamics::between(results.coupled->receptance.response, at, at).responses;
   std::vector<std::string> names;
@@ -102,8 +104,8 @@ DepthError sampled_error(const milling::SampledStructure& structure, const Struc
 
 }  // namespace
 
-StructureErrors structure_errors(const Case& source, const milling::ToolFrame& frame, const CutStructure& structure,
-                                 const dynamics::ModalModel* richer_part) {
+StructureErrors structure_errors(const cases::Case& source, const milling::ToolFrame& frame,
+                                 const CutStructure& structure, const dynamics::ModalModel* richer_part) {
   StructureErrors errors;
   if (richer_part != nullptr) errors.richer = cut_poles(source, richer_part);
   if (const auto* sampled = std::get_if<milling::SampledStructure>(&structure); sampled && !source.tool->swap)
@@ -111,7 +113,8 @@ StructureErrors structure_errors(const Case& source, const milling::ToolFrame& f
   return errors;
 }
 
-StructureErrors sampled_structure_errors(const Case& source, const milling::ToolFrame& frame, const Results& results) {
+StructureErrors sampled_structure_errors(const cases::Case& source, const milling::ToolFrame& frame,
+                                         const Results& results) {
   StructureErrors errors;
   const dynamics::ResponseModel& coupled = results.coupled->receptance.response;
   const Eigen::Matrix3Xd E =
@@ -140,4 +143,4 @@ DepthError depth_error(const CutStructure& structure, const StructureErrors& err
   }
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -11,7 +11,7 @@
 #include "fem/beam.hpp"
 #include "setup/measured.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
@@ -19,18 +19,18 @@ using Eigen::Vector3d;
 
 constexpr auto root = "root";
 
-dynamics::Tube tube(const ToolStep& step) {
+dynamics::Tube tube(const setup::ToolStep& step) {
   return {step.outer_diameter, step.inner_diameter, step.youngs_modulus, step.poisson_ratio, step.density};
 }
 
 /// The tool with the points that are wanted: its tip, its root and, where `up` is not empty, a point `distance` up.
-dynamics::SpatialModel free_tool(const std::vector<ToolStep>& steps, const ToolSwap& swap, const std::string& up,
-                                 const Vector3d& axis) {
+dynamics::SpatialModel free_tool(const std::vector<setup::ToolStep>& steps, const setup::ToolSwap& swap,
+                                 const std::string& up, const Vector3d& axis) {
   constexpr int elements = 8;
   std::vector<fem::CylinderStep> cylinders;
   std::vector<std::string> names{swap.tip};
   double from = 0.0;
-  for (const ToolStep& step : steps) {
+  for (const setup::ToolStep& step : steps) {
     const double to = from + step.length;
     const bool inside = !up.empty() && swap.distance > from && swap.distance < to;
     if (inside) {
@@ -94,7 +94,7 @@ coupling::RotationRule rule_of(const std::string& word) {
 }
 
 /// The measured FRFs as they are, or as the tip's displacements and rotations.
-dynamics::ResponseModel with_rotations(const dynamics::ResponseModel& measured, const ToolSwap& swap,
+dynamics::ResponseModel with_rotations(const dynamics::ResponseModel& measured, const setup::ToolSwap& swap,
                                        const std::vector<Vector3d>& directions, const Vector3d& axis) {
   if (swap.rotations == "none") return measured;
   coupling::RotationOptions options;
@@ -106,11 +106,11 @@ dynamics::ResponseModel with_rotations(const dynamics::ResponseModel& measured, 
 
 }  // namespace
 
-SwappedTip swapped_tip(const Case& source) {
-  const ToolSwap& swap = *source.tool->swap;
+SwappedTip swapped_tip(const cases::Case& source) {
+  const setup::ToolSwap& swap = *source.tool->swap;
   const Vector3d& axis = source.cutting->tool_axis;
-  const dynamics::FrequencyAxis lines = read_measured(swap.measured.front()).axis;
-  const dynamics::ResponseModel measured = measured_response(swap.measured, lines);
+  const dynamics::FrequencyAxis lines = setup::read_measured(swap.measured.front()).axis;
+  const dynamics::ResponseModel measured = setup::measured_response(swap.measured, lines);
   const std::vector<Vector3d> directions = directions_of(measured, axis);
   const coupling::Contact held = joint(directions, axis);
   const coupling::SwappedTool swapped =
@@ -138,4 +138,4 @@ SwappedTip swapped_tip(const Case& source) {
   return result;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

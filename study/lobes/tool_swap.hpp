@@ -5,7 +5,7 @@
 #include "coupling/tool_swap.hpp"
 #include "milling/direct/sampled_receptance.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 /// The tip's receptance across the tool's axis, part axes, and how well the swap could be done.
 struct SwappedTip {
@@ -18,6 +18,6 @@ struct SwappedTip {
 /// Both tools as free beams (fem/beam.hpp), held alike: only tools differ. On the lines of the first file. Throws
 /// InputError for a second point beyond the overhang, FRFs that are missing (named), and as coupling::tool_swap();
 /// DataError as read_measured() and io::resample(); NumericalError where the holder is not known at some line.
-[[nodiscard]] SwappedTip swapped_tip(const Case& source);
+[[nodiscard]] SwappedTip swapped_tip(const cases::Case& source);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -21,16 +21,16 @@
 #include "setup/path.hpp"
 #include "study/part/matrix_part.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
 /// Size near the named points, growing by `grading` (m of size per m of distance) away from them.
-std::function<double(const Eigen::Vector3d&)> graded_size(const Case& source) {
-  const MeshOptions& options = source.part->mesh;
+std::function<double(const Eigen::Vector3d&)> graded_size(const cases::Case& source) {
+  const setup::MeshOptions& options = source.part->mesh;
   if (!options.point_element_size) return {};
   std::vector<Eigen::Vector3d> points;
-  for (const Point& p : source.points) points.push_back(position(*source.part, p));
+  for (const setup::Point& p : source.points) points.push_back(setup::position(*source.part, p));
   const double growth = options.grading.value_or(1.5) - 1.0;
   return [points, growth, near = *options.point_element_size, far = *options.element_size](const Eigen::Vector3d& x) {
     double nearest = std::numeric_limits<double>::max();
@@ -40,15 +40,15 @@ std::function<double(const Eigen::Vector3d&)> graded_size(const Case& source) {
 }
 
 /// TetGen's mesh of the part's box, graded towards the named points where the case asks for it.
-mesh::TetMesh tetgen_mesh(const Case& source) {
-  const MeshOptions& wanted = source.part->mesh;
+mesh::TetMesh tetgen_mesh(const cases::Case& source) {
+  const setup::MeshOptions& wanted = source.part->mesh;
   mesh::TetgenOptions options;
   options.element_size_m = *wanted.element_size;
   options.radius_edge_ratio = wanted.quality;
   options.time_limit_s = wanted.time_limit;
   options.memory_limit_bytes = wanted.memory_limit;
   options.size_at = graded_size(source);
-  return mesh::tetrahedralise(mesh::surface({box_size(*source.part)}), options);
+  return mesh::tetrahedralise(mesh::surface({setup::box_size(*source.part)}), options);
 }
 
 double thinnest(const mesh::Prism& prism) {
@@ -59,9 +59,9 @@ double thinnest(const mesh::Prism& prism) {
 
 /// About the frequency (Hz) of the highest mode wanted: of a plate N modes lie below N · 2 c_L t / (√12 A), less what
 /// free edges add to their number; c_L the speed of longitudinal waves in a plate (Cremer, Heckl & Petersson 2005).
-double highest_frequency(const Case& source, const mesh::Prism& prism) {
+double highest_frequency(const cases::Case& source, const mesh::Prism& prism) {
   if (source.modes.range.up_to_hz) return *source.modes.range.up_to_hz;
-  const Material& m = source.part->material;
+  const setup::Material& m = source.part->material;
   const double wave_speed = std::sqrt(m.youngs_modulus / (m.density * (1.0 - m.poisson_ratio * m.poisson_ratio)));
   const double t = thinnest(prism);
   const double area = mesh::volume(prism) / t;
@@ -69,16 +69,16 @@ double highest_frequency(const Case& source, const mesh::Prism& prism) {
 }
 
 /// Length of a bending wave of a plate, 2π (E t² / (12 (1−ν²) ρ ω²))^¼, m.
-double bending_wavelength(const Material& m, double thickness, double hz) {
+double bending_wavelength(const setup::Material& m, double thickness, double hz) {
   const double omega = 2.0 * std::numbers::pi * hz;
   const double stiffness_over_mass = m.youngs_modulus * thickness * thickness /
                                      (12.0 * (1.0 - m.poisson_ratio * m.poisson_ratio) * m.density * omega * omega);
   return 2.0 * std::numbers::pi * std::pow(stiffness_over_mass, 0.25);
 }
 
-int along_axis(const Part& part, int through) {
+int along_axis(const setup::Part& part, int through) {
   if (part.bend->along) return *part.bend->along;
-  Eigen::Vector3d size = box_size(part);
+  Eigen::Vector3d size = setup::box_size(part);
   size[through] = 0.0;
   int longest = 0;
   size.maxCoeff(&longest);
@@ -86,8 +86,8 @@ int along_axis(const Part& part, int through) {
 }
 
 /// A mesh of the closed surface of a file with elements of the size that the case gives, one through the wall.
-mesh::TetMesh surface_mesh(const Case& source) {
-  const MeshOptions& wanted = source.part->mesh;
+mesh::TetMesh surface_mesh(const cases::Case& source) {
+  const setup::MeshOptions& wanted = source.part->mesh;
   mesh::SurfaceMeshOptions options;
   options.size.size_m = *wanted.element_size;
   options.limits = {wanted.time_limit, wanted.memory_limit};
@@ -99,15 +99,15 @@ mesh::TetMesh surface_mesh(const Case& source) {
 }
 
 /// Where the tolerance on receptances is to hold: at the interface, and at both ends and the middle of the path.
-std::vector<fem::NamedPoint> watched_points(const Case& source) {
+std::vector<fem::NamedPoint> watched_points(const cases::Case& source) {
   std::vector<fem::NamedPoint> points;
-  const auto add = [&points](const Case& at) {
+  const auto add = [&points](const cases::Case& at) {
     for (const std::string& name : at.reduction.interface) points.push_back(named_point(at, name));
   };
   add(source);
   if (!source.path) return points;
   const std::size_t last = source.path->positions.size() - 1;
-  for (const std::size_t i : {std::size_t{0}, last / 2, last}) add(at_position(source, i));
+  for (const std::size_t i : {std::size_t{0}, last / 2, last}) add(setup::at_position(source, i));
   return points;
 }
 
@@ -124,8 +124,8 @@ void log_steps(const fem::Estimate& estimate) {
 }
 
 /// Says what spheres of another material cost; returns their share of the part.
-double warn_of_misplaced(const Case& source, const mesh::TetMesh& mesh) {
-  const double share = misplaced_share(source, mesh);
+double warn_of_misplaced(const cases::Case& source, const mesh::TetMesh& mesh) {
+  const double share = setup::misplaced_share(source, mesh);
   if (share > 0.0)
     spdlog::warn(
         "{:.1e} of the part's volume is of the wrong material, for elements lie across the border of a sphere; a box, "
@@ -140,7 +140,7 @@ void add_misplaced(double share, fem::Estimate& estimate) {
   estimate.met = estimate.met && estimate.frequency <= estimate.tolerance;
 }
 
-Discretisation discretised(const Case& source, fem::Refined refined) {
+Discretisation discretised(const cases::Case& source, fem::Refined refined) {
   add_misplaced(warn_of_misplaced(source, refined.model.mesh), refined.estimate);
   log_steps(refined.estimate);
   Discretisation result{refined.model.mesh, refined.model.nodes.order, refined.estimate, {}};
@@ -148,14 +148,14 @@ Discretisation discretised(const Case& source, fem::Refined refined) {
   return result;
 }
 
-std::function<fem::Materials(const mesh::TetMesh&)> several_materials(const Case& source) {
+std::function<fem::Materials(const mesh::TetMesh&)> several_materials(const cases::Case& source) {
   if (source.part->materials.empty()) return {};
-  return [&source](const mesh::TetMesh& mesh) { return materials_on(source, mesh); };
+  return [&source](const mesh::TetMesh& mesh) { return setup::materials_on(source, mesh); };
 }
 
 /// The closed surface of a file, by its walls.
-Discretisation refined_surface(const Case& source) {
-  const MeshOptions& wanted = source.part->mesh;
+Discretisation refined_surface(const cases::Case& source) {
+  const setup::MeshOptions& wanted = source.part->mesh;
   fem::ClosedPartOptions options;
   options.tolerance = wanted.tolerance;
   options.modes = mode_options(source);
@@ -163,9 +163,9 @@ Discretisation refined_surface(const Case& source) {
   options.supports = supports_of(source);
   options.points = watched_points(source);
   options.points_hold = !source.reduction.interface.empty();
-  options.attachments = attachments_of(source);
+  options.attachments = setup::attachments_of(source);
   options.materials = several_materials(source);
-  options.divided = [&source](mesh::TetMesh mesh) { return cut_at_materials(source, std::move(mesh)); };
+  options.divided = [&source](mesh::TetMesh mesh) { return setup::cut_at_materials(source, std::move(mesh)); };
   options.levels = 2;
   options.memory_limit_bytes = core::available_memory_bytes();
   options.limits = {wanted.time_limit, wanted.memory_limit};
@@ -187,15 +187,15 @@ Discretisation refined_surface(const Case& source) {
   return discretised(source, std::move(part.refined));
 }
 
-Discretisation refined_to_tolerance(const Case& source) {
+Discretisation refined_to_tolerance(const cases::Case& source) {
   for (const std::string& warning : unreachable_tolerances(source)) spdlog::warn("{}", warning);
   if (source.part->shape == "surface") return refined_surface(source);
-  const MeshOptions& wanted = source.part->mesh;
-  fem::SolidPart part{[&](int level) { return cut_at_materials(source, graded_mesh(source, level)); },
+  const setup::MeshOptions& wanted = source.part->mesh;
+  fem::SolidPart part{[&](int level) { return setup::cut_at_materials(source, graded_mesh(source, level)); },
                       shaping(*source.part),
                       material_of(*source.part),
                       supports_of(source),
-                      attachments_of(source),
+                      setup::attachments_of(source),
                       several_materials(source)};
   fem::ToleranceOptions options;
   options.tolerance = wanted.tolerance;
@@ -215,7 +215,7 @@ Discretisation refined_to_tolerance(const Case& source) {
 
 }  // namespace
 
-PlanarPart planar(const Part& part) {
+PlanarPart planar(const setup::Part& part) {
   if (part.shape == "prism") return {part.prism, {0, 1, 2}};
   PlanarPart result;
   result.axes = {part.length_axis, part.height_axis, part.thickness_axis};
@@ -224,9 +224,9 @@ PlanarPart planar(const Part& part) {
   return result;
 }
 
-mesh::TetMesh graded_mesh(const Case& source, int level) {
+mesh::TetMesh graded_mesh(const cases::Case& source, int level) {
   const PlanarPart part = planar(*source.part);
-  const Eigen::Vector3d size = box_size(*source.part);
+  const Eigen::Vector3d size = setup::box_size(*source.part);
   const double wave =
       bending_wavelength(source.part->material, thinnest(part.prism), highest_frequency(source, part.prism));
   const double widest = std::max(size[part.axes[0]], size[part.axes[1]]);
@@ -234,28 +234,28 @@ mesh::TetMesh graded_mesh(const Case& source, int level) {
   options.size_m = source.part->mesh.element_size.value_or(std::min(0.3 * wave, 0.5 * widest) / std::pow(1.5, level));
   options.layers = (mesh::has_reentrant_edge(part.prism) ? 2 : 1) + level;
   options.spot_growth = level == 0 ? 4.0 : 2.0;
-  for (const Point& p : source.points) {
+  for (const setup::Point& p : source.points) {
     if (p.patch_radius <= 0.0) continue;
-    const Eigen::Vector3d x = position(*source.part, p);
+    const Eigen::Vector3d x = setup::position(*source.part, p);
     options.spots.push_back({{x[part.axes[0]], x[part.axes[1]]}, p.patch_radius});
   }
   return mesh::in_axes(mesh::mesh_prism(part.prism, options), part.axes);
 }
 
-mesh::Bend bend_of(const Part& part) {
+mesh::Bend bend_of(const setup::Part& part) {
   const int through = planar(part).axes[2];
   const int along = along_axis(part, through);
-  const Eigen::Vector3d middle = bounds(part).center();
+  const Eigen::Vector3d middle = setup::bounds(part).center();
   return {part.bend->radius, along, through, middle[along], middle[through]};
 }
 
-fem::Shaping shaping(const Part& part) {
+fem::Shaping shaping(const setup::Part& part) {
   if (!part.bend) return {};
   return [bend = bend_of(part)](mesh::LagrangeNodes& nodes) { mesh::bend(bend, nodes.positions); };
 }
 
-double mass(const Part& part, const mesh::TetMesh& flat) {
-  if (from_file(part)) return part.material.density * part.imported->surface->volume_m3;
+double mass(const setup::Part& part, const mesh::TetMesh& flat) {
+  if (setup::from_file(part)) return part.material.density * part.imported->surface->volume_m3;
   if (!part.bend) return part.material.density * mesh::volume(planar(part).prism);
   const mesh::Bend bend = bend_of(part);
   double volume = 0.0;
@@ -268,11 +268,11 @@ double mass(const Part& part, const mesh::TetMesh& flat) {
   return part.material.density * volume;
 }
 
-mesh::Region region_of(const Case& source, const std::string& name) {
+mesh::Region region_of(const cases::Case& source, const std::string& name) {
   const auto selection = std::find_if(source.selections.begin(), source.selections.end(),
-                                      [&](const Selection& s) { return s.name == name; });
+                                      [&](const setup::Selection& s) { return s.name == name; });
   if (selection == source.selections.end()) {
-    const Eigen::AlignedBox3d box = bounds(*source.part);
+    const Eigen::AlignedBox3d box = setup::bounds(*source.part);
     auto plane = std::get<mesh::PlaneRegion>(mesh::face_of({box.sizes()}, name));
     plane.point += box.min();
     return plane;
@@ -282,32 +282,32 @@ mesh::Region region_of(const Case& source, const std::string& name) {
   return mesh::SphereRegion{selection->sphere->centre, selection->sphere->radius};
 }
 
-std::vector<int> rows_held_by_sets(const Case& source, const mesh::SolidMesh& solid) {
+std::vector<int> rows_held_by_sets(const cases::Case& source, const mesh::SolidMesh& solid) {
   std::vector<int> rows;
-  for (const Support& support : source.part->supports) {
-    if (!names_node_set(source, support.on)) continue;
+  for (const setup::Support& support : source.part->supports) {
+    if (!setup::names_node_set(source, support.on)) continue;
     const auto& set = mesh::node_set(solid, support.on, source.part->file.path.string());
     for (const int row : fem::rows_of(set.nodes, support.fixed)) rows.push_back(row);
   }
   return rows;
 }
 
-fem::Material material_of(const Part& part) {
-  const Material& m = part.material;
+fem::Material material_of(const setup::Part& part) {
+  const setup::Material& m = part.material;
   return {m.youngs_modulus, m.poisson_ratio, m.density};
 }
 
-std::vector<fem::Support> supports_of(const Case& source) {
+std::vector<fem::Support> supports_of(const cases::Case& source) {
   std::vector<fem::Support> supports;
-  for (const Support& s : source.part->supports) {
-    if (!names_node_set(source, s.on)) supports.push_back({s.on, region_of(source, s.on), s.fixed});
+  for (const setup::Support& s : source.part->supports) {
+    if (!setup::names_node_set(source, s.on)) supports.push_back({s.on, region_of(source, s.on), s.fixed});
   }
   return supports;
 }
 
-double off_surface(const Part& part) {
+double off_surface(const setup::Part& part) {
   if (part.shape == "surface") return 0.01 * bounds(part).diagonal().norm();
-  const mesh::SolidMesh* solid = solid_of(part);
+  const mesh::SolidMesh* solid = setup::solid_of(part);
   if (solid == nullptr || solid->midside_offset < 1e-6) return 0.0;
   const auto vertex = [solid](int v) { return solid->mesh.vertices[static_cast<std::size_t>(v)]; };
   double longest = 0.0;
@@ -317,21 +317,21 @@ double off_surface(const Part& part) {
   return solid->midside_offset * longest;
 }
 
-fem::NamedPoint named_point(const Case& source, const std::string& name) {
-  const Point& p = point(source, name);
-  return {p.name, position(*source.part, p), p.patch_radius, p.directions, {}, {}, off_surface(*source.part)};
+fem::NamedPoint named_point(const cases::Case& source, const std::string& name) {
+  const setup::Point& p = setup::point(source, name);
+  return {p.name, setup::position(*source.part, p), p.patch_radius, p.directions, {}, {}, off_surface(*source.part)};
 }
 
-fem::ModeOptions mode_options(const Case& source) {
+fem::ModeOptions mode_options(const cases::Case& source) {
   return {source.modes.range.count.value_or(10), source.modes.range.up_to_hz, source.modes.verify_count};
 }
 
-std::vector<std::string> unreachable_tolerances(const Case& source) {
+std::vector<std::string> unreachable_tolerances(const cases::Case& source) {
   std::vector<std::string> warnings;
   if (!source.part || source.part->mesh.element_size) return warnings;
   if (source.part->shape == "matrices" || source.part->shape == "mesh") return warnings;
   for (const std::string& name : source.reduction.interface) {
-    if (point(source, name).patch_radius > 0.0) continue;
+    if (setup::point(source, name).patch_radius > 0.0) continue;
     warnings.push_back("points." + name +
                        " has no patch_radius: its receptance grows as the elements shrink, and no tolerance on it is "
                        "met; give the radius over which cutter or robot press");
@@ -339,8 +339,8 @@ std::vector<std::string> unreachable_tolerances(const Case& source) {
   return warnings;
 }
 
-Discretisation discretise(const Case& source) {
-  const Part& part = *source.part;
+Discretisation discretise(const cases::Case& source) {
+  const setup::Part& part = *source.part;
   if (part.shape == "matrices") {
     Discretisation result;
     result.solved.emplace(matrix_solution(source));
@@ -359,9 +359,9 @@ Discretisation discretise(const Case& source) {
   mesh::TetMesh mesh = part.shape == "surface"             ? surface_mesh(source)
                        : part.shape == "box" && !part.bend ? tetgen_mesh(source)
                                                            : graded_mesh(source, 0);
-  mesh = cut_at_materials(source, std::move(mesh));
+  mesh = setup::cut_at_materials(source, std::move(mesh));
   warn_of_misplaced(source, mesh);
   return {std::move(mesh), order, {}, {}};
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -17,7 +17,7 @@
 #include "reduction/rigid_count.hpp"
 #include "setup/imported_part.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
@@ -92,10 +92,11 @@ void count_rigid_motions(fem::Model& model) {
                   point, node, "xyz"[axis]));
 }
 
-Solution solved_matrices(const Case& source) {
+Solution solved_matrices(const cases::Case& source) {
   fem::Model model = model_of(*source.part->imported->matrices);
   if (!has_definite_mass(model))
-    require_definite_files(source.part->file.matrices, *source.part->imported->matrices);  // or the file's digits
+    cases::require_definite_files(source.part->file.matrices,
+                                  *source.part->imported->matrices);  // or the file's digits
   count_rigid_motions(model);
   fem::Factored factored = fem::factorise(model, core::available_memory_bytes());
   fem::ModeOptions options = mode_options(source);
@@ -110,26 +111,26 @@ Solution solved_matrices(const Case& source) {
 
 }  // namespace
 
-Solution matrix_solution(const Case& source) {
+Solution matrix_solution(const cases::Case& source) {
   try {
     return solved_matrices(source);
   } catch (const linalg::MemoryLimitError&) {
     throw;
   } catch (const core::NumericalError&) {
-    require_definite_files(source.part->file.matrices, *source.part->imported->matrices);
+    cases::require_definite_files(source.part->file.matrices, *source.part->imported->matrices);
     throw;
   }
 }
 
-reduction::Interface matrix_interface(const Case& source) {
+reduction::Interface matrix_interface(const cases::Case& source) {
   const dynamics::SparseModel& matrices = *source.part->imported->matrices;
   std::map<dynamics::NodeDof, int> row_of;
   for (std::size_t i = 0; i < matrices.dofs.size(); ++i) row_of[matrices.dofs[i]] = static_cast<int>(i);
   reduction::Interface interface;
   std::vector<Eigen::Triplet<double>> entries;
   for (const std::string& name : source.reduction.interface) {
-    const Point& p = point(source, name);
-    const int node = node_of(*source.part->imported, p).value();
+    const setup::Point& p = setup::point(source, name);
+    const int node = setup::node_of(*source.part->imported, p).value();
     for (const Eigen::Vector3d& n : p.directions) {
       for (int axis = 0; axis < 3; ++axis) {
         if (n[axis] == 0.0) continue;
@@ -145,4 +146,4 @@ reduction::Interface matrix_interface(const Case& source) {
   return interface;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 std::vector<double> part_damping_ratios(const Results& results) {
   const fem::Modes& modes = results.finite_elements->modes;
@@ -17,4 +17,4 @@ std::vector<double> part_damping_ratios(const Results& results) {
   return ratios;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -11,16 +11,16 @@
 #include "linalg/tall.hpp"
 #include "study/part/part_stage.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
 /// The rank-th mode that takes part at "P.x" by at least a tenth of the largest share φ²/ω².
-Eigen::Index participating_mode(const Case& source, const Solution& part, const UpdatingTarget& target) {
+Eigen::Index participating_mode(const cases::Case& source, const Solution& part, const setup::UpdatingTarget& target) {
   const auto dot = target.point.rfind('.');
-  const Point& p = point(source, target.point.substr(0, dot));
+  const setup::Point& p = setup::point(source, target.point.substr(0, dot));
   const fem::NamedPoint named{
-      p.name, position(*source.part, p), p.patch_radius, {dynamics::axis(target.point.substr(dot + 1))}};
+      p.name, setup::position(*source.part, p), p.patch_radius, {dynamics::axis(target.point.substr(dot + 1))}};
   const Eigen::Index rigid = part.modes.rigid_motions;
   const Eigen::VectorXd amplitude = part.modes.pairs.Phi.transpose() * fem::point_columns(part.model, named);
   const Eigen::ArrayXd share =
@@ -44,16 +44,17 @@ Eigen::Index most_alike(const Solution& part, const Eigen::VectorXd& reference) 
 
 }  // namespace
 
-core::InputError no_such_mode(const UpdatingTarget& target, std::size_t found) {
+core::InputError no_such_mode(const setup::UpdatingTarget& target, std::size_t found) {
   return core::InputError("updating: mode " + std::to_string(target.rank) + " at " + target.point +
                           " was asked for, but only " + std::to_string(found) +
                           " take part there; raise modes.count or modes.up_to, or choose another point");
 }
 
-PartEvaluation::PartEvaluation(const Case& start, const Updating& updating, const mesh::TetMesh& mesh, int order)
-    : updating_(updating), mesh_(mesh), order_(order), start_size_(box_size(*start.part)) {}
+PartEvaluation::PartEvaluation(const cases::Case& start, const setup::Updating& updating, const mesh::TetMesh& mesh,
+                               int order)
+    : updating_(updating), mesh_(mesh), order_(order), start_size_(setup::box_size(*start.part)) {}
 
-Eigen::VectorXd PartEvaluation::operator()(const Case& now) {
+Eigen::VectorXd PartEvaluation::operator()(const cases::Case& now) {
   latest_.reset();  // its memory first
   fem::Model part = model(now);
   fem::Factored factored = fem::factorise(part, core::available_memory_bytes());
@@ -62,17 +63,17 @@ Eigen::VectorXd PartEvaluation::operator()(const Case& now) {
   if (reference_.cols() == 0) reference_ = latest_->modes.pairs.Phi;
   parameters_ = parameters(now);
   chosen_.clear();
-  for (const UpdatingTarget& target : updating_.targets) chosen_.push_back(mode_of(now, target));
+  for (const setup::UpdatingTarget& target : updating_.targets) chosen_.push_back(mode_of(now, target));
   return latest_->modes.frequency_hz(chosen_);
 }
 
-fem::Model PartEvaluation::model(const Case& now) const {
-  return part_model(now, stretched(mesh_, start_size_, box_size(*now.part)), order_);
+fem::Model PartEvaluation::model(const cases::Case& now) const {
+  return part_model(now, stretched(mesh_, start_size_, setup::box_size(*now.part)), order_);
 }
 
-fem::Modes PartEvaluation::modes(const Case& now) {
+fem::Modes PartEvaluation::modes(const cases::Case& now) {
   int needed = 8;
-  for (const UpdatingTarget& target : updating_.targets) needed = std::max(needed, target.rank + 6);
+  for (const setup::UpdatingTarget& target : updating_.targets) needed = std::max(needed, target.rank + 6);
   fem::ModeOptions enough;
   enough.count = needed;
   enough.inverse_residual = 1e-6;  // far below what a fit can tell
@@ -87,28 +88,28 @@ fem::Modes PartEvaluation::modes(const Case& now) {
   return fem::modes(latest_->model, latest_->factored, enough);
 }
 
-Eigen::Index PartEvaluation::mode_of(const Case& now, const UpdatingTarget& target) const {
+Eigen::Index PartEvaluation::mode_of(const cases::Case& now, const setup::UpdatingTarget& target) const {
   const Eigen::Index number = target.rank - 1 + latest_->modes.rigid_motions;
   if (target.match == "participation") return participating_mode(now, *latest_, target);
   return target.match == "mac" ? most_alike(*latest_, reference_.col(number)) : number;
 }
 
-std::vector<double> PartEvaluation::parameters(const Case& now) const {
+std::vector<double> PartEvaluation::parameters(const cases::Case& now) const {
   std::vector<double> values;
   values.reserve(updating_.parameters.size());
-  for (const UpdatingParameter& p : updating_.parameters) values.push_back(get_value(now, p.key));
+  for (const setup::UpdatingParameter& p : updating_.parameters) values.push_back(cases::get_value(now, p.key));
   return values;
 }
 
-PartEvaluation::Neighbour PartEvaluation::neighbour(const Case& now, const UpdatingParameter& p) const {
+PartEvaluation::Neighbour PartEvaluation::neighbour(const cases::Case& now, const setup::UpdatingParameter& p) const {
   // Of the range. What is left out is of the order h (length / thickness)², for a bending shape that is carried along
   // by a stretched mesh shears it; round-off still leaves some five digits.
   constexpr double step = 1e-5;
-  const double value = get_value(now, p.key);
+  const double value = cases::get_value(now, p.key);
   const double inwards = value + step * (p.upper - p.lower) <= p.upper ? step : -step;
   for (const double h : {inwards, -inwards}) {
-    Case moved = now;
-    set_value(moved, p.key, value + h * (p.upper - p.lower));
+    cases::Case moved = now;
+    cases::set_value(moved, p.key, value + h * (p.upper - p.lower));
     Neighbour there{model(moved), h};
     if (there.model.free_rows == latest_->model.free_rows) return there;
   }
@@ -117,7 +118,7 @@ PartEvaluation::Neighbour PartEvaluation::neighbour(const Case& now, const Updat
                          "room around the nodes that they hold");
 }
 
-Eigen::MatrixXd PartEvaluation::slopes(const Case& now) const {
+Eigen::MatrixXd PartEvaluation::slopes(const cases::Case& now) const {
   const Eigen::MatrixXd Phi = latest_->modes.pairs.Phi(Eigen::all, chosen_);
   const Eigen::VectorXd lambda = latest_->modes.pairs.lambda(chosen_);
   const Eigen::ArrayXd hz = latest_->modes.frequency_hz(chosen_);
@@ -135,9 +136,9 @@ Eigen::MatrixXd PartEvaluation::slopes(const Case& now) const {
   return result;
 }
 
-std::optional<Solution> PartEvaluation::take(const Case& now) {
+std::optional<Solution> PartEvaluation::take(const cases::Case& now) {
   if (!latest_ || !as_asked_ || parameters(now) != parameters_) return std::nullopt;
   return std::exchange(latest_, std::nullopt);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

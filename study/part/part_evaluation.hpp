@@ -9,10 +9,10 @@
 #include "mesh/tet_mesh.hpp"
 #include "study/part/discretisation.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 /// The error of a target whose mode is not among the `found` ones.
-[[nodiscard]] core::InputError no_such_mode(const UpdatingTarget& target, std::size_t found);
+[[nodiscard]] core::InputError no_such_mode(const setup::UpdatingTarget& target, std::size_t found);
 
 /// The targets of an [[updating]] with on = "part", on the part as a case describes it. The mesh is stretched with the
 /// part and keeps its topology. A mode is found by its share at a point, by its likeness to the shape of the first
@@ -20,12 +20,12 @@ namespace thinwall::app {
 class PartEvaluation {
  public:
   /// `mesh` fits the part of `start`; it and `updating` are kept by reference.
-  PartEvaluation(const Case& start, const Updating& updating, const mesh::TetMesh& mesh, int order);
+  PartEvaluation(const cases::Case& start, const setup::Updating& updating, const mesh::TetMesh& mesh, int order);
 
   /// The targets' frequencies, Hz. The first evaluation, where a fit starts, is solved as far as a fit can tell; those
   /// after it as the case asks, for the last of them is the part itself. Throws InputError if a target names a mode
   /// that is not there. Cost: a modal solution.
-  Eigen::VectorXd operator()(const Case& now);
+  Eigen::VectorXd operator()(const cases::Case& now);
 
   /// Derivatives of the latest evaluation's frequencies by each parameter of the fit (targets × parameters, Hz per
   /// range from `lower` to `upper`). With K', M' the matrices at a parameter moved by h, and K φ = λ M φ, φᵀMφ = 1:
@@ -35,10 +35,10 @@ class PartEvaluation {
   /// (Fox & Kapoor 1968). Where modes share a frequency it is the derivative along the shape that was found.
   /// `now` must be the case of the latest evaluation. Throws InputError if the supports hold other nodes beside it.
   /// Cost: an assembly a parameter.
-  [[nodiscard]] Eigen::MatrixXd slopes(const Case& now) const;
+  [[nodiscard]] Eigen::MatrixXd slopes(const cases::Case& now) const;
 
   /// The latest solution, if it is of this case and as this case asks; it is given away.
-  [[nodiscard]] std::optional<Solution> take(const Case& now);
+  [[nodiscard]] std::optional<Solution> take(const cases::Case& now);
 
  private:
   /// The matrices with one parameter moved by h of its range.
@@ -47,13 +47,13 @@ class PartEvaluation {
     double h = 0.0;
   };
 
-  fem::Model model(const Case& now) const;
-  fem::Modes modes(const Case& now);
-  Eigen::Index mode_of(const Case& now, const UpdatingTarget& target) const;
-  std::vector<double> parameters(const Case& now) const;
-  Neighbour neighbour(const Case& now, const UpdatingParameter& p) const;
+  fem::Model model(const cases::Case& now) const;
+  fem::Modes modes(const cases::Case& now);
+  Eigen::Index mode_of(const cases::Case& now, const setup::UpdatingTarget& target) const;
+  std::vector<double> parameters(const cases::Case& now) const;
+  Neighbour neighbour(const cases::Case& now, const setup::UpdatingParameter& p) const;
 
-  const Updating& updating_;
+  const setup::Updating& updating_;
   const mesh::TetMesh& mesh_;
   int order_;
   Eigen::Vector3d start_size_;
@@ -65,4 +65,4 @@ class PartEvaluation {
   bool asked_suffices_ = true;        // until they turn out too few to look for the targets among them
 };
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

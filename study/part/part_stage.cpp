@@ -29,7 +29,7 @@
 #include "study/lobes/path_stage.hpp"
 #include "study/part/matrix_part.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
@@ -40,7 +40,7 @@ void require_solved(double relative_residual) {
 }
 
 /// As many modes as a tolerance on the interface's receptance needs.
-void reduce_to_tolerance(const Case& source, PartResult& part) {
+void reduce_to_tolerance(const cases::Case& source, PartResult& part) {
   reduction::Band band{source.response.from_hz, source.response.to_hz};
   if (const double least = least_loss_factor(source.damping, part.modes, band.from_hz, band.to_hz); least > 0.0)
     band.loss_factor = least;
@@ -62,7 +62,7 @@ void reduce_to_tolerance(const Case& source, PartResult& part) {
 }
 
 /// The reduced model and what it leaves out.
-void reduce(const Case& source, PartResult& part, const fem::Factored& factored) {
+void reduce(const cases::Case& source, PartResult& part, const fem::Factored& factored) {
   if (factored.sigma != 0.0)
     fem::require_motions_seen(part.model, part.modes, part.interface.W.transpose() * part.modes.pairs.Phi);
   if (source.reduction.tolerance) return reduce_to_tolerance(source, part);
@@ -101,7 +101,7 @@ std::vector<reduction::FullReceptance> full_receptances(const PartResult& part, 
   return result;
 }
 
-void check_reduction(const Case& source, PartResult& part, const fem::Factored& factored) {
+void check_reduction(const cases::Case& source, PartResult& part, const fem::Factored& factored) {
   const Eigen::Index rigid = part.modes.rigid_motions;
   const Eigen::VectorXd elastic = part.modes.frequency_hz.tail(part.modes.frequency_hz.size() - rigid);
   part.error_by_size = reduction::frequency_error_by_size(*part.reduced, elastic, static_cast<int>(rigid));
@@ -116,7 +116,7 @@ void check_reduction(const Case& source, PartResult& part, const fem::Factored& 
 
 }  // namespace
 
-double least_loss_factor(const Damping& damping, const fem::Modes& modes, double from_hz, double to_hz) {
+double least_loss_factor(const setup::Damping& damping, const fem::Modes& modes, double from_hz, double to_hz) {
   if (damping.model == "structural") return damping.loss_factor;
   if (damping.model == "modal") {
     double least = 2.0 * damping.ratio;
@@ -138,7 +138,7 @@ double least_loss_factor(const Damping& damping, const fem::Modes& modes, double
 namespace {
 
 /// The mesh of a file with its own nodes, curved where they are, or straight-sided of a higher order.
-fem::Model mesh_model(const Case& source, int order, const fem::Materials& materials) {
+fem::Model mesh_model(const cases::Case& source, int order, const fem::Materials& materials) {
   mesh::SolidMesh solid = source.part->imported->mesh->solid;
   if (order == 2) solid = mesh::with_order(std::move(solid), 2);
   mesh::LagrangeNodes nodes = order > 2 ? mesh::lagrange_nodes(solid.mesh, order) : solid.nodes;
@@ -146,7 +146,7 @@ fem::Model mesh_model(const Case& source, int order, const fem::Materials& mater
   if (order <= 2) {
     for (const int row : rows_held_by_sets(source, solid)) fixed.push_back(row);
   }
-  return fem::build_model(std::move(solid.mesh), std::move(nodes), materials, fixed, attachments_of(source));
+  return fem::build_model(std::move(solid.mesh), std::move(nodes), materials, fixed, setup::attachments_of(source));
 }
 
 }  // namespace
@@ -157,19 +157,19 @@ mesh::TetMesh stretched(mesh::TetMesh mesh, const Eigen::Vector3d& from_size, co
   return mesh;
 }
 
-fem::Model part_model(const Case& source, mesh::TetMesh mesh, int order) {
-  const fem::Materials materials = materials_on(source, mesh);
+fem::Model part_model(const cases::Case& source, mesh::TetMesh mesh, int order) {
+  const fem::Materials materials = setup::materials_on(source, mesh);
   if (source.part->shape == "mesh") return mesh_model(source, order, materials);
   return fem::supported_model(std::move(mesh), order, materials, supports_of(source), shaping(*source.part),
-                              attachments_of(source));
+                              setup::attachments_of(source));
 }
 
-reduction::Interface part_interface(const Case& source, const fem::Model& model) {
+reduction::Interface part_interface(const cases::Case& source, const fem::Model& model) {
   if (source.part->shape == "matrices") return matrix_interface(source);
   reduction::Interface interface;
   std::vector<Eigen::Triplet<double>> entries;
   for (const std::string& name : source.reduction.interface) {
-    const Point& p = point(source, name);
+    const setup::Point& p = setup::point(source, name);
     const linalg::SparseMatrix columns = fem::point_columns(model, named_point(source, name));
     for (Eigen::Index j = 0; j < columns.cols(); ++j) {
       for (linalg::SparseMatrix::InnerIterator it(columns, j); it; ++it) {
@@ -183,22 +183,23 @@ reduction::Interface part_interface(const Case& source, const fem::Model& model)
   return interface;
 }
 
-dynamics::SpatialModel damped(const Case& source, const dynamics::SpatialModel& reduced,
+dynamics::SpatialModel damped(const cases::Case& source, const dynamics::SpatialModel& reduced,
                               std::vector<reduction::IdentifiedMode>& identified) {
-  const Damping& damping = source.damping;
+  const setup::Damping& damping = source.damping;
   if (damping.model == "matrices") return reduced;
   if (damping.model == "rayleigh") return reduction::with_rayleigh_damping(reduced, damping.alpha, damping.beta);
   if (damping.model == "structural") return reduction::with_structural_damping(reduced, damping.loss_factor);
   if (!damping.from_frf) return reduction::with_modal_damping(reduced, damping.ratios, damping.ratio);
-  const io::MeasuredFrf frf = read_measured(*damping.from_frf);
+  const io::MeasuredFrf frf = setup::read_measured(*damping.from_frf);
   identified = reduction::identify_modes(frf.axis, frf.H);
-  return reduction::with_modal_damping(reduced, matched_ratios(reduced, identified, damping.ratio), damping.ratio);
+  return reduction::with_modal_damping(reduced, setup::matched_ratios(reduced, identified, damping.ratio),
+                                       damping.ratio);
 }
 
 namespace {
 
 /// C of the part's file on the reduced coordinates, TᵀCT.
-void take_damping_of_file(const Case& source, PartResult& part) {
+void take_damping_of_file(const cases::Case& source, PartResult& part) {
   if (source.part->shape != "matrices" || !source.part->imported->matrices->has_damping()) return;
   if (source.damping.model == "matrices") {
     const Eigen::MatrixXd C_T = source.part->imported->matrices->C * part.reduced->T;
@@ -231,15 +232,15 @@ void look_at_mesh(PartResult& part) {
 }
 
 /// The matrix's mass against the geometry's: exact for straight elements, to the accuracy of the curve for bent ones.
-void check_mass(const Case& source, PartResult& part) {
+void check_mass(const cases::Case& source, PartResult& part) {
   const bool summed = source.part->shape == "mesh" || !source.part->materials.empty();
   if (summed && part.model.curved_elements > 0) return;  // nothing to compare with
-  const double expected =
-      summed ? mass(materials_on(source, part.model.mesh), part.model.mesh) : mass(*source.part, part.model.mesh);
+  const double expected = summed ? setup::mass(setup::materials_on(source, part.model.mesh), part.model.mesh)
+                                 : mass(*source.part, part.model.mesh);
   part.mass_difference = std::abs(part.model.mass.mass_kg / expected - 1.0);
   double bound = part.model.curved_elements > 0 ? 1e-4 : 1e-8;
   if (source.part->shape == "surface" && !summed) {
-    const MeshOptions& mesh = source.part->mesh;
+    const setup::MeshOptions& mesh = source.part->mesh;
     bound = mesh.element_size ? mesh::SurfaceMeshOptions{}.volume_tolerance : fem::share_of_surface * mesh.tolerance;
   }
   if (part.mass_difference < bound) return;
@@ -251,7 +252,7 @@ void check_mass(const Case& source, PartResult& part) {
 
 }  // namespace
 
-Solution solved_part(const Case& source, Discretisation discretisation, Stages& stages) {
+Solution solved_part(const cases::Case& source, Discretisation discretisation, Stages& stages) {
   if (discretisation.solved) return std::move(*discretisation.solved);
   stages.begin("assembly");
   fem::Model model = part_model(source, std::move(discretisation.mesh), discretisation.order);
@@ -261,7 +262,7 @@ Solution solved_part(const Case& source, Discretisation discretisation, Stages& 
   return {std::move(model), std::move(factored), std::move(modes)};
 }
 
-PartResult compute_part(const Case& source, Discretisation discretisation, Stages& stages) {
+PartResult compute_part(const cases::Case& source, Discretisation discretisation, Stages& stages) {
   PartResult part;
   part.estimate = discretisation.estimate;
   Solution solved = solved_part(source, std::move(discretisation), stages);
@@ -304,4 +305,4 @@ PartResult compute_part(const Case& source, Discretisation discretisation, Stage
   return part;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -13,7 +13,7 @@
 #include "setup/milling_process.hpp"
 #include "study/support/support_stage.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
@@ -49,10 +49,10 @@ dynamics::ResponseModel response_on(const Component& known, const dynamics::Freq
 
 /// What presses the contact, N, and the unit vector along which it presses the tip: the normal of an only contact with
 /// a preload along it (preload_of()), turned to the side from which robot.preload comes; else robot.preload.
-std::pair<double, Eigen::Vector3d> pressing_force(const Case& source) {
+std::pair<double, Eigen::Vector3d> pressing_force(const cases::Case& source) {
   const Eigen::Vector3d& on_tip = source.robot->preload;
-  const Contact& first = source.contacts.front();
-  if (const auto preload = preload_of(source, first); preload && source.contacts.size() == 1) {
+  const setup::Contact& first = source.contacts.front();
+  if (const auto preload = setup::preload_of(source, first); preload && source.contacts.size() == 1) {
     const Eigen::Vector3d& normal = first.directions.front();
     return {*preload, on_tip.dot(normal) < 0.0 ? Eigen::Vector3d(-normal) : normal};
   }
@@ -63,7 +63,7 @@ std::pair<double, Eigen::Vector3d> pressing_force(const Case& source) {
 
 }  // namespace
 
-ContactForce contact_force(const Case& source, const Component& part, const Component& tip,
+ContactForce contact_force(const cases::Case& source, const Component& part, const Component& tip,
                            const milling::ForcedVibration& cut) {
   const auto [preload, n] = pressing_force(source);
   dynamics::FrequencyAxis axis{Eigen::VectorXd::LinSpaced(harmonics + 1, 0.0, static_cast<double>(harmonics)) /
@@ -75,7 +75,7 @@ ContactForce contact_force(const Case& source, const Component& part, const Comp
   forces.insert(forces.end(), both[1].forces.begin(), both[1].forces.end());
   const Eigen::Matrix3Xd at_tip = dynamics::displacement_matrix(forces, source.robot->point);
   const Eigen::Matrix3Xd at_cut = dynamics::displacement_matrix(sensitivity.forces, source.cutting->at);
-  const Eigen::Matrix3Xcd F = force_harmonics(cut, milling_process(source).frame.rotation());
+  const Eigen::Matrix3Xcd F = force_harmonics(cut, setup::milling_process(source).frame.rotation());
   ContactForce result{preload, preload, preload, false};
   constexpr int samples = 512;
   Eigen::VectorXd force = Eigen::VectorXd::Constant(samples, preload);
@@ -93,4 +93,4 @@ ContactForce contact_force(const Case& source, const Component& part, const Comp
   return result;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -4,7 +4,7 @@
 #include "case/case.hpp"
 #include "study/results.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 /// The force of the part on the robot's tip along the preload over a period of the cut, and whether it falls to zero.
 /// With the harmonics F_k of the cutting force on the part at the cut and Q of dG = P dY Q (coupling/sensitivity.hpp),
@@ -15,7 +15,7 @@ namespace thinwall::app {
 /// N₀ and n: preload and normal of an only contact (setup/contact_model.hpp), else size and direction of robot.preload;
 /// the mean force (k = 0) at a thousandth of the first harmonic. The coupling is two-sided: where N < 0 it is not what
 /// the robot does. `tip`: the robot in its posture. Throws InputError without preload. Cost: 65 lines of a coupling.
-[[nodiscard]] ContactForce contact_force(const Case& source, const Component& part, const Component& tip,
+[[nodiscard]] ContactForce contact_force(const cases::Case& source, const Component& part, const Component& tip,
                                          const milling::ForcedVibration& cut);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

@@ -15,13 +15,13 @@
 #include "setup/measured.hpp"
 #include "setup/measured_layout.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
 constexpr double far_above_one = 4.0;  // residuals twice the noise
 
-std::string name_of(const Contact& contact) {
+std::string name_of(const setup::Contact& contact) {
   return contact.part_point + "-" + contact.robot_point;
 }
 
@@ -66,7 +66,7 @@ void add_name(std::vector<std::string>& names, const std::string& name) {
 }
 
 /// Which file gives the entry, or else its transpose.
-std::size_t file_of(const MeasuredLayout& layout, const std::string& response, const std::string& force) {
+std::size_t file_of(const setup::MeasuredLayout& layout, const std::string& response, const std::string& force) {
   const auto place = [&](const std::string& name) {
     return std::ranges::find(layout.dofs, name) - layout.dofs.begin();
   };
@@ -77,7 +77,7 @@ std::size_t file_of(const MeasuredLayout& layout, const std::string& response, c
 
 dynamics::DofTable dofs_of(const std::vector<std::string>& names) {
   dynamics::DofTable dofs;
-  std::ranges::transform(names, std::back_inserter(dofs), dof_of);
+  std::ranges::transform(names, std::back_inserter(dofs), setup::dof_of);
   return dofs;
 }
 
@@ -90,10 +90,10 @@ Eigen::MatrixXd without_negative_part(const Eigen::MatrixXd& matrix) {
   return 0.5 * (raised + raised.transpose());
 }
 
-coupling::IdentificationOptions options_of(const Contact& contact) {
+coupling::IdentificationOptions options_of(const setup::Contact& contact) {
   coupling::IdentificationOptions options;
-  options.response_point = point_of(contact.measured.front().response);
-  options.force_point = point_of(contact.measured.front().force);
+  options.response_point = cases::point_of(contact.measured.front().response);
+  options.force_point = cases::point_of(contact.measured.front().force);
   // The case states the deviation of real and imaginary part, the library takes that of both together.
   const auto level = [&](std::size_t which) {
     return Eigen::VectorXd::Constant(1, std::numbers::sqrt2 * contact.noise[which]);
@@ -105,7 +105,7 @@ coupling::IdentificationOptions options_of(const Contact& contact) {
 }
 
 /// Throws NumericalError unless there is a stiffness that can be joined.
-void require_stiffness(const coupling::IdentifiedJoint& found, const Contact& contact) {
+void require_stiffness(const coupling::IdentifiedJoint& found, const setup::Contact& contact) {
   if (found.status == coupling::IdentificationStatus::no_information) {
     throw core::NumericalError(
         "the FRFs of the assembly hold too little of contact " + name_of(contact) +
@@ -123,19 +123,21 @@ void require_stiffness(const coupling::IdentifiedJoint& found, const Contact& co
 
 }  // namespace
 
-dynamics::ResponseModel assembly_response(const std::vector<MeasuredFrf>& files, const dynamics::FrequencyAxis& axis) {
+dynamics::ResponseModel assembly_response(const std::vector<setup::MeasuredFrf>& files,
+                                          const dynamics::FrequencyAxis& axis) {
   std::vector<io::MeasuredFrf> frfs;
   std::vector<std::string> responses, forces;
-  const bool one_point = std::ranges::all_of(
-      files, [](const MeasuredFrf& file) { return point_of(file.response) == point_of(file.force); });
-  for (const MeasuredFrf& file : files) {
-    frfs.push_back(read_measured(file));
+  const bool one_point = std::ranges::all_of(files, [](const setup::MeasuredFrf& file) {
+    return cases::point_of(file.response) == cases::point_of(file.force);
+  });
+  for (const setup::MeasuredFrf& file : files) {
+    frfs.push_back(setup::read_measured(file));
     add_name(responses, file.response);
     add_name(one_point ? responses : forces, file.force);
   }
   if (one_point) forces = responses;
   dynamics::ResponseModel model{common_axis(frfs, axis), dofs_of(responses), dofs_of(forces), {}};
-  const MeasuredLayout layout = measured_layout(files);
+  const setup::MeasuredLayout layout = setup::measured_layout(files);
   const auto rows = static_cast<Eigen::Index>(responses.size()), columns = static_cast<Eigen::Index>(forces.size());
   model.H.assign(static_cast<std::size_t>(model.axis.size()), Eigen::MatrixXcd(rows, columns));
   std::vector<Eigen::VectorXcd> lines;
@@ -151,10 +153,10 @@ dynamics::ResponseModel assembly_response(const std::vector<MeasuredFrf>& files,
   return model;
 }
 
-ContactIdentification identify_contact(const Case& source, const Component& part, const Component& robot) {
-  const Contact& contact = source.contacts.front();
+ContactIdentification identify_contact(const cases::Case& source, const Component& part, const Component& robot) {
+  const setup::Contact& contact = source.contacts.front();
   const dynamics::ResponseModel assembly = assembly_response(contact.measured, part.response.axis);
-  warn_of_doubts(assembly, "the assembly's");
+  setup::warn_of_doubts(assembly, "the assembly's");
   const Eigen::VectorXd& hz = assembly.axis.hz;
   const auto lines = lines_within(part.response.axis, hz(0), hz(hz.size() - 1));
   coupling::Contact joined{contact.part_point, contact.robot_point, {}, {}};
@@ -173,7 +175,7 @@ ContactIdentification identify_contact(const Case& source, const Component& part
   return result;
 }
 
-void warn_of_misfit(const Case& source, const ContactIdentification& identification) {
+void warn_of_misfit(const cases::Case& source, const ContactIdentification& identification) {
   const std::string contact = name_of(source.contacts.front());
   const double chi_squared = identification.found.chi_squared;
   if (chi_squared > far_above_one) {
@@ -189,4 +191,4 @@ void warn_of_misfit(const Case& source, const ContactIdentification& identificat
                  contact);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

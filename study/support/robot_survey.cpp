@@ -17,7 +17,7 @@
 #include "setup/robot_tip.hpp"
 #include "study/support/support_stage.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
@@ -46,15 +46,15 @@ double stiffness_of(double compliance, double largest) {
   return std::abs(compliance) > 1e-12 * largest ? 1.0 / compliance : infinite;
 }
 
-TipReport report_at(const Case& source, const std::optional<Eigen::VectorXd>& near) {
-  const RobotPosture robot = robot_posture(source, near);
+TipReport report_at(const cases::Case& source, const std::optional<Eigen::VectorXd>& near) {
+  const RobotPosture robot = setup::robot_posture(source, near);
   const bool measured = source.robot->model == "measured";
   const dynamics::FrequencyAxis one_line{Eigen::VectorXd::Ones(1)};  // modes and stiffness need no more
-  return tip_report(robot, robot_component(source, measured ? frequency_axis(source) : one_line, robot.posture));
+  return tip_report(robot, setup::robot_component(source, measured ? frequency_axis(source) : one_line, robot.posture));
 }
 
 /// Adds the robot of `there`, or why it cannot stand so.
-void add(const Case& there, const Eigen::Vector3d& place, RobotSurvey& survey) {
+void add(const cases::Case& there, const Eigen::Vector3d& place, RobotSurvey& survey) {
   std::optional<Eigen::VectorXd> near;
   if (!survey.tips.empty()) near = survey.tips.back().robot.posture.q;
   try {
@@ -179,13 +179,13 @@ TipReport tip_report(const RobotPosture& robot, const Component& tip) {
   return report;
 }
 
-RobotSurvey survey(const Case& source, const std::optional<TipReport>& as_it_stands) {
+RobotSurvey survey(const cases::Case& source, const std::optional<TipReport>& as_it_stands) {
   if (!source.robot) throw core::InputError("the case has no robot; add [robot]");
   const auto own_tip = [&] { return as_it_stands ? *as_it_stands : report_at(source, {}); };
   RobotSurvey survey;
   if (!source.robot->workspace.empty()) {
     survey.over = "workspace";
-    Case there = source;
+    cases::Case there = source;
     there.robot->workspace.clear();
     for (const Eigen::Vector3d& place : source.robot->workspace) {
       there.robot->posture.tip = place;
@@ -198,7 +198,7 @@ RobotSurvey survey(const Case& source, const std::optional<TipReport>& as_it_sta
       return survey;
     }
     for (std::size_t i = 0; i < source.path->positions.size(); ++i)
-      add(at_position(source, i), source.path->positions[i], survey);
+      add(setup::at_position(source, i), source.path->positions[i], survey);
   } else {
     survey.tips.push_back(own_tip());
   }
@@ -251,7 +251,7 @@ std::string survey_text(const RobotSurvey& survey) {
   return text;
 }
 
-void write_survey(const std::filesystem::path& folder, const Case& source, const RobotSurvey& survey) {
+void write_survey(const std::filesystem::path& folder, const cases::Case& source, const RobotSurvey& survey) {
   const std::filesystem::path below = folder / "robot";
   std::filesystem::remove_all(below);  // tables of an earlier survey
   std::filesystem::create_directories(below);
@@ -262,4 +262,4 @@ void write_survey(const std::filesystem::path& folder, const Case& source, const
   if (source.robot->model == "flexible_joints") write_arms(below / "postures.vtu", source.robot->arm, survey, table);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

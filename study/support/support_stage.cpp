@@ -10,14 +10,14 @@
 #include "setup/measured.hpp"
 #include "study/sensor_mass.hpp"
 
-namespace thinwall::app {
+namespace thinwall::study {
 
 namespace {
 
 /// Names of a contact's directed DOFs on the part, "P.x".
-std::vector<std::string> contact_dofs(const Case& source) {
+std::vector<std::string> contact_dofs(const cases::Case& source) {
   std::vector<std::string> names;
-  for (const Contact& c : source.contacts) {
+  for (const setup::Contact& c : source.contacts) {
     for (const auto& n : c.directions)
       names.push_back(dynamics::name({c.part_point, n, dynamics::DofKind::translation}));
   }
@@ -73,8 +73,8 @@ void add_spatial_route(const Component& part, const Component& robot, const std:
 
 }  // namespace
 
-dynamics::FrequencyAxis frequency_axis(const Case& source) {
-  const ResponseOptions& r = source.response;
+dynamics::FrequencyAxis frequency_axis(const cases::Case& source) {
+  const setup::ResponseOptions& r = source.response;
   return r.logarithmic ? dynamics::logarithmic_axis(r.from_hz, r.to_hz, r.lines)
                        : dynamics::linear_axis(r.from_hz, r.to_hz, r.lines);
 }
@@ -94,20 +94,21 @@ Component component(dynamics::SpatialModel model, const dynamics::FrequencyAxis&
   return result;
 }
 
-Component measured_part(const Case& source, const dynamics::FrequencyAxis& axis) {
+Component measured_part(const cases::Case& source, const dynamics::FrequencyAxis& axis) {
   Component part;
-  part.response = without_sensors(measured_response(source.measured_part, axis), source.part_sensors, "the part's");
+  part.response =
+      without_sensors(setup::measured_response(source.measured_part, axis), source.part_sensors, "the part's");
   return part;
 }
 
-std::vector<coupling::Contact> contacts_of(const Case& source) {
+std::vector<coupling::Contact> contacts_of(const cases::Case& source) {
   std::vector<coupling::Contact> contacts;
   contacts.reserve(source.contacts.size());
-  for (JoinedContact& joined : joined_contacts(source)) contacts.push_back(std::move(joined.contact));
+  for (JoinedContact& joined : setup::joined_contacts(source)) contacts.push_back(std::move(joined.contact));
   return contacts;
 }
 
-coupling::CouplingOptions coupling_options(const Case& source) {
+coupling::CouplingOptions coupling_options(const cases::Case& source) {
   coupling::CouplingOptions options;
   if (source.coupling.regularisation == "truncated") options.regularisation = coupling::Regularisation::truncated;
   if (source.coupling.regularisation == "tikhonov") options.regularisation = coupling::Regularisation::tikhonov;
@@ -119,7 +120,7 @@ dynamics::ModalModel modes_of(const dynamics::SpatialModel& model) {
   return dynamics::to_modal(model.has_structural_damping() ? dynamics::equivalent_viscous(model) : model);
 }
 
-CouplingResult couple(const Case& source, const Component& part, const Component& robot) {
+CouplingResult couple(const cases::Case& source, const Component& part, const Component& robot) {
   const auto contacts = contacts_of(source);
   const dynamics::FrequencyAxis& axis = part.response.axis;
   const coupling::CouplingOptions options = coupling_options(source);
@@ -157,7 +158,8 @@ std::vector<Participation> participating_modes(const dynamics::ModalModel& model
   return all;
 }
 
-std::vector<AmplitudeReduction> reductions(const Case& source, const Component& part, const CouplingResult& coupled) {
+std::vector<AmplitudeReduction> reductions(const cases::Case& source, const Component& part,
+                                           const CouplingResult& coupled) {
   std::vector<AmplitudeReduction> result;
   const dynamics::FrequencyAxis& axis = part.response.axis;
   for (const std::string& dof : contact_dofs(source)) {
@@ -179,4 +181,4 @@ std::vector<AmplitudeReduction> reductions(const Case& source, const Component& 
   return result;
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::study

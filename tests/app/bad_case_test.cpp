@@ -10,7 +10,11 @@
 #include "case_text.hpp"
 #include "core/atomic_file.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+
 namespace {
 
 std::vector<Problem> problems_of(const std::string& text) {
@@ -465,4 +469,4 @@ TEST(BadMesh, ToleranceAndSizeOutOfRangeOrAtOddsAreRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -10,7 +10,11 @@
 #include "case_text.hpp"
 #include "core/error.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+
 namespace {
 
 TEST(Case, QuantitiesArriveInSi) {
@@ -170,4 +174,4 @@ TEST(Expectation, AFigureMayBeComparedWithAnother) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

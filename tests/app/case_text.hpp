@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace thinwall::app {
+namespace thinwall::tests {
 
 inline std::string plate_case() {
   return R"(title = "plate"
@@ -91,4 +91,4 @@ inline std::string with(std::string text, const std::string& from, const std::st
   return place == std::string::npos ? "" : text.replace(place, from.size(), to);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -17,7 +17,14 @@
 #include "report/lobes_answers.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
+using namespace report;
+using namespace app;
+
 namespace {
 
 /// The one-DOF benchmark: two teeth, K_t 600 N/mm², a tenth of the diameter.
@@ -266,4 +273,4 @@ TEST(ChartChoicesBad, AMachineThatCannotBeIsRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

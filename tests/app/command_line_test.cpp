@@ -20,7 +20,13 @@
 #include "report/summary.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace cases;
+using namespace study;
+using namespace report;
+using namespace app;
+
 namespace {
 
 struct Outcome {
@@ -369,4 +375,4 @@ TEST_F(Compare, ADamagedSummaryIsToldWithItsFile) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -14,7 +14,11 @@
 #include "core/atomic_file.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace cases;
+using namespace app;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -184,4 +188,4 @@ TEST(ManualPage, GroffHasNothingToSayOfIt) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -19,7 +19,12 @@
 #include "study/support/support_stage.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
+
 namespace {
 
 /// The plate's contact with more lines.
@@ -270,4 +275,4 @@ TEST(ContactCase, ARegularisationIsAskedForInFull) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -10,7 +10,12 @@
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
+
 namespace {
 
 constexpr double m1 = 2.0, k1 = 5e6, c1 = 40.0, m2 = 30.0, k2 = 2e6, c2 = 200.0, kc = 3e6;
@@ -105,4 +110,4 @@ TEST(ContactForce, IsLostWhereTheCutPullsHarderThanTheRobotPresses) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -12,7 +12,11 @@
 #include "milling/cut/chip_load.hpp"
 #include "setup/milling_process.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -153,4 +157,4 @@ TEST(CuttingCase, WrongLawsAreRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

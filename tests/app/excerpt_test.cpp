@@ -6,7 +6,10 @@
 #include "case/reader.hpp"
 #include "case_text.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace cases;
+
 namespace {
 
 /// What a case with `overrides` shows beneath its only problem.
@@ -88,4 +91,4 @@ TEST(Excerpt, LongLinesAreCutAndControlCharactersDoNotReachTheTerminal) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

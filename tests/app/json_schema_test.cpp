@@ -12,7 +12,10 @@
 #include "core/atomic_file.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace cases;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -100,4 +103,4 @@ TEST(JsonSchema, AValidatorTakesEveryCaseOfOursAndRefusesWrongOnes) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace study;
+
 namespace {
 
 /// Zero at (0.3, 0.6), bent enough that one Gauss-Newton step does not do.
@@ -50,4 +53,4 @@ TEST(LeastSquares, DifferencesStayWithinTheRange) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

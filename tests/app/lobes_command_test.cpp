@@ -13,7 +13,13 @@
 #include "core/atomic_file.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
+using namespace app;
+
 namespace {
 
 struct Outcome {
@@ -276,4 +282,4 @@ TEST_F(LobesCommand, HelixAndPitchesDoNotGoWithFrfs) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

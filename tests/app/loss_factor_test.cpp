@@ -6,7 +6,11 @@
 
 #include "study/part/part_stage.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace study;
+
 namespace {
 
 fem::Modes modes_at(const Eigen::VectorXd& hz) {
@@ -48,4 +52,4 @@ TEST(LeastLossFactor, OfRayleighDampingIsThatOfTheModesInTheBand) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

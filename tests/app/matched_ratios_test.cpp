@@ -6,7 +6,10 @@
 #include "core/error.hpp"
 #include "setup/measured.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+
 namespace {
 
 // Two free masses of 1 kg on a spring: a rigid motion and sqrt(2 k). What was measured belongs to the elastic mode.
@@ -31,4 +34,4 @@ TEST(MatchedRatios, OfAFreePartBelongToItsElasticModes) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

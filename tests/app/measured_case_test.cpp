@@ -26,7 +26,13 @@
 #include "study/support/support_stage.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
+using namespace app;
+
 namespace {
 
 using Complex = std::complex<double>;
@@ -310,4 +316,4 @@ TEST(MeasuredCase, ARobotsFilesAreReadOnceInARun) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -8,7 +8,12 @@
 #include "case_text.hpp"
 #include "study/updating.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
+
 namespace {
 
 /// The plate of 392 × 100 × 6 mm with two targets and four parameters; its mesh is coarse.
@@ -90,4 +95,4 @@ TEST(PartUpdating, FindsTheLengthThatTheFrequencyCameFromAndLeavesItsSolution) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

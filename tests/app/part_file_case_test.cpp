@@ -15,7 +15,12 @@
 #include "temporary_folder.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
+
 namespace {
 
 /// A plate 100 x 60 x 4 mm, or of another thickness, with a corner at `corner` (m), in mm, with its first facets left
@@ -308,4 +313,4 @@ TEST(PartFile, WhatMatricesDoNotTellIsRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

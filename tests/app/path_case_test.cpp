@@ -11,7 +11,13 @@
 #include "report/path_report.hpp"
 #include "setup/path.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
+using namespace report;
+
 namespace {
 
 /// Along the upper edge of the plate, 392 mm long and clamped at both ends; P lies in the middle.
@@ -153,4 +159,4 @@ TEST(PathReport, TheWeakestPositionAndTheBestSpeedForAllAreNamed) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

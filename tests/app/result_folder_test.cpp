@@ -12,7 +12,11 @@
 #include "core/error.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace cases;
+using namespace report;
+
 namespace {
 
 std::string refusal(const std::filesystem::path& folder) {
@@ -99,4 +103,4 @@ TEST(ResultFolder, RemainsOfAKilledRunAreRemovedAndResultsKept) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -14,7 +14,12 @@
 #include "setup/robot_tip.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
+
 namespace {
 
 std::string with(std::string text, const std::string& from, const std::string& to) {
@@ -200,4 +205,4 @@ TEST(RobotCase, UrdfAndItsJointsAreCheckedAgainstEachOther) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

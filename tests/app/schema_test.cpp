@@ -11,7 +11,10 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace cases;
+
 namespace {
 
 TEST(Schema, EveryKeyIsThereOnceAndLiesInASectionThatIsDescribed) {
@@ -105,4 +108,4 @@ TEST(Schema, TheDocumentedKeysAreTheKeysOfTheTable) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -10,7 +10,11 @@
 
 #include "tests/milling/single_mode.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace study;
+
 namespace {
 
 constexpr double rpm = 7000.0;
@@ -79,4 +83,4 @@ TEST(DepthError, OfPolesThatOverflowIsUnknown) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

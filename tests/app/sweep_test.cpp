@@ -7,15 +7,21 @@
 #include <algorithm>
 #include <sstream>
 
+#include "app/sweep_table.hpp"
 #include "case/reader.hpp"
 #include "case_text.hpp"
 #include "core/atomic_file.hpp"
 #include "core/interrupt.hpp"
 #include "core/units.hpp"
-#include "report/sweep_table.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
+using namespace app;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -354,4 +360,4 @@ TEST_F(Sweep, AFailedPointIsARowAndTheOthersGoOn) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

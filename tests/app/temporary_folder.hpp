@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace thinwall::app {
+namespace thinwall::tests {
 
 struct TemporaryFolder {
   TemporaryFolder() {
@@ -22,4 +22,4 @@ struct TemporaryFolder {
   std::filesystem::path path;
 };
 
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -18,7 +18,11 @@
 #include "study/stages.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace study;
+using namespace app;
+
 namespace {
 
 const std::string report_of_a_run = R"(
@@ -159,4 +163,4 @@ TEST_F(OnATerminal, APipeGetsPlainLinesAndNoEscapeSequence) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -10,7 +10,11 @@
 #include "setup/robot_tip.hpp"
 #include "study/support/support_stage.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
 
 SyntheticMeasurement synthetic_measurement(const Case& source, const PartResult& part, const std::string& point) {
   const fem::Factored factored = fem::factorise(part.model);
@@ -49,4 +53,4 @@ void write_measurement(const std::filesystem::path& path, const std::string& hea
   core::write_file_atomically(path, text.str());
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

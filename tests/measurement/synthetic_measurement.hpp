@@ -10,7 +10,11 @@
 #include "case/case.hpp"
 #include "study/results.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
 
 /// Driving-point receptances of part and robot along x, m/N.
 struct SyntheticMeasurement {
@@ -33,4 +37,4 @@ struct SyntheticMeasurement {
 void write_measurement(const std::filesystem::path& path, const std::string& header,
                        const dynamics::FrequencyAxis& axis, const Eigen::VectorXcd& H);
 
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -15,7 +15,12 @@
 #include "tests/measurement/synthetic_measurement.hpp"
 #include "tests/system/run_in_folder.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace report;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -241,4 +246,4 @@ TEST(Contact, WhatTikhonovChangesIsReportedAndNotHidden) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -15,7 +15,12 @@
 #include "io/frf/response_csv.hpp"
 #include "tests/system/run_in_folder.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -295,4 +300,4 @@ TEST(ErrorBudget, SaysWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -16,7 +16,13 @@
 #include "study/kept/program_id.hpp"
 #include "tests/report/unpacked.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
+using namespace report;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -418,4 +424,4 @@ count = 8
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -28,26 +28,26 @@ std::string text_of(const fs::path& path) {
 }
 
 TEST(MeasuredCase, NoiseFreeFilesGiveTheModelsPredictionWithinAThousandthOfThePeak) {
-  app::Case model =
-      app::read_case(cases / "barrios-2019", {"part.mesh.element_size=25 mm", "response.from=1 Hz",
-                                              "response.to=1000 Hz", "response.lines=1999", "reduction.modes=40"});
+  cases::Case model =
+      cases::read_case(cases / "barrios-2019", {"part.mesh.element_size=25 mm", "response.from=1 Hz",
+                                                "response.to=1000 Hz", "response.lines=1999", "reduction.modes=40"});
   model.updating.clear();
-  app::Stages stages(app::ProgressDisplay::none);
-  const app::PartResult part = app::compute_part(model, app::discretise(model), stages);
-  const auto axis = app::frequency_axis(model);
-  const app::Component part_component = app::component(*part.damped, axis);
-  const app::Component robot = app::robot_component(model, axis, app::robot_posture(model).posture);
-  const auto predicted = dynamics::entry(app::couple(model, part_component, robot).receptance.response, "P.x", "P.x");
+  study::Stages stages(study::ProgressDisplay::none);
+  const study::PartResult part = study::compute_part(model, study::discretise(model), stages);
+  const auto axis = study::frequency_axis(model);
+  const study::Component part_component = study::component(*part.damped, axis);
+  const study::Component robot = setup::robot_component(model, axis, setup::robot_posture(model).posture);
+  const auto predicted = dynamics::entry(study::couple(model, part_component, robot).receptance.response, "P.x", "P.x");
 
-  const auto files = app::synthetic_measurement(model, part, "P");
+  const auto files = tests::synthetic_measurement(model, part, "P");
   EXPECT_LT(files.relative_residual, 1e-7) << "the full model is solved, not approximated";
-  const fs::path folder = app::scratch("measured_noise_free");
+  const fs::path folder = tests::scratch("measured_noise_free");
   std::ofstream(folder / "case.toml") << text_of(cases / "barrios-2019-measured" / "case.toml");
-  app::write_measurement(folder / "part_xx.csv", "# noise-free\n", files.axis, files.part);
-  app::write_measurement(folder / "robot_xx.csv", "# noise-free\n", files.axis, files.robot);
-  const app::Case measured = app::read_case(folder, {});
-  const fs::path out = app::scratch("measured_noise_free_out");
-  static_cast<void>(app::run_case(measured, {out, true, -1, false}));
+  tests::write_measurement(folder / "part_xx.csv", "# noise-free\n", files.axis, files.part);
+  tests::write_measurement(folder / "robot_xx.csv", "# noise-free\n", files.axis, files.robot);
+  const cases::Case measured = cases::read_case(folder, {});
+  const fs::path out = tests::scratch("measured_noise_free_out");
+  static_cast<void>(study::run_case(measured, {out, true, -1, false}));
   const auto G = dynamics::entry(io::read_response(out / "frf" / "coupled_receptance.csv"), "P.x", "P.x");
   ASSERT_EQ(G.size(), predicted.size());
   const double difference = (G - predicted).cwiseAbs().maxCoeff() / predicted.cwiseAbs().maxCoeff();
@@ -61,8 +61,8 @@ TEST(MeasuredCase, TheCommittedFilesSayWhatTheyAreAndMeetTheCasesExpectations) {
     EXPECT_NE(text.find("# synthetic"), std::string::npos) << name;
     EXPECT_NE(text.find("seed"), std::string::npos) << name;
   }
-  const app::RunResult run = app::run_case(app::read_case(cases / "barrios-2019-measured", {}),
-                                           {app::scratch("measured_committed"), true, -1, false});
+  const study::RunResult run = study::run_case(cases::read_case(cases / "barrios-2019-measured", {}),
+                                               {tests::scratch("measured_committed"), true, -1, false});
   EXPECT_TRUE(run.expectations_hold) << run.summary["checks"].dump(2);
 }
 

@@ -16,7 +16,14 @@
 #include "study/run.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
+using namespace report;
+using namespace app;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -368,4 +375,4 @@ TEST(PartFile, APointOnACurvedSurfaceIsHeldToTheFileAndMovedToTheMesh) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

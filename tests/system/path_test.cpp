@@ -10,7 +10,11 @@
 
 #include "tests/system/run_in_folder.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -217,4 +221,4 @@ TEST(Path, PositionsAtEqualDistanceFromTheMiddleOfASymmetricWallAreEqual) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

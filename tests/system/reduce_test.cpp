@@ -15,7 +15,14 @@
 #include "report/model_files.hpp"
 #include "study/run.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
+using namespace report;
+using namespace app;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -334,4 +341,4 @@ TEST(Reduce, RigidMotionsAreCountedWithoutPlaces) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

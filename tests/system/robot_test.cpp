@@ -11,7 +11,13 @@
 #include "core/atomic_file.hpp"
 #include "tests/system/run_in_folder.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
+using namespace app;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -172,4 +178,4 @@ TEST(Robot, AMeasuredTipGivesTheChartOfTheModelItWasMeasuredOn) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

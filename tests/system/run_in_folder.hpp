@@ -12,7 +12,10 @@
 #include "io/results/csv_table.hpp"
 #include "study/run.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace cases;
+using namespace study;
 
 /// An empty folder of that name among the test's temporary files.
 inline std::filesystem::path scratch(const std::string& name) {
@@ -32,4 +35,4 @@ inline std::vector<double> column(const std::filesystem::path& file, const std::
   return io::numbers(io::read_csv(file), name, file);
 }
 
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

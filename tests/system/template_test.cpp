@@ -13,7 +13,11 @@
 #include "io/results/vtp.hpp"
 #include "tests/system/run_in_folder.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace cases;
+using namespace study;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -117,4 +121,4 @@ TEST(Template, NoFileIsOverwritten) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -15,7 +15,12 @@
 #include "tests/system/run_in_folder.hpp"
 #include "tests/verification/tool_swap/machine.hpp"
 
-namespace thinwall::app {
+namespace thinwall::tests {
+
+using namespace setup;
+using namespace cases;
+using namespace study;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -159,4 +164,4 @@ TEST(ToolSwapCase, WhatIsMissingIsSaid) {
 }
 
 }  // namespace
-}  // namespace thinwall::app
+}  // namespace thinwall::tests

@@ -1,4 +1,4 @@
-#include "report/sweep_table.hpp"
+#include "app/sweep_table.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -22,7 +22,7 @@ using SweepFigures = std::vector<std::pair<std::string, double>>;
 /// One point of a sweep: what it was and what became of it.
 struct SweepRow {
   std::size_t number = 0;  ///< from 1
-  GridPoint point;
+  app::GridPoint point;
   std::string status = "not_computed";  ///< else that of summary.json: "ok" …, or "failed"
   int exit_code = 0;                    ///< that `run` would have ended with
   std::string reason;                   ///< of a failure, in one line

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
+#include "app/sweep_table.hpp"
 #include "core/units.hpp"
 #include "io/xml_text.hpp"
-#include "report/sweep_table.hpp"
 
 namespace thinwall::app {
 

@@ -1,0 +1,37 @@
+#pragma once
+// The stability chart that is asked for.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "milling/chart/sensitivity.hpp"
+
+namespace thinwall::setup {
+
+/// What a robust chart allows for.
+struct RobustOptions {
+  milling::Uncertainty uncertainty;
+  double confidence = 2.0;  ///< k, standard uncertainties
+};
+
+struct LobesOptions {
+  double from_rpm = 0.0, to_rpm = 0.0;
+  int count = 400;
+  double depth_limit = 0.0;  ///< m
+  double tolerance = 1e-4;   ///< bound on the estimated relative error of the limiting depth
+  std::optional<double> modes_up_to_hz;
+  std::string method = "direct";                   ///< a name of milling::Method
+  std::vector<std::string> compare = {};           ///< others
+  std::optional<int> steps_per_period, harmonics;  ///< none: milling::MethodOptions' own
+  std::optional<int> map_depths;                   ///< none: no map
+  std::optional<RobustOptions> robust;
+  std::optional<int> noise_samples;  ///< draws of what is measured, at the case's own speed; none: first order only
+  int seed = 1;                      ///< of these
+};
+
+}  // namespace thinwall::setup

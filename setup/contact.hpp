@@ -1,0 +1,49 @@
+#pragma once
+// Where the robot touches the part, and what its stiffness comes from.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/contact.hpp"
+#include "coupling/hertz_contact.hpp"
+#include "setup/measured_frf.hpp"
+
+namespace thinwall::setup {
+
+/// The ball by which a robot touches; the supports are a caster's.
+struct ContactBall {
+  double radius = 0.0;        ///< m
+  coupling::Elastic steel{};  ///< of all balls and of the cup
+  std::optional<int> supports;
+  std::optional<double> support_radius, support_angle;  ///< m, rad
+};
+
+struct Contact {
+  std::string part_point, robot_point;
+  std::vector<Eigen::Vector3d> directions;  ///< the first is the contact's normal
+  std::vector<double> stiffness;            ///< N/m, one per direction; infinite allowed
+  std::vector<double> damping;              ///< N s/m, one per direction
+  double loss_factor = 0.0;
+  std::string model = "springs";    ///< springs, table, hertz, caster
+  std::optional<double> preload{};  ///< N; none: from robot.preload
+  std::filesystem::path table{};    ///< of model table
+  std::optional<ContactBall> ball{};
+  std::optional<coupling::Elastic> surface{};           ///< that the ball touches; none: part.material
+  std::vector<MeasuredFrf> measured{};                  ///< of the assembly, from which the joint is found
+  std::string damping_model = "viscous";                ///< that is sought: viscous, structural, both
+  std::vector<double> noise{};                          ///< relative: of the assembly, of the part, of the robot
+  std::optional<coupling::JointMatrices> identified{};  ///< what was found; the file knows it not, the run sets it
+};
+
+/// How the receptance route solves its kernel.
+struct CouplingChoice {
+  std::string regularisation = "none";  ///< none, truncated, tikhonov
+  double threshold = 1e-10;             ///< of the largest singular value
+};
+
+}  // namespace thinwall::setup

@@ -1,0 +1,36 @@
+#pragma once
+// Values of a set-up that are found by fitting it to known results.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace thinwall::setup {
+
+struct UpdatingParameter {
+  std::string key;  ///< full dotted key for get_value and set_value
+  double lower = 0.0, upper = 0.0;
+};
+
+struct UpdatingTarget {
+  std::string quantity;                 ///< part_frequency, coupled_frequency, reduction_at
+  double value = 0.0;                   ///< Hz, or 1 for a reduction
+  std::string point;                    ///< DOF "P.x" at which the mode takes part or the reduction is read
+  std::string match = "participation";  ///< participation, mac, number
+  int rank = 1;                         ///< the rank-th such mode by rising frequency
+  double frequency_hz = 0.0;            ///< of reduction_at; 0: the matched mode of the part
+  double weight = 1.0;
+};
+
+struct Updating {
+  std::string name;
+  std::string on = "part";  ///< part, coupled
+  std::vector<UpdatingParameter> parameters;
+  std::vector<UpdatingTarget> targets;
+};
+
+}  // namespace thinwall::setup

@@ -1,0 +1,52 @@
+#pragma once
+// Which modes, which reduced model and which damping of the part are wanted, and on which frequencies.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "setup/measured_frf.hpp"
+
+namespace thinwall::setup {
+
+/// Modes wanted, by count or by frequency.
+struct ModeRange {
+  std::optional<int> count;
+  std::optional<double> up_to_hz;
+};
+
+struct Modes {
+  ModeRange range;
+  bool verify_count = false;
+};
+
+struct Reduction {
+  std::string method = "craig_bampton";
+  ModeRange fixed_interface;
+  std::optional<double> tolerance;     ///< on the interface's receptance, in place of a range
+  std::vector<std::string> interface;  ///< names of points
+  int check_frequencies = 5;
+};
+
+struct Damping {
+  std::string model = "modal";  ///< modal, rayleigh, structural, matrices
+  double ratio = 0.0;           ///< of every mode that `ratios` does not name
+  std::vector<double> ratios;   ///< of the first modes
+  std::optional<MeasuredFrf> from_frf;
+  double alpha = 0.0;  ///< 1/s
+  double beta = 0.0;   ///< s
+  double loss_factor = 0.0;
+};
+
+struct ResponseOptions {
+  double from_hz = 1.0, to_hz = 2000.0;
+  int lines = 2000;
+  bool logarithmic = false;
+  std::vector<std::string> points;
+};
+
+}  // namespace thinwall::setup

@@ -1,0 +1,49 @@
+#pragma once
+// The cutter and the motion of its tip.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "setup/measured_frf.hpp"
+#include "setup/robot.hpp"
+
+namespace thinwall::setup {
+
+/// A cylinder of a tool, in order from the tip to the root.
+struct ToolStep {
+  double length = 0.0;                                ///< m
+  double outer_diameter = 0.0, inner_diameter = 0.0;  ///< m
+  double youngs_modulus = 0.0, poisson_ratio = 0.0, density = 0.0;
+};
+
+/// The tip of a tool from FRFs that were measured with another in its place.
+struct ToolSwap {
+  std::vector<MeasuredFrf> measured;  ///< between two directions of two points
+  std::string tip, up;                ///< names of the points
+  double distance = 0.0;              ///< m, of `up` from the tip
+  std::string rotations = "none";     ///< none, second_difference, corrected, rank_one
+  std::vector<ToolStep> reference, target;
+};
+
+struct Tool {
+  int teeth = 0;
+  double diameter = 0.0;                           ///< m
+  double length = 0.0;                             ///< m
+  std::vector<double> pitches;                     ///< rad; empty: equal
+  std::vector<double> helices;                     ///< rad, one a tooth; empty: none
+  std::vector<double> runout;                      ///< m, one a tooth; empty: none
+  std::string end = "flat";                        ///< flat, ball, bull_nose, general
+  double corner_radius = 0.0;                      ///< m; of bull_nose and general, the next four of general alone
+  double corner_radial = 0.0, corner_axial = 0.0;  ///< m
+  double tip_angle = 0.0, taper = 0.0;             ///< rad
+  std::vector<TipMode> modes;
+  std::vector<MeasuredFrf> measured;  ///< DOFs "tool.x", "tool.y", "tool.z"
+  std::optional<ToolSwap> swap;
+};
+
+}  // namespace thinwall::setup
