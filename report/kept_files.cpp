@@ -19,7 +19,7 @@ void serialize(Archive& archive, FileRecord& file) {
 }
 }  // namespace io
 
-namespace app {
+namespace report {
 
 namespace {
 
@@ -70,6 +70,6 @@ report::KeptSections kept_sections(study::Checkpoint& kept) {
           [&kept](const std::string& name, const std::string& text) { kept.add("page-" + name, text); }};
 }
 
-}  // namespace app
+}  // namespace report
 
 }  // namespace thinwall

@@ -135,7 +135,7 @@ std::string asked_text(const json& chart) {
   return (chart.contains("robust") ? robust_text(chart["robust"]) : "") + indented(chart_notes(chart));
 }
 
-std::vector<std::string> sentences(const json& summary) {
+std::vector<std::string> answer_sentences(const json& summary) {
   std::vector<std::string> list;
   for (const json& chart : summary["lobes"]) {
     const std::string title = chart_title(chart["name"].get<std::string>());

@@ -24,6 +24,6 @@ namespace thinwall::report {
 
 /// What a page says below its first line, from a summary: sensitivities at the case's speed and notes of every chart,
 /// as sentences.
-[[nodiscard]] std::vector<std::string> sentences(const nlohmann::json& summary);
+[[nodiscard]] std::vector<std::string> answer_sentences(const nlohmann::json& summary);
 
 }  // namespace thinwall::report

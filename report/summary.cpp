@@ -324,7 +324,7 @@ json summary_of(const cases::Case& source, const study::Results& results) {
   for (const auto& lobes : results.lobes) {
     for (const auto& point : lobes.points) summary["operating_points"].push_back(point_of(lobes.name, point));
   }
-  summary["sentences"] = sentences(summary);
+  summary["sentences"] = answer_sentences(summary);
   summary["checks"] = json::array();
   summary["timings_s"] = json::object();
   for (const auto& [stage, seconds] : results.timings_s) summary["timings_s"][stage] = seconds;
