@@ -17,11 +17,11 @@
 #include "app/manual_page.hpp"
 #include "app/reduce_command.hpp"
 #include "app/terminal.hpp"
+#include "app/unknown_word.hpp"
 #include "case/checks.hpp"
 #include "case/json_schema.hpp"
 #include "case/reader.hpp"
 #include "case/templates.hpp"
-#include "case/unknown_word.hpp"
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
@@ -32,6 +32,7 @@
 #include "report/result_folder.hpp"
 #include "report/terminal_report.hpp"
 #include "setup/imported_part.hpp"
+#include "setup/part_geometry.hpp"
 #include "study/part/discretisation.hpp"
 #include "study/support/robot_survey.hpp"
 
@@ -64,40 +65,40 @@ std::vector<milling::OperatingPoint> operating_points(const Arguments& arguments
 }
 
 /// Sets the log up as -q, -v and --progress ask for it; returns how stages are shown.
-study::ProgressDisplay start_log(const Arguments& arguments) {
-  const study::ProgressDisplay display = progress_display(arguments.progress, arguments.quiet);
-  const bool lines_in_spite_of_quiet = arguments.quiet && display == study::ProgressDisplay::lines;
+ProgressDisplay start_log(const Arguments& arguments) {
+  const ProgressDisplay display = progress_display(arguments.progress, arguments.quiet);
+  const bool lines_in_spite_of_quiet = arguments.quiet && display == ProgressDisplay::lines;
   log_to_terminal(arguments.quiet && !lines_in_spite_of_quiet ? -1
                   : arguments.verbose                         ? 1
                                                               : 0,
-                  display == study::ProgressDisplay::line);
+                  display == ProgressDisplay::line);
   return display;
 }
 
 /// Computes a case into its result folder; `report` makes the text for the terminal.
 template <typename Report>
-ExitCode compute(const Arguments& arguments, const cases::Case& source, const study::RunCase& run_case,
-                 std::ostream& out, const Report& report) {
+ExitCode compute(const Arguments& arguments, const cases::Case& source, const RunCase& run_case, std::ostream& out,
+                 const Report& report) {
   const int verbosity = arguments.quiet ? -1 : arguments.verbose ? 1 : 0;
-  const study::ProgressDisplay display = start_log(arguments);
+  const ProgressDisplay display = start_log(arguments);
   if (arguments.threads > 0) core::set_thread_count(arguments.threads);
   const std::vector<milling::OperatingPoint> points = operating_points(arguments);
-  const report::ResultFolder folder(arguments.out.empty() ? report::default_result_folder(source)
+  const report::ResultFolder folder(arguments.out.empty() ? report::default_result_folder(source.name)
                                                           : std::filesystem::path(arguments.out));
   log_to_file(folder.path() / "run.log");
-  const study::RunResult result =
-      run_case(source, {folder.path(), arguments.fresh, verbosity, display == study::ProgressDisplay::line, points,
-                        display == study::ProgressDisplay::lines});
+  const RunResult result =
+      run_case(source, {folder.path(), arguments.fresh, verbosity, display == ProgressDisplay::line, points,
+                        display == ProgressDisplay::lines});
   out << coloured(report(result.summary, folder.path().string()), style_for(out));
   return result.expectations_hold ? ExitCode::done : ExitCode::expectation;
 }
 
-ExitCode run(const Arguments& arguments, const study::RunCase& run_case, std::ostream& out) {
+ExitCode run(const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
   return compute(arguments, cases::read_case(arguments.case_path, arguments.overrides), run_case, out,
                  report::terminal_report);
 }
 
-ExitCode lobes(const Arguments& arguments, const study::RunCase& run_case, std::ostream& out) {
+ExitCode lobes(const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
   LobesInput input = arguments.lobes;
   input.overrides = arguments.overrides;
   return compute(arguments, lobes_case(input), run_case, out, report::lobes_report);
@@ -106,7 +107,7 @@ ExitCode lobes(const Arguments& arguments, const study::RunCase& run_case, std::
 ExitCode robot(const Arguments& arguments, std::ostream& out) {
   const cases::Case source = cases::read_case(arguments.case_path, arguments.overrides);
   const study::RobotSurvey found = study::survey(source);
-  const report::ResultFolder folder(arguments.out.empty() ? report::default_result_folder(source)
+  const report::ResultFolder folder(arguments.out.empty() ? report::default_result_folder(source.name)
                                                           : std::filesystem::path(arguments.out));
   log_to_file(folder.path() / "run.log");  // marks the folder as ours
   write_survey(folder.path(), source, found);
@@ -152,7 +153,7 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
     out << "  DOFs      about " << rounded(size.dofs) << '\n'
         << "  time      about " << core::readable_text(std::max(1.0, size.seconds), core::kind::time)
         << " for mesh, modes and reduction on two cores\n";
-    for (const std::string& warning : study::unreachable_tolerances(source)) out << "  warning   " << warning << '\n';
+    for (const std::string& warning : setup::unreachable_tolerances(source)) out << "  warning   " << warning << '\n';
   }
   if (source.lobes) out << "  lobes     " << source.lobes->count << " speeds\n";
   if (!expectations.empty()) out << "  expected  " << expectations.size() << " figures\n";
@@ -355,7 +356,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_subcommand("doctor", "versions, libraries, threads, optional parts, and a self-test (exit 5: it fails)");
 }
 
-ExitCode execute(const CLI::App& app, const Arguments& arguments, const study::RunCase& run_case, std::ostream& out) {
+ExitCode execute(const CLI::App& app, const Arguments& arguments, const RunCase& run_case, std::ostream& out) {
   if (app.got_subcommand("run")) return run(arguments, run_case, out);
   if (app.got_subcommand("lobes")) return lobes(arguments, run_case, out);
   if (app.got_subcommand("robot")) return robot(arguments, out);
@@ -403,7 +404,7 @@ ExitCode parse(CLI::App& app, int argc, const char* const* argv, std::ostream& o
     app.exit(success, out, err);
     throw;
   } catch (const CLI::ParseError& error) {
-    const std::string unknown = cases::unknown_word(description_of(app), {argv + 1, argv + argc});
+    const std::string unknown = unknown_word(description_of(app), {argv + 1, argv + argc});
     report(err, unknown.empty() ? std::string(error.what()) + "; \"thinwall --help\" lists the commands" : unknown);
     return ExitCode::usage;
   }
@@ -450,8 +451,7 @@ extern "C" void on_signal(int signal) {
 
 }  // namespace
 
-int run_command_line(int argc, const char* const* argv, const study::RunCase& run_case, std::ostream& out,
-                     std::ostream& err) {
+int run_command_line(int argc, const char* const* argv, const RunCase& run_case, std::ostream& out, std::ostream& err) {
   return guarded(
       [&] {
         Arguments arguments;

@@ -3,15 +3,14 @@
 
 #include <ostream>
 
-#include "study/run.hpp"
+#include "app/case_run.hpp"
 
 namespace thinwall::app {
 
 /// Runs one command. Results go to `out`, the log and every error to `err`, a line each. Returns the exit code: 0 done,
 /// 1 internal error, 2 usage, 3 invalid case, 4 unreadable data, 5 numerical failure, 6 an expectation does not hold
 /// (for `compare`: the results differ), 130 interrupted. Throws nothing.
-int run_command_line(int argc, const char* const* argv, const study::RunCase& run, std::ostream& out,
-                     std::ostream& err);
+int run_command_line(int argc, const char* const* argv, const RunCase& run, std::ostream& out, std::ostream& err);
 
 /// SIGINT and SIGTERM ask the computation to stop; a second signal ends the program at once.
 void install_signal_handlers();

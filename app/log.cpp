@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include "core/error.hpp"
+#include "core/messages.hpp"
 
 namespace thinwall::app {
 
@@ -27,6 +28,15 @@ void log_to_file(const std::filesystem::path& file) {
     throw core::DataError("cannot write \"" + file.string() + "\": " + error.what() +
                           "; choose another folder with --out");
   }
+}
+
+void messages_to_log() {
+  core::set_message_listener([](core::MessageLevel level, const std::string& text) {
+    spdlog::log(level == core::MessageLevel::warning ? spdlog::level::warn
+                : level == core::MessageLevel::info  ? spdlog::level::info
+                                                     : spdlog::level::debug,
+                "{}", text);
+  });
 }
 
 }  // namespace thinwall::app

@@ -12,4 +12,7 @@ void log_to_terminal(int verbosity, bool over_a_line = false);
 /// From now on also to `file` (replaced), in full. Throws DataError if it cannot be opened.
 void log_to_file(const std::filesystem::path& file);
 
+/// From now on the messages of the library go to spdlog's default logger.
+void messages_to_log();
+
 }  // namespace thinwall::app

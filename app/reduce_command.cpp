@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "app/stage_display.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -15,10 +16,10 @@
 #include "reduction/trust/mode_count.hpp"
 #include "report/model_files.hpp"
 #include "report/model_report_json.hpp"
+#include "setup/part_geometry.hpp"
 #include "study/part/discretisation.hpp"
 #include "study/part/part_stage.hpp"
 #include "study/results.hpp"
-#include "study/stages.hpp"
 
 namespace thinwall::app {
 
@@ -155,7 +156,7 @@ ReducedPart reduced_part(const cases::Case& source, const ReduceRequest& request
 reduction::Positions positions_of(const cases::Case& source, const fem::Model& model) {
   reduction::Positions positions;
   for (const std::string& name : source.reduction.interface) {
-    const fem::NamedPoint p = study::named_point(source, name);
+    const fem::NamedPoint p = setup::named_point(source, name);
     const fem::Patch disc = fem::Disc{p.position_m, p.patch_radius_m, p.off_m};
     const Eigen::Vector3d x =
         model.mesh.tets.empty() ? p.position_m : fem::patch_average(model.mesh, model.nodes, disc, name).centre_m;
@@ -206,7 +207,8 @@ std::string reduce_part(const cases::Case& source, const ReduceRequest& request)
   require_apart(source, request);
   reduction::Band band = band_of(source, request);
   report::make_model_folder(request.out);
-  study::Stages stages(request.display);
+  StageDisplay display(request.display);
+  study::Stages stages(display.listener());
   stages.begin("mesh, order and modes");
   const study::Solution part = study::solved_part(source, study::discretise(source), stages);
   const double least = study::least_loss_factor(source.damping, part.modes, band.from_hz, band.to_hz);

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "app/stage_display.hpp"
 #include "case/case.hpp"
-#include "study/stages.hpp"
 
 namespace thinwall::app {
 
@@ -19,7 +19,7 @@ struct ReduceRequest {
   std::optional<double> from_hz, to_hz;  ///< the band; the case's response if not given
   std::optional<int> characteristic;     ///< amplitudes of a reduced interface
   bool compare = false;                  ///< all methods side by side, at the size of this one
-  study::ProgressDisplay display = study::ProgressDisplay::lines;
+  ProgressDisplay display = ProgressDisplay::lines;
 };
 
 /// Meshes and reduces the part to its points, measures the error of the interface's receptance over the band against

@@ -5,11 +5,11 @@
 #include <exception>
 #include <numbers>
 
+#include "app/stage_display.hpp"
 #include "case/reader.hpp"
 #include "core/error.hpp"
 #include "study/part/discretisation.hpp"
 #include "study/part/part_stage.hpp"
-#include "study/stages.hpp"
 
 namespace thinwall::app {
 
@@ -51,7 +51,7 @@ SelfTest self_test() {
   test.expected_hz = cantilever_hz();
   try {
     const cases::Case source = cases::parse_case(cantilever, ".");
-    study::Stages stages(study::ProgressDisplay::none);
+    study::Stages stages;
     test.found_hz = study::solved_part(source, study::discretise(source), stages).modes.frequency_hz(0);
   } catch (const core::Interrupted&) {
     throw;

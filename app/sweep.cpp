@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "app/log.hpp"
+#include "app/stage_display.hpp"
 #include "app/sweep_record.hpp"
 #include "app/sweep_table.hpp"
 #include "app/terminal.hpp"
@@ -20,7 +21,6 @@
 #include "core/atomic_file.hpp"
 #include "core/interrupt.hpp"
 #include "report/result_folder.hpp"
-#include "study/stages.hpp"
 
 namespace thinwall::app {
 
@@ -102,10 +102,9 @@ void guard_point(SweepRow& row, const Body& body) {
 
 /// On a terminal the line of the stages beneath that of the point; elsewhere stages are told only if they are asked
 /// for.
-study::ProgressDisplay stage_display(const SweepRequest& request) {
-  const study::ProgressDisplay display = progress_display(request.progress, request.verbosity < 0);
-  return display == study::ProgressDisplay::lines && request.progress != "always" ? study::ProgressDisplay::none
-                                                                                  : display;
+ProgressDisplay stage_display(const SweepRequest& request) {
+  const ProgressDisplay display = progress_display(request.progress, request.verbosity < 0);
+  return display == ProgressDisplay::lines && request.progress != "always" ? ProgressDisplay::none : display;
 }
 
 /// Where the points of a sweep keep their parts: those that differ in the cut only share one.
@@ -113,26 +112,26 @@ fs::path shared_parts(const fs::path& sweep) {
   return sweep / "cache";
 }
 
-void run_point(const fs::path& folder, const SweepRequest& request, const cases::Case& source,
-               const study::RunCase& run_case, SweepRow& row) {
+void run_point(const fs::path& folder, const SweepRequest& request, const cases::Case& source, const RunCase& run_case,
+               SweepRow& row) {
   const report::ResultFolder results(folder);
   fs::remove(folder / "point.json");
-  const study::ProgressDisplay display = stage_display(request);
-  log_to_terminal(request.verbosity > 0                      ? 1
-                  : display == study::ProgressDisplay::lines ? 0
-                                                             : -1,
-                  display == study::ProgressDisplay::line);
+  const ProgressDisplay display = stage_display(request);
+  log_to_terminal(request.verbosity > 0               ? 1
+                  : display == ProgressDisplay::lines ? 0
+                                                      : -1,
+                  display == ProgressDisplay::line);
   log_to_file(folder / "run.log");
-  study::RunOptions options{folder, request.fresh, request.verbosity, display == study::ProgressDisplay::line, {}};
+  RunOptions options{folder, request.fresh, request.verbosity, display == ProgressDisplay::line, {}};
   options.parts = shared_parts(folder.parent_path());
-  const study::RunResult found = run_case(source, options);
+  const RunResult found = run_case(source, options);
   row.status = found.summary.value("status", "ok");
   row.exit_code = static_cast<int>(found.expectations_hold ? ExitCode::done : ExitCode::expectation);
   row.figures = sweep_figures({&found.summary, "summary.json", ""});
 }
 
-void compute_point(const fs::path& folder, const SweepRequest& request, const SweepPlan& plan,
-                   const study::RunCase& run_case, SweepRow& row) {
+void compute_point(const fs::path& folder, const SweepRequest& request, const SweepPlan& plan, const RunCase& run_case,
+                   SweepRow& row) {
   const std::vector<std::string> values = overrides_at(plan.axes, row.point);
   std::vector<std::string> overrides = request.overrides;
   std::ranges::copy(values, std::back_inserter(overrides));
@@ -172,7 +171,7 @@ ExitCode code_of(const SweepTable& table) {
 void announce(const SweepTable& table, const SweepRow& row, double seconds_left) {
   std::string values;
   for (const auto& value : overrides_at(table.axes, row.point)) values += (values.empty() ? "" : ", ") + value;
-  if (seconds_left > 0.0) values += "; about " + study::duration_text(seconds_left) + " left";
+  if (seconds_left > 0.0) values += "; about " + duration_text(seconds_left) + " left";
   spdlog::info("point {} of {}: {}", row.number, table.rows.size(), values);
 }
 
@@ -207,7 +206,7 @@ void require_same_sweep(const std::string& first, const SweepPlan& plan, const s
 
 }  // namespace
 
-ExitCode run_sweep(const SweepRequest& request, const study::RunCase& run_case, std::ostream& out) {
+ExitCode run_sweep(const SweepRequest& request, const RunCase& run_case, std::ostream& out) {
   using Clock = std::chrono::steady_clock;
   const Shard shard = shard_of(request.shard);
   (void)stage_display(request);

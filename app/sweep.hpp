@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/case_run.hpp"
 #include "core/error.hpp"
-#include "study/run.hpp"
 
 namespace thinwall::app {
 
@@ -29,7 +29,7 @@ struct SweepRequest {
 /// code of the first point that failed, else `expectation` where a point's expectations do not hold, else done. Throws
 /// UsageError for keys and values that make no grid or overrides that are none, DataError where OUT cannot be written,
 /// Interrupted.
-[[nodiscard]] core::ExitCode run_sweep(const SweepRequest& request, const study::RunCase& run_case, std::ostream& out);
+[[nodiscard]] core::ExitCode run_sweep(const SweepRequest& request, const RunCase& run_case, std::ostream& out);
 
 /// Collects the points of one sweep from the folders of its shards (which may be one folder) into the table and drawing
 /// of `out`, or of the first folder if `out` is empty; prints the table. A point that is in several is taken from the

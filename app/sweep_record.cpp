@@ -4,12 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/doctor.hpp"
+#include "case/keys.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "io/json_file.hpp"
 #include "io/manifest.hpp"
-#include "study/kept/checkpoint.hpp"
 
 namespace thinwall::app {
 
@@ -54,7 +54,7 @@ std::string sweep_key(const fs::path& case_path, const std::vector<std::string>&
   std::vector<std::string> swept(axes.size());
   std::ranges::transform(axes, swept.begin(), &SweepAxis::key);
   try {
-    return with_expectations(study::key_of(cases::read_case(case_path, overrides), swept), file);
+    return with_expectations(cases::key_of(cases::read_case(case_path, overrides), swept), file);
   } catch (const core::UsageError&) {
     throw;
   } catch (const core::Error&) {  // what is wrong with it, if the swept keys do not mend it, each point tells
@@ -65,7 +65,7 @@ std::string sweep_key(const fs::path& case_path, const std::vector<std::string>&
 }
 
 std::string point_key(const cases::Case& source) {
-  return with_expectations(study::key_of(source, {}), source.file);
+  return with_expectations(cases::key_of(source, {}), source.file);
 }
 
 void write_plan(const fs::path& folder, const SweepPlan& plan) {

@@ -66,11 +66,11 @@ Style style_for(const std::ostream& stream) {
   return {descriptor >= 0 && is_capable_terminal(descriptor) && !is_set("NO_COLOR")};
 }
 
-study::ProgressDisplay progress_display(const std::string& wanted, bool quiet) {
+ProgressDisplay progress_display(const std::string& wanted, bool quiet) {
   if (wanted != "auto" && wanted != "always" && wanted != "never")
     throw core::UsageError("--progress \"" + wanted + "\": it is auto, always or never");
-  if (wanted == "never" || (wanted == "auto" && quiet)) return study::ProgressDisplay::none;
-  return is_capable_terminal(STDERR_FILENO) ? study::ProgressDisplay::line : study::ProgressDisplay::lines;
+  if (wanted == "never" || (wanted == "auto" && quiet)) return ProgressDisplay::none;
+  return is_capable_terminal(STDERR_FILENO) ? ProgressDisplay::line : ProgressDisplay::lines;
 }
 
 }  // namespace thinwall::app

@@ -4,7 +4,7 @@
 #include <ostream>
 #include <string>
 
-#include "study/stages.hpp"
+#include "app/stage_display.hpp"
 
 namespace thinwall::app {
 
@@ -34,6 +34,6 @@ struct Style {
 /// What `--progress` and `-q` ask for. "auto": a line on a terminal, lines elsewhere, nothing with -q; "always": with
 /// -q, too; "never": nothing. Escape sequences go to a terminal only, whatever is asked. Throws UsageError for another
 /// word.
-[[nodiscard]] study::ProgressDisplay progress_display(const std::string& wanted, bool quiet);
+[[nodiscard]] ProgressDisplay progress_display(const std::string& wanted, bool quiet);
 
 }  // namespace thinwall::app

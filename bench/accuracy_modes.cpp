@@ -53,7 +53,7 @@ mesh::TetMesh one_layer(const setup::Part& part, double size_m) {
   mesh::PrismMeshOptions options;
   options.size_m = size_m;
   options.layers = 0;
-  const study::PlanarPart planar = study::planar(part);
+  const setup::PlanarPart planar = setup::planar(part);
   mesh::TetMesh mesh = mesh::mesh_prism(planar.prism, options);
   for (auto& v : mesh.vertices) {
     Eigen::Vector3d x;
@@ -109,7 +109,7 @@ mesh::FacetedSurface flat_surface(const setup::Part& part) {
 }
 
 mesh::TetMesh meshed(const cases::Case& source, const Options& options) {
-  if (options.mesher == "graded") return study::graded_mesh(source, options.level);
+  if (options.mesher == "graded") return setup::graded_mesh(source, options.level);
   if (options.mesher == "nested") return subdivided(one_layer(*source.part, options.size_m), options.pieces);
   const mesh::FacetedSurface surface = flat_surface(*source.part);
   if (options.mesher == "tetgen") {
@@ -134,13 +134,13 @@ void write_inp(const std::string& path, const cases::Case& source, const fem::Mo
   for (std::size_t node = 0; node < is_free.size(); ++node) {
     if (!is_free[node]) fixed.nodes.push_back(static_cast<int>(node));
   }
-  const fem::Material material = study::material_of(*source.part);
+  const fem::Material material = setup::material_of(*source.part);
   io::write_inp(path, model.nodes, {fixed},
                 io::InpFrequencyStep{material.youngs_modulus_Pa,
                                      material.poisson_ratio,
                                      material.density_kg_m3,
                                      {fixed.name},
-                                     study::mode_options(source).count});
+                                     setup::mode_options(source).count});
 }
 
 nlohmann::ordered_json run(const Options& options) {
@@ -149,10 +149,10 @@ nlohmann::ordered_json run(const Options& options) {
   bench::Stopwatch watch;
   mesh::TetMesh mesh = meshed(source, options);
   nlohmann::ordered_json report{{"mesh_s", watch.lap()}, {"tets", mesh.tets.size()}, {"order", options.order}};
-  const fem::Model model = fem::supported_model(std::move(mesh), options.order, study::material_of(*source.part),
-                                                study::supports_of(source), study::shaping(*source.part));
+  const fem::Model model = fem::supported_model(std::move(mesh), options.order, setup::material_of(*source.part),
+                                                setup::supports_of(source), setup::shaping(*source.part));
   const fem::Factored factored = fem::factorise(model, core::available_memory_bytes());
-  const fem::Modes modes = fem::modes(model, factored, study::mode_options(source));
+  const fem::Modes modes = fem::modes(model, factored, setup::mode_options(source));
   report["solve_s"] = watch.lap();
   report["dofs"] = model.K.rows();
   report["frequencies_hz"] = modes.frequency_hz;

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   }
   constexpr double level = 0.005;
   cases::Case source = cases::read_case(argv[1], {"response.from=1 Hz", "response.to=1000 Hz", "response.lines=1999"});
-  study::Stages stages(study::ProgressDisplay::none);
+  study::Stages stages(ProgressDisplay::none);
   study::Discretisation discretisation = study::discretise(source);
   discretisation.solved.reset();  // the fit changes the part
   const Eigen::Vector3d meshed = setup::box_size(*source.part);

@@ -282,8 +282,8 @@ std::vector<setup::Updating> bind_updating(const std::vector<Table>& tables) {
       const std::string key = full_path(case_schema(), parameter.text("key"));
       const Key* described = find_key(case_schema(), pattern_of(case_schema(), key));
       const auto& kind = described == nullptr ? core::kind::number : described->kind;
-      updating.parameters.push_back(
-          {key, bind_amount(parameter.text("lower"), kind), bind_amount(parameter.text("upper"), kind)});
+      updating.parameters.push_back({key, std::string(kind.unit), bind_amount(parameter.text("lower"), kind),
+                                     bind_amount(parameter.text("upper"), kind)});
     }
     for (const auto& target : table.tables("targets")) {
       setup::UpdatingTarget bound;

@@ -121,4 +121,13 @@ void set_value(Case& target, const std::string& key, double value) {
   target = std::move(bound);
 }
 
+setup::Variation variation_of(const Case& source) {
+  return {[source](const std::string& key) { return get_value(source, key); },
+          [source](const setup::NamedValues& values) -> setup::Setup {
+            Case varied = source;
+            for (const auto& [key, value] : values) set_value(varied, key, value);
+            return varied;
+          }};
+}
+
 }  // namespace thinwall::cases

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "case/values.hpp"
-#include "setup/setup.hpp"
+#include "setup/machining_setup.hpp"
+#include "setup/variation.hpp"
 
 namespace thinwall::cases {
 
@@ -36,5 +37,8 @@ struct Case : setup::Setup {
 /// Sets it and binds the case anew, so that everything that follows from the key follows. Throws InputError if the
 /// value is not finite or outside the schema's bounds. Cost: microseconds; for model updating and sweeps.
 void set_value(Case& target, const std::string& key, double value);
+
+/// Access to the case's numbers for fits: set-ups with other values. The case is copied.
+[[nodiscard]] setup::Variation variation_of(const Case& source);
 
 }  // namespace thinwall::cases

@@ -21,6 +21,7 @@
 #include "core/units.hpp"
 #include "io/frf/frf_quantity.hpp"
 #include "setup/measured.hpp"
+#include "setup/measured_layout.hpp"
 #include "setup/measured_noise.hpp"
 
 namespace thinwall::cases {
@@ -84,7 +85,7 @@ void check_damping(const Case& source, Findings& findings) {
 
 void require_direction(const std::string& key, const std::string& dof, Findings& findings) {
   if (dof.empty() || direction_of(dof)) return;
-  findings.report(key, "\"" + dof + "\" names no direction; write for example \"" + point_of(dof) + ".x\"");
+  findings.report(key, "\"" + dof + "\" names no direction; write for example \"" + setup::point_of(dof) + ".x\"");
 }
 
 /// True for every unit that the readers take, "g/N" among them.
@@ -150,7 +151,7 @@ void check_all_measured(const Case& source, Findings& findings) {
   check_measured_part(source, findings);
   if (const auto& frf = source.damping.from_frf) {
     check_measured("damping.from_frf", *frf, findings);
-    findings.require_known("damping.from_frf.response", point_of(frf->response), part_points(source), "point");
+    findings.require_known("damping.from_frf.response", setup::point_of(frf->response), part_points(source), "point");
     require_driving_point("damping.from_frf", *frf, findings);
   }
   for (std::size_t i = 0; i < source.contacts.size(); ++i) {
@@ -170,8 +171,8 @@ void check_all_measured(const Case& source, Findings& findings) {
   for (std::size_t i = 0; i < source.robot->measured.size(); ++i) {
     const std::string key = indexed("robot.measured", i);
     check_measured(key, source.robot->measured[i], findings);
-    findings.require_known(key + ".response", point_of(source.robot->measured[i].response), {source.robot->point},
-                           "point of the robot");
+    findings.require_known(key + ".response", setup::point_of(source.robot->measured[i].response),
+                           {source.robot->point}, "point of the robot");
   }
 }
 
@@ -316,7 +317,7 @@ void check_coupled_target(const Case& source, const std::string& key, const setu
   }
   if (target.match == "mac")
     findings.report(key + ".match", "\"mac\" compares shapes of the part alone; take participation or number");
-  const auto directions = directions_at(source, point_of(target.point));
+  const auto directions = directions_at(source, setup::point_of(target.point));
   const auto direction = direction_of(target.point);
   if (direction && !directions.empty() && std::ranges::count(directions, *direction) == 0)
     findings.report(key + ".point", "\"" + target.point + "\" is none of the point's directions; add it to the point");
@@ -326,9 +327,9 @@ void check_target(const Case& source, const std::string& on, const std::string& 
                   const setup::UpdatingTarget& target, Findings& findings) {
   const bool reduction = target.quantity == "reduction_at";
   if (on == "coupled") {
-    require_kept(source, key + ".point", point_of(target.point), findings);
+    require_kept(source, key + ".point", setup::point_of(target.point), findings);
   } else {
-    findings.require_known(key + ".point", point_of(target.point), part_points(source), "point");
+    findings.require_known(key + ".point", setup::point_of(target.point), part_points(source), "point");
   }
   require_direction(key + ".point", target.point, findings);
   if (reduction && (target.value <= 0.0 || target.value >= 1.0))

@@ -9,6 +9,7 @@
 #include "case/part_checks.hpp"
 #include "core/error.hpp"
 #include "setup/contact_model.hpp"
+#include "setup/measured_layout.hpp"
 
 namespace thinwall::cases {
 
@@ -129,15 +130,15 @@ void check_preloaded(const Case& source, const std::string& key, const setup::Co
 void check_measured_end(const Case& source, const std::string& key, const setup::Contact& contact, bool response,
                         Findings& findings) {
   const auto end = [&](const setup::MeasuredFrf& frf) { return response ? frf.response : frf.force; };
-  const std::string point = point_of(end(contact.measured.front()));
+  const std::string point = setup::point_of(end(contact.measured.front()));
   const auto points = part_points(source);
   std::vector<Eigen::Vector3d> seen;
   for (std::size_t i = 0; i < contact.measured.size(); ++i) {
     const std::string dof = end(contact.measured[i]);
     const std::string item = fmt::format("{}.measured[{}].{}", key, i, response ? "response" : "force");
     if (const auto direction = direction_of(dof)) seen.push_back(*direction);
-    findings.require_known(item, point_of(dof), points, "point");
-    if (point_of(dof) != point)
+    findings.require_known(item, setup::point_of(dof), points, "point");
+    if (setup::point_of(dof) != point)
       findings.report(item, fmt::format("\"{}\" is of another point than \"{}\"; a joint is found between one point "
                                         "that moves and one that is excited",
                                         dof, point));
@@ -161,7 +162,7 @@ void check_measured_points(const Case& source, const std::string& key, const set
   const std::size_t before = findings.problems.size();
   check_measured_end(source, key, contact, true, findings);
   const setup::MeasuredFrf& first = contact.measured.front();
-  const bool same = point_of(first.response) == point_of(first.force);
+  const bool same = setup::point_of(first.response) == setup::point_of(first.force);
   if (!same || findings.problems.size() == before) check_measured_end(source, key, contact, false, findings);
 }
 

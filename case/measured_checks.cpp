@@ -32,7 +32,7 @@ void check_measured_part(const Case& source, Findings& findings) {
   }
   std::vector<std::string> points;
   for (const std::string& dof : setup::measured_layout(source.measured_part).dofs) {
-    if (std::ranges::find(points, point_of(dof)) == points.end()) points.push_back(point_of(dof));
+    if (std::ranges::find(points, setup::point_of(dof)) == points.end()) points.push_back(setup::point_of(dof));
   }
   check_sensors("part.sensors", source.part_sensors, points, findings);
 }

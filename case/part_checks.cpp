@@ -17,8 +17,10 @@
 #include "mesh/box.hpp"
 #include "mesh/nearest_point.hpp"
 #include "mesh/planar/bend.hpp"
+#include "setup/graded_mesh.hpp"
 #include "setup/imported_part.hpp"
-#include "study/part/discretisation.hpp"
+#include "setup/measured_layout.hpp"
+#include "setup/part_geometry.hpp"
 
 namespace thinwall::cases {
 
@@ -138,7 +140,7 @@ void check_prism(const setup::Part& part, Findings& findings) {
 
 void check_bend(const setup::Part& part, Findings& findings) {
   if (!part.bend || setup::from_file(part) || !geometry_known(part) || !std::isfinite(part.bend->radius)) return;
-  const int through = study::planar(part).axes[2];
+  const int through = setup::planar(part).axes[2];
   const Eigen::AlignedBox3d box = setup::bounds(part);
   if (part.bend->along && *part.bend->along == through) {
     findings.report("part.bend.along", "the part is bent along its wall, not through its thickness; name another axis");
@@ -146,7 +148,7 @@ void check_bend(const setup::Part& part, Findings& findings) {
   }
   mesh::Positions corners(2, 3);
   corners << box.min().transpose(), box.max().transpose();
-  for (const std::string& violation : mesh::violations(study::bend_of(part), corners))
+  for (const std::string& violation : mesh::violations(setup::bend_of(part), corners))
     findings.report("part.bend.radius", violation);
 }
 
@@ -366,7 +368,7 @@ void check_material_places(const Case& source, Findings& findings) {
   }
 }
 
-bool holds(const Case& source, const setup::Support& support, const Eigen::Vector3d& p) {
+bool holds(const setup::Setup& source, const setup::Support& support, const Eigen::Vector3d& p) {
   const auto& part = *source.part;
   if (std::ranges::find(mesh::face_names(), support.on) != mesh::face_names().end())
     return on_face(part, support.on, p);
@@ -390,7 +392,7 @@ SizeEstimate estimate_size(const Case& source) {
                   : setup::from_file(part) ? elements_in_surface(part)
                   : by_tetgen(part)
                       ? std::max(6.0, tets_in({Eigen::Vector3d::Zero(), setup::box_size(part)}, grading_of(source)))
-                      : static_cast<double>(study::graded_mesh(source, 0).tets.size());
+                      : static_cast<double>(setup::graded_mesh(source, 0).tets.size());
   // A tetrahedral mesh of a thin wall has about 0.3 vertices, 1.6 edges and 2.3 faces an element.
   const double p = size.order;
   size.nodes = size.elements * (0.3 + 1.6 * (p - 1) + 2.3 * (p - 1) * (p - 2) / 2 + (p - 1) * (p - 2) * (p - 3) / 6);
@@ -425,7 +427,7 @@ void check_part(const Case& source, Findings& findings) {
 std::string outside_part(const setup::Part& part, const Eigen::Vector3d& p, double patch_radius) {
   if (!geometry_known(part)) return "";
   const Eigen::AlignedBox3d box = setup::bounds(part);
-  const double slack = setup::from_file(part) ? study::off_surface(part) : tolerance(part);
+  const double slack = setup::from_file(part) ? setup::off_surface(part) : tolerance(part);
   if (((box.min() - p).array() > slack).any() || ((p - box.max()).array() > slack).any()) {
     return text(p) + " lies outside the part, which reaches from " +
            (box.min().isZero() ? "the origin" : text(box.min())) + " to " + text(box.max());
@@ -439,15 +441,11 @@ std::string outside_part(const setup::Part& part, const Eigen::Vector3d& p, doub
          "; move it there (within " + core::readable_text(given_to(part), core::kind::length) + ")";
 }
 
-std::string point_of(const std::string& dof) {
-  return dof.substr(0, dof.find('.'));
-}
-
 std::vector<std::string> part_points(const Case& source) {
   std::vector<std::string> names;
   for (const auto& point : source.points) names.push_back(point.name);
   for (const auto& frf : source.measured_part) {
-    for (const auto& name : {point_of(frf.response), point_of(frf.force)}) {
+    for (const auto& name : {setup::point_of(frf.response), setup::point_of(frf.force)}) {
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }
   }
@@ -471,7 +469,7 @@ std::vector<Eigen::Vector3d> directions_at(const Case& source, const std::string
   for (const auto& frf : source.measured_part) {
     for (const auto& dof : {frf.response, frf.force}) {
       const auto direction = direction_of(dof);
-      if (direction && point_of(dof) == name) directions.push_back(*direction);
+      if (direction && setup::point_of(dof) == name) directions.push_back(*direction);
     }
   }
   return directions;
@@ -490,7 +488,7 @@ bool spanned(const std::vector<Eigen::Vector3d>& directions, const Eigen::Vector
   return !(beyond_basis(direction).norm() > 1e-6);
 }
 
-std::string clamped_by(const Case& source, const std::string& name, const Eigen::Vector3d& direction) {
+std::string clamped_by(const setup::Setup& source, const std::string& name, const Eigen::Vector3d& direction) {
   const auto found = std::ranges::find(source.points, name, &setup::Point::name);
   if (!source.part || !geometry_known(*source.part) || found == source.points.end()) return "";
   if (found->at.has_value() == found->position.has_value()) return "";

@@ -17,7 +17,8 @@ void check_part(const Case& source, Findings& findings);
 [[nodiscard]] std::string outside_part(const setup::Part& part, const Eigen::Vector3d& p, double patch_radius);
 
 /// Name of the support that holds the point in the direction, or "" if it is free to move (or not known well enough).
-[[nodiscard]] std::string clamped_by(const Case& source, const std::string& point, const Eigen::Vector3d& direction);
+[[nodiscard]] std::string clamped_by(const setup::Setup& source, const std::string& point,
+                                     const Eigen::Vector3d& direction);
 
 /// True if at most three directions are given and none follows from the others.
 [[nodiscard]] bool independent(const std::vector<Eigen::Vector3d>& directions);
@@ -30,8 +31,5 @@ void check_part(const Case& source, Findings& findings);
 
 /// Direction of "P.x"; none if the name has none that can be read.
 [[nodiscard]] std::optional<Eigen::Vector3d> direction_of(const std::string& dof);
-
-/// "P.x" → "P".
-[[nodiscard]] std::string point_of(const std::string& dof);
 
 }  // namespace thinwall::cases

@@ -68,7 +68,7 @@ void check_length(const setup::Path& path, Findings& findings) {
 }
 
 /// What is wrong with a point of the case at one position; empty if nothing.
-std::string fault_at(const Case& there, const setup::Point& p) {
+std::string fault_at(const setup::Setup& there, const setup::Point& p) {
   if (std::string outside = outside_part(*there.part, *p.position, p.patch_radius); !outside.empty()) return outside;
   for (const Eigen::Vector3d& direction : p.directions) {
     const std::string support = clamped_by(there, p.name, direction);
@@ -81,7 +81,7 @@ std::string fault_at(const Case& there, const setup::Point& p) {
 bool check_position(const Case& source, std::size_t i, std::optional<Eigen::VectorXd>& near, Findings& findings) {
   const std::string number =
       "position " + std::to_string(i + 1) + " of " + std::to_string(source.path->positions.size());
-  const Case there = setup::at_position(source, i);
+  const setup::Setup there = setup::at_position(source, i);
   for (const setup::Point& p : there.points) {
     const bool is_cut = p.name == there.cutting->at;
     if (!is_cut && !source.path->robot_follows) continue;

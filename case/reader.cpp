@@ -6,11 +6,11 @@
 
 #include "case/binding.hpp"
 #include "case/checks.hpp"
-#include "case/matrix_faults.hpp"
 #include "case/schema.hpp"
 #include "case/toml_values.hpp"
 #include "core/atomic_file.hpp"
 #include "setup/imported_part.hpp"
+#include "setup/matrix_faults.hpp"
 
 namespace thinwall::cases {
 
@@ -21,7 +21,7 @@ std::shared_ptr<const setup::ImportedPart> read_imported(const setup::Part& part
   try {
     return setup::read_part_file(part);
   } catch (const core::InputError&) {
-    if (part.shape == "matrices") require_plausible_files(part.file.matrices);
+    if (part.shape == "matrices") setup::require_plausible_files(part.file.matrices);
     throw;
   }
 }

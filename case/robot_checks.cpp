@@ -8,6 +8,7 @@
 #include "case/part_checks.hpp"
 #include "case/robot_binding.hpp"
 #include "robot/flexible_joints.hpp"
+#include "setup/measured_layout.hpp"
 #include "setup/robot_tip.hpp"
 
 namespace thinwall::cases {
@@ -87,7 +88,7 @@ void check_measured_robot(const setup::Robot& robot, Findings& findings) {
                         frf.response + "\"");
   }
   const auto measured_along = direction_of(frf.response);
-  if (!measured_along || point_of(frf.response) != robot.point) return;
+  if (!measured_along || setup::point_of(frf.response) != robot.point) return;
   for (const auto* letter : {"x", "y", "z"}) {
     const Eigen::Vector3d axis = *direction_of(robot.point + "." + letter);
     if ((robot.direction - axis).norm() < 1e-9 && *measured_along != axis)
@@ -268,10 +269,10 @@ std::vector<Eigen::Vector3d> tip_directions(const setup::Robot& robot) {
   return directions;
 }
 
-std::string fault_of_posture(const Case& source, std::optional<Eigen::VectorXd>& near) {
+std::string fault_of_posture(const setup::Setup& source, std::optional<Eigen::VectorXd>& near) {
   if (source.robot->model != "flexible_joints") return "";
   try {
-    const study::RobotPosture stands = setup::robot_posture(source, near);
+    const setup::RobotPosture stands = setup::robot_posture(source, near);
     (void)robot::linearised(source.robot->arm, stands.posture, source.robot->point);
     near = stands.posture.q;
   } catch (const core::InputError& error) {

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/memory.hpp"
+#include "core/messages.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 #include "core/units.hpp"

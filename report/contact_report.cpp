@@ -41,7 +41,7 @@ json identified_of(const study::ContactIdentification& identification) {
   return result;
 }
 
-json contact_of(const study::JoinedContact& joined) {
+json contact_of(const setup::JoinedContact& joined) {
   const coupling::Contact& contact = joined.contact;
   json result = {{"part", contact.point_a}, {"robot", contact.point_b}, {"model", joined.model}};
   for (std::size_t i = 0; i < contact.springs.size(); ++i) {
@@ -134,7 +134,7 @@ ContactAlong along(const coupling::Contact& contact, std::size_t direction) {
 
 json contacts_summary(const study::Results& results) {
   json list = json::array();
-  for (const study::JoinedContact& contact : results.contacts) list.push_back(contact_of(contact));
+  for (const setup::JoinedContact& contact : results.contacts) list.push_back(contact_of(contact));
   if (results.identification) list.front()["identified"] = identified_of(*results.identification);
   return list;
 }

@@ -14,7 +14,7 @@ namespace {
 /// The displacement of the robot's end from the DOFs of the coupled model, 3 × dofs: of its own point, or, where a
 /// rigid contact left the part's point only, of that along the contact's directions. Zero where there is no single
 /// contact.
-Eigen::Matrix3Xd end_of_robot(const cases::Case& source, const dynamics::DofTable& dofs) {
+Eigen::Matrix3Xd end_of_robot(const setup::Setup& source, const dynamics::DofTable& dofs) {
   if (source.contacts.empty()) return Eigen::Matrix3Xd::Zero(3, std::ssize(dofs));
   const setup::Contact& contact = source.contacts.front();
   const auto has = [&](const std::string& point) { return std::ranges::count(dofs, point, &dynamics::Dof::point) > 0; };
@@ -44,7 +44,7 @@ void scale(Eigen::Ref<Eigen::VectorXd> part, Eigen::Ref<Eigen::Vector3d> robot) 
 
 }  // namespace
 
-CoupledShapes coupled_shapes(const cases::Case& source, const study::PartResult& part,
+CoupledShapes coupled_shapes(const setup::Setup& source, const study::PartResult& part,
                              const study::CouplingResult& coupled) {
   const dynamics::ModalModel& modal = *coupled.modal;
   const Eigen::MatrixXd& T = part.reduced->T;

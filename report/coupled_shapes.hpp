@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "case/case.hpp"
+#include "setup/machining_setup.hpp"
 #include "study/results.hpp"
 
 namespace thinwall::report {
@@ -20,7 +20,7 @@ struct CoupledShapes {
 /// displacement is real (a complex mode is drawn at the phase of that); zero in a mode of the robot alone, where they
 /// are round-off, 1e-9 of the mode's largest entry. The part must be reduced and the coupling have modes. Cost
 /// O(rows · kept · modes).
-[[nodiscard]] CoupledShapes coupled_shapes(const cases::Case& source, const study::PartResult& part,
+[[nodiscard]] CoupledShapes coupled_shapes(const setup::Setup& source, const study::PartResult& part,
                                            const study::CouplingResult& coupled);
 
 }  // namespace thinwall::report

@@ -111,7 +111,7 @@ void write_lobes(const fs::path& folder, const study::NamedLobes& named) {
   if (named.map) write_map(folder / (named.name + "_map.csv"), *named.map);
 }
 
-void write_path(const fs::path& folder, const cases::Case& source, const study::PathLobes& path) {
+void write_path(const fs::path& folder, const setup::Setup& source, const study::PathLobes& path) {
   std::vector<double> number, x, y, z, speed, depth, chatter, error;
   std::vector<std::string> kind, status;
   for (std::size_t i = 0; i < path.lobes.size(); ++i) {

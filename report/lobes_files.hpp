@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "case/case.hpp"
+#include "setup/machining_setup.hpp"
 #include "study/results.hpp"
 
 namespace thinwall::report {
@@ -13,6 +13,6 @@ namespace thinwall::report {
 void write_lobes(const std::filesystem::path& folder, const study::NamedLobes& named);
 
 /// lobes/<name>_path.csv: position by position, in each the speeds of the chart. Throws as io::write_csv.
-void write_path(const std::filesystem::path& folder, const cases::Case& source, const study::PathLobes& path);
+void write_path(const std::filesystem::path& folder, const setup::Setup& source, const study::PathLobes& path);
 
 }  // namespace thinwall::report

@@ -9,12 +9,12 @@ using nlohmann::json;
 namespace {
 
 /// The depth limit is the tool's length unless the case says less.
-std::string depth_limit_name(const cases::Case& source) {
+std::string depth_limit_name(const setup::Setup& source) {
   const bool whole_edge = source.tool && source.lobes->depth_limit >= source.tool->length;
   return whole_edge ? "tool_length" : milling::name(milling::PocketLimit::depth_limit);
 }
 
-std::string limit_name(const cases::Case& source, milling::PocketLimit limit) {
+std::string limit_name(const setup::Setup& source, milling::PocketLimit limit) {
   return limit == milling::PocketLimit::depth_limit ? depth_limit_name(source) : milling::name(limit);
 }
 
@@ -42,7 +42,7 @@ json map_summary(const milling::StabilityMap& map) {
 
 }  // namespace
 
-json cutting_summary(const cases::Case& source) {
+json cutting_summary(const setup::Setup& source) {
   json cutting = {{"teeth", source.tool->teeth},
                   {"depth_limit_m", source.lobes->depth_limit},
                   {"depth_limit_is", depth_limit_name(source)}};
@@ -55,7 +55,7 @@ json cutting_summary(const cases::Case& source) {
   return cutting;
 }
 
-json pockets_summary(const cases::Case& source, const std::vector<milling::Pocket>& pockets) {
+json pockets_summary(const setup::Setup& source, const std::vector<milling::Pocket>& pockets) {
   json list = json::array();
   for (const auto& pocket : pockets) {
     const auto& rate = pocket.removal_rate_m3_s;
@@ -78,7 +78,7 @@ json sensitivities_summary(const std::vector<study::ParameterSensitivity>& list)
   return entries;
 }
 
-void add_what_was_asked(json& chart, const cases::Case& source, const study::NamedLobes& named) {
+void add_what_was_asked(json& chart, const setup::Setup& source, const study::NamedLobes& named) {
   for (const study::ComparedLobes& other : named.compared) chart["compared"].push_back(compared_summary(other));
   if (named.map) chart["map"] = map_summary(*named.map);
   if (!named.robust) return;

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-json position_summary(const cases::Case& source, const study::PathLobes& path, std::size_t i) {
+json position_summary(const setup::Setup& source, const study::PathLobes& path, std::size_t i) {
   const milling::Lobes& lobes = path.lobes[i];
   const Eigen::Vector3d& at = source.path->positions[i];
   json result = {{"position", i + 1},
@@ -108,7 +108,7 @@ std::string chart_text(const json& path) {
 
 }  // namespace
 
-json path_summary(const cases::Case& source, const study::PathLobes& path) {
+json path_summary(const setup::Setup& source, const study::PathLobes& path) {
   json positions = json::array();
   int not_converged = 0;
   double error = 0.0;

@@ -6,8 +6,6 @@
 #include <array>
 #include <functional>
 
-#include "app/doctor.hpp"
-#include "case/writer.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -73,7 +71,7 @@ nlohmann::json records(const std::vector<io::FileRecord>& files) {
 
 }  // namespace
 
-void write_structure(const fs::path& folder, const cases::Case& source, const study::Results& results) {
+void write_structure(const fs::path& folder, const setup::Setup& source, const study::Results& results) {
   constexpr std::array subfolders{"modes", "frf", "robot", "models"};
   for (const char* name : subfolders) fs::create_directories(folder / name);
   FileTasks files;
@@ -115,7 +113,7 @@ void write_structure(const fs::path& folder, const cases::Case& source, const st
   }
 }
 
-void write_cuts(const fs::path& folder, const cases::Case& source, const study::Results& results) {
+void write_cuts(const fs::path& folder, const setup::Setup& source, const study::Results& results) {
   if (results.lobes.empty() && results.path.empty()) return;
   fs::create_directories(folder / "lobes");
   for (const auto& lobes : results.lobes) write_lobes(folder / "lobes", lobes);
@@ -144,36 +142,6 @@ void publish(const fs::path& staging, const fs::path& folder) {
   } catch (const fs::filesystem_error& error) {
     throw core::DataError(std::string("cannot replace the results of an earlier run: ") + error.what());
   }
-}
-
-nlohmann::json manifest_of(const cases::Case& source, const nlohmann::json& summary, const std::string& started_utc) {
-  nlohmann::json manifest;
-  manifest["program"] = {
-      {"name", "thinwall"}, {"version", app::program_version()}, {"built_with", app::doctor_report()}};
-  if (!app::program_commit().empty()) manifest["program"]["commit"] = app::program_commit();
-  manifest["threads"] = core::thread_count();
-  manifest["started_utc"] = started_utc;
-  manifest["inputs"] = nlohmann::json::array();
-  for (const auto& input : cases::input_files(source))
-    manifest["inputs"].push_back({{"name", input.string()}, {"sha256", io::sha256_of_file(input)}});
-  manifest["inputs"].push_back({{"name", source.file.string()}, {"sha256", io::sha256(source.source)}});
-  const fs::path expected = source.file.parent_path() / "expected.toml";
-  if (fs::exists(expected)) {
-    manifest["inputs"].push_back({{"name", expected.string()}, {"sha256", io::sha256_of_file(expected)}});
-  }
-  manifest["seeds"] = nlohmann::json::array();
-  const auto drawn = [](const nlohmann::json& chart) {
-    return chart.contains("at_case_speed") && chart["at_case_speed"].contains("error_budget") &&
-           chart["at_case_speed"]["error_budget"].contains("sampled");
-  };
-  if (std::ranges::any_of(summary["lobes"], drawn)) manifest["seeds"].push_back(source.lobes->seed);
-  return manifest;
-}
-
-void write_cases(const fs::path& folder, const cases::Case& source, const cases::Case& fitted) {
-  core::write_file_atomically(folder / "case.toml", source.source);
-  core::write_file_atomically(folder / "case.resolved.toml", cases::resolved_text(source));
-  if (!source.updating.empty()) core::write_file_atomically(folder / "case.fitted.toml", cases::resolved_text(fitted));
 }
 
 void write_summary(const fs::path& folder, const nlohmann::json& summary, nlohmann::json& manifest) {

@@ -4,28 +4,21 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "case/case.hpp"
+#include "setup/machining_setup.hpp"
 #include "study/results.hpp"
 
 namespace thinwall::report {
 
 /// modes/, frf/, robot/, models/ below `folder`: what the structure is, whatever cuts it; receptances at the points of
 /// [response]. Throws DataError if a file cannot be written.
-void write_structure(const std::filesystem::path& folder, const cases::Case& source, const study::Results& results);
+void write_structure(const std::filesystem::path& folder, const setup::Setup& source, const study::Results& results);
 
 /// lobes/ below `folder`. Throws DataError as above.
-void write_cuts(const std::filesystem::path& folder, const cases::Case& source, const study::Results& results);
+void write_cuts(const std::filesystem::path& folder, const setup::Setup& source, const study::Results& results);
 
 /// Moves a complete result from `staging` into the result folder, in place of an earlier run's, the summary and the
 /// manifest last: until then an interrupted run changes nothing there.
 void publish(const std::filesystem::path& staging, const std::filesystem::path& folder);
-
-/// case.toml, case.resolved.toml (the case with every default), case.fitted.toml (with what updating found, if it ran).
-void write_cases(const std::filesystem::path& folder, const cases::Case& source, const cases::Case& fitted);
-
-/// Program with commit, threads, seeds, and the SHA-256 of every input. `started_utc` as 2026-11-21T10:00:00Z.
-[[nodiscard]] nlohmann::json manifest_of(const cases::Case& source, const nlohmann::json& summary,
-                                         const std::string& started_utc);
 
 /// summary.json, and manifest.json with the summary's times, which are put into `manifest`.
 void write_summary(const std::filesystem::path& folder, const nlohmann::json& summary, nlohmann::json& manifest);

@@ -59,8 +59,8 @@ void try_to_write(const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::filesystem::path default_result_folder(const cases::Case& source) {
-  return std::filesystem::path("results") / (source.name.empty() ? "case" : source.name);
+std::filesystem::path default_result_folder(const std::string& case_name) {
+  return std::filesystem::path("results") / (case_name.empty() ? "case" : case_name);
 }
 
 ResultFolder::ResultFolder(std::filesystem::path folder) : path_(std::move(folder)) {

@@ -4,7 +4,7 @@
 #include <array>
 #include <filesystem>
 
-#include "case/case.hpp"
+#include "setup/machining_setup.hpp"
 
 namespace thinwall::report {
 
@@ -12,7 +12,7 @@ namespace thinwall::report {
 inline constexpr std::array result_subfolders{"modes", "frf", "robot", "lobes", "models"};
 
 /// results/<case>/ below the working directory.
-[[nodiscard]] std::filesystem::path default_result_folder(const cases::Case& source);
+[[nodiscard]] std::filesystem::path default_result_folder(const std::string& case_name);
 
 /// A result folder held by this process alone for as long as the object lives.
 class ResultFolder {

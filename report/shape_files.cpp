@@ -15,6 +15,7 @@
 #include "mesh/solid/tessellation.hpp"
 #include "report/coupled_shapes.hpp"
 #include "setup/imported_part.hpp"
+#include "setup/part_geometry.hpp"
 #include "study/part/discretisation.hpp"
 #include "study/part/part_damping.hpp"
 
@@ -70,14 +71,14 @@ std::vector<bool> held_nodes(const fem::Model& model) {
 }
 
 /// Nodes that supports of that name hold; those on sets of nodes are looked up in the part's file.
-std::vector<bool> nodes_held_by(const std::string& name, const cases::Case& source, const fem::Model& model) {
-  cases::Case one = source;
+std::vector<bool> nodes_held_by(const std::string& name, const setup::Setup& source, const fem::Model& model) {
+  setup::Setup one = source;
   std::erase_if(one.part->supports, [&](const setup::Support& support) { return support.on != name; });
-  std::vector<int> rows = fem::fixed_rows(model.mesh, model.nodes, study::supports_of(one));
+  std::vector<int> rows = fem::fixed_rows(model.mesh, model.nodes, setup::supports_of(one));
   if (setup::names_node_set(source, name)) {
     mesh::SolidMesh solid = *setup::solid_of(*source.part);
     if (model.nodes.order == 2) solid = mesh::with_order(std::move(solid), 2);
-    rows = study::rows_held_by_sets(one, solid);
+    rows = setup::rows_held_by_sets(one, solid);
   }
   std::vector<bool> held(static_cast<std::size_t>(model.nodes.positions.rows()), false);
   for (const int row : rows) held[static_cast<std::size_t>(row / 3)] = true;
@@ -86,7 +87,7 @@ std::vector<bool> nodes_held_by(const std::string& name, const cases::Case& sour
 
 /// What is known on the triangles of the surface: "held", the same of each support ("held by y_min"), the wall's
 /// thickness.
-std::vector<io::TriangleNumbers> fields(const cases::Case& source, const study::PartResult& part,
+std::vector<io::TriangleNumbers> fields(const setup::Setup& source, const study::PartResult& part,
                                         const Triangles& triangles) {
   std::vector<io::TriangleNumbers> numbers{{"held", covered(held_nodes(part.model), triangles)}};
   std::vector<std::string> names;
@@ -102,7 +103,7 @@ std::vector<io::TriangleNumbers> fields(const cases::Case& source, const study::
 /// The surface with all shapes as fields "mode 01, 160.7 Hz": what a viewer that knows no high orders can show; with
 /// fields() of a case.
 void write_surface(const fs::path& file, const study::PartResult& part, const Eigen::MatrixXd& shapes,
-                   const std::vector<double>& hz, const cases::Case* fields_of) {
+                   const std::vector<double>& hz, const setup::Setup* fields_of) {
   const fem::Model& model = part.model;
   std::vector<io::NodeVectors> vectors;
   for (std::size_t k = 0; k < hz.size(); ++k)
@@ -127,7 +128,7 @@ void write_mac(const fs::path& file, const Eigen::MatrixXd& values, const std::s
                  "robot in which the part is at rest"});
 }
 
-void write_part_modes(FileTasks& files, const fs::path& folder, const cases::Case& source,
+void write_part_modes(FileTasks& files, const fs::path& folder, const setup::Setup& source,
                       const study::Results& results) {
   const study::PartResult& part = *results.finite_elements;
   const bool meshed = !part.model.mesh.tets.empty();
@@ -155,7 +156,7 @@ void write_part_modes(FileTasks& files, const fs::path& folder, const cases::Cas
   write_mac(folder / "auto_mac.csv", dynamics::mac(part.modes.pairs.Phi, part.modes.pairs.Phi), "part_mode");
 }
 
-void write_coupled_modes(FileTasks& files, const fs::path& folder, const cases::Case& source,
+void write_coupled_modes(FileTasks& files, const fs::path& folder, const setup::Setup& source,
                          const study::Results& results) {
   const study::PartResult& part = *results.finite_elements;
   const auto shapes = std::make_shared<const CoupledShapes>(coupled_shapes(source, part, *results.coupled));
@@ -187,7 +188,7 @@ void write_coupled_modes(FileTasks& files, const fs::path& folder, const cases::
 
 }  // namespace
 
-void write_shapes(FileTasks& files, const fs::path& folder, const cases::Case& source, const study::Results& results) {
+void write_shapes(FileTasks& files, const fs::path& folder, const setup::Setup& source, const study::Results& results) {
   write_part_modes(files, folder, source, results);
   if (results.coupled && results.coupled->modal) write_coupled_modes(files, folder, source, results);
 }

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "case/case.hpp"
+#include "setup/machining_setup.hpp"
 #include "study/results.hpp"
 
 namespace thinwall::report {
@@ -17,7 +17,7 @@ using FileTasks = std::vector<std::function<void()>>;
 /// (mac.csv, auto_mac.csv; dynamics::mac), each shape on the elements (VTU, PVD) and all of them on the surface
 /// (part_surface.vtp, coupled_surface.vtp) with what is held, by each support (shape_files.cpp), and how thick the wall
 /// is. `source` is the case as the part was computed, fitted sizes included. The tables are written at once.
-void write_shapes(FileTasks& files, const std::filesystem::path& folder, const cases::Case& source,
+void write_shapes(FileTasks& files, const std::filesystem::path& folder, const setup::Setup& source,
                   const study::Results& results);
 
 }  // namespace thinwall::report

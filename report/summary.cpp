@@ -109,7 +109,7 @@ json mode_list(const dynamics::ModalModel& model) {
 }
 
 /// The tip as it stands; what the model does not tell is absent.
-json robot_of(const cases::Case& source, const study::Component& robot, const study::RobotPosture& posture) {
+json robot_of(const setup::Setup& source, const study::Component& robot, const setup::RobotPosture& posture) {
   json result = {{"model", source.robot->model}, {"modes", robot.modal ? mode_list(*robot.modal) : json::array()}};
   result.update(study::posture_summary(posture));
   const study::TipReport report = study::tip_report(posture, robot);
@@ -121,7 +121,7 @@ json robot_of(const cases::Case& source, const study::Component& robot, const st
   return result;
 }
 
-json coupling_of(const cases::Case& source, const study::Results& results) {
+json coupling_of(const setup::Setup& source, const study::Results& results) {
   const study::CouplingResult& coupled = *results.coupled;
   json result;
   result["modes"] = coupled.modal ? mode_list(*coupled.modal) : json::array();
@@ -176,7 +176,7 @@ json crossing_of(const milling::LobePoint& point) {
           {"error_estimate_relative", finite(point.error_estimate)}};
 }
 
-json lobes_of(const cases::Case& source, const study::NamedLobes& named) {
+json lobes_of(const setup::Setup& source, const study::NamedLobes& named) {
   const milling::Lobes& lobes = named.lobes;
   const auto deepest = std::max_element(lobes.rows.begin(), lobes.rows.end(), [](const auto& a, const auto& b) {
     return a.limiting_depth_m < b.limiting_depth_m;
@@ -256,6 +256,7 @@ json updating_of(const study::UpdatingResult& fit) {
   json result = {{"name", fit.name}, {"evaluations", fit.evaluations}, {"converged", fit.converged}};
   for (const auto& p : fit.parameters) {
     result["parameters"].push_back({{"key", p.key},
+                                    {"unit", p.unit},
                                     {"start", p.start},
                                     {"fitted", p.fitted},
                                     {"lower", p.lower},
@@ -270,9 +271,9 @@ json updating_of(const study::UpdatingResult& fit) {
 }
 
 /// Directions in which contacts hold a point of the part: those of springs that resist.
-json joined_at(const std::string& point, const std::vector<study::JoinedContact>& contacts) {
+json joined_at(const std::string& point, const std::vector<setup::JoinedContact>& contacts) {
   json joined = json::array();
-  for (const study::JoinedContact& contact : contacts) {
+  for (const setup::JoinedContact& contact : contacts) {
     if (contact.contact.point_a != point) continue;
     const auto& springs = contact.contact.springs;
     for (std::size_t i = 0; i < springs.size(); ++i) {
@@ -284,7 +285,7 @@ json joined_at(const std::string& point, const std::vector<study::JoinedContact>
 }
 
 /// The named points of a part whose shape is known.
-json points_of(const cases::Case& source, const std::vector<study::JoinedContact>& contacts) {
+json points_of(const setup::Setup& source, const std::vector<setup::JoinedContact>& contacts) {
   json points = json::array();
   if (!source.part) return points;
   for (const setup::Point& p : source.points) {
@@ -301,8 +302,8 @@ json points_of(const cases::Case& source, const std::vector<study::JoinedContact
 
 }  // namespace
 
-json summary_of(const cases::Case& source, const study::Results& results) {
-  json summary = {{"schema", 1}, {"case", source.name}, {"title", source.title}, {"status", "ok"}};
+json summary_of(const setup::Setup& source, const study::Results& results) {
+  json summary = {{"schema", 1}, {"status", "ok"}};
   summary["updating"] = json::array();
   for (const auto& fit : results.updating) summary["updating"].push_back(updating_of(fit));
   if (source.part && source.part->imported) summary["geometry"] = setup::geometry_summary(*source.part);
@@ -329,25 +330,6 @@ json summary_of(const cases::Case& source, const study::Results& results) {
   summary["timings_s"] = json::object();
   for (const auto& [stage, seconds] : results.timings_s) summary["timings_s"][stage] = seconds;
   return summary;
-}
-
-bool add_checks(json& summary, const std::vector<cases::Expectation>& expectations) {
-  bool all = true;
-  for (const cases::Expectation& wanted : expectations) {
-    const cases::ExpectationResult result = cases::compare(wanted, summary);
-    const cases::Expectation& expected = result.expected;
-    json check = {
-        {"name", expected.name}, {"quantity", expected.quantity}, {"origin", expected.origin}, {"ok", result.ok}};
-    check["value"] = result.actual ? json(*result.actual) : json(nullptr);
-    check["expected"] = expected.value ? json(*expected.value) : json(nullptr);
-    if (expected.tolerance) check["tolerance"] = *expected.tolerance;
-    if (expected.relative && expected.value) check["tolerance"] = *expected.relative * std::abs(*expected.value);
-    if (expected.at_least) check["at_least"] = *expected.at_least;
-    if (expected.at_most) check["at_most"] = *expected.at_most;
-    summary["checks"].push_back(check);
-    all = all && result.ok;
-  }
-  return all;
 }
 
 }  // namespace thinwall::report

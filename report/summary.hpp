@@ -4,16 +4,12 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "case/case.hpp"
-#include "case/expectation.hpp"
+#include "setup/machining_setup.hpp"
 #include "study/results.hpp"
 
 namespace thinwall::report {
 
 /// The summary of a run without its checks.
-[[nodiscard]] nlohmann::json summary_of(const cases::Case& source, const study::Results& results);
-
-/// Adds the checks and returns whether all hold.
-bool add_checks(nlohmann::json& summary, const std::vector<cases::Expectation>& expectations);
+[[nodiscard]] nlohmann::json summary_of(const setup::Setup& source, const study::Results& results);
 
 }  // namespace thinwall::report

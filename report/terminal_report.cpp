@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "case/schema.hpp"
 #include "report/contact_report.hpp"
 #include "report/lobes_answers.hpp"
 #include "report/lobes_report.hpp"
@@ -98,22 +97,15 @@ void charts(std::string& out, const json& summary) {
   }
 }
 
-/// In which the numbers of a fit are.
-std::string_view unit_of_key(const std::string& path) {
-  const cases::Key* key = cases::find_key(
-      cases::case_schema(), cases::pattern_of(cases::case_schema(), cases::full_path(cases::case_schema(), path)));
-  return key == nullptr ? "" : key->kind.unit;
-}
-
 void updating(std::string& out, const json& summary) {
   for (const json& fit : summary["updating"]) {
     out += fmt::format("  fitted: {}\n", fit["name"].get<std::string>());
     for (const json& p : fit["parameters"]) {
       const std::string key = p["key"];
-      out +=
-          fmt::format("    {:<28} {:>12.6g} {:<6} (from {:.6g}; bounds {:.6g} to {:.6g}{})\n", key,
-                      p["fitted"].get<double>(), unit_of_key(key), p["start"].get<double>(), p["lower"].get<double>(),
-                      p["upper"].get<double>(), p["at_bound"].get<bool>() ? "; at a bound" : "");
+      out += fmt::format("    {:<28} {:>12.6g} {:<6} (from {:.6g}; bounds {:.6g} to {:.6g}{})\n", key,
+                         p["fitted"].get<double>(), p.value("unit", std::string()), p["start"].get<double>(),
+                         p["lower"].get<double>(), p["upper"].get<double>(),
+                         p["at_bound"].get<bool>() ? "; at a bound" : "");
     }
     for (const json& t : fit["targets"]) {
       const std::string quantity = t["quantity"];

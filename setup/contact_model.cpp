@@ -9,14 +9,14 @@ namespace thinwall::setup {
 
 namespace {
 
-double required_preload(const cases::Case& source, const Contact& contact) {
+double required_preload(const Setup& source, const Contact& contact) {
   if (const auto preload = preload_of(source, contact)) return *preload;
   throw core::InputError(
       "its stiffness depends on the preload, and none presses it: give contacts.preload" +
       std::string(source.contacts.size() == 1 ? ", or robot.preload along its first direction" : ""));
 }
 
-coupling::Elastic surface_of(const cases::Case& source, const Contact& contact) {
+coupling::Elastic surface_of(const Setup& source, const Contact& contact) {
   if (contact.surface) return *contact.surface;
   if (source.part && source.part->shape != "matrices")
     return {source.part->material.youngs_modulus, source.part->material.poisson_ratio};
@@ -29,7 +29,7 @@ coupling::BallCaster caster_of(const ContactBall& ball) {
 }
 
 /// Stiffness of a ball along each direction, N/m.
-std::vector<double> ball_stiffness(const cases::Case& source, const Contact& contact, study::JoinedContact& result) {
+std::vector<double> ball_stiffness(const Setup& source, const Contact& contact, JoinedContact& result) {
   if (!contact.ball) throw core::InputError("its ball is not known: give [contacts.ball]");
   const coupling::Elastic surface = surface_of(source, contact);
   const coupling::HertzContact touch{coupling::relative_radius(contact.ball->radius), contact.ball->steel, surface};
@@ -43,7 +43,7 @@ std::vector<double> ball_stiffness(const cases::Case& source, const Contact& con
 
 }  // namespace
 
-std::optional<double> preload_of(const cases::Case& source, const Contact& contact) {
+std::optional<double> preload_of(const Setup& source, const Contact& contact) {
   if (contact.preload) return contact.preload;
   if (!source.robot || source.contacts.size() != 1 || contact.directions.empty()) return std::nullopt;
   const Eigen::Vector3d& force = source.robot->preload;
@@ -66,8 +66,8 @@ coupling::ContactTable read_contact_table(const std::filesystem::path& path) {
   return table;
 }
 
-study::JoinedContact joined_contact(const cases::Case& source, const Contact& contact) {
-  study::JoinedContact result{contact.model, {contact.part_point, contact.robot_point, {}, {}}, {}, {}};
+JoinedContact joined_contact(const Setup& source, const Contact& contact) {
+  JoinedContact result{contact.model, {contact.part_point, contact.robot_point, {}, {}}, {}, {}};
   if (contact.identified) {
     result.model = "identified";
     result.contact.matrices = *contact.identified;
@@ -88,8 +88,8 @@ study::JoinedContact joined_contact(const cases::Case& source, const Contact& co
   return result;
 }
 
-std::vector<study::JoinedContact> joined_contacts(const cases::Case& source) {
-  std::vector<study::JoinedContact> list;
+std::vector<JoinedContact> joined_contacts(const Setup& source) {
+  std::vector<JoinedContact> list;
   list.reserve(source.contacts.size());
   for (const Contact& contact : source.contacts) {
     try {

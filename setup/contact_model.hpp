@@ -5,16 +5,25 @@
 #include <optional>
 #include <vector>
 
-#include "case/case.hpp"
+#include "coupling/contact.hpp"
 #include "coupling/contact_table.hpp"
-#include "study/results.hpp"
+#include "coupling/hertz_contact.hpp"
+#include "setup/machining_setup.hpp"
 
 namespace thinwall::setup {
+
+/// A contact as it is joined, and what its stiffness comes from.
+struct JoinedContact {
+  std::string model;  ///< springs, table, hertz, caster, identified
+  coupling::Contact contact;
+  std::optional<double> preload_n;            ///< of table, hertz and caster
+  std::optional<coupling::HertzState> hertz;  ///< where a ball touches the part
+};
 
 /// The force (N) that presses the contact together: its own, else |n·F| with its normal n (the first direction) and F
 /// of robot.preload. A part only pushes, so the sign of n·F tells on which side the tip is, no more. None where that is
 /// zero, or where several contacts share F.
-[[nodiscard]] std::optional<double> preload_of(const cases::Case& source, const Contact& contact);
+[[nodiscard]] std::optional<double> preload_of(const Setup& source, const Contact& contact);
 
 /// Columns preload_n, stiffness_n_per_m and damping_n_s_per_m of a CSV, a row a preload. Throws DataError with the file
 /// for a column that is absent, and for a table that coupling::require_valid() refuses.
@@ -24,9 +33,9 @@ namespace thinwall::setup {
 /// first direction and k_t along the others, which are at right angles to it. What was found from FRFs stands as
 /// matrices in place of springs. Throws InputError for a preload that is missing or outside the table, a ball or
 /// material that is none; DataError as read_contact_table(). Cost: microseconds, and one reading of the table.
-[[nodiscard]] study::JoinedContact joined_contact(const cases::Case& source, const Contact& contact);
+[[nodiscard]] JoinedContact joined_contact(const Setup& source, const Contact& contact);
 
 /// All of them in their order; errors say which contact they are of.
-[[nodiscard]] std::vector<study::JoinedContact> joined_contacts(const cases::Case& source);
+[[nodiscard]] std::vector<JoinedContact> joined_contacts(const Setup& source);
 
 }  // namespace thinwall::setup

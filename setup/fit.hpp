@@ -12,7 +12,8 @@
 namespace thinwall::setup {
 
 struct UpdatingParameter {
-  std::string key;  ///< full dotted key for get_value and set_value
+  std::string key;   ///< name of the number, for setup::Variation
+  std::string unit;  ///< of the bounds; empty: a plain number
   double lower = 0.0, upper = 0.0;
 };
 

@@ -8,10 +8,10 @@
 #include <optional>
 #include <string>
 
-#include "case/case.hpp"
 #include "dynamics/sparse_model.hpp"
 #include "io/mesh/mesh_file.hpp"
 #include "mesh/surface/surface_repair.hpp"
+#include "setup/machining_setup.hpp"
 
 namespace thinwall::setup {
 

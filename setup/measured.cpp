@@ -1,6 +1,6 @@
 #include "setup/measured.hpp"
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/messages.hpp"
 #include "dynamics/conversion.hpp"
 #include "dynamics/frf_checks.hpp"
 #include "io/frf/frf_csv.hpp"
@@ -58,10 +59,11 @@ io::MeasuredFrf along_named_axes(const io::MeasuredEntry& entry, const MeasuredF
     const bool axis = dof->direction.cwiseAbs().maxCoeff() > 0.999;  // zero or slanted: the case knows better
     if (axis && along < -0.999) {
       frf.H = -frf.H;
-      spdlog::info("{}: {} points against {}: the FRF is turned", measured.file.string(), dynamics::name(*dof), *name);
+      core::inform(fmt::format("{}: {} points against {}: the FRF is turned", measured.file.string(),
+                               dynamics::name(*dof), *name));
     } else if (axis && along < 0.999) {
-      spdlog::warn("{}: the file says {}, the case {}; check record and axes", measured.file.string(),
-                   dynamics::name(*dof), *name);
+      core::warn(fmt::format("{}: the file says {}, the case {}; check record and axes", measured.file.string(),
+                             dynamics::name(*dof), *name));
     }
   }
   return frf;
@@ -69,7 +71,7 @@ io::MeasuredFrf along_named_axes(const io::MeasuredEntry& entry, const MeasuredF
 
 /// The FRF that the case names; what was odd in the file, or filled in by the case, is logged.
 io::MeasuredFrf record_of(const io::MeasuredEntries& file, const MeasuredFrf& measured) {
-  for (const std::string& note : file.notes) spdlog::info("{}: {}", measured.file.string(), note);
+  for (const std::string& note : file.notes) core::inform(fmt::format("{}: {}", measured.file.string(), note));
   const std::size_t count = file.entries.size();
   const auto wanted = static_cast<std::size_t>(measured.record.value_or(1));
   if (wanted <= count && (measured.record || count == 1)) return along_named_axes(file.entries[wanted - 1], measured);
@@ -135,16 +137,16 @@ void warn_of_doubts(const dynamics::ResponseModel& measured, const std::string& 
                             ? "a sensor or a force counts in the other direction"
                         : sign.verdict == dynamics::SignVerdict::conjugated ? "its phase is that of e^(-iwt)"
                                                                             : "noise, or points that are not one";
-    spdlog::warn("{} FRF at {}: its imaginary part is not that of a passive structure ({})", whose,
-                 dynamics::name(measured.responses[static_cast<std::size_t>(sign.entry.row)]), cause);
+    core::warn(fmt::format("{} FRF at {}: its imaginary part is not that of a passive structure ({})", whose,
+                           dynamics::name(measured.responses[static_cast<std::size_t>(sign.entry.row)]), cause));
   }
   if (const auto check = dynamics::reciprocity(measured); check && !check->holds) {
-    spdlog::warn("{} FRFs are not reciprocal: they differ by {:.0f} % of the largest at {:.1f} Hz", whose,
-                 check->figure * 100.0, check->frequency_hz);
+    core::warn(fmt::format("{} FRFs are not reciprocal: they differ by {:.0f} % of the largest at {:.1f} Hz", whose,
+                           check->figure * 100.0, check->frequency_hz));
   }
   if (const auto check = dynamics::passivity(measured); check && !check->holds) {
-    spdlog::warn("{} FRFs are not passive: they give energy at {:.1f} Hz, by {:.0f} % of their size", whose,
-                 check->frequency_hz, check->figure * 100.0);
+    core::warn(fmt::format("{} FRFs are not passive: they give energy at {:.1f} Hz, by {:.0f} % of their size", whose,
+                           check->frequency_hz, check->figure * 100.0));
   }
   if (measured.axis.size() < 26) return;
   for (const dynamics::Collocated& at : dynamics::driving_points(measured)) {
@@ -153,8 +155,9 @@ void warn_of_doubts(const dynamics::ResponseModel& measured, const std::string& 
       H(line) = measured.H[static_cast<std::size_t>(line)](at.row, at.column);
     const auto limit = dynamics::low_frequency_limit(measured.axis, H);
     if (limit.cause == dynamics::LowFrequencyCause::none) continue;
-    spdlog::warn("{} FRF at {} is worth little below {:.1f} Hz: its lines scatter as an integrated accelerometer's do",
-                 whose, dynamics::name(measured.responses[static_cast<std::size_t>(at.row)]), limit.from_hz);
+    core::warn(fmt::format(
+        "{} FRF at {} is worth little below {:.1f} Hz: its lines scatter as an integrated accelerometer's do", whose,
+        dynamics::name(measured.responses[static_cast<std::size_t>(at.row)]), limit.from_hz));
   }
 }
 

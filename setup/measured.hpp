@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "case/case.hpp"
 #include "dynamics/response_model.hpp"
 #include "dynamics/spatial_model.hpp"
 #include "io/frf/measured_response.hpp"
 #include "reduction/identification.hpp"
+#include "setup/machining_setup.hpp"
 
 namespace thinwall::setup {
 

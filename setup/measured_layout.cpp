@@ -87,4 +87,8 @@ LayoutFault fault_of_layout(const std::vector<MeasuredFrf>& files) {
   return {fault.empty() ? fault_of_gaps(layout) : fault, {}};
 }
 
+std::string point_of(const std::string& dof) {
+  return dof.substr(0, dof.find('.'));
+}
+
 }  // namespace thinwall::setup

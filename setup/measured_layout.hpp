@@ -6,13 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "case/case.hpp"
 #include "dynamics/dof.hpp"
+#include "setup/machining_setup.hpp"
 
 namespace thinwall::setup {
 
 /// "P.x" as a DOF. Throws InputError for a name without point or direction.
 [[nodiscard]] dynamics::Dof dof_of(const std::string& name);
+
+/// Name of the point of a DOF: "P" of "P.x".
+[[nodiscard]] std::string point_of(const std::string& dof);
 
 /// The matrix that files make, and where its entries are.
 struct MeasuredLayout {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "case/case.hpp"
 #include "coupling/frf_noise.hpp"
+#include "setup/machining_setup.hpp"
 
 namespace thinwall::setup {
 

@@ -1,9 +1,10 @@
 #include "setup/milling_process.hpp"
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 
+#include "core/messages.hpp"
 #include "milling/cut/chip_load.hpp"
 #include "milling/cut/oblique_cutting.hpp"
 
@@ -47,10 +48,10 @@ void warn_of_missed_chips(const milling::MillingProcess& process, double feed_m)
   for (const auto& load : milling::chip_loads(process.cutter, arcs(process), feed_m))
     least = std::min(least, load.share_in_cut);
   if (least >= 1.0) return;
-  spdlog::warn(
+  core::warn(fmt::format(
       "runout lets a tooth cut in {:.1f} % of its arc only; what it misses the next one cuts with the delay of both "
       "pitches, which the stability analysis does not follow",
-      100.0 * least);
+      100.0 * least));
 }
 
 milling::ForceLaw law_of(const Cutting& c) {
@@ -58,7 +59,7 @@ milling::ForceLaw law_of(const Cutting& c) {
   return milling::FractionalLaw{c.Kt, c.Kr, c.Ka, c.chip_scale.value_or(0.0), c.stiffness_ratio.value_or(0.0)};
 }
 
-void set_force(const cases::Case& source, milling::MillingProcess& process) {
+void set_force(const Setup& source, milling::MillingProcess& process) {
   const Cutting& c = *source.cutting;
   if (c.law == "oblique") set_oblique(c, process);
   else if (c.law == "linear") process.coefficients = {c.Kt, c.Kr, c.Ka, c.Kte, c.Kre, c.Kae};
@@ -78,14 +79,14 @@ milling::Cutter cutter_of(const Tool& tool) {
   return cutter;
 }
 
-std::optional<double> feed_per_tooth(const cases::Case& source) {
+std::optional<double> feed_per_tooth(const Setup& source) {
   const Cutting& c = *source.cutting;
   if (c.feed_per_tooth) return c.feed_per_tooth;
   if (!c.feed_rate || !c.spindle_speed_rpm || !source.tool) return std::nullopt;
   return milling::feed_per_tooth_m(cutter_of(*source.tool), *c.feed_rate, *c.spindle_speed_rpm);
 }
 
-milling::MillingProcess milling_process(const cases::Case& source) {
+milling::MillingProcess milling_process(const Setup& source) {
   const Cutting& c = *source.cutting;
   milling::MillingProcess process;
   process.cutter = cutter_of(*source.tool);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "study/part/discretisation.hpp"
+#include "setup/part_geometry.hpp"
 
 namespace thinwall::setup {
 
@@ -15,14 +15,14 @@ bool carries(const Part& part, const Point& point) {
 
 }  // namespace
 
-fem::Attachments attachments_of(const cases::Case& source) {
+fem::Attachments attachments_of(const Setup& source) {
   const Part& part = *source.part;
   fem::Attachments result;
   for (const Clamp& clamp : part.clamps)
-    result.clamps.push_back({clamp.on, study::region_of(source, clamp.on), clamp.normal, clamp.tangential});
+    result.clamps.push_back({clamp.on, region_of(source, clamp.on), clamp.normal, clamp.tangential});
   for (const Point& point : source.points) {
     if (!point.rigid && !carries(part, point)) continue;
-    result.points.push_back({point.name, fem::Disc{position(part, point), point.patch_radius, study::off_surface(part)},
+    result.points.push_back({point.name, fem::Disc{position(part, point), point.patch_radius, off_surface(part)},
                              point.rigid ? fem::Connection::rigid : fem::Connection::averaging});
   }
   for (const PointMass& mass : part.masses)

@@ -22,11 +22,11 @@ bool coincide(const Part& part, const Point& a, const Point& b) {
 
 }  // namespace
 
-cases::Case at_position(const cases::Case& source, std::size_t position_number) {
+Setup at_position(const Setup& source, std::size_t position_number) {
   const Part& part = *source.part;
   const Point& start = point(source, source.cutting->at);
   const Eigen::Vector3d way = source.path->positions[position_number] - position(part, start);
-  cases::Case there = source;
+  Setup there = source;
   Point cut = moved(part, start, way);
   cut.position = source.path->positions[position_number];  // to the last bit
   cut.name = "the cut";                                    // no name that a user can give

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "case/case.hpp"
+#include "setup/machining_setup.hpp"
 
 namespace thinwall::setup {
 
@@ -11,6 +11,6 @@ namespace thinwall::setup {
 /// its patch, and those of the contacts, moved by the same vector where the robot follows. These are the reduction's
 /// interface, in this order; `cutting.at` and the contacts name them, one point for both where they coincide.
 /// The case must have a path, a part and a known `cutting.at`; throws InputError for an unknown point.
-[[nodiscard]] cases::Case at_position(const cases::Case& source, std::size_t position);
+[[nodiscard]] Setup at_position(const Setup& source, std::size_t position);
 
 }  // namespace thinwall::setup

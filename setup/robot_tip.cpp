@@ -17,9 +17,8 @@
 #include "robot/modal_table.hpp"
 #include "robot/one_mode.hpp"
 #include "setup/measured.hpp"
-#include "study/part/discretisation.hpp"
-#include "study/sensor_mass.hpp"
-#include "study/support/support_stage.hpp"
+#include "setup/part_geometry.hpp"
+#include "setup/sensor_mass.hpp"
 
 namespace thinwall::setup {
 
@@ -46,7 +45,7 @@ dynamics::ResponseModel measured_tip(const Robot& robot, const dynamics::Frequen
           ? measured_response(robot.measured, axis)
           : robot::measured_receptance(axis, io::resample(read_measured(robot.measured.front()), axis), robot.point,
                                        robot.direction);
-  return study::without_sensors(std::move(tip), robot.sensors, "the robot's");
+  return without_sensors(std::move(tip), robot.sensors, "the robot's");
 }
 
 /// The tip's part of the table, its axes turned into the part's.
@@ -64,7 +63,7 @@ dynamics::ModalModel tabled_tip(const Robot& robot) {
 }
 
 /// Where the tip is to be, in space.
-Vector3d wanted_place(const cases::Case& source) {
+Vector3d wanted_place(const Setup& source) {
   if (source.robot->posture.tip) return *source.robot->posture.tip;
   if (const auto place = contact_place(source)) return *place;
   throw core::InputError("the place of the robot's tip is not known; give robot.posture.tip or a contact");
@@ -107,7 +106,7 @@ Eigen::VectorXd searched_posture(const Robot& robot, const Vector3d& place, cons
       place.x(), place.y(), place.z(), found.position_error, found.rotation_error * 180.0 / std::numbers::pi));
 }
 
-Eigen::VectorXd joints_of(const cases::Case& source, const std::optional<Eigen::VectorXd>& near) {
+Eigen::VectorXd joints_of(const Setup& source, const std::optional<Eigen::VectorXd>& near) {
   const Robot& robot = *source.robot;
   const PostureWish& wish = robot.posture;
   const auto as_vector = [](const std::vector<double>& list) -> Eigen::VectorXd {
@@ -129,11 +128,11 @@ double smallest_singular(const robot::ArmPose& at) {
 
 }  // namespace
 
-std::optional<Vector3d> contact_place(const cases::Case& source) {
+std::optional<Vector3d> contact_place(const Setup& source) {
   if (source.contacts.empty() || !source.part) return std::nullopt;
   const Vector3d flat = position(*source.part, point(source, source.contacts.front().part_point));
   if (!flat.allFinite()) return std::nullopt;  // a node of matrices whose place no file tells
-  return source.part->bend ? mesh::bent(study::bend_of(*source.part), flat) : flat;
+  return source.part->bend ? mesh::bent(bend_of(*source.part), flat) : flat;
 }
 
 std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list) {
@@ -154,9 +153,9 @@ robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axi
   return robot::in_one_posture(robot::spatial_model(modes, robot.point));
 }
 
-study::RobotPosture robot_posture(const cases::Case& source, const std::optional<Eigen::VectorXd>& near) {
+RobotPosture robot_posture(const Setup& source, const std::optional<Eigen::VectorXd>& near) {
   const Robot& robot = *source.robot;
-  study::RobotPosture result;
+  RobotPosture result;
   result.posture.preload = robot.preload;
   if (robot.model != "flexible_joints") return result;
   result.posture.q = joints_of(source, near);
@@ -168,20 +167,6 @@ study::RobotPosture robot_posture(const cases::Case& source, const std::optional
   return result;
 }
 
-study::Component robot_component(const cases::Case& source, const dynamics::FrequencyAxis& axis,
-                                 const robot::Posture& posture) {
-  robot::Tip tip = tip_model(*source.robot, axis)(posture);
-  if (auto* spatial = std::get_if<dynamics::SpatialModel>(&tip)) return study::component(std::move(*spatial), axis);
-  study::Component result;
-  if (auto* modal = std::get_if<dynamics::ModalModel>(&tip)) {
-    result.response = dynamics::to_response(*modal, axis);
-    result.modal = std::move(*modal);
-    return result;
-  }
-  result.response = std::get<dynamics::ResponseModel>(std::move(tip));
-  return result;
-}
-
 dynamics::SpatialModel robot_matrices(const Robot& robot, const robot::Posture& posture) {
   if (robot.model != "measured" && robot.model != "modal_table") {
     robot::Tip tip = tip_model(robot, {})(posture);
@@ -190,7 +175,7 @@ dynamics::SpatialModel robot_matrices(const Robot& robot, const robot::Posture& 
   throw core::InputError("robot.model = \"" + robot.model + "\" has no matrices; take a modelled robot");
 }
 
-dynamics::SpatialModel robot_matrices(const cases::Case& source) {
+dynamics::SpatialModel robot_matrices(const Setup& source) {
   return robot_matrices(*source.robot, robot_posture(source).posture);
 }
 

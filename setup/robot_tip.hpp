@@ -3,15 +3,22 @@
 
 #include <optional>
 
-#include "case/case.hpp"
 #include "robot/one_mode.hpp"
 #include "robot/tip_model.hpp"
-#include "study/results.hpp"
+#include "setup/machining_setup.hpp"
 
 namespace thinwall::setup {
 
+/// How the robot stands; what an arm's joints tell is empty for other models.
+struct RobotPosture {
+  robot::Posture posture;
+  std::optional<Eigen::Vector3d> tip;       ///< m, part axes
+  std::optional<double> smallest_singular;  ///< of the tip's Jacobian, 1 m a radian, over its largest
+  std::vector<Eigen::Vector3d> arm;         ///< from joint to joint to the tip, m, part axes
+};
+
 /// Where the first contact is on the part, in space, m; none without a contact or a modelled part.
-[[nodiscard]] std::optional<Eigen::Vector3d> contact_place(const cases::Case& source);
+[[nodiscard]] std::optional<Eigen::Vector3d> contact_place(const Setup& source);
 
 /// The modes of a robot's tip or a tool's, as the case lists them. Errors as robot::one_mode().
 [[nodiscard]] std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list);
@@ -22,17 +29,12 @@ namespace thinwall::setup {
 /// How the case's robot stands: its joints by the case's word, or by inverse kinematics for the place of its tip, from
 /// `near` on where a search is needed. For a model without posture only the preload is told. Throws InputError for a
 /// place out of reach, an arm that the closed form is not for, a search that ends beside the place.
-[[nodiscard]] study::RobotPosture robot_posture(const cases::Case& source,
-                                                const std::optional<Eigen::VectorXd>& near = {});
-
-/// The robot in that posture.
-[[nodiscard]] study::Component robot_component(const cases::Case& source, const dynamics::FrequencyAxis& axis,
-                                               const robot::Posture& posture);
+[[nodiscard]] RobotPosture robot_posture(const Setup& source, const std::optional<Eigen::VectorXd>& near = {});
 
 /// The robot's matrices in that posture. Throws InputError for a robot that has none.
 [[nodiscard]] dynamics::SpatialModel robot_matrices(const Robot& robot, const robot::Posture& posture);
 
 /// The same in the posture that the case asks for.
-[[nodiscard]] dynamics::SpatialModel robot_matrices(const cases::Case& source);
+[[nodiscard]] dynamics::SpatialModel robot_matrices(const Setup& source);
 
 }  // namespace thinwall::setup

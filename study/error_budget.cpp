@@ -1,8 +1,9 @@
 #include "study/error_budget.hpp"
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/messages.hpp"
 #include "coupling/error_budget.hpp"
 #include "setup/measured_noise.hpp"
 #include "study/part/part_stage.hpp"
@@ -24,12 +25,12 @@ std::vector<Eigen::MatrixXcd> difference(const dynamics::ResponseModel& model, c
 coupling::Deviations noise_of(const std::string& whose, const std::vector<setup::MeasuredFrf>& files,
                               const std::vector<setup::Sensor>& sensors, const dynamics::ResponseModel& response) {
   if (sensors.empty() || !setup::any_noise(files)) return setup::measured_deviations(files, response);
-  spdlog::warn("the noise of the {}'s FRFs is not followed: a sensor's mass was taken off them", whose);
+  core::warn(fmt::format("the noise of the {}'s FRFs is not followed: a sensor's mass was taken off them", whose));
   return {};
 }
 
 /// Noise of both components into the coupled response, whose kernel is not regularised; empty if neither is noisy.
-coupling::Deviations coupled_noise(const cases::Case& source, const Results& results, const ErrorBudget& budget) {
+coupling::Deviations coupled_noise(const setup::Setup& source, const Results& results, const ErrorBudget& budget) {
   if (budget.part.noise.empty() && budget.robot.noise.empty()) return {};
   return coupling::error_budget({results.part->response, results.robot->response}, contacts_of(source),
                                 {{budget.part.noise}, {budget.robot.noise}})
@@ -38,7 +39,7 @@ coupling::Deviations coupled_noise(const cases::Case& source, const Results& res
 
 /// The part with what its reduction left out (reduction/trust/truncation.hpp), damped as the part is. None of a
 /// measured part, or where nothing was left out.
-std::optional<Component> richer_part(const cases::Case& source, const Results& results,
+std::optional<Component> richer_part(const setup::Setup& source, const Results& results,
                                      const dynamics::FrequencyAxis& axis) {
   if (!results.finite_elements || !results.finite_elements->damped) return std::nullopt;
   const reduction::CraigBampton& reduced = *results.finite_elements->reduced;
@@ -48,7 +49,7 @@ std::optional<Component> richer_part(const cases::Case& source, const Results& r
   return component(damped(source, richer, identified), axis);
 }
 
-void add_coupled_truncation(const cases::Case& source, const Results& results, ErrorBudget& budget) {
+void add_coupled_truncation(const setup::Setup& source, const Results& results, ErrorBudget& budget) {
   const Component& richer = *budget.richer_part;
   const auto contacts = contacts_of(source);
   budget.coupled.truncation = difference(
@@ -60,7 +61,7 @@ void add_coupled_truncation(const cases::Case& source, const Results& results, E
 
 }  // namespace
 
-ErrorBudget error_budget(const cases::Case& source, const Results& results) {
+ErrorBudget error_budget(const setup::Setup& source, const Results& results) {
   ErrorBudget budget;
   if (results.part) {
     budget.richer_part = richer_part(source, results, results.part->response.axis);
@@ -72,7 +73,7 @@ ErrorBudget error_budget(const cases::Case& source, const Results& results) {
   const bool exact = !budget.richer_part && budget.part.noise.empty() && budget.robot.noise.empty();
   if (!results.coupled || exact) return budget;
   if (coupling_options(source).regularisation != coupling::Regularisation::none) {
-    spdlog::warn("no error budget of the coupled response: its kernel is regularised");
+    core::warn("no error budget of the coupled response: its kernel is regularised");
     return budget;
   }
   budget.coupled.noise = coupled_noise(source, results, budget);

@@ -1,7 +1,7 @@
 #pragma once
 // What part, robot and both together are off by: the noise of what was measured, what the part's reduction leaves out.
 
-#include "case/case.hpp"
+#include "setup/machining_setup.hpp"
 #include "study/results.hpp"
 
 namespace thinwall::study {
@@ -10,6 +10,6 @@ namespace thinwall::study {
 /// (coupling/error_budget.hpp); truncation as the difference of the models with and without what was left out, coupled
 /// anew: no expansion. With a regularised kernel the coupled response has neither, which is logged as a warning, as is
 /// noise that a sensor's mass hides. Errors as coupling::error_budget() and coupling::couple().
-[[nodiscard]] ErrorBudget error_budget(const cases::Case& source, const Results& results);
+[[nodiscard]] ErrorBudget error_budget(const setup::Setup& source, const Results& results);
 
 }  // namespace thinwall::study

@@ -29,7 +29,9 @@
 #include "reduction/methods/craig_bampton.hpp"
 #include "reduction/trust/accuracy.hpp"
 #include "reduction/trust/truncation.hpp"
-#include "robot/tip_model.hpp"
+#include "setup/contact_model.hpp"
+#include "setup/machining_setup.hpp"
+#include "setup/robot_tip.hpp"
 
 namespace thinwall::study {
 
@@ -61,18 +63,10 @@ struct Component {
   dynamics::ResponseModel response;
 };
 
-/// How the robot stands; what an arm's joints tell is empty for other models.
-struct RobotPosture {
-  robot::Posture posture;
-  std::optional<Eigen::Vector3d> tip;       ///< m, part axes
-  std::optional<double> smallest_singular;  ///< of the tip's Jacobian, 1 m a radian, over its largest
-  std::vector<Eigen::Vector3d> arm;         ///< from joint to joint to the tip, m, part axes
-};
-
 /// The tip in one posture. Stiffnesses are static, N/m: force over displacement along the same direction with the other
 /// forces zero, 1/H_nn(0); infinite where the tip does not move. None of a robot known by measured receptances.
 struct TipReport {
-  RobotPosture robot;
+  setup::RobotPosture robot;
   std::vector<dynamics::ModeSummary> modes;
   std::optional<Eigen::Vector3d> stiffness;           ///< along x, y, z of the part
   std::optional<double> least_stiffness;              ///< over all directions
@@ -89,14 +83,6 @@ struct RobotSurvey {
   std::string over = "posture";  ///< posture, path, workspace
   std::vector<TipReport> tips;
   std::vector<OutOfReach> out_of_reach;
-};
-
-/// A contact as it is joined, and what its stiffness comes from.
-struct JoinedContact {
-  std::string model;  ///< springs, table, hertz, caster, identified
-  coupling::Contact contact;
-  std::optional<double> preload_n;            ///< of table, hertz and caster
-  std::optional<coupling::HertzState> hertz;  ///< where a ball touches the part
 };
 
 /// A contact that was found from FRFs of the assembly.
@@ -204,13 +190,14 @@ struct PathLobes {
   std::string name;                                  ///< "part", "supported"
   std::vector<milling::Lobes> lobes;                 ///< of each position
   std::vector<milling::LobeRow> at_spindle_speed{};  ///< of each, at the case's own speed; empty without one
-  std::vector<RobotPosture> robot{};                 ///< how it stands at each; empty for the part alone
+  std::vector<setup::RobotPosture> robot{};          ///< how it stands at each; empty for the part alone
 };
 
 /// One fit of model updating.
 struct UpdatingResult {
   struct Parameter {
     std::string key;
+    std::string unit;  ///< of the numbers that follow; empty: a plain number
     double start = 0.0, fitted = 0.0, lower = 0.0, upper = 0.0;
     bool at_bound = false;
   };
@@ -227,14 +214,15 @@ struct UpdatingResult {
 };
 
 struct Results {
+  setup::Setup setup;  ///< with the values that the fits found
   std::vector<UpdatingResult> updating;
   std::optional<PartResult> finite_elements;
   std::optional<Component> part;
-  std::optional<RobotPosture> robot_posture;
+  std::optional<setup::RobotPosture> robot_posture;
   std::optional<Component> robot;
   std::optional<RobotSurvey> survey;
   std::optional<ContactIdentification> identification;  ///< of the only contact, where it was asked for
-  std::vector<JoinedContact> contacts;                  ///< in the order of the case
+  std::vector<setup::JoinedContact> contacts;           ///< in the order of the case
   std::optional<CouplingResult> coupled;
   std::vector<AmplitudeReduction> reductions;
   ErrorBudget errors;

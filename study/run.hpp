@@ -1,35 +1,35 @@
 #pragma once
-// From a case to its results.
+// The whole workflow: from a machining set-up to everything that can be computed of it.
 
-#include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
-#include "case/case.hpp"
 #include "milling/chart/operating_point.hpp"
+#include "setup/variation.hpp"
+#include "study/kept/checkpoint.hpp"
+#include "study/results.hpp"
+#include "study/stages.hpp"
 
 namespace thinwall::study {
 
 struct RunOptions {
-  std::filesystem::path out;                         ///< the result folder, already prepared (report/result_folder.hpp)
-  bool fresh = false;                                ///< ignore results of an earlier run
-  int verbosity = 0;                                 ///< −1 quiet, 0 normal, 1 verbose
-  bool progress = false;                             ///< stage, count and time left in one line of the terminal
-  std::vector<milling::OperatingPoint> points = {};  ///< of which the charts are asked
-  bool stage_lines = true;                           ///< without `progress`: the same as lines of the log
-  std::filesystem::path parts = {};  ///< where parts are kept for several runs, by key; empty: in `out`, the last one
+  std::vector<milling::OperatingPoint> points = {};  ///< that every chart is asked about
+  StageListener on_stage = {};                       ///< hears of each stage as it begins and ends
 };
 
-struct RunResult {
-  nlohmann::json summary;         ///< summary.json (design.md section 7)
-  bool expectations_hold = true;  ///< false: exit 6
+/// Results of an earlier run of the same inputs, which are taken instead of being computed, and to which new ones are
+/// added. A default Checkpoint keeps nothing and finds nothing.
+struct Kept {
+  Checkpoint part, structure, charts;
 };
 
-/// What `run`, `lobes` and `sweep` hand a case to; in the program this is run_case().
-using RunCase = std::function<RunResult(const cases::Case&, const RunOptions&)>;
-
-/// Does what the case holds and writes the result folder. Throws core::Error.
-[[nodiscard]] RunResult run_case(const cases::Case& source, const RunOptions& options);
+/// Computes what the set-up holds: the part (mesh, modes, reduction), fits of its numbers by `variation`, receptances
+/// of part and robot, both joined by two routes, the error budget, and stability charts. Messages go to
+/// core::set_message_listener, the progress of long loops to core::set_progress_listener. A set-up without fits needs
+/// no `variation`. Throws core::Error: InputError for what cannot be computed, NumericalError where a stage does not
+/// converge, Interrupted after core::request_interrupt().
+[[nodiscard]] Results run(const setup::Setup& setup, const setup::Variation& variation, Kept& kept,
+                          const RunOptions& options);
 
 }  // namespace thinwall::study

@@ -1,36 +1,21 @@
 #pragma once
-// The stages of a run: announced, timed, interruptible; and how far the long loops within them are.
+// The stages of a run: timed, interruptible, and told to whoever shows them.
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/progress.hpp"
-
 namespace thinwall::study {
 
-/// How a run shows where it is.
-enum class ProgressDisplay {
-  none,   ///< not at all; the stages are in run.log
-  lines,  ///< a line of the log for each stage, and every ten seconds of a long loop
-  line,   ///< one line of the terminal's, overwritten: for stderr on a terminal only
-};
+/// Hears the name of a stage when it begins, and an empty text when it has ended.
+using StageListener = std::function<void(const std::string& stage)>;
 
-/// "8 s", "3 min", "2 h": whole numbers, rounded up, for what is left.
-[[nodiscard]] std::string duration_text(double seconds);
-
-/// "lobes: 120 of 200 speeds, 8 s left"; the time left from the first second on, by the rate so far.
-[[nodiscard]] std::string progress_text(const std::string& stage, const core::ProgressReport& report);
-
-/// Announces each stage, shows what loops within it count, and keeps its wall time. One at a time: it listens to
-/// core::Progress.
+/// Keeps the wall time of each stage and tells the listener of it.
 class Stages {
  public:
-  explicit Stages(ProgressDisplay display);
-  ~Stages();
-  Stages(const Stages&) = delete;
-  Stages& operator=(const Stages&) = delete;
+  explicit Stages(StageListener listener = {}) : listener_(std::move(listener)) {}
 
   /// Ends the stage before and begins this one. Stages of one name add up. Throws Interrupted if a stop was requested.
   void begin(const std::string& name);
@@ -43,11 +28,8 @@ class Stages {
 
  private:
   using Clock = std::chrono::steady_clock;
-  void show(const core::ProgressReport& report) const;
-  void write_line(const std::string& text) const;
-  void clear_line() const;
 
-  ProgressDisplay display_;
+  StageListener listener_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point stage_start_ = start_;
   std::string current_;

@@ -36,13 +36,13 @@ double reading_frequency(const setup::UpdatingTarget& target, const dynamics::Mo
 }
 
 /// 1 − |G|/|H| at the target's point, by receptances at one frequency.
-double reduction_at(const cases::Case& now, const setup::UpdatingTarget& target, const Component& part) {
+double reduction_at(const setup::Setup& now, const setup::UpdatingTarget& target, const Component& part) {
   dynamics::FrequencyAxis line;
   line.hz = Eigen::VectorXd::Constant(1, reading_frequency(target, *part.modal));
   const dynamics::ResponseModel H = part.spatial->has_structural_damping()
                                         ? dynamics::direct_response(*part.spatial, line)
                                         : dynamics::to_response(*part.modal, line);
-  const auto G = coupling::couple(H, setup::robot_component(now, line, setup::robot_posture(now).posture).response,
+  const auto G = coupling::couple(H, robot_component(now, line, setup::robot_posture(now).posture).response,
                                   contacts_of(now), coupling_options(now))
                      .response.H.front();
   const auto row = static_cast<Eigen::Index>(dynamics::row_of(H.responses, target.point));
@@ -55,7 +55,7 @@ void require_held(const dynamics::SpatialModel& part) {
 }
 
 /// Modes of part and robot joined only if a target asks for them, and receptances likewise.
-Eigen::VectorXd evaluate_coupled(const cases::Case& now, const setup::Updating& updating,
+Eigen::VectorXd evaluate_coupled(const setup::Setup& now, const setup::Updating& updating,
                                  const dynamics::SpatialModel& reduced) {
   const auto is_frequency = [](const setup::UpdatingTarget& target) { return target.quantity == "coupled_frequency"; };
   std::vector<reduction::IdentifiedMode> identified;
@@ -79,38 +79,39 @@ double residual(const setup::UpdatingTarget& target, double value) {
   return target.weight * (value - target.value) / target.value;
 }
 
-cases::Case with_parameters(const cases::Case& source, const setup::Updating& updating, const Eigen::VectorXd& scaled) {
-  cases::Case now = source;
+setup::VariedSetup with_parameters(const setup::Variation& variation, const setup::VariedSetup& source,
+                                   const setup::Updating& updating, const Eigen::VectorXd& scaled) {
+  setup::NamedValues values = source.values;
   for (std::size_t k = 0; k < updating.parameters.size(); ++k) {
     const auto& p = updating.parameters[k];
-    cases::set_value(now, p.key, p.lower + scaled(static_cast<Eigen::Index>(k)) * (p.upper - p.lower));
+    values[p.key] = p.lower + scaled(static_cast<Eigen::Index>(k)) * (p.upper - p.lower);
   }
-  return now;
+  return {variation.with(values), values};
 }
 
 /// `slopes`: ∂ values / ∂ scaled parameters of the case evaluated last; empty: by differences.
-UpdatingResult fit(cases::Case& source, const setup::Updating& updating,
-                   const std::function<Eigen::VectorXd(const cases::Case&)>& evaluate,
-                   const std::function<Eigen::MatrixXd(const cases::Case&)>& slopes) {
+UpdatingResult fit(const setup::Variation& variation, setup::VariedSetup& source, const setup::Updating& updating,
+                   const std::function<Eigen::VectorXd(const setup::VariedSetup&)>& evaluate,
+                   const std::function<Eigen::MatrixXd(const setup::VariedSetup&)>& slopes) {
   Eigen::VectorXd start(static_cast<Eigen::Index>(updating.parameters.size()));
   UpdatingResult result;
   result.name = updating.name;
   for (Eigen::Index k = 0; k < start.size(); ++k) {
     const auto& p = updating.parameters[static_cast<std::size_t>(k)];
-    const double value = cases::get_value(source, p.key);
+    const double value = setup::value_of(variation, source, p.key);
     start(k) = (value - p.lower) / (p.upper - p.lower);
-    result.parameters.push_back({p.key, value, 0.0, p.lower, p.upper, false});
+    result.parameters.push_back({p.key, p.unit, value, 0.0, p.lower, p.upper, false});
   }
   const auto residuals = [&](const Eigen::VectorXd& scaled) {
     ++result.evaluations;
-    const Eigen::VectorXd values = evaluate(with_parameters(source, updating, scaled));
+    const Eigen::VectorXd values = evaluate(with_parameters(variation, source, updating, scaled));
     Eigen::VectorXd r(values.size());
     for (Eigen::Index i = 0; i < r.size(); ++i)
       r(i) = residual(updating.targets[static_cast<std::size_t>(i)], values(i));
     return r;
   };
   const auto relative_slopes = [&](const Eigen::VectorXd& scaled, const Eigen::VectorXd&) {
-    Eigen::MatrixXd jacobian = slopes(with_parameters(source, updating, scaled));
+    Eigen::MatrixXd jacobian = slopes(with_parameters(variation, source, updating, scaled));
     for (Eigen::Index i = 0; i < jacobian.rows(); ++i) {
       const setup::UpdatingTarget& target = updating.targets[static_cast<std::size_t>(i)];
       jacobian.row(i) *= target.weight / target.value;
@@ -120,10 +121,10 @@ UpdatingResult fit(cases::Case& source, const setup::Updating& updating,
   const LeastSquares found = bounded_least_squares(
       residuals, slopes ? JacobianAt(relative_slopes) : forward_differences(residuals, 0.02), start, 1e-4, 12);
   result.converged = found.converged;
-  source = with_parameters(source, updating, found.parameters);
+  source = with_parameters(variation, source, updating, found.parameters);
   for (Eigen::Index k = 0; k < start.size(); ++k) {
     auto& p = result.parameters[static_cast<std::size_t>(k)];
-    p.fitted = cases::get_value(source, p.key);
+    p.fitted = setup::value_of(variation, source, p.key);
     p.at_bound = found.parameters(k) <= 0.0 || found.parameters(k) >= 1.0;
   }
   for (Eigen::Index i = 0; i < found.residuals.size(); ++i) {
@@ -144,19 +145,21 @@ UpdatingResult fit(cases::Case& source, const setup::Updating& updating,
 
 }  // namespace
 
-PartUpdating update_part(cases::Case& source, const setup::Updating& updating, const mesh::TetMesh& mesh, int order) {
-  PartEvaluation evaluation(source, updating, mesh, order);
+PartUpdating update_part(const setup::Variation& variation, setup::VariedSetup& source, const setup::Updating& updating,
+                         const mesh::TetMesh& mesh, int order) {
+  PartEvaluation evaluation(variation, source.setup, updating, mesh, order);
   PartUpdating result{fit(
-                          source, updating, [&](const cases::Case& now) { return evaluation(now); },
-                          [&](const cases::Case& now) { return evaluation.slopes(now); }),
+                          variation, source, updating, [&](const setup::VariedSetup& now) { return evaluation(now); },
+                          [&](const setup::VariedSetup& now) { return evaluation.slopes(now); }),
                       {}};
   result.solved = evaluation.take(source);
   return result;
 }
 
-UpdatingResult update_coupled(cases::Case& source, const setup::Updating& updating,
-                              const dynamics::SpatialModel& reduced) {
-  return fit(source, updating, [&](const cases::Case& now) { return evaluate_coupled(now, updating, reduced); }, {});
+UpdatingResult update_coupled(const setup::Variation& variation, setup::VariedSetup& source,
+                              const setup::Updating& updating, const dynamics::SpatialModel& reduced) {
+  return fit(variation, source, updating,
+             [&](const setup::VariedSetup& now) { return evaluate_coupled(now.setup, updating, reduced); }, {});
 }
 
 }  // namespace thinwall::study

@@ -1,7 +1,6 @@
 #include "study/kept/checkpoint.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -10,8 +9,9 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/messages.hpp"
 #include "io/manifest.hpp"
-#include "study/kept/program_id.hpp"
+#include "io/program_id.hpp"
 
 namespace thinwall::study {
 
@@ -26,25 +26,6 @@ std::string record(const std::string& name, const std::string& bytes) {
   return fmt::format("{} {} {}\n{}{}", name.size(), bytes.size(), io::sha256(name + bytes), name, bytes);
 }
 
-/// One value in a form that tells every bit of it.
-struct Exactly {
-  std::string operator()(double x) const { return fmt::format("{:a}", x); }
-  std::string operator()(bool x) const { return x ? "true" : "false"; }
-  std::string operator()(const std::string& x) const { return fmt::format("{}:{}", x.size(), x); }
-  std::string operator()(const Eigen::Vector3d& x) const { return fmt::format("{:a},{:a},{:a}", x.x(), x.y(), x.z()); }
-  template <class Item>
-  std::string operator()(const std::vector<Item>& list) const {
-    std::string text = "[";
-    for (const auto& item : list) text += (*this)(item) + ";";
-    return text + "]";
-  }
-};
-
-/// Whether the key is `name` or lies in the table of that name.
-bool lies_in(const std::string& key, const std::string& name) {
-  return key.starts_with(name) && (key.size() == name.size() || key[name.size()] == '.' || key[name.size()] == '[');
-}
-
 }  // namespace
 
 Checkpoint::Checkpoint(fs::path file, const std::string& key, bool fresh)
@@ -52,7 +33,7 @@ Checkpoint::Checkpoint(fs::path file, const std::string& key, bool fresh)
   try {
     read(fresh);
   } catch (const core::DataError& error) {
-    spdlog::info("kept results are not used: {}", error.what());
+    core::inform(fmt::format("kept results are not used: {}", error.what()));
   }
 }
 
@@ -61,7 +42,7 @@ void Checkpoint::read(bool fresh) {
   if (fresh || !fs::exists(file_, ignored)) return;
   const std::string all = core::read_file(file_);
   if (!all.starts_with(heading_)) {
-    spdlog::debug("{} is of other inputs or of another program; begun anew", file_.filename().string());
+    core::note(fmt::format("{} is of other inputs or of another program; begun anew", file_.filename().string()));
     return;
   }
   std::size_t at = heading_.size();
@@ -80,7 +61,7 @@ void Checkpoint::read(bool fresh) {
   }
   begun_ = true;
   if (at == all.size()) return;
-  spdlog::info("the end of {} is damaged; what comes before is used", file_.filename().string());
+  core::inform(fmt::format("the end of {} is damaged; what comes before is used", file_.filename().string()));
   fs::resize_file(file_, at, ignored);
   begun_ = !ignored;
 }
@@ -98,7 +79,7 @@ void Checkpoint::add(const std::string& name, std::string bytes) {
     write(record(name, bytes));
     pieces_[name] = std::move(bytes);
   } catch (const core::DataError& error) {
-    spdlog::warn("{}; the next run begins anew", error.what());
+    core::warn(fmt::format("{}; the next run begins anew", error.what()));
     file_.clear();
   }
 }
@@ -115,20 +96,6 @@ void Checkpoint::write(const std::string& piece) {
   out << piece;
   out.flush();
   if (!out) throw core::DataError(file_.string() + " cannot be written");
-}
-
-std::string key_of(const cases::Case& source, const std::vector<std::string>& without,
-                   const std::vector<std::string>& besides) {
-  std::string text = program_id() + "\n";
-  for (const cases::CaseValue& value : source.values) {
-    if (std::ranges::any_of(without, [&](const std::string& name) { return lies_in(value.key, name); })) continue;
-    text += value.key + "=" + std::visit(Exactly{}, value.value) + "\n";
-  }
-  for (const std::string& point : source.reduction.interface) text += point + "\n";
-  // Their names are among the values, as the case gives them.
-  for (const fs::path& file : cases::input_files(source, without)) text += io::sha256_of_file(file) + "\n";
-  for (const std::string& word : besides) text += std::to_string(word.size()) + ":" + word + "\n";
-  return io::sha256(text);
 }
 
 }  // namespace thinwall::study

@@ -7,8 +7,6 @@
 #include <mutex>
 #include <string>
 
-#include "case/case.hpp"
-
 namespace thinwall::study {
 
 /// Pieces of a result by name, in one file that grows as they are finished. They are of one key, which stands for all
@@ -37,11 +35,5 @@ class Checkpoint {
   std::map<std::string, std::string> pieces_;
   bool begun_ = false;  ///< the file has this heading
 };
-
-/// Hash of the program, of the case's values but those under the given keys or sections ("lobes.count", "cutting"), of
-/// the bytes of the files that the other sections name, and of words `besides`. Throws DataError for a file that cannot
-/// be read. Cost: of hashing these files.
-[[nodiscard]] std::string key_of(const cases::Case& source, const std::vector<std::string>& without,
-                                 const std::vector<std::string>& besides = {});
 
 }  // namespace thinwall::study

@@ -1,7 +1,6 @@
 #include "study/kept/kept_part.hpp"
 
-#include <spdlog/spdlog.h>
-
+#include "core/messages.hpp"
 #include "study/kept/archive_models.hpp"
 
 // What each type holds, for cereal, which looks in the type's own namespace.
@@ -100,7 +99,7 @@ void serialize(Archive& archive, PartResult& p) {
 }
 template <class Archive>
 void serialize(Archive& archive, UpdatingResult::Parameter& p) {
-  archive(p.key, p.start, p.fitted, p.lower, p.upper, p.at_bound);
+  archive(p.key, p.unit, p.start, p.fitted, p.lower, p.upper, p.at_bound);
 }
 template <class Archive>
 void serialize(Archive& archive, UpdatingResult::Target& t) {
@@ -118,20 +117,23 @@ void drop_entries(linalg::SparseMatrix& A) {
   A = linalg::SparseMatrix(A.rows(), A.cols());
 }
 
-void take_fitted(cases::Case& work, const std::vector<UpdatingResult>& fits) {
+/// Puts the values that were found into the set-up.
+void take_fitted(const setup::Variation& variation, setup::VariedSetup& work, const std::vector<UpdatingResult>& fits) {
+  if (fits.empty()) return;
   for (const UpdatingResult& fit : fits)
-    for (const auto& parameter : fit.parameters) cases::set_value(work, parameter.key, parameter.fitted);
+    for (const auto& parameter : fit.parameters) work.values[parameter.key] = parameter.fitted;
+  work.setup = variation.with(work.values);
 }
 
 }  // namespace
 
-void part_of_checkpoint(Checkpoint& kept, cases::Case& work, Results& results,
-                        const std::function<void(cases::Case&, Results&)>& compute) {
+void part_of_checkpoint(Checkpoint& kept, const setup::Variation& variation, setup::VariedSetup& work, Results& results,
+                        const std::function<void(setup::VariedSetup&, Results&)>& compute) {
   if (const std::string* bytes = kept.find("part")) {
     results.finite_elements.emplace();
     from_bytes(*bytes, *results.finite_elements, results.updating);
-    take_fitted(work, results.updating);
-    spdlog::info("the part of an earlier run is taken: mesh, modes and reduction have the same inputs");
+    take_fitted(variation, work, results.updating);
+    core::inform("the part of an earlier run is taken: mesh, modes and reduction have the same inputs");
     return;
   }
   compute(work, results);
@@ -140,12 +142,12 @@ void part_of_checkpoint(Checkpoint& kept, cases::Case& work, Results& results,
   kept.add("part", to_bytes(*results.finite_elements, results.updating));
 }
 
-void fits_of_checkpoint(Checkpoint& kept, cases::Case& work, Results& results,
-                        const std::function<void(cases::Case&, Results&)>& compute) {
+void fits_of_checkpoint(Checkpoint& kept, const setup::Variation& variation, setup::VariedSetup& work, Results& results,
+                        const std::function<void(setup::VariedSetup&, Results&)>& compute) {
   std::vector<UpdatingResult> fits;
   if (const std::string* bytes = kept.find("fits")) {
     from_bytes(*bytes, fits);
-    take_fitted(work, fits);
+    take_fitted(variation, work, fits);
     results.updating.insert(results.updating.end(), fits.begin(), fits.end());
     return;
   }

@@ -1,6 +1,6 @@
 #include "study/lobes/cut_structure.hpp"
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <numbers>
@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/messages.hpp"
 #include "dynamics/conversion.hpp"
 #include "milling/direct/passivity.hpp"
 #include "setup/measured.hpp"
@@ -23,7 +24,7 @@ milling::RelativeStructure tool_modes(const setup::Tool& tool) {
                                      "tool");
 }
 
-milling::RelativeStructure part_structure(const cases::Case& source, const dynamics::ModalModel& part) {
+milling::RelativeStructure part_structure(const setup::Setup& source, const dynamics::ModalModel& part) {
   const auto& limit = source.lobes->modes_up_to_hz;
   const auto kept = limit ? dynamics::truncate(part, 2.0 * std::numbers::pi * *limit, true) : part;
   return milling::relative_structure(kept, source.cutting->at);
@@ -50,10 +51,10 @@ milling::SampledReceptance measured_tip(const std::vector<setup::MeasuredFrf>& f
 
 void warn_of_doubts(const milling::SampledReceptance& tip, const std::string& whose) {
   if (const auto doubt = milling::energy_given(tip)) {
-    spdlog::warn(
+    core::warn(fmt::format(
         "{3} FRF along {0}{0} gives energy at {1:.1f} Hz (its imaginary part is {2:.2f} of its size and positive, a "
         "passive structure's is not): check sign convention, quantity and unit",
-        "xyz"[doubt->direction], doubt -> frequency_hz, doubt -> share, whose);
+        "xyz"[doubt->direction], doubt -> frequency_hz, doubt -> share, whose));
   }
   const auto resonances = milling::resonances(tip);
   if (resonances.empty()) return;
@@ -62,19 +63,20 @@ void warn_of_doubts(const milling::SampledReceptance& tip, const std::string& wh
   const auto* line = std::lower_bound(begin, begin + tip.frequency_hz.size(), highest->frequency_hz);
   const double spacing = *line - *(line - 1);
   if (2.0 * spacing > highest->half_width_hz) {
-    spdlog::warn(
+    core::warn(fmt::format(
         "lines {:.2g} Hz apart are few for the resonance at {:.1f} Hz, whose half width is {:.2g} Hz: the chart may be "
         "off; measure with lines at half of that or closer",
-        spacing, highest->frequency_hz, highest->half_width_hz);
+        spacing, highest->frequency_hz, highest->half_width_hz));
   }
 }
 
 /// The swapped tip, with a warning where digits were lost.
-milling::SampledReceptance swapped(const cases::Case& source) {
+milling::SampledReceptance swapped(const setup::Setup& source) {
   SwappedTip result = swapped_tip(source);
   if (result.status == coupling::SwapStatus::ill_conditioned)
-    spdlog::warn("the tool swap lost more than half of its digits (condition {:.1e} at {:.1f} Hz): expect errors there",
-                 result.worst_condition, result.at_frequency_hz);
+    core::warn(fmt::format(
+        "the tool swap lost more than half of its digits (condition {:.1e} at {:.1f} Hz): expect errors there",
+        result.worst_condition, result.at_frequency_hz));
   warn_of_doubts(result.tip, "the swapped tool's");
   return std::move(result.tip);
 }
@@ -97,14 +99,14 @@ bool gives_reverse(const std::vector<setup::MeasuredFrf>& files, const setup::Me
   });
 }
 
-std::optional<milling::RelativeStructure> cut_poles(const cases::Case& source, const dynamics::ModalModel* part) {
+std::optional<milling::RelativeStructure> cut_poles(const setup::Setup& source, const dynamics::ModalModel* part) {
   std::optional<milling::RelativeStructure> poles;
   if (part != nullptr) poles = part_structure(source, *part);
   if (source.tool->modes.empty()) return poles;
   return poles ? milling::sum(*poles, tool_modes(*source.tool)) : tool_modes(*source.tool);
 }
 
-milling::SampledStructure sampled_structure(const cases::Case& source, const milling::ToolFrame& frame,
+milling::SampledStructure sampled_structure(const setup::Setup& source, const milling::ToolFrame& frame,
                                             const dynamics::ResponseModel& coupled) {
   const dynamics::ResponseModel at_cut = dynamics::between(coupled, source.cutting->at, source.cutting->at);
   const Eigen::Matrix3Xd D = dynamics::displacement_matrix(at_cut.responses, source.cutting->at);
@@ -123,7 +125,7 @@ milling::SampledStructure sampled_structure(const cases::Case& source, const mil
   return {in_tool_axes(std::move(felt), frame), tool};
 }
 
-CutStructure cut_structure(const cases::Case& source, const milling::ToolFrame& frame,
+CutStructure cut_structure(const setup::Setup& source, const milling::ToolFrame& frame,
                            const dynamics::ModalModel* part) {
   const std::optional<milling::RelativeStructure> modal = cut_poles(source, part);
   if (source.tool->swap) return milling::SampledStructure{in_tool_axes(swapped(source), frame), modal};

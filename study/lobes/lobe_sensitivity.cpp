@@ -1,12 +1,13 @@
 #include "study/lobes/lobe_sensitivity.hpp"
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/messages.hpp"
 #include "milling/chart/sensitivity.hpp"
 
 namespace thinwall::study {
@@ -39,7 +40,7 @@ std::vector<ParameterSensitivity> parameter_sensitivities(const milling::Relativ
   try {
     return named(milling::depth_sensitivity(structure, process, spindle_speed_rpm, point, options), structure.poles);
   } catch (const core::NumericalError& error) {
-    spdlog::warn("no sensitivities at {:.0f} rpm: {}", spindle_speed_rpm, error.what());
+    core::warn(fmt::format("no sensitivities at {:.0f} rpm: {}", spindle_speed_rpm, error.what()));
     return {};
   }
 }

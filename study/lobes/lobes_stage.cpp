@@ -1,6 +1,6 @@
 #include "study/lobes/lobes_stage.hpp"
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "core/error.hpp"
+#include "core/messages.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "milling/chart/sampled_stability.hpp"
@@ -66,7 +67,7 @@ struct Chart {
 };
 
 /// Errors of the limiting depths, and at the case's own speed; the rows share out among the threads.
-void add_errors(const cases::Case& source, const Chart& chart, const StructureErrors& errors, NamedLobes& result) {
+void add_errors(const setup::Setup& source, const Chart& chart, const StructureErrors& errors, NamedLobes& result) {
   if (errors.none() || (chart.poles() != nullptr && !chart.direct)) return;  // crossings of other methods are their own
   const auto at = [&](const milling::LobeRow& row) {
     if (row.crossings.empty()) return DepthError{};
@@ -85,7 +86,7 @@ void add_errors(const cases::Case& source, const Chart& chart, const StructureEr
 }
 
 /// Of a stable point; none without poles or a feed. What the library does not model is a warning.
-std::optional<milling::ForcedVibration> forced_at(const cases::Case& source, const PointStability& found,
+std::optional<milling::ForcedVibration> forced_at(const setup::Setup& source, const PointStability& found,
                                                   const Chart& chart) {
   const auto feed = setup::feed_per_tooth(source);
   if (chart.poles() == nullptr || !feed || !found.stable) return std::nullopt;
@@ -93,9 +94,9 @@ std::optional<milling::ForcedVibration> forced_at(const cases::Case& source, con
     return milling::forced_vibration(*chart.poles(), chart.process, found.point.spindle_speed_rpm, found.point.depth_m,
                                      *feed);
   } catch (const core::InputError& error) {
-    spdlog::warn("{}", error.what());
+    core::warn(error.what());
   } catch (const core::NumericalError& error) {
-    spdlog::warn("no forced vibration: {}", error.what());
+    core::warn(fmt::format("no forced vibration: {}", error.what()));
   }
   return std::nullopt;
 }
@@ -146,9 +147,9 @@ void add_compared(const Chart& chart, const std::string& method, NamedLobes& res
   try {
     result.compared.push_back(compared(chart, result.lobes, method));
   } catch (const core::InputError& error) {
-    spdlog::warn("no chart by {} to compare with: {}", method, error.what());
+    core::warn(fmt::format("no chart by {} to compare with: {}", method, error.what()));
   } catch (const core::NumericalError& error) {
-    spdlog::warn("no chart by {} to compare with: {}", method, error.what());
+    core::warn(fmt::format("no chart by {} to compare with: {}", method, error.what()));
   }
 }
 
@@ -169,7 +170,7 @@ std::vector<milling::LobeRow> robust_rows(std::vector<milling::LobeRow> rows, co
   return rows;
 }
 
-void add_pockets(const cases::Case& source, const milling::MillingProcess& process, NamedLobes& result) {
+void add_pockets(const setup::Setup& source, const milling::MillingProcess& process, NamedLobes& result) {
   constexpr std::size_t most = 5;
   const milling::MachineLimits machine = source.machine.value_or(milling::MachineLimits{});
   std::optional<milling::CutLoad> load;
@@ -190,7 +191,7 @@ milling::StabilityOptions stability_options(const setup::LobesOptions& wanted) {
   return options;
 }
 
-NamedLobes compute_lobes(const cases::Case& source, const std::string& name, CutStructure structure,
+NamedLobes compute_lobes(const setup::Setup& source, const std::string& name, CutStructure structure,
                          const StructureErrors& errors, const std::vector<milling::OperatingPoint>& points,
                          Checkpoint& kept) {
   const setup::LobesOptions& wanted = *source.lobes;
@@ -226,7 +227,7 @@ NamedLobes compute_lobes(const cases::Case& source, const std::string& name, Cut
   return result;
 }
 
-void require_chart_of(const cases::Case& source, const std::vector<milling::OperatingPoint>& points) {
+void require_chart_of(const setup::Setup& source, const std::vector<milling::OperatingPoint>& points) {
   if (points.empty()) return;
   if (!source.lobes || !source.cutting || !source.tool)
     throw core::InputError("an operating point needs a chart; add [tool], [cutting] and [lobes] to the case");

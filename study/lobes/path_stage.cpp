@@ -1,13 +1,12 @@
 #include "study/lobes/path_stage.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <optional>
 #include <utility>
 #include <variant>
 
 #include "core/error.hpp"
+#include "core/messages.hpp"
 #include "core/progress.hpp"
 #include "coupling/spatial.hpp"
 #include "milling/chart/lobe_field.hpp"
@@ -29,17 +28,17 @@ namespace {
 /// one).
 struct StructuresAlongPath {
   std::vector<milling::RelativeStructure> part, supported;
-  std::vector<RobotPosture> robot;
+  std::vector<setup::RobotPosture> robot;
 };
 
 /// How the robot stands at each position: as it was surveyed along the path, or in its one posture.
-std::vector<RobotPosture> postures_along_path(const cases::Case& source, const Results& results) {
+std::vector<setup::RobotPosture> postures_along_path(const setup::Setup& source, const Results& results) {
   const std::size_t count = source.path->positions.size();
   const bool surveyed = results.survey && results.survey->over == "path";
-  if (!source.path->robot_follows) return std::vector<RobotPosture>(count, *results.robot_posture);
+  if (!source.path->robot_follows) return std::vector<setup::RobotPosture>(count, *results.robot_posture);
   if (surveyed && !results.survey->out_of_reach.empty())
     throw core::InputError(results.survey->out_of_reach.front().reason);
-  std::vector<RobotPosture> postures;
+  std::vector<setup::RobotPosture> postures;
   std::optional<Eigen::VectorXd> near;
   for (std::size_t i = 0; i < count; ++i) {
     postures.push_back(surveyed ? results.survey->tips[i].robot
@@ -49,7 +48,7 @@ std::vector<RobotPosture> postures_along_path(const cases::Case& source, const R
   return postures;
 }
 
-StructuresAlongPath structures_along_path(const cases::Case& source, const Results& results,
+StructuresAlongPath structures_along_path(const setup::Setup& source, const Results& results,
                                           const milling::ToolFrame& frame) {
   const auto& models = results.finite_elements->along_path;
   const bool supported = results.coupled && results.coupled->model;
@@ -59,7 +58,7 @@ StructuresAlongPath structures_along_path(const cases::Case& source, const Resul
   structures.supported.reserve(models.size());
   if (supported) structures.robot = postures_along_path(source, results);
   for (std::size_t i = 0; i < models.size(); ++i) {
-    const cases::Case there = setup::at_position(source, i);
+    const setup::Setup there = setup::at_position(source, i);
     std::vector<reduction::IdentifiedMode> identified;
     const dynamics::SpatialModel part = damped(there, models[i], identified);
     const auto felt = [&](const dynamics::ModalModel& modal) {
@@ -74,7 +73,7 @@ StructuresAlongPath structures_along_path(const cases::Case& source, const Resul
   return structures;
 }
 
-PathLobes charts(const cases::Case& source, const std::string& name, const std::string& method,
+PathLobes charts(const setup::Setup& source, const std::string& name, const std::string& method,
                  const milling::MillingProcess& process, const std::vector<milling::RelativeStructure>& structures,
                  Checkpoint& kept) {
   const setup::LobesOptions& wanted = *source.lobes;
@@ -96,7 +95,7 @@ PathLobes charts(const cases::Case& source, const std::string& name, const std::
 
 }  // namespace
 
-std::vector<dynamics::SpatialModel> models_along_path(const cases::Case& source, const PartResult& part,
+std::vector<dynamics::SpatialModel> models_along_path(const setup::Setup& source, const PartResult& part,
                                                       const linalg::ShiftedInverse& inverse) {
   const reduction::PartModes modes = reduction::part_modes(*part.reduced, part.model.M, inverse);
   const std::size_t count = source.path->positions.size();
@@ -115,12 +114,12 @@ std::vector<dynamics::SpatialModel> models_along_path(const cases::Case& source,
   return models;
 }
 
-std::vector<PathLobes> lobes_along_path(const cases::Case& source, const Results& results, Checkpoint& kept) {
+std::vector<PathLobes> lobes_along_path(const setup::Setup& source, const Results& results, Checkpoint& kept) {
   const milling::MillingProcess process = setup::milling_process(source);
   const StructuresAlongPath structures = structures_along_path(source, results, process.frame);
   const std::string& method = results.lobes.front().lobes.method;
   if (structures.supported.empty() && results.coupled)
-    spdlog::warn("no charts of the supported part along the path: part and robot are not joined by matrices");
+    core::warn("no charts of the supported part along the path: part and robot are not joined by matrices");
   std::vector<PathLobes> all{charts(source, "part", method, process, structures.part, kept)};
   if (!structures.supported.empty()) {
     all.push_back(charts(source, "supported", method, process, structures.supported, kept));

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "case/case.hpp"
 #include "linalg/eigenpairs.hpp"
+#include "setup/machining_setup.hpp"
 #include "study/kept/checkpoint.hpp"
 #include "study/results.hpp"
 
@@ -14,13 +14,13 @@ namespace thinwall::study {
 /// factor (`inverse`, at zero shift) and modes are those of the part as it was reduced; a position costs a solve of
 /// three right-hand sides, and as many a contact (reduction/methods/attachment_modes.hpp). Throws InputError for a
 /// position off the part's surface, with its number.
-[[nodiscard]] std::vector<dynamics::SpatialModel> models_along_path(const cases::Case& source, const PartResult& part,
+[[nodiscard]] std::vector<dynamics::SpatialModel> models_along_path(const setup::Setup& source, const PartResult& part,
                                                                     const linalg::ShiftedInverse& inverse);
 
 /// Charts at every position: the part alone, and with the robot at its contacts where that is known by its matrices.
 /// A position costs an eigen-problem of the reduced size beside its chart. `results` must hold the models along the
 /// path. Charts that are kept are taken, others kept once they are there. Throws as milling::lobe_field.
-[[nodiscard]] std::vector<PathLobes> lobes_along_path(const cases::Case& source, const Results& results,
+[[nodiscard]] std::vector<PathLobes> lobes_along_path(const setup::Setup& source, const Results& results,
                                                       Checkpoint& kept);
 
 }  // namespace thinwall::study

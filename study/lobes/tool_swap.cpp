@@ -106,7 +106,7 @@ dynamics::ResponseModel with_rotations(const dynamics::ResponseModel& measured, 
 
 }  // namespace
 
-SwappedTip swapped_tip(const cases::Case& source) {
+SwappedTip swapped_tip(const setup::Setup& source) {
   const setup::ToolSwap& swap = *source.tool->swap;
   const Vector3d& axis = source.cutting->tool_axis;
   const dynamics::FrequencyAxis lines = setup::read_measured(swap.measured.front()).axis;

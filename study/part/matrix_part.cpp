@@ -1,7 +1,6 @@
 #include "study/part/matrix_part.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,13 +8,15 @@
 #include <map>
 #include <numbers>
 
-#include "case/matrix_faults.hpp"
 #include "core/error.hpp"
 #include "core/memory.hpp"
+#include "core/messages.hpp"
 #include "fem/modes.hpp"
 #include "linalg/sparse_cholesky.hpp"
 #include "reduction/rigid_count.hpp"
 #include "setup/imported_part.hpp"
+#include "setup/matrix_faults.hpp"
+#include "setup/part_geometry.hpp"
 
 namespace thinwall::study {
 
@@ -63,10 +64,10 @@ void warn_of_soft_springs(const Eigen::VectorXd& lambda, int free, double round_
   if (largest < 100.0 * round_off) return;
   const auto hertz = [](double value) { return std::sqrt(value) / (2.0 * std::numbers::pi); };
   const std::string next = free < lambda.size() ? fmt::format(", the next at {:.4g} Hz", hertz(lambda(free))) : "";
-  spdlog::warn(
+  core::warn(fmt::format(
       "{} modes up to {:.3g} Hz are counted as free motions{}: a suspension a thousand times softer than the part, or "
       "matrices written with few digits; its stiffness is left out",
-      free, hertz(largest), next);
+      free, hertz(largest), next));
 }
 
 /// Sets how many motions are free: by the lowest modes of a shifted K, which is definite whatever is free.
@@ -92,17 +93,18 @@ void count_rigid_motions(fem::Model& model) {
                   point, node, "xyz"[axis]));
 }
 
-Solution solved_matrices(const cases::Case& source) {
+Solution solved_matrices(const setup::Setup& source) {
   fem::Model model = model_of(*source.part->imported->matrices);
   if (!has_definite_mass(model))
-    cases::require_definite_files(source.part->file.matrices,
+    setup::require_definite_files(source.part->file.matrices,
                                   *source.part->imported->matrices);  // or the file's digits
   count_rigid_motions(model);
   fem::Factored factored = fem::factorise(model, core::available_memory_bytes());
-  fem::ModeOptions options = mode_options(source);
+  fem::ModeOptions options = setup::mode_options(source);
   const int most = std::max(1, static_cast<int>(model.K.rows()) - 1 - model.rigid_motions);
   if (options.count > most && !options.up_to_hz) {
-    spdlog::info("{} modes are asked for; of {} rows {} can be computed", options.count, model.K.rows(), most);
+    core::inform(
+        fmt::format("{} modes are asked for; of {} rows {} can be computed", options.count, model.K.rows(), most));
     options.count = most;
   }
   fem::Modes modes = fem::modes(model, factored, options);
@@ -111,18 +113,18 @@ Solution solved_matrices(const cases::Case& source) {
 
 }  // namespace
 
-Solution matrix_solution(const cases::Case& source) {
+Solution matrix_solution(const setup::Setup& source) {
   try {
     return solved_matrices(source);
   } catch (const linalg::MemoryLimitError&) {
     throw;
   } catch (const core::NumericalError&) {
-    cases::require_definite_files(source.part->file.matrices, *source.part->imported->matrices);
+    setup::require_definite_files(source.part->file.matrices, *source.part->imported->matrices);
     throw;
   }
 }
 
-reduction::Interface matrix_interface(const cases::Case& source) {
+reduction::Interface matrix_interface(const setup::Setup& source) {
   const dynamics::SparseModel& matrices = *source.part->imported->matrices;
   std::map<dynamics::NodeDof, int> row_of;
   for (std::size_t i = 0; i < matrices.dofs.size(); ++i) row_of[matrices.dofs[i]] = static_cast<int>(i);

@@ -9,6 +9,7 @@
 #include "core/memory.hpp"
 #include "fem/points.hpp"
 #include "linalg/tall.hpp"
+#include "setup/part_geometry.hpp"
 #include "study/part/part_stage.hpp"
 
 namespace thinwall::study {
@@ -16,7 +17,7 @@ namespace thinwall::study {
 namespace {
 
 /// The rank-th mode that takes part at "P.x" by at least a tenth of the largest share φ²/ω².
-Eigen::Index participating_mode(const cases::Case& source, const Solution& part, const setup::UpdatingTarget& target) {
+Eigen::Index participating_mode(const setup::Setup& source, const Solution& part, const setup::UpdatingTarget& target) {
   const auto dot = target.point.rfind('.');
   const setup::Point& p = setup::point(source, target.point.substr(0, dot));
   const fem::NamedPoint named{
@@ -50,11 +51,15 @@ core::InputError no_such_mode(const setup::UpdatingTarget& target, std::size_t f
                           " take part there; raise modes.count or modes.up_to, or choose another point");
 }
 
-PartEvaluation::PartEvaluation(const cases::Case& start, const setup::Updating& updating, const mesh::TetMesh& mesh,
-                               int order)
-    : updating_(updating), mesh_(mesh), order_(order), start_size_(setup::box_size(*start.part)) {}
+PartEvaluation::PartEvaluation(const setup::Variation& variation, const setup::Setup& start,
+                               const setup::Updating& updating, const mesh::TetMesh& mesh, int order)
+    : variation_(variation),
+      updating_(updating),
+      mesh_(mesh),
+      order_(order),
+      start_size_(setup::box_size(*start.part)) {}
 
-Eigen::VectorXd PartEvaluation::operator()(const cases::Case& now) {
+Eigen::VectorXd PartEvaluation::operator()(const setup::VariedSetup& now) {
   latest_.reset();  // its memory first
   fem::Model part = model(now);
   fem::Factored factored = fem::factorise(part, core::available_memory_bytes());
@@ -67,17 +72,17 @@ Eigen::VectorXd PartEvaluation::operator()(const cases::Case& now) {
   return latest_->modes.frequency_hz(chosen_);
 }
 
-fem::Model PartEvaluation::model(const cases::Case& now) const {
-  return part_model(now, stretched(mesh_, start_size_, setup::box_size(*now.part)), order_);
+fem::Model PartEvaluation::model(const setup::VariedSetup& now) const {
+  return part_model(now.setup, stretched(mesh_, start_size_, setup::box_size(*now.setup.part)), order_);
 }
 
-fem::Modes PartEvaluation::modes(const cases::Case& now) {
+fem::Modes PartEvaluation::modes(const setup::VariedSetup& now) {
   int needed = 8;
   for (const setup::UpdatingTarget& target : updating_.targets) needed = std::max(needed, target.rank + 6);
   fem::ModeOptions enough;
   enough.count = needed;
   enough.inverse_residual = 1e-6;  // far below what a fit can tell
-  fem::ModeOptions asked = mode_options(now);
+  fem::ModeOptions asked = setup::mode_options(now.setup);
   asked.verify_count = false;  // of the part that is kept, later
   const bool first = reference_.cols() == 0;
   as_asked_ = !first && asked_suffices_ && (asked.up_to_hz || asked.count >= needed);
@@ -88,28 +93,29 @@ fem::Modes PartEvaluation::modes(const cases::Case& now) {
   return fem::modes(latest_->model, latest_->factored, enough);
 }
 
-Eigen::Index PartEvaluation::mode_of(const cases::Case& now, const setup::UpdatingTarget& target) const {
+Eigen::Index PartEvaluation::mode_of(const setup::VariedSetup& now, const setup::UpdatingTarget& target) const {
   const Eigen::Index number = target.rank - 1 + latest_->modes.rigid_motions;
-  if (target.match == "participation") return participating_mode(now, *latest_, target);
+  if (target.match == "participation") return participating_mode(now.setup, *latest_, target);
   return target.match == "mac" ? most_alike(*latest_, reference_.col(number)) : number;
 }
 
-std::vector<double> PartEvaluation::parameters(const cases::Case& now) const {
+std::vector<double> PartEvaluation::parameters(const setup::VariedSetup& now) const {
   std::vector<double> values;
   values.reserve(updating_.parameters.size());
-  for (const setup::UpdatingParameter& p : updating_.parameters) values.push_back(cases::get_value(now, p.key));
+  for (const setup::UpdatingParameter& p : updating_.parameters)
+    values.push_back(setup::value_of(variation_, now, p.key));
   return values;
 }
 
-PartEvaluation::Neighbour PartEvaluation::neighbour(const cases::Case& now, const setup::UpdatingParameter& p) const {
+PartEvaluation::Neighbour PartEvaluation::neighbour(const setup::VariedSetup& now,
+                                                    const setup::UpdatingParameter& p) const {
   // Of the range. What is left out is of the order h (length / thickness)², for a bending shape that is carried along
   // by a stretched mesh shears it; round-off still leaves some five digits.
   constexpr double step = 1e-5;
-  const double value = cases::get_value(now, p.key);
+  const double value = setup::value_of(variation_, now, p.key);
   const double inwards = value + step * (p.upper - p.lower) <= p.upper ? step : -step;
   for (const double h : {inwards, -inwards}) {
-    cases::Case moved = now;
-    cases::set_value(moved, p.key, value + h * (p.upper - p.lower));
+    const setup::VariedSetup moved = setup::with_value(variation_, now, p.key, value + h * (p.upper - p.lower));
     Neighbour there{model(moved), h};
     if (there.model.free_rows == latest_->model.free_rows) return there;
   }
@@ -118,7 +124,7 @@ PartEvaluation::Neighbour PartEvaluation::neighbour(const cases::Case& now, cons
                          "room around the nodes that they hold");
 }
 
-Eigen::MatrixXd PartEvaluation::slopes(const cases::Case& now) const {
+Eigen::MatrixXd PartEvaluation::slopes(const setup::VariedSetup& now) const {
   const Eigen::MatrixXd Phi = latest_->modes.pairs.Phi(Eigen::all, chosen_);
   const Eigen::VectorXd lambda = latest_->modes.pairs.lambda(chosen_);
   const Eigen::ArrayXd hz = latest_->modes.frequency_hz(chosen_);
@@ -136,7 +142,7 @@ Eigen::MatrixXd PartEvaluation::slopes(const cases::Case& now) const {
   return result;
 }
 
-std::optional<Solution> PartEvaluation::take(const cases::Case& now) {
+std::optional<Solution> PartEvaluation::take(const setup::VariedSetup& now) {
   if (!latest_ || !as_asked_ || parameters(now) != parameters_) return std::nullopt;
   return std::exchange(latest_, std::nullopt);
 }

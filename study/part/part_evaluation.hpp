@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "case/case.hpp"
 #include "core/error.hpp"
 #include "mesh/tet_mesh.hpp"
+#include "setup/variation.hpp"
 #include "study/part/discretisation.hpp"
 
 namespace thinwall::study {
@@ -19,13 +19,14 @@ namespace thinwall::study {
 /// evaluation, or by its number.
 class PartEvaluation {
  public:
-  /// `mesh` fits the part of `start`; it and `updating` are kept by reference.
-  PartEvaluation(const cases::Case& start, const setup::Updating& updating, const mesh::TetMesh& mesh, int order);
+  /// `mesh` fits the part of `start`; it, `variation` and `updating` are kept by reference.
+  PartEvaluation(const setup::Variation& variation, const setup::Setup& start, const setup::Updating& updating,
+                 const mesh::TetMesh& mesh, int order);
 
   /// The targets' frequencies, Hz. The first evaluation, where a fit starts, is solved as far as a fit can tell; those
   /// after it as the case asks, for the last of them is the part itself. Throws InputError if a target names a mode
   /// that is not there. Cost: a modal solution.
-  Eigen::VectorXd operator()(const cases::Case& now);
+  Eigen::VectorXd operator()(const setup::VariedSetup& now);
 
   /// Derivatives of the latest evaluation's frequencies by each parameter of the fit (targets × parameters, Hz per
   /// range from `lower` to `upper`). With K', M' the matrices at a parameter moved by h, and K φ = λ M φ, φᵀMφ = 1:
@@ -33,12 +34,12 @@ class PartEvaluation {
   ///     λ(p + h) − λ(p) = φᵀ(K' − K − λ(M' − M))φ + O(h²),   ∂f/∂p = (∂λ/∂p) / (8π² f)
   ///
   /// (Fox & Kapoor 1968). Where modes share a frequency it is the derivative along the shape that was found.
-  /// `now` must be the case of the latest evaluation. Throws InputError if the supports hold other nodes beside it.
+  /// `now` must be the set-up of the latest evaluation. Throws InputError if the supports hold other nodes beside it.
   /// Cost: an assembly a parameter.
-  [[nodiscard]] Eigen::MatrixXd slopes(const cases::Case& now) const;
+  [[nodiscard]] Eigen::MatrixXd slopes(const setup::VariedSetup& now) const;
 
   /// The latest solution, if it is of this case and as this case asks; it is given away.
-  [[nodiscard]] std::optional<Solution> take(const cases::Case& now);
+  [[nodiscard]] std::optional<Solution> take(const setup::VariedSetup& now);
 
  private:
   /// The matrices with one parameter moved by h of its range.
@@ -47,12 +48,13 @@ class PartEvaluation {
     double h = 0.0;
   };
 
-  fem::Model model(const cases::Case& now) const;
-  fem::Modes modes(const cases::Case& now);
-  Eigen::Index mode_of(const cases::Case& now, const setup::UpdatingTarget& target) const;
-  std::vector<double> parameters(const cases::Case& now) const;
-  Neighbour neighbour(const cases::Case& now, const setup::UpdatingParameter& p) const;
+  fem::Model model(const setup::VariedSetup& now) const;
+  fem::Modes modes(const setup::VariedSetup& now);
+  Eigen::Index mode_of(const setup::VariedSetup& now, const setup::UpdatingTarget& target) const;
+  std::vector<double> parameters(const setup::VariedSetup& now) const;
+  Neighbour neighbour(const setup::VariedSetup& now, const setup::UpdatingParameter& p) const;
 
+  const setup::Variation& variation_;
   const setup::Updating& updating_;
   const mesh::TetMesh& mesh_;
   int order_;

@@ -1,6 +1,6 @@
 #include "study/part/part_stage.hpp"
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/memory.hpp"
+#include "core/messages.hpp"
 #include "core/units.hpp"
 #include "fem/closed_part.hpp"
 #include "fem/points.hpp"
@@ -25,6 +26,7 @@
 #include "setup/imported_part.hpp"
 #include "setup/measured.hpp"
 #include "setup/part_attachments.hpp"
+#include "setup/part_geometry.hpp"
 #include "setup/part_materials.hpp"
 #include "study/lobes/path_stage.hpp"
 #include "study/part/matrix_part.hpp"
@@ -40,7 +42,7 @@ void require_solved(double relative_residual) {
 }
 
 /// As many modes as a tolerance on the interface's receptance needs.
-void reduce_to_tolerance(const cases::Case& source, PartResult& part) {
+void reduce_to_tolerance(const setup::Setup& source, PartResult& part) {
   reduction::Band band{source.response.from_hz, source.response.to_hz};
   if (const double least = least_loss_factor(source.damping, part.modes, band.from_hz, band.to_hz); least > 0.0)
     band.loss_factor = least;
@@ -54,15 +56,15 @@ void reduce_to_tolerance(const cases::Case& source, PartResult& part) {
     throw core::NumericalError("reduction.tolerance is not met with " + std::to_string(chosen.modes) +
                                " modes: take a narrower response band, a larger tolerance, or reduction.modes");
   }
-  spdlog::info("{} modes: the receptance of the interface is {:.1e} off by estimate", chosen.modes,
-               chosen.estimated_error);
+  core::inform(fmt::format("{} modes: the receptance of the interface is {:.1e} off by estimate", chosen.modes,
+                           chosen.estimated_error));
   part.reduced = std::move(chosen.reduced);
   part.truncation = std::move(chosen.truncation);
   part.estimated_receptance_error = chosen.estimated_error;
 }
 
 /// The reduced model and what it leaves out.
-void reduce(const cases::Case& source, PartResult& part, const fem::Factored& factored) {
+void reduce(const setup::Setup& source, PartResult& part, const fem::Factored& factored) {
   if (factored.sigma != 0.0)
     fem::require_motions_seen(part.model, part.modes, part.interface.W.transpose() * part.modes.pairs.Phi);
   if (source.reduction.tolerance) return reduce_to_tolerance(source, part);
@@ -101,7 +103,7 @@ std::vector<reduction::FullReceptance> full_receptances(const PartResult& part, 
   return result;
 }
 
-void check_reduction(const cases::Case& source, PartResult& part, const fem::Factored& factored) {
+void check_reduction(const setup::Setup& source, PartResult& part, const fem::Factored& factored) {
   const Eigen::Index rigid = part.modes.rigid_motions;
   const Eigen::VectorXd elastic = part.modes.frequency_hz.tail(part.modes.frequency_hz.size() - rigid);
   part.error_by_size = reduction::frequency_error_by_size(*part.reduced, elastic, static_cast<int>(rigid));
@@ -138,13 +140,13 @@ double least_loss_factor(const setup::Damping& damping, const fem::Modes& modes,
 namespace {
 
 /// The mesh of a file with its own nodes, curved where they are, or straight-sided of a higher order.
-fem::Model mesh_model(const cases::Case& source, int order, const fem::Materials& materials) {
+fem::Model mesh_model(const setup::Setup& source, int order, const fem::Materials& materials) {
   mesh::SolidMesh solid = source.part->imported->mesh->solid;
   if (order == 2) solid = mesh::with_order(std::move(solid), 2);
   mesh::LagrangeNodes nodes = order > 2 ? mesh::lagrange_nodes(solid.mesh, order) : solid.nodes;
-  std::vector<int> fixed = fem::fixed_rows(solid.mesh, nodes, supports_of(source));
+  std::vector<int> fixed = fem::fixed_rows(solid.mesh, nodes, setup::supports_of(source));
   if (order <= 2) {
-    for (const int row : rows_held_by_sets(source, solid)) fixed.push_back(row);
+    for (const int row : setup::rows_held_by_sets(source, solid)) fixed.push_back(row);
   }
   return fem::build_model(std::move(solid.mesh), std::move(nodes), materials, fixed, setup::attachments_of(source));
 }
@@ -157,20 +159,20 @@ mesh::TetMesh stretched(mesh::TetMesh mesh, const Eigen::Vector3d& from_size, co
   return mesh;
 }
 
-fem::Model part_model(const cases::Case& source, mesh::TetMesh mesh, int order) {
+fem::Model part_model(const setup::Setup& source, mesh::TetMesh mesh, int order) {
   const fem::Materials materials = setup::materials_on(source, mesh);
   if (source.part->shape == "mesh") return mesh_model(source, order, materials);
-  return fem::supported_model(std::move(mesh), order, materials, supports_of(source), shaping(*source.part),
-                              setup::attachments_of(source));
+  return fem::supported_model(std::move(mesh), order, materials, setup::supports_of(source),
+                              setup::shaping(*source.part), setup::attachments_of(source));
 }
 
-reduction::Interface part_interface(const cases::Case& source, const fem::Model& model) {
+reduction::Interface part_interface(const setup::Setup& source, const fem::Model& model) {
   if (source.part->shape == "matrices") return matrix_interface(source);
   reduction::Interface interface;
   std::vector<Eigen::Triplet<double>> entries;
   for (const std::string& name : source.reduction.interface) {
     const setup::Point& p = setup::point(source, name);
-    const linalg::SparseMatrix columns = fem::point_columns(model, named_point(source, name));
+    const linalg::SparseMatrix columns = fem::point_columns(model, setup::named_point(source, name));
     for (Eigen::Index j = 0; j < columns.cols(); ++j) {
       for (linalg::SparseMatrix::InnerIterator it(columns, j); it; ++it) {
         entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(interface.dofs.size()), it.value());
@@ -183,7 +185,7 @@ reduction::Interface part_interface(const cases::Case& source, const fem::Model&
   return interface;
 }
 
-dynamics::SpatialModel damped(const cases::Case& source, const dynamics::SpatialModel& reduced,
+dynamics::SpatialModel damped(const setup::Setup& source, const dynamics::SpatialModel& reduced,
                               std::vector<reduction::IdentifiedMode>& identified) {
   const setup::Damping& damping = source.damping;
   if (damping.model == "matrices") return reduced;
@@ -199,13 +201,13 @@ dynamics::SpatialModel damped(const cases::Case& source, const dynamics::Spatial
 namespace {
 
 /// C of the part's file on the reduced coordinates, TᵀCT.
-void take_damping_of_file(const cases::Case& source, PartResult& part) {
+void take_damping_of_file(const setup::Setup& source, PartResult& part) {
   if (source.part->shape != "matrices" || !source.part->imported->matrices->has_damping()) return;
   if (source.damping.model == "matrices") {
     const Eigen::MatrixXd C_T = source.part->imported->matrices->C * part.reduced->T;
     part.reduced->model.C = part.reduced->T.transpose() * C_T;
   } else {
-    spdlog::warn("the part's damping matrix is not used; set damping.model = \"matrices\" to take it");
+    core::warn("the part's damping matrix is not used; set damping.model = \"matrices\" to take it");
   }
 }
 
@@ -216,7 +218,7 @@ std::vector<double> thickness_of(const fem::Model& model) {
   try {
     return mesh::wall_thickness(surface, mesh::TriangleTree(surface));
   } catch (const core::NumericalError& error) {
-    spdlog::info("no wall thickness among the results: {}", error.what());
+    core::inform(fmt::format("no wall thickness among the results: {}", error.what()));
     return {};
   }
 }
@@ -232,7 +234,7 @@ void look_at_mesh(PartResult& part) {
 }
 
 /// The matrix's mass against the geometry's: exact for straight elements, to the accuracy of the curve for bent ones.
-void check_mass(const cases::Case& source, PartResult& part) {
+void check_mass(const setup::Setup& source, PartResult& part) {
   const bool summed = source.part->shape == "mesh" || !source.part->materials.empty();
   if (summed && part.model.curved_elements > 0) return;  // nothing to compare with
   const double expected = summed ? setup::mass(setup::materials_on(source, part.model.mesh), part.model.mesh)
@@ -252,17 +254,17 @@ void check_mass(const cases::Case& source, PartResult& part) {
 
 }  // namespace
 
-Solution solved_part(const cases::Case& source, Discretisation discretisation, Stages& stages) {
+Solution solved_part(const setup::Setup& source, Discretisation discretisation, Stages& stages) {
   if (discretisation.solved) return std::move(*discretisation.solved);
   stages.begin("assembly");
   fem::Model model = part_model(source, std::move(discretisation.mesh), discretisation.order);
   stages.begin("modes");
   fem::Factored factored = fem::factorise(model, core::available_memory_bytes());
-  fem::Modes modes = fem::modes(model, factored, mode_options(source));
+  fem::Modes modes = fem::modes(model, factored, setup::mode_options(source));
   return {std::move(model), std::move(factored), std::move(modes)};
 }
 
-PartResult compute_part(const cases::Case& source, Discretisation discretisation, Stages& stages) {
+PartResult compute_part(const setup::Setup& source, Discretisation discretisation, Stages& stages) {
   PartResult part;
   part.estimate = discretisation.estimate;
   Solution solved = solved_part(source, std::move(discretisation), stages);
@@ -272,10 +274,10 @@ PartResult compute_part(const cases::Case& source, Discretisation discretisation
   const bool meshed = !part.model.mesh.tets.empty();
   if (meshed) check_mass(source, part);
   if (part.modes.round_off > 1e-4) {
-    spdlog::warn(
+    core::warn(fmt::format(
         "round-off may change the lowest frequency by {:.0e} of it, for the part is very thin: a lower order or "
         "larger elements lose less",
-        part.modes.round_off);
+        part.modes.round_off));
   }
   if (meshed) look_at_mesh(part);
   if (source.modes.verify_count && !part.modes.count_verified)
@@ -300,8 +302,8 @@ PartResult compute_part(const cases::Case& source, Discretisation discretisation
   }
   stages.begin("reduction check");
   check_reduction(source, part, factored);
-  spdlog::info("reduced to {} degrees of freedom; frequencies agree to {:.1e}", part.reduced->model.size(),
-               part.frequency_error);
+  core::inform(fmt::format("reduced to {} degrees of freedom; frequencies agree to {:.1e}", part.reduced->model.size(),
+                           part.frequency_error));
   return part;
 }
 

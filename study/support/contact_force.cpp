@@ -49,7 +49,7 @@ dynamics::ResponseModel response_on(const Component& known, const dynamics::Freq
 
 /// What presses the contact, N, and the unit vector along which it presses the tip: the normal of an only contact with
 /// a preload along it (preload_of()), turned to the side from which robot.preload comes; else robot.preload.
-std::pair<double, Eigen::Vector3d> pressing_force(const cases::Case& source) {
+std::pair<double, Eigen::Vector3d> pressing_force(const setup::Setup& source) {
   const Eigen::Vector3d& on_tip = source.robot->preload;
   const setup::Contact& first = source.contacts.front();
   if (const auto preload = setup::preload_of(source, first); preload && source.contacts.size() == 1) {
@@ -63,7 +63,7 @@ std::pair<double, Eigen::Vector3d> pressing_force(const cases::Case& source) {
 
 }  // namespace
 
-ContactForce contact_force(const cases::Case& source, const Component& part, const Component& tip,
+ContactForce contact_force(const setup::Setup& source, const Component& part, const Component& tip,
                            const milling::ForcedVibration& cut) {
   const auto [preload, n] = pressing_force(source);
   dynamics::FrequencyAxis axis{Eigen::VectorXd::LinSpaced(harmonics + 1, 0.0, static_cast<double>(harmonics)) /

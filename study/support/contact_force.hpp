@@ -1,7 +1,7 @@
 #pragma once
 // Does the robot stay in touch while the cutter cuts?
 
-#include "case/case.hpp"
+#include "setup/machining_setup.hpp"
 #include "study/results.hpp"
 
 namespace thinwall::study {
@@ -15,7 +15,7 @@ namespace thinwall::study {
 /// N₀ and n: preload and normal of an only contact (setup/contact_model.hpp), else size and direction of robot.preload;
 /// the mean force (k = 0) at a thousandth of the first harmonic. The coupling is two-sided: where N < 0 it is not what
 /// the robot does. `tip`: the robot in its posture. Throws InputError without preload. Cost: 65 lines of a coupling.
-[[nodiscard]] ContactForce contact_force(const cases::Case& source, const Component& part, const Component& tip,
+[[nodiscard]] ContactForce contact_force(const setup::Setup& source, const Component& part, const Component& tip,
                                          const milling::ForcedVibration& cut);
 
 }  // namespace thinwall::study

@@ -1,16 +1,15 @@
 #include "study/support/contact_identification.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numbers>
 
-#include "case/part_checks.hpp"
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
+#include "core/messages.hpp"
 #include "io/frf/measured_response.hpp"
 #include "setup/measured.hpp"
 #include "setup/measured_layout.hpp"
@@ -92,8 +91,8 @@ Eigen::MatrixXd without_negative_part(const Eigen::MatrixXd& matrix) {
 
 coupling::IdentificationOptions options_of(const setup::Contact& contact) {
   coupling::IdentificationOptions options;
-  options.response_point = cases::point_of(contact.measured.front().response);
-  options.force_point = cases::point_of(contact.measured.front().force);
+  options.response_point = setup::point_of(contact.measured.front().response);
+  options.force_point = setup::point_of(contact.measured.front().force);
   // The case states the deviation of real and imaginary part, the library takes that of both together.
   const auto level = [&](std::size_t which) {
     return Eigen::VectorXd::Constant(1, std::numbers::sqrt2 * contact.noise[which]);
@@ -128,7 +127,7 @@ dynamics::ResponseModel assembly_response(const std::vector<setup::MeasuredFrf>&
   std::vector<io::MeasuredFrf> frfs;
   std::vector<std::string> responses, forces;
   const bool one_point = std::ranges::all_of(files, [](const setup::MeasuredFrf& file) {
-    return cases::point_of(file.response) == cases::point_of(file.force);
+    return setup::point_of(file.response) == setup::point_of(file.force);
   });
   for (const setup::MeasuredFrf& file : files) {
     frfs.push_back(setup::read_measured(file));
@@ -153,7 +152,7 @@ dynamics::ResponseModel assembly_response(const std::vector<setup::MeasuredFrf>&
   return model;
 }
 
-ContactIdentification identify_contact(const cases::Case& source, const Component& part, const Component& robot) {
+ContactIdentification identify_contact(const setup::Setup& source, const Component& part, const Component& robot) {
   const setup::Contact& contact = source.contacts.front();
   const dynamics::ResponseModel assembly = assembly_response(contact.measured, part.response.axis);
   setup::warn_of_doubts(assembly, "the assembly's");
@@ -175,20 +174,20 @@ ContactIdentification identify_contact(const cases::Case& source, const Componen
   return result;
 }
 
-void warn_of_misfit(const cases::Case& source, const ContactIdentification& identification) {
+void warn_of_misfit(const setup::Setup& source, const ContactIdentification& identification) {
   const std::string contact = name_of(source.contacts.front());
   const double chi_squared = identification.found.chi_squared;
   if (chi_squared > far_above_one) {
-    spdlog::warn(
+    core::warn(fmt::format(
         "contact {} leaves residuals {:.1f} times the noise (chi squared {:.3g}): its damping may be of another kind, "
         "a "
         "direction may be missing, the points may lie apart, or part or robot may be off; the intervals are widened, "
         "but no interval knows of a bias",
-        contact, std::sqrt(chi_squared), chi_squared);
+        contact, std::sqrt(chi_squared), chi_squared));
   }
   if (identification.damping_raised)
-    spdlog::warn("contact {}: the damping that was found gives energy along some direction; there none is taken",
-                 contact);
+    core::warn(fmt::format(
+        "contact {}: the damping that was found gives energy along some direction; there none is taken", contact));
 }
 
 }  // namespace thinwall::study

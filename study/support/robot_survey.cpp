@@ -46,15 +46,15 @@ double stiffness_of(double compliance, double largest) {
   return std::abs(compliance) > 1e-12 * largest ? 1.0 / compliance : infinite;
 }
 
-TipReport report_at(const cases::Case& source, const std::optional<Eigen::VectorXd>& near) {
-  const RobotPosture robot = setup::robot_posture(source, near);
+TipReport report_at(const setup::Setup& source, const std::optional<Eigen::VectorXd>& near) {
+  const setup::RobotPosture robot = setup::robot_posture(source, near);
   const bool measured = source.robot->model == "measured";
   const dynamics::FrequencyAxis one_line{Eigen::VectorXd::Ones(1)};  // modes and stiffness need no more
-  return tip_report(robot, setup::robot_component(source, measured ? frequency_axis(source) : one_line, robot.posture));
+  return tip_report(robot, robot_component(source, measured ? frequency_axis(source) : one_line, robot.posture));
 }
 
 /// Adds the robot of `there`, or why it cannot stand so.
-void add(const cases::Case& there, const Eigen::Vector3d& place, RobotSurvey& survey) {
+void add(const setup::Setup& there, const Eigen::Vector3d& place, RobotSurvey& survey) {
   std::optional<Eigen::VectorXd> near;
   if (!survey.tips.empty()) near = survey.tips.back().robot.posture.q;
   try {
@@ -158,7 +158,7 @@ void write_out_of_reach(const std::filesystem::path& below, const RobotSurvey& s
 
 }  // namespace
 
-TipReport tip_report(const RobotPosture& robot, const Component& tip) {
+TipReport tip_report(const setup::RobotPosture& robot, const Component& tip) {
   TipReport report;
   report.robot = robot;
   if (tip.modal) {
@@ -179,13 +179,13 @@ TipReport tip_report(const RobotPosture& robot, const Component& tip) {
   return report;
 }
 
-RobotSurvey survey(const cases::Case& source, const std::optional<TipReport>& as_it_stands) {
+RobotSurvey survey(const setup::Setup& source, const std::optional<TipReport>& as_it_stands) {
   if (!source.robot) throw core::InputError("the case has no robot; add [robot]");
   const auto own_tip = [&] { return as_it_stands ? *as_it_stands : report_at(source, {}); };
   RobotSurvey survey;
   if (!source.robot->workspace.empty()) {
     survey.over = "workspace";
-    cases::Case there = source;
+    setup::Setup there = source;
     there.robot->workspace.clear();
     for (const Eigen::Vector3d& place : source.robot->workspace) {
       there.robot->posture.tip = place;
@@ -205,7 +205,7 @@ RobotSurvey survey(const cases::Case& source, const std::optional<TipReport>& as
   return survey;
 }
 
-nlohmann::json posture_summary(const RobotPosture& robot) {
+nlohmann::json posture_summary(const setup::RobotPosture& robot) {
   nlohmann::json result = nlohmann::json::object();
   if (robot.posture.preload != Eigen::Vector3d::Zero()) result["preload_n"] = robot.posture.preload;
   if (!robot.tip) return result;
@@ -251,7 +251,7 @@ std::string survey_text(const RobotSurvey& survey) {
   return text;
 }
 
-void write_survey(const std::filesystem::path& folder, const cases::Case& source, const RobotSurvey& survey) {
+void write_survey(const std::filesystem::path& folder, const setup::Setup& source, const RobotSurvey& survey) {
   const std::filesystem::path below = folder / "robot";
   std::filesystem::remove_all(below);  // tables of an earlier survey
   std::filesystem::create_directories(below);

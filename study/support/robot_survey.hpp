@@ -7,28 +7,28 @@
 #include <string>
 #include <vector>
 
-#include "case/case.hpp"
+#include "setup/machining_setup.hpp"
 #include "study/results.hpp"
 
 namespace thinwall::study {
 
 /// The tip as the coupling sees it, in that posture.
-[[nodiscard]] TipReport tip_report(const RobotPosture& robot, const Component& tip);
+[[nodiscard]] TipReport tip_report(const setup::RobotPosture& robot, const Component& tip);
 
 /// The robot over its workspace where the case has one, else along its path where the robot follows the cut, else in
 /// its one posture, whose report is `as_it_stands` where it was made already. A robot that has no joints is the same at
 /// every position of a path. No tip at all is an answer, too. Throws InputError for a case without robot. Cost
 /// O(joints³) a posture, and the files of a measured robot once.
-[[nodiscard]] RobotSurvey survey(const cases::Case& source, const std::optional<TipReport>& as_it_stands = {});
+[[nodiscard]] RobotSurvey survey(const setup::Setup& source, const std::optional<TipReport>& as_it_stands = {});
 
 /// joints_rad, tip_m, smallest_singular_value of an arm, and preload_n where there is one, for summary.json.
-[[nodiscard]] nlohmann::json posture_summary(const RobotPosture& robot);
+[[nodiscard]] nlohmann::json posture_summary(const setup::RobotPosture& robot);
 
 /// A table for the terminal: place, joints, first modes, stiffness.
 [[nodiscard]] std::string survey_text(const RobotSurvey& survey);
 
 /// robot/postures.csv, out_of_reach.csv where places are, and for an arm postures.vtu (the arm's lines and its tip,
 /// with frequencies and stiffnesses), below `folder`. Throws as io::write_csv and io::write_polylines.
-void write_survey(const std::filesystem::path& folder, const cases::Case& source, const RobotSurvey& survey);
+void write_survey(const std::filesystem::path& folder, const setup::Setup& source, const RobotSurvey& survey);
 
 }  // namespace thinwall::study

@@ -8,14 +8,14 @@
 #include "dynamics/conversion.hpp"
 #include "setup/contact_model.hpp"
 #include "setup/measured.hpp"
-#include "study/sensor_mass.hpp"
+#include "setup/sensor_mass.hpp"
 
 namespace thinwall::study {
 
 namespace {
 
 /// Names of a contact's directed DOFs on the part, "P.x".
-std::vector<std::string> contact_dofs(const cases::Case& source) {
+std::vector<std::string> contact_dofs(const setup::Setup& source) {
   std::vector<std::string> names;
   for (const setup::Contact& c : source.contacts) {
     for (const auto& n : c.directions)
@@ -73,7 +73,7 @@ void add_spatial_route(const Component& part, const Component& robot, const std:
 
 }  // namespace
 
-dynamics::FrequencyAxis frequency_axis(const cases::Case& source) {
+dynamics::FrequencyAxis frequency_axis(const setup::Setup& source) {
   const setup::ResponseOptions& r = source.response;
   return r.logarithmic ? dynamics::logarithmic_axis(r.from_hz, r.to_hz, r.lines)
                        : dynamics::linear_axis(r.from_hz, r.to_hz, r.lines);
@@ -94,21 +94,35 @@ Component component(dynamics::SpatialModel model, const dynamics::FrequencyAxis&
   return result;
 }
 
-Component measured_part(const cases::Case& source, const dynamics::FrequencyAxis& axis) {
+Component robot_component(const setup::Setup& source, const dynamics::FrequencyAxis& axis,
+                          const robot::Posture& posture) {
+  robot::Tip tip = setup::tip_model(*source.robot, axis)(posture);
+  if (auto* spatial = std::get_if<dynamics::SpatialModel>(&tip)) return component(std::move(*spatial), axis);
+  Component result;
+  if (auto* modal = std::get_if<dynamics::ModalModel>(&tip)) {
+    result.response = dynamics::to_response(*modal, axis);
+    result.modal = std::move(*modal);
+    return result;
+  }
+  result.response = std::get<dynamics::ResponseModel>(std::move(tip));
+  return result;
+}
+
+Component measured_part(const setup::Setup& source, const dynamics::FrequencyAxis& axis) {
   Component part;
   part.response =
-      without_sensors(setup::measured_response(source.measured_part, axis), source.part_sensors, "the part's");
+      setup::without_sensors(setup::measured_response(source.measured_part, axis), source.part_sensors, "the part's");
   return part;
 }
 
-std::vector<coupling::Contact> contacts_of(const cases::Case& source) {
+std::vector<coupling::Contact> contacts_of(const setup::Setup& source) {
   std::vector<coupling::Contact> contacts;
   contacts.reserve(source.contacts.size());
-  for (JoinedContact& joined : setup::joined_contacts(source)) contacts.push_back(std::move(joined.contact));
+  for (setup::JoinedContact& joined : setup::joined_contacts(source)) contacts.push_back(std::move(joined.contact));
   return contacts;
 }
 
-coupling::CouplingOptions coupling_options(const cases::Case& source) {
+coupling::CouplingOptions coupling_options(const setup::Setup& source) {
   coupling::CouplingOptions options;
   if (source.coupling.regularisation == "truncated") options.regularisation = coupling::Regularisation::truncated;
   if (source.coupling.regularisation == "tikhonov") options.regularisation = coupling::Regularisation::tikhonov;
@@ -120,7 +134,7 @@ dynamics::ModalModel modes_of(const dynamics::SpatialModel& model) {
   return dynamics::to_modal(model.has_structural_damping() ? dynamics::equivalent_viscous(model) : model);
 }
 
-CouplingResult couple(const cases::Case& source, const Component& part, const Component& robot) {
+CouplingResult couple(const setup::Setup& source, const Component& part, const Component& robot) {
   const auto contacts = contacts_of(source);
   const dynamics::FrequencyAxis& axis = part.response.axis;
   const coupling::CouplingOptions options = coupling_options(source);
@@ -158,7 +172,7 @@ std::vector<Participation> participating_modes(const dynamics::ModalModel& model
   return all;
 }
 
-std::vector<AmplitudeReduction> reductions(const cases::Case& source, const Component& part,
+std::vector<AmplitudeReduction> reductions(const setup::Setup& source, const Component& part,
                                            const CouplingResult& coupled) {
   std::vector<AmplitudeReduction> result;
   const dynamics::FrequencyAxis& axis = part.response.axis;

@@ -21,7 +21,6 @@ namespace thinwall::tests {
 
 using namespace setup;
 using namespace cases;
-using namespace study;
 using namespace report;
 using namespace app;
 

@@ -107,7 +107,7 @@ TEST(ContactCase, FitsAndPathsMoveAStiffnessThatComesFromThePreload) {
   set_value(source, "contacts[0].ball.radius", 8.0 * 0.0127);
   EXPECT_NEAR(contacts_of(source)[0].springs[0].stiffness / before, 4.0, 1e-14);
   source.path = Path{{{0.006, 0.1, 0.095}, {0.006, 0.2, 0.095}}, true};
-  const Case there = at_position(source, 1);
+  const setup::Setup there = at_position(source, 1);
   EXPECT_EQ(contacts_of(there)[0].springs[0].stiffness, contacts_of(source)[0].springs[0].stiffness);
 }
 

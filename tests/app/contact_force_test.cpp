@@ -13,7 +13,6 @@
 namespace thinwall::tests {
 
 using namespace setup;
-using namespace cases;
 using namespace study;
 
 namespace {
@@ -31,8 +30,8 @@ Component known(const dynamics::SpatialModel& model) {
   return component;
 }
 
-Case touching(double preload_n) {
-  Case source;
+setup::Setup touching(double preload_n) {
+  setup::Setup source;
   source.robot = Robot{};
   source.robot->preload = {-preload_n, 0.0, 0.0};
   source.contacts = {{"P", "R", {Eigen::Vector3d::UnitX()}, {kc}, {0.0}, 0.0}};
@@ -72,7 +71,7 @@ std::complex<double> transmitted(double hz) {
 
 // The robot presses from the left, the part presses it back along -x: a force of the part to the right pulls it away.
 TEST(ContactForce, IsWhatTheSpringBetweenTwoMassesBears) {
-  const Case source = touching(100.0);
+  const setup::Setup source = touching(100.0);
   const Eigen::Matrix3d R = milling::ToolFrame{source.cutting->feed_direction, source.cutting->tool_axis}.rotation();
   for (const double hz : {40.0, 130.0, 300.0}) {
     const ContactForce found = contact_force(source, known(mass_on_spring("P", m1, c1, k1)),
@@ -86,7 +85,7 @@ TEST(ContactForce, IsWhatTheSpringBetweenTwoMassesBears) {
 
 // Of a robot that presses askew the normal's share presses the contact, as summary.json's contacts[] has it.
 TEST(ContactForce, APreloadAskewPressesByItsShareAlongTheNormal) {
-  Case source = touching(100.0);
+  setup::Setup source = touching(100.0);
   source.robot->preload = {-60.0, 0.0, 80.0};
   const Eigen::Matrix3d R = milling::ToolFrame{source.cutting->feed_direction, source.cutting->tool_axis}.rotation();
   const ContactForce found = contact_force(source, known(mass_on_spring("P", m1, c1, k1)),

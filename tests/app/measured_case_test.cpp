@@ -11,6 +11,7 @@
 #include <random>
 #include <sstream>
 
+#include "app/case_run.hpp"
 #include "app/command_line.hpp"
 #include "case/problem.hpp"
 #include "case/reader.hpp"
@@ -21,8 +22,7 @@
 #include "setup/measured.hpp"
 #include "setup/measured_layout.hpp"
 #include "setup/robot_tip.hpp"
-#include "study/run.hpp"
-#include "study/sensor_mass.hpp"
+#include "setup/sensor_mass.hpp"
 #include "study/support/support_stage.hpp"
 #include "temporary_folder.hpp"
 

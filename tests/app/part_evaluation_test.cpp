@@ -6,6 +6,8 @@
 
 #include "case/reader.hpp"
 #include "case_text.hpp"
+#include "setup/graded_mesh.hpp"
+#include "setup/part_geometry.hpp"
 #include "study/updating.hpp"
 
 namespace thinwall::tests {
@@ -35,23 +37,25 @@ rank = 1)"),
 ])"),
                            ".");
   mesh::TetMesh mesh = graded_mesh(source, 0);
-  PartEvaluation evaluation{source, source.updating.front(), mesh, 2};
+  Variation variation = variation_of(source);
+  PartEvaluation evaluation{variation, source, source.updating.front(), mesh, 2};
+
+  /// The plate with these values of the fit's parameters, the others as they are.
+  [[nodiscard]] VariedSetup varied(const NamedValues& values = {}) const { return {variation.with(values), values}; }
 };
 
 TEST(PartEvaluation, SlopesAreThoseOfFullSolutions) {
   Plate plate;
   const Updating& updating = plate.source.updating.front();
-  const Eigen::VectorXd hz = plate.evaluation(plate.source);
-  const Eigen::MatrixXd slopes = plate.evaluation.slopes(plate.source);
+  const Eigen::VectorXd hz = plate.evaluation(plate.varied());
+  const Eigen::MatrixXd slopes = plate.evaluation.slopes(plate.varied());
   ASSERT_EQ(slopes.rows(), 2);
   ASSERT_EQ(slopes.cols(), 4);
   for (Eigen::Index k = 0; k < slopes.cols(); ++k) {
     const UpdatingParameter& p = updating.parameters[static_cast<std::size_t>(k)];
     const double value = get_value(plate.source, p.key);
     const auto at = [&](double h) {
-      Case moved = plate.source;
-      set_value(moved, p.key, value + h * (p.upper - p.lower));
-      return plate.evaluation(moved);
+      return plate.evaluation(plate.varied({{p.key, value + h * (p.upper - p.lower)}}));
     };
     const Eigen::VectorXd central = (at(0.01) - at(-0.01)) / 0.02;
     EXPECT_LT(((slopes.col(k) - central).array() / central.array()).abs().maxCoeff(), 2e-3) << p.key;
@@ -63,15 +67,14 @@ TEST(PartEvaluation, SlopesAreThoseOfFullSolutions) {
 
 TEST(PartEvaluation, LeavesTheSolutionOfTheLastCaseOnlyAndNotTheRoughOneOfTheStart) {
   Plate plate;
-  Case longer = plate.source;
-  set_value(longer, "part.length", 0.4);
-  (void)plate.evaluation(plate.source);
-  EXPECT_FALSE(plate.evaluation.take(plate.source)) << "solved as far as a fit can tell";
+  const VariedSetup longer = plate.varied({{"part.length", 0.4}});
+  (void)plate.evaluation(plate.varied());
+  EXPECT_FALSE(plate.evaluation.take(plate.varied())) << "solved as far as a fit can tell";
   const Eigen::VectorXd hz = plate.evaluation(longer);
-  EXPECT_FALSE(plate.evaluation.take(plate.source)) << "another length";
+  EXPECT_FALSE(plate.evaluation.take(plate.varied())) << "another length";
   const std::optional<Solution> left = plate.evaluation.take(longer);
   ASSERT_TRUE(left);
-  EXPECT_EQ(left->modes.frequency_hz.size(), mode_options(longer).count);
+  EXPECT_EQ(left->modes.frequency_hz.size(), mode_options(longer.setup).count);
   EXPECT_NEAR(left->modes.frequency_hz(0), hz(1), 1e-9 * hz(1));
   EXPECT_LT(left->modes.pairs.inverse_residual.maxCoeff(), 1e-8);
   EXPECT_FALSE(plate.evaluation.take(longer)) << "given away";
@@ -81,15 +84,14 @@ TEST(PartUpdating, FindsTheLengthThatTheFrequencyCameFromAndLeavesItsSolution) {
   Plate plate;
   Updating updating = plate.source.updating.front();
   updating.parameters.resize(1);
-  Case truth = plate.source;
-  set_value(truth, "part.length", 0.401);
-  const Eigen::VectorXd wanted = PartEvaluation(plate.source, updating, plate.mesh, 2)(truth);
+  const Eigen::VectorXd wanted =
+      PartEvaluation(plate.variation, plate.source, updating, plate.mesh, 2)(plate.varied({{"part.length", 0.401}}));
   for (Eigen::Index i = 0; i < wanted.size(); ++i) updating.targets[static_cast<std::size_t>(i)].value = wanted(i);
-  Case fitted = plate.source;
-  const PartUpdating fit = update_part(fitted, updating, plate.mesh, 2);
+  VariedSetup fitted = plate.varied();
+  const PartUpdating fit = update_part(plate.variation, fitted, updating, plate.mesh, 2);
   EXPECT_TRUE(fit.result.converged);
   EXPECT_LE(fit.result.evaluations, 4);
-  EXPECT_NEAR(get_value(fitted, "part.length"), 0.401, 3e-6) << "a ten-thousandth of the range";
+  EXPECT_NEAR(fitted.values.at("part.length"), 0.401, 3e-6) << "a ten-thousandth of the range";
   ASSERT_TRUE(fit.solved);
   EXPECT_NEAR(fit.solved->modes.frequency_hz(0), wanted(1), 3e-5 * wanted(1));
 }

@@ -3,14 +3,16 @@
 #include <gtest/gtest.h>
 
 #include "case/checks.hpp"
+#include "case/keys.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "io/surface/stl.hpp"
 #include "mesh/box.hpp"
 #include "mesh/surface/shapes.hpp"
+#include "setup/graded_mesh.hpp"
 #include "setup/imported_part.hpp"
+#include "setup/part_geometry.hpp"
 #include "setup/part_materials.hpp"
-#include "study/kept/keys.hpp"
 #include "study/part/discretisation.hpp"
 #include "temporary_folder.hpp"
 #include "tests/mesh/kuhn_box.hpp"

@@ -68,7 +68,7 @@ TEST(PathCase, AStraightPathIsEvenlySpacedAndHeldUnlessTheCaseSaysOtherwise) {
 
 TEST(PathCase, AHeldRobotStaysAtItsPointAndSharesItWhereTheCutPassesThere) {
   const Case c = parse_case(path_case(straight), ".");
-  const Case first = at_position(c, 0), middle = at_position(c, 5);
+  const setup::Setup first = at_position(c, 0), middle = at_position(c, 5);
   ASSERT_EQ(first.points.size(), 2U);
   EXPECT_EQ(position(*first.part, point(first, first.cutting->at)), c.path->positions[0]);
   EXPECT_EQ(position(*first.part, point(first, first.contacts[0].part_point)), position(*c.part, point(c, "P")));
@@ -81,7 +81,7 @@ TEST(PathCase, ARobotThatFollowsKeepsItsDistanceToTheCut) {
                                   "[points.P]\npatch_radius = \"3 mm\"\n");
   const Case c = parse_case(behind, ".");
   for (std::size_t i = 0; i < c.path->positions.size(); ++i) {
-    const Case there = at_position(c, i);
+    const setup::Setup there = at_position(c, i);
     const Point& cut = point(there, there.cutting->at);
     const Point& contact = point(there, there.contacts[0].part_point);
     EXPECT_LT((*contact.position - *cut.position - Eigen::Vector3d(0.0, 20e-3, 0.0)).norm(), 1e-12);

@@ -14,7 +14,6 @@
 
 namespace thinwall::tests {
 
-using namespace cases;
 using namespace report;
 
 namespace {

@@ -18,7 +18,6 @@ namespace thinwall::tests {
 
 using namespace setup;
 using namespace cases;
-using namespace study;
 
 namespace {
 

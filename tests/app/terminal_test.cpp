@@ -12,10 +12,10 @@
 #include <regex>
 #include <sstream>
 
+#include "app/stage_display.hpp"
 #include "case_text.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "study/stages.hpp"
 #include "temporary_folder.hpp"
 
 namespace thinwall::tests {

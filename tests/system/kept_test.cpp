@@ -7,17 +7,19 @@
 #include <cmath>
 #include <fstream>
 
+#include "case/keys.hpp"
 #include "core/atomic_file.hpp"
 #include "io/frf/response_csv.hpp"
+#include "io/program_id.hpp"
 #include "report/page/document.hpp"
 #include "run_in_folder.hpp"
 #include "study/kept/checkpoint.hpp"
-#include "study/kept/keys.hpp"
-#include "study/kept/program_id.hpp"
 #include "tests/report/unpacked.hpp"
 
 namespace thinwall::tests {
 
+using namespace io;
+using namespace app;
 using namespace setup;
 using namespace cases;
 using namespace study;

@@ -5,22 +5,25 @@
 #include <filesystem>
 #include <fstream>
 
+#include "app/case_run.hpp"
 #include "case/reader.hpp"
 #include "io/frf/response_csv.hpp"
 #include "setup/robot_tip.hpp"
 #include "study/part/part_stage.hpp"
-#include "study/run.hpp"
 #include "study/stages.hpp"
 #include "study/support/support_stage.hpp"
 #include "tests/measurement/synthetic_measurement.hpp"
 #include "tests/system/run_in_folder.hpp"
 
-namespace thinwall {
+namespace thinwall::tests {
+
+using namespace app;
+
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path cases = fs::path(THINWALL_SOURCE_DIR) / "cases";
+const fs::path shipped = fs::path(THINWALL_SOURCE_DIR) / "cases";
 
 std::string text_of(const fs::path& path) {
   std::ifstream file(path);
@@ -29,25 +32,25 @@ std::string text_of(const fs::path& path) {
 
 TEST(MeasuredCase, NoiseFreeFilesGiveTheModelsPredictionWithinAThousandthOfThePeak) {
   cases::Case model =
-      cases::read_case(cases / "barrios-2019", {"part.mesh.element_size=25 mm", "response.from=1 Hz",
-                                                "response.to=1000 Hz", "response.lines=1999", "reduction.modes=40"});
+      cases::read_case(shipped / "barrios-2019", {"part.mesh.element_size=25 mm", "response.from=1 Hz",
+                                                  "response.to=1000 Hz", "response.lines=1999", "reduction.modes=40"});
   model.updating.clear();
-  study::Stages stages(study::ProgressDisplay::none);
+  study::Stages stages;
   const study::PartResult part = study::compute_part(model, study::discretise(model), stages);
   const auto axis = study::frequency_axis(model);
   const study::Component part_component = study::component(*part.damped, axis);
-  const study::Component robot = setup::robot_component(model, axis, setup::robot_posture(model).posture);
+  const study::Component robot = study::robot_component(model, axis, setup::robot_posture(model).posture);
   const auto predicted = dynamics::entry(study::couple(model, part_component, robot).receptance.response, "P.x", "P.x");
 
-  const auto files = tests::synthetic_measurement(model, part, "P");
+  const auto files = synthetic_measurement(model, part, "P");
   EXPECT_LT(files.relative_residual, 1e-7) << "the full model is solved, not approximated";
-  const fs::path folder = tests::scratch("measured_noise_free");
-  std::ofstream(folder / "case.toml") << text_of(cases / "barrios-2019-measured" / "case.toml");
-  tests::write_measurement(folder / "part_xx.csv", "# noise-free\n", files.axis, files.part);
-  tests::write_measurement(folder / "robot_xx.csv", "# noise-free\n", files.axis, files.robot);
+  const fs::path folder = scratch("measured_noise_free");
+  std::ofstream(folder / "case.toml") << text_of(shipped / "barrios-2019-measured" / "case.toml");
+  write_measurement(folder / "part_xx.csv", "# noise-free\n", files.axis, files.part);
+  write_measurement(folder / "robot_xx.csv", "# noise-free\n", files.axis, files.robot);
   const cases::Case measured = cases::read_case(folder, {});
-  const fs::path out = tests::scratch("measured_noise_free_out");
-  static_cast<void>(study::run_case(measured, {out, true, -1, false}));
+  const fs::path out = scratch("measured_noise_free_out");
+  static_cast<void>(run_case(measured, {out, true, -1, false}));
   const auto G = dynamics::entry(io::read_response(out / "frf" / "coupled_receptance.csv"), "P.x", "P.x");
   ASSERT_EQ(G.size(), predicted.size());
   const double difference = (G - predicted).cwiseAbs().maxCoeff() / predicted.cwiseAbs().maxCoeff();
@@ -57,14 +60,14 @@ TEST(MeasuredCase, NoiseFreeFilesGiveTheModelsPredictionWithinAThousandthOfThePe
 
 TEST(MeasuredCase, TheCommittedFilesSayWhatTheyAreAndMeetTheCasesExpectations) {
   for (const char* name : {"part_xx.csv", "robot_xx.csv"}) {
-    const std::string text = text_of(cases / "barrios-2019-measured" / name);
+    const std::string text = text_of(shipped / "barrios-2019-measured" / name);
     EXPECT_NE(text.find("# synthetic"), std::string::npos) << name;
     EXPECT_NE(text.find("seed"), std::string::npos) << name;
   }
-  const study::RunResult run = study::run_case(cases::read_case(cases / "barrios-2019-measured", {}),
-                                               {tests::scratch("measured_committed"), true, -1, false});
+  const RunResult run = run_case(cases::read_case(shipped / "barrios-2019-measured", {}),
+                                 {scratch("measured_committed"), true, -1, false});
   EXPECT_TRUE(run.expectations_hold) << run.summary["checks"].dump(2);
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::tests

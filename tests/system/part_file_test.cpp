@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/case_run.hpp"
 #include "app/reduce_command.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
@@ -13,7 +14,6 @@
 #include "mesh/box.hpp"
 #include "mesh/surface/shapes.hpp"
 #include "report/terminal_report.hpp"
-#include "study/run.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
 namespace thinwall::tests {

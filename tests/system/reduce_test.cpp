@@ -7,13 +7,13 @@
 #include <fstream>
 #include <sstream>
 
+#include "app/case_run.hpp"
 #include "app/command_line.hpp"
 #include "app/reduce_command.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "io/matrices/mat.hpp"
 #include "report/model_files.hpp"
-#include "study/run.hpp"
 
 namespace thinwall::tests {
 

@@ -15,7 +15,6 @@ namespace thinwall::tests {
 
 using namespace setup;
 using namespace cases;
-using namespace study;
 using namespace app;
 
 namespace {

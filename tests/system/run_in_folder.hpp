@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "app/case_run.hpp"
 #include "case/reader.hpp"
 #include "io/results/csv_table.hpp"
-#include "study/run.hpp"
 
 namespace thinwall::tests {
 
+using namespace app;
 using namespace cases;
-using namespace study;
 
 /// An empty folder of that name among the test's temporary files.
 inline std::filesystem::path scratch(const std::string& name) {

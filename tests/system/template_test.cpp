@@ -15,8 +15,8 @@
 
 namespace thinwall::tests {
 
+using namespace app;
 using namespace cases;
-using namespace study;
 
 namespace {
 

@@ -8,15 +8,16 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "app/case_run.hpp"
 #include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "io/frf/uff.hpp"
-#include "study/run.hpp"
 #include "tests/system/run_in_folder.hpp"
 #include "tests/verification/tool_swap/machine.hpp"
 
 namespace thinwall::tests {
 
+using namespace app;
 using namespace setup;
 using namespace cases;
 using namespace study;

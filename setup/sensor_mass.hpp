@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "case/case.hpp"
 #include "dynamics/response_model.hpp"
+#include "setup/machining_setup.hpp"
 
-namespace thinwall::study {
+namespace thinwall::setup {
 
 /// How much a sensor changed the direct FRF of its point along one direction: |H − G|/|G| = ω² m |H| for one direction
 /// alone, H without the sensor, G with it; and the lowest resonance that a fit of peaks finds in either
@@ -30,7 +30,6 @@ struct SensorEffect {
 /// directions that were not measured, along which its mass stays. `whose`: "the robot's". Errors as
 /// coupling::remove_point_mass. Cost lines · DOFs² a sensor.
 [[nodiscard]] dynamics::ResponseModel without_sensors(dynamics::ResponseModel measured,
-                                                      const std::vector<setup::Sensor>& sensors,
-                                                      const std::string& whose);
+                                                      const std::vector<Sensor>& sensors, const std::string& whose);
 
-}  // namespace thinwall::study
+}  // namespace thinwall::setup

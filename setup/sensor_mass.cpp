@@ -1,17 +1,17 @@
-#include "study/sensor_mass.hpp"
+#include "setup/sensor_mass.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <cmath>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/messages.hpp"
 #include "core/units.hpp"
 #include "coupling/decoupling.hpp"
 #include "reduction/identification.hpp"
 
-namespace thinwall::study {
+namespace thinwall::setup {
 
 namespace {
 
@@ -58,19 +58,19 @@ std::vector<SensorEffect> sensor_effects(const dynamics::ResponseModel& with, co
   return effects;
 }
 
-dynamics::ResponseModel without_sensors(dynamics::ResponseModel measured, const std::vector<setup::Sensor>& sensors,
+dynamics::ResponseModel without_sensors(dynamics::ResponseModel measured, const std::vector<Sensor>& sensors,
                                         const std::string& whose) {
-  for (const setup::Sensor& sensor : sensors) {
+  for (const Sensor& sensor : sensors) {
     dynamics::ResponseModel without = coupling::remove_point_mass(measured, sensor.point, sensor.mass).response;
     const auto effects = sensor_effects(measured, without, sensor.point);
-    spdlog::info("{} sensor of {} at {} is taken off, which changes {}", whose,
-                 core::readable_text(sensor.mass, core::kind::mass), sensor.point, text_of(effects));
+    core::inform(fmt::format("{} sensor of {} at {} is taken off, which changes {}", whose,
+                             core::readable_text(sensor.mass, core::kind::mass), sensor.point, text_of(effects)));
     if (effects.size() < 3)
-      spdlog::info("its mass across the {} measured at {} stays: nothing was measured there",
-                   effects.size() == 1 ? "direction" : "directions", sensor.point);
+      core::inform(fmt::format("its mass across the {} measured at {} stays: nothing was measured there",
+                               effects.size() == 1 ? "direction" : "directions", sensor.point));
     measured = std::move(without);
   }
   return measured;
 }
 
-}  // namespace thinwall::study
+}  // namespace thinwall::setup

@@ -1,4 +1,4 @@
-#include "case/unknown_word.hpp"
+#include "app/unknown_word.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/nearest_name.hpp"
 
-namespace thinwall::cases {
+namespace thinwall::app {
 
 namespace {
 
@@ -17,7 +17,7 @@ std::string option_name(const std::string& word) {
 }
 
 /// Of these words, which look like options.
-std::string unknown_option(const std::vector<app::OptionDescription>& options, const std::string& command,
+std::string unknown_option(const std::vector<OptionDescription>& options, const std::string& command,
                            const std::vector<std::string>& words) {
   std::vector<std::string> names{"--help", "-h"};
   for (const auto& option : options) std::ranges::copy(option.names, std::back_inserter(names));
@@ -32,10 +32,10 @@ std::string unknown_option(const std::vector<app::OptionDescription>& options, c
 
 }  // namespace
 
-std::string unknown_word(const app::ProgramDescription& program, const std::vector<std::string>& words) {
+std::string unknown_word(const ProgramDescription& program, const std::vector<std::string>& words) {
   if (words.empty()) return "";
   if (words.front().starts_with('-')) return unknown_option(program.options, program.name, {words.front()});
-  const auto command = std::ranges::find(program.commands, words.front(), &app::CommandDescription::name);
+  const auto command = std::ranges::find(program.commands, words.front(), &CommandDescription::name);
   if (command != program.commands.end()) {
     std::vector<std::string> options = words;  // what starts with one - may be a negative number, or -qv
     std::erase_if(options, [](const std::string& word) { return !word.starts_with("--") || word == "--"; });
@@ -47,4 +47,4 @@ std::string unknown_word(const app::ProgramDescription& program, const std::vect
          program.name + " --help\" lists the commands";
 }
 
-}  // namespace thinwall::cases
+}  // namespace thinwall::app

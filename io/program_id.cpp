@@ -1,4 +1,4 @@
-#include "study/kept/program_id.hpp"
+#include "io/program_id.hpp"
 
 #include <elf.h>
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 
 #include "io/manifest.hpp"
 
-namespace thinwall::study {
+namespace thinwall::io {
 
 namespace {
 
@@ -56,9 +56,9 @@ std::string build_id() {
 const std::string& program_id() {
   static const std::string id = [] {
     const std::string linked = build_id();
-    return linked.empty() ? io::sha256_of_file("/proc/self/exe") : linked;
+    return linked.empty() ? sha256_of_file("/proc/self/exe") : linked;
   }();
   return id;
 }
 
-}  // namespace thinwall::study
+}  // namespace thinwall::io

@@ -1,9 +1,9 @@
 #pragma once
 // Which file of imported matrices is at fault, and where in it.
 
-#include "case/case.hpp"
+#include "setup/machining_setup.hpp"
 
-namespace thinwall::cases {
+namespace thinwall::setup {
 
 /// Throws DataError with file, DOF and remedy if a matrix is asymmetric or has a negative number on its diagonal, which
 /// no part alone has (dynamics::require_plausible()). Reads the files again: for when reading a part was refused.
@@ -13,4 +13,4 @@ void require_plausible_files(const io::MatrixFiles& files);
 /// factorisations of each (reduction/trust/sparse_report.hpp), for when the modes were not found.
 void require_definite_files(const io::MatrixFiles& files, const dynamics::SparseModel& matrices);
 
-}  // namespace thinwall::cases
+}  // namespace thinwall::setup

@@ -3,10 +3,10 @@
 
 #include <string>
 
-namespace thinwall::study {
+namespace thinwall::io {
 
 /// The linker's build ID of the running program (a hash of what it holds; man ld, --build-id), in hexadecimal digits;
 /// without one the SHA-256 of its file, which takes 30 ms.
 [[nodiscard]] const std::string& program_id();
 
-}  // namespace thinwall::study
+}  // namespace thinwall::io

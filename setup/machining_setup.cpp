@@ -1,4 +1,4 @@
-#include "setup/setup.hpp"
+#include "setup/machining_setup.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "case/matrix_faults.hpp"
+#include "setup/matrix_faults.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "reduction/trust/sparse_report.hpp"
 
-namespace thinwall::cases {
+namespace thinwall::setup {
 
 namespace {
 
@@ -66,4 +66,4 @@ void require_definite_files(const io::MatrixFiles& files, const dynamics::Sparse
   }
 }
 
-}  // namespace thinwall::cases
+}  // namespace thinwall::setup

@@ -1,0 +1,112 @@
+#include "app/case_run.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <ctime>
+
+#include "app/case_files.hpp"
+#include "app/doctor.hpp"
+#include "app/expectation_checks.hpp"
+#include "app/log.hpp"
+#include "app/stage_display.hpp"
+#include "case/expectation.hpp"
+#include "case/keys.hpp"
+#include "case/reader.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "report/kept_files.hpp"
+#include "report/page/page.hpp"
+#include "report/result_files.hpp"
+#include "report/summary.hpp"
+#include "study/run.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+std::string now_utc() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+/// The part's checkpoint: of this result folder, or one of those that several runs share.
+study::Checkpoint part_checkpoint(const cases::Case& source, const RunOptions& options) {
+  if (!source.part) return {};
+  const std::string key = cases::part_key(source);
+  if (options.parts.empty()) return {options.out / "cache" / "part.bin", key, options.fresh};
+  return {options.parts / ("part-" + key.substr(0, 16) + ".bin"), key, false};
+}
+
+/// The case with the values that the fits found.
+cases::Case fitted_case(const cases::Case& source, const study::Results& results) {
+  cases::Case fitted = source;
+  for (const auto& fit : results.updating) {
+    for (const auto& parameter : fit.parameters) cases::set_value(fitted, parameter.key, parameter.fitted);
+  }
+  return fitted;
+}
+
+/// The page is a picture of results that are there; a run does not fail for it.
+void write_report(const std::filesystem::path& results, const report::KeptSections& kept) {
+  try {
+    report::write_page(results / "report.html", {{results}, app::program_name(), kept});
+  } catch (const core::Interrupted&) {
+    throw;
+  } catch (const core::Error& error) {
+    spdlog::warn("report.html was not written: {}", error.what());
+  }
+}
+
+nlohmann::json summary_of(const cases::Case& source, const study::Results& results) {
+  nlohmann::json summary = report::summary_of(results.setup, results);
+  summary["case"] = source.name;
+  summary["title"] = source.title;
+  return summary;
+}
+
+}  // namespace
+
+RunResult run_case(const cases::Case& source, const RunOptions& options) {
+  const std::string started = now_utc();
+  const auto expectations = cases::read_expectations(source.file);
+  messages_to_log();
+  StageDisplay display(options.progress      ? ProgressDisplay::line
+                       : options.stage_lines ? ProgressDisplay::lines
+                                             : ProgressDisplay::none);
+  study::Kept kept{part_checkpoint(source, options),
+                   {options.out / "cache" / "structure.bin", cases::structure_key(source), options.fresh},
+                   {options.out / "cache" / "lobes.bin", cases::charts_key(source), options.fresh}};
+  study::Results results = study::run(source, cases::variation_of(source), kept, {options.points, display.listener()});
+  study::Stages stages(display.listener());
+  stages.begin("output");
+  const auto staging = core::partial_path(options.out / "results");
+  if (!report::take_files(kept.structure, options.out, staging)) {
+    report::write_structure(staging, results.setup, results);
+    report::keep_files(kept.structure, staging);
+  }
+  report::write_cuts(staging, source, results);
+  write_cases(staging, source, fitted_case(source, results));
+  stages.begin("report");
+  RunResult run{summary_of(source, results), true};
+  run.expectations_hold = add_checks(run.summary, expectations);
+  if (!run.expectations_hold) run.summary["status"] = "expectation_not_met";
+  nlohmann::json manifest = manifest_of(source, run.summary, started);
+  report::write_summary(staging, run.summary, manifest);
+  write_report(staging, report::kept_sections(kept.structure));
+  stages.end();
+  double total = 0.0;
+  for (const auto& [stage, seconds] : results.timings_s) total = stage == "total" ? seconds : total;
+  for (const auto& [stage, seconds] : stages.timings_s())
+    run.summary["timings_s"][stage] = stage == "total" ? total + seconds : seconds;
+  report::write_summary(staging, run.summary, manifest);
+  report::record_outputs(staging, manifest);
+  report::publish(staging, options.out);
+  return run;
+}
+
+}  // namespace thinwall::app

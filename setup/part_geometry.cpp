@@ -1,0 +1,129 @@
+#include "setup/part_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "setup/imported_part.hpp"
+
+namespace thinwall::setup {
+
+namespace {
+
+int along_axis(const Part& part, int through) {
+  if (part.bend->along) return *part.bend->along;
+  Eigen::Vector3d size = box_size(part);
+  size[through] = 0.0;
+  int longest = 0;
+  size.maxCoeff(&longest);
+  return longest;
+}
+
+}  // namespace
+
+PlanarPart planar(const Part& part) {
+  if (part.shape == "prism") return {part.prism, {0, 1, 2}};
+  PlanarPart result;
+  result.axes = {part.length_axis, part.height_axis, part.thickness_axis};
+  result.prism.outline = {{0.0, 0.0}, {part.length, 0.0}, {part.length, part.height}, {0.0, part.height}};
+  result.prism.top = part.thickness;
+  return result;
+}
+
+mesh::Bend bend_of(const Part& part) {
+  const int through = planar(part).axes[2];
+  const int along = along_axis(part, through);
+  const Eigen::Vector3d middle = bounds(part).center();
+  return {part.bend->radius, along, through, middle[along], middle[through]};
+}
+
+fem::Shaping shaping(const Part& part) {
+  if (!part.bend) return {};
+  return [bend = bend_of(part)](mesh::LagrangeNodes& nodes) { mesh::bend(bend, nodes.positions); };
+}
+
+double mass(const Part& part, const mesh::TetMesh& flat) {
+  if (from_file(part)) return part.material.density * part.imported->surface->volume_m3;
+  if (!part.bend) return part.material.density * mesh::volume(planar(part).prism);
+  const mesh::Bend bend = bend_of(part);
+  double volume = 0.0;
+  for (int tet = 0; tet < static_cast<int>(flat.tets.size()); ++tet) {
+    double w = -bend.middle_m;
+    for (const int v : flat.tets[static_cast<std::size_t>(tet)])
+      w += 0.25 * flat.vertices[static_cast<std::size_t>(v)][bend.through];
+    volume += mesh::volume(flat, tet) * (1.0 + w / bend.radius_m);
+  }
+  return part.material.density * volume;
+}
+
+mesh::Region region_of(const Setup& source, const std::string& name) {
+  const auto selection = std::find_if(source.selections.begin(), source.selections.end(),
+                                      [&](const Selection& s) { return s.name == name; });
+  if (selection == source.selections.end()) {
+    const Eigen::AlignedBox3d box = bounds(*source.part);
+    auto plane = std::get<mesh::PlaneRegion>(mesh::face_of({box.sizes()}, name));
+    plane.point += box.min();
+    return plane;
+  }
+  if (selection->plane) return mesh::PlaneRegion{selection->plane->point, selection->plane->normal};
+  if (selection->box) return mesh::BoxRegion{selection->box->min, selection->box->max};
+  return mesh::SphereRegion{selection->sphere->centre, selection->sphere->radius};
+}
+
+std::vector<int> rows_held_by_sets(const Setup& source, const mesh::SolidMesh& solid) {
+  std::vector<int> rows;
+  for (const Support& support : source.part->supports) {
+    if (!names_node_set(source, support.on)) continue;
+    const auto& set = mesh::node_set(solid, support.on, source.part->file.path.string());
+    for (const int row : fem::rows_of(set.nodes, support.fixed)) rows.push_back(row);
+  }
+  return rows;
+}
+
+fem::Material material_of(const Part& part) {
+  const Material& m = part.material;
+  return {m.youngs_modulus, m.poisson_ratio, m.density};
+}
+
+std::vector<fem::Support> supports_of(const Setup& source) {
+  std::vector<fem::Support> supports;
+  for (const Support& s : source.part->supports) {
+    if (!names_node_set(source, s.on)) supports.push_back({s.on, region_of(source, s.on), s.fixed});
+  }
+  return supports;
+}
+
+double off_surface(const Part& part) {
+  if (part.shape == "surface") return 0.01 * bounds(part).diagonal().norm();
+  const mesh::SolidMesh* solid = solid_of(part);
+  if (solid == nullptr || solid->midside_offset < 1e-6) return 0.0;
+  const auto vertex = [solid](int v) { return solid->mesh.vertices[static_cast<std::size_t>(v)]; };
+  double longest = 0.0;
+  for (const auto& tet : solid->mesh.tets) {
+    for (const int v : tet) longest = std::max(longest, (vertex(v) - vertex(tet[0])).norm());
+  }
+  return solid->midside_offset * longest;
+}
+
+fem::NamedPoint named_point(const Setup& source, const std::string& name) {
+  const Point& p = point(source, name);
+  return {p.name, position(*source.part, p), p.patch_radius, p.directions, {}, {}, off_surface(*source.part)};
+}
+
+fem::ModeOptions mode_options(const Setup& source) {
+  return {source.modes.range.count.value_or(10), source.modes.range.up_to_hz, source.modes.verify_count};
+}
+
+std::vector<std::string> unreachable_tolerances(const Setup& source) {
+  std::vector<std::string> warnings;
+  if (!source.part || source.part->mesh.element_size) return warnings;
+  if (source.part->shape == "matrices" || source.part->shape == "mesh") return warnings;
+  for (const std::string& name : source.reduction.interface) {
+    if (point(source, name).patch_radius > 0.0) continue;
+    warnings.push_back("points." + name +
+                       " has no patch_radius: its receptance grows as the elements shrink, and no tolerance on it is "
+                       "met; give the radius over which cutter or robot press");
+  }
+  return warnings;
+}
+
+}  // namespace thinwall::setup
