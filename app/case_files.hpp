@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "case/case.hpp"
+#include "case/machining_case.hpp"
 
 namespace thinwall::app {
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "case/case.hpp"
+#include "case/machining_case.hpp"
 #include "milling/chart/operating_point.hpp"
 
 namespace thinwall::app {

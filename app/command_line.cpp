@@ -30,6 +30,7 @@
 #include "report/page/page.hpp"
 #include "report/page/phases.hpp"
 #include "report/result_folder.hpp"
+#include "report/robot_report.hpp"
 #include "report/terminal_report.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/part_geometry.hpp"
@@ -110,11 +111,11 @@ ExitCode robot(const Arguments& arguments, std::ostream& out) {
   const report::ResultFolder folder(arguments.out.empty() ? report::default_result_folder(source.name)
                                                           : std::filesystem::path(arguments.out));
   log_to_file(folder.path() / "run.log");  // marks the folder as ours
-  write_survey(folder.path(), source, found);
+  report::write_survey(folder.path(), source, found);
   if (found.tips.empty())
     throw core::InputError("the robot reaches none of the places; at the first, " + found.out_of_reach.front().reason);
   if (!source.title.empty()) out << source.title << '\n';
-  out << study::survey_text(found) << "  tables: " << (folder.path() / "robot").string() << '\n';
+  out << report::survey_text(found) << "  tables: " << (folder.path() / "robot").string() << '\n';
   return ExitCode::done;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "case/case.hpp"
+#include "case/machining_case.hpp"
 #include "milling/chart/operating_point.hpp"
 
 namespace thinwall::app {

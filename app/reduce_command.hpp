@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/stage_display.hpp"
-#include "case/case.hpp"
+#include "case/machining_case.hpp"
 
 namespace thinwall::app {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/sweep_table.hpp"
-#include "case/case.hpp"
+#include "case/machining_case.hpp"
 
 namespace thinwall::app {
 

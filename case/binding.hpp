@@ -1,8 +1,8 @@
 #pragma once
 // The typed Case from its values.
 
-#include "case/case.hpp"
 #include "case/expectation.hpp"
+#include "case/machining_case.hpp"
 
 namespace thinwall::cases {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What one key alone cannot tell: references, exclusions, geometry, sizes.
 
-#include "case/case.hpp"
+#include "case/machining_case.hpp"
 #include "case/problem.hpp"
 
 namespace thinwall::cases {

@@ -1,8 +1,8 @@
 #pragma once
 // Checks of where a contact's stiffness comes from, and of [coupling].
 
-#include "case/case.hpp"
 #include "case/findings.hpp"
+#include "case/machining_case.hpp"
 
 namespace thinwall::cases {
 

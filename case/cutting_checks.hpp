@@ -1,8 +1,8 @@
 #pragma once
 // Checks of the tool, its engagement and the law of the cutting force.
 
-#include "case/case.hpp"
 #include "case/findings.hpp"
+#include "case/machining_case.hpp"
 
 namespace thinwall::cases {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "case/case.hpp"
+#include "case/machining_case.hpp"
 
 namespace thinwall::cases {
 

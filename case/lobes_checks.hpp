@@ -1,8 +1,8 @@
 #pragma once
 // Checks of what a chart is computed by and what it is asked for besides the limit, and of the machine.
 
-#include "case/case.hpp"
 #include "case/findings.hpp"
+#include "case/machining_case.hpp"
 
 namespace thinwall::cases {
 

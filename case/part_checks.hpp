@@ -1,8 +1,8 @@
 #pragma once
 // Checks of the part's geometry, mesh, supports and points.
 
-#include "case/case.hpp"
 #include "case/findings.hpp"
+#include "case/machining_case.hpp"
 
 namespace thinwall::cases {
 

@@ -1,8 +1,8 @@
 #pragma once
 // What a part is made of and what holds on to it: names that must be known, keys that must be there.
 
-#include "case/case.hpp"
 #include "case/findings.hpp"
+#include "case/machining_case.hpp"
 
 namespace thinwall::cases {
 

@@ -1,8 +1,8 @@
 #pragma once
 // Checks of the path: what it needs of the case, and where its positions lie.
 
-#include "case/case.hpp"
 #include "case/findings.hpp"
+#include "case/machining_case.hpp"
 
 namespace thinwall::cases {
 

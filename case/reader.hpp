@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "case/case.hpp"
 #include "case/expectation.hpp"
+#include "case/machining_case.hpp"
 #include "case/problem.hpp"
 
 namespace thinwall::cases {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "case/case.hpp"
+#include "case/machining_case.hpp"
 #include "case/table.hpp"
 
 namespace thinwall::cases {

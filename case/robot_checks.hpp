@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "case/case.hpp"
 #include "case/findings.hpp"
+#include "case/machining_case.hpp"
 
 namespace thinwall::cases {
 

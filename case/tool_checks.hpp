@@ -1,8 +1,8 @@
 #pragma once
 // What a tool that is known by measured FRFs can be asked.
 
-#include "case/case.hpp"
 #include "case/findings.hpp"
+#include "case/machining_case.hpp"
 
 namespace thinwall::cases {
 

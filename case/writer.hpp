@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "case/case.hpp"
+#include "case/machining_case.hpp"
 
 namespace thinwall::cases {
 

@@ -38,6 +38,7 @@ void bind_robot(py::module_& module);
 void bind_coupling(py::module_& module);
 void bind_milling(py::module_& module);
 void bind_io(py::module_& module);
+void bind_study(py::module_& module);
 
 /// A mesh as Python holds it: tetrahedra, with the nodes that a file gave them if it gave any but the corners.
 struct Mesh {

@@ -14,4 +14,5 @@ PYBIND11_MODULE(_core, module) {
   bind_coupling(module);
   bind_milling(module);
   bind_io(module);
+  bind_study(module);
 }

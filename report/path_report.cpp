@@ -7,6 +7,7 @@
 
 #include "report/finite_number.hpp"
 #include "report/lobes_report.hpp"
+#include "report/robot_report.hpp"
 #include "study/support/robot_survey.hpp"
 
 namespace thinwall::report {
@@ -25,7 +26,7 @@ json position_summary(const setup::Setup& source, const study::PathLobes& path, 
                  {"speeds_stable_to_depth_limit", lobes.rows_at_limit},
                  {"speeds_not_converged", lobes.rows_not_converged},
                  {"error_estimate_relative", finite(lobes.worst_error_estimate)}};
-  if (!path.robot.empty()) result["robot"] = study::posture_summary(path.robot[i]);
+  if (!path.robot.empty()) result["robot"] = posture_summary(path.robot[i]);
   return result;
 }
 

@@ -21,6 +21,7 @@
 #include "report/error_summary.hpp"
 #include "report/lobes_files.hpp"
 #include "report/result_folder.hpp"
+#include "report/robot_report.hpp"
 #include "report/shape_files.hpp"
 #include "setup/imported_part.hpp"
 #include "study/support/robot_survey.hpp"
@@ -104,7 +105,7 @@ void write_structure(const fs::path& folder, const setup::Setup& source, const s
   if (results.robot) add_errors("robot", results.robot->response, results.errors.robot);
   if (results.coupled) add_errors("coupled", results.coupled->receptance.response, results.errors.coupled);
   if (results.robot) files.emplace_back([&] { write_frf(folder / "frf", "robot", results.robot->response); });
-  if (results.survey) files.emplace_back([&] { study::write_survey(folder, source, *results.survey); });
+  if (results.survey) files.emplace_back([&] { write_survey(folder, source, *results.survey); });
   const std::size_t done = files.empty() ? 0 : 1;
   if (done > 0) files.front()();  // alone: VTK's first objects set up what all share
   core::parallel_for(files.size() - done, [&](std::size_t i) { files[done + i](); });

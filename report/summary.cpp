@@ -7,9 +7,11 @@
 #include "report/contact_report.hpp"
 #include "report/error_summary.hpp"
 #include "report/finite_number.hpp"
+#include "report/geometry_summary.hpp"
 #include "report/lobes_answers.hpp"
 #include "report/lobes_summary.hpp"
 #include "report/path_report.hpp"
+#include "report/robot_report.hpp"
 #include "setup/imported_part.hpp"
 #include "study/part/part_damping.hpp"
 #include "study/support/robot_survey.hpp"
@@ -111,7 +113,7 @@ json mode_list(const dynamics::ModalModel& model) {
 /// The tip as it stands; what the model does not tell is absent.
 json robot_of(const setup::Setup& source, const study::Component& robot, const setup::RobotPosture& posture) {
   json result = {{"model", source.robot->model}, {"modes", robot.modal ? mode_list(*robot.modal) : json::array()}};
-  result.update(study::posture_summary(posture));
+  result.update(posture_summary(posture));
   const study::TipReport report = study::tip_report(posture, robot);
   if (!report.stiffness) return result;
   result["static_stiffness_n_per_m"] = json::array();
@@ -306,7 +308,7 @@ json summary_of(const setup::Setup& source, const study::Results& results) {
   json summary = {{"schema", 1}, {"status", "ok"}};
   summary["updating"] = json::array();
   for (const auto& fit : results.updating) summary["updating"].push_back(updating_of(fit));
-  if (source.part && source.part->imported) summary["geometry"] = setup::geometry_summary(*source.part);
+  if (source.part && source.part->imported) summary["geometry"] = geometry_summary(*source.part);
   if (results.finite_elements) {
     if (!results.finite_elements->model.mesh.tets.empty()) summary["mesh"] = mesh_of(*results.finite_elements);
     summary["part"] = part_of(results);

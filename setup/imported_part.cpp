@@ -30,11 +30,6 @@ std::string as_origin(const Eigen::Vector3d& x) {
   return list + "]";
 }
 
-/// The file that people know the part by.
-const std::filesystem::path& main_file(const Part& part) {
-  return part.shape == "matrices" ? part.file.matrices.stiffness : part.file.path;
-}
-
 ImportedPart read_surface_part(const PartFile& file) {
   mesh::TriangleSoup soup = io::read_surface(file.path, file.unit);
   for (auto& x : soup.points) x -= file.origin;
@@ -82,20 +77,11 @@ ImportedPart read_matrix_part(const PartFile& file) {
   return part;
 }
 
-nlohmann::json vector_json(const Eigen::Vector3d& x) {
-  return {x.x(), x.y(), x.z()};
-}
-
-void add_surface(nlohmann::json& result, const mesh::SurfaceRepair& surface) {
-  result["triangles"] = surface.surface.triangles.size();
-  result["volume_m3"] = surface.volume_m3;
-  result["largest_movement_m"] = surface.largest_movement_m;
-  result["mended"] = nlohmann::json::array();
-  for (const auto& found : surface.mended)
-    result["mended"].push_back({{"what", found.what}, {"count", found.count}, {"first_m", vector_json(found.first_m)}});
-}
-
 }  // namespace
+
+const std::filesystem::path& main_file(const Part& part) {
+  return part.shape == "matrices" ? part.file.matrices.stiffness : part.file.path;
+}
 
 std::string shape_of_file(const std::filesystem::path& file) {
   const auto among = [end = ending(file)](const auto& endings) {
@@ -164,17 +150,6 @@ std::shared_ptr<const ImportedPart> read_part_file(const Part& part) {
   } catch (const core::InputError& error) {
     throw core::InputError(main_file(part).string() + ": " + error.what());
   }
-}
-
-nlohmann::json geometry_summary(const Part& part) {
-  const ImportedPart& imported = *part.imported;
-  nlohmann::json result = {
-      {"file", main_file(part).filename().string()}, {"unit", part.file.unit}, {"read", imported.said}};
-  result["size_m"] = imported.box.isEmpty() ? nlohmann::json(nullptr) : vector_json(imported.box.sizes());
-  result["notes"] = imported.notes;
-  if (imported.surface) add_surface(result, *imported.surface);
-  if (imported.mesh) result["least_jacobian"] = imported.mesh->solid.least_jacobian;
-  return result;
 }
 
 }  // namespace thinwall::setup

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -46,12 +45,12 @@ struct ImportedPart {
 /// Numbers of the nodes that can move, ascending; empty for parts without numbered nodes.
 [[nodiscard]] std::vector<int> node_numbers(const ImportedPart& part);
 
+/// The file that a part's shape comes from; of matrices, that of the stiffness.
+[[nodiscard]] const std::filesystem::path& main_file(const Part& part);
+
 /// Reads the part's file. Throws DataError for one that cannot be read, InputError, with the file's name, for a unit
 /// that is none, for what mesh::repaired_surface refuses and for matrices that cannot be (require_plausible). Cost:
 /// that of reading and repair.
 [[nodiscard]] std::shared_ptr<const ImportedPart> read_part_file(const Part& part);
-
-/// What summary.json tells of it: file, unit, size, counts, what was mended. The part must have been read.
-[[nodiscard]] nlohmann::json geometry_summary(const Part& part);
 
 }  // namespace thinwall::setup

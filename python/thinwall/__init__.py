@@ -1,7 +1,8 @@
 """Vibration and chatter of thin-walled parts in milling, with a robot that holds them.
 
 A part goes through ``box_mesh`` (or ``prism_mesh``, ``read_mesh``), ``assemble``, ``modes`` and ``craig_bampton``; it is
-joined to a robot by ``couple`` and cut in ``lobes``. ``read_results`` reads what a run of the program left. SI units
+joined to a robot by ``couple`` and cut in ``lobes``. ``Case.load`` reads a case and ``run`` computes all that it holds;
+``read_results`` reads what a run of the program left. SI units
 throughout; arrays are views of the library's memory where they are said to be, and read-only. Long calls release the
 interpreter's lock and end with Ctrl-C.
 """
@@ -9,6 +10,7 @@ interpreter's lock and end with Ctrl-C.
 from ._core import (
     Ball,
     Block,
+    Case,
     Contact,
     CoupledResponse,
     CraigBampton,
@@ -28,9 +30,11 @@ from ._core import (
     Point,
     Response,
     SpatialModel,
+    StudyResults,
     __version__,
     assemble,
     box_mesh,
+    check,
     couple,
     craig_bampton,
     identify_modes,
@@ -45,6 +49,7 @@ from ._core import (
     receptances,
     reduce,
     route_difference,
+    run,
     set_thread_count,
     thread_count,
     to_modal,
@@ -57,6 +62,7 @@ from .results import Results, Shape, read_results, read_table, read_vtu
 __all__ = [
     "Ball",
     "Block",
+    "Case",
     "Contact",
     "CoupledResponse",
     "CraigBampton",
@@ -78,9 +84,11 @@ __all__ = [
     "Results",
     "Shape",
     "SpatialModel",
+    "StudyResults",
     "__version__",
     "assemble",
     "box_mesh",
+    "check",
     "couple",
     "craig_bampton",
     "identify_modes",
@@ -98,6 +106,7 @@ __all__ = [
     "receptances",
     "reduce",
     "route_difference",
+    "run",
     "set_thread_count",
     "thread_count",
     "to_modal",

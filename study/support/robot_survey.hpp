@@ -1,8 +1,6 @@
 #pragma once
 // What a robot's tip is like in one posture or in many: modes and stiffness over a workspace or along a path.
 
-#include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,15 +18,5 @@ namespace thinwall::study {
 /// every position of a path. No tip at all is an answer, too. Throws InputError for a case without robot. Cost
 /// O(joints³) a posture, and the files of a measured robot once.
 [[nodiscard]] RobotSurvey survey(const setup::Setup& source, const std::optional<TipReport>& as_it_stands = {});
-
-/// joints_rad, tip_m, smallest_singular_value of an arm, and preload_n where there is one, for summary.json.
-[[nodiscard]] nlohmann::json posture_summary(const setup::RobotPosture& robot);
-
-/// A table for the terminal: place, joints, first modes, stiffness.
-[[nodiscard]] std::string survey_text(const RobotSurvey& survey);
-
-/// robot/postures.csv, out_of_reach.csv where places are, and for an arm postures.vtu (the arm's lines and its tip,
-/// with frequencies and stiffnesses), below `folder`. Throws as io::write_csv and io::write_polylines.
-void write_survey(const std::filesystem::path& folder, const setup::Setup& source, const RobotSurvey& survey);
 
 }  // namespace thinwall::study

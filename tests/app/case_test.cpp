@@ -1,10 +1,9 @@
-#include "case/case.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "case/machining_case.hpp"
 #include "case/reader.hpp"
 #include "case/writer.hpp"
 #include "case_text.hpp"

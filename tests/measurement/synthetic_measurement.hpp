@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "case/case.hpp"
+#include "case/machining_case.hpp"
 #include "study/results.hpp"
 
 namespace thinwall::tests {

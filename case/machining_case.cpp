@@ -1,4 +1,4 @@
-#include "case/case.hpp"
+#include "case/machining_case.hpp"
 
 #include <algorithm>
 #include <charconv>

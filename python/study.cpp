@@ -1,0 +1,128 @@
+// Cases, their checks, and the whole workflow on them.
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "case/checks.hpp"
+#include "case/machining_case.hpp"
+#include "case/reader.hpp"
+#include "python/bindings.hpp"
+#include "report/summary.hpp"
+#include "study/run.hpp"
+
+namespace thinwall::python {
+
+namespace {
+
+/// A case with the overrides that it was read with, so that further ones can be put over the same text.
+struct LoadedCase {
+  std::filesystem::path path;  ///< empty for a case from text
+  std::vector<std::string> overrides;
+  cases::Case value;
+};
+
+LoadedCase read_again(const LoadedCase& loaded, std::vector<std::string> overrides) {
+  const cases::Case& before = loaded.value;
+  cases::Case value = loaded.path.empty() ? cases::parse_case(before.source, before.folder, "case.toml", overrides)
+                                          : cases::read_case(loaded.path, overrides);
+  return {loaded.path, std::move(overrides), std::move(value)};
+}
+
+LoadedCase load(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  return {path, overrides, cases::read_case(path, overrides)};
+}
+
+LoadedCase parse(const std::string& text, const std::filesystem::path& folder,
+                 const std::vector<std::string>& overrides) {
+  return {{}, overrides, cases::parse_case(text, folder, "case.toml", overrides)};
+}
+
+/// "part.thickness" and 0.003 or "3 mm" as an override of the command line; a bare number is in SI.
+std::string override_text(const std::string& key, const py::object& value) {
+  return key + "=" + (py::isinstance<py::str>(value) ? value.cast<std::string>() : py::repr(value).cast<std::string>());
+}
+
+LoadedCase with(const LoadedCase& loaded, const std::string& key, const py::object& value) {
+  std::vector<std::string> overrides = loaded.overrides;
+  overrides.push_back(override_text(key, value));
+  return read_again(loaded, std::move(overrides));
+}
+
+std::vector<std::string> check(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  try {
+    (void)cases::read_case(path, overrides);
+    return {};
+  } catch (const cases::CaseError& error) {
+    std::vector<std::string> lines;
+    for (const cases::Problem& problem : error.problems)
+      lines.push_back(cases::problem_line(error.source.name, problem));
+    return lines;
+  }
+}
+
+study::Results run(const LoadedCase& loaded, const std::function<void(const std::string&)>& progress) {
+  const auto tell = [&progress](const std::string& stage) {
+    if (stage.empty()) return;
+    const py::gil_scoped_acquire held;
+    progress(stage);
+  };
+  const LongCall guard;
+  study::Kept nothing;
+  return study::run(loaded.value, cases::variation_of(loaded.value), nothing,
+                    {{}, progress ? study::StageListener(tell) : study::StageListener()});
+}
+
+std::string summary_text(const study::Results& results) {
+  return report::summary_of(results.setup, results).dump();
+}
+
+std::map<std::string, milling::Lobes> charts(const study::Results& results) {
+  std::map<std::string, milling::Lobes> list;
+  for (const study::NamedLobes& named : results.lobes) list[named.name] = named.lobes;
+  return list;
+}
+
+std::map<std::string, dynamics::ResponseModel> responses(const study::Results& results) {
+  std::map<std::string, dynamics::ResponseModel> list;
+  if (results.part) list["part"] = results.part->response;
+  if (results.robot) list["robot"] = results.robot->response;
+  if (results.coupled) list["coupled_receptance"] = results.coupled->receptance.response;
+  if (results.coupled && results.coupled->spatial_response)
+    list["coupled_spatial"] = *results.coupled->spatial_response;
+  return list;
+}
+
+}  // namespace
+
+void bind_study(py::module_& module) {
+  py::class_<LoadedCase>(module, "Case", "What a case file says.")
+      .def_static("load", load, "path"_a, "overrides"_a = std::vector<std::string>{},
+                  "A case from its folder or its file. overrides: \"key=value\" as on the command line. Raises\n"
+                  "InputError with every problem that the case has.")
+      .def_static("parse", parse, "text"_a, "folder"_a = ".", "overrides"_a = std::vector<std::string>{},
+                  "A case from its text; the files that it names are looked for in `folder`.")
+      .def("with_", with, "key"_a, "value"_a,
+           "The case with one more value in place, a number in SI or a text with its unit: with_(\"part.thickness\",\n"
+           "\"3 mm\"). This case stays as it is.")
+      .def(
+          "value", [](const LoadedCase& c, const std::string& key) { return cases::get_value(c.value, key); }, "key"_a,
+          "The number of that key, in SI (frequencies in Hz, spindle speeds in rpm).")
+      .def_property_readonly(
+          "name", [](const LoadedCase& c) { return c.value.name; }, "Name of its folder.")
+      .def_property_readonly(
+          "title", [](const LoadedCase& c) { return c.value.title; }, "Its title.");
+  py::class_<study::Results>(module, "StudyResults", "Everything that a run has computed, in memory.")
+      .def_property_readonly(
+          "summary", [](const study::Results& r) { return py::module_::import("json").attr("loads")(summary_text(r)); },
+          "The figures of summary.json, as a dict.")
+      .def_property_readonly("lobes", charts, "Stability charts by their names: part, supported, tool.")
+      .def_property_readonly("frf", responses,
+                             "Receptances by their names: part, robot, coupled_receptance, coupled_spatial.");
+  module.def("check", check, "path"_a, "overrides"_a = std::vector<std::string>{},
+             "Every problem of a case, a line each with its place; empty if there is none. Nothing is computed.");
+  module.def("run", run, "case"_a, "progress"_a = py::none(),
+             "Computes everything that the case holds, without files. progress(stage): called as each stage begins;\n"
+             "what it raises ends the call.");
+}
+
+}  // namespace thinwall::python

@@ -1,0 +1,28 @@
+#pragma once
+// All that study/ offers to other programs.
+// Internal: archive, archive_models, kept_coupling, kept_part.
+
+#include "core/eigen_alignment.hpp"
+#include "study/error_budget.hpp"
+#include "study/kept/checkpoint.hpp"
+#include "study/least_squares.hpp"
+#include "study/lobes/cut_structure.hpp"
+#include "study/lobes/lobe_sensitivity.hpp"
+#include "study/lobes/lobes_stage.hpp"
+#include "study/lobes/main_modes.hpp"
+#include "study/lobes/path_stage.hpp"
+#include "study/lobes/structure_errors.hpp"
+#include "study/lobes/tool_swap.hpp"
+#include "study/part/discretisation.hpp"
+#include "study/part/matrix_part.hpp"
+#include "study/part/part_damping.hpp"
+#include "study/part/part_evaluation.hpp"
+#include "study/part/part_stage.hpp"
+#include "study/results.hpp"
+#include "study/run.hpp"
+#include "study/stages.hpp"
+#include "study/support/contact_force.hpp"
+#include "study/support/contact_identification.hpp"
+#include "study/support/robot_survey.hpp"
+#include "study/support/support_stage.hpp"
+#include "study/updating.hpp"
