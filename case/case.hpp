@@ -1,9 +1,10 @@
 #pragma once
 // All that case/ offers to other programs.
-// Internal: binding, checks, contact_checks, cutting_checks, expectation, findings, json_schema, keys,
+// Internal: binding, checks, contact_checks, cutting_checks, findings, json_schema, keys,
 // lobes_binding, lobes_checks, measured_checks, part_checks, part_description_checks, path_checks, robot_binding,
 // robot_checks, schema, table, template_texts, templates, toml_values, tool_checks, urdf_arm, writer.
 
+#include "case/expectation.hpp"
 #include "case/machining_case.hpp"
 #include "case/problem.hpp"
 #include "case/reader.hpp"

@@ -39,6 +39,7 @@ function(thinwall_library name)
   cmake_parse_arguments(ARG "" "EXCLUDES" "LINKS;PRIVATE_LINKS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  list(SORT sources COMPARE FILE_BASENAME)  # which files share a batch does not depend on their sub-folders
   if(ARG_EXCLUDES)
     list(FILTER sources EXCLUDE REGEX "${ARG_EXCLUDES}[^/]*$")
   endif()

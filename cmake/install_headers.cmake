@@ -2,7 +2,7 @@
 # the root ("mesh/box.hpp"); where many libraries share one include directory they do so under the library's name
 # ("thinwall/mesh/box.hpp"), so that no `mesh` or `io` of another comes between. Those that need headers of CHOLMOD and of
 # Open CASCADE stay here; no other header names them.
-set(internal linalg/cholmod.hpp io/surface/step_triangles.hpp case/expectation.hpp case/json_schema.hpp
+set(internal linalg/cholmod.hpp io/surface/step_triangles.hpp case/json_schema.hpp
              study/kept/archive.hpp study/kept/archive_models.hpp)
 list(JOIN THINWALL_FOLDERS "|" folders)
 set(staged ${THINWALL_BINARY_DIR}/installed_headers)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/expectation_checks.hpp"
 #include "case/machining_case.hpp"
 #include "case/reader.hpp"
 #include "case/writer.hpp"
@@ -10,6 +11,8 @@
 #include "core/error.hpp"
 
 namespace thinwall::tests {
+
+using namespace app;
 
 using namespace setup;
 using namespace cases;
