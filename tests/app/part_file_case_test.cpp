@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "case/checks.hpp"
 #include "case/keys.hpp"
 #include "case/reader.hpp"
