@@ -12,6 +12,7 @@
 #include "app/stage_display.hpp"
 #include "case/expectation.hpp"
 #include "case/keys.hpp"
+#include "case/numbers.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"

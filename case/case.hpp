@@ -6,6 +6,7 @@
 
 #include "case/expectation.hpp"
 #include "case/machining_case.hpp"
+#include "case/numbers.hpp"
 #include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "case/values.hpp"

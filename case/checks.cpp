@@ -13,6 +13,7 @@
 #include "case/findings.hpp"
 #include "case/lobes_checks.hpp"
 #include "case/measured_checks.hpp"
+#include "case/numbers.hpp"
 #include "case/part_checks.hpp"
 #include "case/path_checks.hpp"
 #include "case/robot_checks.hpp"

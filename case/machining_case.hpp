@@ -8,7 +8,6 @@
 
 #include "case/values.hpp"
 #include "setup/machining_setup.hpp"
-#include "setup/variation.hpp"
 
 namespace thinwall::cases {
 
@@ -28,17 +27,5 @@ struct Case : setup::Setup {
 /// The same without those that only the given sections name ("robot", "tool").
 [[nodiscard]] std::vector<std::filesystem::path> input_files(const Case& source,
                                                              const std::vector<std::string>& without_sections);
-
-/// Value of a numeric key by its dotted name, "part.length", "damping.ratios[0]", "robot.stiffness", in the unit of the
-/// schema (SI; Hz; rpm). Tables in the middle may be left out where that is unambiguous ("part.element_size"). Throws
-/// InputError with the nearest key if the case has no such number.
-[[nodiscard]] double get_value(const Case& source, const std::string& key);
-
-/// Sets it and binds the case anew, so that everything that follows from the key follows. Throws InputError if the
-/// value is not finite or outside the schema's bounds. Cost: microseconds; for model updating and sweeps.
-void set_value(Case& target, const std::string& key, double value);
-
-/// Access to the case's numbers for fits: set-ups with other values. The case is copied.
-[[nodiscard]] setup::Variation variation_of(const Case& source);
 
 }  // namespace thinwall::cases

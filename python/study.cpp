@@ -5,6 +5,7 @@
 
 #include "case/checks.hpp"
 #include "case/machining_case.hpp"
+#include "case/numbers.hpp"
 #include "case/reader.hpp"
 #include "python/bindings.hpp"
 #include "report/summary.hpp"

@@ -1,6 +1,7 @@
 #include "report/compare.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -16,11 +17,28 @@ namespace thinwall::report {
 
 namespace {
 
-/// Residuals, differences and errors are small by being round-off: what counts is that they stay small.
-bool is_round_off(const std::string& name) {
-  if (name.find("error_budget") != std::string::npos) return false;  // what it holds is no round-off
-  return name.find("residual") != std::string::npos || name.find("difference") != std::string::npos ||
-         name.find("error") != std::string::npos;
+/// The key that a path ends with, without indices: "error_m" of "lobes[0].forced.error_m[2]".
+std::string last_key(const std::string& path) {
+  const std::string key = path.substr(path.find_last_of(". ") + 1);
+  return key.substr(0, key.find('['));
+}
+
+/// Whether a name ends in a unit, as the names of all quantities with a dimension do.
+bool has_unit(const std::string& key) {
+  static constexpr std::array units{"_m", "_mm", "_hz", "_n", "_nm", "_w", "_s", "_kg", "_pa", "_rad", "_deg", "_rpm"};
+  return key.find("_per_") != std::string::npos ||
+         std::ranges::any_of(units, [&key](const char* unit) { return key.ends_with(unit); });
+}
+
+/// Whether a number of that name is a residual or a relative error: a number without a dimension whose size is that of
+/// round-off or of an estimate, so that only its staying small counts, and a relative comparison would tell nothing. An
+/// error with a unit, as surface_location_error_m, is a quantity like any other.
+bool is_relative_error(const std::string& path) {
+  const std::string key = last_key(path);
+  if (has_unit(key)) return false;
+  const auto says = [&key](const char* word) { return key.find(word) != std::string::npos; };
+  return says("residual") || says("difference") || says("error") || key == "max_relative" ||
+         key.ends_with("_change_relative");
 }
 
 using nlohmann::json;
@@ -57,7 +75,7 @@ struct Comparer {
 
   void node(const std::string& where, const json& a, const json& b) {
     if (a.is_number() && b.is_number()) {
-      return number(where, a.get<double>(), b.get<double>(), is_round_off(where) ? 1.0 : 0.0);
+      return number(where, a.get<double>(), b.get<double>(), is_relative_error(where) ? 1.0 : 0.0);
     }
     if (a.is_object() && b.is_object()) return object(where, a, b);
     if (a.is_array() && b.is_array() && a.size() == b.size()) {
@@ -114,10 +132,10 @@ std::optional<double> as_number(const std::string& cell) {
   return error == std::errc() && end == cell.data() + cell.size() ? std::optional(value) : std::nullopt;
 }
 
-/// Largest finite magnitude of each column; 1 for a column of round-off.
+/// Largest finite magnitude of each column; 1 for a column of relative errors.
 std::vector<double> column_scales(const std::vector<Row>& rows) {
   std::vector<double> scales;
-  for (const auto& name : rows.empty() ? Row{} : rows.front()) scales.push_back(is_round_off(name) ? 1.0 : 0.0);
+  for (const auto& name : rows.empty() ? Row{} : rows.front()) scales.push_back(is_relative_error(name) ? 1.0 : 0.0);
   for (const auto& row : rows) {
     if (scales.size() < row.size()) scales.resize(row.size(), 0.0);
     for (std::size_t j = 0; j < row.size(); ++j) {

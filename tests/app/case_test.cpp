@@ -5,6 +5,7 @@
 
 #include "app/expectation_checks.hpp"
 #include "case/machining_case.hpp"
+#include "case/numbers.hpp"
 #include "case/reader.hpp"
 #include "case/writer.hpp"
 #include "case_text.hpp"

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "case/numbers.hpp"
 #include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "case/writer.hpp"

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "case/numbers.hpp"
 #include "case/reader.hpp"
 #include "case_text.hpp"
 #include "setup/graded_mesh.hpp"

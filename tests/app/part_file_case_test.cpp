@@ -6,6 +6,7 @@
 
 #include "case/checks.hpp"
 #include "case/keys.hpp"
+#include "case/numbers.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "io/surface/stl.hpp"

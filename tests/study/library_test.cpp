@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/case_run.hpp"
+#include "case/numbers.hpp"
 #include "case/reader.hpp"
 #include "core/messages.hpp"
 #include "study/run.hpp"
