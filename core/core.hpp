@@ -1,7 +1,6 @@
 #pragma once
 // The headers of core/ that other programs may include.
-// Internal: atomic_file, dense_eigenvalues, dense_factorisations,
-// faults, mode_signs, nearest_name, pieces.
+// Internal: atomic_file, dense_eigenvalues, dense_factorisations, faults, mode_signs, nearest_name, pieces.
 
 #include "core/eigen_alignment.hpp"
 #include "core/error.hpp"
