@@ -19,11 +19,10 @@ struct HeldTool {
 
 /// The receptance of a machine without its tool.
 struct [[nodiscard]] HolderReceptance {
-  dynamics::ResponseModel
-      receptance;             ///< T^B at `joint.point_b`, over the joint's directions; NaN where `rank_deficient`
-  Eigen::VectorXd condition;  ///< of T^A_11 − T^C_11, one a line (Skeel's, coupling/kernel.hpp); infinite where
+  dynamics::ResponseModel receptance;  ///< T^B at `joint.point_b`, over the joint's directions; NaN if `rank_deficient`
+  Eigen::VectorXd condition;  ///< Skeel condition of T^A_11 − T^C_11 at each line (coupling/kernel.hpp); infinite if
                               ///< it cannot be solved
-  std::vector<Eigen::MatrixXcd> left, right;  ///< dT^B = left dT^C_11 right, first order, one pair a line
+  std::vector<Eigen::MatrixXcd> left, right;  ///< dT^B = left dT^C_11 right, first order, one pair for each line
   int rank_deficient_lines = 0;               ///< condition above 1e14
 
   /// True if the receptance of the machine cannot be determined at some line.
@@ -63,7 +62,7 @@ struct [[nodiscard]] SwappedTool {
   SwapStatus status = SwapStatus::done;
   HolderReceptance holder;
   CoupledResponse coupled;                    ///< all DOFs of the second tool in the machine; empty if rank_deficient
-  std::vector<Eigen::MatrixXcd> left, right;  ///< dT^C_2 = left dT^C_1 right, first order, one pair a line
+  std::vector<Eigen::MatrixXcd> left, right;  ///< dT^C_2 = left dT^C_1 right, first order, one pair for each line
 };
 
 /// The response of tool 2 in the machine that was measured with tool 1 (Lei 2022, Eq. 4; Schmitz & Donaldson 2000):

@@ -48,8 +48,8 @@ struct DrivingPointSign {
 struct MatrixCheck {
   double figure = 0.0;
   double frequency_hz = 0.0;
-  Eigen::Index row = 0;     ///< of the model
-  Eigen::Index column = 0;  ///< of the model
+  Eigen::Index row = 0;     ///< in the model
+  Eigen::Index column = 0;  ///< in the model
   bool holds = true;        ///< figure ≤ bound
 };
 
@@ -96,7 +96,7 @@ struct LowFrequencyLimit {
 /// - scatter: δ_k = H_k − w H_{k−1} − (1 − w) H_{k+1}, the distance from the straight line through the neighbours, has
 ///   the variance σ² (1 + w² + (1 − w)²) of independent noise and none of a smooth H. σ is estimated by the median of
 ///   |δ| over 21 lines (a Rayleigh variable: median 0.833 σ) and compared with the median of |H|.
-/// - coherence: its median over 21 lines, where there is one (`coherence` has a value a line, or none).
+/// - coherence: its median over 21 lines, where there is one (`coherence` has one value for each line, or none).
 /// - growth, of a supported structure only: the slope of ln |H| over ln f, fitted over an octave (five lines at least).
 ///   An error b/ω², of whatever kind, is as large as the static receptance where the slope is −1.
 ///

@@ -161,7 +161,7 @@ void attach(Model& model, const std::vector<int>& fixed, const Attachments& atta
   holding.restraints.insert(holding.restraints.end(), springs.begin(), springs.end());
   eliminate_rigid_patches(model);
   add_points(model, points);
-  // This is twice the bound above which modes() takes a mode for elastic, so that a motion cannot count as held here
+  // The bound is twice that above which modes() takes a mode for elastic, so that a motion cannot count as held here
   // and as rigid there.
   holding.negligible_N_m = 20.0 * std::numeric_limits<double>::epsilon() * model.spectrum_rad2_s2 * model.mass.mass_kg;
   model.free_motions = free_motions(model.nodes, holding);

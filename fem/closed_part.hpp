@@ -27,11 +27,11 @@ struct ClosedPartOptions {
   Attachments attachments{};
   std::function<Materials(const mesh::TetMesh&)> materials{};  ///< materials on each mesh, for a part of several
   std::function<mesh::TetMesh(mesh::TetMesh)> divided{};       ///< applied to each mesh before use, if set
-  int first_order = 3;                                         ///< of a level; 1 to 5
-  int last_order = 6;                                          ///< of a level; above first_order, to 6
+  int first_order = 3;                                         ///< first order of a level; 1 to 5
+  int last_order = 6;                                          ///< last order of a level; above first_order, to 6
   int levels = 1;                      ///< number of levels, 1 to 4; each has five times as many elements as the last
   std::int64_t largest_dofs = 400000;  ///< no model with more is solved; 0: no bound
-  double memory_limit_bytes = 0.0;     ///< of a factor; 0: none
+  double memory_limit_bytes = 0.0;     ///< limit for a factor; 0: none
   /// Limits of each attempt of a mesher. TetGen either takes a second or never ends.
   mesh::ProcessLimits limits{.time_s = 20.0, .memory_bytes = 4e9};
 };
@@ -52,7 +52,7 @@ struct [[nodiscard]] ClosedPart {
   /// The estimated relative error of frequencies, from the elements (refined.estimate) and the surface: a wall whose
   /// volume is too small by a share bends at frequencies lower by the same share.
   double frequency_error = 0.0;
-  /// Whether frequency_error and the estimated error of receptances are within the tolerance. If not, refined.estimate
+  /// True if frequency_error and the estimated error of receptances are within the tolerance. If not, refined.estimate
   /// says whether largest_dofs prevented it.
   bool met = false;
 };

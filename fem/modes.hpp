@@ -13,7 +13,7 @@ struct ModeOptions {
   int count = 10;                    ///< number of elastic modes; used if up_to_hz is not given
   std::optional<double> up_to_hz{};  ///< if given, all modes below this frequency instead
   bool verify_count = false;         ///< Sturm count: inertia of K − σM just above the last mode
-  double inverse_residual = 3e-10;   ///< of `count` modes, ≤ 1e-6: error of a shape; its square is that of λ
+  double inverse_residual = 3e-10;   ///< ≤ 1e-6, for `count` modes: error of a shape; its square is that of λ
 };
 
 /// Modes in ascending order, the rigid-body modes first (as many as Model::rigid_motions).

@@ -30,11 +30,11 @@ struct ToleranceOptions {
   ModeOptions modes;
   std::vector<NamedPoint> points;  ///< points between which receptances must meet the tolerance
   bool points_hold = false;        ///< whether the points must determine all rigid motions
-  int first_order = 4;             ///< of a level; 1 to 5
-  int last_order = 6;              ///< of a level; above first_order, to 6
+  int first_order = 4;             ///< first order of a level; 1 to 5
+  int last_order = 6;              ///< last order of a level; above first_order, to 6
   int levels = 4;
   bool reentrant_edges = false;     ///< whether the part has a re-entrant edge, beside which errors fall more slowly
-  double memory_limit_bytes = 0.0;  ///< of a factor; 0: none
+  double memory_limit_bytes = 0.0;  ///< limit for a factor; 0: none
   std::int64_t largest_dofs = 0;    ///< no model with more rows than this before supports is solved; 0: no bound
 };
 

@@ -17,9 +17,9 @@ struct FactorOptions {
 
 /// Size of a factor and cost of its factorisation.
 struct FactorStatistics {
-  double flops = 0.0;     ///< of the numeric factorisation
+  double flops = 0.0;     ///< flops of the numeric factorisation
   double nonzeros = 0.0;  ///< entries of the factor L, including the zeros that merged supernodes store
-  double bytes = 0.0;     ///< of the factor with the zeros that supernodes store, its indices and its workspace
+  double bytes = 0.0;     ///< factor with the zeros that supernodes store, its indices and its workspace
   double seconds_ordering = 0.0;
   double seconds_analysis = 0.0;
   double seconds_numeric = 0.0;

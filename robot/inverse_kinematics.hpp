@@ -45,7 +45,7 @@ struct ReachOptions {
   double length = 1.0;           ///< m/rad, > 0: weight of a rotation beside a translation
   double tolerance = 1e-10;      ///< m: bound of |e|
   double singular_below = 1e-4;  ///< bound of smallest_singular below which the posture counts as singular
-  int most_steps = 200;          ///< of the search
+  int most_steps = 200;          ///< largest number of steps
 };
 
 /// The posture near `start` that brings the tip's frame to `target` (world), by the Levenberg-Marquardt method on the

@@ -10,7 +10,7 @@
 
 namespace thinwall::robot {
 
-/// Whether each point of a table must be at one place in all modes; see modal_model().
+/// The permission for a point of a table to be at different places in different modes; see modal_model().
 enum class PointPlaces { one_each, may_differ };
 
 /// The modal model of a table of modes. With λ = ω_n (−ζ + i√(1 − ζ²)), ω_n = 2πf, each row of the table gives a pole
