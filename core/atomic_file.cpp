@@ -35,7 +35,7 @@ constexpr std::string_view partial_mark = ".partial-";
                                            : "check that it is a file and may be read");
 }
 
-/// A descriptor that closes itself.
+/// An open file descriptor that is closed when it goes out of scope.
 struct Descriptor {
   int value = -1;
   explicit Descriptor(int descriptor) : value(descriptor) {}

@@ -1,5 +1,5 @@
 #pragma once
-// Files that appear whole or not at all.
+// Writing of files in one step: a reader finds the complete new file or the earlier one, never a part.
 
 #include <filesystem>
 #include <string>
@@ -7,10 +7,11 @@
 
 namespace thinwall::core {
 
-/// A file under construction: write to `partial()`, then `commit()`. The partial file lies beside the target, so that
-/// the final rename stays within one file system; it is removed if commit() is never reached (an error, an
-/// interruption). For writers that insist on a path of their own (VTK, HDF5); write_file_atomically() is the short form
-/// for text. The target's extension is kept, because some writers choose their format by it.
+/// A file under construction: write to `partial()`, then call `commit()`. The partial file lies beside the target, so
+/// that the final rename stays within one file system; it is removed if commit() is never reached (an error, an
+/// interruption). The class serves writers that insist on a path of their own (VTK, HDF5); for text,
+/// write_file_atomically() is shorter. The partial file keeps the target's extension, because some writers choose their
+/// format by it.
 class PartialFile {
  public:
   /// Throws DataError if the folder does not exist or the target is something else than a plain file.
@@ -30,17 +31,19 @@ class PartialFile {
   std::filesystem::path partial_;
 };
 
-/// A name beside `target` that is_partial_name() knows and nobody else uses, for an unfinished file or folder.
+/// A name in the folder of `target` for an unfinished file or folder: is_partial_name() recognises it, and it contains
+/// the process number and a counter, so that no other writer uses it.
 [[nodiscard]] std::filesystem::path partial_path(const std::filesystem::path& target);
 
-/// True for the names that PartialFile gives to unfinished files: leftovers of a killed run can be told and removed.
+/// True for the names that PartialFile gives to unfinished files, so that the leftovers of a killed run can be
+/// recognised and removed.
 [[nodiscard]] bool is_partial_name(const std::filesystem::path& path);
 
 /// Writes `content` to `path`, replacing an earlier file in one step: a reader sees the old file or the new one, never
 /// a part. Throws DataError (full disk, read-only folder, missing folder) and then leaves the earlier file as it was.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
-/// The whole file as bytes; throws DataError with the cause.
+/// The content of the whole file as bytes. Throws DataError with the cause if it is a folder or cannot be read.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
 }  // namespace thinwall::core

@@ -1,5 +1,5 @@
 #pragma once
-// All that core/ offers to other programs.
+// The headers of core/ that other programs may include.
 // Internal: atomic_file, dense_eigenvalues, dense_factorisations, faults, mode_signs, nearest_name, pieces.
 
 #include "core/eigen_alignment.hpp"

@@ -1,10 +1,11 @@
 #pragma once
-// Eigen's dense eigenvalue solvers of dynamic size, compiled once, in dense_eigenvalues.cpp: each takes gcc six to
-// nine seconds, a file that includes this header none of them. It stands for <Eigen/Eigenvalues>
-// (cmake/check_includes.py).
+// Eigen's dense eigenvalue solvers of dynamic size, compiled once, in dense_eigenvalues.cpp: gcc needs six to nine
+// seconds for each, which a file that includes this header does not spend again. Include it instead of
+// <Eigen/Eigenvalues> (cmake/check_includes.py).
 //
-// compute() is a template of its argument. What is compiled is that of a matrix: hand an expression over as
-// Eigen::MatrixXd(expression), which it becomes within anyway. Other sizes are compiled where they are used.
+// compute() is a template of its argument, and only its instance for a matrix is compiled here: pass an expression as
+// Eigen::MatrixXd(expression); Eigen evaluates it into a matrix in any case. Solvers of fixed size are compiled where
+// they are used.
 
 #include <Eigen/Eigenvalues>
 

@@ -1,11 +1,12 @@
 #pragma once
 // Eigen's dense factorisations of dynamic size, compiled once, in dense_factorisations.cpp: a singular value
-// decomposition takes gcc seven seconds, the others one to three, a file that includes this header none of them. It
-// stands for <Eigen/Cholesky>, <Eigen/QR>, <Eigen/SVD> (cmake/check_includes.py), and for <Eigen/LU> where matrices of
-// dynamic size are factorised.
+// decomposition takes gcc seven seconds, each of the others one to three, which a file that includes this header does
+// not spend again. Include it instead of <Eigen/Cholesky>, <Eigen/QR>, <Eigen/SVD> (cmake/check_includes.py), and
+// instead of <Eigen/LU> where matrices of dynamic size are factorised.
 //
-// compute() of LLT and LDLT is a template of its argument. What is compiled is that of a matrix: hand an expression
-// over as Eigen::MatrixXd(expression), which it becomes within anyway. Other sizes are compiled where they are used.
+// compute() of LLT and LDLT is a template of its argument, and only its instance for a matrix is compiled here: pass an
+// expression as Eigen::MatrixXd(expression); Eigen evaluates it into a matrix in any case. Factorisations of fixed size
+// are compiled where they are used.
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

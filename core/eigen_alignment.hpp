@@ -1,6 +1,7 @@
 #pragma once
-// Whether this file lays out Eigen's matrices as the library does (docs/cpp.md): CMake's target and pkg-config see to
-// it; whoever compiles by other means is told here rather than by a crash.
+// A check at compile time that a program which includes thinwall lays out Eigen's matrices as the library does
+// (docs/cpp.md). CMake's target and pkg-config pass the right definitions; a program compiled by other means gets this
+// message instead of a crash.
 
 #include <Eigen/Core>
 

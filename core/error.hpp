@@ -1,13 +1,13 @@
 #pragma once
-// The lanes in which things go wrong. Each kind carries the exit code of the command line (docs/conventions.md).
-// A numerical outcome that the caller can handle is not an error: it is a status beside the result.
+// Exceptions of the program. Each type carries the exit code of the command line (docs/conventions.md). A numerical
+// outcome that the caller can handle is not an exception: it is a status beside the result.
 
 #include <stdexcept>
 #include <string>
 
 namespace thinwall::core {
 
-/// What the program ends with (docs/conventions.md, exit codes).
+/// Exit codes of the program (docs/conventions.md, exit codes).
 enum class ExitCode : int {
   done = 0,
   internal = 1,
@@ -19,11 +19,12 @@ enum class ExitCode : int {
   interrupted = 130,
 };
 
-/// Base of every error that reaches the user. The message says what, where, the bound and the remedy, in one line.
+/// Base of every error that reaches the user. The message names in one line the fault, its place (file, line or key),
+/// the bound that was violated and the remedy.
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
-  /// What the program ends with if nobody catches the error.
+  /// The exit code of the program if nobody catches the error.
   [[nodiscard]] ExitCode code() const { return code_; }
 
  private:
@@ -35,7 +36,7 @@ struct UsageError : Error {
   explicit UsageError(const std::string& message) : Error(ExitCode::usage, message) {}
 };
 
-/// The case asks for something that cannot be (exit 3).
+/// The case asks for something impossible or contradictory (exit 3).
 struct InputError : Error {
   explicit InputError(const std::string& message) : Error(ExitCode::invalid_case, message) {}
 };

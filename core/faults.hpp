@@ -1,21 +1,21 @@
 #pragma once
-// What is wrong with an input, collected so that all of it is said at once.
+// A collector of the faults of an input, so that one error lists all of them.
 
 #include <string>
 
 namespace thinwall::core {
 
-/// Collects what is wrong, so that one error tells all of it.
+/// A list of faults, raised together as one InputError.
 class Faults {
  public:
-  /// Notes "<where> <what>" unless it holds.
+  /// Notes the fault "<where> <what>" unless `holds`.
   void require(bool holds, const std::string& where, const std::string& what);
 
-  /// Notes "<where> has the <what> <value>: it must <bound>" unless it holds and the value is finite.
+  /// Notes the fault "<where> has the <what> <value>: it must <bound>" unless `holds` and the value is finite.
   void require_number(double value, bool holds, const std::string& where, const std::string& what,
                       const std::string& bound);
 
-  /// Throws InputError "<subject>: <fault>; <fault>" if there is any.
+  /// Throws InputError "<subject>: <fault>; <fault>" if any fault was noted.
   void raise(const std::string& subject) const;
 
  private:

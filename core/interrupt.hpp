@@ -1,5 +1,5 @@
 #pragma once
-// A request to stop, set by a signal handler and looked at between pieces of work.
+// A request to stop the computation, set by a signal handler and polled between pieces of work.
 
 namespace thinwall::core {
 

@@ -21,7 +21,7 @@ double available_memory_bytes() {
 }
 
 void keep_freed_memory() {
-  mallopt(M_MMAP_MAX, 0);  // else blocks above 32 MB would go back to the system, whatever the threshold
+  mallopt(M_MMAP_MAX, 0);  // otherwise blocks above 32 MB are given back to the system, whatever the threshold
   mallopt(M_TRIM_THRESHOLD, -1);
 }
 

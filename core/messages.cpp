@@ -8,7 +8,7 @@ namespace thinwall::core {
 namespace {
 
 struct Outlet {
-  std::recursive_mutex mutex;  // a listener may tell a message itself
+  std::recursive_mutex mutex;  // recursive, because a listener may itself send a message
   MessageListener listener;
 };
 

@@ -1,36 +1,36 @@
 #pragma once
-// Messages of a computation to whoever watches it: the library tells them, a program or a page decides where they
-// appear.
+// Messages of a computation: the library sends them, and the listener that a program has set decides where they appear.
 
 #include <functional>
 #include <string>
 
 namespace thinwall::core {
 
-/// The weight of a message: `info` tells the course of a computation, `warning` a doubt about its result.
+/// The importance of a message: `debug` is a detail for a log, `info` reports the course of a computation, `warning` a
+/// doubt about its result.
 enum class MessageLevel { debug, info, warning };
 
-/// A function that is told every message, from whichever thread it comes, one at a time.
+/// A function that receives every message. Calls come from any thread, but one at a time.
 using MessageListener = std::function<void(MessageLevel level, const std::string& text)>;
 
-/// Replaces the listener of this process and returns the one before; an empty one drops every message, which is how
-/// the library starts.
+/// Replaces the listener of this process and returns the previous one. An empty listener drops every message; the
+/// process starts with an empty one.
 MessageListener set_message_listener(MessageListener listener);
 
-/// Tells the listener one message. What the listener throws passes through.
+/// Sends one message to the listener. An exception of the listener passes through to the caller.
 void tell(MessageLevel level, const std::string& text);
 
-/// Tells a doubt about a result: the user should read it.
+/// Sends a warning: a doubt about a result that the user should read.
 inline void warn(const std::string& text) {
   tell(MessageLevel::warning, text);
 }
 
-/// Tells the course of a computation.
+/// Sends an information about the course of a computation.
 inline void inform(const std::string& text) {
   tell(MessageLevel::info, text);
 }
 
-/// Tells a detail that only a log holds.
+/// Sends a detail that is meant for a log only.
 inline void note(const std::string& text) {
   tell(MessageLevel::debug, text);
 }

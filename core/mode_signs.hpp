@@ -1,5 +1,5 @@
 #pragma once
-// The sign of a mode shape, which no eigenproblem gives.
+// A rule for the sign of a mode shape, which the eigenproblem leaves undetermined.
 
 #include <Eigen/Core>
 

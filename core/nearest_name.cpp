@@ -7,6 +7,8 @@ namespace thinwall::core {
 
 namespace {
 
+/// Number of insertions, deletions and substitutions that turn a into b. `row` holds one row of the dynamic-programming
+/// table.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

@@ -1,5 +1,5 @@
 #pragma once
-// "Did you mean …?"
+// Suggestions for misspelt names: "did you mean …?"
 
 #include <string>
 #include <string_view>
@@ -7,11 +7,11 @@
 
 namespace thinwall::core {
 
-/// The candidate with the smallest edit distance (Levenshtein 1966) to `name`, or "" if none is within a third of its
-/// length plus one.
+/// The candidate with the smallest edit distance (Levenshtein 1966) to `name`; the first of equals. It is "" if the
+/// smallest distance exceeds a third of the length of `name` plus one.
 [[nodiscard]] std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
-/// " (did you mean \"…\"?)" or "".
+/// The text " (did you mean \"…\"?)" with nearest_name(), or "" if no candidate is near enough.
 [[nodiscard]] std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);
 
 }  // namespace thinwall::core

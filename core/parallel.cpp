@@ -17,64 +17,67 @@ namespace {
 
 std::atomic<int> threads_wanted{0};
 
-/// Threads that wait for loops: a loop of some ten microseconds is worth sharing with them, where a thread made for it
-/// would cost more than it brings.
-class Crew {
+/// Threads that wait for loops to run. They are kept from loop to loop, because starting a thread costs more than
+/// sharing a loop of some ten microseconds saves.
+class LoopThreads {
  public:
-  /// Calls `work` on this thread and on at most `others` of the crew; those that come when this thread has ended its
-  /// call are not waited for. On this thread alone while another loop has the crew, as where a loop's body holds one.
+  /// Calls `work` on this thread and on at most `others` of the waiting threads, and returns when all calls that have
+  /// begun have ended. A thread that wakes up only after this thread's own call has returned does not take part, and is
+  /// not waited for. If another loop is using the threads already, which is so for a loop within a loop's body, `work`
+  /// runs on this thread alone.
   void run(const std::function<void()>& work, std::size_t others) {
     if (busy_.test_and_set()) return work();
     {
       const std::scoped_lock lock(mutex_);
-      for (; hired_ < others; ++hired_) std::thread([this] { wait_for_work(); }).detach();
+      for (; started_ < others; ++started_) std::thread([this] { wait_for_work(); }).detach();
       work_ = &work;
-      places_ = others;
+      open_places_ = others;
     }
-    called_.notify_all();
+    work_waits_.notify_all();
     work();
     {
       std::unique_lock lock(mutex_);
-      places_ = 0;
-      ended_.wait(lock, [this] { return at_work_ == 0; });
+      open_places_ = 0;
+      work_ended_.wait(lock, [this] { return working_ == 0; });
     }
     busy_.clear();
   }
 
-  /// Loops run on the calling thread from here on: a forked process has none of its parent's threads.
-  void dismiss() { busy_.test_and_set(); }
+  /// Makes all later loops run on the calling thread alone. Called in a forked process, which has none of its parent's
+  /// threads.
+  void disable() { busy_.test_and_set(); }
 
  private:
   void wait_for_work() {
     std::unique_lock lock(mutex_);
     for (;;) {
-      called_.wait(lock, [this] { return places_ > 0; });
-      --places_;
-      ++at_work_;
+      work_waits_.wait(lock, [this] { return open_places_ > 0; });
+      --open_places_;
+      ++working_;
       const std::function<void()>& work = *work_;
       lock.unlock();
       work();
       lock.lock();
-      if (--at_work_ == 0) ended_.notify_one();
+      if (--working_ == 0) work_ended_.notify_one();
     }
   }
 
   std::atomic_flag busy_;
   std::mutex mutex_;
-  std::condition_variable called_, ended_;
+  std::condition_variable work_waits_, work_ended_;
   const std::function<void()>* work_ = nullptr;
-  std::size_t hired_ = 0;
-  std::size_t places_ = 0;   // of this loop's, not yet taken
-  std::size_t at_work_ = 0;  // of the crew
+  std::size_t started_ = 0;
+  std::size_t open_places_ = 0;  // calls of the current loop that waiting threads may still begin
+  std::size_t working_ = 0;      // waiting threads that are within a call of `work`
 };
 
-/// Never destroyed: its threads wait until the process ends.
-Crew& crew() {
-  static Crew* const the_crew = [] {
-    pthread_atfork(nullptr, nullptr, [] { crew().dismiss(); });
-    return new Crew;
+/// The threads of this process. The object is never destroyed, because its threads wait until the process ends.
+LoopThreads& loop_threads() {
+  static LoopThreads* const the_threads = [] {
+    pthread_atfork(nullptr, nullptr, [] { loop_threads().disable(); });
+    return new LoopThreads;
   }();
-  return *the_crew;
+  return *the_threads;
 }
 
 }  // namespace
@@ -106,7 +109,7 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
   };
   const auto workers = std::min(static_cast<std::size_t>(thread_count()), count);
   if (workers > 1) {
-    crew().run(work, workers - 1);
+    loop_threads().run(work, workers - 1);
   } else {
     work();
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Which vertices hang together.
+// Connected components of vertices that are joined by cells.
 
 #include <cstddef>
 #include <numeric>
@@ -7,11 +7,13 @@
 
 namespace thinwall::core {
 
-/// For each of `vertices` the lowest vertex of the piece that it belongs to: two vertices hang together if a chain of
-/// cells joins them. Cell: any range of vertex numbers. Itself, for a vertex of no cell. Cost nearly O(cells).
+/// For each of `vertices` vertices, the lowest vertex number of its connected component; two vertices are connected if
+/// a chain of cells leads from one to the other. `Cells` is a range of ranges of vertex numbers. A vertex that belongs
+/// to no cell is its own component. Cost nearly O(entries of all cells), by union-find with path halving.
 template <class Cells>
 [[nodiscard]] std::vector<int> pieces(int vertices, const Cells& cells) {
-  std::vector<int> lower(static_cast<std::size_t>(vertices));  // a vertex of the same piece that is no higher
+  std::vector<int> lower(
+      static_cast<std::size_t>(vertices));  // for each vertex a vertex of its component, no higher than itself
   std::iota(lower.begin(), lower.end(), 0);
   const auto lowest = [&](int v) {
     while (lower[static_cast<std::size_t>(v)] != v) {

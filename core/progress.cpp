@@ -8,10 +8,10 @@ namespace thinwall::core {
 namespace {
 
 std::mutex listener_mutex;
-ProgressListener the_listener;  // held by the mutex
+ProgressListener the_listener;  // guarded by listener_mutex
 std::atomic<bool> somebody_listens{false};
 std::atomic<std::int64_t> interval_ns{0};
-std::atomic<std::int64_t> next_report_ns{0};  // of the steady clock
+std::atomic<std::int64_t> next_report_ns{0};  // time of the steady clock before which no report is due
 std::atomic<const Progress*> outermost_loop{nullptr};
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// How far a long loop is, for whoever shows it: the loop counts, a listener hears of it now and then.
+// Progress of a long loop: the loop counts its items, and a listener is told of the count from time to time.
 
 #include <atomic>
 #include <chrono>
@@ -11,25 +11,27 @@ namespace thinwall::core {
 
 /// The state of a loop.
 struct ProgressReport {
-  const char* items = "";  ///< what it counts: "speeds"
+  const char* items = "";  ///< name of the items: "speeds"
   std::size_t done = 0;
   std::size_t total = 0;
-  double seconds = 0.0;  ///< since it began
+  double seconds = 0.0;  ///< time since the loop began
 };
 
-/// Seconds that the rest will take at the rate so far; none before the first item.
+/// Seconds that the remaining items will take at the mean rate so far; empty before the first item is done.
 [[nodiscard]] std::optional<double> seconds_left(const ProgressReport& report);
 
-/// Hears of a loop's state.
+/// A function that receives the state of a loop.
 using ProgressListener = std::function<void(const ProgressReport&)>;
 
-/// From now on `listener` hears of loops, from whichever thread did the item, one call at a time, at most once in
-/// `interval` and at the end of each loop; an empty one ends that, and after the call none is under way. What it throws
-/// ends the loop.
+/// Sets the function that receives reports of loops; an empty one ends the reports. It is called from whichever thread
+/// completed an item, one call at a time, at most once in `interval` and at the end of each loop. After
+/// set_progress_listener() has returned, no call of the earlier listener is running. An exception of the listener ends
+/// the loop.
 void set_progress_listener(ProgressListener listener,
                            std::chrono::milliseconds interval = std::chrono::milliseconds(100));
 
-/// One loop, for as long as it lives. Of loops within loops the outermost is told of.
+/// The progress of one loop; the loop lasts as long as the object lives. Of nested loops only the outermost is
+/// reported.
 ///
 ///     core::Progress progress("speeds", rows.size());
 ///     core::parallel_for(rows.size(), [&](std::size_t i) { rows[i] = …; progress.step(); });
@@ -40,7 +42,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// One more item is done. From any thread; an atomic addition, and with a listener a look at the clock.
+  /// Counts one more item as done. It may be called from any thread and costs an atomic addition, and, if a listener is
+  /// set, a reading of the clock.
   void step();
 
  private:

@@ -127,7 +127,7 @@ std::size_t separator_length(std::string_view text) {
   return !text.empty() && (text.front() == ' ' || text.front() == '*' || text.front() == '/') ? 1 : 0;
 }
 
-/// The number at the start of `text`, which is advanced past it; empty if there is none.
+/// The number at the start of `text`, which is shortened by it; empty if `text` does not start with a number.
 std::optional<double> take_number(std::string_view& text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0.0;
@@ -137,7 +137,8 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
-/// The kinds by which a dimension is named; a stiffness comes before anything else in N/m.
+/// The kinds whose name is used for a dimension in messages. Of kinds with equal dimension the first is used, so that
+/// N/m is called a stiffness.
 constexpr std::array named_kinds{kind::number,
                                  kind::length,
                                  kind::mass,
@@ -159,17 +160,18 @@ constexpr std::array named_kinds{kind::number,
                                  kind::torsional_stiffness,
                                  kind::torsional_damping};
 
-/// "a length", "an angle".
+/// The name with its article: "a length", "an angle".
 std::string with_article(const std::string& name) {
   const bool vowel = !name.empty() && std::string_view("aeiou").find(name.front()) != std::string_view::npos;
   return (vowel ? "an " : "a ") + name;
 }
 
+/// The unit in which the program holds a kind, as a factor to base units and a dimension.
 Quantity kind_unit(const QuantityKind& kind) {
   return kind.unit.empty() ? Quantity{1.0, {}} : parse_unit(kind.unit);
 }
 
-/// Multiples by which people read a kind, largest first.
+/// The units in which readable_text() writes a kind, largest first.
 std::vector<std::string_view> readable_units(const QuantityKind& kind) {
   if (kind.unit == "m") return {"m", "mm", "µm"};
   if (kind.unit == "Pa") return {"GPa", "MPa", "Pa"};
@@ -228,7 +230,7 @@ double parse_quantity(std::string_view text, const QuantityKind& kind) {
                      with_article(std::string(kind.name)) + " is expected; write for example \"" +
                      std::string(kind.example) + "\"");
   }
-  // A quantity already in the kind's unit must come back to the last bit, so the number is scaled once only.
+  // The number is scaled once only, so that a quantity that is written in the kind's own unit is read to the last bit.
   std::string_view number = trimmed(text);
   return *take_number(number) * (parse_unit(rest).value / unit.value);
 }
@@ -285,7 +287,7 @@ std::string readable_text(double value, const QuantityKind& kind) {
   const auto choices = readable_units(kind);
   for (const auto unit : choices) {
     const double scaled = unit.empty() ? value : value * (kind_unit(kind).value / parse_unit(unit).value);
-    // Lengths of machine parts are read in mm up to a metre, so a unit is taken once the number reaches one.
+    // The largest unit in which the number is at least one: lengths of machine parts are read in mm up to a metre.
     if (std::abs(scaled) >= 1.0 || unit == choices.back()) {
       return text(scaled, value == 0.0 ? kind.unit : unit);
     }

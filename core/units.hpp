@@ -1,7 +1,7 @@
 #pragma once
-// Quantities as people write them: "6 mm", "210 GPa", "1900 rpm", "1.7e6 N/m".
+// Reading and writing of quantities with units: "6 mm", "210 GPa", "1900 rpm", "1.7e6 N/m".
 //
-// A unit is a product of powers, written with spaces, dots, * or /, each / dividing by the one factor that follows:
+// A unit is a product of powers, written with spaces, dots, * or /; each / divides by the one factor that follows it:
 // "N s/m", "kg/m^3", "m/s^2/N". Numbers are read and written independently of the locale.
 
 #include <string>
@@ -26,12 +26,13 @@ struct Quantity {
   Dimension dimension;
 };
 
-/// What a number stands for: the name shown to people, the unit in which the program holds it, and how one writes it.
+/// A kind of quantity: the name shown to people, the unit in which the program holds it, and an example of how it is
+/// written.
 struct QuantityKind {
   std::string_view name;
   std::string_view unit;     ///< "" for a pure number
-  std::string_view example;  ///< shown as the remedy
-  bool bare_number = true;   ///< may be written without a unit (then it is in `unit`)
+  std::string_view example;  ///< shown in messages as the remedy
+  bool bare_number = true;   ///< whether it may be written without a unit; it is then taken in `unit`
 };
 
 namespace kind {
@@ -59,32 +60,36 @@ inline constexpr QuantityKind torsional_damping{"torsional damping", "N m s/rad"
 inline constexpr QuantityKind memory{"memory", "B", "4 GB"};
 }  // namespace kind
 
-/// The text as a number in base units. Throws InputError: no number, not finite, an unknown unit (nearest one named).
+/// The quantity that the text states, in base units. Throws InputError if the text does not start with a number, the
+/// number is not finite, or a unit is unknown (the nearest known one is named).
 [[nodiscard]] Quantity parse_quantity(std::string_view text);
 
-/// The text as a number in `kind.unit`; a bare number is taken in that unit where the kind allows it. Throws InputError
-/// naming the dimension that was expected, the one that was got and an example.
+/// The number in `kind.unit` that the text states; a bare number is taken in that unit if the kind allows it. Throws
+/// InputError that names the expected dimension, the one found, and an example.
 [[nodiscard]] double parse_quantity(std::string_view text, const QuantityKind& kind);
 
-/// A bare number as a quantity: itself, or InputError where the kind needs a unit ("write \"1900 rpm\"").
+/// The value of a number that was written without a unit, taken in `kind.unit`. Throws InputError if it is not finite
+/// or the kind needs a unit ("write \"1900 rpm\"").
 [[nodiscard]] double bare_number(double value, const QuantityKind& kind);
 
-/// Factor and dimension of a unit, "N/mm^2" → 1e6 kg/(m s²). Throws InputError.
+/// The factor to base units and the dimension of a unit: "N/mm^2" gives 1e6 and kg/(m s²). Throws InputError for an
+/// unknown unit.
 [[nodiscard]] Quantity parse_unit(std::string_view text);
 
-/// "stress", "length", or the exponents where the dimension has no name among the kinds.
+/// The name of a dimension: "stress", "length", or its exponents if no kind has that dimension.
 [[nodiscard]] std::string dimension_name(const Dimension& dimension);
 
-/// Exactly the number that is given, with the kind's unit: parse_quantity(exact_text(x, k), k) == x for every finite x.
+/// The shortest text of `value` with the kind's unit that is read as exactly that number: parse_quantity(exact_text(x,
+/// k), k) == x for every finite x.
 [[nodiscard]] std::string exact_text(double value, const QuantityKind& kind);
 
-/// Four significant digits with a unit that suits people: 0.392 → "392 mm", 2.1e11 → "210 GPa".
+/// The value to four significant digits in a unit that is easy to read: 0.392 gives "392 mm", 2.1e11 "210 GPa".
 [[nodiscard]] std::string readable_text(double value, const QuantityKind& kind);
 
-/// Shortest text that reads back as the same number, with a point whatever the locale.
+/// The shortest text that is read as the same number, with a decimal point whatever the locale.
 [[nodiscard]] std::string number_text(double value);
 
-/// The same rounded to so many significant digits (1 to 17), for messages.
+/// The number rounded to `digits` significant digits (1 to 17), with a decimal point whatever the locale; for messages.
 [[nodiscard]] std::string number_text(double value, int digits);
 
 }  // namespace thinwall::core

@@ -10,7 +10,7 @@ namespace thinwall::coupling {
 
 namespace {
 
-/// Collects what is wrong, each with its contact.
+/// The list of faults of contacts, each with the names of its points, raised as one error.
 class Faults {
  public:
   template <typename Value>
@@ -51,7 +51,8 @@ void check(const Contact& contact, const ContactSpring& spring, Faults& faults) 
   }
 }
 
-/// Of a symmetric matrix scaled to a unit diagonal: whatever the units of its rows.
+/// The smallest eigenvalue of a symmetric matrix scaled to a unit diagonal, so that it does not depend on the units of
+/// the rows.
 double smallest_eigenvalue(const Eigen::MatrixXd& matrix) {
   Eigen::VectorXd scale = matrix.diagonal().cwiseAbs();
   for (double& size : scale) size = size > 0.0 ? 1.0 / std::sqrt(size) : 1.0;

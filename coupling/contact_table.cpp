@@ -10,8 +10,8 @@ namespace thinwall::coupling {
 
 namespace {
 
-/// Slope at row i (Fritsch & Butland 1984, Eq. 5; at the ends a parabola through three rows, held to the same sign and
-/// to three times the secant).
+/// The slope at row i (Fritsch & Butland 1984, Eq. 5). At the ends it is that of a parabola through three rows, limited
+/// to the sign of the secant and to three times its value, which keeps the cubic monotone.
 double slope(const Eigen::VectorXd& x, const Eigen::VectorXd& y, Eigen::Index i) {
   const Eigen::Index last = x.size() - 1;
   const auto step = [&](Eigen::Index k) { return x(k + 1) - x(k); };
@@ -30,7 +30,7 @@ double slope(const Eigen::VectorXd& x, const Eigen::VectorXd& y, Eigen::Index i)
   return before * after / (w * after + (1.0 - w) * before);
 }
 
-/// Hermite's cubic between the rows k and k + 1.
+/// The Hermite cubic between the rows k and k + 1, at `at`.
 double between_rows(const Eigen::VectorXd& x, const Eigen::VectorXd& y, Eigen::Index k, double at) {
   const double h = x(k + 1) - x(k), t = (at - x(k)) / h, u = 1.0 - t;
   return u * u * (1.0 + 2.0 * t) * y(k) + t * t * (1.0 + 2.0 * u) * y(k + 1) +

@@ -1,5 +1,5 @@
 #pragma once
-// All that coupling/ offers to other programs.
+// The headers of coupling/ that other programs may include.
 // Internal: coupled_line, kernel.
 
 #include "core/eigen_alignment.hpp"

@@ -15,7 +15,8 @@ using dynamics::Dof;
 using dynamics::DofTable;
 using dynamics::ResponseModel;
 
-/// Before the names of the known component's points while it is coupled: no name that was read from a file begins so.
+/// A prefix for the names of the known component's points while it is coupled. Names read from a file cannot begin with
+/// this character, so that no two points share a name.
 const std::string taken_out = "\x1f";
 
 bool has_point(const DofTable& dofs, const std::string& point) {
@@ -27,7 +28,7 @@ DofTable renamed(DofTable dofs) {
   return dofs;
 }
 
-/// The known component with the opposite sign.
+/// The known component with the opposite sign and prefixed names.
 ResponseModel negative(const ResponseModel& known) {
   ResponseModel model{known.axis, renamed(known.responses), renamed(known.forces), {}};
   model.H.reserve(known.H.size());
@@ -35,7 +36,7 @@ ResponseModel negative(const ResponseModel& known) {
   return model;
 }
 
-/// Throws unless the DOFs of the kind at the point span the DOF's direction.
+/// Throws InputError unless the DOFs of the same kind at the point span the DOF's direction.
 void require_motion(const DofTable& dofs, const Dof& dof, const std::string& whose) {
   Eigen::MatrixXd directions(3, 0);
   const Eigen::VectorXd wanted = dof.direction;
@@ -52,7 +53,7 @@ void require_motion(const DofTable& dofs, const Dof& dof, const std::string& who
                          ": measure it, or leave it out of the known component's table");
 }
 
-/// Both sides rigidly joined along every DOF of the known component at the points.
+/// Contacts that join both sides rigidly along every DOF of the known component at the points.
 std::vector<Contact> interface_contacts(const ResponseModel& assembly, const ResponseModel& known,
                                         const std::vector<std::string>& points) {
   std::vector<Contact> contacts;
@@ -73,7 +74,8 @@ std::vector<Contact> interface_contacts(const ResponseModel& assembly, const Res
   return contacts;
 }
 
-/// The points of the result: all of the assembly's that were asked for, and the known component's that it has not.
+/// The points of the result: those of the assembly that were asked for, and those of the known component that the
+/// assembly has not.
 std::vector<std::string> result_points(const ResponseModel& assembly, const ResponseModel& known,
                                        const std::vector<std::string>& wanted) {
   std::vector<std::string> points;
@@ -137,7 +139,7 @@ CoupledResponse remove_point_mass(const ResponseModel& assembly, const std::stri
     mass.H.emplace_back(unit * (-1.0 / (mass_kg * (omega > 0.0 ? omega * omega : 1.0))));
   }
   CoupledResponse rest = decouple(assembly, mass, {point}, {});
-  if (assembly.axis.hz(0) == 0.0) {  // a free mass has no receptance there, and no effect
+  if (assembly.axis.hz(0) == 0.0) {  // a free mass has no finite receptance at 0 Hz, and no effect
     rest.response.H.front() = assembly.H.front();
     rest.kernel_condition(0) = 1.0;
   }

@@ -31,7 +31,7 @@ void require_fitting(const std::vector<ComponentError>& errors, const std::vecto
   }
 }
 
-/// Calls visit(c, row, column) with the place of every component's block in Y.
+/// Calls visit(c, row, column) for every component c with the place of its block in Y.
 template <typename Visit>
 void for_blocks(const std::vector<ResponseModel>& components, std::size_t line, Visit visit) {
   Index row = 0, column = 0;
@@ -97,7 +97,7 @@ SampledScatter sampled_scatter(const std::vector<ResponseModel>& components, con
                                const CouplingOptions& options) {
   require_fitting(errors, components);
   if (samples < 2) throw core::InputError("error budget: " + std::to_string(samples) + " samples; take at least 2");
-  // Sums of differences from G without noise: nothing cancels.
+  // The sums are of differences from G without noise, so that the variance does not suffer from cancellation.
   const CoupledResponse exact = couple(components, contacts, options);
   const std::size_t lines = exact.response.H.size();
   const MatrixXcd none = MatrixXcd::Zero(exact.response.H[0].rows(), exact.response.H[0].cols());

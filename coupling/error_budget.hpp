@@ -1,5 +1,6 @@
 #pragma once
-// What the errors of the components make of a coupled response: scatter of measurements, truncation of reductions.
+// The error of a coupled response that follows from errors of the components: scatter of measurements and truncation of
+// reductions.
 
 #include <cstdint>
 #include <string>
@@ -10,35 +11,39 @@
 
 namespace thinwall::coupling {
 
-/// What is known of one component's errors, in the shape of its H, one matrix a line; empty: exact in that respect.
+/// The known errors of one component, in the shape of its H, one matrix for each frequency line; empty if it is exact
+/// in that respect.
 struct ComponentError {
-  Deviations noise{};                          ///< independent from entry to entry, line to line
+  Deviations noise{};                          ///< independent between entries and lines
   std::vector<Eigen::MatrixXcd> truncation{};  ///< model less truth, signed: of a reduction at lines where the full
                                                ///< model is known, or of rotations by differences
 };
 
-/// Of a coupled response, line by line over its entries; for a plot's bands.
+/// The errors of a coupled response over its lines and entries, for the bands of a plot.
 struct ErrorBudget {
   dynamics::DofTable responses, forces;
-  Deviations noise;                          ///< of real and imaginary part alike
+  Deviations noise;                          ///< the same for real and imaginary part
   std::vector<Eigen::MatrixXcd> truncation;  ///< signed
 };
 
-/// First order, dG = P dY Q (coupling/sensitivity.hpp). FRFs that are independent with deviations σ_kl give
+/// The errors of a coupled response to first order, dG = P dY Q (coupling/sensitivity.hpp; docs/theory/coupling.md, Eq.
+/// 21). Independent FRFs with deviations σ_kl give
 ///
 ///     σ²(G_ij) = Σ_kl |P_ik|² σ_kl² |Q_lj|²
 ///
-/// for real and imaginary part, uncorrelated, for a complex factor turns circular noise into circular noise; and a
-/// truncation P ΔY Q. An entry is outside of k deviations with probability e^{−k²/2}, as far as first order goes: the
-/// noise must be small beside the kernel's smallest singular value (sampled_scatter() tells). `errors`: one a
-/// component, in order. Throws InputError as couple(), or for errors of another shape. Cost lines · n³.
+/// for the real and for the imaginary part, uncorrelated, because multiplication by a complex factor leaves circular
+/// noise circular. The truncation is P ΔY Q. An entry deviates by more than k deviations with probability e^{−k²/2}.
+/// First order holds if the noise is small beside the kernel's smallest singular value; sampled_scatter() shows whether
+/// it is. `errors`: one for each component, in order. Throws InputError as couple() does, or for errors of another
+/// shape. Cost lines · n³.
 [[nodiscard]] ErrorBudget error_budget(const std::vector<dynamics::ResponseModel>& components,
                                        const std::vector<Contact>& contacts, const std::vector<ComponentError>& errors,
                                        const CouplingOptions& options = {});
 
-/// Covariance E[v vᴴ] of some entries v = (G_i1j1, G_i2j1, …), column by column over `responses` × `forces` (DOF
-/// names), first order, one matrix a line, (m/N)²: 2σ² on its diagonal. Entries of one G scatter together, which
-/// decides what a cut feels. E[v vᵀ] = 0. Errors and arguments as error_budget(), and InputError for unknown names.
+/// The covariance E[v vᴴ] of selected entries v = (G_i1j1, G_i2j1, …), column by column over `responses` × `forces`
+/// (DOF names), to first order, one matrix for each line, (m/N)²; its diagonal is 2σ². Entries of one G have correlated
+/// errors, and the correlation matters for their effect on a cut. E[v vᵀ] = 0. Arguments and errors are those of
+/// error_budget(); throws InputError for unknown names too.
 [[nodiscard]] std::vector<Eigen::MatrixXcd> entry_covariance(const std::vector<dynamics::ResponseModel>& components,
                                                              const std::vector<Contact>& contacts,
                                                              const std::vector<ComponentError>& errors,
@@ -46,17 +51,17 @@ struct ErrorBudget {
                                                              const std::vector<std::string>& forces,
                                                              const CouplingOptions& options = {});
 
-/// What G does when components are drawn again and again: its mean, and the covariance [rr ri; ri ii] of the real and
-/// imaginary part of every entry. Where it is not σ² I₂ of error_budget(), first order does not hold.
+/// The statistics of G over repeated draws of the components: its mean, and the covariance [rr ri; ri ii] of the real
+/// and imaginary part of every entry. If this differs from σ² I₂ of error_budget(), first order does not hold.
 struct SampledScatter {
   dynamics::DofTable responses, forces;
   std::vector<Eigen::MatrixXcd> mean;
   std::vector<Eigen::MatrixXd> rr, ri, ii;
 };
 
-/// Couples `samples` ≥ 2 draws H + σ (a + ib) (with_noise(), seeds from `seed` on); truncations take no part. A
-/// deviation from n draws is itself known to 1/√(2n). Errors as error_budget(); NumericalError where a draw makes the
-/// kernel singular. Cost: `samples` couplings.
+/// The scatter of G over `samples` ≥ 2 couplings of draws H + σ (a + ib) (with_noise(), with seeds from `seed` on);
+/// truncations are left out. A deviation estimated from n draws has itself the relative deviation 1/√(2n). Throws as
+/// error_budget() does, and NumericalError if a draw makes the kernel singular. Cost: `samples` couplings.
 [[nodiscard]] SampledScatter sampled_scatter(const std::vector<dynamics::ResponseModel>& components,
                                              const std::vector<Contact>& contacts,
                                              const std::vector<ComponentError>& errors, int samples, std::uint64_t seed,

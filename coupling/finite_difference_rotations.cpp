@@ -19,9 +19,10 @@ using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
-constexpr double unit_to = 1e-9;  ///< how far a direction may be off
+constexpr double unit_to = 1e-9;  ///< allowed error of a direction
 
-/// The rotation that is the slope along `axis` of the displacement along `direction`, about an axis that is positive.
+/// The rotation that equals, up to a sign, the slope along `axis` of the displacement along `direction`, about an axis
+/// whose largest component is positive.
 struct Slope {
   Eigen::Vector3d about;
   double sign;  ///< rotation = sign · slope
@@ -34,13 +35,13 @@ Slope slope(const Eigen::Vector3d& axis, const Eigen::Vector3d& direction) {
   const double sign = about(largest) < 0.0 ? -1.0 : 1.0;
   Slope found{sign * about, sign};
   for (double& component : found.about) {
-    if (std::abs(component) < unit_to) component = 0.0;  // so that it is named after its axis
+    if (std::abs(component) < unit_to) component = 0.0;  // an exact axis, so that the DOF is named after it
     if (std::abs(component - 1.0) < unit_to) component = 1.0;
   }
   return found;
 }
 
-/// Row of the displacement of `point` along `direction`; −1 and a fault if it is missing.
+/// The row of the displacement of `point` along `direction`; if it is missing, −1, and the fault is noted.
 Index find(const dynamics::DofTable& dofs, const std::string& point, const Eigen::Vector3d& direction,
            const std::string& of, core::Faults& faults) {
   for (std::size_t row = 0; row < dofs.size(); ++row) {
@@ -77,7 +78,7 @@ void check(const RotationOptions& options, core::Faults& faults) {
                         "uncertainty", "not be negative");
 }
 
-/// Rows or columns of the FRFs that are needed: for each direction the tip, then the point up the tool.
+/// The rows and columns of the FRFs that are needed: for each direction the tip, then the point up the tool.
 struct Needed {
   std::vector<Index> rows, columns;
 };
@@ -102,7 +103,7 @@ dynamics::DofTable tip_dofs(const DifferencePoints& points) {
   return dofs;
 }
 
-/// Q of all directions: displacement and rotation at the tip from both displacements.
+/// The matrix Q of all directions, which gives displacement and rotation at the tip from both displacements.
 MatrixXd differences(const DifferencePoints& points) {
   const auto directions = static_cast<Index>(points.directions.size());
   MatrixXd Q = MatrixXd::Zero(2 * directions, 2 * directions);
@@ -113,34 +114,37 @@ MatrixXd differences(const DifferencePoints& points) {
   return Q;
 }
 
-/// N L / H_11 of one direction's force and another's response; not finite where H_11 is zero and N L is not.
+/// The rank-one estimate N L / H_11 for the force in one direction and the response in another; it is not finite if
+/// H_11 is zero and N L is not.
 std::complex<double> rank_one(const Eigen::Matrix2cd& T) {
   const std::complex<double> product = T(1, 0) * T(0, 1);
   return product == 0.0 && T(0, 0) == 0.0 ? 0.0 : product / T(0, 0);
 }
 
-/// Standard deviation of N L / H: its derivatives by H_11, H_a1, H_1a, which are independent. `weight_i`: ±1/S.
+/// The standard deviation of N L / H from its derivatives by H_11, H_a1 and H_1a, which are independent. weight_i,
+/// weight_j: ±1/S.
 double rank_one_noise(const Eigen::Matrix2cd& T, double weight_i, double weight_j, const Eigen::Matrix2d& sigma) {
   const std::complex<double> H = T(0, 0), N = T(1, 0), L = T(0, 1);
-  if (H == 0.0) return 0.0;  // nothing there
+  if (H == 0.0) return 0.0;  // the estimate is zero or infinite, and has no derivative
   const std::complex<double> by_11 = -(weight_i * L + weight_j * N) / H - N * L / (H * H);
   return std::sqrt(std::norm(by_11 * sigma(0, 0)) + std::norm(weight_i * L / H * sigma(1, 0)) +
                    std::norm(weight_j * N / H * sigma(0, 1)));
 }
 
-/// Coefficients of what differences over S are off by.
+/// Coefficients of the truncation error of differences over S.
 struct Terms {
   double c_F, c_M, c_u, c_psi;
 };
 
-/// The leading terms of bending and of shear, which have opposite signs, and the signs of the rotations.
+/// The truncation error by its leading terms of bending and of shear, which have opposite signs, with the signs of the
+/// rotations.
 struct Truncation {
   Terms bending, shear;
   double S;
   Eigen::VectorXd sign;
 
   [[nodiscard]] MatrixXcd operator()(const MatrixXcd& T) const { return by(bending, T) + by(shear, T); }
-  /// Both without their cancellation.
+  /// The sum of the magnitudes of both terms, without their cancellation.
   [[nodiscard]] MatrixXd size(const MatrixXcd& T) const { return by(bending, T).cwiseAbs() + by(shear, T).cwiseAbs(); }
 
  private:
@@ -177,14 +181,15 @@ Truncation truncation(const DifferencePoints& points, const dynamics::Tube& tube
   return t;
 }
 
-/// One line on its way: T by the second difference, the deviations of the FRFs (or empty), those of T.
+/// One frequency line in progress: T by the second difference, the deviations of the FRFs (or empty), and those of T.
 struct Line {
   double hz;
   MatrixXcd T;
   MatrixXd sigma, noise;
 };
 
-/// Distance of both rules; P by rank one where that is the rule.
+/// Replaces P by its rank-one estimate if that is the rule; returns the distance between both rules in the entries of
+/// P.
 MatrixXd apply_rank_one(const MatrixXd& Q, RotationRule rule, Line& line) {
   MatrixXd defect = MatrixXd::Zero(line.T.rows(), line.T.cols());
   for (Index i = 0; i < defect.rows(); i += 2) {
@@ -207,7 +212,8 @@ MatrixXd apply_rank_one(const MatrixXd& Q, RotationRule rule, Line& line) {
   return defect;
 }
 
-/// Notes the truncation of the second difference T and its uncertainty; what a correction has to take off, if any.
+/// Notes the truncation of the second difference T and its uncertainty, and returns what a correction must subtract
+/// (zero if none was asked for).
 MatrixXcd truncate(const Truncation& truncation, const RotationOptions& options, const MatrixXcd& T,
                    RotationErrors& errors) {
   const MatrixXcd first = truncation(T);

@@ -14,7 +14,8 @@ namespace {
   throw core::InputError("noise of measured responses: " + what);
 }
 
-/// Throws unless there is one matrix a line of the shape of H, and every entry is within the bound that `within` tells.
+/// Throws InputError unless there is one matrix for each line with the shape of H and within(entry) is true for every
+/// entry; `bound` describes that condition in the message.
 template <typename Within>
 void require_entries(const std::vector<Eigen::MatrixXd>& values, const dynamics::ResponseModel& model,
                      const std::string& name, const std::string& bound, Within within) {

@@ -20,14 +20,14 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double quantile_95 = 1.959963984540054;
 constexpr int most_passes = 20;
 
-/// What was measured, in the contact's directions: n × n a line.
+/// The measured receptances in the contact's directions, an n × n matrix for each line.
 struct Measured {
   std::vector<Eigen::MatrixXcd> H_PP, H_aP, H_Pb, H_ab, H_RR, G_ab;
   Eigen::VectorXd omega;
-  bool same_response = false, same_force = false;  ///< a' = P, b' = P: then some of these are one measurement
+  bool same_response = false, same_force = false;  ///< a' = P, b' = P: some of these are then the same measurement
 };
 
-/// The relative noise of one measured matrix, over its lines.
+/// The relative noise of one measured matrix at a line, from one value for all lines or one for each.
 double at(const Eigen::VectorXd& values, Eigen::Index line) {
   return values.size() == 1 ? values(0) : values(line);
 }
@@ -78,7 +78,7 @@ Measured measured(const ResponseModel& part, const ResponseModel& robot, const R
   return all;
 }
 
-/// Eq. 16; NaN where H − G or its S cannot be inverted.
+/// The joint's stiffness at a line by docs/theory/coupling.md, Eq. 16; NaN if H − G or its S cannot be inverted.
 Eigen::MatrixXcd stiffness(const Measured& data, std::size_t line) {
   const Eigen::Index n = data.H_PP[line].rows();
   Eigen::MatrixXcd none = Eigen::MatrixXcd::Constant(n, n, Complex(nan, nan));
@@ -89,15 +89,15 @@ Eigen::MatrixXcd stiffness(const Measured& data, std::size_t line) {
   return compliance.isInvertible() ? Eigen::MatrixXcd(compliance.inverse()) : none;
 }
 
-/// A measured matrix X and how its error moves the joint's compliance: δ(Z⁻¹) = Σ left δX right.
+/// A measured matrix X with the effect of its error on the joint's compliance, δ(Z⁻¹) = Σ left δX right.
 struct Source {
   const Eigen::MatrixXcd& X;
   double relative_noise;
   std::vector<std::pair<Eigen::MatrixXcd, Eigen::MatrixXcd>> terms{};
 };
 
-/// Of one line, at the joint's stiffness Z (Eq. 17). A measurement that stands in several places, as H_PP does if the
-/// assembly was measured at P, is one source.
+/// The error sources of one line, at the joint's stiffness Z (docs/theory/coupling.md, Eq. 17). A measurement that
+/// enters at several places, as H_PP does if the assembly was measured at P, is one source.
 std::vector<Source> sources(const Measured& data, Eigen::Index index, const Eigen::MatrixXcd& Z,
                             const RelativeNoise& noise) {
   const auto line = static_cast<std::size_t>(index);
@@ -120,7 +120,7 @@ std::vector<Source> sources(const Measured& data, Eigen::Index index, const Eige
   return all;
 }
 
-/// Standard deviation of (Z + Zᵀ)/2 by all sources, δZ = −Z δ(Z⁻¹) Z.
+/// The standard deviation of (Z + Zᵀ)/2 due to all sources, with δZ = −Z δ(Z⁻¹) Z.
 Eigen::MatrixXd spread(const std::vector<Source>& sources, const Eigen::MatrixXcd& Z) {
   const Eigen::Index n = Z.rows();
   Eigen::MatrixXd variance = Eigen::MatrixXd::Zero(n, n);
@@ -139,7 +139,7 @@ Eigen::MatrixXd spread(const std::vector<Source>& sources, const Eigen::MatrixXc
   return variance.cwiseSqrt();
 }
 
-/// K, C, D of one entry and what is known of their errors.
+/// The fitted K, C, D of one entry with their variances.
 struct EntryFit {
   double K = nan, C = 0.0, D = 0.0;
   double K_variance = 0.0, C_variance = 0.0, D_variance = 0.0;
@@ -147,7 +147,8 @@ struct EntryFit {
   int lines = 0;
 };
 
-/// Weighted mean of Re z and weighted least squares of Im z = D + ωC over the lines where used.
+/// The weighted mean of Re z, and the weighted least-squares fit of Im z = D + ωC, over the lines with a spread above
+/// zero. ω is divided by its largest value, which keeps the normal equations well conditioned.
 EntryFit fit(const Eigen::VectorXd& omega, const Eigen::VectorXcd& z, const Eigen::VectorXd& spread,
              const IdentificationOptions& options) {
   const int of_loss = (options.viscous ? 1 : 0) + (options.structural ? 1 : 0);
@@ -159,7 +160,7 @@ EntryFit fit(const Eigen::VectorXd& omega, const Eigen::VectorXcd& z, const Eige
   for (Eigen::Index line = 0; line < omega.size(); ++line) {
     if (!(spread(line) > 0.0)) continue;
     ++result.lines;
-    const double weight = 2.0 / (spread(line) * spread(line));  // half the variance is the real part's
+    const double weight = 2.0 / (spread(line) * spread(line));  // half of the variance belongs to the real part
     const Eigen::Vector2d basis(options.viscous ? omega(line) / unit : 0.0, options.structural ? 1.0 : 0.0);
     weights += weight;
     real += weight * z(line).real();
@@ -198,7 +199,8 @@ Eigen::MatrixXcd at_frequency(const JointMatrices& joint, double omega) {
   return Z;
 }
 
-/// Where to begin: the middle value of |Re Z| of every entry, without loss.
+/// The first values of the iteration: the median of Re Z of every entry, without loss. A median is not affected by the
+/// few lines near singularities where Z has no digits.
 JointMatrices first_guess(const std::vector<Eigen::MatrixXcd>& Z) {
   const Eigen::Index n = Z.front().rows();
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(n, n);
@@ -218,13 +220,13 @@ JointMatrices first_guess(const std::vector<Eigen::MatrixXcd>& Z) {
   return guess;
 }
 
-/// One pass: the spreads at `joint`, then every entry's fit.
+/// The fit over the band, which alternates between the spreads at the fitted joint and the fit with weights from them.
 class Band {
  public:
   Band(const Measured& data, const IdentificationOptions& options, IdentifiedJoint& result)
       : data_(data), options_(options), result_(result) {}
 
-  /// Returns how far a value moved beside its half width.
+  /// Makes one pass; returns the largest change of a value relative to its half width.
   double pass();
 
  private:
@@ -308,7 +310,7 @@ void require_valid(const IdentificationOptions& options, Eigen::Index lines) {
   if (faults.tellp() > 0) throw core::InputError(faults.str());
 }
 
-/// From the scaled directions to the contact's own units, Z ← Λ Z Λ.
+/// Converts results from the scaled directions to the contact's own units, Z ← Λ Z Λ.
 void scale_back(const Joints& joints, IdentifiedJoint& result) {
   Eigen::VectorXd scale(joints.size());
   for (Eigen::Index i = 0; i < scale.size(); ++i) scale(i) = joints.directions[static_cast<std::size_t>(i)].scale;

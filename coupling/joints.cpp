@@ -16,7 +16,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// The springs' own values, or the contact's matrices, into the contact's block.
+/// Writes the springs' own values, or the contact's matrices, to the contact's block of K, C and D.
 void set_block(const Contact& contact, Eigen::Index first, Joints& joints) {
   const auto size = static_cast<Eigen::Index>(contact.springs.size());
   const auto block = [&](Eigen::MatrixXd& matrix) { return matrix.block(first, first, size, size); };

@@ -8,7 +8,7 @@ namespace thinwall::coupling {
 
 namespace {
 
-/// ‖ D⁻¹ |S⁺| magnitude D ‖_∞ with D = diag(magnitude)^−½; `row_sums` is workspace.
+/// The Skeel condition ‖ D⁻¹ |S⁺| magnitude D ‖_∞ with D = diag(magnitude)^−½; `row_sums` is workspace.
 double skeel_condition(const Eigen::MatrixXcd& S_inverse, const Eigen::MatrixXd& magnitude, Eigen::VectorXd& row_sums) {
   const auto root = [&](Eigen::Index i) { return magnitude(i, i) > 0.0 ? std::sqrt(magnitude(i, i)) : 1.0; };
   row_sums.setZero(magnitude.rows());
@@ -59,7 +59,7 @@ KernelLine Kernel::solve(const Eigen::MatrixXcd& S, const Eigen::MatrixXd& magni
     }
   }
   line.condition = skeel_condition(S_inverse_, magnitude, row_sums_);
-  // a pivot of zero leaves no finite inverse; of a kernel of zeros nothing is left
+  // A pivot of zero gives an inverse that is not finite, and a kernel of zeros gives the condition 0.
   if (!(line.condition > 0.0 && std::isfinite(line.condition)))
     line.condition = std::numeric_limits<double>::infinity();
   return line;

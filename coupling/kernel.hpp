@@ -1,39 +1,41 @@
 #pragma once
-// The kernel of the receptance route, solved line by line, and what solving it cost.
+// The kernel of the receptance route, solved line by line, with the condition of each solution.
 
 #include "core/dense_factorisations.hpp"
 
 namespace thinwall::coupling {
 
-/// What becomes of small singular values of the kernel (docs/theory/coupling.md, Eq. 8).
+/// The treatment of small singular values of the kernel (docs/theory/coupling.md, Eq. 8).
 enum class Regularisation {
-  none,       ///< the kernel as it is; a singular one is refused
+  none,       ///< the kernel is used as it is; a singular one is an error
   truncated,  ///< singular values up to `threshold` times the largest are left out
   tikhonov,   ///< 1/σ → σ/(σ² + μ²), μ = `threshold` times the largest
 };
 
-/// What became of one line.
+/// The condition and regularisation of one line.
 struct KernelLine {
-  double condition = 1.0;               ///< Skeel's, of what was solved
-  int dropped = 0;                      ///< singular values left out; by Tikhonov: those with σ < μ, more than halved
-  double compatibility_residual = 0.0;  ///< largest relative gap that is left: |r − S S⁺r| / |r| over the columns r
+  double condition = 1.0;               ///< Skeel condition of what was solved
+  int dropped = 0;                      ///< singular values left out, or more than halved by Tikhonov's rule (σ < μ)
+  double compatibility_residual = 0.0;  ///< largest |r − S S⁺r| / |r| over the columns r
 };
 
-/// S X = R for one small kernel S (m × m) after another, in storage that stays. With the singular values σ of S = U Σ
-/// Vᴴ and the regularisation f(σ) in place of 1/σ, S⁺ = V f(Σ) Uᴴ; without one S⁺ = S⁻¹ by LU. All
-/// rows and columns must have one unit (coupling/joints.hpp).
+/// A solver of S X = R for one small kernel S (m × m) after another, in storage that is kept. With the singular value
+/// decomposition S = U Σ Vᴴ and a regularisation f(σ) in place of 1/σ, S⁺ = V f(Σ) Uᴴ; without regularisation S⁺ = S⁻¹
+/// by LU. All rows and columns must have the same unit (coupling/joints.hpp), because singular values compare them.
 ///
-/// The condition is Skeel's, ‖ D⁻¹ |S⁺| magnitude D ‖_∞, magnitude the sum of the moduli of the terms that S is the sum
-/// of (Higham 2002, section 7.2): the factor by which a relative error of the terms may grow, cancellation in S
-/// included. D = diag(magnitude)^−½ makes it independent of the units of the directions. Infinite for a singular kernel
-/// without regularisation, and for a kernel that is zero.
+/// The condition is Skeel's, ‖ D⁻¹ |S⁺| magnitude D ‖_∞, where `magnitude` is the sum of the moduli of the terms whose
+/// sum is S (Higham 2002, section 7.2): the factor by which a relative error of the terms may grow, including
+/// cancellation in S. D = diag(magnitude)^−½ makes it independent of the units of the directions. It is infinite for a
+/// singular kernel without regularisation, and for a kernel that is zero.
 ///
-/// Cost m³ and m² columns of R; with a regularisation some ten times as much. No allocation after the first line.
+/// Cost m³ + m² · columns of R; with a regularisation about ten times as much. Nothing is allocated after the first
+/// line.
 class Kernel {
  public:
   Kernel(Regularisation regularisation, double threshold) : regularisation_(regularisation), threshold_(threshold) {}
 
-  /// Solves one line; see above for `magnitude`. What is found is in solution() and inverse() until the next.
+  /// Solves one line, with `magnitude` as described above. The results are in solution() and inverse() until the next
+  /// call.
   KernelLine solve(const Eigen::MatrixXcd& S, const Eigen::MatrixXd& magnitude, const Eigen::MatrixXcd& R);
 
   [[nodiscard]] const Eigen::MatrixXcd& solution() const { return X_; }         ///< S⁺ R

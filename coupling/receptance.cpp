@@ -16,10 +16,10 @@ using dynamics::ResponseModel;
 
 constexpr double ill_conditioned_above = 1e8;
 
-/// Lines that one task works through with one workspace.
+/// Number of frequency lines that one task computes with one workspace.
 constexpr Eigen::Index block_lines = 64;
 
-/// ε |P| |Y| |Q| of the line that was coupled last.
+/// The error bound ε |P| |Y| |Q| of the line that was coupled last.
 Eigen::MatrixXd error_bound(const CoupledLine& work, const std::vector<Interface>& parts, std::size_t line,
                             double epsilon) {
   Eigen::MatrixXd bound;
@@ -33,7 +33,8 @@ Eigen::MatrixXd error_bound(const CoupledLine& work, const std::vector<Interface
 }
 
 KernelStatus status_of(const CoupledResponse& coupled, Regularisation regularisation) {
-  // Tikhonov's changes every singular value, those above its bound a little.
+  // Tikhonov's rule changes every singular value, those above its bound a little, so that nothing need be dropped for
+  // the result to be regularised.
   if (coupled.dropped.any() || regularisation == Regularisation::tikhonov) return KernelStatus::regularised;
   if (coupled.kernel_condition.maxCoeff() > ill_conditioned_above) return KernelStatus::ill_conditioned;
   return KernelStatus::well_conditioned;

@@ -1,5 +1,5 @@
 #pragma once
-// How far the two routes are apart.
+// The difference between the results of the spatial and the receptance route.
 
 #include <string>
 
@@ -7,21 +7,21 @@
 
 namespace thinwall::coupling {
 
-/// The largest difference, and where it occurs.
+/// The largest relative difference, with its frequency and entry.
 struct RouteDifference {
   double max_relative = 0.0;
   double at_frequency_hz = 0.0;
   std::string entry;  ///< "xy": response along x, force along y; over several points "P.x/Q.y"
 };
 
-/// max over lines and entries of |G_spatial − G_receptance| / (largest |G_spatial| of that line), between the
+/// The largest |G_spatial − G_receptance| / (largest |G_spatial| of that line) over lines and entries, between the
 /// translations of `response_point` and `force_point` (nine entries for a full table). Throws InputError if axes or
 /// tables differ, NumericalError if a value is not finite. Cost lines · entries.
 [[nodiscard]] RouteDifference route_difference(const dynamics::ResponseModel& spatial,
                                                const dynamics::ResponseModel& receptance,
                                                const std::string& response_point, const std::string& force_point);
 
-/// The same over every entry of both tables.
+/// The largest relative difference over every entry of both tables.
 [[nodiscard]] RouteDifference route_difference(const dynamics::ResponseModel& spatial,
                                                const dynamics::ResponseModel& receptance);
 

@@ -61,7 +61,7 @@ void require_joinable(const std::vector<SpatialModel>& components) {
   require_different_points(tables);
 }
 
-/// B over the coordinates of the whole: the opening of direction j is B.col(j)·y.
+/// The matrix B over the coordinates of all components: the opening of direction j is B.col(j)·y.
 Eigen::MatrixXd openings(const SpatialModel& all, const Joints& joints) {
   Eigen::MatrixXd B(all.size(), joints.size());
   for (Eigen::Index j = 0; j < joints.size(); ++j) {
@@ -72,20 +72,20 @@ Eigen::MatrixXd openings(const SpatialModel& all, const Joints& joints) {
   return B;
 }
 
-/// True if k in the sum K_ii + k b_i² would push out digits of K_ii.
+/// True if some sum K_ii + k b_i² would lose digits of K_ii, because the added term is the larger one.
 bool outweighs(double k, const Eigen::VectorXd& b, const Eigen::MatrixXd& K) {
   const Eigen::ArrayXd added = k * b.array().square();
   return (b.array() != 0.0 && added > K.diagonal().array().abs()).any();
 }
 
-/// Which directions become coordinates, the rigid ones first, and which coordinate each replaces.
+/// The directions whose opening becomes a coordinate, rigid ones first, and the coordinate that each replaces.
 struct Elimination {
   std::vector<Eigen::Index> directions;
   std::vector<Eigen::Index> replaced;
 };
 
-/// The largest entry of the columns `candidates` of the reduced B; of equal ones in a column the last, which belongs to
-/// the last component.
+/// The largest entry among the columns `candidates` of the reduced B. Of equal entries in a column the last one is
+/// taken, which belongs to the last component.
 struct Pivot {
   Eigen::Index direction = 0;
   Eigen::Index coordinate = 0;
@@ -101,8 +101,8 @@ Pivot largest_pivot(const Eigen::MatrixXd& B, const std::vector<Eigen::Index>& c
   return largest;
 }
 
-/// Gaussian elimination with full pivoting of the candidates' rows of Bᵀ, as far as they are independent; `B` holds all
-/// of them, reduced by what was eliminated before, and is reduced further; what is no larger than `dependent` is
+/// Makes Gaussian elimination with full pivoting of the candidates' rows of Bᵀ, as far as they are independent. `B`
+/// holds all columns, reduced by what was eliminated before, and is reduced further; entries up to `dependent` count as
 /// round-off.
 void eliminate(std::vector<Eigen::Index> candidates, double dependent, Eigen::MatrixXd& B, Elimination& elimination) {
   while (!candidates.empty()) {
@@ -116,8 +116,8 @@ void eliminate(std::vector<Eigen::Index> candidates, double dependent, Eigen::Ma
   }
 }
 
-/// Rigid directions first, since they must all be eliminated; then those that would outweigh the components' entries.
-/// The others do no harm where they are.
+/// The elimination of a coupling. Rigid directions come first, because all of them must be eliminated; then those whose
+/// stiffness would outweigh the components' entries. The others lose no digits when added to the entries.
 Elimination eliminate(const Joints& joints, Eigen::MatrixXd B, const Eigen::MatrixXd& K) {
   std::vector<Eigen::Index> rigid, stiff;
   for (Eigen::Index j = 0; j < joints.size(); ++j) {
@@ -147,7 +147,7 @@ std::vector<Eigen::Index> others(Eigen::Index n, const std::vector<Eigen::Index>
   return kept;
 }
 
-/// T of y = T (u, d), over all openings, also those of rigid directions (which stand first among the openings).
+/// The matrix T of y = T (u, d), with all openings d, also those of rigid directions, which stand first among them.
 Eigen::MatrixXd opening_coordinates(const Eigen::MatrixXd& B, const Elimination& elimination,
                                     const std::vector<Eigen::Index>& kept) {
   const Eigen::Index n = B.rows();
@@ -162,8 +162,8 @@ Eigen::MatrixXd opening_coordinates(const Eigen::MatrixXd& B, const Elimination&
   return T;
 }
 
-/// O K_z Oᵀ and its like, O the openings over (u, d): a unit vector for a direction with an opening of its own, Tᵀb for
-/// the others. Rigid directions have no K_z.
+/// Adds O K_z Oᵀ to K, and likewise for C and D, with O the openings over (u, d): a unit vector for a direction whose
+/// opening is a coordinate, Tᵀb for the others. K_z is zero for rigid directions.
 void add_joints(const Joints& joints, const Eigen::MatrixXd& B, const Elimination& elimination,
                 Eigen::Index first_opening, const Eigen::MatrixXd& T, SpatialModel& model) {
   Eigen::MatrixXd O = T.transpose() * B;

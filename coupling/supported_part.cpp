@@ -6,6 +6,7 @@ namespace {
 
 using dynamics::SpatialModel;
 
+/// The matrix [matrix, border; borderᵀ, 0].
 Eigen::MatrixXd bordered(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& border) {
   const Eigen::Index n = matrix.rows(), m = border.cols();
   Eigen::MatrixXd joined = Eigen::MatrixXd::Zero(n + m, n + m);

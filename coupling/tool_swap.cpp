@@ -31,10 +31,10 @@ std::vector<std::string> names(const DofTable& dofs) {
   return all;
 }
 
-/// Rows of the measured DOFs in the tool's table, scaled like it.
+/// The rows and columns of the measured DOFs in the tool's tables, with their scales.
 struct Measured {
   std::vector<int> rows, columns;
-  Eigen::VectorXd scale;  ///< 1, `length` for a rotation
+  Eigen::VectorXd scale;  ///< 1 for a translation, `length` for a rotation
 };
 
 Measured measured_dofs(const ResponseModel& measured, const HeldTool& tool, double length, core::Faults& faults) {
@@ -63,7 +63,7 @@ Measured measured_dofs(const ResponseModel& measured, const HeldTool& tool, doub
   return found;
 }
 
-/// Motions of the root along the joint's directions, rotations scaled: a column a direction.
+/// The motions of the root along the joint's directions, one column for each, rotations scaled.
 MatrixXd root_columns(const DofTable& dofs, const Joints& joints) {
   MatrixXd B(static_cast<Index>(dofs.size()), joints.size());
   for (Index j = 0; j < joints.size(); ++j) {
@@ -85,6 +85,7 @@ DofTable holder_dofs(const Contact& joint) {
   return dofs;
 }
 
+/// Throws InputError if the measured response equals that of the free tool at every line.
 void require_held(const ResponseModel& measured, const ResponseModel& free, const Measured& of) {
   for (std::size_t line = 0; line < measured.H.size(); ++line) {
     const MatrixXcd T_A = free.H[line](of.rows, of.columns);
@@ -95,14 +96,14 @@ void require_held(const ResponseModel& measured, const ResponseModel& free, cons
       "machine");
 }
 
-/// What one line needs of tool and joint.
+/// The data of tool and joint that every line needs.
 struct Inverse {
   Measured at_1;
   Joints joint;
   MatrixXd B_response, B_force;  ///< root_columns()
 };
 
-/// T^B of one line with what it follows by, `left` and `right`; the condition of what was solved.
+/// Computes T^B of one line and its derivative factors `left` and `right`; returns the condition of what was solved.
 double invert_line(const Inverse& of, const MatrixXcd& T_A, const MatrixXcd& T_C, double omega, MatrixXcd& T_B,
                    MatrixXcd& left, MatrixXcd& right) {
   const auto to_length = of.at_1.scale.asDiagonal();

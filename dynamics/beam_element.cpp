@@ -8,7 +8,7 @@ namespace thinwall::dynamics {
 
 namespace {
 
-/// Bending in one plane: EI, κGA, and the shear's share ϕ = 12EI/κGAL².
+/// Constants of bending in one plane: EI, κGA, and the ratio ϕ = 12EI/κGAL² of shear to bending flexibility.
 struct Bending {
   double EI;
   double GA;
@@ -27,7 +27,8 @@ Bending in_xz(const BeamSection& s, double L) {
   return {EI, GA, 12.0 * EI / (GA * L * L)};
 }
 
-/// Places a 2 × 2 matrix of (v, θ_z) and one of (w, −θ_y) among six components.
+/// The 6 × 6 matrix with a 2 × 2 matrix of (v, θ_z), one of (w, −θ_y), and the entries for stretching and torsion at
+/// their places.
 Matrix6 placed(double stretching, double torsion, const Eigen::Matrix2d& xy, const Eigen::Matrix2d& xz) {
   Matrix6 six = Matrix6::Zero();
   six(0, 0) = stretching;
@@ -143,7 +144,7 @@ Matrix12 beam_stiffness(const BeamSection& s, double L) {
 Matrix12 beam_mass(const BeamSection& s, double L) {
   Eigen::Vector<double, 6> Q;
   Q << Eigen::Vector3d::Constant(s.area_m2), s.I_y_m4 + s.I_z_m4, s.I_y_m4, s.I_z_m4;
-  // Gauss & Legendre's four points: exact to degree 7, and the integrand is of degree 6.
+  // Gauss-Legendre quadrature with four points is exact to degree 7; the integrand has degree 6.
   const double inner = std::sqrt(3.0 / 7.0 - 2.0 / 7.0 * std::sqrt(1.2));
   const double outer = std::sqrt(3.0 / 7.0 + 2.0 / 7.0 * std::sqrt(1.2));
   const double more = (18.0 + std::sqrt(30.0)) / 72.0;

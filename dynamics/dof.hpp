@@ -1,5 +1,6 @@
 #pragma once
-// The table that says which row of a matrix is which. A DOF is named once it leaves the stage that numbered it.
+// Named degrees of freedom (DOFs), and tables that state which row of a matrix belongs to which of them. Outside of the
+// stage that numbered it, a DOF is always known by its name.
 
 #include <Eigen/Core>
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace thinwall::dynamics {
 
-/// What moves.
+/// The kind of motion that a DOF measures.
 enum class DofKind {
   translation,  ///< displacement of a point along `direction`; unit m
   rotation,     ///< rotation of a point about `direction`; unit rad
@@ -22,13 +23,13 @@ struct Dof {
   DofKind kind = DofKind::translation;
 };
 
-/// The DOFs of rows or columns, in order.
+/// The DOFs of the rows or columns of a matrix, in order.
 using DofTable = std::vector<Dof>;
 
-/// "P.x", "R.rz", "P.(0.6,0.8,0)", "mode 3".
+/// The name of a DOF: "P.x", "R.rz", "P.(0.6,0.8,0)", "mode 3".
 [[nodiscard]] std::string name(const Dof& dof);
 
-/// "m", "rad" or "1".
+/// The unit of a DOF's amplitude: "m", "rad" or "1".
 [[nodiscard]] std::string unit(const Dof& dof);
 
 /// The three translations x, y, z of a point.
@@ -37,25 +38,26 @@ using DofTable = std::vector<Dof>;
 /// The three translations x, y, z of a point, then its rotations rx, ry, rz.
 [[nodiscard]] DofTable six_dofs(const std::string& point);
 
-/// Unit vector of "x", "-y", "z"; throws InputError for anything else.
+/// The unit vector of "x", "y", "z", "-x", "-y" or "-z". Throws InputError for anything else.
 [[nodiscard]] Eigen::Vector3d axis(const std::string& letter);
 
-/// Rows of the DOFs that belong to `point`, in table order; throws InputError (naming the nearest point) if there are
-/// none.
+/// The rows of the DOFs that belong to `point`, in table order; modal amplitudes belong to no point. Throws InputError
+/// that names the nearest point if there are none.
 [[nodiscard]] std::vector<int> rows_of_point(const DofTable& dofs, const std::string& point);
 
-/// Row of the DOF named "P.x" (see name()); throws InputError with the nearest name if there is none.
+/// The row of the DOF named `dof_name`, as "P.x" (see name()). Throws InputError with the nearest name if there is
+/// none.
 [[nodiscard]] int row_of(const DofTable& dofs, const std::string& dof_name);
 
-/// Row vector b with b·q = n·u_point: the displacement of `point` along n (unit vector), or its rotation about n where
-/// `kind` says so, from the DOF amplitudes q. Shape: dofs.size(). Throws InputError if the point has no DOF of that
-/// kind.
+/// The row vector b with b·q = n·u_point: the displacement of `point` along the unit vector n as a function of the DOF
+/// amplitudes q, or its rotation about n if `kind` says so. Shape: dofs.size(). Throws InputError if the point has no
+/// DOF of that kind.
 [[nodiscard]] Eigen::VectorXd displacement_row(const DofTable& dofs, const std::string& point, const Eigen::Vector3d& n,
                                                DofKind kind = DofKind::translation);
 
-/// D of u_point = D q: column i holds the direction of DOF i where that is a translation of `point`, zeros elsewhere.
-/// Shape: 3 × dofs.size(); its rows are displacement_row() along x, y, z. A point that has rotations only does not
-/// move: D = 0. Throws InputError (naming the nearest point) if no DOF belongs to the point.
+/// The matrix D of u_point = D q: column i holds the direction of DOF i if that is a translation of `point`, zeros
+/// otherwise. Shape: 3 × dofs.size(); its rows are displacement_row() along x, y, z. For a point that has rotations
+/// only, D = 0. Throws InputError that names the nearest point if no DOF belongs to the point.
 [[nodiscard]] Eigen::Matrix3Xd displacement_matrix(const DofTable& dofs, const std::string& point);
 
 }  // namespace thinwall::dynamics

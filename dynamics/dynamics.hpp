@@ -1,5 +1,5 @@
 #pragma once
-// All that dynamics/ offers to other programs.
+// The headers of dynamics/ that other programs may include.
 // Internal: motion_words.
 
 #include "core/eigen_alignment.hpp"

@@ -21,7 +21,7 @@ void require_range(double from_hz, double to_hz, int lines, bool from_zero) {
   throw core::InputError(text.str());
 }
 
-/// "both cover 10 to 500 Hz", or that there is nothing to bring to one axis.
+/// The advice of an error message: the band that both axes cover, or the statement that there is none.
 std::string overlap(const FrequencyAxis& a, const FrequencyAxis& b) {
   if (a.size() == 0 || b.size() == 0) return "one of them is empty";
   const double from = std::max(a.hz(0), b.hz(0)), to = std::min(a.hz(a.size() - 1), b.hz(b.size() - 1));

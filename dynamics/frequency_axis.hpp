@@ -11,21 +11,22 @@ struct FrequencyAxis {
 
   /// Number of lines.
   [[nodiscard]] Eigen::Index size() const { return hz.size(); }
-  /// 2π times the frequency of a line, rad/s.
+  /// Angular frequency of a line, rad/s.
   [[nodiscard]] double omega_rad_s(Eigen::Index line) const;
 };
 
 /// `lines` frequencies from `from_hz` to `to_hz`, evenly spaced. Throws InputError unless 0 ≤ from < to and lines ≥ 2.
 [[nodiscard]] FrequencyAxis linear_axis(double from_hz, double to_hz, int lines);
 
-/// The same, evenly spaced in the logarithm; from_hz > 0.
+/// `lines` frequencies from `from_hz` to `to_hz`, evenly spaced in their logarithm. Throws InputError unless 0 < from <
+/// to and lines ≥ 2.
 [[nodiscard]] FrequencyAxis logarithmic_axis(double from_hz, double to_hz, int lines);
 
 /// True if both axes are equal line by line (relative 1e-12).
 [[nodiscard]] bool equal(const FrequencyAxis& a, const FrequencyAxis& b);
 
-/// Throws InputError unless both axes are equal line by line (relative 1e-12): FRFs on different axes never meet. The
-/// message says over which band the two overlap, if they do.
+/// Throws InputError unless both axes are equal line by line (relative 1e-12), because FRFs on different axes must not
+/// be combined. The message states the band that both cover, if there is one.
 void require_equal(const FrequencyAxis& a, const FrequencyAxis& b);
 
 }  // namespace thinwall::dynamics

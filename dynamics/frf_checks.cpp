@@ -26,14 +26,14 @@ void require_measured(const ResponseModel& model) {
   }
 }
 
-/// First line at or above from_hz and above 0 Hz.
+/// The first line at or above from_hz and above 0 Hz.
 Eigen::Index first_line(const FrequencyAxis& axis, double from_hz) {
   Eigen::Index line = 0;
   while (line < axis.size() && (axis.hz(line) < from_hz || axis.hz(line) <= 0.0)) ++line;
   return line;
 }
 
-/// The matrix between the driving points, forces turned into the responses' directions.
+/// The FRF matrix between the driving points at one line, with forces turned into the responses' directions.
 Eigen::MatrixXcd block(const ResponseModel& model, const std::vector<Collocated>& points, Eigen::Index line) {
   const auto n = static_cast<Eigen::Index>(points.size());
   Eigen::MatrixXcd B(n, n);
@@ -47,7 +47,8 @@ Eigen::MatrixXcd block(const ResponseModel& model, const std::vector<Collocated>
   return B;
 }
 
-/// The largest value that it and both its neighbours reach, and its line; the largest alone where there are fewer.
+/// The largest value that a line and both its neighbours reach, and that line; with fewer than three lines, the largest
+/// value. A single line of noise does not count.
 struct Run {
   double value = 0.0;
   Eigen::Index line = 0;
@@ -72,8 +73,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The sign by which Re H changes through the resonance around `line`, over the lines on which |Im H| is at least half
-/// as large as there, one neighbour at least.
+/// The change of Re H through the resonance around `line`: over the neighbouring lines on which |Im H| is at least half
+/// its value there, and over one neighbour on each side at least. Only its sign is used.
 double change_of_real_part(const Eigen::VectorXcd& H, Eigen::Index line) {
   const double half = 0.5 * std::abs(H(line).imag());
   Eigen::Index below = line;
@@ -107,7 +108,7 @@ DrivingPointSign sign_of(const ResponseModel& model, const Collocated& point, Ei
   return sign;
 }
 
-/// Largest eigenvalue of A = (B − Bᴴ)/(2i) with its vector.
+/// The largest eigenvalue of A = (B − Bᴴ)/(2i) and the index of the largest entry of its vector.
 struct LargestEigenvalue {
   double value = 0.0;
   Eigen::Index largest_part = 0;
@@ -126,7 +127,7 @@ LargestEigenvalue largest_eigenvalue(const Eigen::MatrixXcd& B) {
 constexpr Eigen::Index half_window = 10;
 constexpr Eigen::Index least_lines = 25;
 
-/// The values within half_window of line k.
+/// The median of value(i) over the lines i within half_window of line k.
 template <typename Value>
 double window_median(Eigen::Index lines, Eigen::Index k, Value value) {
   std::vector<double> values;
@@ -136,8 +137,9 @@ double window_median(Eigen::Index lines, Eigen::Index k, Value value) {
   return median(std::move(values));
 }
 
-/// Estimate of a line's standard deviation from its distance to the straight line through its neighbours, times the
-/// median 0.833 of a Rayleigh variable; the outermost lines have none of their own and take their neighbour's.
+/// An estimate of each line's noise: its distance from the straight line through its neighbours, divided by the factor
+/// √(1 + w² + (1 − w)²) by which independent noise of three lines adds up in that distance. It is a Rayleigh variable
+/// with median 0.833 σ. The first and last lines have no such distance of their own and take their neighbour's.
 Eigen::VectorXd line_scatter(const Eigen::VectorXd& hz, const Eigen::VectorXcd& H) {
   const Eigen::Index lines = H.size();
   Eigen::VectorXd scatter(lines);
@@ -151,7 +153,7 @@ Eigen::VectorXd line_scatter(const Eigen::VectorXd& hz, const Eigen::VectorXcd& 
   return scatter;
 }
 
-/// The frequency of the first line that holds; infinity if none does.
+/// The frequency of the first line k for which holds(k) is true; infinity if there is none.
 template <typename Holds>
 double first_that_holds(const Eigen::VectorXd& hz, Holds holds) {
   for (Eigen::Index k = 0; k < hz.size(); ++k) {
@@ -160,7 +162,8 @@ double first_that_holds(const Eigen::VectorXd& hz, Holds holds) {
   return std::numeric_limits<double>::infinity();
 }
 
-/// Slope of ln |H| over ln f from line k on, least squares over an octave, and the geometric middle of its lines.
+/// The slope of ln |H| over ln f from line k on, least squares over an octave (five lines at least), and the geometric
+/// mean of its first and last frequency.
 struct Slope {
   double slope = 0.0;
   double middle_hz = 0.0;
@@ -176,7 +179,8 @@ Slope slope_from(const Eigen::VectorXd& hz, const Eigen::VectorXcd& H, Eigen::In
   return {(dx * (y - y.mean())).sum() / dx.square().sum(), std::sqrt(hz(k) * hz(last))};
 }
 
-/// Where the slope is above −1 for the first time; the first line where it is from the start.
+/// The frequency from which on the slope is above −1 for the first time, which is the first line if it is above there
+/// already; infinity if it never is.
 double growth_limit(const Eigen::VectorXd& hz, const Eigen::VectorXcd& H) {
   for (Eigen::Index k = 0; k + 4 < hz.size(); ++k) {
     const Slope slope = slope_from(hz, H, k);

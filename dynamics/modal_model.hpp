@@ -1,5 +1,5 @@
 #pragma once
-// Poles, left and right mode shapes at named DOFs, modal scaling, residual term.
+// The modal model: poles, left and right mode shapes at named DOFs, modal scaling, residual term.
 
 #include <Eigen/Core>
 
@@ -25,20 +25,20 @@ struct ModalModel {
   DofTable dofs;
 };
 
-/// What a person asks of a pole: |λ|/2π in Hz and −Re λ/|λ|.
+/// Frequency |λ|/2π in Hz and damping ratio −Re λ/|λ| of a pole λ.
 struct ModeSummary {
   double frequency_hz = 0.0;
   double damping_ratio = 0.0;
 };
 
-/// Frequency and damping ratio of a pole (rad/s).
+/// The frequency and damping ratio of a pole (rad/s).
 [[nodiscard]] ModeSummary summarise(std::complex<double> pole);
 
 /// Indices of the poles with Im λ > 0, by rising |λ|: one for each oscillating mode.
 [[nodiscard]] std::vector<int> oscillating_modes(const ModalModel& model);
 
-/// Only the poles with |λ| ≤ omega_max (rad/s). The static receptance of the others goes to the residual when
-/// `keep_static` is set, so that the sum stays exact at ω = 0.
+/// The model with only the poles with |λ| ≤ omega_max (rad/s). If `keep_static` is set, the static receptance of the
+/// others is added to the residual, so that the sum stays exact at ω = 0.
 [[nodiscard]] ModalModel truncate(const ModalModel& model, double omega_max_rad_s, bool keep_static);
 
 }  // namespace thinwall::dynamics

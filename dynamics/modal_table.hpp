@@ -1,5 +1,5 @@
 #pragma once
-// Modes as an identification lists them: a row a mode.
+// Tables of identified modes, one row for each mode.
 
 #include <Eigen/Core>
 #include <string>
@@ -9,19 +9,21 @@
 
 namespace thinwall::dynamics {
 
-/// One oscillating mode: right vector (response) and left vector (force), √(s/kg), an entry a DOF of the table.
+/// One oscillating mode. The right vector (response) and the left vector (force) have one entry for each DOF of the
+/// table, in √(s/kg).
 struct ModalTableRow {
-  std::string mode;  ///< its name in messages
+  std::string mode;  ///< name of the mode in messages
   double frequency_hz = 0.0;
   double damping_ratio = 0.0;
   Eigen::VectorXcd right;
   Eigen::VectorXcd left;
-  /// Where each DOF's point was when this mode was measured: so far up the tool from its tip, m. One sensor for the low
-  /// modes and another for the high ones may sit at two places under one name. NaN: not told.
+  /// The place of each DOF's point when this mode was measured, as a distance up the tool from its tip, m. Two sensors,
+  /// one for the low modes and another for the high ones, may sit at different places under one name. NaN if the place
+  /// is not known.
   Eigen::VectorXd place_m;
 };
 
-/// Identified modes, a row each, over one table of DOFs.
+/// Identified modes over one table of DOFs.
 struct ModalTable {
   DofTable dofs;
   std::vector<ModalTableRow> rows;

@@ -12,11 +12,11 @@ namespace thinwall::dynamics {
 
 namespace {
 
-/// Below this, relative to one, a component of a direction or of a motion is round-off.
+/// The size, relative to one, below which a component of a direction or of a motion counts as round-off.
 constexpr double negligible = 1e-6;
 
-/// The span of the columns (independent) in its plainest basis, as unit vectors: reduced to echelon form with the
-/// largest pivots, so that a span of axes comes out as these axes, in their order.
+/// The simplest basis of the span of the columns of A (independent), as unit vectors: its reduced echelon form with the
+/// largest pivots. If the span is that of coordinate axes, these axes come out in their order.
 Eigen::Matrix3Xd plainest(Eigen::Matrix3Xd A) {
   std::vector<std::pair<Eigen::Index, Eigen::Index>> pivots;  // row, column
   Eigen::Array3d open = Eigen::Array3d::Ones();

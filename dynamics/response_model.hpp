@@ -1,5 +1,5 @@
 #pragma once
-// An FRF matrix on a frequency axis.
+// The response model: an FRF matrix on a frequency axis.
 
 #include <Eigen/Core>
 #include <complex>
@@ -10,8 +10,8 @@
 
 namespace thinwall::dynamics {
 
-/// Receptance H(ω) in m/N (rad/N, m/(N m), rad/(N m) where rotations take part), e^{+iωt}. One matrix a line:
-/// row = response (`responses`), column = force (`forces`).
+/// Receptance H(ω) in m/N (rad/N, m/(N m), rad/(N m) where rotations take part), e^{+iωt}. There is one matrix for each
+/// frequency line: row = response (`responses`), column = force (`forces`).
 struct ResponseModel {
   FrequencyAxis axis;
   DofTable responses;
@@ -19,18 +19,20 @@ struct ResponseModel {
   std::vector<Eigen::MatrixXcd> H;
 };
 
-/// Throws InputError unless there is one matrix a line, each as high as the table of responses and as wide as that of
-/// forces. Cost: that of the lines.
+/// Throws InputError unless there is one matrix for each frequency line, with as many rows as the table of responses
+/// and as many columns as that of forces. Cost O(lines).
 void require_consistent(const ResponseModel& model);
 
-/// Throws InputError unless there is one matrix a line, each as high as the table of responses, as wide as that of
-/// forces, and finite; says at which frequency the first fault lies. Cost lines · entries.
+/// Throws InputError unless there is one matrix for each frequency line, with as many rows as the table of responses
+/// and as many columns as that of forces, all finite; the message names the frequency of the first fault. Cost lines ·
+/// entries.
 void require_complete(const ResponseModel& model);
 
-/// The entry (response, force) over frequency, both by DOF name; throws InputError if either is absent.
+/// The entry (response, force), both given by DOF name, over frequency. Throws InputError if either name is absent.
 [[nodiscard]] Eigen::VectorXcd entry(const ResponseModel& model, const std::string& response, const std::string& force);
 
-/// Rows and columns of two points only: each line becomes (translations of a) × (translations of b).
+/// The response of one point to forces at another: each matrix is reduced to (translations of response_point) ×
+/// (translations of force_point). Throws InputError if a point has no translation.
 [[nodiscard]] ResponseModel between(const ResponseModel& model, const std::string& response_point,
                                     const std::string& force_point);
 

@@ -8,7 +8,7 @@ namespace thinwall::dynamics {
 
 namespace {
 
-/// What a body's inertia tensor violates; empty if a body may have it.
+/// The condition that an inertia tensor violates, as the end of a sentence; empty if a body can have it.
 std::string fault_of_inertia(const Eigen::Matrix3d& inertia) {
   const double scale = inertia.cwiseAbs().maxCoeff();
   if (!((inertia - inertia.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * scale)) return "is not symmetric";
@@ -23,6 +23,7 @@ std::string fault_of_inertia(const Eigen::Matrix3d& inertia) {
   return text.str();
 }
 
+/// The matrix [r]ₓ with [r]ₓ v = r × v.
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& r) {
   return Eigen::Matrix3d{{0.0, -r.z(), r.y()}, {r.z(), 0.0, -r.x()}, {-r.y(), r.x(), 0.0}};
 }

@@ -26,14 +26,14 @@ std::string row_name(const SparseModel& model, Eigen::Index row) {
   return name(named(model, model.dofs[static_cast<std::size_t>(row)]));
 }
 
-/// "K(node 1.x, node 2.y) = 3.5".
+/// The text of an entry: "K(node 1.x, node 2.y) = 3.5".
 std::string entry_text(const SparseModel& model, const char* letter, Eigen::Index row, Eigen::Index column,
                        double value) {
   return std::string(letter) + "(" + row_name(model, row) + ", " + row_name(model, column) +
          ") = " + core::number_text(value);
 }
 
-/// The matrices that are there, by letter.
+/// The matrices of the model with their letters; C only if there is one.
 std::vector<std::pair<const char*, const Matrix*>> matrices(const SparseModel& model) {
   std::vector<std::pair<const char*, const Matrix*>> all{{"K", &model.K}, {"M", &model.M}};
   if (model.has_damping()) all.emplace_back("C", &model.C);

@@ -10,14 +10,14 @@ namespace thinwall::dynamics {
 
 namespace {
 
-/// What numbers a point: amplitudes and nodes may share a name.
+/// The key of a point: whether it is an amplitude, and its name; an amplitude and a node may share a name.
 using PointKey = std::pair<bool, std::string>;
 
 PointKey key(const Dof& dof) {
   return {dof.kind == DofKind::modal, dof.point};
 }
 
-/// 17 of "node 17" (of "mode 17" for an amplitude), 0 of any other name.
+/// The number in a name such as "node 17" ("mode 17" for an amplitude); 0 for any other name.
 int own_number(const PointKey& point) {
   const std::string text = point.first ? "mode " : "node ";
   if (!point.second.starts_with(text)) return 0;
@@ -28,7 +28,7 @@ int own_number(const PointKey& point) {
   return plain ? number : 0;
 }
 
-/// A number for every point, its own where it has one that no other has.
+/// A number for every point: the one in its name if no other point has it, else the next free one.
 std::map<PointKey, int> numbers_of(const DofTable& dofs) {
   std::map<PointKey, int> numbers;
   std::set<int> taken;

@@ -15,7 +15,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Solutions of (λ² + λ D + Ω²) η = 0 in undamped modal coordinates, with a = ηᵀ (2λ + D) η.
+/// Solutions λ, η of (λ² + λ D + Ω²) η = 0 in undamped modal coordinates, with a = ηᵀ (2λ + D) η.
 struct QuadraticModes {
   Eigen::VectorXcd lambda;
   Eigen::MatrixXcd eta;
@@ -30,13 +30,15 @@ struct QuadraticModes {
   throw core::NumericalError(text.str());
 }
 
-/// a = ηᵀ (2λ + D) η vanishes at a defective pole only; near one the residues lose the digits that a has lost.
+/// Refuses a double pole. a = ηᵀ (2λ + D) η vanishes at a defective pole only; near one the residues lose the digits
+/// that a has lost, so that 1e-7 of its scale leaves nine digits.
 void require_simple(Complex lambda, Complex a, double scale) {
   if (!(std::abs(a) > 1e-7 * scale)) refuse_double_pole(lambda);
 }
 
-/// ΦᵀCΦ and whether it is diagonal to the round-off of forming it, or to 1e-12 of the damping on either side: what is
-/// dropped then changes no receptance by more than 1e-12 of itself.
+/// The diagonal of D = ΦᵀCΦ if D is diagonal, else nothing. An off-diagonal entry counts as zero if it is within the
+/// round-off of forming it, or within 1e-12 of the damping of both modes: dropping it then changes no receptance by
+/// more than 1e-12 of itself.
 std::optional<Eigen::VectorXd> proportional_damping(const Eigen::MatrixXd& C, const Eigen::MatrixXd& Phi,
                                                     const Eigen::MatrixXd& D) {
   const Eigen::MatrixXd round_off = static_cast<double>(C.rows()) * std::numeric_limits<double>::epsilon() *
@@ -52,7 +54,8 @@ std::optional<Eigen::VectorXd> proportional_damping(const Eigen::MatrixXd& C, co
   return d;
 }
 
-/// λ = −d/2 ± √(d²/4 − ω²) for each mode, the smaller root of an overdamped one as ω² over the larger.
+/// The poles λ = −d/2 ± √(d²/4 − ω²) of each mode in closed form. The smaller root of an overdamped mode is computed as
+/// ω² over the larger one, which avoids cancellation.
 QuadraticModes proportional_modes(const Eigen::VectorXd& omega, const Eigen::VectorXd& d) {
   const Eigen::Index n = omega.size();
   QuadraticModes modes{Eigen::VectorXcd(2 * n), Eigen::MatrixXcd::Zero(n, 2 * n), Eigen::VectorXcd(2 * n)};
@@ -72,8 +75,8 @@ QuadraticModes proportional_modes(const Eigen::VectorXd& omega, const Eigen::Vec
   return modes;
 }
 
-/// State matrix [0 Γ; −Ω²/Γ −D] of the state (Γ η, η'), Γ = Ω but for rigid-body modes, which take the mean instead of
-/// 0 so that their displacement stays in the state.
+/// The state matrix [0 Γ; −Ω²/Γ −D] of the state (Γ η, η'). Γ = Ω, except that rigid-body modes take the mean of Ω
+/// instead of 0, so that their displacement remains in the state.
 Eigen::MatrixXd state_matrix(const Eigen::VectorXd& omega, const Eigen::VectorXd& Gamma, const Eigen::MatrixXd& D) {
   const Eigen::Index n = omega.size();
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
@@ -83,7 +86,7 @@ Eigen::MatrixXd state_matrix(const Eigen::VectorXd& omega, const Eigen::VectorXd
   return A;
 }
 
-/// Indices of one of each conjugate pair (Im λ > 0) and of all real poles, by rising |λ|.
+/// Indices of one pole of each conjugate pair (Im λ > 0) and of all real poles, by rising |λ|.
 std::vector<Eigen::Index> upper_half(const Eigen::VectorXcd& lambda) {
   std::vector<Eigen::Index> indices;
   for (Eigen::Index k = 0; k < lambda.size(); ++k) {
@@ -94,8 +97,9 @@ std::vector<Eigen::Index> upper_half(const Eigen::VectorXcd& lambda) {
   return indices;
 }
 
-/// One Newton step on the Rayleigh functional ηᵀ (λ² + λ D + Ω²) η = 0 (Lancaster 1961): it is stationary at an
-/// eigenvector, so the pole's error becomes the square of the vector's, and low poles beside high ones keep all digits.
+/// A pole improved by one Newton step on the Rayleigh functional ηᵀ (λ² + λ D + Ω²) η = 0 (Lancaster 1961). The
+/// functional is stationary at an eigenvector, so that the error of the pole becomes the square of the vector's, and
+/// low poles beside high ones keep all digits.
 struct RefinedPole {
   Complex lambda;
   Complex a;
@@ -111,8 +115,8 @@ RefinedPole refine(Complex lambda, const Eigen::VectorXcd& eta, const Eigen::Vec
   return {lambda, 2.0 * lambda * m + d};
 }
 
-/// Σ λ η ηᵀ / a = I holds for a complete set of simple poles (the response at high frequency is that of the mass
-/// alone).
+/// Throws NumericalError unless Σ λ η ηᵀ / a = I, which holds for a complete set of simple poles (at high frequency the
+/// response is that of the mass alone).
 void require_complete(const QuadraticModes& modes) {
   const Eigen::VectorXcd weight = modes.lambda.cwiseQuotient(modes.a);
   const Eigen::MatrixXcd sum = modes.eta * weight.asDiagonal() * modes.eta.transpose();
@@ -138,8 +142,8 @@ QuadraticModes general_modes(const Eigen::VectorXd& omega, const Eigen::MatrixXd
   Eigen::Index column = 0;
   for (const Eigen::Index k : upper_half(solver.eigenvalues())) {
     const Complex lambda = solver.eigenvalues()(k);
-    // both halves of the state hold η: Γ η and λ η; each component from the half in which it is larger, as least
-    // squares
+    // Both halves of the state hold η, as Γ η and λ η. Weighted least squares takes each component mainly from the half
+    // in which it is larger.
     const Eigen::ArrayXd weight = Gamma.array().square() + std::norm(lambda);
     Eigen::VectorXcd eta =
         ((Gamma.array() * X.col(k).head(n).array() + std::conj(lambda) * X.col(k).tail(n).array()) / weight).matrix();

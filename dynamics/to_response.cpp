@@ -13,7 +13,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Lines that one task works through with one workspace.
+/// Number of frequency lines that one task computes with one workspace.
 constexpr Eigen::Index block_lines = 16;
 
 std::vector<int> physical_rows(const DofTable& dofs) {
@@ -49,9 +49,10 @@ void for_line_blocks(Eigen::Index lines, Body body) {
   });
 }
 
-/// Powers of two that bring a dynamic stiffness to a diagonal of order one: interface rows in N/m and modal rows in s⁻²
-/// differ by many decades, and partial pivoting compares them. The size is that of K + ω²M, which does not vanish at a
-/// resonance; a row without either (a constraint force) is scaled by its largest entry.
+/// Scale factors, powers of two, that bring a dynamic stiffness to a diagonal of order one. Rows of the interface in
+/// N/m and modal rows in s⁻² differ by many decades, and partial pivoting compares them; powers of two cause no
+/// round-off. The size of a row is that of K + ω²M, which does not vanish at a resonance; a row that has neither (a
+/// constraint force) is scaled by its largest entry.
 void equilibration(const SpatialModel& model, double omega, const Eigen::MatrixXcd& matrix, Eigen::VectorXd& scale) {
   scale = model.K.diagonal().cwiseAbs() + omega * omega * model.M.diagonal().cwiseAbs();
   for (double& size : scale) size = size > 0.0 ? 1.0 / std::sqrt(size) : 0.0;
@@ -64,7 +65,8 @@ void equilibration(const SpatialModel& model, double omega, const Eigen::MatrixX
   for (double& size : scale) size = std::exp2(std::round(std::log2(size)));
 }
 
-/// The factor of K + iD + iωC − ω²M + S of one line after another, in storage that is kept between lines.
+/// The LU factors of K + iD + iωC − ω²M + S, for one frequency line after another, in storage that is kept between
+/// lines.
 class DynamicStiffness {
  public:
   explicit DynamicStiffness(const SpatialModel& model) : model_(model), complex_K_(model.K.cast<Complex>()) {
@@ -81,7 +83,7 @@ class DynamicStiffness {
     lu_.compute(matrix_);
   }
 
-  /// Smallest pivot beside the matrix's entries of order one.
+  /// The smallest pivot; the scaled matrix has entries of order one, so that it can be compared with round-off.
   [[nodiscard]] double smallest_pivot() const { return lu_.matrixLU().diagonal().cwiseAbs().minCoeff(); }
 
   void response(const Eigen::MatrixXd& T, Eigen::MatrixXcd& H) {

@@ -11,8 +11,9 @@ namespace thinwall::dynamics {
 
 namespace {
 
-/// K = G Gᵀ by Cholesky with diagonal pivoting (Higham 2002, section 10.3), on K scaled to a unit diagonal so that what
-/// counts as zero does not depend on units or on a few stiff rows. G has as many columns as K has rank.
+/// The factor G of K = G Gᵀ by Cholesky factorisation with diagonal pivoting (Higham 2002, section 10.3), with as many
+/// columns as K has rank. K is scaled to a unit diagonal first, so that what counts as zero does not depend on units or
+/// on a few stiff rows.
 Eigen::MatrixXd semidefinite_factor(const Eigen::MatrixXd& K) {
   const Eigen::Index n = K.rows();
   const Eigen::VectorXd scale = K.diagonal().unaryExpr([](double k) { return k > 0.0 ? std::sqrt(k) : 1.0; });
@@ -27,7 +28,8 @@ Eigen::MatrixXd semidefinite_factor(const Eigen::MatrixXd& K) {
     S.row(p).setZero();
     S.col(p).setZero();
   }
-  // A rigid-body motion leaves rows whose stiffness is round-off of the stiff ones: measured by those, it is none.
+  // After a rigid-body motion the remainder of some rows is round-off of the stiffest ones. The remainder is therefore
+  // compared with both scales, its own rows and the stiffest row, and counts only if it is large on both.
   const Eigen::MatrixXd unscaled = scale.asDiagonal() * S * scale.asDiagonal();
   const double left = std::min(S.cwiseAbs().maxCoeff(), unscaled.cwiseAbs().maxCoeff() / K.diagonal().maxCoeff());
   if (left > 1e3 * zero) {

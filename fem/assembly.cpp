@@ -22,7 +22,7 @@ namespace {
 using linalg::SparseMatrix;
 using ElementNodes = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// Gradients of λ₁, λ₂, λ₃ as columns, and the volume; curved elements have none of it.
+/// The gradients of λ₁, λ₂, λ₃ as columns and the volume of a straight element; a curved element has neither.
 struct Geometry {
   Eigen::Matrix3d gradients;
   double volume = 0.0;
@@ -35,7 +35,8 @@ ElementNodes positions_of(const mesh::LagrangeNodes& nodes, Eigen::Index element
   return x;
 }
 
-/// Straight if every node lies on the lattice between the vertices, to round-off of the positions.
+/// The geometry of an element, which is straight if every node lies on the lattice between its vertices to the
+/// round-off of the positions.
 Geometry geometry(const mesh::LagrangeNodes& nodes, const Eigen::Matrix<double, Eigen::Dynamic, 4>& lattice,
                   Eigen::Index element) {
   const ElementNodes x = positions_of(nodes, element);
@@ -72,10 +73,10 @@ std::vector<Geometry> geometries(const mesh::LagrangeNodes& nodes) {
   return all;
 }
 
-/// Nine numbers in three packets of four.
+/// Nine numbers padded to three vector registers of four.
 using Packed = Eigen::Matrix<double, 12, 1>;
 
-/// D̂_ab → K_ab, block (i, j) at 3j + i: K_ab = Σ_kl D̂^{kl}_ab T_kl.
+/// The matrix that maps D̂_ab to K_ab = Σ_kl D̂^{kl}_ab T_kl; entry (i, j) of K_ab stands in row 3j + i.
 Eigen::Matrix<double, 12, 9> stiffness_map(const Geometry& g, const Lame& c) {
   Eigen::Matrix<double, 12, 9> T = Eigen::Matrix<double, 12, 9>::Zero();
   const Eigen::Matrix3d inner = g.volume * c.mu * g.gradients.transpose() * g.gradients;
@@ -93,10 +94,10 @@ Eigen::Matrix<double, 12, 9> stiffness_map(const Geometry& g, const Lame& c) {
   return T;
 }
 
-/// Where the free DOFs stand.
+/// The numbering of the free DOFs.
 struct Numbering {
   std::vector<int> free_rows;
-  std::vector<int> row_of;  // of 3·node + axis; −1 if fixed
+  std::vector<int> row_of;  // row of the DOF 3·node + axis; −1 if it is fixed
 
   Numbering(Eigen::Index nodes, const std::vector<int>& fixed) : row_of(3 * static_cast<std::size_t>(nodes), 0) {
     for (const int row : fixed) row_of[static_cast<std::size_t>(row)] = -1;
@@ -110,14 +111,15 @@ struct Numbering {
   [[nodiscard]] const int* of_node(int node) const { return row_of.data() + 3 * static_cast<std::size_t>(node); }
 };
 
-/// Room for so many entries, on large pages.
+/// Allocates `count` entries, on large pages.
 void resize_entries(SparseMatrix& A, Eigen::Index count) {
   A.resizeNonZeros(count);
   core::want_large_pages(A.valuePtr(), sizeof(double) * static_cast<std::size_t>(count));
   core::want_large_pages(A.innerIndexPtr(), sizeof(int) * static_cast<std::size_t>(count));
 }
 
-/// Empty matrices with room for every pair of neighbours: full 3 × 3 blocks in K, their diagonals in M.
+/// Prepares the matrices for every pair of neighbouring nodes: full 3 × 3 blocks in K, the diagonals of such blocks in
+/// M.
 void reserve(const Lists& graph, const Numbering& rows, Assembled& result) {
   const int nodes = static_cast<int>(graph.start.size()) - 1;
   const auto free = static_cast<Eigen::Index>(rows.free_rows.size());
@@ -155,7 +157,8 @@ void reserve(const Lists& graph, const Numbering& rows, Assembled& result) {
   resize_entries(result.node_mass, graph.start.back());
 }
 
-/// The columns of one node before constraints: for each neighbour the block (i, j) of K at 3j + i, and M.
+/// The columns of one node before constraints: for each neighbour, entry (i, j) of the block of K in row 3j + i, and
+/// the entry of M.
 struct NodeColumns {
   Eigen::Matrix<double, 12, Eigen::Dynamic> K;
   Eigen::VectorXd M;
@@ -192,7 +195,7 @@ struct Constants {
   double density_kg_m3 = 0.0;
 };
 
-/// Of each tetrahedron; one entry where all are of one material.
+/// The constants of each tetrahedron; a part of one material has a single entry.
 struct ElementConstants {
   std::vector<Constants> list;
   const std::vector<int>* of_tet;
@@ -205,7 +208,9 @@ struct ElementConstants {
   }
 };
 
-/// Sums the straight elements around the nodes first … last − 1.
+/// Assembles the columns of the nodes first … last − 1 from the straight elements around them. Columns are computed one
+/// by one instead of scattering whole element matrices, so that no two threads write to the same place and sums are
+/// made in a fixed order.
 void assemble_nodes(const mesh::LagrangeNodes& nodes, const ElementConstants& constants,
                     const std::vector<Geometry>& geometry, const Lists& places, const Lists& graph,
                     const Numbering& rows, int first, int last, Assembled& result) {
@@ -241,11 +246,11 @@ void assemble_nodes(const mesh::LagrangeNodes& nodes, const ElementConstants& co
   }
 }
 
-/// Where the entries of one node's columns stand: for each neighbour the values to add to.
+/// The places of the entries of one node's columns in the sparse matrices.
 struct ColumnPlaces {
-  std::vector<std::ptrdiff_t> neighbour;             // of a node: its place among the neighbours
-  std::vector<std::ptrdiff_t> free_before;           // of a neighbour: free rows of those before it
-  std::array<std::vector<std::ptrdiff_t>, 3> along;  // the same along each axis
+  std::vector<std::ptrdiff_t> neighbour;             // for each node its place among the neighbours
+  std::vector<std::ptrdiff_t> free_before;           // for each neighbour the number of free rows of those before it
+  std::array<std::vector<std::ptrdiff_t>, 3> along;  // likewise, rows of each axis alone
 
   explicit ColumnPlaces(Eigen::Index nodes) : neighbour(static_cast<std::size_t>(nodes)) {}
 
@@ -265,7 +270,7 @@ struct ColumnPlaces {
   }
 };
 
-/// Adds the columns of the element's node b, which `places` has located.
+/// Adds the columns of the element's local node b, whose places are `places`, to the matrices.
 void add_columns(const mesh::LagrangeNodes& nodes, const Lists& graph, const Numbering& rows,
                  const ColumnPlaces& places, Eigen::Index e, Eigen::Index b, const CurvedElement& element,
                  Assembled& result) {
@@ -288,15 +293,16 @@ void add_columns(const mesh::LagrangeNodes& nodes, const Lists& graph, const Num
   }
 }
 
-/// A column of a curved element of a batch.
+/// The columns of one node of a curved element of a batch.
 struct CurvedColumn {
   int node = 0;
-  std::size_t element = 0;  // in the batch
+  std::size_t element = 0;  // index in the batch
   Eigen::Index local = 0;
 };
 
-/// Adds a batch of curved elements: each node's columns by one thread, from its elements in their order. `work`: a
-/// piece of the columns for each.
+/// Adds a batch of curved elements to the matrices. The columns of a node are added by one thread, from its elements in
+/// their order, so that results do not depend on the number of threads. `work` has one scratch object for each piece of
+/// the columns.
 void add_batch(const mesh::LagrangeNodes& nodes, const Lists& graph, const Numbering& rows,
                const std::vector<Eigen::Index>& elements, const std::vector<CurvedElement>& batch,
                std::vector<ColumnPlaces>& work, Assembled& result) {
@@ -324,7 +330,8 @@ void add_batch(const mesh::LagrangeNodes& nodes, const Lists& graph, const Numbe
   });
 }
 
-/// Curved elements: integrated in parallel, a batch at a time.
+/// Integrates and adds the curved elements. They are integrated in parallel, a batch at a time, because their dense
+/// matrices are too large to keep all of them.
 void assemble_curved(const mesh::LagrangeNodes& nodes, const ElementConstants& constants,
                      const std::vector<Geometry>& geometry, const Lists& graph, const Numbering& rows,
                      Assembled& result) {

@@ -15,11 +15,11 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// A connected point on the mesh, and what hangs on it.
+/// A connected point on the mesh, with the matrices of the springs and masses attached to it.
 struct FoundPoint {
   std::string name;
   PatchAverage average;
-  int rigid = -1;  // its patch
+  int rigid = -1;  // index of its rigid patch, −1 for an averaging point
   Matrix6 K = Matrix6::Zero();
   Matrix6 M = Matrix6::Zero();
 };
@@ -45,7 +45,8 @@ std::vector<FoundPoint> found_points(Model& model, const Attachments& attachment
   return found;
 }
 
-/// The averaging point's [u θ] on the model's rows, rows × 6; the turn only where something feels it.
+/// The columns W (rows × 6) of an averaging point, [u θ] = Wᵀ q. The rotation's columns are zero unless a spring or
+/// mass acts on it.
 linalg::SparseMatrix averaging_columns(const Model& model, const FoundPoint& point) {
   constexpr std::size_t most_nodes = 1500;
   const PatchAverage& average = point.average;
@@ -70,6 +71,8 @@ linalg::SparseMatrix averaging_columns(const Model& model, const FoundPoint& poi
   return W;
 }
 
+/// The columns W (rows × 6) of a rigid point, which pick its own six rows; the rows of the rotation hold s θ, with s
+/// the size of the patch.
 linalg::SparseMatrix rigid_columns(const Model& model, const FoundPoint& point) {
   const int first = static_cast<int>(model.K.rows()) - 6 * static_cast<int>(model.rigid.size()) + 6 * point.rigid;
   const double size = model.rigid[static_cast<std::size_t>(point.rigid)].size_m;
@@ -79,7 +82,7 @@ linalg::SparseMatrix rigid_columns(const Model& model, const FoundPoint& point) 
   return W;
 }
 
-/// A + W B Wᵀ.
+/// The matrix A + W B Wᵀ.
 linalg::SparseMatrix with_point(const linalg::SparseMatrix& A, const linalg::SparseMatrix& W, const Matrix6& B) {
   const linalg::SparseMatrix WB = W * linalg::SparseMatrix(B.sparseView());
   const linalg::SparseMatrix Wt = W.transpose();
@@ -103,7 +106,8 @@ void eliminate_rigid_patches(Model& model) {
   model.free_rows = std::move(rows);
 }
 
-/// Each principal stiffness of a spring by itself.
+/// Adds one restraint for each principal stiffness of a spring, so that each is compared with round-off at its own
+/// scale.
 void add_restraints(const GroundSpring& spring, const PatchAverage& average, std::vector<Restraint>& restraints) {
   const Eigen::Vector3d place = average.centre_m + spring.offset_m;
   for (const bool turn : {false, true}) {
@@ -157,7 +161,8 @@ void attach(Model& model, const std::vector<int>& fixed, const Attachments& atta
   holding.restraints.insert(holding.restraints.end(), springs.begin(), springs.end());
   eliminate_rigid_patches(model);
   add_points(model, points);
-  // Twice the bound above which modes() takes a mode for elastic.
+  // The bound is twice that above which modes() takes a mode for elastic, so that a motion cannot count as held here
+  // and as rigid there.
   holding.negligible_N_m = 20.0 * std::numeric_limits<double>::epsilon() * model.spectrum_rad2_s2 * model.mass.mass_kg;
   model.free_motions = free_motions(model.nodes, holding);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Attachments put into a model's matrices.
+// Addition of attachments (clamps, masses, springs, rigid patches) to a model's matrices.
 
 #include <vector>
 
@@ -8,16 +8,17 @@
 
 namespace thinwall::fem {
 
-/// Adds clamps, makes rigid patches six rows each, adds masses and springs, and says which rigid motions are left. With
-/// W the rows × 6 of a point, [u θ] = Wᵀ q (motion_of_node() over the nodes of an averaging one, its own six rows of a
-/// rigid one), and the 6 × 6 matrices that hang on it (matrix_at_point()):
+/// Adds clamps to the model's matrices, replaces the rows of each rigid patch by six, adds masses and springs, and sets
+/// the rigid motions that are left free (docs/theory/elements.md, Eq. A1-A5). For a point with [u θ] = Wᵀ q (W: rows ×
+/// 6, from motion_of_node() for an averaging point, its own six rows for a rigid one) and the 6 × 6 matrices of what is
+/// attached to it (matrix_at_point()):
 ///
 ///     K += W K_s Wᵀ,   M += W M_m Wᵀ
 ///
-/// model: as assembled, constrained by `fixed`. Throws InputError for what validate() refuses, a patch that cannot be
-/// found or does not see a turn that is wanted, that lies on a support, on two pieces (springs), on another rigid
-/// patch, or has more than 1500 nodes (averaging: its block of W Wᵀ is dense, 20 million entries then). Cost: a copy of
-/// K and of M for each kind that is present.
+/// model: as assembled, constrained by `fixed`. Throws InputError for what validate() refuses; for a patch that cannot
+/// be found, that lies on a support, on two pieces (springs) or on another rigid patch; for a patch on one line that is
+/// to feel a rotation; and for an averaging patch of more than 1500 nodes, whose dense block in W Wᵀ would have 20
+/// million entries. Cost: a copy of K and of M for each kind of attachment present.
 void attach(Model& model, const std::vector<int>& fixed, const Attachments& attachments);
 
 }  // namespace thinwall::fem

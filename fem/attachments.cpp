@@ -19,7 +19,7 @@ void require_stiffness(double value, const std::string& what, Violations& found)
     found.push_back(what + " is " + core::number_text(value) + "; it must be finite and not negative");
 }
 
-/// Symmetric, finite, no eigenvalue below zero, all to round-off.
+/// Notes a matrix that is not symmetric, not finite, or has a negative eigenvalue, beyond round-off.
 void require_semidefinite(const Eigen::Matrix3d& A, const std::string& what, Violations& found) {
   if (!A.allFinite()) {
     found.push_back(what + " has an entry that is not a number");

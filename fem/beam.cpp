@@ -32,7 +32,7 @@ bool is_round(const dynamics::BeamSection& s) {
   return std::abs(s.I_y_m4 - s.I_z_m4) <= 1e-12 * s.I_y_m4 && s.shear_y == s.shear_z;
 }
 
-/// Axes of a segment as columns: x along it, y as near to the wished one as may be.
+/// The axes of a segment as columns: x along the segment, y as near as possible to the wished direction.
 Eigen::Matrix3d axes_of(const Eigen::Vector3d& along, const Eigen::Vector3d& wished) {
   Eigen::Matrix3d R;
   R.col(0) = along.normalized();
@@ -81,7 +81,8 @@ void check_bodies_and_springs(const BeamFrame& frame, core::Faults& faults) {
   }
 }
 
-/// A hinge's second node hangs on that hinge alone, and its first one is fixed by an earlier hinge, if by any.
+/// Checks that the second node of a hinge is carried by that hinge alone, and that its first node, if carried by a
+/// hinge, is carried by an earlier one: motions() resolves hinges in their order.
 void check_hinges(const BeamFrame& frame, core::Faults& faults) {
   std::vector<bool> hung(frame.nodes.size(), false);
   for (std::size_t i = 0; i < frame.hinges.size(); ++i) {
@@ -136,7 +137,7 @@ void require_valid(const BeamFrame& frame) {
   faults.raise("frame of beams");
 }
 
-/// Frame with the segments' inner nodes and an element in the place of each segment.
+/// The frame with every segment replaced by its elements, and the nodes between them added.
 BeamFrame cut(BeamFrame frame) {
   std::vector<BeamSegment> elements;
   for (const BeamSegment& segment : frame.segments) {
@@ -155,7 +156,7 @@ BeamFrame cut(BeamFrame frame) {
   return frame;
 }
 
-/// Adds A to the rows and columns of the motions of `nodes`, six a node.
+/// Adds A to the rows and columns of the motions of `nodes`, six for each node.
 void add(Triplets& entries, const std::vector<std::size_t>& nodes, const Eigen::MatrixXd& A) {
   for (Index i = 0; i < A.rows(); ++i) {
     for (Index j = 0; j < A.cols(); ++j) {
@@ -185,7 +186,7 @@ void add_springs(const BeamFrame& frame, FrameTriplets& into) {
   }
 }
 
-/// M, C, K over all nodes, free of each other's hinges.
+/// The entries of M, C, K over the motions of all nodes, before hinges and clamps are eliminated.
 FrameTriplets assembled(const BeamFrame& frame) {
   FrameTriplets into;
   for (const BeamSegment& element : frame.segments) {
@@ -202,11 +203,12 @@ FrameTriplets assembled(const BeamFrame& frame) {
   return into;
 }
 
-/// L: motions of all nodes from the coordinates y; a column a hinge, behind those of the nodes that hang on none.
+/// The matrix L that gives the motions of all nodes from the coordinates y: six for each node that is neither clamped
+/// nor carried by a hinge, followed by one angle for each hinge.
 Sparse motions(const BeamFrame& frame) {
   std::vector<bool> follows(frame.nodes.size(), false);
   for (const Hinge& hinge : frame.hinges) follows[hinge.to] = true;
-  std::vector<std::vector<Eigen::Triplet<double>>> rows(frame.nodes.size());  // of each node, 0…5
+  std::vector<std::vector<Eigen::Triplet<double>>> rows(frame.nodes.size());  // entries of each node's rows 0…5
   int n = 0;
   for (std::size_t node = 0; node < frame.nodes.size(); ++node) {
     if (frame.nodes[node].clamped || follows[node]) continue;
@@ -227,6 +229,7 @@ Sparse motions(const BeamFrame& frame) {
   return L;
 }
 
+/// The matrix Lᵀ A L, made exactly symmetric.
 Eigen::MatrixXd over_coordinates(const Triplets& entries, const Sparse& L) {
   Sparse A(L.rows(), L.rows());
   A.setFromTriplets(entries.begin(), entries.end());

@@ -28,7 +28,8 @@ void validate(const ClosedPartOptions& o) {
   if (o.largest_dofs < 0) throw core::InputError("the bound on degrees of freedom is negative; give 0 for none");
 }
 
-/// Whether a support ends where the surface has no line of its own.
+/// True if the border of the support may lie within a face, where the surface has no edge to which the mesh is graded.
+/// Only a support on a plane region surely ends at edges.
 bool ends_within_a_face(const Support& support) {
   return !std::holds_alternative<mesh::PlaneRegion>(support.region);
 }
@@ -45,6 +46,8 @@ mesh::SurfaceMeshOptions mesh_options(const ClosedPartOptions& options, int leve
   return result;
 }
 
+/// The mesh of a level. If a finer level cannot be meshed, the size field of level 0 is used with elements 0.7^level as
+/// large.
 mesh::SurfaceMeshed meshed(const mesh::TriangleSurface& surface, const ClosedPartOptions& options, int level) {
   try {
     return mesh::mesh_closed_surface(surface, mesh_options(options, level));
@@ -88,7 +91,7 @@ bool has_reentrant_edge(const mesh::TriangleSurface& surface) {
     if (a.dot(b) > std::cos(sharp_rad)) return false;
     const Eigen::Vector3d way =
         surface.vertices[static_cast<std::size_t>(to)] - surface.vertices[static_cast<std::size_t>(from)];
-    return a.cross(b).dot(way) < 0.0;  // the other face rises above this one
+    return a.cross(b).dot(way) < 0.0;  // the edge is re-entrant: the other face rises above this one
   });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// The modes of a part that comes as a closed surface, to a tolerance: sizes from its walls, order and level as needed.
+// The modes, to a tolerance, of a part that is given as a closed surface: element sizes follow from its wall thickness,
+// order and level of refinement are raised as needed.
 
 #include <string>
 #include <vector>
@@ -10,65 +11,67 @@
 
 namespace thinwall::fem {
 
-/// Of a tolerance on frequencies, what is for the volume of the mesh against the surface's.
+/// The share of the tolerance on frequencies that is reserved for the difference between the volumes of the mesh and of
+/// the surface.
 inline constexpr double share_of_surface = 0.2;
 
-/// Of refine_closed_part().
+/// Options of refine_closed_part().
 struct ClosedPartOptions {
-  /// On frequencies, relative, 1e-3 to 0.1. share_of_surface of it is for the surface, which the elements follow with
-  /// straight edges, the rest for the elements.
+  /// Tolerance on frequencies, relative, 1e-3 to 0.1. The part share_of_surface of it is for the surface, which the
+  /// elements follow with straight edges; the rest is for the elements.
   double tolerance = 1e-2;
   ModeOptions modes{.count = 5, .up_to_hz = {}, .verify_count = false};
-  std::vector<Support> supports;   ///< none: a free part
-  std::vector<NamedPoint> points;  ///< where receptances count
-  bool points_hold = false;        ///< as ToleranceOptions has it
+  std::vector<Support> supports;   ///< empty for a free part
+  std::vector<NamedPoint> points;  ///< points between which receptances must meet the tolerance
+  bool points_hold = false;        ///< as in ToleranceOptions
   Attachments attachments{};
-  std::function<Materials(const mesh::TetMesh&)> materials{};  ///< of a part of several, on each mesh
-  std::function<mesh::TetMesh(mesh::TetMesh)> divided{};       ///< each mesh, before it is used; none: as it is
-  int first_order = 3;                                         ///< of a level; 1 to 5
-  int last_order = 6;                                          ///< of a level; above first_order, to 6
-  int levels = 1;  ///< of ever smaller and more graded elements, 1 to 4; each has five times as many
+  std::function<Materials(const mesh::TetMesh&)> materials{};  ///< materials on each mesh, for a part of several
+  std::function<mesh::TetMesh(mesh::TetMesh)> divided{};       ///< applied to each mesh before use, if set
+  int first_order = 3;                                         ///< first order of a level; 1 to 5
+  int last_order = 6;                                          ///< last order of a level; above first_order, to 6
+  int levels = 1;                      ///< number of levels, 1 to 4; each has five times as many elements as the last
   std::int64_t largest_dofs = 400000;  ///< no model with more is solved; 0: no bound
-  double memory_limit_bytes = 0.0;     ///< of a factor; 0: none
-  /// Of each attempt of a mesher. TetGen takes a second or never ends.
+  double memory_limit_bytes = 0.0;     ///< limit for a factor; 0: none
+  /// Limits of each attempt of a mesher. TetGen either takes a second or never ends.
   mesh::ProcessLimits limits{.time_s = 20.0, .memory_bytes = 4e9};
 };
 
-/// How the elements lie to the surface of one level.
+/// The fit of the elements to the surface at one level.
 struct SurfaceFit {
   int level = 0;
   std::string mesher;                  ///< "TetGen" or "CGAL"
-  double volume_error_relative = 0.0;  ///< of the elements against the surface
-  double surface_distance_m = 0.0;     ///< two-sided, sampled
-  std::vector<std::string> failures;   ///< a line for each attempt that failed before
+  double volume_error_relative = 0.0;  ///< volume of the elements relative to that of the surface, less 1
+  double surface_distance_m = 0.0;     ///< distance between both, two-sided, at sampled points
+  std::vector<std::string> failures;   ///< a message for each attempt that failed before
 };
 
-/// What was found, and how far it may be off.
+/// The solution, and its estimated error.
 struct [[nodiscard]] ClosedPart {
   Refined refined;
-  std::vector<SurfaceFit> fits;  ///< of the levels that were meshed; the last but those held back was solved
-  /// Elements (refined.estimate) and surface: a wall that is thinner by a share of its volume bends at frequencies
-  /// lower by the same share.
+  std::vector<SurfaceFit> fits;  ///< one for each level meshed; those held back by largest_dofs were not solved
+  /// The estimated relative error of frequencies, from the elements (refined.estimate) and the surface: a wall whose
+  /// volume is too small by a share bends at frequencies lower by the same share.
   double frequency_error = 0.0;
-  bool met = false;  ///< frequency_error and the elements' error of receptances ≤ tolerance; if not, refined.estimate
-                     ///< says whether largest_dofs was in the way
+  /// True if frequency_error and the estimated error of receptances are within the tolerance. If not, refined.estimate
+  /// says whether largest_dofs prevented it.
+  bool met = false;
 };
 
-/// A part whose mesh(level) is mesh::mesh_closed_surface with edges of 9 wall thicknesses (one element through the
-/// wall) divided by 1.5^level, `level` graded layers beside sharp edges (one more where a support ends within a face)
-/// and a turning of 0.5 / 2^level along an edge, finer where the volume asks for it (0.2 · tolerance). Where
-/// a finer level cannot be meshed, elements of the first level made 0.7 times as large take its place. Each mesh's fit
-/// is appended to `fits`, which must outlive the part, as must surface and options.
+/// The part whose mesh(level) is mesh::mesh_closed_surface with edges of 9 wall thicknesses (one element through the
+/// wall) divided by 1.5^level, `level` graded layers beside sharp edges (one more if a support ends within a face) and
+/// a turning angle of 0.5 / 2^level rad along an edge, finer if the volume requires it (tolerance 0.2 · tolerance). If
+/// a finer level cannot be meshed, elements of the first level made 0.7^level times as large are used instead. The fit
+/// of each mesh is appended to `fits`, which must outlive the part, as must `surface` and `options`.
 [[nodiscard]] SolidPart solid_part(const mesh::TriangleSurface& surface, const Material& material,
                                    const ClosedPartOptions& options, std::vector<SurfaceFit>& fits);
 
-/// True if two faces meet at a sharp edge that turns inwards by more than 30°.
+/// True if two faces meet at a re-entrant edge, which turns inwards by more than 30°.
 [[nodiscard]] bool has_reentrant_edge(const mesh::TriangleSurface& surface);
 
-/// Meshes, solves and refines (refine_to_tolerance) until the tolerance is met, or levels or degrees of freedom run
-/// out. Throws InputError for options out of range, a surface that is not closed (mesh::require_closed; mend it with
-/// mesh::repaired_surface) or a part whose coarsest mesh exceeds largest_dofs; NumericalError if no mesher fills the
-/// surface; Interrupted.
+/// Meshes, solves and refines a part (refine_to_tolerance()) until the tolerance is met, or levels or degrees of
+/// freedom are exhausted. Throws InputError for options out of range, a surface that is not closed
+/// (mesh::require_closed; repair it with mesh::repaired_surface) or a part whose coarsest mesh exceeds largest_dofs;
+/// NumericalError if no mesher can fill the surface; Interrupted.
 ClosedPart refine_closed_part(const mesh::TriangleSurface& surface, const Material& material,
                               const ClosedPartOptions& options = {});
 

@@ -15,7 +15,7 @@ namespace thinwall::fem {
 
 namespace {
 
-/// Points a direction: 2 n − 1 ≥ 3p − 3, and one more than p.
+/// Number of quadrature points in a direction: at least 2n − 1 ≥ 3p − 3, and one more than p (see curved_reference()).
 int points_for(int order) {
   return std::max(order + 1, (3 * order - 1) / 2);
 }
@@ -65,7 +65,8 @@ CurvedElement curved_element(const CurvedReference& reference, const Eigen::Matr
     const Eigen::Matrix3d inverse = root * J.inverse();
     for (std::size_t i = 0; i < 3; ++i) gradient[i].col(q) = slopes * inverse.col(static_cast<Eigen::Index>(i));
   }
-  // The mean's size, not its sign: an element turned inside out as a whole has both negative.
+  // The divisor is the magnitude of the mean: in an element turned inside out as a whole both are negative, and their
+  // ratio would hide it.
   element.least_jacobian = volume.minCoeff() / std::abs(volume.mean());
   element.M = density_kg_m3 *
               (reference.values * reference.weight.cwiseProduct(volume).asDiagonal() * reference.values.transpose());

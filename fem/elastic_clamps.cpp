@@ -30,7 +30,8 @@ void add_face(const FacePoints& face, const ElasticClamp& clamp, Entries& entrie
   }
 }
 
-/// The grams of a rigid motion on a face, normal and tangential, about a place near it.
+/// Gram matrices of the rigid motions of a face about a place near it: the squared displacements along the normal and
+/// along the face, integrated over the area.
 struct FaceGrams {
   Eigen::Vector3d about = Eigen::Vector3d::Zero();
   int node = 0;

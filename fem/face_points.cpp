@@ -13,16 +13,17 @@ namespace thinwall::fem {
 
 namespace {
 
-/// Shape functions of the nodes on a face and their slopes along its edges 0-1 and 0-2, nodes × points.
+/// Shape functions of the nodes on a face, and their slopes along its edges 0-1 and 0-2, at quadrature points (nodes ×
+/// points).
 struct FaceReference {
-  std::vector<int> local;   // of the element
+  std::vector<int> local;   // local numbers of the face's nodes in the element
   Eigen::MatrixXd lattice;  // nodes × 3: barycentric coordinates among the corners
   Eigen::MatrixXd values;
   std::array<Eigen::MatrixXd, 2> slopes;
   Eigen::VectorXd weight;
 };
 
-/// Of the face with these corners of the element, in their order.
+/// The reference values of the face whose corners are these vertices of the element, in their order.
 FaceReference face_reference(int order, const std::array<int, 3>& corners, int points) {
   const auto alphas = mesh::lattice(order);
   FaceReference face;
@@ -47,7 +48,8 @@ FaceReference face_reference(int order, const std::array<int, 3>& corners, int p
     for (std::size_t c = 0; c < 3; ++c) lambda(corners[c]) = rule.lambda(static_cast<Eigen::Index>(c), q);
     face.values.col(q) = shape_functions(order, lambda)(face.local);
     const Eigen::MatrixX3d by_xi = shape_slopes(order, lambda)(face.local, Eigen::all);
-    // ξ_k = λ_{k+1}: along the edge to a corner its λ grows and that of the first falls.
+    // Since ξ_k = λ_{k+1}: along the edge from the first corner to another, the λ of that other one grows and that of
+    // the first falls.
     const auto along = [&](int corner) -> Eigen::VectorXd {
       return corner == 0 ? Eigen::VectorXd::Zero(by_xi.rows()) : Eigen::VectorXd(by_xi.col(corner - 1));
     };
@@ -64,7 +66,7 @@ std::array<int, 3> local_corners(const mesh::TetMesh& mesh, const mesh::Boundary
   return corners;
 }
 
-/// x of the face's nodes, 3 × nodes.
+/// The positions of the chosen nodes, 3 × nodes.
 Eigen::Matrix3Xd positions_of(const mesh::LagrangeNodes& nodes, const std::vector<int>& chosen) {
   return nodes.positions(chosen, Eigen::all).transpose();
 }

@@ -1,7 +1,6 @@
 #pragma once
-// All that fem/ offers to other programs.
-// Internal: curved_element, elastic_clamps, face_points, interpolation, node_graph, quadrature,
-// reference_element.
+// The headers of fem/ that other programs may include.
+// Internal: curved_element, elastic_clamps, face_points, interpolation, node_graph, quadrature, reference_element.
 
 #include "core/eigen_alignment.hpp"
 #include "fem/assembly.hpp"

@@ -15,7 +15,7 @@ namespace {
 
 using Kernel = dynamics::RigidKernel;
 
-/// Centre and size of a piece.
+/// The centre and size of a piece, as a kernel without motions.
 Kernel without_motions(const mesh::LagrangeNodes& nodes, const std::vector<int>& piece, int which) {
   Kernel k;
   double members = 0.0;
@@ -35,7 +35,8 @@ Kernel without_motions(const mesh::LagrangeNodes& nodes, const std::vector<int>&
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// Columns of `motions` (orthonormal) cut to the kernel of the gram, then to the rest.
+/// The motions (orthonormal columns) divided into those in the kernel of the Gram matrix, with eigenvalues below
+/// `bound`, and the rest.
 std::pair<Motions, Motions> split(const Motions& motions, const Matrix6& gram, double bound) {
   if (motions.cols() == 0) return {motions, motions};
   const Eigen::MatrixXd seen = motions.transpose() * gram * motions;
@@ -45,7 +46,8 @@ std::pair<Motions, Motions> split(const Motions& motions, const Matrix6& gram, d
           motions * eigen.eigenvectors().rightCols(motions.cols() - none)};
 }
 
-/// The restraint's gram for the motions of the kernel: translation over the size, then rotation, about its centre.
+/// The Gram matrix of a restraint for the motions of the kernel: translation divided by the size, then rotation, about
+/// its centre.
 Matrix6 gram_of(const Restraint& restraint, const Kernel& k) {
   Matrix6 X = Matrix6::Identity();
   const Eigen::Vector3d r = (restraint.about - k.centre) / k.size;
@@ -55,6 +57,9 @@ Matrix6 gram_of(const Restraint& restraint, const Kernel& k) {
   return X.transpose() * scale.asDiagonal() * restraint.gram * scale.asDiagonal() * X;
 }
 
+/// The rigid motions that one piece keeps. They are found in three steps, each on what the one before left: the motions
+/// that fixed rows leave; those of them that no restraint touches at all, by Gram matrices of unit trace, so that a
+/// soft restraint beside a stiff one counts; and those that are restrained, but more softly than round-off of K.
 Kernel kernel(const mesh::LagrangeNodes& nodes, const Holding& holding, const std::vector<int>& piece, int which) {
   Kernel k = without_motions(nodes, piece, which);
   Matrix6 gram = Matrix6::Zero();
@@ -102,7 +107,7 @@ std::vector<std::string> free_motions(const mesh::LagrangeNodes& nodes, const st
 
 std::vector<std::string> free_motions(const mesh::LagrangeNodes& nodes, const Holding& holding) {
   const std::vector<int> piece = tied_pieces(nodes, holding.ties);
-  std::set<int> roots;  // a node of no element is no piece
+  std::set<int> roots;  // found by elements, because a node of no element is no piece
   for (Eigen::Index e = 0; e < nodes.elements.rows(); ++e)
     roots.insert(piece[static_cast<std::size_t>(nodes.elements(e, 0))]);
   std::vector<std::string> words;

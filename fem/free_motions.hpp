@@ -1,5 +1,5 @@
 #pragma once
-// The rigid-body motions that supports, springs and clamps leave to a part, in words.
+// Descriptions in words of the rigid-body motions that supports, springs and clamps leave free.
 
 #include <Eigen/Core>
 #include <string>
@@ -9,41 +9,42 @@
 
 namespace thinwall::fem {
 
-/// One line for each independent rigid-body motion that vanishes on all `fixed` rows (3·node + axis): none for a held
-/// part, six for a free one, translations first. "translation along x", "rotation about y"; with the point (m) through
-/// which the axis goes if no translation across it is free, "rotation about y through (0.1, 0, 0.02)"; a direction that
-/// is no axis by its components; a turn with an advance is a "screw". Elements that share no vertex, directly or
-/// through others, are separate pieces: each has its own motions, which say where it lies. The motions are the kernel
-/// of the six rigid motions at the fixed rows, about each piece's centre, rotations scaled by its size. Cost O(nodes ·
-/// pieces).
+/// A phrase for each independent rigid-body motion that vanishes on all `fixed` rows (3·node + axis), translations
+/// first: none for a held part, six for a free one. Examples are "translation along x" and "rotation about y"; if no
+/// translation across the axis is free, a point (m) on the axis is named, "rotation about y through (0.1, 0, 0.02)"; a
+/// direction that is no coordinate axis is given by its components; a rotation with an advance is a "screw". Elements
+/// that share no vertex, directly or through others, are separate pieces: each has its own motions, whose phrases name
+/// its place. The motions are the kernel of the six rigid motions at the fixed rows, about each piece's centre, with
+/// rotations scaled by its size. Cost O(nodes · pieces).
 [[nodiscard]] std::vector<std::string> free_motions(const mesh::LagrangeNodes& nodes, const std::vector<int>& fixed);
 
-/// Stiffness to ground as a rigid body feels it: of its motion [u θ] at `about`, stiffness_N_m · gram; gram 6 × 6
-/// (1, m, m²), semidefinite. What differs in stiffness by many orders, the normal and the tangent of a clamp, is two
-/// restraints: each is told from round-off by its own size.
+/// A stiffness to ground acting on the rigid motions of a piece: for the motion [u θ] at `about` it is stiffness_N_m ·
+/// gram, with gram 6 × 6 (1, m, m²) and semidefinite. Stiffnesses that differ by many orders of magnitude, such as
+/// those along and across the normal of a clamp, are separate restraints, so that each is compared with round-off at
+/// its own scale.
 struct Restraint {
-  int node = 0;  ///< any of the piece that it holds
+  int node = 0;  ///< any node of the piece that it holds
   Eigen::Vector3d about = Eigen::Vector3d::Zero();
   double stiffness_N_m = 0.0;
   Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
-/// What holds a part. With nothing but `fixed` it is as above.
+/// Everything that holds a part: fixed rows, restraints, and ties between pieces.
 struct Holding {
   std::vector<int> fixed;              ///< rows 3·node + axis
-  std::vector<Restraint> restraints;   ///< those of no stiffness do not count
-  std::vector<std::vector<int>> ties;  ///< nodes that move as one body: they join pieces
-  double negligible_N_m = 0.0;         ///< softer than this is free: what round-off makes of K is as stiff
+  std::vector<Restraint> restraints;   ///< restraints of zero stiffness are ignored
+  std::vector<std::vector<int>> ties;  ///< groups of nodes that move as one body and so join pieces
+  double negligible_N_m = 0.0;         ///< motions softer than this, the round-off of K, are free
 };
 
-/// The motions that these leave: the kernel of what is fixed and of all grams, and what of the rest is softer than
-/// negligible_N_m. Rotations count by the part's size.
+/// The motions that `holding` leaves free, as phrases: the kernel of the fixed rows and of all Gram matrices, and those
+/// of the other motions whose stiffness is below negligible_N_m. Rotations are scaled by the part's size.
 [[nodiscard]] std::vector<std::string> free_motions(const mesh::LagrangeNodes& nodes, const Holding& holding);
 
-/// For each node the lowest of its piece, the pieces joined by `ties` taken as one.
+/// For each node, the lowest node of its piece; pieces joined by `ties` count as one.
 [[nodiscard]] std::vector<int> tied_pieces(const mesh::LagrangeNodes& nodes, const std::vector<std::vector<int>>& ties);
 
-/// The motions in one line for a message, with commas between them.
+/// The phrases in one line for a message, separated by commas.
 [[nodiscard]] std::string listed(const std::vector<std::string>& motions);
 
 }  // namespace thinwall::fem

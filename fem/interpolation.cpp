@@ -6,7 +6,7 @@ namespace thinwall::fem {
 
 namespace {
 
-/// N_b(α_a / p) of the shape functions of order `from` at the nodes of order `to`, n_to × n_from.
+/// The values N_b(α_a / p) of the shape functions of order `from` at the nodes of order `to`, n_to × n_from.
 Eigen::MatrixXd values_at_nodes(int from, int to) {
   const auto alphas = mesh::lattice(to);
   Eigen::MatrixXd N(static_cast<Eigen::Index>(alphas.size()), (from + 1) * (from + 2) * (from + 3) / 6);

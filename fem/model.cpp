@@ -105,7 +105,8 @@ std::vector<int> rows_of(const std::vector<int>& nodes, const std::vector<int>& 
 
 namespace {
 
-/// nnz(L) of a solid grows as n^{4/3} (George 1973), n as h^{-3}: the size that fits follows.
+/// Throws MemoryLimitError with a proposal for a mesh that fits. The factor of a solid grows as nnz(L) ~ n^{4/3}
+/// (George 1973), and n as h^{-3}: the size that fits follows.
 [[noreturn]] void too_large(const Model& model, const linalg::MemoryLimitError& error) {
   const double fitting = std::pow(error.limit_bytes / error.needed_bytes, 0.75);
   const auto rounded = [](double x) { return std::to_string(static_cast<long>(std::lround(x))); };
@@ -116,7 +117,7 @@ namespace {
       error.needed_bytes, error.limit_bytes);
 }
 
-/// Rows 3·node + axis that supports hold: neither free nor of a rigid patch.
+/// The rows 3·node + axis that supports hold: those that are neither free nor part of a rigid patch.
 std::vector<int> rows_held(const Model& model) {
   const RowMap rows = row_map(model.nodes.positions.rows(), model.free_rows, model.rigid);
   std::vector<int> held;
@@ -127,10 +128,11 @@ std::vector<int> rows_held(const Model& model) {
   return held;
 }
 
-/// Whether only springs or clamps hold a rigid motion, with a λ below `bound`: by Rayleigh's quotients of the six
-/// motions about the centre. K⁻¹ would then show little but these motions, and a shift is needed as for a free part.
+/// True if only springs or clamps hold a rigid motion, with an eigenvalue λ below `bound`. λ is estimated from Rayleigh
+/// quotients of the six rigid motions about the centre. K⁻¹ would then be dominated by these motions, so that a shift
+/// is needed as for a free part.
 bool softly_held(const Model& model, double bound) {
-  if (model.nodes.positions.rows() == 0) return false;  // matrices without a mesh
+  if (model.nodes.positions.rows() == 0) return false;  // the model has matrices but no mesh
   if (free_motions(model.nodes, rows_held(model)).empty()) return false;
   Eigen::MatrixXd R = rigid_body_motions(model);
   R.rightCols<3>() += R.leftCols<3>() * cross_matrix(model.mass.centre_m);

@@ -15,6 +15,7 @@ namespace thinwall::fem {
 
 namespace {
 
+/// Frequency in Hz of an eigenvalue in rad²/s²; 0 for a negative one, which is round-off of a rigid motion.
 double hertz(double lambda) {
   return std::sqrt(std::max(lambda, 0.0)) / (2.0 * std::numbers::pi);
 }
@@ -28,20 +29,21 @@ linalg::Eigenpairs solve(const Model& model, const Factored& factored, const Mod
                                    options.inverse_residual);
 }
 
-/// ε tr K / tr M. K's entries are rounded at ε of those of the stiffest elements, and so are the Rayleigh quotients of
-/// motions without stiffness: on free plates 100 to 800 times as wide as thick, of orders 3 to 6, they come to 0.4 to
-/// 0.9 of this.
+/// The round-off of eigenvalues, ε tr K / tr M, rad²/s². The entries of K are rounded at ε of those of the stiffest
+/// elements, and so are the Rayleigh quotients of motions without stiffness: on free plates 100 to 800 times as wide as
+/// thick, of orders 3 to 6, these are 0.4 to 0.9 of this bound.
 double round_off(const Model& model) {
   return std::numeric_limits<double>::epsilon() * model.spectrum_rad2_s2;
 }
 
-/// The same with what is attached: a stiff clamp leaves its round-off to what slides along it.
+/// The round-off of eigenvalues, ε tr K / tr M, with attachments included: the entries of a stiff clamp are rounded
+/// too, and their round-off acts on motions that slide along it.
 double round_off_attached(const Model& model) {
   return std::numeric_limits<double>::epsilon() * model.K.diagonal().sum() / model.M.diagonal().sum();
 }
 
-/// Throws unless as many modes without stiffness show as rigid motions are free, and no more; `noise`, rad²/s², tells
-/// motions without stiffness from elastic ones.
+/// Throws NumericalError unless the number of modes without stiffness equals the number of free rigid motions. `noise`,
+/// rad²/s², separates motions without stiffness from elastic ones.
 void require_rigid_modes(const Model& model, const Eigen::VectorXd& lambda, double noise) {
   const Eigen::Index rigid = model.rigid_motions;
   const double largest = rigid > 0 ? lambda.head(rigid).cwiseAbs().maxCoeff() : 0.0;
@@ -60,6 +62,8 @@ void require_rigid_modes(const Model& model, const Eigen::VectorXd& lambda, doub
 
 bool none_missed(const Model& model, const linalg::Eigenpairs& pairs) {
   const double last = pairs.lambda(pairs.lambda.size() - 1);
+  // The shift lies a little above the last mode. If it falls on an eigenvalue, the factorisation has a vanishing pivot,
+  // and the next shift is tried.
   for (const double above : {1e-6, 1e-5, 1e-4}) {
     const auto below = linalg::count_eigenvalues_below(model.K, model.M, last * (1.0 + above), model.node_of_row);
     if (below) return *below == static_cast<int>(pairs.lambda.size());
@@ -69,7 +73,7 @@ bool none_missed(const Model& model, const linalg::Eigenpairs& pairs) {
 
 namespace {
 
-/// Frequencies, residuals and what round-off leaves of the pairs.
+/// The result for converged pairs: frequencies, residuals, and the error that round-off of K may cause.
 Modes described(const Model& model, linalg::Eigenpairs&& pairs) {
   Modes result;
   result.rigid_motions = model.rigid_motions;

@@ -8,12 +8,12 @@
 
 namespace thinwall::fem {
 
-/// How many modes, or up to which frequency; whether to prove that none was missed.
+/// The modes wanted, by number or by frequency, and whether to prove that none was missed.
 struct ModeOptions {
-  int count = 10;                    ///< elastic modes; used if up_to_hz is not given
-  std::optional<double> up_to_hz{};  ///< all modes below this frequency instead
+  int count = 10;                    ///< number of elastic modes; used if up_to_hz is not given
+  std::optional<double> up_to_hz{};  ///< if given, all modes below this frequency instead
   bool verify_count = false;         ///< Sturm count: inertia of K − σM just above the last mode
-  double inverse_residual = 3e-10;  ///< ≤ 1e-6, of `count` modes: a frequency is off by its square, a shape by itself
+  double inverse_residual = 3e-10;   ///< ≤ 1e-6, for `count` modes: error of a shape; its square is that of λ
 };
 
 /// Modes in ascending order, the rigid-body modes first (as many as Model::rigid_motions).
@@ -22,28 +22,29 @@ struct [[nodiscard]] Modes {
   linalg::Eigenpairs pairs;      ///< λ in rad²/s², Φ over the free rows, M-normalised
   Eigen::VectorXd residual;      ///< ‖Kφ−λMφ‖/(λ‖Mφ‖), 0 for rigid-body modes
   int rigid_motions = 0;
-  /// What rounding K's entries may change of the lowest elastic frequency, relative: ε tr K / (2 λ tr M). No residual
-  /// shows it; it grows as (length / thickness)⁴ with the thinnest of parts.
+  /// The relative change of the lowest elastic frequency that rounding the entries of K may cause: ε tr K / (2 λ tr M).
+  /// No residual shows it; for very thin parts it grows as (length / thickness)⁴.
   double round_off = 0.0;
   std::optional<bool> count_verified;  ///< set on request: true if the Sturm count agrees
 };
 
-/// Sturm count: no eigenvalue but the pairs' lies below the last of them. Counts at a shift between it and the next
-/// one.
+/// True if a Sturm count proves that no eigenvalue other than those of the pairs lies below the last of them. The
+/// eigenvalues are counted at a shift just above the last one (linalg::count_eigenvalues_below()).
 [[nodiscard]] bool none_missed(const Model& model, const linalg::Eigenpairs& pairs);
 
-/// Cost: see linalg::lowest_eigenpairs; the Sturm count adds a simplicial factorisation.
-/// Throws NumericalError if the iteration does not converge, if a free part does not show exactly its rigid-body modes
-/// (|λ| < 1e-6 of the first elastic eigenvalue or of the size of K's round-off, 10 ε tr K / tr M), or if the first
-/// elastic eigenvalue, of a held part too, is no more than that round-off.
+/// The natural modes of a model, the rigid-body modes first. Throws NumericalError if the iteration does not converge,
+/// if a free part does not show exactly its rigid-body modes (|λ| < 1e-6 of the first elastic eigenvalue or of the size
+/// of K's round-off, 10 ε tr K / tr M), or if the first elastic eigenvalue, of a held part too, is no larger than that
+/// round-off. Throws InputError if no elastic mode lies below up_to_hz. Cost: that of linalg::lowest_eigenpairs(); the
+/// Sturm count adds a simplicial factorisation.
 Modes modes(const Model& model, const Factored& factored, const ModeOptions& options);
 
 /// The modes near given ones, which must lie near the lowest: inverse iteration (linalg::inverse_iteration) until the
-/// residuals of all are below `inverse_residual` before the last step; frequencies are then off by less than its square
-/// (relative, where they are not close to one that is left out), upwards in a held part. Of a solution of another order
-/// two steps do, where block_lanczos() takes nine of as many columns. None if the start is too far: the columns depend
-/// on each other, or four steps were not enough. Does not show if a mode is missing between those given. start: λ,
-/// rad²/s², and Φ on the free rows of the model. Throws as modes() does.
+/// residuals of all are below `inverse_residual` before the last step. The relative error of a frequency that is not
+/// close to one left out is then less than the square of that bound, and positive in a held part. Two steps suffice
+/// from a solution of another order, while block_lanczos() takes nine with as many columns. Empty if the start is too
+/// far away: the columns depend on each other, or four steps were not enough. A mode missing between the given ones
+/// goes unnoticed. start: λ, rad²/s², and Φ on the free rows of the model. Throws as modes() does.
 std::optional<Modes> modes_near(const Model& model, const Factored& factored, linalg::Eigenpairs start,
                                 double inverse_residual);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which elements and which nodes meet at a node.
+// Adjacency of nodes and elements.
 
 #include <cstddef>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace thinwall::fem {
 
-/// Lists of integers of different lengths, one after the other.
+/// Lists of integers of different lengths, stored one after the other.
 struct Lists {
   std::vector<std::ptrdiff_t> start;  ///< count + 1
   std::vector<int> items;
@@ -17,17 +17,17 @@ struct Lists {
   [[nodiscard]] std::ptrdiff_t length(int list) const {
     return start[static_cast<std::size_t>(list) + 1] - start[static_cast<std::size_t>(list)];
   }
-  /// First item of a list.
+  /// Pointer to the first item of a list.
   [[nodiscard]] const int* begin(int list) const { return items.data() + start[static_cast<std::size_t>(list)]; }
-  /// Behind its last item.
+  /// Pointer past the last item of a list.
   [[nodiscard]] const int* end(int list) const { return items.data() + start[static_cast<std::size_t>(list) + 1]; }
 };
 
-/// For each node its places in the elements, element · nodes-per-element + local node, ascending.
+/// For each node, its places in the elements, element · nodes-per-element + local node, ascending.
 [[nodiscard]] Lists incidences(const mesh::LagrangeNodes& nodes);
 
-/// For each node the nodes it shares an element with, itself included, ascending. On all threads. Cost O(tets ·
-/// nodes²).
+/// For each node, the nodes with which it shares an element, itself included, ascending. Runs on all threads. Cost
+/// O(tets · nodes²).
 [[nodiscard]] Lists neighbours(const mesh::LagrangeNodes& nodes, const Lists& incidences);
 
 }  // namespace thinwall::fem

@@ -13,8 +13,8 @@ namespace thinwall::fem {
 
 namespace {
 
-/// Sums over the samples of a patch; moments about a place near it, so that a part far from the origin keeps its
-/// digits.
+/// Sums over the samples of a patch. Moments are taken about a place near the patch, so that a part far from the origin
+/// loses no digits.
 struct Sums {
   struct Node {
     double share = 0.0;
@@ -26,7 +26,7 @@ struct Sums {
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
 
-  /// A sample at x: of its nodes those with N_a.
+  /// Adds a sample at x with the values N of the shape functions of the nodes `of_sample`.
   template <class Values>
   void add(const Eigen::Vector3d& x, double weight, const std::vector<int>& of_sample, const Values& N) {
     if (area == 0.0) about = x;
@@ -93,7 +93,7 @@ PatchAverage patch_average(const mesh::TetMesh& mesh, const mesh::LagrangeNodes&
 Eigen::Matrix3d inverse_spread(const PatchAverage& average, const std::string& name) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(average.spread_m2);
   const Eigen::Vector3d& spread = eigen.eigenvalues();
-  // A single sample leaves the round-off of its place.
+  // The spread of a single sample is the round-off of its position.
   const double least = 1e-24 * average.centre_m.squaredNorm();
   if (spread(2) <= least || average.nodes.empty()) {
     throw core::InputError("point \"" + name +

@@ -1,6 +1,6 @@
 #pragma once
-// A patch of the part's surface as a point of six degrees of freedom: how its displacement and turn follow from the
-// nodes.
+// A patch of the part's surface as a point with six degrees of freedom, whose displacement and rotation follow from
+// those of the nodes.
 
 #include <Eigen/Core>
 #include <string>
@@ -13,17 +13,18 @@
 
 namespace thinwall::fem {
 
-/// The disc about a point on the surface (m), cut where it leaves the surface; radius 0: the point itself.
+/// A disc about a point on the surface (m), cut off where it leaves the surface; with radius 0 it is the point itself.
 struct Disc {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
   double radius_m = 0.0;
-  double off_m = 0.0;  ///< how far a mesh of chords may lie off the surface that the centre is on (mesh::disc_face)
+  double off_m = 0.0;  ///< allowed distance of the mesh from the true surface, on which the centre lies
 };
 
-/// A disc, or all faces of a region. Both are looked up on the straight mesh.
+/// A patch: a disc, or all faces of a region. Both are looked up on the straight mesh.
 using Patch = std::variant<Disc, mesh::Region>;
 
-/// Averages over a patch of area A, N_a the shape functions of its nodes, x the true place, c = ∫ x dA / A, r = x − c.
+/// Averages over a patch of area A: N_a are the shape functions of its nodes, x the true position, c = ∫ x dA / A and r
+/// = x − c.
 struct PatchAverage {
   std::vector<int> nodes;     ///< ascending
   Eigen::VectorXd share;      ///< ∫ N_a dA / A, sum 1
@@ -32,27 +33,28 @@ struct PatchAverage {
   Eigen::Matrix3d spread_m2 = Eigen::Matrix3d::Zero();  ///< J = ∫ (r·r I − r rᵀ) dA / A
 };
 
-/// Over a disc by its samples (mesh::patch_samples), over a region by face_points(). Throws InputError, with `name`, if
-/// the disc lies off the part or the region holds no face. Cost O(tets) to look it up.
+/// The averages over a patch: over a disc by its samples (mesh::patch_samples), over a region by face_points(). Throws
+/// InputError, with `name`, if the disc lies off the part or the region holds no face. Cost O(tets) to find the patch.
 [[nodiscard]] PatchAverage patch_average(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes,
                                          const Patch& patch, const std::string& name);
 
-/// J⁻¹. Throws InputError, with `name`, for a single point or a line, which does not see the turn about itself: where
-/// the smallest eigenvalue of J is below 1e-8 of the largest.
+/// The inverse J⁻¹ of the spread. Throws InputError, with `name`, for a patch that is a single point or lies on a line,
+/// whose rotation about itself its displacements do not determine: the smallest eigenvalue of J is then below 1e-8 of
+/// the largest.
 [[nodiscard]] Eigen::Matrix3d inverse_spread(const PatchAverage& average, const std::string& name);
 
-/// The six functionals of the averaging connection, the least-squares rigid motion of the patch about c: that which
-/// minimises ∫ |u − (u_c + θ × r)|² dA,
+/// The six functionals of the averaging connection, which is the rigid motion of the patch about c nearest to its
+/// displacement: it minimises ∫ |u − (u_c + θ × r)|² dA by
 ///
 ///     u_c = Σ_a share_a u_a,   θ = J⁻¹ Σ_a moment_a × u_a
 ///
-/// (the RBE3 element; MacNeal 1972, the reference point at the centre, weights the area). Rows [u_c θ], of the a-th
-/// node of the patch: 6 × 3. Its transpose spreads a force evenly and a moment without net force. With `J_inverse` zero
-/// the turn is left out.
+/// (docs/theory/elements.md, Eq. A3; the RBE3 element of MacNeal 1972 with the reference point at the centre and the
+/// area as weights). Returns the part of the a-th node of the patch, 6 × 3, rows [u_c θ]. The transpose distributes a
+/// force evenly and a moment without net force. With `J_inverse` zero the rotation is left out.
 [[nodiscard]] Eigen::Matrix<double, 6, 3> motion_of_node(const PatchAverage& average, Eigen::Index a,
                                                          const Eigen::Matrix3d& J_inverse);
 
-/// [r]×, with [r]× b = r × b.
+/// The matrix [r]× with [r]× b = r × b.
 [[nodiscard]] Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& r);
 
 }  // namespace thinwall::fem

@@ -16,7 +16,8 @@ namespace {
   throw core::InputError(text.str());
 }
 
-/// Adds the functional d · motion of the patch's nodes, d a row of six, as a column; returns the sum of its sizes.
+/// Adds the functional d · [u_c θ] of the patch's motion as a column, with d a vector of six. Returns the sum of the
+/// magnitudes of its entries, which is zero if supports hold all nodes.
 double add_column(const Model& model, const RowMap& rows, const PatchAverage& average, const Eigen::Matrix3d& J_inverse,
                   const Eigen::Matrix<double, 6, 1>& d, int column, std::vector<Eigen::Triplet<double>>& entries) {
   const std::size_t before = entries.size();

@@ -10,12 +10,12 @@ namespace thinwall::fem {
 namespace {
 
 struct LineRule {
-  Eigen::VectorXd x;  // in (0, 1)
-  Eigen::VectorXd w;  // sum to one
+  Eigen::VectorXd x;  // points in (0, 1)
+  Eigen::VectorXd w;  // weights, sum 1
 };
 
-/// Gauss rule for the weight (1 − x)^a on (0, 1), a = 0, 1, 2: eigenvalues of the Jacobi matrix (Golub & Welsch 1969)
-/// of the Jacobi polynomials P^{(a, 0)} on (−1, 1).
+/// The Gauss rule for the weight (1 − x)^a on (0, 1), a = 0, 1, 2, from the eigenvalues of the Jacobi matrix (Golub &
+/// Welsch 1969) of the Jacobi polynomials P^{(a, 0)} on (−1, 1).
 LineRule gauss_jacobi(int points, int a) {
   Eigen::VectorXd diagonal(points);
   Eigen::VectorXd off(std::max(points - 1, 1));

@@ -1,11 +1,11 @@
 #pragma once
-// Quadrature on the tetrahedron and on the triangle.
+// Quadrature rules on the tetrahedron and on the triangle.
 
 #include <Eigen/Core>
 
 namespace thinwall::fem {
 
-/// Points in barycentric coordinates and weights that sum to one: ∫ f dV ≈ V Σ w f(λ).
+/// A rule on the tetrahedron: points in barycentric coordinates and weights that sum to one, ∫ f dV ≈ V Σ w f(λ).
 struct TetQuadrature {
   Eigen::Matrix<double, 4, Eigen::Dynamic> lambda;
   Eigen::VectorXd weight;
@@ -15,7 +15,7 @@ struct TetQuadrature {
 /// degree 2·points − 1; all weights positive, all points inside. 1 ≤ points ≤ 20.
 [[nodiscard]] TetQuadrature tet_quadrature(int points);
 
-/// The same on a triangle: ∫ f dA ≈ A Σ w f(λ).
+/// A rule on the triangle: points in barycentric coordinates and weights that sum to one, ∫ f dA ≈ A Σ w f(λ).
 struct TriangleQuadrature {
   Eigen::Matrix<double, 3, Eigen::Dynamic> lambda;
   Eigen::VectorXd weight;

@@ -15,7 +15,7 @@ namespace {
 using Real = long double;
 using Polynomial = std::vector<Real>;  // coefficients by rising power
 
-/// P_m(s) = Π_{i<m} (p s − i)/(i + 1).
+/// The polynomial P_m(s) = Π_{i<m} (p s − i)/(i + 1) of Silvester 1969.
 Polynomial silvester(int p, int m) {
   Polynomial c{1.0L};
   for (int i = 0; i < m; ++i) {
@@ -49,17 +49,18 @@ Real factorial(std::size_t n) {
   return f;
 }
 
-/// Σ c_j s^j → Σ j! c_j s^j, as the integral of a monomial wants its powers.
+/// The polynomial Σ j! c_j s^j for Σ c_j s^j: the factorials of ∫ λ^γ dV = 6V Π γ_k! / (|γ| + 3)! are applied to each
+/// factor beforehand.
 Polynomial weighted(Polynomial c) {
   for (std::size_t j = 0; j < c.size(); ++j) c[j] *= factorial(j);
   return c;
 }
 
-/// Where a shape function of the pair is differentiated, seen from two of the four coordinates.
+/// The coordinate by which a shape function is differentiated, as seen from a pair of the four barycentric coordinates.
 enum Derivative : std::size_t { by_first, by_second, by_neither };
 
-/// The weighted products of the factors of two shape functions in two coordinates: half of each integrand. There are
-/// few of them, while the integrals are many.
+/// The weighted products of the factors of two shape functions in two of the four coordinates, which are half of each
+/// integrand. There are few different halves, while the integrals are many, so that halves are computed once.
 class Halves {
  public:
   explicit Halves(int order) : p_(static_cast<std::size_t>(order)), products_(9 * size() * size() * size() * size()) {
@@ -92,7 +93,8 @@ class Halves {
     return ((((da * 3 + db) * size() + a0) * size() + a1) * size() + b0) * size() + b1;
   }
 
-  /// Of one coordinate: [whether a is differentiated][whether b is][(p + 1) m_a + m_b].
+  /// The products of the factors in one coordinate, indexed by [a is differentiated][b is differentiated][(p + 1) m_a +
+  /// m_b].
   [[nodiscard]] std::array<std::array<std::vector<Polynomial>, 2>, 2> factors() const {
     std::array<std::array<std::vector<Polynomial>, 2>, 2> table;
     const int p = static_cast<int>(p_);
@@ -114,7 +116,7 @@ class Halves {
   std::vector<Polynomial> products_;
 };
 
-/// ∫ of the product of two halves dV / V = Σ 6 c_i d_j / (i + j + 3)!.
+/// The integral over V of the product of two halves, divided by V: Σ 6 c_i d_j / (i + j + 3)!.
 Real integral(const Polynomial& c, const Polynomial& d) {
   static const auto by_power = [] {
     std::array<Real, 32> weights{};
@@ -130,7 +132,7 @@ Real integral(const Polynomial& c, const Polynomial& d) {
   return sum;
 }
 
-/// ∫ ∂N_a/∂λ_k ∂N_b/∂λ_l dV / V with the four λ taken as independent; k or l = 4: no derivative.
+/// The integral ∫ ∂N_a/∂λ_k ∂N_b/∂λ_l dV / V with the four λ taken as independent; k or l = 4 means no derivative.
 Real pair_integral(const Halves& halves, const std::array<int, 4>& alpha, const std::array<int, 4>& beta, int k,
                    int l) {
   const auto in = [](int coordinate, int first) {
@@ -140,7 +142,7 @@ Real pair_integral(const Halves& halves, const std::array<int, 4>& alpha, const 
                   halves.of(in(k, 2), in(l, 2), alpha.data() + 2, beta.data() + 2));
 }
 
-/// D̂^{kl}_ab at (k, l).
+/// The matrix with D̂^{kl}_ab at (k, l), from the integrals with independent λ and ∂/∂ξ_k = ∂/∂λ_{k+1} − ∂/∂λ₀.
 Eigen::Matrix3d slopes_integral(const Halves& halves, const std::array<int, 4>& alpha, const std::array<int, 4>& beta) {
   Eigen::Matrix<Real, 4, 4> d;
   for (int k = 0; k < 4; ++k) {
@@ -190,7 +192,7 @@ Eigen::VectorXd shape_functions(int order, const Eigen::Vector4d& lambda) {
 }
 
 Eigen::MatrixX3d shape_slopes(int order, const Eigen::Vector4d& lambda) {
-  // P_m and P_m' at the four coordinates, by the recurrence of their factors.
+  // P_m and its derivative at the four coordinates follow from a recurrence over their factors.
   Eigen::Matrix<double, Eigen::Dynamic, 4> P = Eigen::MatrixXd::Ones(order + 1, 4);
   Eigen::Matrix<double, Eigen::Dynamic, 4> dP = Eigen::MatrixXd::Zero(order + 1, 4);
   for (int k = 0; k < 4; ++k) {
@@ -203,7 +205,7 @@ Eigen::MatrixX3d shape_slopes(int order, const Eigen::Vector4d& lambda) {
   const auto alphas = mesh::lattice(order);
   Eigen::MatrixX3d slopes(static_cast<Eigen::Index>(alphas.size()), 3);
   for (std::size_t a = 0; a < alphas.size(); ++a) {
-    Eigen::Vector4d d;  // by the four coordinates as if they were independent
+    Eigen::Vector4d d;  // derivatives by the four coordinates, taken as independent
     for (int k = 0; k < 4; ++k) {
       d(k) = dP(alphas[a][static_cast<std::size_t>(k)], k);
       for (int other = 0; other < 4; ++other) {

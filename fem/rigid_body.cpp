@@ -31,7 +31,7 @@ MassProperties mass_properties(const linalg::SparseMatrix& node_mass, const mesh
   MassProperties p;
   p.mass_kg = moments(0, 0);
   p.centre_m = moments.block<3, 1>(1, 0) / p.mass_kg;
-  // Second moments about the centre; the inertia is their trace on the diagonal less themselves.
+  // The inertia tensor is tr(S) I − S with S the second moments about the centre.
   const Eigen::Matrix3d about_centre =
       moments.bottomRightCorner<3, 3>() - p.mass_kg * p.centre_m * p.centre_m.transpose();
   p.inertia_kg_m2 = about_centre.trace() * Eigen::Matrix3d::Identity() - about_centre;

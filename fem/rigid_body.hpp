@@ -1,5 +1,5 @@
 #pragma once
-// Rigid-body motions: of the nodes, left free by the supports, and the mass properties that they measure.
+// Rigid-body motions of the nodes, and the mass properties that follow from them and the mass matrix.
 
 #include <Eigen/Core>
 
@@ -19,14 +19,15 @@ struct MassProperties {
   Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();
 };
 
-/// From the mass matrix alone: with P = [1 x y z] at the nodes, Pᵀ M P holds mass, first and second moments. node_mass:
-/// ∫ ρ N_a N_b dV over all nodes, unconstrained.
+/// The mass properties from the mass matrix alone: with P = [1 x y z] at the nodes, Pᵀ M P contains mass, first and
+/// second moments. node_mass: ∫ ρ N_a N_b dV over all nodes, unconstrained.
 [[nodiscard]] MassProperties mass_properties(const linalg::SparseMatrix& node_mass, const mesh::LagrangeNodes& nodes);
 
-/// Of a homogeneous block 0…size (m), in closed form.
+/// The mass properties of a homogeneous block from 0 to `size` (m), in closed form.
 [[nodiscard]] MassProperties box_mass_properties(const Eigen::Vector3d& size, double density_kg_m3);
 
-/// Largest relative difference of mass, centre (over the size) and inertia (over its trace).
+/// The largest relative difference of mass, centre (over the distance of b's centre from the origin) and inertia (over
+/// its trace).
 [[nodiscard]] double relative_difference(const MassProperties& a, const MassProperties& b);
 
 }  // namespace thinwall::fem

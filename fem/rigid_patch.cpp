@@ -28,7 +28,8 @@ std::vector<int> nodes_in(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& 
   return chosen;
 }
 
-/// Six columns of T for each patch: what its motion moves of the free rows.
+/// The columns of T, six for each patch, which give the displacements of the free rows that belong to its nodes from
+/// its motion.
 linalg::SparseMatrix patch_columns(const mesh::LagrangeNodes& nodes, const std::vector<int>& free_rows,
                                    const std::vector<RigidPatch>& rigid) {
   const RowMap own = row_map(nodes.positions.rows(), free_rows, {});

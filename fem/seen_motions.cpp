@@ -10,7 +10,7 @@ namespace thinwall::fem {
 
 void require_motions_seen(const Model& model, const Modes& modes, const Eigen::MatrixXd& amplitudes) {
   const Eigen::Index rigid = modes.rigid_motions;
-  if (rigid == 0) return;  // held, or softly sprung
+  if (rigid == 0) return;  // the part is held, rigidly or by soft springs
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(Eigen::MatrixXd(amplitudes.leftCols(rigid)));
   svd.setThreshold(1e-6);
   if (svd.rank() == rigid) return;

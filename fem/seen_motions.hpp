@@ -1,5 +1,5 @@
 #pragma once
-// Whether the points of a free part see every way in which it can move rigidly.
+// A check that the points of a free part determine all of its rigid motions.
 
 #include <Eigen/Core>
 
@@ -7,10 +7,10 @@
 
 namespace thinwall::fem {
 
-/// A part that can move rigidly is held by what joins it at its points, so they must see all of its rigid motions:
-/// points on one line, say, do not see the turn about it. `amplitudes` = Wᵀ Φ (points' directions × modes), of which
-/// the first modes.rigid_motions columns are looked at, with a relative threshold of 1e-6. Throws InputError, with the
-/// motions in words, if their rank is less. Cost O(directions · motions²).
+/// Throws InputError, with the motions in words, unless the displacements of the points determine every rigid motion of
+/// a free part. Such a part is held only by what is joined to its points; points on one line, for instance, do not
+/// determine the rotation about it. `amplitudes` = Wᵀ Φ (points' directions × modes); the rank of its first
+/// modes.rigid_motions columns is taken with a relative threshold of 1e-6. Cost O(directions · motions²).
 void require_motions_seen(const Model& model, const Modes& modes, const Eigen::MatrixXd& amplitudes);
 
 }  // namespace thinwall::fem

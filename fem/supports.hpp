@@ -12,25 +12,26 @@ namespace thinwall::fem {
 
 /// Zero displacement on a region of the surface, in the given axes (0…2).
 struct Support {
-  std::string name;  ///< what the user called the region
+  std::string name;  ///< name given by the user, for messages
   mesh::Region region;
   std::vector<int> axes{0, 1, 2};
 };
 
-/// Rows 3·node + axis that the supports hold. Throws InputError for a region without faces (mesh::select).
+/// The rows 3·node + axis that the supports hold. Throws InputError for a region without faces (mesh::select).
 [[nodiscard]] std::vector<int> fixed_rows(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes,
                                           const std::vector<Support>& supports);
 
-/// Moves the nodes of the straight mesh to where they belong, in place: onto the surface of a curved part.
+/// A function that moves the nodes of the straight mesh, in place, onto the surface of a curved part.
 using Shaping = std::function<void(mesh::LagrangeNodes&)>;
 
-/// Builds the constrained model of order 1…6 on a mesh. Supports and attachments are looked up on the mesh, supports
-/// before `shape` (if there is one) moves its nodes; normals and lever arms of attachments are those of the moved ones.
+/// Builds the constrained model of order 1…6 on a mesh. Supports and attachments are looked up on the straight mesh,
+/// supports before `shape` (if it is set) moves its nodes; normals and lever arms of attachments are those of the moved
+/// nodes. Throws what fixed_rows() and build_model() throw.
 [[nodiscard]] Model supported_model(mesh::TetMesh mesh, int order, const Materials& materials,
                                     const std::vector<Support>& supports, const Shaping& shape = {},
                                     const Attachments& attachments = {});
 
-/// The same of one material.
+/// Builds the constrained model of a part of one material.
 [[nodiscard]] Model supported_model(mesh::TetMesh mesh, int order, const Material& material,
                                     const std::vector<Support>& supports, const Shaping& shape = {},
                                     const Attachments& attachments = {});

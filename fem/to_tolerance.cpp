@@ -14,7 +14,7 @@ namespace thinwall::fem {
 
 namespace {
 
-/// One solution with what is compared between orders.
+/// One solution, with the quantities that are compared between orders.
 struct Solution {
   Model model;
   Factored factored;
@@ -23,7 +23,8 @@ struct Solution {
   Eigen::MatrixXd flexibility;  // Wᵀ (K − σM)⁻¹ W
 };
 
-/// Columns of the points, turns scaled to the norm of a displacement: rad and m are compared in one unit.
+/// The columns of the points. Turns are scaled to the norm of a displacement's column, so that receptances in rad and
+/// in m can be compared.
 linalg::SparseMatrix point_loads(const Model& model, const std::vector<NamedPoint>& points) {
   std::vector<Eigen::Triplet<double>> entries;
   int columns = 0;
@@ -41,7 +42,7 @@ linalg::SparseMatrix point_loads(const Model& model, const std::vector<NamedPoin
   return W;
 }
 
-/// Model and factor, the modes yet to be found.
+/// The model and its factor, with the modes still to be found.
 Solution prepared(const SolidPart& part, const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
   const Materials materials = part.materials ? part.materials(mesh) : Materials{{part.material}, {}};
   Model model = supported_model(mesh, order, materials, part.supports, part.shape, part.attachments);
@@ -63,8 +64,9 @@ Solution solve(const SolidPart& part, const mesh::TetMesh& mesh, int order, cons
   return s;
 }
 
-/// The solution of a lower order from that of the next, as far as an estimate needs it: frequencies to a hundredth
-/// of the tolerance.
+/// The solution of the next lower order, made from that of a higher one as accurately as an estimate needs it:
+/// frequencies to a hundredth of the tolerance. Their error is the square of the inverse residual, hence the bound 0.1
+/// √tolerance.
 Solution solve_below(const SolidPart& part, const Solution& above, const ToleranceOptions& options) {
   Solution s = prepared(part, above.model.mesh, above.model.nodes.order - 1, options);
   linalg::Eigenpairs start = above.modes.pairs;
@@ -75,7 +77,7 @@ Solution solve_below(const SolidPart& part, const Solution& above, const Toleran
   return s;
 }
 
-/// Largest relative change of the elastic frequencies that both have.
+/// The largest relative change of the elastic frequencies that both solutions have.
 double frequency_change(const Modes& a, const Modes& b) {
   const Eigen::Index elastic = std::min(a.frequency_hz.size(), b.frequency_hz.size()) - b.rigid_motions;
   if (elastic <= 0) return std::numeric_limits<double>::infinity();
@@ -84,15 +86,17 @@ double frequency_change(const Modes& a, const Modes& b) {
   return ((fa - fb) / fb).abs().maxCoeff();
 }
 
-/// H(ω²) = Σ a aᵀ / (λ − ω²), with what the other modes add taken at the shift.
+/// The receptance H(ω²) = Σ a aᵀ / (λ − ω²) over the known modes; the contribution of all others is taken at the shift,
+/// where the factor gives it exactly.
 Eigen::MatrixXd receptance(const Solution& s, double omega_squared) {
   const Eigen::ArrayXd lambda = s.modes.pairs.lambda.array();
   const Eigen::VectorXd share = (lambda - omega_squared).inverse() - (lambda - s.factored.sigma).inverse();
   return s.flexibility + s.amplitudes * share.asDiagonal() * s.amplitudes.transpose();
 }
 
-/// The largest entry of Σ |a| |a|ᵀ / |λ − ω²| with the rest: what the shares of the modes come to where they do not
-/// cancel. At an antiresonance they do, and an error relative to what is left would say nothing of the model.
+/// The scale for errors of a receptance: the largest entry of Σ |a| |a|ᵀ / |λ − ω²| plus the magnitude of the other
+/// modes' contribution, which is the receptance that the modes' contributions would add up to if none cancelled. At an
+/// antiresonance they do cancel, and an error relative to the remainder would say nothing about the model.
 double magnitude(const Solution& s, double omega_squared) {
   const Eigen::ArrayXd lambda = s.modes.pairs.lambda.array();
   const Eigen::VectorXd share = (lambda - omega_squared).inverse().abs();
@@ -102,7 +106,8 @@ double magnitude(const Solution& s, double omega_squared) {
   return (rest.cwiseAbs() + sizes * share.asDiagonal() * sizes.transpose()).maxCoeff();
 }
 
-/// Values of ω² away from resonances, the shift first.
+/// Values of ω² at which receptances are compared: the shift, then up to five places midway between frequencies at
+/// least 25 % apart, away from resonances.
 std::vector<double> quiet_places(const Modes& modes, double sigma) {
   std::vector<double> places{sigma};
   for (Eigen::Index k = std::max(modes.rigid_motions, 0); k + 1 < modes.frequency_hz.size(); ++k) {
@@ -117,7 +122,8 @@ std::vector<double> quiet_places(const Modes& modes, double sigma) {
 double receptance_change(const Solution& a, const Solution& b) {
   double worst = 0.0;
   for (const double place : quiet_places(b.modes, b.factored.sigma)) {
-    // Each at its own shift: σ scales with the matrices, which differ a little between orders.
+    // Each receptance is taken at the solution's own shift, because σ scales with the matrices, which differ a little
+    // between orders.
     const Eigen::MatrixXd Ha = receptance(a, place == b.factored.sigma ? a.factored.sigma : place);
     const Eigen::MatrixXd Hb = receptance(b, place);
     worst = std::max(worst, (Ha - Hb).cwiseAbs().maxCoeff() / magnitude(b, place));
@@ -134,7 +140,7 @@ void validate(const ToleranceOptions& o) {
     throw core::InputError("orders must rise within 1 to 6, on at least one level");
 }
 
-/// Whether the model of this order keeps within the bound on degrees of freedom.
+/// True if the model of this order stays within the bound on degrees of freedom.
 bool fits(const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
   return options.largest_dofs == 0 || 3 * mesh::lagrange_node_count(mesh, order) <= options.largest_dofs;
 }
@@ -148,14 +154,15 @@ void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options) {
                          "; allow more, lower the first order, or simplify the part");
 }
 
-/// Of the error of the order below, what `order` leaves. The law of the edge is that of high orders: below 0.5 it says
-/// nothing.
+/// The ratio r of the error at `order` to the error at the order below it (docs/theory/elements.md): (1 − 1/order)^4λ
+/// beside a re-entrant edge, else 1/2. The law of the edge holds for high orders only; its values below 1/2 are not
+/// trusted.
 double left_by(int order, const ToleranceOptions& options) {
-  constexpr double edge_exponent = 0.544;  // of a 270° edge
+  constexpr double edge_exponent = 0.544;  // λ of a 270° edge
   return options.reentrant_edges ? std::max(0.5, std::pow((order - 1.0) / order, 4.0 * edge_exponent)) : 0.5;
 }
 
-/// The solution with `share` of the changes as its error.
+/// The solution with `share` times the last changes as its estimated error.
 Refined finished(Solution&& s, Estimate&& estimate, double share) {
   estimate.frequency = share * estimate.steps.back().frequency_change.value_or(0.0);
   estimate.receptance = share * estimate.steps.back().receptance_change.value_or(0.0);
@@ -191,8 +198,8 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
       }
       if (of_higher * worst <= options.tolerance || (last_level && order == options.last_order))
         return finished(std::move(now), std::move(estimate), of_higher);
-      // Smaller elements, where the next order will not do: away from inner edges one brings a factor of ten, at most
-      // thirty; beside them what the law says.
+      // The next level is taken if another order cannot reach the tolerance. Away from re-entrant edges one order
+      // reduces the error by a factor of ten, at most thirty; beside them by the factor of left_by().
       const double next = options.reentrant_edges ? of_higher * left_by(order + 1, options) : 1.0 / 30.0;
       if (!last_level && (order == options.last_order || next * worst > options.tolerance)) {
         mesh::TetMesh finer = part.mesh(level + 1);

@@ -21,12 +21,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Columns W Z with (WZ)ᵀM(WZ) = I and W = (WZ) B, from the Gram matrix G = WᵀMW = DUΛUᵀD; D scales to a unit
-/// diagonal. Z has fewer columns than W where those of W depend on each other or are no longer than `shortest`.
+/// An M-orthonormal basis W Z of the span of the columns of W, (WZ)ᵀM(WZ) = I, with W = (WZ) B. Both follow from the
+/// Gram matrix alone, by G = WᵀMW = D UΛUᵀ D, where D scales G to a unit diagonal. Z has fewer columns than W if
+/// columns of W depend on each other or are no longer than `shortest`. The eigenvalues of G instead of its Cholesky
+/// factor reveal that dependence, and need the long vectors in one product only.
 struct Orthonormal {
   MatrixXd Z;
   MatrixXd B;
-  double smallest = 0.0;  // of Λ
+  double smallest = 0.0;  // smallest entry of Λ
 };
 
 Orthonormal orthonormal(const MatrixXd& G, double shortest) {
@@ -43,18 +45,19 @@ Orthonormal orthonormal(const MatrixXd& G, double shortest) {
           root.asDiagonal() * U.transpose() * length.asDiagonal(), squares(0)};
 }
 
-/// M-orthonormal columns Q, M Q, and W = V VᵀMW + Q B for the block W that they came from.
+/// The M-orthonormal part Q of a block W that lies outside of the basis V, with M Q, and B of W = V VᵀMW + Q B.
 struct Block {
   MatrixXd Q;
   MatrixXd MQ;
   MatrixXd B;
 };
 
-/// The basis, its images' projections, and what the last image has outside of it.
+/// The state of the iteration: the basis V, the projection T of the operator on it, and what an image has outside of
+/// the basis.
 struct Krylov {
   const SparseMatrix& M;
   const ShiftedInverse& inverse;
-  MatrixXd V{};  // n × capacity, the first `columns` in use
+  MatrixXd V{};  // n × capacity; the first `columns` columns hold the basis
   MatrixXd T{};  // VᵀMAV, upper triangle
   Index columns = 0;
   std::array<MatrixXd, 2> recent{};  // M times the last two blocks of V
@@ -74,8 +77,8 @@ struct Krylov {
     return MatrixXd::NullaryExpr(M.rows(), count, [&] { return std::ldexp(static_cast<double>(random()), -63) - 1.0; });
   }
 
-  /// Takes the last two blocks of the basis out of W, the only ones that an image has parts of in exact arithmetic. H
-  /// receives VᵀMW.
+  /// Subtracts from W its M-projection on the last two blocks of the basis. In exact arithmetic the three-term
+  /// recurrence leaves an image parts in no other block. The coefficients VᵀMW are added to H.
   void take_out_recent(MatrixXd& W, MatrixXd& H) const {
     Index end = columns;
     for (const MatrixXd* MQ : {&recent[1], &recent[0]}) {
@@ -87,14 +90,17 @@ struct Krylov {
     }
   }
 
-  /// The part of W outside of the basis, orthonormal, by classical Gram-Schmidt: after the recent blocks, what
-  /// round-off has brought of the whole basis is taken out as often as there is some. H receives VᵀMW.
+  /// The part of W that lies M-orthogonal to the basis, orthonormalised, by classical Gram-Schmidt; H receives VᵀMW.
+  /// The two blocks of the recurrence are taken out first. Round-off brings back parts of the whole basis, which would
+  /// lead to spurious copies of converged pairs; every pass therefore projects on all of V, and passes are repeated
+  /// until the coefficients that a pass finds are below 1e-10.
   Block outside(MatrixXd W, MatrixXd& H) const {
     H = MatrixXd::Zero(columns, W.cols());
     take_out_recent(W, H);
     MatrixXd MW = symmetric_product(M, W);
     MatrixXd G = tall_gram(W, MW);
-    // What the basis explains to round-off is no direction.
+    // A column of which only 1e-14 of its length is left outside of the basis is round-off of the projection, not a
+    // direction.
     double shortest = 1e-14 * std::sqrt((G.diagonal().transpose() + H.colwise().squaredNorm()).maxCoeff());
     MatrixXd B = MatrixXd::Identity(W.cols(), W.cols());
     bool clean = false;
@@ -115,7 +121,8 @@ struct Krylov {
     return {tall_product(W, last.Z), tall_product(MW, last.Z), last.B * B};
   }
 
-  /// One step: the block joins the basis, A is applied to it and projected; returns the next block.
+  /// Makes one step of the iteration: the block joins the basis, A is applied to it and projected; returns the next
+  /// block.
   Block step(const Block& block) {
     core::check_interrupt();
     append(block);
@@ -126,7 +133,7 @@ struct Krylov {
     return next;
   }
 
-  /// A block of `count` random directions outside of the basis, in the range of A.
+  /// A block of `count` random M-orthonormal directions outside of the basis, in the range of A.
   Block random_block(Index count) {
     MatrixXd unused;
     return outside(inverse.apply(symmetric_product(M, random_columns(count))), unused);
@@ -147,19 +154,23 @@ Ritz ritz_pairs(const MatrixXd& T, const MatrixXd& B) {
   return ritz;
 }
 
-/// How many of the leading pairs are wanted; −1 while that cannot be told or they have not converged.
+/// Number of the leading pairs that make up the result, or −1 if it is not known yet or they have not all converged. If
+/// all pairs up to lambda_max are wanted, one converged pair beyond it must be seen: the pairs converge from σ upwards,
+/// so that then none below it is missed.
 Index finished(const Ritz& ritz, const BlockLanczosOptions& options, double sigma, bool exhausted) {
   const Index have = ritz.theta.size();
   Index converged = 0;
   while (converged < have && ritz.theta(converged) > 0.0 && ritz.residual(converged) <= options.tolerance) ++converged;
   if (options.lambda_max <= 0.0) return converged >= options.count ? options.count : -1;
   for (Index k = 0; k < converged; ++k) {
-    if (sigma + 1.0 / ritz.theta(k) > options.lambda_max) return k;  // one beyond: none below is missed
+    if (sigma + 1.0 / ritz.theta(k) > options.lambda_max) return k;  // pair k lies beyond, so that no pair is missed
   }
   return exhausted && converged == have ? converged : -1;
 }
 
-/// A solve of fewer than eight columns costs little less, and more than eight join the basis faster than they converge.
+/// Number of columns of a block. A solve of fewer than eight columns costs hardly less than one of eight; many more
+/// than eight enlarge the basis faster than they converge. From 64 pairs on, where the basis is large in any case,
+/// sixteen need fewer passes over the factor.
 int block_width(const BlockLanczosOptions& options, Index rows) {
   const int wanted = options.block > 0 ? options.block : options.count < 64 ? 8 : 16;
   return static_cast<int>(std::min<Index>(wanted, rows));
@@ -174,15 +185,18 @@ Eigenpairs block_lanczos(const SparseMatrix& M, const ShiftedInverse& inverse, c
   krylov.V.resize(n, std::min(n, options.lambda_max > 0.0 ? 8 * width : 2 * options.count + 7 * width));
   Eigenpairs pairs;
   pairs.status = EigenStatus::not_converged;
+  // Fewer columns than wanted pairs cannot hold them, so that the first check waits for `count` columns.
   Index next_check = options.lambda_max > 0.0 ? 1 : options.count;
   Block block = krylov.random_block(width);
   while (pairs.status != EigenStatus::converged && block.Q.cols() > 0) {
     block = krylov.step(block);
     const MatrixXd B = block.B;
-    // Where the images bring no new direction, a random one: an eigenvalue may be more multiple than a block is wide.
+    // If the images bring no new direction, the span of the basis is invariant. The iteration goes on with a random
+    // direction outside of it, because an eigenvalue may have a multiplicity above the width of a block.
     if (block.Q.cols() == 0 && krylov.columns < n) block = krylov.random_block(1);
     const bool exhausted = block.Q.cols() == 0;
     if (krylov.columns < next_check && !exhausted) continue;
+    // The dense eigenproblem of T costs O(columns³): it is solved again only when the basis has grown by a twelfth.
     next_check = krylov.columns + krylov.columns / 12;
     const Ritz ritz = ritz_pairs(krylov.T, B);
     const Index wanted = finished(ritz, options, inverse.sigma, exhausted);
@@ -193,7 +207,8 @@ Eigenpairs block_lanczos(const SparseMatrix& M, const ShiftedInverse& inverse, c
     pairs.Phi = tall_product(krylov.basis(), ritz.S.leftCols(kept));
   }
   if (pairs.lambda.size() > 0) (void)inverse_iteration(M, inverse, pairs);
-  // Beside a shift on an eigenvalue the other pairs drown in round-off, which only the measured residual tells.
+  // If the shift coincides with an eigenvalue, round-off along its vector swamps all other pairs; the residual
+  // estimated from T does not show it, the measured one does.
   if (pairs.inverse_residual.size() > 0 && !(pairs.inverse_residual.maxCoeff() < 1e-6)) {
     pairs.status = EigenStatus::not_converged;
   }

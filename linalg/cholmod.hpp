@@ -1,5 +1,5 @@
 #pragma once
-// CHOLMOD's analysis and numeric factorisation. Internal to linalg/.
+// A C++ interface to CHOLMOD's analysis and numeric factorisation. Internal to linalg/.
 
 #include <cholmod.h>
 
@@ -11,8 +11,8 @@
 
 namespace thinwall::linalg {
 
-/// A symmetric matrix as CHOLMOD sees it, its lower triangle, from the arrays of its compressed columns; nothing is
-/// copied. values: null for a pattern alone.
+/// CHOLMOD's description of a symmetric matrix by its lower triangle, from the arrays of its compressed columns.
+/// Nothing is copied, so that the arrays must outlive it. `values` is null for a pattern without numbers.
 inline cholmod_sparse cholmod_view(std::size_t rows, int* first, int* row, double* values) {
   cholmod_sparse view{};
   view.nrow = rows;
@@ -29,7 +29,8 @@ inline cholmod_sparse cholmod_view(std::size_t rows, int* first, int* row, doubl
   return view;
 }
 
-/// CHOLMOD's view of a symmetric matrix; copies nothing, A must outlive it.
+/// CHOLMOD's description of the symmetric matrix A, of which it reads the lower triangle. Nothing is copied, so that A
+/// must outlive it.
 inline cholmod_sparse cholmod_view(const SparseMatrix& A) {
   cholmod_sparse view = cholmod_view(static_cast<std::size_t>(A.rows()), const_cast<int*>(A.outerIndexPtr()),
                                      const_cast<int*>(A.innerIndexPtr()), const_cast<double*>(A.valuePtr()));
@@ -37,7 +38,8 @@ inline cholmod_sparse cholmod_view(const SparseMatrix& A) {
   return view;
 }
 
-/// CHOLMOD's workspace and a factor, freed together.
+/// CHOLMOD's workspace and one factor, freed together. `method` is CHOLMOD_SUPERNODAL or CHOLMOD_SIMPLICIAL; the
+/// ordering is always given by the caller.
 struct CholmodFactor {
   mutable cholmod_common common{};
   cholmod_factor* L = nullptr;
@@ -59,8 +61,8 @@ struct CholmodFactor {
   CholmodFactor(const CholmodFactor&) = delete;
   CholmodFactor& operator=(const CholmodFactor&) = delete;
 
-  /// Symbolic factorisation with a given permutation. Throws NumericalError if the factor is beyond 32-bit indices or
-  /// the memory.
+  /// Makes the symbolic factorisation with the given permutation (new position → old row). Throws NumericalError if the
+  /// factor exceeds 32-bit indices or the memory.
   void analyse(cholmod_sparse* A, std::vector<int> permutation) {
     L = cholmod_analyze_p(A, permutation.data(), nullptr, 0, &common);
     if (L != nullptr) return;
@@ -69,7 +71,8 @@ struct CholmodFactor {
                                                                   : "out of memory while analysing " + matrix);
   }
 
-  /// Numeric factorisation; positive definite or not is told by L->minor.
+  /// Makes the numeric factorisation. Afterwards L->minor < L->n tells that A is not positive definite (supernodal), or
+  /// that a pivot vanished (simplicial). Throws NumericalError for lack of memory and other failures.
   void factorise(cholmod_sparse* A) {
     cholmod_factorize(A, L, &common);
     if (common.status >= CHOLMOD_OK) return;

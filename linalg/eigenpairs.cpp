@@ -16,7 +16,7 @@ namespace thinwall::linalg {
 
 namespace {
 
-/// (K − σM)⁻¹ as Spectra wants an operator.
+/// (K − σM)⁻¹ in the form of an operator that Spectra requires.
 class InverseOperator {
  public:
   using Scalar = double;
@@ -34,7 +34,7 @@ class InverseOperator {
   Eigen::Index rows_;
 };
 
-/// M as Spectra wants an operator.
+/// M in the form of an operator that Spectra requires.
 class MassOperator {
  public:
   using Scalar = double;
@@ -51,6 +51,7 @@ class MassOperator {
   const SparseMatrix& M_;
 };
 
+/// M-normalises the shapes, fixes their signs and measures the inverse residuals.
 void finish(const SparseMatrix& M, const ShiftedInverse& inverse, Eigenpairs& pairs) {
   for (auto phi : pairs.Phi.colwise()) phi /= std::sqrt(phi.dot(M * phi));
   core::fix_signs(pairs.Phi);
@@ -106,6 +107,7 @@ Eigenpairs dense_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const 
   Eigen::MatrixXd Z = Eigen::MatrixXd::Identity(n, n);
   if (W.cols() > 0) {
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(W);
+    // The last n − constraints columns of Q of W = Q R are an orthonormal basis of all φ with Wᵀφ = 0.
     Z = (qr.householderQ() * Z).rightCols(n - W.cols()).eval();
   }
   const Eigen::MatrixXd Kz = Z.transpose() * (K * Z);

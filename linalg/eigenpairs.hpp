@@ -9,19 +9,20 @@
 
 namespace thinwall::linalg {
 
-/// The action of (K − σM)⁻¹ on the columns of a matrix, or of its compression to a subspace of fixed points.
+/// The action of (K − σM)⁻¹ on the columns of a matrix (n × any), or of the inverse of K − σM restricted to the
+/// subspace in which some points are fixed.
 struct ShiftedInverse {
   std::function<Eigen::MatrixXd(const Eigen::Ref<const Eigen::MatrixXd>&)> apply;
   double sigma = 0.0;
 };
 
-/// Why an eigen-solution may not be used as it is.
+/// Outcome of an eigen-solution: whether it may be used as it is.
 enum class EigenStatus {
   converged,
-  not_converged,  ///< the iteration stopped first; only the pairs that converged are there
+  not_converged,  ///< the iteration stopped before; only the pairs that had converged are listed
 };
 
-/// Pairs in ascending λ, M-normalised, the largest entry of each φ positive.
+/// Eigenpairs in ascending order of λ; shapes are M-normalised, with the entry of largest magnitude positive.
 struct [[nodiscard]] Eigenpairs {
   Eigen::VectorXd lambda;            ///< rad²/s²
   Eigen::MatrixXd Phi;               ///< n × count, kg^-½
@@ -29,29 +30,31 @@ struct [[nodiscard]] Eigenpairs {
   EigenStatus status = EigenStatus::converged;
 };
 
-/// The `count` eigenpairs next above σ, by block_lanczos(). K, M: n × n; M positive definite on the range of the
-/// inverse; σ below the wanted eigenvalues; 1 ≤ count < n; `inverse_residual` (≤ 1e-6) is reached by all of them, λ is
-/// off by its square. Throws InputError for another count. Cost: some eight solves of eight right-hand sides for ten
-/// pairs.
+/// The `count` eigenpairs next above σ, by block_lanczos(). K, M: n × n; M is positive definite on the range of the
+/// inverse, σ lies below the wanted eigenvalues, 1 ≤ count < n. Every pair reaches the bound `inverse_residual` (≤
+/// 1e-6); the relative error of λ is of the order of its square. Throws InputError for another count. Cost: about eight
+/// solves of eight right-hand sides for ten pairs.
 Eigenpairs lowest_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse, int count,
                              double inverse_residual = 3e-10);
 
-/// All eigenpairs with λ ≤ lambda_max, by the same method, which goes on until it has found one beyond.
-/// Throws InputError unless lambda_max > 0.
+/// All eigenpairs with λ ≤ lambda_max, by block_lanczos(), which continues until it has found one pair beyond. Shapes
+/// and conditions are those of lowest_eigenpairs(). Throws InputError unless lambda_max > 0.
 Eigenpairs eigenpairs_up_to(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse,
                             double lambda_max);
 
-/// The same as lowest_eigenpairs() by single-vector Lanczos with implicit restarts (Spectra; Lehoucq & Sorensen 1996):
-/// an independent check on block_lanczos(), some three times slower. Its inverse residuals are measured. Pairs of an
-/// exactly multiple eigenvalue may be missed: count_eigenvalues_below() tells.
+/// The `count` eigenpairs next above σ by single-vector Lanczos with implicit restarts (Spectra; Lehoucq & Sorensen
+/// 1996): an independent check of block_lanczos(), about three times slower. Its inverse residuals are measured. Copies
+/// of an exactly multiple eigenvalue may be missed, which count_eigenvalues_below() reveals. Arguments and errors are
+/// those of lowest_eigenpairs().
 Eigenpairs single_vector_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse,
                                     int count);
 
-/// All eigenpairs of the model restricted to Wᵀφ = 0 (W: n × constraints; empty: none), by dense algebra: for small
-/// models and as the independent check. Cost O(n³).
+/// All eigenpairs of K φ = λ M φ restricted to Wᵀφ = 0 (W: n × constraints, empty for none), by dense algebra: for
+/// small models and as an independent check. Throws NumericalError if the restricted M is not positive definite.
+/// inverse_residual holds ‖Kφ − λMφ‖ over the largest |λ| instead. Cost O(n³).
 Eigenpairs dense_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const Eigen::MatrixXd& W);
 
-/// ‖Kφ − λMφ‖ / (|λ| ‖Mφ‖) of each pair.
+/// The relative residual ‖Kφ − λMφ‖ / (|λ| ‖Mφ‖) of each pair.
 [[nodiscard]] Eigen::VectorXd residuals(const SparseMatrix& K, const SparseMatrix& M, const Eigenpairs& pairs);
 
 }  // namespace thinwall::linalg

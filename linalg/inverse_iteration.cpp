@@ -22,12 +22,14 @@ bool inverse_iteration(const SparseMatrix& M, const ShiftedInverse& inverse, Eig
   MatrixXd R = pairs.Phi;
   tall_subtract(R, Y, shifted.asDiagonal());
   const MatrixXd MY = symmetric_product(M, Y);
+  // M R is formed from M Φ and M Y, which are needed anyway, so that the residual costs no third product with M.
   MatrixXd MR = MPhi;
   tall_subtract(MR, MY, shifted.asDiagonal());
   pairs.inverse_residual = tall_gram(R, MR).diagonal().cwiseMax(0.0).cwiseSqrt();
   MatrixXd Kr = tall_gram(Y, MPhi);
   MatrixXd Mr = tall_gram(Y, MY);
-  // The columns of Y differ in length by orders of magnitude; scaled to one, the small problem is well conditioned.
+  // The columns of Y have lengths of about 1/(λ−σ), which differ by orders of magnitude; scaled to unit length, they
+  // give a well-conditioned small problem.
   const VectorXd s = Mr.diagonal().cwiseSqrt().cwiseInverse();
   Kr = (s.asDiagonal() * (0.5 * (Kr + Kr.transpose())) * s.asDiagonal()).eval();
   Mr = (s.asDiagonal() * (0.5 * (Mr + Mr.transpose())) * s.asDiagonal()).eval();

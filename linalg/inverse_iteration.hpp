@@ -1,5 +1,5 @@
 #pragma once
-// Better eigenpairs from good ones, by one pass over the factor.
+// Improvement of approximate eigenpairs by one solve with the factor.
 
 #include "linalg/eigenpairs.hpp"
 
@@ -9,11 +9,12 @@ namespace thinwall::linalg {
 ///
 ///     Y = (K−σM)⁻¹ M Φ,   (YᵀKY) S = (YᵀMY) S Λ,   Φ ← Y S,   λ ← Λ
 ///
-/// by YᵀKY = YᵀMΦ + σ YᵀMY without a product with K. What Φ has of a mode with λ_j shrinks by (λ−σ)/(λ_j−σ). In a
-/// held part Λ lies above the eigenvalues, and nearer than before. pairs: n × m, m ≥ 1; σ below the eigenvalues wanted.
-/// λ is read for inverse_residual alone, which is measured before the step, on Φ as they come; the step only lowers it.
-/// Signs are fixed anew. False where the columns of Y depend on each other: λ and Φ are left as they were. Cost: a
-/// solve and two products with M, of m columns.
+/// where YᵀKY = YᵀMΦ + σ YᵀMY needs no product with K. The step multiplies the part that a vector Φ has in another mode
+/// j by (λ−σ)/(λ_j−σ). In a held part (K positive definite) the new λ lie above the eigenvalues, nearer to them than
+/// before. pairs: n × m, m ≥ 1; σ lies below the wanted eigenvalues. The λ given are read for inverse_residual alone,
+/// which is measured before the step, on Φ as given; the step only lowers it. Signs are fixed anew. Returns false, and
+/// leaves λ and Φ as they were, if the columns of Y depend on each other. Cost: a solve and two products with M, each
+/// of m columns.
 bool inverse_iteration(const SparseMatrix& M, const ShiftedInverse& inverse, Eigenpairs& pairs);
 
 }  // namespace thinwall::linalg

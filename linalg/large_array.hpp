@@ -1,5 +1,5 @@
 #pragma once
-// Large blocks of numbers that are written before they are read.
+// Arrays for large blocks of numbers, which are not initialised.
 
 #include <cstddef>
 #include <memory>
@@ -7,18 +7,18 @@
 
 namespace thinwall::linalg {
 
-/// Gives the memory of allocate_large() back.
+/// A deleter that frees the memory of allocate_large().
 struct FreeLarge {
   void operator()(void* memory) const noexcept;
 };
 
-/// Memory with undefined contents, on pages of 2 MB where the system gives them; throws NumericalError if there is
-/// none.
+/// `bytes` bytes of memory with undefined contents, on pages of 2 MB if the system provides them. Throws NumericalError
+/// if there is not enough memory.
 [[nodiscard]] std::unique_ptr<void, FreeLarge> allocate_large(std::size_t bytes);
 
-/// An array of numbers without initial values. Why not std::vector: that writes zeros, on one thread; a factor's pages
-/// are better touched first by the threads that fill them, and few large pages cost less than many small ones (a third
-/// of a factorisation's time went into page faults).
+/// An array of numbers without initial values. std::vector is not used because it writes zeros, on one thread: the
+/// pages of a factor are better touched first by the threads that fill them, and few large pages cost less than many
+/// small ones (a third of a factorisation's time went into page faults).
 template <class T>
 class LargeArray {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -1,12 +1,12 @@
 #pragma once
-// How many threads the libraries below may take.
+// Numbers of threads of the libraries OpenBLAS and CHOLMOD.
 
 namespace thinwall::linalg {
 
-/// Threads of OpenBLAS and CHOLMOD from here on. CHOLMOD's own OpenMP loops ask for four threads whatever the machine
-/// has, and spin between the small ones: allowing no active level turns them off. BLAS gets `blas` threads: all for a
-/// large factorisation, whose supernodes keep them busy, one wherever the products are small or our own threads call
-/// it.
+/// Sets the numbers of threads of OpenBLAS and CHOLMOD from its construction on; nothing is restored afterwards.
+/// CHOLMOD's own OpenMP loops ask for four threads whatever the machine has, and spin between small loops: allowing no
+/// active level of parallelism turns them off. OpenBLAS gets `blas` threads: all of them for a large factorisation
+/// whose supernodes keep them busy, one if the products are small or our own threads call it.
 struct LibraryThreads {
   explicit LibraryThreads(int blas);
 };

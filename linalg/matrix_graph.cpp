@@ -10,7 +10,7 @@ namespace thinwall::linalg {
 
 namespace {
 
-/// Node numbers without gaps, in the order of first appearance.
+/// The node of each row, renumbered 0, 1, 2 … without gaps in the order of first appearance.
 std::vector<int> without_gaps(const std::vector<int>& node_of_row) {
   std::vector<int> number(static_cast<std::size_t>(*std::max_element(node_of_row.begin(), node_of_row.end())) + 1, -1);
   std::vector<int> result;
@@ -24,13 +24,14 @@ std::vector<int> without_gaps(const std::vector<int>& node_of_row) {
   return result;
 }
 
-/// The indices of a row's entries.
+/// The column indices of the entries of a row of the symmetric matrix A.
 std::span<const int> pattern(const SparseMatrix& A, Eigen::Index row) {
   const int* first = A.outerIndexPtr();
   return {A.innerIndexPtr() + first[row], A.innerIndexPtr() + first[row + 1]};
 }
 
-/// Equal for equal patterns; few others share it.
+/// A hash of a pattern from its length and three of its indices: cheap, and sufficient because patterns with equal
+/// hashes are compared entry by entry.
 std::size_t key(std::span<const int> pattern) {
   std::size_t h = pattern.size();
   if (pattern.empty()) return h;
@@ -39,10 +40,10 @@ std::size_t key(std::span<const int> pattern) {
   return h;
 }
 
-/// Sets of rows with one pattern, by their first rows.
+/// The sets of rows that have the same pattern, in the order of their first rows.
 std::vector<std::vector<int>> rows_by_pattern(const SparseMatrix& A) {
   std::vector<std::vector<int>> sets;
-  std::unordered_multimap<std::size_t, std::size_t> by_key;  // → set
+  std::unordered_multimap<std::size_t, std::size_t> by_key;  // hash of a pattern → number of a set
   const auto set_of = [&](std::span<const int> wanted) {
     const std::size_t h = key(wanted);
     const auto [from, to] = by_key.equal_range(h);
@@ -57,8 +58,9 @@ std::vector<std::vector<int>> rows_by_pattern(const SparseMatrix& A) {
   return sets;
 }
 
-/// body(node, last_seen) for every node, on all threads; last_seen: for each node the last that has seen it, −1 at
-/// first, a thread's own.
+/// Calls body(node, last_seen) for every node, on all threads. `last_seen` is a scratch array of the thread: for each
+/// node the last one that has marked it, −1 at first, so that duplicates among neighbours are found without clearing
+/// the array.
 template <class Body>
 void over_nodes(const MatrixGraph& graph, const Body& body) {
   constexpr std::size_t piece = 4096;

@@ -1,5 +1,6 @@
 #pragma once
-// A sparse matrix seen as a graph of nodes: several rows each, an edge where two share an entry.
+// The graph of a symmetric sparse matrix on nodes of several rows each, with an edge between two nodes that share an
+// entry.
 
 #include <cstddef>
 #include <vector>
@@ -8,29 +9,30 @@
 
 namespace thinwall::linalg {
 
-/// Nodes without gaps in their numbers, the rows of each (ascending), and the other nodes that each shares an entry
-/// with (no order).
+/// A graph of nodes 0 … size()−1: the matrix rows of each node (ascending), and for each node the other nodes with
+/// which it shares an entry (in no particular order).
 struct MatrixGraph {
   std::vector<std::vector<int>> rows;
   std::vector<std::vector<int>> neighbours;
 
   /// Number of nodes.
   [[nodiscard]] int size() const { return static_cast<int>(rows.size()); }
-  /// Neighbours of a node.
+  /// The neighbours of a node.
   [[nodiscard]] const std::vector<int>& around(int node) const { return neighbours[static_cast<std::size_t>(node)]; }
-  /// How many they are.
+  /// The number of neighbours of a node.
   [[nodiscard]] std::size_t degree(int node) const { return around(node).size(); }
 };
 
-/// The graph of A (n × n, both triangles). node_of_row: n, for each row its node, any numbering, not negative. Why not
-/// the rows themselves: those of a node have equal patterns, and nine times fewer edges are ordered and analysed with
-/// the same result. On all threads. Cost O(nnz).
+/// The graph of A (n × n, both triangles) on given nodes. node_of_row: n entries, the node of each row in any
+/// numbering, not negative. Nodes are used instead of rows because the three rows of a node have equal patterns: nine
+/// times fewer edges are ordered and analysed, with the same result. Runs on all threads. Cost O(nnz).
 [[nodiscard]] MatrixGraph matrix_graph(const SparseMatrix& A, const std::vector<int>& node_of_row);
 
-/// The graph whose nodes are the sets of rows of A (n × n, both triangles, the diagonal) with one pattern (Ashcraft
-/// 1995): they can be eliminated one after the other without fill among them. In a mesh of elements of order p such a
-/// set holds all nodes on one edge, face or inside of one element, with their axes: order 5 has six times fewer sets
-/// than nodes. Numbered by their first rows. Cost O(nnz), of which only the comparison of neighbouring patterns counts.
+/// The graph whose nodes are the sets of rows of A (n × n, both triangles, with its diagonal) that have the same
+/// pattern (Ashcraft 1995); the rows of a set can be eliminated one after the other without fill among them. In a mesh
+/// of elements of order p such a set holds all axes of all nodes on one edge, face or interior of an element: at order
+/// 5 there are six times fewer sets than nodes. Sets are numbered in the order of their first rows. Cost O(nnz), most
+/// of it the comparison of patterns of neighbouring rows.
 [[nodiscard]] MatrixGraph pattern_graph(const SparseMatrix& A);
 
 }  // namespace thinwall::linalg

@@ -8,8 +8,9 @@ namespace thinwall::linalg {
 
 namespace {
 
-/// A graph that loses its nodes one by one, with the fill that the loss of each would make. Sets of nodes are rows of
-/// bits.
+/// A graph from which nodes are eliminated one by one, with the fill that eliminating each of the remaining ones would
+/// cause. A set of nodes is stored as a row of bits, so that intersections and differences of neighbourhoods are
+/// operations on machine words.
 class Elimination {
  public:
   explicit Elimination(const MatrixGraph& graph)
@@ -29,7 +30,7 @@ class Elimination {
     }
   }
 
-  /// Takes out the node with the least fill.
+  /// Eliminates the node with the least fill and returns it.
   std::size_t take_next() {
     const auto least =
         std::min_element(left_.begin(), left_.end(), [&](std::size_t a, std::size_t b) { return fill_[a] < fill_[b]; });
@@ -39,6 +40,7 @@ class Elimination {
     each_of(v, [&](std::size_t i) { around.push_back(i); });
     if (fill_[v] > 0) connect(around);
     for (const std::size_t i : around) {
+      // When v leaves the graph, the fill of its neighbour i loses the pairs of v with the other neighbours of i.
       fill_[i] -= weight_[v] * outside(i, v);
       row(i)[v / 64] &= ~bit(v);
     }
@@ -51,7 +53,7 @@ class Elimination {
   [[nodiscard]] bool are_adjacent(std::size_t i, std::size_t j) { return (row(i)[j / 64] & bit(j)) != 0; }
   void insert(std::size_t v, std::size_t other) { row(v)[other / 64] |= bit(other); }
 
-  /// body(k) for every k in the set of bits word(0), word(1), …
+  /// Calls body(k) for every k in the set of bits word(0), word(1), …
   template <class Word, class Body>
   void each_in(const Word& word, const Body& body) {
     for (std::size_t w = 0; w < words_; ++w) {
@@ -64,7 +66,7 @@ class Elimination {
     each_in([a = row(v)](std::size_t w) { return a[w]; }, body);
   }
 
-  /// Weight of adj(v) \ adj(i) \ {i}.
+  /// The number of rows of the nodes in adj(v) \ adj(i) \ {i}: neighbours of v that are not yet adjacent to i.
   std::int64_t outside(std::size_t v, std::size_t i) {
     std::int64_t sum = 0;
     each_in([a = row(v), b = row(i)](std::size_t w) { return a[w] & ~b[w]; },
@@ -72,7 +74,9 @@ class Elimination {
     return are_adjacent(v, i) ? sum - weight_[i] : sum;
   }
 
-  /// Makes the nodes adjacent to each other.
+  /// Makes the nodes adjacent to each other and corrects the fills. A new edge (i, j) removes the pair from the fill of
+  /// every common neighbour of i and j, and adds to the fill of i (of j) the pairs of j (of i) with those neighbours
+  /// that are not adjacent to it. No other fill changes, so that all stay exact.
   void connect(const std::vector<std::size_t>& nodes) {
     for (const std::size_t i : nodes) {
       for (const std::size_t j : nodes) {
@@ -91,7 +95,7 @@ class Elimination {
   std::size_t nodes_, words_;
   std::vector<std::uint64_t> adjacent_;
   std::vector<std::int64_t> weight_, fill_;
-  std::vector<std::size_t> left_;  // ascending
+  std::vector<std::size_t> left_;  // nodes not yet eliminated, ascending
 };
 
 }  // namespace

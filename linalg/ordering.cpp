@@ -12,15 +12,16 @@ namespace thinwall::linalg {
 
 namespace {
 
-/// For each node the nodes that dominate it: neighbours whose own neighbours include all of its. Only nodes that
-/// nothing dominates count as such; they have empty lists. In a mesh of order p these are the vertices of the elements,
-/// and the nodes on an edge, face or inside are dominated by the vertices of that edge, face or element.
+/// For each node, the nodes that dominate it: neighbours whose neighbourhood contains all of its own. Only nodes that
+/// are not dominated themselves are listed as dominators; their own lists are empty. In a mesh of order p these are the
+/// vertices of the elements, and a node on an edge, on a face or inside is dominated by the vertices of that edge, face
+/// or element. Nodes are visited by falling degree, because a dominator has at least the degree of what it dominates.
 std::vector<std::vector<int>> dominators(const MatrixGraph& graph) {
   std::vector<int> by_degree(graph.rows.size());
   std::iota(by_degree.begin(), by_degree.end(), 0);
   std::stable_sort(by_degree.begin(), by_degree.end(), [&](int a, int b) { return graph.degree(a) > graph.degree(b); });
   std::vector<std::vector<int>> result(graph.rows.size());
-  std::vector<int> around(graph.rows.size(), -1);  // the node whose neighbours have been marked last
+  std::vector<int> around(graph.rows.size(), -1);  // for each node the last node in whose neighbourhood it was marked
   for (const int node : by_degree) {
     if (!result[static_cast<std::size_t>(node)].empty()) continue;
     around[static_cast<std::size_t>(node)] = node;
@@ -35,7 +36,7 @@ std::vector<std::vector<int>> dominators(const MatrixGraph& graph) {
   return result;
 }
 
-/// METIS' order of some nodes of a graph among themselves, as positions in `kept`.
+/// The elimination order by METIS of the subgraph of the nodes `kept`, as positions in `kept`.
 std::vector<idx_t> dissected(const MatrixGraph& graph, const std::vector<int>& kept) {
   std::vector<idx_t> number(graph.rows.size(), -1);
   for (std::size_t i = 0; i < kept.size(); ++i) number[static_cast<std::size_t>(kept[i])] = static_cast<idx_t>(i);
@@ -72,11 +73,12 @@ std::vector<int> elimination_order(const MatrixGraph& graph) {
   for (int node = 0; node < graph.size(); ++node) {
     if (above[static_cast<std::size_t>(node)].empty()) kept.push_back(node);
   }
-  std::vector<std::size_t> position(graph.rows.size());  // of those that are kept
+  std::vector<std::size_t> position(graph.rows.size());  // in the order of dissection, of the nodes that are kept
   std::size_t next = 0;
   for (const idx_t i : dissected(graph, kept))
     position[static_cast<std::size_t>(kept[static_cast<std::size_t>(i)])] = next++;
-  std::vector<std::vector<int>> together(kept.size());  // by position
+  // Nodes that are eliminated together, by the position of the kept node among them.
+  std::vector<std::vector<int>> together(kept.size());
   for (int node = 0; node < graph.size(); ++node) {
     const auto& dominating = above[static_cast<std::size_t>(node)];
     std::size_t first = dominating.empty() ? position[static_cast<std::size_t>(node)] : kept.size();
@@ -86,6 +88,8 @@ std::vector<int> elimination_order(const MatrixGraph& graph) {
   std::vector<int> order;
   order.reserve(graph.rows.size());
   for (auto& nodes : together) {
+    // A dominated node has no more neighbours than its dominator: by rising degree it comes before it, and interior
+    // nodes come before those on faces and edges.
     std::stable_sort(nodes.begin(), nodes.end(), [&](int a, int b) { return graph.degree(a) < graph.degree(b); });
     order.insert(order.end(), nodes.begin(), nodes.end());
   }

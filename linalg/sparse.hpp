@@ -1,13 +1,14 @@
 #pragma once
-// The sparse matrix of this program.
+// The type of all sparse matrices of this program.
 
 #include <Eigen/SparseCore>
 #include <vector>
 
 namespace thinwall::linalg {
 
-/// Compressed columns, 32-bit indices. Symmetric matrices are stored whole, both triangles. Why not Eigen's alone: in
-/// Eigen 3.4 a sparse matrix that is moved is copied, and these are the largest things that the program holds.
+/// A sparse matrix in compressed columns with 32-bit indices. Symmetric matrices are stored whole, both triangles. The
+/// class exists because Eigen 3.4 copies a sparse matrix when it is moved, and these are the largest objects that the
+/// program holds; here a move exchanges the storage.
 class SparseMatrix : public Eigen::SparseMatrix<double, Eigen::ColMajor, int> {
  public:
   using Base = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
@@ -24,10 +25,10 @@ class SparseMatrix : public Eigen::SparseMatrix<double, Eigen::ColMajor, int> {
   ~SparseMatrix() = default;
 };
 
-/// Rows and columns `kept` (ascending) of A. Cost O(nnz).
+/// The rows and columns `kept` (ascending) of the square matrix A. Cost O(nnz).
 [[nodiscard]] SparseMatrix restrict_to(const SparseMatrix& A, const std::vector<int>& kept);
 
-/// a A + b B on the union of both patterns.
+/// The matrix a A + b B on the union of both patterns. Cost O(nnz).
 [[nodiscard]] SparseMatrix combine(double a, const SparseMatrix& A, double b, const SparseMatrix& B);
 
 }  // namespace thinwall::linalg

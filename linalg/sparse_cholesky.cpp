@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// body(row) for every row, in pieces on all threads.
+/// Calls body(row) for every row, in pieces on all threads.
 template <class Body>
 void over_rows(Eigen::Index rows, const Body& body) {
   constexpr Eigen::Index piece = 2048;
@@ -50,14 +50,15 @@ struct SparseCholesky::Impl {
   LargeArray<double> values;
   FactorStatistics statistics;
 
-  /// With the zeros that supernodes store, the indices, and what the numeric phase holds besides.
+  /// Bytes of the factor with the zeros that supernodes store, of its indices, and of the update matrices that the
+  /// numeric phase holds at its worst.
   [[nodiscard]] double bytes() const {
     return 8.0 * static_cast<double>(L.values()) + 4.0 * static_cast<double>(L.rows.size()) + update_bytes(L, cut);
   }
 
   void analyse(const SparseMatrix& A) {
     auto start = Clock::now();
-    constexpr int small = 1500;  // beyond, least fill takes longer to find than it saves
+    constexpr int small = 1500;  // nodes beyond which finding the order of least fill takes longer than it saves
     const MatrixGraph graph = pattern_graph(A);
     const std::vector<int> order = graph.size() <= small ? minimum_fill_order(graph) : elimination_order(graph);
     statistics.seconds_ordering = seconds_since(start);
@@ -85,7 +86,9 @@ struct SparseCholesky::Impl {
         "precision");
   }
 
-  /// Columns first … first + width − 1 of X = A⁻¹ B (those that there are), permuted on the way in and out.
+  /// Writes columns first … first + width − 1 (as far as there are any) of A⁻¹ B to X. Right-hand sides are permuted on
+  /// the way in and out, and stored by rows, so that all values of a row lie together; missing columns are filled with
+  /// zeros.
   template <int width>
   void solve_strip(const Eigen::Ref<const Eigen::MatrixXd>& B, Eigen::Index first, Eigen::MatrixXd& X) const {
     const Eigen::Index columns = std::min<Eigen::Index>(width, B.cols() - first);
@@ -117,6 +120,8 @@ SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& B) const {
   Eigen::MatrixXd X(B.rows(), B.cols());
+  // Strips as wide as possible, because each reads the whole factor; the last ones are narrowed to the columns that are
+  // left.
   Eigen::Index column = 0;
   for (; column + 12 < B.cols(); column += 16) impl_->solve_strip<16>(B, column, X);
   for (; column + 8 < B.cols(); column += 12) impl_->solve_strip<12>(B, column, X);

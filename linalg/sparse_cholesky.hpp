@@ -10,22 +10,22 @@
 
 namespace thinwall::linalg {
 
-/// What a factorisation may use.
+/// Limits of a factorisation.
 struct FactorOptions {
-  double memory_limit_bytes = 0.0;  ///< 0: no limit. Compared with the symbolic factor before anything is allocated
+  double memory_limit_bytes = 0.0;  ///< 0: none; compared with the symbolic factor before the numeric one is allocated
 };
 
-/// What a factorisation cost.
+/// Size of a factor and cost of its factorisation.
 struct FactorStatistics {
-  double flops = 0.0;     ///< of the numeric factorisation
-  double nonzeros = 0.0;  ///< of the factor L, relaxed supernodes' zeros included
-  double bytes = 0.0;     ///< of the factor with the zeros that supernodes store, its indices and its workspace
+  double flops = 0.0;     ///< flops of the numeric factorisation
+  double nonzeros = 0.0;  ///< entries of the factor L, including the zeros that merged supernodes store
+  double bytes = 0.0;     ///< factor with the zeros that supernodes store, its indices and its workspace
   double seconds_ordering = 0.0;
   double seconds_analysis = 0.0;
   double seconds_numeric = 0.0;
 };
 
-/// A factor that would exceed the memory limit; nothing was allocated.
+/// The error of a factor that would exceed the memory limit; nothing was allocated.
 class MemoryLimitError : public core::NumericalError {
  public:
   MemoryLimitError(const std::string& message, double needed, double limit)
@@ -34,13 +34,15 @@ class MemoryLimitError : public core::NumericalError {
   double limit_bytes = 0.0;
 };
 
-/// P A Pᵀ = L Lᵀ on the sets of rows with one pattern (pattern_graph): minimum_fill_order(), beyond 1500 sets
-/// elimination_order() with METIS; symbolic_factor() with CHOLMOD, supernodal_factor().
+/// The factorisation P A Pᵀ = L Lᵀ, made once for many right-hand sides. It is ordered and analysed on the sets of rows
+/// with one pattern (pattern_graph()): by minimum_fill_order() up to 1500 sets and by elimination_order() with METIS
+/// beyond, then symbolic_factor() with CHOLMOD; the numbers are supernodal_factor()'s. Source and measurements:
+/// docs/theory/elements.md.
 class SparseCholesky {
  public:
-  /// A: n × n, symmetric positive definite, both triangles stored. node_of_row: for each row the node it belongs to,
-  /// any numbering, for messages. Throws NumericalError if A is not positive definite, naming
-  /// the row, and MemoryLimitError. Cost: statistics().flops.
+  /// Factorises A: n × n, symmetric positive definite, both triangles stored. node_of_row: the node of each row in any
+  /// numbering, used in messages only. Throws NumericalError if A is not positive definite, naming the row and its
+  /// node, and MemoryLimitError. Cost: statistics().flops.
   SparseCholesky(const SparseMatrix& A, const std::vector<int>& node_of_row, const FactorOptions& options = {});
   ~SparseCholesky();
   SparseCholesky(SparseCholesky&&) noexcept;
@@ -48,13 +50,13 @@ class SparseCholesky {
   SparseCholesky(const SparseCholesky&) = delete;
   SparseCholesky& operator=(const SparseCholesky&) = delete;
 
-  /// A⁻¹ B; B: n × any. Cost 4 nnz(L) flops a column; sixteen columns cost what three single ones do. May be called
-  /// from several threads at once.
+  /// The solution A⁻¹ B for B: n × any. It may be called from several threads at once. Cost 4 nnz(L) flops a column;
+  /// sixteen columns take the time of three single ones, because the reading of L counts.
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& B) const;
 
   /// Size and cost of the factor.
   [[nodiscard]] const FactorStatistics& statistics() const;
-  /// Order of the matrix.
+  /// Number of rows of the matrix.
   [[nodiscard]] Eigen::Index rows() const;
 
  private:

@@ -12,6 +12,7 @@ namespace thinwall::linalg {
 
 namespace {
 
+/// CHOLMOD's description of the dense matrix B; nothing is copied, so that B must outlive it.
 cholmod_dense view(const Eigen::Ref<const Eigen::MatrixXd>& B) {
   cholmod_dense D{};
   D.nrow = static_cast<std::size_t>(B.rows());
@@ -27,6 +28,8 @@ cholmod_dense view(const Eigen::Ref<const Eigen::MatrixXd>& B) {
 }  // namespace
 
 struct SparseIndefinite::Impl {
+  // The simplicial method makes L D Lᵀ, whose D shows the inertia; CHOLMOD's supernodal method makes L Lᵀ only and
+  // would stop at the first negative pivot.
   CholmodFactor factor{CHOLMOD_SIMPLICIAL};
   SparseMatrix A;
 
@@ -60,7 +63,7 @@ std::optional<int> SparseIndefinite::negative_eigenvalues() const {
   const auto* value = static_cast<const double*>(L.x);
   int negative = 0;
   for (std::size_t j = 0; j < L.n; ++j) {
-    const double pivot = value[column[j]];  // the diagonal of D stands first in each column
+    const double pivot = value[column[j]];  // CHOLMOD stores the entry of D first in each column of L
     if (pivot == 0.0 || !std::isfinite(pivot)) return std::nullopt;
     if (pivot < 0.0) ++negative;
   }
@@ -70,11 +73,14 @@ std::optional<int> SparseIndefinite::negative_eigenvalues() const {
 SparseIndefinite::Solution SparseIndefinite::solve(const Eigen::Ref<const Eigen::MatrixXd>& B) const {
   Solution solution;
   solution.X = impl_->solve(B);
+  // One step of iterative refinement recovers digits that elimination without pivoting has lost; the residual tells
+  // whether it was enough.
   const Eigen::MatrixXd correction = impl_->solve(B - impl_->A * solution.X);
   solution.X += correction;
   const Eigen::MatrixXd residual = B - impl_->A * solution.X;
   for (Eigen::Index j = 0; j < B.cols(); ++j) {
     const double relative = residual.col(j).norm() / B.col(j).norm();
+    // NaN in any column must show in the maximum, which plain comparisons would hide.
     if (std::isnan(solution.relative_residual)) break;
     if (!(relative <= solution.relative_residual)) solution.relative_residual = relative;
   }

@@ -22,9 +22,9 @@ namespace {
 
 using Place = std::ptrdiff_t;
 
-constexpr Place tile = 128;  // columns and rows of a tile where threads share a front
+constexpr Place tile = 128;  // columns of a tile of a front that threads share
 
-/// A dense block, column-major.
+/// A dense block of a column-major matrix.
 struct Block {
   double* values = nullptr;
   Place stride = 0;
@@ -34,8 +34,8 @@ struct Block {
 
 /// The shape of a supernode's front.
 struct Front {
-  Place columns = 0;  // of J
-  Place rows = 0;     // of J ∪ I
+  Place columns = 0;  // number of columns J
+  Place rows = 0;     // number of rows J ∪ I
 
   [[nodiscard]] Place below() const { return rows - columns; }
   [[nodiscard]] Place update_values() const { return below() * below(); }
@@ -45,7 +45,7 @@ Front front(const SymbolicFactor& L, int s) {
   return {L.columns(s), L.height(s)};
 }
 
-/// A₁₁ = L Lᵀ on the lower triangle; the first column without a positive pivot, or −1.
+/// Factorises A₁₁ = L Lᵀ in place on the lower triangle. Returns the first column without a positive pivot, or −1.
 Place cholesky(Block A, Place columns) {
   const int n = static_cast<int>(columns);
   const int stride = static_cast<int>(A.stride);
@@ -53,7 +53,7 @@ Place cholesky(Block A, Place columns) {
   dpotrf_("L", &n, A.values, &stride, &info, 1);
   if (info > 0) return info - 1;
   for (Place j = 0; j < columns; ++j) {
-    if (!std::isfinite(*A.at(j, j))) return j;  // OpenBLAS lets NaN pass
+    if (!std::isfinite(*A.at(j, j))) return j;  // OpenBLAS does not report NaN
   }
   return -1;
 }
@@ -78,7 +78,7 @@ void subtract_product(Block A, Block B, Block C, Place rows, Place columns, Plac
               s, C.values, static_cast<int>(C.stride));
 }
 
-/// The dense algebra of a front on the calling thread.
+/// The dense algebra of a front on the calling thread alone, for the groups of subtrees, which run side by side.
 struct Alone {
   static void each(Place count, const auto& body) {
     for (Place i = 0; i < count; ++i) body(i);
@@ -93,7 +93,8 @@ struct Alone {
   }
 };
 
-/// C ← s C − B Bᵀ on the tiles of the lower triangle of C and below it; C: rows × columns, B: rows × inner.
+/// C ← s C − B Bᵀ on the tiles on and below the diagonal of C, shared among all threads; C: rows × columns, B: rows ×
+/// inner. Tiles on the diagonal are computed whole; what they hold above it is never read.
 void subtract_tiles(Block B, Block C, Place rows, Place columns, Place inner, double s) {
   struct Tile {
     Place row, column;
@@ -109,7 +110,8 @@ void subtract_tiles(Block B, Block C, Place rows, Place columns, Place inner, do
   });
 }
 
-/// The dense algebra of a front, cut into tiles for all threads.
+/// The dense algebra of a front cut into tiles that all threads share, for the top of the tree: its fronts are large
+/// and follow each other, so that only work within one front can be shared.
 struct Shared {
   static void each(Place count, const auto& body) {
     constexpr Place piece = 32;
@@ -139,15 +141,15 @@ struct Shared {
   }
 };
 
-/// The tree of supernodes.
+/// The elimination tree of the supernodes.
 struct Tree {
   std::vector<std::vector<int>> children;
-  std::vector<char> odd;     // depth of each
-  std::vector<char> shared;  // in the top of the cut
+  std::vector<char> odd;     // whether the depth of each supernode is odd
+  std::vector<char> shared;  // whether each supernode is in the top of the cut
 
   [[nodiscard]] const std::vector<int>& of(int s) const { return children[static_cast<std::size_t>(s)]; }
   [[nodiscard]] std::size_t parity(int s) const { return static_cast<std::size_t>(odd[static_cast<std::size_t>(s)]); }
-  /// Whether both belong to one walk, so that the child's update matrix lies on that walk's stack.
+  /// True if both belong to the same walk, so that the child's update matrix lies on the stack of that walk.
   [[nodiscard]] bool together(int child, int parent) const {
     return shared[static_cast<std::size_t>(child)] == shared[static_cast<std::size_t>(parent)];
   }
@@ -167,8 +169,9 @@ Tree tree(const SymbolicFactor& L, const TreeCut& cut) {
   return result;
 }
 
-/// Values on two stacks of update matrices, for even and odd depths in the tree: a supernode reads its children's on
-/// one while it builds its own on the other, so that nothing need be moved.
+/// Numbers of values on the two stacks of update matrices of a walk, one for even and one for odd depths in the tree. A
+/// supernode reads its children's update matrices on one stack while it builds its own on the other; on a single stack
+/// its own would have to be moved down over theirs afterwards.
 struct Heights {
   std::array<Place, 2> values{};
 
@@ -179,7 +182,7 @@ struct Heights {
   }
 };
 
-/// How high the stacks are after a walk over `supernodes`, and at most on the way.
+/// Heights of the stacks at the end of a walk over `supernodes`, and the largest on the way.
 struct StackUse {
   Heights end;
   Heights most;
@@ -204,12 +207,12 @@ Heights group_heights(const SymbolicFactor& L, const Tree& tree, const TreeCut& 
   return most;
 }
 
-/// What a walk over some supernodes, children first, works with.
+/// The memory that a walk over some supernodes, children first, works with.
 struct Workspace {
-  std::array<LargeArray<double>, 2> stack;  // update matrices
-  LargeArray<int> place;                    // of a row of A (new position) in the front at work
+  std::array<LargeArray<double>, 2> stack;  // update matrices, for even and odd depths
+  LargeArray<int> place;                    // for each row of A (new position) its row in the current front
   Heights used{};
-  std::vector<int> targets{};  // of the rows of all children's update matrices in the front at work
+  std::vector<int> targets{};  // rows in the current front of the rows of all children's update matrices
 
   Workspace(Heights heights, Place rows)
       : stack{LargeArray<double>(heights[0]), LargeArray<double>(heights[1])}, place(rows) {}
@@ -221,12 +224,13 @@ struct Multifrontal {
   double* values;
   Tree tree;
   std::vector<int> position;    // old row → new position
-  std::vector<double*> update;  // of each supernode that has been done
+  std::vector<double*> update;  // update matrix of each supernode that has been eliminated
 
   [[nodiscard]] Block panel(int s) const { return {values + L.value(s), L.height(s)}; }
   [[nodiscard]] Block update_matrix(int s) const { return {update[static_cast<std::size_t>(s)], front(L, s).below()}; }
 
-  /// Places of the front's rows, and from them those of the children's rows.
+  /// Finds the place in the front of supernode s of each of its own rows, and then of the rows of its children's update
+  /// matrices, which are a subset of them.
   void locate(int s, Workspace& work) const {
     const int* rows = L.rows_of(s);
     for (int k = 0; k < L.height(s); ++k) work.place[rows[k]] = k;
@@ -237,7 +241,7 @@ struct Multifrontal {
     }
   }
 
-  /// Panel ← A(J ∪ I, J), lower triangle.
+  /// Writes A(J ∪ I, J), lower triangle, to the panel of supernode s.
   template <class Threads>
   void gather(int s, const Workspace& work) const {
     const Place first = L.column(s);
@@ -251,8 +255,9 @@ struct Multifrontal {
     });
   }
 
-  /// F ← F + U_child (extend-add) for all children: those of their columns that lie in [from, to) of the front; F
-  /// starts in the front's column `from`.
+  /// Adds the update matrices of all children to F (extend-add): F ← F + U_child, only the columns that belong to
+  /// columns [from, to) of the front. F starts in the front's column `from`. A child's rows are ascending in the front,
+  /// so that its columns in [from, to) are found by bisection.
   template <class Threads>
   void extend_add(int s, Place from, Place to, Block F, const Workspace& work) const {
     const int* target = work.targets.data();
@@ -271,8 +276,10 @@ struct Multifrontal {
     }
   }
 
-  /// One supernode; its children's update matrices give way to its own. The new position of a pivot that is not
-  /// positive, or −1.
+  /// Eliminates one supernode: its children's update matrices are consumed and its own is pushed on the stack. Returns
+  /// the new position of a pivot that is not positive, or −1. The children's parts in the columns J are added to the
+  /// panel before it is factorised, their parts in I to the update matrix after L_IJ L_IJᵀ has been written there, so
+  /// that the stack need not be cleared first.
   template <class Threads>
   Place eliminate(int s, Workspace& work) {
     const Front f = front(L, s);
@@ -284,7 +291,7 @@ struct Multifrontal {
     const std::size_t parity = tree.parity(s);
     const Block U{work.stack[parity].data() + work.used[parity], f.below()};
     if (f.below() > 0) Threads::update(panel(s), f, U);
-    // Rows of a front count from its first, those of U from the first below the columns.
+    // Rows of a front are counted from its first row, those of U from the first row below the columns.
     extend_add<Threads>(s, f.columns, f.rows, {U.values - f.columns, U.stride}, work);
     update[static_cast<std::size_t>(s)] = U.values;
     work.used[parity] += f.update_values();
@@ -304,7 +311,8 @@ struct Multifrontal {
     return -1;
   }
 
-  /// A copy of what a walk has left on its stacks, for the top of the tree; the workspace is free for the next walk.
+  /// A copy of the update matrices that a walk has left on its stacks for the top of the tree; the workspace is then
+  /// free for the next walk.
   std::array<LargeArray<double>, 2> remains(Workspace& work, const std::vector<int>& supernodes) {
     std::array<LargeArray<double>, 2> kept;
     for (const std::size_t parity : {0U, 1U}) {
@@ -319,7 +327,7 @@ struct Multifrontal {
   }
 };
 
-/// Workspaces that walks take and give back, as many as there are threads.
+/// A pool of workspaces, which walks take and give back; it makes as many as there are threads at work.
 class Pool {
  public:
   Pool(Heights heights, Place rows) : heights_(heights), rows_(rows) {}
@@ -348,7 +356,8 @@ class Pool {
 double update_bytes(const SymbolicFactor& L, const TreeCut& cut) {
   const Tree t = tree(L, cut);
   const auto at_once = std::min(cut.groups.size(), static_cast<std::size_t>(core::thread_count()));
-  // The groups' stacks are gone before the top's is there, but an allocator need not find it room in their place.
+  // The stacks of the groups are freed before that of the top is allocated; they are counted together nevertheless,
+  // because an allocator need not be able to reuse their place.
   Place values = stack_use(L, t, cut.top).most.sum();
   values += static_cast<Place>(at_once) * group_heights(L, t, cut).sum();
   for (const auto& group : cut.groups) values += stack_use(L, t, group).end.sum();

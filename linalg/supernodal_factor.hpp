@@ -1,5 +1,5 @@
 #pragma once
-// Numeric Cholesky factorisation on the supernodes of a symbolic one, on all threads.
+// Numeric Cholesky factorisation on the supernodes of a symbolic factor, on all threads.
 
 #include <Eigen/Core>
 #include <optional>
@@ -10,7 +10,8 @@
 
 namespace thinwall::linalg {
 
-/// Bytes of update matrices that supernodal_factor() holds at its worst, besides the factor itself.
+/// The largest number of bytes of update matrices that supernodal_factor() holds at one time, besides the factor
+/// itself, on thread_count() threads.
 [[nodiscard]] double update_bytes(const SymbolicFactor& L, const TreeCut& cut);
 
 /// P A Pᵀ = L Lᵀ by the multifrontal method (Duff & Reid 1983; Liu 1992): supernode s with the columns J and the rows
@@ -20,12 +21,14 @@ namespace thinwall::linalg {
 ///     U = F_II − L_IJ L_IJᵀ      the update matrix, which waits on a stack for the parent
 ///
 /// The groups of `cut` run side by side, each with a stack of its own; in the supernodes above them the dense blocks
-/// are cut into tiles that all threads share. Why not the library's: it works through the tree alone, and leaves the
-/// threads to BLAS, which gains nothing on the hundred columns that a supernode of a thin wall has.
+/// are cut into tiles that all threads share. CHOLMOD's numeric phase is not used because it walks the tree on one
+/// thread and leaves the others to BLAS, which gains nothing on the hundred columns that a supernode of a thin wall
+/// has.
 ///
-/// A: n × n, both triangles; values: where the panels go, L.values() numbers; lower triangles, what lies above a
-/// diagonal is not defined. Returns a column (new position) whose pivot is not positive, if any; the factor is then of
-/// no use. The same result for any number of threads, bit by bit. Cost: flops of the factor; memory: update_bytes().
+/// A: n × n, both triangles. values: receives the panels, L.values() numbers, in the layout of SymbolicFactor; what
+/// lies above a diagonal is undefined. Returns a column (new position) whose pivot is not positive, if there is one;
+/// the factor is then unusable. The result is the same bit by bit for any number of threads. Throws NumericalError for
+/// lack of memory. Cost: factor_cost() flops; memory: update_bytes().
 [[nodiscard]] std::optional<int> supernodal_factor(const SparseMatrix& A, const SymbolicFactor& L, const TreeCut& cut,
                                                    double* values);
 

@@ -12,14 +12,15 @@ namespace {
 template <int width>
 using Rows = Eigen::Matrix<double, width, Eigen::Dynamic>;
 
-/// One supernode as a dense block: columns × rows, the triangle of its own columns first.
+/// The values of one supernode as a dense column-major block of rows × columns; the triangle of its own columns comes
+/// first.
 struct Panel {
   const double* values = nullptr;
   std::ptrdiff_t rows = 0;
   std::ptrdiff_t columns = 0;
 
   [[nodiscard]] double at(std::ptrdiff_t row, std::ptrdiff_t column) const { return values[column * rows + row]; }
-  /// Whether what lies below the triangle is worth the work of all threads.
+  /// True if the block below the triangle has entries enough to be worth sharing among all threads.
   [[nodiscard]] bool is_large() const { return columns * (rows - columns) >= 100000; }
 };
 
@@ -27,14 +28,15 @@ Panel panel(const SymbolicFactor& L, const double* values, int s) {
   return {values + L.value(s), L.height(s), L.columns(s)};
 }
 
-/// How many columns of L a kernel takes at once: their products with one row of Y fill the registers.
+/// Number of columns of L that a kernel handles at once, chosen so that they fill the registers: each has a vector of
+/// `width` values.
 template <int width>
 constexpr int columns_at_once = width > 12  ? 2
                                 : width > 8 ? 4
                                             : 6;
 
-/// Y[:, from:to] −= Σ_c x_c L(·, column + c), `count` columns of L at once: one pass over Y for all of them. What
-/// follows these columns in memory is on its way into the cache meanwhile.
+/// Y[:, from:to] −= Σ_c x_c L(·, column + c) for `count` columns of L in one pass over Y. The columns that follow in
+/// memory are prefetched into the cache meanwhile.
 template <int width, int count>
 void rank_update(const Panel& L, std::ptrdiff_t column, std::ptrdiff_t from, std::ptrdiff_t to, Rows<width>& Y) {
   const Eigen::Matrix<double, width, count> x = -Y.template middleCols<count>(column);
@@ -48,8 +50,8 @@ void rank_update(const Panel& L, std::ptrdiff_t column, std::ptrdiff_t from, std
   }
 }
 
-/// Σ_row L(row, column + c) Y[:, row] over the rows from `from` on, for `count` columns. What precedes these columns in
-/// memory is on its way into the cache meanwhile.
+/// The sums Σ_row L(row, column + c) Y[:, row] over the rows [from, to), for `count` columns in one pass over Y. The
+/// columns that precede in memory are prefetched into the cache meanwhile, because backward substitution goes that way.
 template <int width, int count>
 Eigen::Matrix<double, width, count> dot_products(const Panel& L, std::ptrdiff_t column, std::ptrdiff_t from,
                                                  std::ptrdiff_t to, const Rows<width>& Y) {
@@ -67,7 +69,8 @@ Eigen::Matrix<double, width, count> dot_products(const Panel& L, std::ptrdiff_t 
   return result;
 }
 
-/// Y₁ ← L₁₁⁻¹ Y₁, the rows of the panel's own columns, and Y₂ ← Y₂ − L₂₁ Y₁ on the rows below up to `to`.
+/// Forward substitution in one panel: Y₁ ← L₁₁⁻¹ Y₁ on the rows of its own columns, then Y₂ ← Y₂ − L₂₁ Y₁ on the rows
+/// below, up to `to`.
 template <int width>
 void forward(const Panel& L, std::ptrdiff_t to, Rows<width>& Y) {
   constexpr int step = columns_at_once<width>;
@@ -85,7 +88,7 @@ void forward(const Panel& L, std::ptrdiff_t to, Rows<width>& Y) {
   }
 }
 
-/// Y₁ ← L₁₁⁻ᵀ (Y₁ − L₂₁ᵀ Y₂), with the rows Y₂ below up to `to`.
+/// Backward substitution in one panel: Y₁ ← L₁₁⁻ᵀ (Y₁ − L₂₁ᵀ Y₂), with the rows Y₂ below the triangle up to `to`.
 template <int width>
 void backward(const Panel& L, std::ptrdiff_t to, Rows<width>& Y) {
   constexpr int step = columns_at_once<width>;
@@ -104,7 +107,7 @@ void backward(const Panel& L, std::ptrdiff_t to, Rows<width>& Y) {
   }
 }
 
-/// Y₂ ← Y₂ − L₂₁ Y₁ on the rows [from, to).
+/// Y₂ ← Y₂ − L₂₁ Y₁ on the rows [from, to) below the triangle: the part of forward() that threads share.
 template <int width>
 void push_down(const Panel& L, std::ptrdiff_t from, std::ptrdiff_t to, Rows<width>& Y) {
   constexpr int step = columns_at_once<width>;
@@ -113,7 +116,7 @@ void push_down(const Panel& L, std::ptrdiff_t from, std::ptrdiff_t to, Rows<widt
   for (; column < L.columns; ++column) rank_update<width, 1>(L, column, from, to, Y);
 }
 
-/// Y₁ ← Y₁ − L₂₁ᵀ Y₂ on the columns [from, to).
+/// Y₁ ← Y₁ − L₂₁ᵀ Y₂ on the columns [from, to): the part of backward() that threads share.
 template <int width>
 void pull_up(const Panel& L, std::ptrdiff_t from, std::ptrdiff_t to, Rows<width>& Y) {
   constexpr int step = columns_at_once<width>;
@@ -122,7 +125,8 @@ void pull_up(const Panel& L, std::ptrdiff_t from, std::ptrdiff_t to, Rows<width>
   for (; from < to; ++from) Y.col(from) -= dot_products<width, 1>(L, from, L.columns, L.rows, Y);
 }
 
-/// body(from, to) for pieces of [from, to), each a multiple of 16 long, on all threads.
+/// Calls body(from, to) for pieces of [from, to) on all threads; each piece but the last is a multiple of 16 long.
+/// There are eight at most, whatever the number of threads, so that results do not depend on it.
 template <class Body>
 void in_pieces(std::ptrdiff_t from, std::ptrdiff_t to, const Body& body) {
   const std::ptrdiff_t piece = (to - from + 127) / 128 * 16;
@@ -132,7 +136,8 @@ void in_pieces(std::ptrdiff_t from, std::ptrdiff_t to, const Body& body) {
   });
 }
 
-/// Forward elimination over some supernodes; `add(row, y)` takes what goes to a row below.
+/// Forward substitution over some supernodes, children first. add(row, y) receives what is to be added to a row below
+/// the supernode. `shared`: large blocks are divided among all threads.
 template <int width, class Add>
 void eliminate(const SymbolicFactor& L, const double* values, const std::vector<int>& supernodes, bool shared,
                Rows<width>& X, const Add& add) {

@@ -1,5 +1,5 @@
 #pragma once
-// Solutions with a supernodal factor, several right-hand sides at once, on all threads.
+// Solutions with a supernodal factor for several right-hand sides at once, on all threads.
 
 #include <Eigen/Core>
 
@@ -8,10 +8,10 @@
 
 namespace thinwall::linalg {
 
-/// X ← L⁻ᵀ L⁻¹ X in place; values: of L, lower triangles; X: `width` × n column-major, so that the right-hand sides of
-/// a row lie side by side; width 4, 8, 12 or 16. Why not the library's: a solve is bound by the reading of L from
-/// memory; this one reads it once a sweep for all right-hand sides and from all threads. Cost 4 nnz(L) flops a
-/// right-hand side.
+/// X ← L⁻ᵀ L⁻¹ X in place, rows in new positions. values: those of L in the layout of SymbolicFactor, lower triangles.
+/// X: `width` × n column-major, so that the right-hand sides of a row lie side by side; width is 4, 8, 12 or 16.
+/// CHOLMOD's solve is not used because the time goes into reading L from memory: this function reads it once a sweep
+/// for all right-hand sides, from all threads. Cost 4 nnz(L) flops a right-hand side.
 template <int width>
 void supernodal_solve(const SymbolicFactor& L, const TreeCut& cut, const double* values,
                       Eigen::Matrix<double, width, Eigen::Dynamic>& X);

@@ -33,14 +33,15 @@ std::size_t row_count(const MatrixGraph& graph) {
   return count;
 }
 
-/// The factor of the rows from that of their nodes.
+/// The symbolic factor of the rows of a matrix from that of their nodes: every node is replaced by its rows, in
+/// ascending order.
 SymbolicFactor of_rows(const cholmod_factor& nodes, const MatrixGraph& graph) {
   const auto* permutation = static_cast<const int*>(nodes.Perm);
   const auto* first_column = static_cast<const int*>(nodes.super);
   const auto* first_row = static_cast<const int*>(nodes.pi);
   const auto* rows = static_cast<const int*>(nodes.s);
   SymbolicFactor L;
-  std::vector<int> first{0};  // row of each node, in new positions
+  std::vector<int> first{0};  // first row of each node, in new positions
   for (std::size_t i = 0; i < nodes.n; ++i) {
     const auto& own = graph.rows[static_cast<std::size_t>(permutation[i])];
     L.permutation.insert(L.permutation.end(), own.begin(), own.end());
@@ -91,7 +92,8 @@ SymbolicFactor symbolic_factor(const MatrixGraph& graph, const std::vector<int>&
   Pattern lower = pattern(graph);
   cholmod_sparse view = cholmod_view(graph.rows.size(), lower.first.data(), lower.rows.data(), nullptr);
   CholmodFactor factor(CHOLMOD_SUPERNODAL);
-  // The library merges supernodes of up to 4, 16 and 48 columns; here a column stands for the rows of a node.
+  // CHOLMOD merges supernodes of up to 4, 16 and 48 columns if that adds few zeros; here a column stands for all rows
+  // of a node, so that the limits are divided by their mean number.
   const auto mean_rows = static_cast<double>(row_count(graph)) / static_cast<double>(graph.size());
   for (std::size_t k : {0U, 1U, 2U}) {
     constexpr std::array<double, 3> columns{4.0, 16.0, 48.0};

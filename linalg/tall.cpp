@@ -15,9 +15,10 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr Index piece = 2048;  // rows: a piece of 16 columns stays in the second-level cache
+constexpr Index piece = 2048;  // rows of a piece; 16 columns of it fit in the second-level cache
 
-/// body(first, rows) for every piece; on this thread alone where there is little to do.
+/// Calls body(piece, first, rows) for every piece of the rows; on this thread alone if there are fewer than three
+/// pieces.
 template <class Body>
 void over_pieces(Index rows, const Body& body) {
   const auto pieces = static_cast<std::size_t>((rows + piece - 1) / piece);
@@ -36,20 +37,20 @@ int size(Index n) {
   return static_cast<int>(n);
 }
 
-/// The rows `first`… of a column-major block, as BLAS wants them.
+/// A pointer to row `first` of a column-major block, as BLAS takes it.
 const double* from(const Eigen::Ref<const MatrixXd>& V, Index first) {
   return V.data() + first;
 }
 
-/// W ← s W + f V C on `count` rows.
+/// W ← s W + f V C on `count` rows of tall blocks.
 void multiply(const double* V, Index v_stride, const MatrixXd& C, Index count, double f, double s, double* W,
               Index w_stride) {
   cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, size(count), size(C.cols()), size(C.rows()), f, V,
               size(v_stride), C.data(), size(C.outerStride()), s, W, size(w_stride));
 }
 
-/// Up to `width` columns of Y = A X at once: for every entry of A one row of X is gathered, so that row must lie in one
-/// place.
+/// Computes up to `width` columns of Y = A X for a symmetric A in one pass over A. Each entry of A reads one row of X,
+/// so that X is transposed first: a row then lies in one place in memory.
 template <int width>
 void strip_product(const SparseMatrix& A, const Eigen::Ref<const MatrixXd>& X, Index column, MatrixXd& Y) {
   using Strip = Eigen::Matrix<double, width, 1>;

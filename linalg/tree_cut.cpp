@@ -8,14 +8,16 @@ namespace thinwall::linalg {
 TreeCut tree_cut(const SymbolicFactor& L) {
   const auto count = static_cast<std::size_t>(L.count());
   const std::vector<int> parent = parents(L);
-  std::vector<double> weight(count);  // values in the subtree
+  std::vector<double> weight(count);  // number of values in the subtree below each supernode, itself included
   std::vector<std::vector<int>> children(count + 1);
   for (std::size_t s = 0; s < count; ++s) {
     weight[s] += static_cast<double>(L.first_value[s + 1] - L.first_value[s]);
     if (parent[s] >= 0) weight[static_cast<std::size_t>(parent[s])] += weight[s];
     children[parent[s] >= 0 ? static_cast<std::size_t>(parent[s]) : count].push_back(static_cast<int>(s));
   }
-  // The heaviest subtree is opened until all are light; what is opened is the top.
+  // The root of the heaviest subtree is moved to the top, and its children's subtrees take its place, until every
+  // subtree holds at most 1/24 of all values (or 1e5, which are not worth cutting): sixteen groups can then be filled
+  // evenly.
   double total = 0.0;
   std::priority_queue<std::pair<double, int>> open;
   for (const int root : children[count]) {
@@ -33,7 +35,7 @@ TreeCut tree_cut(const SymbolicFactor& L) {
   std::vector<int> group(count, -1);
   cut.groups.resize(16);
   std::vector<double> load(cut.groups.size(), 0.0);
-  for (; !open.empty(); open.pop()) {  // the heaviest first, to the group with the least
+  for (; !open.empty(); open.pop()) {  // the heaviest subtree first, to the group with the least load
     const auto lightest = std::min_element(load.begin(), load.end());
     *lightest += open.top().first;
     group[static_cast<std::size_t>(open.top().second)] = static_cast<int>(lightest - load.begin());

@@ -1,5 +1,5 @@
 #pragma once
-// Which parts of a factor may be worked on at the same time.
+// A division of a factor into parts that may be worked on at the same time.
 
 #include <vector>
 
@@ -7,16 +7,16 @@
 
 namespace thinwall::linalg {
 
-/// The elimination tree cut into groups of subtrees, which know nothing of each other, and the top of the tree above
-/// them all. The choice depends on the factor alone, not on the number of threads.
+/// The elimination tree cut into groups of subtrees, which are independent of each other, and the top of the tree above
+/// all of them. The choice depends on the factor alone, not on the number of threads, so that results do not either.
 struct TreeCut {
-  std::vector<std::vector<int>> groups;  ///< supernodes of each, ascending
+  std::vector<std::vector<int>> groups;  ///< supernodes of each group, ascending
   std::vector<int> top;                  ///< supernodes, ascending
-  std::vector<int> place_in_top;         ///< of each row: its number among the rows of `top`, −1 in a group
+  std::vector<int> place_in_top;         ///< for each row its number among the rows of `top`, −1 if it is in a group
   int rows_in_top = 0;
 };
 
-/// Cuts the elimination tree into sixteen groups of similar numbers of values.
+/// The elimination tree of L cut into sixteen groups with similar numbers of values. Cost O(supernodes log supernodes).
 [[nodiscard]] TreeCut tree_cut(const SymbolicFactor& L);
 
 }  // namespace thinwall::linalg

@@ -1,5 +1,5 @@
 #pragma once
-// Damping of a reduced model.
+// Damping models for a reduced model.
 
 #include <vector>
 
@@ -7,20 +7,23 @@
 
 namespace thinwall::reduction {
 
-/// How many of a model's undamped frequencies, ascending, are of rigid motions: up to 1e-6 of the largest.
+/// The number of a model's undamped frequencies, given ascending, that belong to rigid motions: those up to 1e-6 of the
+/// largest.
 [[nodiscard]] Eigen::Index rigid_motions(const Eigen::VectorXd& ascending);
 
-/// C = M Φ diag(2 ζ ω) Φᵀ M over the model's undamped modes Φ (M-normalised): mode k then decays with exactly ζ_k and
-/// the modes stay what they are. `ratios`: ζ of the first elastic modes in ascending order; `rest` for all others.
-/// Rigid-body modes (ω = 0) get none. Returns the model with C set. Throws InputError unless 0 ≤ ζ < 1. Cost O(n³).
+/// The model with modal damping C = M Φ diag(2 ζ ω) Φᵀ M over its undamped modes Φ (M-normalised): mode k then decays
+/// with exactly ζ_k, and the mode shapes are unchanged. `ratios`: ζ of the first elastic modes in ascending order;
+/// `rest` is that of all others. Rigid-body modes (ω = 0) are not damped. Throws InputError unless 0 ≤ ζ < 1. Cost
+/// O(n³).
 [[nodiscard]] dynamics::SpatialModel with_modal_damping(dynamics::SpatialModel model, const std::vector<double>& ratios,
                                                         double rest);
 
-/// C = α M + β K (Rayleigh): α in 1/s, β in s, both ≥ 0. TᵀCT of a reduction is the same formula on M_r, K_r.
+/// The model with Rayleigh damping C = α M + β K, α in 1/s and β in s. TᵀCT of a reduction is the same formula on M_r,
+/// K_r. Throws InputError unless α, β ≥ 0.
 [[nodiscard]] dynamics::SpatialModel with_rayleigh_damping(dynamics::SpatialModel model, double alpha_per_s,
                                                            double beta_s);
 
-/// D = η K: stiffness K (1 + iη), η ≥ 0.
+/// The model with structural damping D = η K, so that its stiffness is K (1 + iη). Throws InputError unless η ≥ 0.
 [[nodiscard]] dynamics::SpatialModel with_structural_damping(dynamics::SpatialModel model, double loss_factor);
 
 }  // namespace thinwall::reduction

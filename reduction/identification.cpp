@@ -18,8 +18,7 @@ struct Peak {
   Eigen::Index last = 0;
 };
 
-/// Lines around `line` with magnitude at least `fraction` of the peak's, towards both sides until the first that is
-/// lower.
+/// The lines around `line`, on both sides, up to the first whose magnitude is below `fraction` of the peak's.
 Peak shoulders(const Eigen::VectorXd& magnitude, Eigen::Index line, double fraction) {
   Peak peak{line, line, line};
   while (peak.first > 0 && magnitude(peak.first - 1) >= fraction * magnitude(line)) --peak.first;
@@ -27,8 +26,8 @@ Peak shoulders(const Eigen::VectorXd& magnitude, Eigen::Index line, double fract
   return peak;
 }
 
-/// Local maxima that stand out by the wanted factor: within the lines down to |H|/prominence no line is higher, and
-/// both sides get that low before the axis ends.
+/// The local maxima that stand out by the factor options.prominence: between the lines where |H| has fallen to
+/// |H|/prominence on both sides, no line is higher, and both of these lines are on the axis.
 std::vector<Peak> peaks(const Eigen::VectorXd& magnitude, const PeakOptions& options) {
   std::vector<Peak> found;
   const Eigen::Index lines = magnitude.size();
@@ -49,7 +48,8 @@ std::vector<Peak> peaks(const Eigen::VectorXd& magnitude, const PeakOptions& opt
 
 std::optional<IdentifiedMode> fit(const dynamics::FrequencyAxis& axis, const Eigen::VectorXcd& H, const Peak& peak) {
   const Eigen::Index count = peak.last - peak.first + 1;
-  const double unit = axis.omega_rad_s(peak.line);  // frequencies in units of the peak's keep the columns of one size
+  // The unit of frequency, which keeps the columns of A of similar size.
+  const double unit = axis.omega_rad_s(peak.line);
   const double size = std::abs(H(peak.line));
   Eigen::VectorXcd denominator = Eigen::VectorXcd::Ones(count);
   Eigen::VectorXd unknowns;

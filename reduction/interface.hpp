@@ -1,5 +1,5 @@
 #pragma once
-// What of a full model stays visible after its reduction.
+// The interface of a full model: the displacements that remain visible after its reduction.
 
 #include "dynamics/dof.hpp"
 #include "linalg/sparse.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// All that reduction/ offers to other programs.
+// The headers of reduction/ that other programs may include.
 // Internal: held_interface, report_parts, static_flexibility, symmetric_part, worst.
 
 #include "core/eigen_alignment.hpp"

@@ -5,7 +5,7 @@
 
 namespace thinwall::reduction {
 
-/// (A + Aᵀ)/2 of a square A. Cost O(n²).
+/// The symmetric part (A + Aᵀ)/2 of a square A. Cost O(n²).
 [[nodiscard]] inline Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& A) {
   return 0.5 * (A + A.transpose());
 }

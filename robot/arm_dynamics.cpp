@@ -17,7 +17,7 @@ Eigen::Vector3d centre_of(const SerialArm& arm, const ArmPose& at, Index i) {
   return at.links[static_cast<std::size_t>(i)] * link_of(arm, i).centre;
 }
 
-/// A counterbalance at a posture: d from end to end, and how it follows from the joints.
+/// A counterbalance at a posture: the vector d between its ends, and its derivatives by the joint angles.
 struct Stretch {
   Eigen::Vector3d from, to;  ///< in the world, m
   Eigen::Matrix3Xd J;        ///< ∂d/∂q
@@ -27,6 +27,7 @@ struct Stretch {
   double force = 0.0;        ///< F
 };
 
+/// The state of a counterbalance at a posture. Throws InputError if its ends meet.
 Stretch stretch_of(const SerialArm& arm, const ArmPose& at, const Counterbalance& spring) {
   const auto place = [&](int link, const Eigen::Vector3d& p) -> Eigen::Vector3d {
     return link < 0 ? arm.base * p : at.links[static_cast<std::size_t>(link)] * p;

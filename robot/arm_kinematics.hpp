@@ -1,5 +1,5 @@
 #pragma once
-// Where a serial arm's bodies are at a posture, and how they move with its joints.
+// Positions of a serial arm's bodies at a posture, and their derivatives by the joint angles.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -9,9 +9,9 @@
 
 namespace thinwall::robot {
 
-/// The arm at joint angles q. Positions in the world, m; column i is of joint or link i.
+/// The arm at given joint angles. Positions are in the world, m; column i belongs to joint or link i.
 struct ArmPose {
-  Eigen::Matrix3Xd origins;              ///< a point of each joint's axis
+  Eigen::Matrix3Xd origins;              ///< a point on each joint's axis
   Eigen::Matrix3Xd axes;                 ///< unit vectors
   std::vector<Eigen::Isometry3d> links;  ///< the links' frames
   Eigen::Isometry3d tip;
@@ -20,21 +20,22 @@ struct ArmPose {
   [[nodiscard]] Eigen::Index joints() const { return origins.cols(); }
 };
 
-/// T_i = T_{i−1} placement_i Rot(axis_i, q_i). q: rad, as many as there are links; throws InputError otherwise, or
-/// where one is not finite. Cost O(links).
+/// The pose of the arm at joint angles q (rad), by T_i = T_{i−1} placement_i Rot(axis_i, q_i). Throws InputError unless
+/// there is one finite angle for each joint. Cost O(links).
 [[nodiscard]] ArmPose pose(const SerialArm& arm, const Eigen::VectorXd& q);
 
-/// ∂p/∂q_i = a_i × (p − o_i) of a point p fixed to link `link`, 3 × joints; zero for the joints beyond the link.
+/// The Jacobian ∂p/∂q_i = a_i × (p − o_i) of a point p (world, m) fixed to link `link`, 3 × joints; zero for the joints
+/// beyond the link.
 [[nodiscard]] Eigen::Matrix3Xd translation_jacobian(const ArmPose& at, const Eigen::Vector3d& p, Eigen::Index link);
 
-/// Angular velocity of link `link` for unit joint speeds: a_i, zero beyond the link. 3 × joints.
+/// The angular velocity of link `link` for unit joint speeds, 3 × joints: a_i, zero for the joints beyond the link.
 [[nodiscard]] Eigen::Matrix3Xd rotation_jacobian(const ArmPose& at, Eigen::Index link);
 
-/// Both of the tip, translation first: 6 × joints (m/rad, rad/rad).
+/// The Jacobian of the tip, translation rows first: 6 × joints (m/rad, rad/rad).
 [[nodiscard]] Eigen::Matrix<double, 6, Eigen::Dynamic> tip_jacobian(const ArmPose& at);
 
-/// f · ∂²p/∂q_i∂q_j of a point p fixed to link `link`, for a constant vector f: with ∂²p/∂q_i∂q_j = a_i × (∂p/∂q_j) for
-/// i ≤ j (Spong, Hutchinson & Vidyasagar 2006, section 4). Symmetric, joints × joints.
+/// The matrix f · ∂²p/∂q_i∂q_j of a point p fixed to link `link`, for a constant vector f, with ∂²p/∂q_i∂q_j = a_i ×
+/// (∂p/∂q_j) for i ≤ j (Spong, Hutchinson & Vidyasagar 2006, section 4). Symmetric, joints × joints.
 [[nodiscard]] Eigen::MatrixXd projected_hessian(const ArmPose& at, const Eigen::Vector3d& p, Eigen::Index link,
                                                 const Eigen::Vector3d& f);
 

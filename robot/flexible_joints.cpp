@@ -19,10 +19,11 @@ std::string joint_name(const SerialArm& arm, Index i) {
   return "joint " + std::to_string(i + 1) + (name.empty() ? "" : " (" + name + ")");
 }
 
-/// A stiffness without which the arm would leave its posture is none.
+/// Throws InputError unless K is positive definite: otherwise the arm would leave its posture. The message names the
+/// joint that gives most.
 void require_stable(const SerialArm& arm, const Eigen::MatrixXd& K) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K);
-  // What is zero but for round-off holds nothing.
+  // An eigenvalue that is zero to round-off counts as no stiffness.
   if (eigen.eigenvalues()(0) > 1e-13 * eigen.eigenvalues().maxCoeff()) return;
   Index softest = 0;
   eigen.eigenvectors().col(0).head(arm.joints()).cwiseAbs().maxCoeff(&softest);
@@ -33,7 +34,7 @@ void require_stable(const SerialArm& arm, const Eigen::MatrixXd& K) {
   throw core::InputError(text.str());
 }
 
-/// Every motion of the joints moves some mass.
+/// Throws InputError unless M is positive definite, so that every motion of the joints moves some mass.
 void require_massive(const SerialArm& arm, const Eigen::MatrixXd& M) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(M);
   if (eigen.eigenvalues()(0) > 1e-13 * eigen.eigenvalues().maxCoeff()) return;

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector3d;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// Height of the second joint above the base, and the lengths of the links beyond it.
+/// The height of the second joint above the base, followed by the lengths of the three links beyond it, m.
 using Lengths = std::array<double, 4>;
 
 bool is_along_z(const Eigen::Isometry3d& frame) {
@@ -45,7 +45,7 @@ double within_a_turn(double angle) {
   return turned <= -std::numbers::pi ? std::numbers::pi : turned;
 }
 
-/// The error of the tip's frame at q, translation first, rotations times `length`.
+/// The error of the tip's frame: translation, then the rotation vector times `length`.
 Vector6d error_of(const ArmPose& at, const Eigen::Isometry3d& target, double length) {
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(at.tip.linear() * target.linear().transpose()));
   Vector6d e;
@@ -70,7 +70,7 @@ std::vector<Eigen::Vector4d> four_axis_postures(const SerialArm& arm, const Vect
   const double q1 = reach_m > 0.0 ? std::atan2(p.y(), p.x()) : 0.0;
   std::vector<Eigen::Vector4d> postures;
   double farthest = 0.0;
-  for (const double side : {1.0, -1.0}) {  // facing the place, and turned away
+  for (const double side : {1.0, -1.0}) {  // the arm facing the place, then turned away from it
     const double r = side * reach_m - hand * std::sin(pitch);
     const double h = p.z() - shoulder - hand * std::cos(pitch);
     farthest = std::max(farthest, std::hypot(r, h));
@@ -101,8 +101,11 @@ Reached reach(const SerialArm& arm, const Eigen::Isometry3d& target, const Eigen
   Reached result{.q = start};
   ArmPose at = pose(arm, result.q);
   Vector6d e = error_of(at, target, options.length);
+  // The damping μ |e|² vanishes with the error, so that the last steps are Newton's and convergence is quadratic near a
+  // regular posture; far away and near singular postures it bounds the step.
   double mu = 1e-3;
   for (int step = 0; step < options.most_steps && e.norm() > options.tolerance; ++step) {
+    // Singular values instead of J Jᵀ: the square would lose half of the digits near a singular posture.
     const Eigen::JacobiSVD<Eigen::MatrixXd> J(scaled_jacobian(at, options.length),
                                               Eigen::ComputeThinU | Eigen::ComputeThinV);
     const Eigen::ArrayXd s = J.singularValues();

@@ -37,7 +37,7 @@ void require_valid(const ModalTable& table) {
   faults.raise("table of modes");
 }
 
-/// "33.4 mm in the modes 1, 2; 20 mm in the mode 6".
+/// The places of a DOF's point with the modes measured there: "33.4 mm in the modes 1, 2; 20 mm in the mode 6".
 std::string places_of(const ModalTable& table, Index dof) {
   std::vector<double> seen;
   std::ostringstream text;
@@ -90,7 +90,7 @@ ModalTable with_dofs(const ModalTable& table, const std::vector<int>& rows) {
   return part;
 }
 
-/// Row of `point` along the direction of `like`.
+/// The row of `point` with the direction of `like`. Throws InputError if there is none.
 int partner(const ModalTable& table, const std::string& point, const Dof& like) {
   for (const int row : dynamics::rows_of_point(table.dofs, point)) {
     const Dof& dof = table.dofs[static_cast<std::size_t>(row)];
@@ -100,7 +100,8 @@ int partner(const ModalTable& table, const std::string& point, const Dof& like) 
                          "; a rotation needs both points in each direction");
 }
 
-/// The rotation about up × d, turned so that its axis points along positive ones: +1 or −1 and the DOF.
+/// The rotation DOF about up × d, with its axis reversed if needed so that its largest component is positive, and the
+/// sign of that reversal.
 std::pair<double, Dof> rotation(const Dof& along, const Eigen::Vector3d& up) {
   if (along.kind != dynamics::DofKind::translation || std::abs(along.direction.dot(up)) > 1e-9) {
     throw core::InputError("table of modes: " + dynamics::name(along) +
@@ -110,7 +111,7 @@ std::pair<double, Dof> rotation(const Dof& along, const Eigen::Vector3d& up) {
   Index largest = 0;
   about.cwiseAbs().maxCoeff(&largest);
   const double sign = about(largest) < 0.0 ? -1.0 : 1.0;
-  // Adding zero turns −0 into 0, which has another name.
+  // Adding zero turns −0 into 0: the DOF's name is written from these numbers.
   return {sign, {along.point, (sign * about).array() + 0.0, dynamics::DofKind::rotation}};
 }
 

@@ -42,7 +42,7 @@ OneMode one_mode(double frequency_hz, double damping_ratio, double stiffness_n_m
 
 namespace {
 
-/// Those of x, y, z along which something moves.
+/// The unit vectors among x, y, z along which some mode moves.
 std::vector<Eigen::Vector3d> moving_axes(const std::vector<OneMode>& modes) {
   std::vector<Eigen::Vector3d> axes;
   for (int i = 0; i < 3; ++i) {
@@ -52,8 +52,8 @@ std::vector<Eigen::Vector3d> moving_axes(const std::vector<OneMode>& modes) {
   return axes;
 }
 
-/// The directions that differ; axes where two of them are neither parallel nor at right angles, for the amplitude of
-/// such a DOF would not be the displacement along it.
+/// The different directions of the modes. If two of them are neither parallel nor perpendicular, coordinate axes are
+/// taken instead, because the amplitude of such a DOF would not be the displacement along it.
 std::vector<Eigen::Vector3d> tip_directions(const std::vector<OneMode>& modes) {
   std::vector<Eigen::Vector3d> directions;
   for (const OneMode& mode : modes) {

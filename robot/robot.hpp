@@ -1,5 +1,5 @@
 #pragma once
-// All that robot/ offers to other programs.
+// The headers of robot/ that other programs may include.
 
 #include "core/eigen_alignment.hpp"
 #include "robot/arm_dynamics.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// What is known of a robot's tip, however it came to be known: the one thing that a coupling asks of a robot.
+// The model of a robot's tip, independent of its origin: the only form in which a coupling uses a robot.
 
 #include <Eigen/Core>
 #include <functional>
@@ -12,19 +12,21 @@
 
 namespace thinwall::robot {
 
-/// Where a robot stands and what it bears there.
+/// The posture of a robot and the load on its tip.
 struct Posture {
-  Eigen::VectorXd q{};  ///< joint angles at rest, rad; empty where nothing depends on them
-  Eigen::Vector3d preload = Eigen::Vector3d::Zero();  ///< force on the tip that stays as it is, N, world axes
+  Eigen::VectorXd q{};                                ///< joint angles at rest, rad; empty if nothing depends on them
+  Eigen::Vector3d preload = Eigen::Vector3d::Zero();  ///< constant force on the tip, N, world axes
 };
 
-/// The tip at one posture, by the most that is known: matrices, else poles, else receptances.
+/// The tip at one posture in the most complete form available: matrices, else poles, else receptances.
 using Tip = std::variant<dynamics::SpatialModel, dynamics::ModalModel, dynamics::ResponseModel>;
 
-/// A robot: the tip at any posture. An implementation throws InputError for a posture that it cannot take.
+/// A robot as a function that gives the tip at any posture. It throws InputError for a posture that the robot cannot
+/// take.
 using TipModel = std::function<Tip(const Posture&)>;
 
-/// A tip that was modelled or measured in one posture, and stands for all: whoever uses it elsewhere says so.
+/// A robot whose tip was modelled or measured in one posture only and is used for all postures; callers should report
+/// that.
 [[nodiscard]] inline TipModel in_one_posture(Tip tip) {
   return [tip = std::move(tip)](const Posture&) { return tip; };
 }

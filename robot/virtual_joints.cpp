@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-constexpr double rank_below = 1e-9;  // of singular values, over the largest: compliances of 1e-18 count as none
+constexpr double rank_below = 1e-9;  // relative bound of singular values; compliances of 1e-18 thus count as zero
 
 // ---- checks ------------------------------------------------------------------------------------------------------
 
@@ -75,19 +75,20 @@ void require_valid(const std::vector<Chain>& chains) {
 
 // ---- chains in their places --------------------------------------------------------------------------------------
 
-/// An element where it stands, and what it adds to the motion of the frame behind it.
+/// An element in its place, with the motions that it adds to the frame behind it.
 struct Station {
   const ChainElement* element = nullptr;
   Eigen::Isometry3d before, after;
-  Matrix6X motions{6, 0};  ///< of the frame after by its k coordinates, world axes
-  MatrixXd root{};         ///< k × k, of their compliance: C = root rootᵀ
-  MatrixXd damping{};      ///< k × k; empty: none
+  Matrix6X motions{6, 0};  ///< motions of the frame after, one column for each of its k coordinates, world axes
+  MatrixXd root{};         ///< k × k, a root of their compliance C = root rootᵀ
+  MatrixXd damping{};      ///< k × k; empty if there is none
   bool passive = false;
 
   [[nodiscard]] Vector3d step() const { return after.translation() - before.translation(); }
 };
 
-/// V √Λ of a compliance, whose units may differ by many powers of ten: scaled to a unit diagonal before.
+/// The root V √Λ of a compliance, scaled to a unit diagonal before, because its entries may differ by many powers of
+/// ten.
 MatrixXd root_of(const Matrix6& S) {
   const Eigen::Vector<double, 6> scale = S.diagonal().unaryExpr([](double s) { return s > 0.0 ? std::sqrt(s) : 1.0; });
   const Matrix6 scaled = scale.cwiseInverse().asDiagonal() * S * scale.cwiseInverse().asDiagonal();
@@ -140,7 +141,7 @@ Vector3d tip_of(const std::vector<Station>& stations) {
   return stations.back().after.translation();
 }
 
-/// What a radian counts beside a metre: the largest distance of a frame from the tip.
+/// The length by which a rotation is scaled beside a translation: the largest distance of a frame from the tip.
 double size_of(const std::vector<std::vector<Station>>& chains) {
   double size = 0.0;
   for (const auto& stations : chains) {
@@ -152,7 +153,7 @@ double size_of(const std::vector<std::vector<Station>>& chains) {
 
 // ---- statics of a chain ------------------------------------------------------------------------------------------
 
-/// Motions of the tip by springs, J_θ C_θ^½, and by passive joints, rotations times the robot's size.
+/// Motions of the tip by springs, J_θ C_θ^½, and by passive joints, with rotations times the robot's size.
 struct Jacobians {
   Matrix6X springs{6, 0};
   Matrix6X passive{6, 0};
@@ -183,7 +184,7 @@ Index rank_of(const VectorXd& singular) {
   return (singular.array() > rank_below * singular(0)).count();
 }
 
-/// Orthonormal columns whose span is range(A), then those of its complement.
+/// Orthonormal bases of range(A) and of its complement.
 struct Split {
   MatrixXd range, complement;
 };
@@ -195,8 +196,8 @@ Split split(const MatrixXd& A) {
   return {svd.matrixU().leftCols(rank), svd.matrixU().rightCols(A.rows() - rank)};
 }
 
-/// A chain at rest, in scaled six components: its stiffness, the wrenches that forbid a motion (orthonormal), and the
-/// springs' coordinates over C_θ^½ by the motion of the tip.
+/// The statics of a chain, in scaled components: its stiffness, the wrenches that strain nothing and therefore forbid a
+/// motion (orthonormal), and the springs' coordinates divided by C_θ^½ as a function of the tip's motion.
 struct Statics {
   Jacobians J;
   Matrix6 K = Matrix6::Zero();
@@ -205,7 +206,8 @@ struct Statics {
 };
 
 Statics statics(Jacobians J) {
-  // Passive joints of unit length each: a short slide frees as much as a turn.
+  // The columns of passive joints are normalised, because a short slide frees a motion as completely as a rotation
+  // does.
   const MatrixXd N =
       split(J.passive.cols() > 0 ? MatrixXd(J.passive.colwise().normalized()) : MatrixXd(6, 0)).complement;
   const MatrixXd A = N.transpose() * J.springs;
@@ -226,7 +228,8 @@ Statics statics(Jacobians J) {
 
 // ---- reduction ---------------------------------------------------------------------------------------------------
 
-/// Coordinates of all stations by y: springs and passive joints, in the order of the chain. Z: scaled.
+/// The coordinates of all stations, springs and passive joints in the order of the chain, as functions of y. Z is
+/// scaled. The passive joints take the least-squares solution of smallest norm of what the springs leave of the motion.
 std::vector<MatrixXd> coordinates(const std::vector<Station>& stations, const Statics& chain, const MatrixXd& Z) {
   const MatrixXd springs = chain.springs_by_tip * Z;
   MatrixXd passive(0, Z.cols());
@@ -250,7 +253,7 @@ std::vector<MatrixXd> coordinates(const std::vector<Station>& stations, const St
   return each;
 }
 
-/// What the mass between two frames adds, from their motions in the world's axes.
+/// The mass matrix that the element between two frames contributes, from the motions of the frames in the world's axes.
 MatrixXd mass_of(const Station& station, const Matrix6X& before, const Matrix6X& after) {
   if (const auto* beam = std::get_if<BeamLink>(station.element)) {
     const Matrix6 R = dynamics::turned(station.before.linear().transpose());
@@ -265,7 +268,7 @@ MatrixXd mass_of(const Station& station, const Matrix6X& before, const Matrix6X&
   return MatrixXd::Zero(before.cols(), before.cols());
 }
 
-/// Adds the masses and dampers of a chain, from its base outwards.
+/// Adds the masses and dampers of a chain to the model, from its base outwards.
 void add_chain(const std::vector<Station>& stations, const std::vector<MatrixXd>& coordinates, ReducedTip& tip) {
   Matrix6X motion = Matrix6X::Zero(6, tip.Z.cols());
   for (std::size_t i = 0; i < stations.size(); ++i) {
@@ -288,7 +291,7 @@ void require_one_tip(const std::vector<std::vector<Station>>& chains, double siz
   }
 }
 
-/// Eigenvalues of a symmetric positive semidefinite matrix that are none, scaled to a unit diagonal.
+/// Number of zero eigenvalues of a symmetric positive semidefinite matrix, scaled to a unit diagonal.
 Index rank_deficiency(const MatrixXd& A) {
   const VectorXd scale = A.diagonal().unaryExpr([](double a) { return a > 0.0 ? 1.0 / std::sqrt(a) : 0.0; });
   const MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
@@ -304,7 +307,7 @@ MatrixXd symmetric(const MatrixXd& A) {
 
 Chain chain(const SerialArm& arm, const VectorXd& q) {
   require_valid(arm);
-  (void)pose(arm, q);  // refuses angles that do not fit the arm
+  (void)pose(arm, q);  // throws for angles that do not fit the arm
   Chain result{.base = arm.base, .elements = {}};
   for (std::size_t i = 0; i < arm.links.size(); ++i) {
     const Link& link = arm.links[i];
@@ -343,7 +346,7 @@ ReducedTip reduced_tip(const std::vector<Chain>& chains) {
     K += at_rest.back().K;
     append(forbidden, at_rest.back().forbidden);
   }
-  // Where nothing is forbidden y are the six motions themselves.
+  // If nothing is forbidden, the coordinates y are the six motions themselves.
   const bool all = forbidden.cols() == 0;
   const MatrixXd Z = all ? MatrixXd(scale.asDiagonal()) : split(forbidden).complement;
   const Index n = Z.cols();

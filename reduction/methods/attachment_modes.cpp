@@ -33,7 +33,7 @@ PartModes part_modes(const CraigBampton& reduced, const linalg::SparseMatrix& M,
   if (kept == 0) return {Eigen::VectorXd(), Eigen::MatrixXd(reduced.T.rows(), 0)};
   const dynamics::UndampedModes modes = dynamics::undamped_modes(reduced.model);
   const Eigen::VectorXd lambda = modes.omega_rad_s.head(kept).array().square();
-  // X = S M Φ λ, near to Φ itself; K X = M Φ λ.
+  // X = S M Φ λ is near to Φ; the factor λ keeps its columns of unit length. K X = M Φ λ needs no product with K.
   const Eigen::MatrixXd MPhiLambda =
       linalg::symmetric_product(M, linalg::tall_product(reduced.T, modes.Phi.leftCols(kept) * lambda.asDiagonal()));
   const Eigen::MatrixXd X = inverse.apply(MPhiLambda);

@@ -20,7 +20,8 @@ CharacteristicModel characteristic_constraint_modes(const CraigBampton& reduced,
                                                                         full.M.topLeftCorner(nb, nb));
   CharacteristicModel result;
   result.psi = eigen.eigenvectors().leftCols(nc);
-  const Eigen::VectorXd lambda = eigen.eigenvalues().head(nc).cwiseMax(0.0);  // rigid motions: round-off of either sign
+  // λ of rigid motions is round-off of either sign.
+  const Eigen::VectorXd lambda = eigen.eigenvalues().head(nc).cwiseMax(0.0);
   result.frequency_hz = lambda.cwiseSqrt() / (2.0 * std::numbers::pi);
   dynamics::SpatialModel& model = result.model;
   const Eigen::Index n = nc + nm;

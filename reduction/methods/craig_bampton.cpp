@@ -13,7 +13,7 @@ namespace thinwall::reduction {
 
 namespace {
 
-/// Ψ, and S_0 in the form S_0 b = S b − Ψ (Wᵀ S b).
+/// The constraint modes Ψ, and S_0 in the form S_0 b = S b − Ψ (Wᵀ S b), which needs no second factorisation.
 struct ConstraintModes {
   Eigen::MatrixXd Psi;
   linalg::ShiftedInverse inner_inverse;
@@ -36,7 +36,7 @@ ConstraintModes constraint_modes(const linalg::ShiftedInverse& inverse, const In
   }
   ConstraintModes result;
   result.Psi = flexibility.llt().solve(SW.transpose()).transpose();
-  // Newton's step for Wᵀ Ψ = I takes out what the condition of the flexibility has brought in.
+  // One Newton step for Wᵀ Ψ = I removes the error that the condition of the flexibility matrix has caused.
   const Eigen::MatrixXd seen = interface.W.transpose() * result.Psi;
   const auto nb = seen.rows();
   result.Psi = linalg::tall_product(result.Psi, 2.0 * Eigen::MatrixXd::Identity(nb, nb) - seen);
@@ -59,6 +59,7 @@ linalg::Eigenpairs fixed_interface_modes(const linalg::SparseMatrix& K, const li
   }
   if (!options.up_to_hz && options.modes == 0) return {};
   const double omega_max = 2.0 * std::numbers::pi * options.up_to_hz.value_or(0.0);
+  // Small models may ask for most of their modes, for which the iteration is not made; dense algebra finds all of them.
   if (K.rows() <= 600) {
     linalg::Eigenpairs all = linalg::dense_eigenpairs(K, M, interface.W);
     const Eigen::Index kept =
@@ -89,8 +90,8 @@ CraigBampton craig_bampton(const linalg::SparseMatrix& K, const linalg::SparseMa
   result.T.leftCols(nb) = constraint.Psi;
   if (nm > 0) result.T.rightCols(nm) = inner.Phi;
   result.fixed_interface_hz = inner.lambda.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
-  // Φᵀ M Φ = I, Ψᵀ K Φ = 0 and Φᵀ K Φ = ω² hold exactly for exact modes; round-off in them would only disturb the low
-  // modes.
+  // Φᵀ M Φ = I, Ψᵀ K Φ = 0 and Φᵀ K Φ = ω² hold exactly for exact modes, so that these blocks are set instead of
+  // computed; the round-off of computing them would disturb the low modes.
   const Eigen::MatrixXd with_interface = linalg::tall_gram(result.T, linalg::symmetric_product(M, constraint.Psi));
   result.model.M = Eigen::MatrixXd::Identity(nb + nm, nb + nm);
   result.model.M.leftCols(nb) = with_interface;

@@ -1,5 +1,6 @@
 #pragma once
-// Free-interface modes with the interface's forces as unknowns, compatible in the weak sense.
+// The dual Craig-Bampton model: free-interface modes with the interface's forces as unknowns, compatible in the weak
+// sense.
 
 #include "reduction/methods/free_interface.hpp"
 
@@ -11,11 +12,11 @@ namespace thinwall::reduction {
 ///     K = [ 0  0  I ; 0  Λ  −p ; I  −pᵀ  −F ],     M = [ 0  0  0 ; 0  I  ΦᵀMA ; 0  …  J ],     H = Σ p pᵀ/(λ−z) + F +
 ///     zJ
 ///
-/// g in units of the interface's static stiffness, DOF by DOF. Two parts joined at x have their x and one set of forces
-/// too many, which an assembly may eliminate; sparse like Craig-Bampton's. K is indefinite by construction
-/// (compatibility is weak): no undamped_modes() nor to_modal(), direct_response() and coupling by matrices serve;
-/// frequencies beyond those of the modes kept may be spurious. DOFs: the interface, "mode 1" …, "force 1" …. Cost
-/// O((interface + modes)²).
+/// Each g is in units of the static stiffness of its interface DOF. When two parts are joined, the displacements x of
+/// one part and one set of forces are redundant, and an assembly may eliminate them. The matrices are as sparse as
+/// Craig-Bampton's. K is indefinite by construction (compatibility is weak), so that undamped_modes() and to_modal()
+/// cannot be used, while direct_response() and coupling by matrices can; frequencies beyond those of the modes kept may
+/// be spurious. The DOFs are the interface, "mode 1" …, "force 1" …. Cost O((interface + modes)²).
 [[nodiscard]] dynamics::SpatialModel dual_craig_bampton(const FreeInterface& part);
 
 }  // namespace thinwall::reduction

@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Eigenpairs of a matrix brought to the units of `own` (its square roots, a DOF each).
+/// The eigenpairs of a matrix scaled by 1/√own for each DOF, which brings DOFs of different units to one size.
 struct Scaled {
   VectorXd scale, values;
   MatrixXd vectors;
@@ -28,12 +28,12 @@ Scaled scaled_spectrum(const MatrixXd& A, const VectorXd& own) {
   return {scale, eigen.eigenvalues(), eigen.eigenvectors()};
 }
 
-/// 1/λ of elastic modes, 0 of rigid ones, whose compliance is not elastic.
+/// The flexibility 1/λ of each elastic mode, and 0 for rigid ones, whose compliance is not elastic.
 VectorXd modal_flexibility(const VectorXd& lambda) {
   return lambda.unaryExpr([](double value) { return value > 0.0 ? 1.0 / value : 0.0; });
 }
 
-/// What the interface can do, statically and as a rigid body, must have full rank.
+/// Throws InputError unless the static and rigid-body motions of the interface together have full rank.
 void require_independent(const MatrixXd& flexibility, const MatrixXd& rigid, const Interface& interface) {
   MatrixXd mobility = flexibility;
   const double inertial = rigid.squaredNorm();
@@ -46,7 +46,8 @@ void require_independent(const MatrixXd& flexibility, const MatrixXd& rigid, con
                          " depend on each other: two points coincide, or one cannot move");
 }
 
-/// V with VᵀFV = I over the directions in which F is more than round-off of the whole flexibility.
+/// The directions V with VᵀFV = I in which F is more than round-off of the whole flexibility. F is the difference of
+/// two nearly equal matrices, so that its small eigenvalues have no digits.
 MatrixXd residual_directions(const FreeInterface& part) {
   const double least = 1e-14 * part.flexibility.diagonal().maxCoeff();
   const Scaled spectrum = scaled_spectrum(part.F, part.flexibility.diagonal().cwiseMax(least));
@@ -64,7 +65,7 @@ struct Pencil {
   MatrixXd K, M;
 };
 
-/// K and M over (η, g), Eq. 8.
+/// The matrices K and M over (η, g), docs/theory/reductions.md, Eq. 8.
 Pencil over_modes_and_forces(const FreeInterface& part, const MatrixXd& V, ResidualInertia inertia) {
   const Index nm = part.lambda.size(), nv = V.cols(), n = nm + nv;
   Pencil pencil{MatrixXd::Identity(n, n), MatrixXd::Identity(n, n)};
@@ -77,12 +78,12 @@ Pencil over_modes_and_forces(const FreeInterface& part, const MatrixXd& V, Resid
   return pencil;
 }
 
-/// All elastic modes, densely.
+/// All elastic modes, by dense algebra.
 linalg::Eigenpairs all_elastic(const FullModel& full, const StaticFlexibility& flexibility) {
   return linalg::dense_eigenpairs(full.K, full.M, linalg::symmetric_product(full.M, flexibility.rigid_modes()));
 }
 
-/// Rigid-body modes, then the first elastic ones.
+/// The rigid-body modes followed by the first `elastic` of the given pairs.
 PartModes joined(const MatrixXd& R, const linalg::Eigenpairs& pairs, Index elastic) {
   const Index rigid = R.cols(), found = std::min<Index>(elastic, pairs.lambda.size());
   PartModes modes{VectorXd::Zero(rigid + found), MatrixXd(R.rows(), rigid + found), pairs.status};
@@ -117,7 +118,8 @@ PartModes free_modes_beyond(const FullModel& full, const StaticFlexibility& flex
   const Index there = full.K.rows() - flexibility.rigid_modes().cols();
   for (double bound = 2.0 * needed;; bound *= 2.0) {
     const linalg::Eigenpairs pairs = linalg::eigenpairs_up_to(full.K, full.M, flexibility.action(), bound);
-    const Index found = std::min(pairs.lambda.size(), there);  // beyond all there are lies what G does not answer
+    // Pairs beyond the number of elastic modes are round-off: G vanishes there.
+    const Index found = std::min(pairs.lambda.size(), there);
     const bool reached = found > 0 && pairs.lambda(found - 1) >= needed;
     if (reached || found == there || pairs.status != linalg::EigenStatus::converged)
       return joined(flexibility.rigid_modes(), pairs, found);
@@ -163,7 +165,7 @@ dynamics::SpatialModel in_interface_coordinates(const FreeInterface& part, Resid
   const Index nb = part.F.rows(), nm = part.lambda.size(), n = nb + nm;
   if (V.cols() < nb) return in_modes_and_forces(part, inertia);
   const Pencil pencil = over_modes_and_forces(part, V, inertia);
-  // F⁻¹ = V Vᵀ, so that g = Vᵀ (x − pᵀη).
+  // V is square here, so that F⁻¹ = V Vᵀ and g = Vᵀ (x − pᵀη).
   MatrixXd from_interface = MatrixXd::Zero(n, n);  // (x, η) → (η, g)
   from_interface.topRightCorner(nm, nm).setIdentity();
   from_interface.bottomLeftCorner(nb, nb) = V.transpose();

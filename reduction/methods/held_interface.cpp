@@ -10,7 +10,7 @@ namespace thinwall::reduction {
 
 linalg::SparseCholesky held_by_interface(const FullModel& full, const Interface& interface) {
   if (full.rigid.cols() == 0) return {full.K, full.node_of_row};
-  // Motions are measured by what the part does in the mean, so that rotations and translations compare.
+  // Motions are scaled to a mean displacement of one over the part, so that rotations and translations can be compared.
   const Eigen::VectorXd per_mean = full.rigid.colwise().norm().cwiseInverse();
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr((interface.W.transpose() * full.rigid) * per_mean.asDiagonal());
   qr.setThreshold(1e-8);

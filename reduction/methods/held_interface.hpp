@@ -1,5 +1,5 @@
 #pragma once
-// The factorisation that methods with a held interface begin with.
+// The factorisation with which methods that hold the interface begin.
 
 #include "linalg/sparse_cholesky.hpp"
 #include "reduction/full_model.hpp"

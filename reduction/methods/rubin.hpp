@@ -1,13 +1,13 @@
 #pragma once
-// Free-interface modes with residual flexibility and inertia.
+// Rubin's model: free-interface modes with residual flexibility and inertia.
 
 #include "reduction/methods/free_interface.hpp"
 
 namespace thinwall::reduction {
 
-/// Rubin's model (1975; docs/theory/reductions.md, Eq. 9) in the coordinates (x, η): the receptance is exact
-/// up to the first order of ω² in what was left out. In coordinates of its own where the modes leave nothing out at one
-/// of the interface's DOFs. C is zero. Cost O((interface + modes)³).
+/// Rubin's model (1975; docs/theory/reductions.md, Eq. 9) in the coordinates (x, η): its receptance is exact up to the
+/// first order of ω² in what was left out. If the modes leave nothing out at one of the interface's DOFs, the
+/// coordinates are those of in_modes_and_forces(). C is zero. Cost O((interface + modes)³).
 [[nodiscard]] dynamics::SpatialModel rubin(const FreeInterface& part);
 
 }  // namespace thinwall::reduction

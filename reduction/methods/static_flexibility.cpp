@@ -17,7 +17,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Columns of one span with RᵀMR = I.
+/// An M-orthonormal basis of the span of R, RᵀMR = I, by two passes of Cholesky orthonormalisation.
 MatrixXd mass_orthonormal(const linalg::SparseMatrix& M, MatrixXd R) {
   for (int pass = 0; pass < 2; ++pass) {
     const MatrixXd gram = linalg::tall_gram(R, linalg::symmetric_product(M, R));
@@ -32,7 +32,7 @@ MatrixXd mass_orthonormal(const linalg::SparseMatrix& M, MatrixXd R) {
   return R;
 }
 
-/// A motion is free if K answers it with no more than the round-off of its rows.
+/// Throws InputError unless K R is no more than round-off of the rows of K, so that the motions are free.
 void require_free(const linalg::SparseMatrix& K, const MatrixXd& R) {
   const MatrixXd force = linalg::symmetric_product(K, R);
   const MatrixXd size = K.diagonal().cwiseAbs().asDiagonal() * R.cwiseAbs();
@@ -45,7 +45,8 @@ void require_free(const linalg::SparseMatrix& K, const MatrixXd& R) {
   }
 }
 
-/// K + s Σ e eᵀ over rows on which the rigid motions are independent.
+/// The matrix K + s Σ e eᵀ over as many rows as there are rigid motions. The rows come from a pivoted QR factorisation
+/// of Rᵀ, so that the motions are independent on them.
 linalg::SparseMatrix statically_held(const linalg::SparseMatrix& K, const MatrixXd& R) {
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(R.transpose());
   const double s = K.diagonal().sum() / static_cast<double>(K.rows());

@@ -1,5 +1,5 @@
 #pragma once
-// What a static load does to a part, held or free: the inverse of K, or its elastic part where nothing holds K.
+// The static flexibility of a part: the inverse of K, or its elastic part if nothing holds the part.
 
 #include <Eigen/Core>
 #include <memory>
@@ -17,19 +17,20 @@ namespace thinwall::reduction {
 ///
 ///     G = Pᵀ (K + s E Eᵀ)⁻¹ P,     P = I − M R Rᵀ          (inertia relief; Craig & Chang 1977)
 ///
-/// where E holds as many unit columns as there are rigid motions, on rows that restrain them, and s is the mean
-/// diagonal of K. P leaves loads in equilibrium, so that what E holds does no work and G does not depend on E. G = Σ
+/// where E has as many unit columns as there are rigid motions, on rows that restrain them, and s is the mean diagonal
+/// of K. P brings loads into equilibrium, so that the restraints on E carry no force and G does not depend on E. G = Σ
 /// φφᵀ/λ over the elastic modes.
 class StaticFlexibility {
  public:
-  /// Throws InputError if full.rigid has another height than K, depends on itself or is stretched by K (a motion that
-  /// something holds), NumericalError if K is singular beyond it. Cost: a factorisation.
+  /// Factorises the part. Throws InputError if full.rigid has another number of rows than K, if its columns depend on
+  /// each other, or if K stretches one of them (something holds that motion); NumericalError if K is singular beyond
+  /// it. Cost: a factorisation.
   explicit StaticFlexibility(const FullModel& full);
 
-  /// G on the columns of a matrix, sigma 0; valid as long as this object. Cost: a solve.
+  /// The action of G on the columns of a matrix, sigma 0. It is valid as long as this object. Cost: a solve.
   [[nodiscard]] linalg::ShiftedInverse action() const;
 
-  /// R, M-orthonormal: free × r.
+  /// The rigid-body modes R, M-orthonormal: free × r.
   [[nodiscard]] const Eigen::MatrixXd& rigid_modes() const { return R_; }
 
  private:
@@ -37,10 +38,11 @@ class StaticFlexibility {
   std::unique_ptr<linalg::SparseCholesky> factor_;
 };
 
-/// The motions that cost no energy, found from the matrices: free × r, M-orthonormal, r = 0 for a held part; as many of
-/// the lowest eigenvalues as lie within 1e-6 of the next above them, or within the round-off of K, 10 ε tr K / tr M.
-/// Looks for at most twelve (two free pieces). For matrices that come without geometry. Throws NumericalError if the
-/// eigen-solver does not converge. Cost: a factorisation of K + αM, α = 1e-8 tr K / tr M, and some ten of its solves.
+/// The motions without elastic energy, found from the matrices: free × r, M-orthonormal, r = 0 for a held part. They
+/// belong to as many of the lowest eigenvalues as lie within 1e-6 of the next above them, or within the round-off of K,
+/// 10 ε tr K / tr M; at most twelve are sought (two free pieces). The function is for matrices that come without
+/// geometry. Throws NumericalError if the eigen-solver does not converge. Cost: a factorisation of K + αM, α = 1e-8 tr
+/// K / tr M, and about ten of its solves.
 [[nodiscard]] Eigen::MatrixXd rigid_body_modes(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M,
                                                const std::vector<int>& node_of_row);
 

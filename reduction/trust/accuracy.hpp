@@ -1,5 +1,5 @@
 #pragma once
-// Is a reduced model good enough? Its frequencies and interface receptances against the full model's.
+// Accuracy of a reduced model: its frequencies and interface receptances against those of the full model.
 
 #include <Eigen/Core>
 #include <vector>
@@ -11,43 +11,46 @@
 
 namespace thinwall::reduction {
 
-/// Largest relative error of the reduced model's frequencies over the given full-model frequencies (Hz, ascending, no
-/// rigid-body modes): the reduced model, a Ritz model, has them all and from above. `rigid` modes are skipped first.
+/// The largest relative error of the reduced model's frequencies over the given full-model frequencies (Hz, ascending,
+/// without rigid-body modes). The reduced model is a Ritz model and has all of them, approximated from above. Its first
+/// `rigid` modes are skipped.
 [[nodiscard]] double max_relative_frequency_error(const dynamics::SpatialModel& reduced, const Eigen::VectorXd& full_hz,
                                                   int rigid);
 
-/// The same error of a Craig-Bampton model with its first fixed-interface modes only.
+/// The largest relative frequency error of a Craig-Bampton model cut to its first `modes` fixed-interface modes.
 struct ErrorBySize {
   int modes = 0;
   double max_relative_frequency_error = 0.0;
 };
 
-/// For some eight numbers of modes up to all of them; those too few for as many frequencies as `full_hz` holds are left
-/// out. Cost: a dense eigen-solution each.
+/// The frequency errors for about eight numbers of modes, up to all of them; numbers too small for as many frequencies
+/// as `full_hz` has are left out. Cost: a dense eigen-solution for each.
 [[nodiscard]] std::vector<ErrorBySize> frequency_error_by_size(const CraigBampton& reduced,
                                                                const Eigen::VectorXd& full_hz, int rigid);
 
-/// One full-model receptance at the interface.
+/// A receptance of the full model at the interface, at one frequency.
 struct [[nodiscard]] FullReceptance {
   double frequency_hz = 0.0;
   Eigen::MatrixXd H;               ///< interface × interface, undamped, m/N
-  double relative_residual = 0.0;  ///< of the sparse solve
+  double relative_residual = 0.0;  ///< residual of the sparse solve
 };
 
-/// Wᵀ (K − ω²M)⁻¹ W of the undamped full model by a sparse L D Lᵀ factorisation a frequency: no modes, no reduction.
-/// Cost: a simplicial factorisation a frequency (the slow kind), one after another.
+/// The receptances Wᵀ (K − ω²M)⁻¹ W of the undamped full model, by a sparse L D Lᵀ factorisation at each frequency,
+/// without modes and without reduction. Cost: a simplicial factorisation at each frequency, one after another, which is
+/// slow.
 [[nodiscard]] std::vector<FullReceptance> full_receptances(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M,
                                                            const std::vector<int>& node_of_row,
                                                            const Interface& interface,
                                                            const std::vector<double>& frequencies_hz);
 
-/// Frequencies in [from, to] Hz at which an undamped receptance can be compared: the middles of the widest `count` gaps
-/// (on a logarithmic scale) between the natural frequencies and the ends of the band. At a resonance the undamped
-/// receptance is infinite.
+/// Frequencies in [from, to] Hz at which undamped receptances can be compared: the middles of the widest `count` gaps
+/// (on a logarithmic scale) between the natural frequencies and the ends of the band. They keep away from resonances,
+/// where the undamped receptance is infinite.
 [[nodiscard]] std::vector<double> frequencies_between(const Eigen::VectorXd& natural_hz, double from_hz, double to_hz,
                                                       int count);
 
-/// Largest entry-wise difference of the undamped receptances over the largest entry of that frequency.
+/// The largest difference of an entry of the undamped receptances, relative to the largest entry at that frequency; NaN
+/// if one is.
 [[nodiscard]] double max_relative_receptance_error(const dynamics::SpatialModel& reduced,
                                                    const std::vector<FullReceptance>& full);
 

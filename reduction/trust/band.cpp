@@ -25,7 +25,8 @@ Complex square(const Band& band, double hz) {
   return omega * omega / Complex(1.0, band.loss_factor);
 }
 
-/// B (K − zM)⁻¹ Bᵀ with rows and columns of one size: interface forces and displacements may stand side by side.
+/// The receptance B (K − zM)⁻¹ Bᵀ. K − zM is scaled to rows and columns of similar size, because interface forces and
+/// displacements may be coordinates of one model.
 Eigen::MatrixXcd at(const dynamics::SpatialModel& model, Index interface, Complex z) {
   Eigen::MatrixXcd Z = model.K.cast<Complex>() - z * model.M.cast<Complex>();
   const Eigen::VectorXd scale = Z.cwiseAbs().rowwise().maxCoeff().cwiseSqrt().cwiseInverse();

@@ -17,11 +17,11 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// The real eigenvalues μ of (K + αM)⁻¹ M, of their symmetric parts, that are not round-off of 0.
+/// The real eigenvalues μ of (K + αM)⁻¹ M that are not round-off of 0, with the symmetric parts of K and M.
 std::vector<double> inverse_eigenvalues(const dynamics::SpatialModel& model, double alpha) {
   MatrixXd B = symmetric_part(model.K + alpha * model.M);
   const Eigen::VectorXd scale = B.cwiseAbs().rowwise().maxCoeff().cwiseSqrt().cwiseInverse();
-  if (!scale.allFinite()) return {};  // a coordinate without mass and stiffness
+  if (!scale.allFinite()) return {};  // a coordinate has neither mass nor stiffness
   B = (scale.asDiagonal() * B * scale.asDiagonal()).eval();
   const MatrixXd M = scale.asDiagonal() * symmetric_part(model.M) * scale.asDiagonal();
   std::vector<double> mu;

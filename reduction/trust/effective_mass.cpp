@@ -13,7 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Whether A is positive definite beyond round-off, whatever the units of its rows.
+/// True if A is positive definite beyond round-off; A is scaled to a unit diagonal, so that units do not matter.
 bool positive(const MatrixXd& A) {
   if (!(A.diagonal().minCoeff() > 0.0)) return false;
   const VectorXd scale = A.diagonal().cwiseSqrt().cwiseInverse();
@@ -21,7 +21,7 @@ bool positive(const MatrixXd& A) {
   return factor.info() == Eigen::Success && factor.matrixLLT().diagonal().minCoeff() > 1e-7;
 }
 
-/// rᵀ (B M⁻¹ Bᵀ)⁻¹ r, its diagonal, over the independent rows of B.
+/// The diagonal of rᵀ (B M⁻¹ Bᵀ)⁻¹ r, over the independent rows of B.
 VectorXd own_mass(const MatrixXd& M, const MatrixXd& B, const MatrixXd& r) {
   const MatrixXd mobility = B * M.llt().solve(B.transpose());
   return (r.transpose() * mobility.completeOrthogonalDecomposition().solve(r)).diagonal();

@@ -12,7 +12,7 @@ FullResponse full_response(const linalg::SparseMatrix& K, const linalg::SparseMa
                            const std::vector<double>& ratios, double rest_ratio, const Interface& interface,
                            const dynamics::FrequencyAxis& axis) {
   const ReceptanceSum sum = receptance_sum(K, M, inverse, pairs, interface, axis.omega_rad_s(axis.size() - 1));
-  Eigen::VectorXd ratio = Eigen::VectorXd::Zero(sum.lambda.size());  // none beyond the known modes
+  Eigen::VectorXd ratio = Eigen::VectorXd::Zero(sum.lambda.size());  // modes beyond the known ones are not damped
   for (Eigen::Index k = 0; k < sum.modes; ++k)
     ratio(k) = k < static_cast<Eigen::Index>(ratios.size()) ? ratios[static_cast<std::size_t>(k)] : rest_ratio;
   FullResponse result;

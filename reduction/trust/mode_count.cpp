@@ -34,7 +34,9 @@ VectorXd natural_hz(const dynamics::SpatialModel& model, const Band& band) {
   return Eigen::Map<const VectorXd>(inside.data(), std::ssize(inside));
 }
 
-/// H of a model with its interface first and M = I, K diagonal inside, for every count of its modes: Eq. 14.
+/// The receptance of a model with its interface first, M = I and K diagonal inside, for every number of its modes
+/// (docs/theory/reductions.md, Eq. 14). The dynamic stiffness changes by a rank-one term for each mode, so that all
+/// numbers cost one pass.
 class CountedReceptance {
  public:
   CountedReceptance(const dynamics::SpatialModel& model, Index interface)
@@ -59,7 +61,7 @@ class CountedReceptance {
   VectorXd lambda_;
 };
 
-/// The reduction with its first modes only.
+/// The reduction cut to its first modes.
 CraigBampton cut(const CraigBampton& reduced, Index modes) {
   const Index n = interface_size(reduced) + modes;
   CraigBampton result = reduced;
@@ -70,7 +72,7 @@ CraigBampton cut(const CraigBampton& reduced, Index modes) {
   return result;
 }
 
-/// What the cut reduction leaves out: its dropped modes beside what all of them leave out.
+/// The truncation of the cut reduction: that of the whole one, plus the contribution of the dropped modes.
 Truncation cut(const Truncation& truncation, const CraigBampton& reduced, Index modes) {
   const Index nb = interface_size(reduced), dropped = reduced.fixed_interface_hz.size() - modes;
   const MatrixXd L = reduced.model.M.topRightCorner(nb, dropped);
@@ -79,8 +81,9 @@ Truncation cut(const Truncation& truncation, const CraigBampton& reduced, Index 
           truncation.B + L * flexibility.cwiseAbs2().asDiagonal() * L.transpose()};
 }
 
-/// Undamped frequencies that tell most: the upper flank of the highest resonances, where a wrong frequency shows as it
-/// does in the damped receptance, and the middles of the widest gaps. Never within half a flank of another resonance.
+/// Undamped frequencies at which an error of the reference is most visible: the upper flanks of the highest resonances,
+/// where a wrong frequency has as much effect as in the damped receptance, and the middles of the widest gaps. None
+/// lies within half a flank of another resonance.
 std::vector<double> telling_frequencies(const VectorXd& natural, const Band& band, int count) {
   const double flank = 0.5 * band.loss_factor;
   const double from = std::max(band.from_hz, 1e-2 * band.to_hz);
@@ -126,7 +129,8 @@ Estimates estimates(const CraigBampton& reduced, const dynamics::SpatialModel& b
   const CountedReceptance counted(reduced.model, nb), reference(better, nb);
   Estimates result;
   result.natural_hz = natural_hz(better, band);
-  VectorXd peaks(result.natural_hz.size() + reduced.fixed_interface_hz.size());  // and antiresonances of one DOF
+  // Natural frequencies, and antiresonances of one interface DOF.
+  VectorXd peaks(result.natural_hz.size() + reduced.fixed_interface_hz.size());
   peaks << result.natural_hz, reduced.fixed_interface_hz;
   const std::vector<Complex> z = squares(band, peaks);
   std::vector<MatrixXcd> H;
@@ -147,7 +151,8 @@ Estimates estimates(const CraigBampton& reduced, const dynamics::SpatialModel& b
   return result;
 }
 
-/// The least count of one reduction, and what direct solves say about what it was chosen by.
+/// The smallest number of modes of one reduction that meets the tolerance, with the verification of the reference
+/// against which it was chosen.
 ChosenModes chosen_from(const CraigBampton& all, const Truncation& left_out, const FullModel& full,
                         const Interface& interface, const ModeCountOptions& options, const BandTruth* truth) {
   const dynamics::SpatialModel better = with_left_out(all.model, left_out);

@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// The DOF of a row, or the row's number where coordinates are the model's own.
+/// The name of the DOF of a row, or the row's number if the coordinates differ from the DOFs.
 std::string coordinate_name(const dynamics::SpatialModel& model, Index row) {
   return model.has_own_coordinates() ? "coordinate " + std::to_string(row + 1)
                                      : name(model.dofs[static_cast<std::size_t>(row)]);
@@ -74,7 +74,7 @@ double mass_disagreement(const MatrixXd& M, const RigidSets& sets, double mass) 
   return worst;
 }
 
-/// The combinations of the six motions that cost nothing.
+/// Finds the combinations of the six rigid motions that store no elastic energy.
 void find_free_motions(const dynamics::SpatialModel& model, double lambda_bound, RigidBodyState& state) {
   dynamics::RigidKernel k{state.reference, state.sets.length_m, {}};
   MatrixXd Y = state.sets.geometry;
@@ -98,15 +98,15 @@ RigidBodyState rigid_body_state(const dynamics::SpatialModel& model, const Repor
   state.body = body_of(state.mass, state.reference);
   const std::vector<int> rows = physical_rows(model.dofs);
   state.effective = effective_mass(model.K, model.M, dynamics::displacements(model)(rows, Eigen::all), Y);
-  // What is held is bent by stiffness and modes: only geometry's set is a rigid motion.
+  // In a held part, the sets by stiffness and by modes are deformed; only the set by geometry is rigid.
   RigidSets comparable = state.sets;
   if (state.sets.without_energy != 6) comparable.stiffness = comparable.eigen = MatrixXd();
   state.mass_disagreement = mass_disagreement(model.M, comparable, state.body.mass_kg);
   return state;
 }
 
-/// Receptances of the matrices as they are, symmetric or not, where they say something: between the natural
-/// frequencies, with a loss factor that passive matrices turn into lost power.
+/// Checks receptances of the matrices as they are, symmetric or not, at frequencies between the natural ones, with a
+/// loss factor that makes passive matrices dissipate.
 void check_receptances(const dynamics::SpatialModel& model, ReducedModelReport& report) {
   const auto& hz = report.frequencies_hz;
   if (hz.empty()) return;
@@ -135,12 +135,12 @@ std::vector<double> lowest_frequencies(const dynamics::SpatialModel& model, int 
   const double middle = model.K.diagonal().cwiseAbs().sum() / model.M.diagonal().cwiseAbs().sum();
   if (!(middle > 0.0 && std::isfinite(middle))) return {};
   VectorXd hz = natural_frequencies_hz(model, rigid, 0.01 * std::sqrt(middle) / (2.0 * std::numbers::pi));
-  // A second time about what was found: accurate for the lowest.
+  // The second pass is about the lowest frequency found, which makes that one accurate.
   if (hz.size() > 0) hz = natural_frequencies_hz(model, rigid, hz(0));
   return {hz.begin(), hz.begin() + std::min<Index>(20, hz.size())};
 }
 
-/// The names of coordinates in which nothing has mass or stiffness.
+/// The names of coordinates without mass and without stiffness.
 std::vector<std::string> bare_coordinates(const dynamics::SpatialModel& model) {
   std::vector<std::string> names;
   const auto empty = [](const MatrixXd& A, Index i) { return A.row(i).isZero(0.0) && A.col(i).isZero(0.0); };

@@ -7,7 +7,7 @@ namespace thinwall::reduction {
 
 namespace {
 
-/// One line by printf's rules.
+/// One line of text with printf's formats.
 template <typename... Values>
 std::string line(const char* format, Values... values) {
   char buffer[240];
@@ -48,7 +48,7 @@ std::string body_text(const RigidBodyState& rigid) {
   return text;
 }
 
-/// The modes that carry at least a hundredth of a mass or inertia, and the sum over all.
+/// The table of modes that carry at least a hundredth of a mass or inertia, and of the sum over all modes.
 std::string effective_text(const EffectiveMass& effective) {
   if (!effective.available) return "  no effective masses: M is not positive definite with the interface held\n";
   std::string text = "effective mass, share of the whole\n";

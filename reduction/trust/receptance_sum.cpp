@@ -15,7 +15,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// M-orthonormal columns, the first `columns` in use, and M times them.
+/// A growing M-orthonormal basis V with M V; the first `columns` columns are in use.
 struct Basis {
   MatrixXd V;
   MatrixXd MV;
@@ -28,8 +28,8 @@ struct Basis {
   }
 };
 
-/// Z with (XZ)ᵀM(XZ) = I from the Gram matrix G = XᵀMX; fewer columns where squares in G are no
-/// larger than `noise` or columns depend on each other.
+/// The matrix Z with (XZ)ᵀM(XZ) = I, from the Gram matrix G = XᵀMX. Z has fewer columns than X if columns of X depend
+/// on each other or their squares in G are no larger than `noise`.
 MatrixXd normalising(const MatrixXd& G, double noise) {
   const VectorXd scale =
       G.diagonal().unaryExpr([noise](double square) { return square > noise ? 1.0 / std::sqrt(square) : 0.0; });
@@ -39,8 +39,8 @@ MatrixXd normalising(const MatrixXd& G, double noise) {
   return scale.asDiagonal() * eigen.eigenvectors().rightCols(kept) * length.cwiseInverse().asDiagonal();
 }
 
-/// Adds to the basis what X has outside of it, if that is more than round-off; twice, for once leaves round-off of the
-/// order of what was taken out.
+/// Adds to the basis the part of X outside of it, if that is more than round-off. The basis is projected out twice,
+/// because one pass leaves round-off of the size of what it removed.
 void extend(Basis& basis, const linalg::SparseMatrix& M, MatrixXd X) {
   MatrixXd MX;
   for (int pass = 0; pass < 2 && X.cols() > 0; ++pass) {
@@ -56,15 +56,19 @@ void extend(Basis& basis, const linalg::SparseMatrix& M, MatrixXd X) {
   if (X.cols() > 0) basis.append(X, MX);
 }
 
-/// Steps after which the receptances are exact to round-off: a step brings the error of a Krylov space in ω²K⁻¹M, whose
-/// eigenvalues there lie in 0 … q, down by ((1 − √(1−q)) / (1 + √(1−q)))², twice the conjugate gradients' rate.
+/// The number of steps after which the receptances are exact to round-off. Each step reduces the error of a Krylov
+/// space of ω²K⁻¹M, whose eigenvalues outside of the known modes lie in 0 … q, by the factor ((1 − √(1−q)) / (1 +
+/// √(1−q)))²: the square of the rate of conjugate gradients, because a receptance is a quadratic functional of the
+/// solution.
 int steps_for(double quotient) {
   const double root = std::sqrt(1.0 - quotient);
   const double rate = (1.0 - root) / (1.0 + root);
+  // 1e-17 is below the round-off of any sum, so that further steps would change nothing.
   return static_cast<int>(std::ceil(std::log(1e-17) / (2.0 * std::log(rate))));
 }
 
-/// Ritz pairs of the Krylov space K⁻¹W, (K⁻¹M) K⁻¹W … outside of the known modes: M-normalised vectors and their λ.
+/// The Ritz pairs of the Krylov space K⁻¹W, (K⁻¹M) K⁻¹W … M-orthogonal to the known modes: M-normalised vectors and
+/// their λ.
 linalg::Eigenpairs rest_of_the_model(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M,
                                      const linalg::ShiftedInverse& inverse, const MatrixXd& Phi, const MatrixXd& W,
                                      int steps) {
@@ -87,7 +91,7 @@ linalg::Eigenpairs rest_of_the_model(const linalg::SparseMatrix& K, const linalg
   return rest;
 }
 
-/// ‖(K − ω²M) x − w‖ / ‖w‖ of x = Σ φ (φᵀw) / (λ − ω²), the largest over the columns w of W.
+/// The largest relative residual ‖(K − ω²M) x − w‖ / ‖w‖ of x = Σ φ (φᵀw) / (λ − ω²) over the columns w of W.
 double residual(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M, const linalg::Eigenpairs& pairs,
                 const linalg::Eigenpairs& rest, const MatrixXd& W, double omega) {
   MatrixXd X = MatrixXd::Zero(W.rows(), W.cols());

@@ -27,7 +27,7 @@ const Eigen::Vector3d& position_of(const std::string& point, const Positions& po
   return found->second;
 }
 
-/// 1 for translations, 1/length for rotations: rows of rotations times the length become lengths.
+/// The factor of each row, 1 for translations and `length` for rotations, which turns rotations into lengths.
 VectorXd row_lengths(const dynamics::DofTable& dofs, const std::vector<int>& rows, double length) {
   VectorXd result(std::ssize(rows));
   for (Index i = 0; i < result.size(); ++i) {
@@ -37,8 +37,8 @@ VectorXd row_lengths(const dynamics::DofTable& dofs, const std::vector<int>& row
   return result;
 }
 
-/// Modes of least energy and how many there are without: μ = 1/(λ + α) of (M, K + αM), twice, so that α comes to lie
-/// at the first elastic λ. M may be singular.
+/// The modes of lowest energy, and the number of modes without energy, from the eigenvalues μ = 1/(λ + α) of (M, K +
+/// αM). The eigenproblem is solved twice, so that α is near the first elastic λ the second time. M may be singular.
 struct LowModes {
   MatrixXd Phi;
   ModesWithoutEnergy free;
@@ -57,7 +57,7 @@ LowModes low_modes(const dynamics::SpatialModel& model) {
     if (scaled.llt().info() != Eigen::Success) return {};
     const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(scale.asDiagonal() * M * scale.asDiagonal(), scaled);
     const VectorXd mu = eigen.eigenvalues().reverse();
-    const Index finite = (mu.array() > 1e-13 / alpha).count();  // the others are coordinates without mass
+    const Index finite = (mu.array() > 1e-13 / alpha).count();  // the others belong to coordinates without mass
     const VectorXd lambda = mu.head(finite).cwiseInverse().array() - alpha;
     result.free = without_energy(lambda, 0.0);
     result.Phi = scale.asDiagonal() * eigen.eigenvectors().rowwise().reverse();
@@ -98,7 +98,7 @@ MatrixXd static_motions(const MatrixXd& K, const MatrixXd& B, const MatrixXd& x)
   bordered.topLeftCorner(n, n) = K;
   bordered.topRightCorner(n, nb) = B.transpose();
   bordered.bottomLeftCorner(nb, n) = B;
-  // Displacements in units of their own stiffness, constraints of size 1.
+  // Displacements are scaled by their own stiffness, constraints to size 1.
   VectorXd scale(n + nb);
   const double largest = K.cwiseAbs().maxCoeff();
   const double least = largest > 0.0 ? 1e-12 * largest : 1.0;

@@ -39,7 +39,8 @@ linalg::SparseMatrix identity(Index n) {
   return I;
 }
 
-/// Eigenvalues of S below −shift; another shift if a pivot vanished, none if it does at each of four.
+/// The number of eigenvalues of S below −shift. If a pivot vanishes, another shift near by is tried; empty if one
+/// vanishes at each of four shifts.
 std::optional<int> below(const linalg::SparseMatrix& S, double shift, const std::vector<int>& nodes) {
   for (const double factor : {1.0, 1.0137, 0.9811, 1.0519}) {
     const auto count = linalg::count_eigenvalues_below(S, identity(S.rows()), -factor * shift, nodes);
@@ -48,7 +49,8 @@ std::optional<int> below(const linalg::SparseMatrix& S, double shift, const std:
   return std::nullopt;
 }
 
-/// The least eigenvalue of S and the largest entry of its vector, by inverse iteration from just below it.
+/// The least eigenvalue of S and the index of the largest entry of its vector, by inverse iteration from a shift just
+/// below it.
 std::pair<double, Index> least_pair(const linalg::SparseMatrix& S, double bound, const std::vector<int>& nodes) {
   double shift = 10.0 * bound;
   while (shift < 1e20 && below(S, shift, nodes).value_or(1) > 0) shift *= 10.0;
@@ -60,7 +62,7 @@ std::pair<double, Index> least_pair(const linalg::SparseMatrix& S, double bound,
   return {x.dot(S * x), row};
 }
 
-/// As state_of() of the dense report, by factorisations.
+/// The state of a sparse matrix, as state_of() of the dense report gives it, by factorisations.
 MatrixState state_of(const SparseModel& model, const char* letter, const Matrix& A, const VectorXd& floor,
                      const ReportOptions& options) {
   MatrixState state;
@@ -95,17 +97,17 @@ MatrixState state_of(const SparseModel& model, const char* letter, const Matrix&
 
 struct Frequencies {
   ModesWithoutEnergy without_energy;
-  std::string missing{};  ///< why there are none
+  std::string missing{};  ///< reason if there are none
   std::vector<double> hz;
 };
 
-/// The lowest of K φ = λ M φ, shifted by α = 1e-8 tr K / tr M; none, and why, where they cannot be found.
+/// The lowest frequencies of K φ = λ M φ, with the shift −α, α = 1e-8 tr K / tr M; if they cannot be found, the reason.
 Frequencies lowest_frequencies(const SparseModel& model) {
   linalg::SparseMatrix K, M;
   K = model.K;
   M = model.M;
   const double size = K.diagonal().sum() / M.diagonal().sum();
-  const Index with_mass = (VectorXd(M.diagonal()).array() != 0.0).count();  // no more modes than these
+  const Index with_mass = (VectorXd(M.diagonal()).array() != 0.0).count();  // an upper bound of the number of modes
   const int count = static_cast<int>(std::min<Index>(32, std::min(with_mass, model.size() - 1)));
   if (!(size > 0.0 && std::isfinite(size)) || count < 1) return {{}, "K or M is zero", {}};
   linalg::Eigenpairs pairs;
@@ -125,7 +127,7 @@ Frequencies lowest_frequencies(const SparseModel& model) {
   return result;
 }
 
-/// For each row the lowest row of the piece that it belongs to: nodes and entries of K and M hold together.
+/// For each row, the lowest row of its piece; rows of one node and rows that share an entry of K or M are connected.
 std::vector<int> piece_of_row(const SparseModel& model) {
   std::vector<std::vector<int>> cells;
   std::map<int, std::vector<int>> nodes;
@@ -144,21 +146,21 @@ std::vector<int> piece_of_row(const SparseModel& model) {
   return core::pieces(static_cast<int>(model.size()), cells);
 }
 
-/// What the rigid motions are taken from.
+/// The data from which rigid motions follow.
 struct Geometry {
   dynamics::DofTable dofs;
   std::vector<int> rows;
   Positions positions;
 };
 
-/// Motions of all rows; amplitudes rest.
+/// The rigid motions of all rows, with amplitudes at rest.
 MatrixXd motions(const Geometry& geometry, const Vector3d& reference) {
   MatrixXd Y = MatrixXd::Zero(std::ssize(geometry.dofs), 6);
   Y(geometry.rows, Eigen::all) = rigid_motions_of(geometry.dofs, geometry.rows, geometry.positions, reference);
   return Y;
 }
 
-/// The motions of one piece that cost no more than round-off, about its centre.
+/// The motions of one piece, about its centre, whose stiffness is at most round-off or the bound.
 dynamics::RigidKernel kernel(const SparseModel& model, const Geometry& geometry, const std::vector<int>& piece,
                              int root, double lambda_bound) {
   dynamics::RigidKernel k;
@@ -185,7 +187,7 @@ void find_free_motions(const SparseModel& model, const Geometry& geometry, const
   for (const int row : geometry.rows) roots.push_back(piece[static_cast<std::size_t>(row)]);
   std::sort(roots.begin(), roots.end());
   roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
-  constexpr std::size_t told = 20;  // a table of loose rows is told by the number of its pieces
+  constexpr std::size_t told = 20;  // pieces listed at most; a table of loose rows shows in the number of pieces
   for (std::size_t i = 0; i < std::min(roots.size(), told); ++i) {
     const dynamics::RigidKernel k = kernel(model, geometry, piece, roots[i], lambda_bound);
     state.free_motions += static_cast<int>(k.motions.cols());
@@ -225,7 +227,7 @@ RigidBodyState rigid_body_state(const SparseModel& model, const Geometry& geomet
   return state;
 }
 
-/// Positions by name, of the options or the model; none unless every point has one.
+/// The positions by name, from the options or from the model; none unless every point has one.
 Geometry geometry_of(const SparseModel& model, const ReportOptions& options) {
   Geometry geometry{dynamics::dof_table(model), {}, options.positions};
   geometry.rows = physical_rows(geometry.dofs);
@@ -263,7 +265,7 @@ void find_in_rigid_body(const ReportOptions& options, ReducedModelReport& report
         rigid.mass_disagreement <= options.rigid_motion, "mass is missing in some direction, or units differ");
 }
 
-/// The names of rows in which nothing has mass or stiffness.
+/// The names of rows without mass and without stiffness.
 std::vector<std::string> bare_rows(const SparseModel& model) {
   const VectorXd ones = VectorXd::Ones(model.size());
   VectorXd size = VectorXd::Zero(model.size());

@@ -15,7 +15,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The directions of the interface in which something was left out: VᵀAV = I. `own` measures round-off.
+/// The directions V of the interface in which something was left out, VᵀAV = I. `own` is the size of A against which
+/// round-off is judged.
 MatrixXd whitening(const MatrixXd& A, const VectorXd& own) {
   const VectorXd scale = own.cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(scale.asDiagonal() * A * scale.asDiagonal()));
@@ -24,7 +25,7 @@ MatrixXd whitening(const MatrixXd& A, const VectorXd& own) {
   return scale.asDiagonal() * eigen.eigenvectors().rightCols(kept) * root.asDiagonal();
 }
 
-/// A matrix with zeros for what is added.
+/// The matrix extended by rows and columns of zeros.
 MatrixXd extended(const MatrixXd& matrix, Index size) {
   MatrixXd result = MatrixXd::Zero(size, size);
   result.topLeftCorner(matrix.rows(), matrix.cols()) = matrix;
@@ -58,14 +59,16 @@ dynamics::SpatialModel with_left_out(const dynamics::SpatialModel& reduced, cons
     throw core::InputError("truncation: moments of " + std::to_string(nb) + " interface DOFs for a reduced model of " +
                            std::to_string(n) + "; take those of the same reduction");
   }
-  // What the kept modes have of A is at most the interface's inertia over the lowest λ: round-off is measured by it.
+  // A is what remains after the kept modes' part is subtracted, which is at most the interface's inertia over the
+  // lowest λ; round-off of A is judged by that size.
   const double lowest = n > nb ? reduced.K.diagonal().tail(n - nb).minCoeff() : 0.0;
   const VectorXd own = lowest > 0.0 ? VectorXd(reduced.M.diagonal().head(nb) / lowest) : truncation.A.diagonal();
   const MatrixXd V = whitening(truncation.A, own);
   if (V.cols() == 0) return reduced;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(symmetric_part(V.transpose() * truncation.B * V));
   const Index added = V.cols();
-  // Round-off of a direction in which hardly anything was left out must not make its frequency infinite.
+  // In a direction in which hardly anything was left out, round-off could make an eigenvalue zero and its frequency
+  // infinite; a lower bound prevents that.
   const double least = 1e-8 * eigen.eigenvalues().maxCoeff();
   const VectorXd omega = eigen.eigenvalues().cwiseMax(least).cwiseSqrt().cwiseInverse();
   const MatrixXd L = truncation.A * V * eigen.eigenvectors() * omega.asDiagonal();
