@@ -10,6 +10,7 @@ namespace thinwall::cases {
 /// read is NaN, a name that could not be read is empty: check_case() passes over those, the reader has reported them.
 [[nodiscard]] Case bind_case(CaseValues values, const std::filesystem::path& folder);
 
+/// The expectations that the values of an expected.toml state.
 [[nodiscard]] std::vector<Expectation> bind_expectations(const CaseValues& values);
 
 }  // namespace thinwall::cases

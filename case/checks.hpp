@@ -21,6 +21,7 @@ struct SizeEstimate {
   double dofs = 0.0;
   double seconds = 0.0;
 };
+/// The sizes of the case's part, as SizeEstimate describes them.
 [[nodiscard]] SizeEstimate estimate_size(const Case& source);
 
 }  // namespace thinwall::cases

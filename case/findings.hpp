@@ -17,6 +17,7 @@ struct Findings {
   /// "key: text" at the place of the key.
   void report(const std::string& key, const std::string& text);
 
+  /// True if the case gives a value to this key, or a default fills it.
   [[nodiscard]] bool given(const std::string& key) const { return find(values, key) != nullptr; }
 
   /// Reports unless `name` is among `known`, naming the nearest; an empty name was reported before.

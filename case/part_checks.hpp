@@ -6,6 +6,7 @@
 
 namespace thinwall::cases {
 
+/// Reports every problem of the part that shows between its keys.
 void check_part(const Case& source, Findings& findings);
 
 /// Names of the points that the part has: those of [points], or those that its measured FRFs name.

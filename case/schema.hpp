@@ -16,6 +16,7 @@
 
 namespace thinwall::cases {
 
+/// The type of a key's value.
 enum class Type {
   text,        ///< any string
   file,        ///< path of a data file, relative to the case's folder
@@ -44,6 +45,7 @@ struct Bounds {
   std::string_view hint;
 };
 
+/// A key of the file with all that is known of it.
 struct Key {
   std::string_view path;
   Type type;
@@ -63,6 +65,7 @@ struct Section {
   std::string_view implied_by;
 };
 
+/// The tables and keys that one kind of file may have.
 struct Schema {
   std::span<const Section> sections;
   std::span<const Key> keys;
@@ -79,6 +82,7 @@ struct Schema {
 
 /// The key or section of that pattern; nullptr if there is none.
 [[nodiscard]] const Key* find_key(const Schema& schema, std::string_view pattern);
+/// The section of that pattern; nullptr if there is none.
 [[nodiscard]] const Section* find_section(const Schema& schema, std::string_view pattern);
 
 /// Names that may follow `pattern` ("" for the top level), in the order of the table; "*" where the user names.
@@ -94,6 +98,7 @@ struct Schema {
 
 /// Choices of a key, and keys that imply a section, as separate words.
 [[nodiscard]] std::vector<std::string> choices(const Key& key);
+/// The keys whose presence brings a section in, as separate words.
 [[nodiscard]] std::vector<std::string> implying_keys(const Section& section);
 
 /// "0 < ν < 0.5" as text: "above 0, below 0.5"; "" if unbounded.

@@ -26,6 +26,7 @@ struct CaseValue {
 /// All keys, defaults included, tables and arrays of tables in the order of the file.
 using CaseValues = std::vector<CaseValue>;
 
+/// The value of that key; nullptr if there is none.
 [[nodiscard]] const CaseValue* find(const CaseValues& values, std::string_view key);
 
 /// The names that follow `prefix.` in order, each once: children(values, "points") = {"P", "P2"}.

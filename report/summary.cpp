@@ -305,7 +305,7 @@ json points_of(const setup::Setup& source, const std::vector<setup::JoinedContac
 }  // namespace
 
 json summary_of(const setup::Setup& source, const study::Results& results) {
-  json summary = {{"schema", 1}, {"status", "ok"}};
+  json summary = {{"schema", 1}, {"case", ""}, {"title", ""}, {"status", "ok"}};
   summary["updating"] = json::array();
   for (const auto& fit : results.updating) summary["updating"].push_back(updating_of(fit));
   if (source.part && source.part->imported) summary["geometry"] = geometry_summary(*source.part);

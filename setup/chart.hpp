@@ -19,6 +19,7 @@ struct RobustOptions {
   double confidence = 2.0;  ///< k, standard uncertainties
 };
 
+/// The chart that is asked for: speeds, depths, method, and the answers beside it.
 struct LobesOptions {
   double from_rpm = 0.0, to_rpm = 0.0;
   int count = 400;

@@ -23,6 +23,7 @@ struct ContactBall {
   std::optional<double> support_radius, support_angle;  ///< m, rad
 };
 
+/// A place where the robot touches the part, and the source of its stiffness.
 struct Contact {
   std::string part_point, robot_point;
   std::vector<Eigen::Vector3d> directions;  ///< the first is the contact's normal

@@ -17,6 +17,7 @@ struct OrthogonalData {
   std::optional<double> shear_angle, friction_angle, rake_angle;  ///< rad
 };
 
+/// The cut: engagement, axes, force law and feed.
 struct Cutting {
   std::optional<double> radial_depth;             ///< m; none: the angles are given
   std::vector<double> entry_angles, exit_angles;  ///< rad, one an arc

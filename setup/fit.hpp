@@ -11,12 +11,14 @@
 
 namespace thinwall::setup {
 
+/// A number of the set-up that a fit may change, within its bounds.
 struct UpdatingParameter {
   std::string key;   ///< name of the number, for setup::Variation
   std::string unit;  ///< of the bounds; empty: a plain number
   double lower = 0.0, upper = 0.0;
 };
 
+/// A known result that the model is to show.
 struct UpdatingTarget {
   std::string quantity;                 ///< part_frequency, coupled_frequency, reduction_at
   double value = 0.0;                   ///< Hz, or 1 for a reduction
@@ -27,6 +29,7 @@ struct UpdatingTarget {
   double weight = 1.0;
 };
 
+/// One fit: the numbers that may change and the results that are known.
 struct Updating {
   std::string name;
   std::string on = "part";  ///< part, coupled

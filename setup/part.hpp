@@ -16,12 +16,14 @@
 
 namespace thinwall::setup {
 
+/// Isotropic linear elasticity.
 struct Material {
   double youngs_modulus = 0.0;  ///< Pa
   double poisson_ratio = 0.0;
   double density = 0.0;  ///< kg/m³
 };
 
+/// The mesh that is asked for: by a tolerance, or by the size of its elements.
 struct MeshOptions {
   std::optional<double> element_size;        ///< m; none: from the tolerance
   double tolerance = 1e-3;                   ///< on frequencies and receptances, where the size is not given

@@ -20,6 +20,7 @@ struct PlanarPart {
   mesh::Prism prism;
   std::array<int, 3> axes{0, 1, 2};
 };
+/// The prism of a box or a prismatic part.
 [[nodiscard]] PlanarPart planar(const Part& part);
 
 /// The part's bend in its own coordinates; the part must have one.
@@ -37,6 +38,7 @@ struct PlanarPart {
 /// The nodes of a mesh from a file that are held: 3·node + axis of the supports on its sets.
 [[nodiscard]] std::vector<int> rows_held_by_sets(const Setup& source, const mesh::SolidMesh& solid);
 
+/// The material of the part as the finite elements take it.
 [[nodiscard]] fem::Material material_of(const Part& part);
 
 /// Supports on faces and selections; those on sets of nodes are rows_held_by_sets().
@@ -47,8 +49,10 @@ struct PlanarPart {
 /// what the edges of a file's curved elements bow by.
 [[nodiscard]] double off_surface(const Part& part);
 
+/// The point of that name as the finite elements take it. Throws InputError with the nearest name if there is none.
 [[nodiscard]] fem::NamedPoint named_point(const Setup& source, const std::string& name);
 
+/// The modes that the set-up asks for.
 [[nodiscard]] fem::ModeOptions mode_options(const Setup& source);
 
 /// A line for each point on whose receptance no tolerance can be met, for it has no patch: a force on a single place of

@@ -19,11 +19,13 @@ struct ModeRange {
   std::optional<double> up_to_hz;
 };
 
+/// The modes of the whole part that are asked for.
 struct Modes {
   ModeRange range;
   bool verify_count = false;
 };
 
+/// The reduced model of the part that is asked for.
 struct Reduction {
   std::string method = "craig_bampton";
   ModeRange fixed_interface;
@@ -32,6 +34,7 @@ struct Reduction {
   int check_frequencies = 5;
 };
 
+/// Damping of the part: one of the models, with its numbers.
 struct Damping {
   std::string model = "modal";  ///< modal, rayleigh, structural, matrices
   double ratio = 0.0;           ///< of every mode that `ratios` does not name
@@ -42,6 +45,7 @@ struct Damping {
   double loss_factor = 0.0;
 };
 
+/// The frequencies at which receptances are computed, and the points between which.
 struct ResponseOptions {
   double from_hz = 1.0, to_hz = 2000.0;
   int lines = 2000;

@@ -13,12 +13,15 @@ namespace thinwall::setup {
 
 /// A named set of boundary points of the part: exactly one of the three predicates.
 struct Selection {
+  /// All points of a plane.
   struct Plane {
     Eigen::Vector3d point, normal;
   };
+  /// All points in a box along the axes.
   struct Box {
     Eigen::Vector3d min, max;
   };
+  /// All points in a sphere.
   struct Sphere {
     Eigen::Vector3d centre;
     double radius = 0.0;

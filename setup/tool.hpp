@@ -30,6 +30,7 @@ struct ToolSwap {
   std::vector<ToolStep> reference, target;
 };
 
+/// The cutter, and the motion of its tip.
 struct Tool {
   int teeth = 0;
   double diameter = 0.0;                           ///< m

@@ -79,6 +79,7 @@ struct OutOfReach {
   std::string reason;
 };
 
+/// The robot's tip over many postures.
 struct RobotSurvey {
   std::string over = "posture";  ///< posture, path, workspace
   std::vector<TipReport> tips;
@@ -168,6 +169,7 @@ struct ComparedLobes {
   double at_spindle_speed_rpm = 0.0;
 };
 
+/// A stability chart by its name, with all that was asked of it.
 struct NamedLobes {
   std::string name;  ///< "part", "supported", "tool"
   milling::Lobes lobes;
@@ -195,12 +197,14 @@ struct PathLobes {
 
 /// One fit of model updating.
 struct UpdatingResult {
+  /// A number that the fit could change: before and after, and its bounds.
   struct Parameter {
     std::string key;
     std::string unit;  ///< of the numbers that follow; empty: a plain number
     double start = 0.0, fitted = 0.0, lower = 0.0, upper = 0.0;
     bool at_bound = false;
   };
+  /// A known result: wanted, reached, and its sensitivity to each number.
   struct Target {
     std::string quantity;
     double wanted = 0.0, reached = 0.0;
@@ -213,6 +217,7 @@ struct UpdatingResult {
   bool converged = false;
 };
 
+/// Everything that a run has computed; what the set-up does not hold is empty.
 struct Results {
   setup::Setup setup;  ///< with the values that the fits found
   std::vector<UpdatingResult> updating;

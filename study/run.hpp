@@ -13,6 +13,7 @@
 
 namespace thinwall::study {
 
+/// Options of a run.
 struct RunOptions {
   std::vector<milling::OperatingPoint> points = {};  ///< that every chart is asked about
   StageListener on_stage = {};                       ///< hears of each stage as it begins and ends

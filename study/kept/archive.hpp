@@ -19,12 +19,14 @@
 // cereal finds these by the namespace of their argument.
 namespace Eigen {
 
+/// Writes a dense matrix: its size, then its entries.
 template <class Archive, class Scalar, int rows, int cols, int options, int max_rows, int max_cols>
 void save(Archive& archive, const Matrix<Scalar, rows, cols, options, max_rows, max_cols>& matrix) {
   archive(static_cast<std::int64_t>(matrix.rows()), static_cast<std::int64_t>(matrix.cols()));
   archive(cereal::binary_data(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(Scalar)));
 }
 
+/// Reads a dense matrix.
 template <class Archive, class Scalar, int rows, int cols, int options, int max_rows, int max_cols>
 void load(Archive& archive, Matrix<Scalar, rows, cols, options, max_rows, max_cols>& matrix) {
   std::int64_t height = 0, width = 0;
@@ -33,6 +35,7 @@ void load(Archive& archive, Matrix<Scalar, rows, cols, options, max_rows, max_co
   archive(cereal::binary_data(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(Scalar)));
 }
 
+/// Writes a compressed sparse matrix: its size, then the arrays that hold it.
 template <class Archive, class Scalar, int options, class Index>
 void save(Archive& archive, const SparseMatrix<Scalar, options, Index>& matrix) {
   if (!matrix.isCompressed()) throw thinwall::core::NumericalError("a sparse matrix to be kept is not compressed");
@@ -45,6 +48,7 @@ void save(Archive& archive, const SparseMatrix<Scalar, options, Index>& matrix) 
   archive(cereal::binary_data(matrix.valuePtr(), entries * sizeof(Scalar)));
 }
 
+/// Reads a sparse matrix.
 template <class Archive, class Scalar, int options, class Index>
 void load(Archive& archive, SparseMatrix<Scalar, options, Index>& matrix) {
   std::int64_t rows = 0, cols = 0, count = 0;

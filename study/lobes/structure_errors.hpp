@@ -17,6 +17,7 @@ struct StructureErrors {
   std::vector<Eigen::Matrix3cd> truncation{};          ///< of its samples, signed, tool axes, one a line
   milling::SampleCovariance noise{};                   ///< of its samples, tool axes, one a line
 
+  /// True if nothing is known to be wrong.
   [[nodiscard]] bool none() const { return !richer && truncation.empty() && noise.empty(); }
 };
 
