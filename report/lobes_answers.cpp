@@ -14,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-std::string in_words(std::string name) {
+std::string sensitivity_in_words(std::string name) {
   std::ranges::replace(name, '_', ' ');
   return name;
 }
@@ -95,7 +95,7 @@ std::string pockets_text(const json& pockets, std::string label) {
                         pocket["spindle_speed_rpm"].get<double>());
     if (!pocket["removal_rate_cm3_per_min"].is_null())
       text += fmt::format(", {:.3g} cm3/min", pocket["removal_rate_cm3_per_min"].get<double>());
-    text += fmt::format(", limited by {}\n", in_words(pocket["limited_by"].get<std::string>()));
+    text += fmt::format(", limited by {}\n", sensitivity_in_words(pocket["limited_by"].get<std::string>()));
   }
   return text;
 }
@@ -110,7 +110,7 @@ std::vector<std::string> chart_notes(const json& chart) {
     add_error_budget(notes, chart["error_budget"], chart["minimum_depth_m"].get<double>());
   if (chart.contains("compared")) {
     for (const json& other : chart["compared"]) {
-      notes.push_back(fmt::format("{}: differs by up to {:.2g} % (at {:.0f} rpm)", in_words(other["name"]),
+      notes.push_back(fmt::format("{}: differs by up to {:.2g} % (at {:.0f} rpm)", sensitivity_in_words(other["name"]),
                                   other["largest_relative_difference"].get<double>() * 100.0,
                                   other["at_spindle_speed_rpm"].get<double>()));
     }

@@ -9,7 +9,7 @@
 
 namespace thinwall::report {
 
-/// The summary of a run without its checks.
+/// The summary of a run without its checks; the name and the title of its case are left empty for the caller.
 [[nodiscard]] nlohmann::json summary_of(const setup::Setup& source, const study::Results& results);
 
 }  // namespace thinwall::report
