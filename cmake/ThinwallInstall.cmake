@@ -1,20 +1,20 @@
-# What `cmake --install` leaves: the program, the library with its headers, and what other builds find it by.
+# Installs the program, the library with its headers, and the files by which other builds find it (`cmake --install`).
 #   runtime    bin/thinwall, its manual page and completions, the licence and the change log
 #   library    lib/libthinwall.so.0.1
 #   dev        include/thinwall, lib/libthinwall.so, find_package(thinwall), pkg-config thinwall
-#   python     the module, where it is built (python/CMakeLists.txt)
-# The library that is installed is one shared one, so that who links it needs Eigen's headers and none of the libraries
-# below. The program and the Python module are linked from the same objects, statically.
+#   python     the module, if it is built (python/CMakeLists.txt)
+# One shared library is installed, so that programs that link it need Eigen's headers and none of the libraries below it.
+# The program and the Python module are linked statically from the same objects.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
-if(CMAKE_LIBRARY_ARCHITECTURE AND CMAKE_INSTALL_LIBDIR STREQUAL lib)  # Debian's folder of an architecture, for any prefix
+if(CMAKE_LIBRARY_ARCHITECTURE AND CMAKE_INSTALL_LIBDIR STREQUAL lib)  # Debian's folder for the architecture, with any prefix
   set(CMAKE_INSTALL_LIBDIR lib/${CMAKE_LIBRARY_ARCHITECTURE})
 endif()
 
 set(THINWALL_FOLDERS core dynamics linalg mesh fem reduction robot coupling milling io setup case study)
 set(thinwall_version_of_interface ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 
-# All objects of all folders; the archives beside them only say which other libraries they need.
+# All objects of all folders; the archives beside them only state which other libraries they need.
 list(TRANSFORM THINWALL_FOLDERS REPLACE "(.+)" "$<TARGET_OBJECTS:thinwall_\\1>" OUTPUT_VARIABLE thinwall_objects)
 list(TRANSFORM THINWALL_FOLDERS PREPEND thinwall:: OUTPUT_VARIABLE thinwall_archives)
 add_library(thinwall_shared SHARED ${thinwall_objects})
@@ -27,7 +27,7 @@ target_compile_features(thinwall_shared INTERFACE cxx_std_20)
 install(TARGETS thinwall RUNTIME COMPONENT runtime)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 
-# thinwall_prints(<file> <words>...)   below share/, what `thinwall <words>` prints when it is installed
+# thinwall_prints(<file> <words>...)   below share/, the text that `thinwall <words>` prints, made at installation
 function(thinwall_prints file)
   set(made ${PROJECT_BINARY_DIR}/printed/${file})
   get_filename_component(folder ${file} DIRECTORY)

@@ -2,9 +2,9 @@
 #   thinwall            the program
 #   libthinwall0.1      the shared library; the name follows the version of its interface
 #   libthinwall-dev     headers, find_package(thinwall), pkg-config thinwall
-#   python3-thinwall    the Python module, where it is built
-# They are for every machine of an architecture: what is built with THINWALL_NATIVE, for this processor alone, says so in
-# its version. dpkg-shlibdeps finds what they depend on.
+#   python3-thinwall    the Python module, if it is built
+# The packages are for every machine of an architecture; the version of packages built with THINWALL_NATIVE, which run on
+# this processor only, says so. dpkg-shlibdeps finds their dependencies.
 set(THINWALL_MAINTAINER "The maintainers of thinwall <maintainers@thinwall.example>" CACHE STRING "Of the packages")
 set(THINWALL_PACKAGE_VERSION ${PROJECT_VERSION})
 if(THINWALL_NATIVE)
@@ -39,7 +39,7 @@ thin-walled parts, alone or backed by a robot." PARENT_SCOPE)
           COMPONENT ${component})
 endfunction()
 
-# The licences of what the page of results is built from, as the text of a field: a blank before each line, " ." for none.
+# The licences of the packages from which the page of results is built, as the text of a field: a blank before each line, " ." for none.
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS web/dist/LICENSES.txt)
 file(READ web/dist/LICENSES.txt THINWALL_PAGE_LICENSES)
 string(STRIP "${THINWALL_PAGE_LICENSES}" THINWALL_PAGE_LICENSES)
@@ -75,7 +75,7 @@ if(TARGET thinwall_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-matplotlib)
 endif()
 
-# Packing takes what is built and builds nothing by itself, least of all the tests.
+# The target packs what its dependencies have built; the tests are not among them.
 add_custom_target(packages COMMAND ${CMAKE_CPACK_COMMAND} DEPENDS thinwall thinwall_shared USES_TERMINAL)
 if(TARGET thinwall_python)
   add_dependencies(packages thinwall_python)

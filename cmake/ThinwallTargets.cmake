@@ -1,14 +1,15 @@
-# thinwall_library(<folder> LINKS ...)   the target thinwall::<folder> from every .cpp of the folder and its sub-folders but those whose
-#                                        path matches EXCLUDES: they belong to a target of their own
+# thinwall_library(<folder> LINKS ...)   the target thinwall::<folder> from every .cpp of the folder and its sub-folders, except
+#                                        those whose path matches EXCLUDES, which belong to another target
 # thinwall_test(<name> LINKS ...)        one GoogleTest program from every .cpp of the current folder
 
 add_library(thinwall_flags INTERFACE)
 target_compile_options(thinwall_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wsuggest-override
                                                 -Wzero-as-null-pointer-constant -Werror)
-# Whoever replaces one of our functions at load time does so on his own; calls within the library are direct.
+# Calls within the library are direct and may be inlined: the compiler may assume that no library loaded before it
+# (LD_PRELOAD) replaces one of our functions.
 target_compile_options(thinwall_flags INTERFACE -fno-semantic-interposition)
-# GCC 12 takes "text" + std::string for overlapping copies and, where the library's headers are precompiled, for copies
-# beyond the end (GCC bug 105329, mended in 13).
+# GCC 12 warns wrongly about "text" + std::string, as overlapping copies, and, where the library's headers are
+# precompiled, as copies beyond the end (GCC bug 105329, fixed in GCC 13).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(thinwall_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)
   if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
@@ -16,8 +17,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   endif()
 endif()
 if(THINWALL_NATIVE)
-  # Without AVX-512: gcc 12 warns about its own AVX-512 headers (gcc bug 105593), and the dense work is OpenBLAS's, which
-  # chooses its kernels by itself.
+  # AVX-512 is left out: GCC 12 warns about its own AVX-512 headers (GCC bug 105593), and the dense algebra is
+  # OpenBLAS's, which chooses its kernels at run time.
   target_compile_options(thinwall_flags INTERFACE -march=native -mno-avx512f)
 endif()
 if(THINWALL_SANITIZE)
@@ -25,13 +26,15 @@ if(THINWALL_SANITIZE)
   target_link_options(thinwall_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
-# The alignment of Eigen's matrices follows the vector unit that a file is compiled for, and with it the layout of our
-# structs and who may free whose memory. It is pinned to that of AVX, so that programs compiled for any x86-64 fit a
-# library compiled for any other. Part of the library's interface: whoever uses it compiles with the same two words.
+# The alignment of Eigen's matrices depends on the vector unit for which a file is compiled; the layout of our structs
+# and the way in which their memory is freed depend on it. It is pinned to that of AVX, so that programs compiled for
+# any x86-64 processor fit a library compiled for any other. It is part of the library's interface: programs that use
+# the library must be compiled with the same two definitions.
 set(THINWALL_EIGEN_ALIGNMENT EIGEN_MAX_ALIGN_BYTES=32 EIGEN_MAX_STATIC_ALIGN_BYTES=32)
 
-# Headers that nearly every file includes are parsed once a target; a file still includes what it uses, which the
-# build with sanitizers holds it to: it goes without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
+# Headers that nearly every file includes are parsed once for each target. Every file must nevertheless include what it
+# uses; the build with sanitizers checks that, because it goes without precompiled headers
+# (CMAKE_DISABLE_PRECOMPILE_HEADERS).
 set(THINWALL_COMMON_HEADERS <Eigen/Geometry> <Eigen/LU> <Eigen/SparseCore> <algorithm> <cmath> <filesystem> <functional>
                             <map> <memory> <numeric> <optional> <sstream> <string> <vector>)
 

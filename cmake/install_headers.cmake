@@ -1,7 +1,7 @@
-# Run by `cmake --install`: the headers into include/thinwall, in their folders. In the sources they name each other from
-# the root ("mesh/box.hpp"); where many libraries share one include directory they do so under the library's name
-# ("thinwall/mesh/box.hpp"), so that no `mesh` or `io` of another comes between. Those that need headers of CHOLMOD and of
-# Open CASCADE stay here; no other header names them.
+# Installs the headers to include/thinwall, in their folders; run by `cmake --install`. In the sources they include each
+# other relative to the root ("mesh/box.hpp"). In a directory that many libraries share they must do so under the
+# library's name ("thinwall/mesh/box.hpp"), so that no `mesh` or `io` of another library is found instead. Headers that
+# need those of CHOLMOD, Open CASCADE, cereal or JSON are not installed; no other header includes them.
 set(internal linalg/cholmod.hpp io/surface/step_triangles.hpp case/json_schema.hpp
              study/kept/archive.hpp study/kept/archive_models.hpp)
 list(JOIN THINWALL_FOLDERS "|" folders)

@@ -1,6 +1,6 @@
-# cmake -DSOURCE=... -DFILE=... -P write_commit.cmake     a source file with the commit that the program is built from
+# cmake -DSOURCE=... -DFILE=... -P write_commit.cmake     writes a source file with the commit of the sources
 #
-# Run by every build; the file is written only when the commit is another. Sources without a repository have none.
+# Every build runs it; the file is written only if the commit has changed. Sources without a repository have no commit.
 set(commit "")
 if(EXISTS ${SOURCE}/.git)
   execute_process(COMMAND git --no-optional-locks -C ${SOURCE} describe --always --dirty --abbrev=12 "--exclude=*"

@@ -19,7 +19,7 @@ struct UndampedModes {
 /// The undamped modes of a model.
 ///
 /// With M = L Lᵀ and K = G Gᵀ, ω and Lᵀφ are the singular values and left singular vectors of L⁻¹ G (Demmel & Veselić
-/// 1992). K is factorised before the decomposition, not squared by it, so that the error of ω is ε ω_max instead of ε
+/// 1992). The square root G of K is taken before the decomposition, so that the error of ω is ε ω_max instead of ε
 /// ω_max²/ω. A singular K gives exactly as many ω = 0 as its rank is short of n. Cost O(n³). Throws NumericalError if M
 /// is not positive definite or K is indefinite.
 [[nodiscard]] UndampedModes undamped_modes(const SpatialModel& model);
@@ -37,9 +37,8 @@ struct UndampedModes {
 [[nodiscard]] ModalModel to_modal(const SpatialModel& model);
 
 /// The model with its structural damping replaced by viscous damping of equal loss at each undamped mode: ζ_r = φ_rᵀ D
-/// φ_r / (2 ω_r²), added to C as M Φ diag(2 ζ ω) Φᵀ M. The response is exact at the resonances of a proportionally
-/// damped model and approximate elsewhere. Throws InputError if structural damping acts on a rigid-body motion. Cost
-/// O(n³).
+/// φ_r / (2 ω_r²), added to C as M Φ diag(2 ζ ω) Φᵀ M. The response is exact at resonance and approximate elsewhere.
+/// Throws InputError if structural damping acts on a rigid-body motion. Cost O(n³).
 [[nodiscard]] SpatialModel equivalent_viscous(const SpatialModel& model);
 
 /// The response H = R + Σ φ ψᵀ / (a (iω − λ)) at every frequency line, between all DOFs that are not modal amplitudes.
@@ -50,10 +49,10 @@ struct UndampedModes {
 /// frequency line to `dynamic_stiffness`.
 using AddedStiffness = std::function<void(Eigen::Index line, Eigen::MatrixXcd& dynamic_stiffness)>;
 
-/// The response H = T (K + iD + iωC − ω²M + S(ω))⁻¹ Tᵀ by one LU factorisation a frequency line, between all DOFs that
-/// are not modal amplitudes; S(ω) is what `added` adds, if it is set. It is an independent check of the modal sum. Rows
-/// without stiffness and mass (constraint forces) are allowed. Throws NumericalError that names the frequency where the
-/// matrix is singular (an undamped resonance, or a free part at ω = 0). Cost lines · n³.
+/// The response H = T (K + iD + iωC − ω²M + S(ω))⁻¹ Tᵀ by one LU factorisation for each frequency line, between all
+/// DOFs that are not modal amplitudes; S(ω) is what `added` adds, if it is set. It is an independent check of the modal
+/// sum. Rows without stiffness and mass (constraint forces) are allowed. Throws NumericalError that names the frequency
+/// where the matrix is singular (an undamped resonance, or a free part at ω = 0). Cost lines · n³.
 [[nodiscard]] ResponseModel direct_response(const SpatialModel& model, const FrequencyAxis& axis,
                                             const AddedStiffness& added = {});
 

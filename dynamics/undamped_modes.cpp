@@ -54,6 +54,8 @@ UndampedModes undamped_modes(const SpatialModel& model) {
   const Eigen::MatrixXd G = semidefinite_factor(model.K);
   UndampedModes modes{Eigen::VectorXd::Zero(n), mass.matrixU().solve(Eigen::MatrixXd::Identity(n, n))};
   if (G.cols() > 0) {
+    // Singular values are ω themselves. Eigenvalues of L⁻¹ K L⁻ᵀ would be ω², and their error relative to the largest
+    // would swamp the low ones.
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(mass.matrixL().solve(G), Eigen::ComputeFullU);
     modes.omega_rad_s.tail(G.cols()) = svd.singularValues().reverse();
     modes.Phi = mass.matrixU().solve(svd.matrixU().rowwise().reverse());

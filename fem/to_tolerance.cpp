@@ -180,6 +180,8 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
   require_fit(mesh, options);
   for (int level = 0;; ++level) {
     bool last_level = level + 1 == options.levels;
+    // The higher of the first two orders is solved first: the modes of the lower one, which only the estimate needs,
+    // follow from it by inverse iteration.
     Solution now = solve(part, mesh, options.first_order + 1, options);
     if (level == 0 && options.points_hold && now.factored.sigma != 0.0)
       require_motions_seen(now.model, now.modes, now.amplitudes);
@@ -193,6 +195,7 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
       const double of_higher = of_lower - 1.0;
       const double worst = std::max(*step.frequency_change, step.receptance_change.value_or(0.0));
       if (of_lower * worst <= options.tolerance) {
+        // These modes are only as accurate as the estimate needs; as a result they are computed in full.
         if (order == options.first_order + 1) below.modes = modes(below.model, below.factored, options.modes);
         return finished(std::move(below), std::move(estimate), of_lower);
       }

@@ -127,6 +127,7 @@ struct Krylov {
     core::check_interrupt();
     append(block);
     MatrixXd H;
+    // The last orthonormalisation has formed M Q, so that A Q = (K−σM)⁻¹ (M Q) needs no product with M.
     Block next = outside(inverse.apply(block.MQ), H);
     T.conservativeResize(columns, columns);
     T.rightCols(block.Q.cols()) = H;
@@ -201,6 +202,7 @@ Eigenpairs block_lanczos(const SparseMatrix& M, const ShiftedInverse& inverse, c
     const Ritz ritz = ritz_pairs(krylov.T, B);
     const Index wanted = finished(ritz, options, inverse.sigma, exhausted);
     if (wanted < 0 && !exhausted) continue;
+    // When the range of the inverse is exhausted, the pairs that have converged are returned all the same.
     const Index kept = wanted >= 0 ? wanted : (ritz.residual.array() <= options.tolerance).count();
     if (wanted >= 0) pairs.status = EigenStatus::converged;
     pairs.lambda = inverse.sigma + ritz.theta.head(kept).array().inverse();

@@ -89,6 +89,8 @@ Eigenpairs single_vector_eigenpairs(const SparseMatrix& K, const SparseMatrix& M
   require_count(count, n);
   InverseOperator op(inverse, n);
   MassOperator mass(M);
+  // The shift-invert mode makes the wanted eigenvalues, those nearest to σ, the largest of the operator, on which
+  // Lanczos converges first.
   const Eigen::Index basis = std::min<Eigen::Index>(n, 2 * count + 20);
   Spectra::SymGEigsShiftSolver<InverseOperator, MassOperator, Spectra::GEigsMode::ShiftInvert> lanczos(
       op, mass, count, basis, inverse.sigma);

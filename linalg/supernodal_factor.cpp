@@ -375,6 +375,8 @@ std::optional<int> supernodal_factor(const SparseMatrix& A, const SymbolicFactor
   std::vector<Place> failed(cut.groups.size());
   std::vector<std::array<LargeArray<double>, 2>> below_top(cut.groups.size());
   {
+    // Groups are independent of each other. Each leaves the update matrices of its subtrees' roots, which the top of
+    // the tree consumes afterwards; they are copied so that the workspace can serve the next group.
     Pool pool(group_heights(L, method.tree, cut), A.rows());
     core::parallel_for(cut.groups.size(), [&](std::size_t g) {
       std::unique_ptr<Workspace> work = pool.take();
@@ -383,6 +385,7 @@ std::optional<int> supernodal_factor(const SparseMatrix& A, const SymbolicFactor
       pool.give(std::move(work));
     });
   }
+  // The smallest failing column is reported, so that the message does not depend on the order of the threads.
   std::erase(failed, -1);
   if (!failed.empty()) return static_cast<int>(*std::min_element(failed.begin(), failed.end()));
   Workspace work(stack_use(L, method.tree, cut.top).most, A.rows());

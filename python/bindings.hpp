@@ -1,5 +1,6 @@
 #pragma once
-// What the files of the Python module share: one function a folder of the library, long calls, views of arrays.
+// Declarations that the files of the Python module share: one function for each folder of the library, guards of long
+// calls, views of arrays.
 
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
@@ -40,13 +41,13 @@ void bind_milling(py::module_& module);
 void bind_io(py::module_& module);
 void bind_study(py::module_& module);
 
-/// A mesh as Python holds it: tetrahedra, with the nodes that a file gave them if it gave any but the corners.
+/// A mesh as Python holds it: tetrahedra, and the nodes given by a file if it has more than the corners.
 struct Mesh {
   mesh::TetMesh tets;
-  std::optional<mesh::LagrangeNodes> nodes{};  ///< of order 2
+  std::optional<mesh::LagrangeNodes> nodes{};  ///< nodes of order 2
 };
 
-/// A model with its factor, which all that is computed from it share: made when it is first needed.
+/// A model with its factor, which is made when it is first needed and shared by all results computed from it.
 class Part {
  public:
   explicit Part(fem::Model assembled) : model(std::move(assembled)) {}
@@ -55,13 +56,14 @@ class Part {
   fem::Model model;
 
  private:
-  std::once_flag once_;  // long calls of several Python threads may meet here
+  std::once_flag once_;  // long calls of several Python threads may arrive here together
   std::unique_ptr<fem::Factored> factored_;
 };
 
-/// Guard of a long call: other Python threads go on meanwhile, and Ctrl-C ends it. Python's own handler only notes the
-/// signal for the interpreter, which does not run; ours asks the library to stop, which throws core::Interrupted where
-/// it looks next. A request that came too late becomes a KeyboardInterrupt after the call.
+/// A guard of a long call, during which other Python threads continue and Ctrl-C ends the call. Python's own handler
+/// only notes the signal for the interpreter, which is not running; this one asks the library to stop, and the library
+/// throws core::Interrupted at its next check. A request that comes too late becomes a KeyboardInterrupt after the
+/// call.
 class LongCall {
  public:
   LongCall();
@@ -77,7 +79,7 @@ class LongCall {
 
 using LongCallGuard = py::call_guard<LongCall>;
 
-/// A read-only array on memory that `owner` keeps, of the given shape, rows after rows.
+/// A read-only array on memory that `owner` keeps alive, of the given shape, row by row.
 template <typename Scalar>
 py::array view(const Scalar* data, std::vector<py::ssize_t> shape, const py::object& owner) {
   py::array_t<Scalar> array(std::move(shape), data, owner);
@@ -85,17 +87,18 @@ py::array view(const Scalar* data, std::vector<py::ssize_t> shape, const py::obj
   return array;
 }
 
-/// A scipy.sparse.csc_matrix on the matrix's own memory, which `owner` keeps.
+/// A scipy.sparse.csc_matrix on the matrix's own memory, which `owner` keeps alive.
 py::object sparse_view(const linalg::SparseMatrix& matrix, const py::object& owner);
 
-/// "P.x", "P.rz", "P.(0.6,0.8,0)" as a DOF, "mode 3" as an amplitude. Throws InputError for anything else.
+/// The DOF with a name such as "P.x", "P.rz", "P.(0.6,0.8,0)", or "mode 3" for an amplitude. Throws InputError for
+/// anything else.
 dynamics::Dof dof_from_name(const std::string& text);
 std::vector<std::string> names(const dynamics::DofTable& dofs);
 
-/// Unit vectors of "x", "xyz" (its letters), or of one or several vectors. Throws InputError for anything else.
+/// The unit vectors given by letters ("x", "xyz") or by one or several vectors. Throws InputError for anything else.
 std::vector<Eigen::Vector3d> directions(const py::object& words);
 
-/// Where faces are: a mesh::Region, or "x_min" … "z_max", the plane of a mesh's outermost vertices.
+/// The region given by a mesh::Region, or by "x_min" … "z_max", the plane of a mesh's outermost vertices.
 mesh::Region region_on(const mesh::TetMesh& mesh, const py::object& region);
 
 }  // namespace thinwall::python

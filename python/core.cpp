@@ -1,4 +1,4 @@
-// Errors, interruption, threads; and what the other files convert.
+// Bindings of errors, interruption and threads, and conversions that the other files share.
 
 #include <thread>
 
@@ -11,13 +11,13 @@ namespace thinwall::python {
 
 namespace {
 
-const std::thread::id main_thread = std::this_thread::get_id();  // Python imports the module on it, as a rule
+const std::thread::id main_thread = std::this_thread::get_id();  // Python normally imports the module on this thread
 
 extern "C" void ask_to_stop(int /*signal*/) {
   core::request_interrupt();
 }
 
-/// The Python classes, once a process; they are never freed.
+/// The Python classes, made once in a process; they are never freed.
 struct Errors {
   PyObject* error = nullptr;
   PyObject* input = nullptr;

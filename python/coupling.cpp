@@ -1,4 +1,4 @@
-// Components joined at points, by matrices or by receptances.
+// Bindings of coupling: components joined at points, by matrices or by receptances.
 
 #include "core/error.hpp"
 #include "coupling/receptance.hpp"

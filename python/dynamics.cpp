@@ -1,4 +1,4 @@
-// The three model kinds and the conversions between them.
+// Bindings of the three kinds of models and the conversions between them.
 
 #include <cmath>
 #include <sstream>
@@ -41,7 +41,7 @@ ModalModel modal(const SpatialModel& model) {
   return dynamics::to_modal(model.has_structural_damping() ? dynamics::equivalent_viscous(model) : model);
 }
 
-/// One value a mode that oscillates, by rising frequency.
+/// An array with one value for each oscillating mode, by rising frequency.
 Eigen::VectorXd of_modes(const ModalModel& model, double dynamics::ModeSummary::*what) {
   const auto modes = dynamics::oscillating_modes(model);
   Eigen::VectorXd values(static_cast<Eigen::Index>(modes.size()));
@@ -80,7 +80,8 @@ py::array one_piece(const ResponseModel& model) {
   return H;
 }
 
-/// The model holds a matrix a line: the array is made when it is first asked for, and kept in the Python object.
+/// The array of all matrices of a response. The model holds one matrix for each line, so that the array is made when it
+/// is first asked for, and kept in the Python object.
 py::object values(const py::object& self) {
   const py::dict kept = self.attr("__dict__");
   if (!kept.contains("_H")) kept["_H"] = one_piece(self.cast<const ResponseModel&>());

@@ -1,4 +1,4 @@
-// A part by finite elements: assembly and modes of the full model.
+// Bindings of finite elements: assembly and modes of the full model of a part.
 
 #include "core/error.hpp"
 #include "fem/modes.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using Rows3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// A region, or (region, "xz") for some axes only.
+/// The support for a region, or for (region, "xz"), which holds some axes only.
 fem::Support support_on(const mesh::TetMesh& mesh, const py::object& words) {
   py::object region = words;
   std::string axes = "xyz";

@@ -1,4 +1,4 @@
-// Measured receptances from files.
+// Bindings of io: measured receptances from files.
 
 #include "io/frf/frf_csv.hpp"
 #include "io/frf/response_csv.hpp"

@@ -1,4 +1,4 @@
-// Meshes: boxes, prisms, files; and the regions that choose their faces.
+// Bindings of meshes: boxes, prisms, files, and the regions that select their faces.
 
 #include "core/error.hpp"
 #include "io/mesh/mesh_file.hpp"

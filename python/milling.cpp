@@ -1,4 +1,4 @@
-// The cut, and the depths and speeds at which it is stable.
+// Bindings of milling: the cut, and the depths and speeds at which it is stable.
 
 #include <algorithm>
 #include <iterator>
@@ -19,7 +19,7 @@ namespace {
 using milling::Lobes;
 using milling::MillingProcess;
 
-/// The end of the cut that moves: poles, or lines of a receptance. Both in part axes.
+/// The moving side of the cut: poles, or lines of a receptance, both in part axes.
 using Structure = std::variant<dynamics::SpatialModel, dynamics::ModalModel, dynamics::ResponseModel>;
 
 MillingProcess process(int teeth, double diameter_m, double K_t, double K_r, double K_a,
@@ -71,7 +71,7 @@ milling::SampledStructure samples(const dynamics::ResponseModel& model, const st
   return result;
 }
 
-/// The rows of some speeds.
+/// The rows of a chart for the given speeds.
 using Chart = std::function<Lobes(const std::vector<double>&)>;
 
 Chart chart_of(const Structure& structure, const MillingProcess& process, const std::optional<std::string>& at,
@@ -127,7 +127,7 @@ milling::Multiplier multiplier(const Structure& structure, const MillingProcess&
   throw core::InputError("a multiplier needs poles: a SpatialModel or a ModalModel, not receptances");
 }
 
-/// One value a row as an array.
+/// An array with one value for each row.
 template <typename Value>
 py::array column(const Lobes& lobes, Value milling::LobeRow::*member) {
   py::array_t<Value> values(static_cast<py::ssize_t>(lobes.rows.size()));

@@ -1,4 +1,4 @@
-// The extension module thinwall._core; the package's __init__.py says what of it is public.
+// The extension module thinwall._core; the package's __init__.py selects its public names.
 
 #include "python/bindings.hpp"
 

@@ -1,4 +1,4 @@
-// From a full model to a small one that keeps its points.
+// Bindings of reduction: from a full model to a small one that keeps its points.
 
 #include "core/error.hpp"
 #include "fem/modes.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 using dynamics::SpatialModel;
 
-/// A point as Python gives it; its patch is looked up once there is a mesh.
+/// A point as given by Python; its patch is looked up when there is a mesh.
 struct Point {
   fem::NamedPoint point;
   py::object region;

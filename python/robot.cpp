@@ -1,4 +1,4 @@
-// A robot's tip by what a hammer test tells of it.
+// Bindings of robot: a robot's tip from the result of a hammer test.
 
 #include "python/bindings.hpp"
 #include "robot/one_mode.hpp"

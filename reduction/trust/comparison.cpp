@@ -25,6 +25,8 @@ std::vector<double> inverse_eigenvalues(const dynamics::SpatialModel& model, dou
   B = (scale.asDiagonal() * B * scale.asDiagonal()).eval();
   const MatrixXd M = scale.asDiagonal() * symmetric_part(model.M) * scale.asDiagonal();
   std::vector<double> mu;
+  // For λ ≥ 0 the largest possible μ is 1/α; smaller than 1e-13 of it are the μ of coordinates without mass, which are
+  // zero but for round-off.
   const double zero = 1e-13 / alpha;
   const bool definite = B.llt().info() == Eigen::Success;
   if (definite) {

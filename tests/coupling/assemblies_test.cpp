@@ -1,5 +1,5 @@
-// Assemblies with an answer of their own: beams of beams, springs inside a component, joints given as matrices, and
-// what is refused.
+// Assemblies with known answers: beams of beams, springs inside a component, joints given as matrices; and inputs that
+// are refused.
 
 #include <gtest/gtest.h>
 

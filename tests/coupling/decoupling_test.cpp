@@ -1,4 +1,4 @@
-// Components coupled and taken out again, and an accelerometer's mass.
+// Components that are coupled and removed again, and the removal of an accelerometer's mass.
 
 #include "coupling/decoupling.hpp"
 

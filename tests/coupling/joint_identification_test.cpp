@@ -1,4 +1,4 @@
-// A contact found again from the responses that it makes, without noise and with it.
+// A contact is identified from the responses that it produces, without noise and with it.
 
 #include "coupling/joint_identification.hpp"
 
@@ -119,7 +119,7 @@ ResponseModel noisy(ResponseModel model, double relative, std::mt19937& random) 
   return model;
 }
 
-/// How often the truth lies within the interval, and how far the mean is off, in its own standard deviations.
+/// The share of intervals that contain the truth, and the deviation of the mean in its own standard deviations.
 struct Trials {
   int runs = 0, inside = 0;
   double sum = 0.0, squares = 0.0;

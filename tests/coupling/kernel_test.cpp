@@ -1,4 +1,5 @@
-// What the coupling says of its kernel: the error that the result inherits, and what a regularisation leaves out.
+// The reports of a coupling on its kernel: the error that the result inherits, and the parts that a regularisation
+// leaves out.
 
 #include <gtest/gtest.h>
 

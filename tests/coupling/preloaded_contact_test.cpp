@@ -60,7 +60,7 @@ TEST(Hertz, RadiiOfBallsAndHollows) {
   EXPECT_THROW((void)relative_radius(std::nan("")), core::InputError);
 }
 
-/// How far the caster gives way under F: the part's contact, and the ring of balls along the axis.
+/// The deflection of the caster under F: that of the part's contact, and that of the ring of balls along the axis.
 double caster_travel(const BallCaster& caster, const Elastic& part, double F) {
   const double Q = F / (caster.balls * std::cos(caster.angle));
   const double cup = caster.ball_radius + 2.0 * caster.support_radius;

@@ -56,6 +56,21 @@ expect_equal "no others" 3 "$(links | grep -c -e css: -e ^b.html)"
 printf '<a href="../b.html#not">b</a>' >"$tree/site/cpp/c.html"
 expect_contains "from the C++ reference" "cpp/c.html: no such place" "$(links)"
 
+# --- first words of comments
+mkdir -p "$tree/sources/core"
+beginnings() {  # lines of a header
+  printf '%b\n' "$1" >"$tree/sources/core/a.hpp"
+  "$python" "$root/docs/site/check_comments.py" "$tree/sources" || true
+}
+expect_contains "a comment without a subject" "core/a.hpp:2: What it is.
+2 comments; without a subject: 1, at most 20" "$(beginnings '#pragma once\n// What it is.\n/// The number.\n/// Where it goes on.')"
+expect_contains "words within a comment" "without a subject: 0" "$(beginnings '/// Whatever.\n/// What.\nint a;  // What')"
+status() { "$python" "$root/docs/site/check_comments.py" "$tree/sources" >/dev/null && echo 0 || echo 1; }
+for ((i = 0; i < 20; ++i)); do printf '/// How %d.\nint a%d;\n' $i $i; done >"$tree/sources/core/a.hpp"
+expect_equal "as many as are allowed" 0 "$(status)"
+echo '/// Of the last.' >>"$tree/sources/core/a.hpp"
+expect_equal "one too many" 1 "$(status)"
+
 # --- comments
 command -v doxygen >/dev/null || {
   finish

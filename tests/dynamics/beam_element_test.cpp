@@ -14,7 +14,7 @@ using Vector12 = Eigen::Vector<double, 12>;
 
 constexpr Tube steel_tube{0.2, 0.15, 210e9, 0.3, 7850.0};
 
-/// No two of its numbers alike.
+/// A section in which no two numbers are equal, so that no exchange of them goes unnoticed.
 BeamSection unequal_section() {
   return {.youngs_modulus_Pa = 70e9,
           .shear_modulus_Pa = 26e9,

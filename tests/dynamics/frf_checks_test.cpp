@@ -56,7 +56,7 @@ IntegratedAccelerometer measured(double sigma, double offset, unsigned seed, int
   return result;
 }
 
-/// Where σ_A/ω² is `share` of the static receptance.
+/// The frequency at which σ_A/ω² is `share` of the static receptance.
 double frequency_of_share(double sigma, double share) {
   return std::sqrt(sigma / (share * static_receptance)) / (2.0 * std::numbers::pi);
 }

@@ -1,4 +1,4 @@
-// Imported matrices: what they are checked for, their units, and the way to named DOFs and back.
+// Checks of imported matrices, their units, and their conversion to named DOFs and back.
 
 #include "dynamics/sparse_model.hpp"
 
@@ -92,7 +92,7 @@ TEST(SparseModel, RefusesATableThatDoesNotFit) {
   EXPECT_TRUE(has(complaint(model), "M is 4 x 4, K has 5")) << complaint(model);
 }
 
-/// Both ends of a beam along x, nodes 1 and 2, in a system of units where m and kg are so many units.
+/// A beam element along x between nodes 1 and 2, in a system of units with so many units to the metre and the kilogram.
 SparseModel beam_in_units(double metre, double kilogram) {
   BeamSection section = dynamics::section(Tube{0.03, 0.02, 210e9, 0.3, 7850.0});
   section.youngs_modulus_Pa *= kilogram / metre;
@@ -115,7 +115,7 @@ double largest_difference(const Eigen::SparseMatrix<double>& A, const Eigen::Spa
   return (scale.asDiagonal() * (a - b) * scale.asDiagonal()).cwiseAbs().maxCoeff();
 }
 
-// The same beam written down in other units and converted is the beam in SI, rotations too.
+// A beam element given in other units and converted to SI equals the one given in SI, rotations included.
 TEST(UnitSystem, OfAnyConsistentSystemGivesTheBeamInSi) {
   const SparseModel si = beam_in_units(1.0, 1.0);
   for (const auto& [length, mass, metre, kilogram] :

@@ -164,7 +164,7 @@ TEST(GroundSpring, HoldsARigidPartWithItsSixFrequencies) {
     attachments.masses.push_back(mass);
     const Model model = supported_model(mesh::kuhn_box({0.06, 0.05, 0.05}, {2, 2, 2}), 2, hard, {}, {}, attachments);
     ASSERT_EQ(model.rigid_motions, 0);
-    // The same spring and body, their offsets from the origin.
+    // A spring and a body equal to those before, but with offsets from the origin.
     GroundSpring from_origin = spring;
     from_origin.offset_m += centre;
     PointMass body = mass;
@@ -230,8 +230,9 @@ TEST(Rod, WithAMassOrASpringAtItsEndHasTheClosedForm) {
   }
 }
 
-// Of one spring spread over the face, k |u|² + moment k J: its mean rigid motion stores less, and a face held rigid can
-// only store more. So every frequency rises from averaging over the bed to rigid (Courant and Fischer).
+// The stored energy k |u|² + moment k J of a spring spread over the face: the mean rigid motion stores less, and a face
+// held rigid can only store more, so that every frequency rises from averaging over the bed to rigid (Courant and
+// Fischer).
 TEST(Connections, BracketASpreadSpring) {
   const double k = 4e11;  // N/m³
   Attachments bed;

@@ -30,7 +30,8 @@ BeamFrame cantilever(const BeamSection& section, double length, int elements) {
           .segments = {{0, 1, section, elements}}};
 }
 
-/// Without shear, its bending plane x-z far stiffer than x-y; r: radius of gyration over the length 1 m.
+/// A section without shear flexibility, with a bending plane x-z far stiffer than x-y; r: radius of gyration over the
+/// length 1 m.
 BeamSection slender(double r) {
   const double infinite = std::numeric_limits<double>::infinity();
   return {E, G, rho, 1e-4, r * r, 1e-4 * r * r, r * r, infinite, infinite};
@@ -102,7 +103,7 @@ VectorXd pinned(const BeamSection& s, double L, int elements) {
       .bodies = {},
       .springs = {},
       .hinges = {{0, 1, Vector3d::UnitZ()}, {3, 2, Vector3d::UnitZ()}}};
-  // Both ends are carried by clamped nodes.
+  // A beam whose ends are both carried by clamped nodes.
   return omega(spatial_model(frame)).head(3);
 }
 
@@ -231,7 +232,7 @@ TEST(ToolBeam, KeepsTheNamesAndLeavesTheRestInside) {
   EXPECT_EQ(dynamics::name(tool.dofs[10]), "root.ry");
   EXPECT_NO_THROW(dynamics::require_consistent(tool));
   EXPECT_TRUE(tool.D.isApprox(0.01 * tool.K, 1e-15));
-  // Its receptance is that of the model with all nodes named.
+  // The receptance of a model with one named node equals that of the model with all nodes named.
   const SpatialModel all = tool_beam(three_steps, {"tip", "a", "b", "root"}, Vector3d::UnitZ(), 0.01);
   const dynamics::FrequencyAxis axis = dynamics::linear_axis(100.0, 5000.0, 5);
   const auto few = dynamics::direct_response(tool, axis), many = dynamics::direct_response(all, axis);

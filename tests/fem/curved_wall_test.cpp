@@ -1,4 +1,4 @@
-// A plate bent to a cylinder sector: what it weighs in closed form, and that it is as free as a flat one.
+// A plate bent to a cylinder sector has the mass and inertia of the closed form, and is as free as a flat one.
 
 #include <gtest/gtest.h>
 
@@ -28,8 +28,8 @@ Shaping bending(const mesh::Bend& bend) {
   return [bend](mesh::LagrangeNodes& nodes) { mesh::bend(bend, nodes.positions); };
 }
 
-/// Of the sector r_i ≤ r ≤ r_o, −φ ≤ angle ≤ φ, with the density of steel: with I_n = ∫ rⁿ dr,
-/// ∫ dA = 2φ I₁, ∫ ζ dA = 2 sin φ I₂, ∫ ξ² dA = (φ − sin 2φ / 2) I₃, ∫ ζ² dA = (φ + sin 2φ / 2) I₃.
+/// Mass properties of the sector r_i ≤ r ≤ r_o, −φ ≤ angle ≤ φ, with the density of steel: with I_n = ∫ rⁿ dr, ∫ dA =
+/// 2φ I₁, ∫ ζ dA = 2 sin φ I₂, ∫ ξ² dA = (φ − sin 2φ / 2) I₃, ∫ ζ² dA = (φ + sin 2φ / 2) I₃.
 MassProperties sector_mass_properties() {
   const double half = 0.5 * wall.size.z();
   const double inner = sector.radius_m - half;

@@ -176,7 +176,7 @@ TEST(ElasticBed, WithoutFrictionLeavesTheSlides) {
   EXPECT_EQ(block(1e21, 1e9).rigid_motions, 0) << "twelve orders apart, and neither is lost";
 }
 
-// Of a cylinder's sector ∫ n nᵀ dA is known.
+// For a cylinder's sector, ∫ n nᵀ dA is known in closed form.
 TEST(ElasticClamp, OnACurvedFaceHasTheNormalsOfTheTrueSurface) {
   const mesh::TetMesh flat = mesh::kuhn_box({0.3, 0.05, 0.02}, {4, 1, 1});
   auto nodes = mesh::lagrange_nodes(flat, 5);

@@ -1,4 +1,4 @@
-// What is left free is named as one would say it, wherever the part lies.
+// Free motions are described in ordinary words, wherever the part lies.
 
 #include "fem/free_motions.hpp"
 
@@ -60,7 +60,7 @@ TEST(FreeMotions, OfAPartThatIsTurnedHaveItsDirections) {
   auto nodes = mesh::lagrange_nodes(block, 2);
   const std::vector<int> hinge = rows_of(
       {node_at(nodes, {0.3, 0, 0.1}), node_at(nodes, {0.3, 0.2, 0.1}), node_at(nodes, {0.3, 0.1, 0.1})}, {0, 1, 2});
-  // Its y becomes (−0.6, 0.8, 0).
+  // A rotation that turns the y axis to (−0.6, 0.8, 0).
   Eigen::Matrix3d Q;
   Q << 0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1;
   nodes.positions = (nodes.positions * Q.transpose()).eval();

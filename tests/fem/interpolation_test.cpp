@@ -1,4 +1,4 @@
-// What a lower order learns from the next one: displacements carried over, modes from near ones.
+// Interpolation of displacements between orders, and modes of a lower order found from those of the next one.
 
 #include "fem/interpolation.hpp"
 

@@ -1,4 +1,5 @@
-// What cannot be solved is an error that says so: too large, too many modes, a tolerance or a shift that cannot be.
+// Problems that cannot be solved give an error that names the cause: too large, too many modes, an impossible tolerance
+// or shift.
 
 #include <gtest/gtest.h>
 
@@ -49,7 +50,7 @@ TEST(MemoryLimit, SaysHowManyDegreesOfFreedomFitAndTheyDo) {
     EXPECT_NE(message.find("of these " + std::to_string(model.K.rows()) + " degrees of freedom fit"), std::string::npos)
         << message;
     EXPECT_LT(fitting, model.K.rows());
-    // The same part with at most that many degrees of freedom does fit, and is not far from filling the limit.
+    // A part with at most as many degrees of freedom as the message proposes fits, and nearly fills the limit.
     int cells = 6;
     Model smaller = cantilever(cells, 3);
     while (smaller.K.rows() > fitting) smaller = cantilever(--cells, 3);

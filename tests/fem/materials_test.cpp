@@ -1,4 +1,4 @@
-// Several materials in one part.
+// A part of several materials.
 
 #include <gtest/gtest.h>
 

@@ -89,7 +89,7 @@ TEST(BlockLanczos, WhatABlockTooNarrowMayMissTheSturmCountNotices) {
                 complete ? "all found" : "some missed", *below);
     EXPECT_EQ(complete, *below == 15) << block;
     EXPECT_TRUE(complete || block < 10) << "eigenvalues up to as multiple as a block is wide are found";
-    // What is missed are copies: every value returned is an eigenvalue.
+    // Only copies of a multiple eigenvalue may be missed: every value returned is an eigenvalue.
     for (const double lambda : pairs.lambda) {
       const auto near =
           std::min_element(membrane.grid.lambda.begin(), membrane.grid.lambda.end(),

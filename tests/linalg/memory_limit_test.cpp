@@ -1,4 +1,4 @@
-// The memory of a factor, told before it is taken.
+// The memory of a factor is known before it is allocated.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -107,7 +107,8 @@ TEST(SparseIndefinite, SolvesAndReportsTheResidual) {
   const Eigen::MatrixXd B = Eigen::MatrixXd::Random(90, 3);
   const auto solution = SparseIndefinite(problem.A, problem.node_of_row).solve(B);
   const Eigen::MatrixXd expected = Eigen::MatrixXd(problem.A).partialPivLu().solve(B);
-  // No pivoting: pivots may be a thousandth of the entries, which costs as many digits; one refinement returns them.
+  // Without pivoting, pivots may be a thousandth of the entries, which costs as many digits; one step of refinement
+  // recovers them.
   EXPECT_LT((solution.X - expected).norm() / expected.norm(), 1e-9);
   EXPECT_LT(solution.relative_residual, 1e-10);
   EXPECT_GE(solution.relative_residual, 0.0);

@@ -112,7 +112,7 @@ TEST(FullResponse, EqualsADirectSolveOfTheDampedFullModel) {
       full_response(part.model.K, part.model.M, part.inverse.action(), modes.pairs, ratios, rest, part.interface, axis);
   EXPECT_LT(full.max_relative_residual, 1e-8);
 
-  // The same damping on the known modes only, as the function says, by one dense solve a line.
+  // The response with damping on the known modes only, as full_response() defines it, by one dense solve for each line.
   const Eigen::MatrixXd MPhi = part.model.M * modes.pairs.Phi;
   Eigen::VectorXd two_zeta_omega = 2.0 * rest * modes.pairs.lambda.cwiseSqrt();
   for (std::size_t k = 0; k < 2; ++k) two_zeta_omega(static_cast<Eigen::Index>(k)) *= ratios[k] / rest;

@@ -55,9 +55,9 @@ TEST(AttachmentModes, StaticReceptancesAreThoseOfTheFullModel) {
   }
 }
 
-/// What is left out lies above the last mode: its compliance and its inertia to the first order are in the attachment
-/// modes, so the error goes with Σ φ² ω⁴/λ³ over the modes left out, and falls with the fourth power of the last or
-/// faster.
+/// The modes left out lie above the last one kept, and their compliance and inertia are in the attachment modes to
+/// first order: the error is Σ φ² ω⁴/λ³ over the modes left out, and falls with the fourth power of the last frequency
+/// or faster.
 TEST(AttachmentModes, ReceptancesConvergeToTheFullModelsWithExactModes) {
   const Moved part;
   const auto all = linalg::dense_eigenpairs(part.model.K, part.model.M, Eigen::MatrixXd(part.model.K.rows(), 0));

@@ -90,7 +90,7 @@ Eigen::VectorXd hertz(const dynamics::SpatialModel& model) {
   return dynamics::undamped_modes(model).omega_rad_s / (2.0 * std::numbers::pi);
 }
 
-/// Both halves on the shared (w, θ) of node 6, then the modes of the tip, then those of the root.
+/// The two halves over the shared (w, θ) of node 6, followed by the modes of the tip and those of the root.
 Eigen::VectorXd coupled(int tip_modes, int root_modes) {
   const CraigBampton tip = reduced(tip_half(), tip_modes);
   const CraigBampton root = reduced(root_half(), root_modes);

@@ -176,7 +176,7 @@ TEST(ModelReport, AHingeIsFreeWhateverItsAxis) {
   }
 }
 
-/// Where nothing can be computed nothing is found against a model, which is not to be said.
+/// A model for which nothing could be computed must not be reported as faultless.
 TEST(ModelReport, OfWhatHasNoFrequenciesGivesNoVerdictOnReceptances) {
   const dynamics::SpatialModel good = reduced(true, Method::craig_bampton, 12);
   dynamics::SpatialModel bare = good, massless = good;

@@ -19,7 +19,7 @@ namespace {
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
-/// How many elastic modes make a method complete.
+/// The number of elastic modes that makes a method complete.
 int all_modes(Method method, const Reducible& part) {
   const auto inner = part.full.K.rows() - part.interface.W.cols();
   return static_cast<int>(holds_the_interface(method) ? inner : part.full.K.rows() - part.full.rigid.cols());

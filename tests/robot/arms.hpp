@@ -67,7 +67,7 @@ inline SerialArm random_arm(std::mt19937_64& random, int joints) {
     link.joint = {.stiffness = 1e5, .damping = 10.0, .motor_inertia = 0.0, .gear_ratio = 1.0};
     link.mass = uniform(random, 1, 50);
     link.centre = random_vector(random);
-    // Of a cuboid, in axes of its own.
+    // The inertia of a cuboid in its own axes.
     const Eigen::Vector3d squares = random_vector(random).cwiseAbs2();
     const Eigen::Matrix3d R = random_frame(random).linear();
     link.inertia = R * (link.mass / 12.0 * (squares.sum() - squares.array()).matrix()).asDiagonal() * R.transpose();

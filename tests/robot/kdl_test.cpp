@@ -58,7 +58,7 @@ Eigen::MatrixXd from_kdl(const auto& matrix, unsigned rows, unsigned columns) {
   });
 }
 
-/// How far they are apart, beside the second.
+/// The difference of two matrices relative to the second.
 double apart(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).norm() / b.norm();
 }
@@ -101,7 +101,7 @@ Eigen::VectorXd frequencies(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K) 
   return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M).eigenvalues().cwiseMax(0.0).cwiseSqrt();
 }
 
-// Where gearboxes do not give, a rotor is an armature, which KDL adds to the mass matrix: the arm on its servos alone.
+// With rigid gearboxes a rotor is an armature, which KDL adds to the mass matrix: the arm on its servos alone.
 TEST(OrocosKdl, HasTheTwoInertiaJointsLimitOfAStiffGearboxAsArmature) {
   SerialArm arm = huynh_arm();
   arm.gravity.setZero();

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double rigid = std::numeric_limits<double>::infinity();
 
-/// The same component over z with y = S z.
+/// A component transformed to the coordinates z with y = S z.
 dynamics::SpatialModel in_other_coordinates(const dynamics::SpatialModel& model, const Eigen::MatrixXd& S) {
   dynamics::SpatialModel other = model;
   other.M = S.transpose() * model.M * S;

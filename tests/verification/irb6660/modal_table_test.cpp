@@ -90,7 +90,7 @@ TEST(Irb6660, HasItsPeakAt15Point9Hertz) {
   EXPECT_LT(std::abs(H(peak) - at_peak), 1e-12 * std::abs(at_peak));
 }
 
-// What the case's README warns of.
+// The properties of the table of which the case's README warns.
 TEST(Irb6660, IsNeitherSymmetricNorPassive) {
   const dynamics::FrequencyAxis axis = dynamics::linear_axis(5.0, 40.0, 3501);
   const auto tip = dynamics::to_response(robot::modal_model(robot::at_point(irb6660(), "1")), axis);

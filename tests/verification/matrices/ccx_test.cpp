@@ -1,4 +1,5 @@
-// CalculiX as an oracle for imported matrices: what it stores has the frequencies that it finds. Skipped without ccx.
+// CalculiX as an oracle for imported matrices: the matrices that it writes have the frequencies that it finds. Skipped
+// without ccx.
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -27,7 +27,8 @@ using dynamics::SparseModel;
 using testing::six;
 using testing::tube;
 
-/// Both as one: DOFs of the same node and component are the same (b's nodes without elements in a have numbers apart).
+/// The assembly of two models: DOFs of the same node and component are shared (b's nodes without elements in a have
+/// other numbers).
 dynamics::SpatialModel joined(const SparseModel& a, const SparseModel& b) {
   std::map<dynamics::NodeDof, int> rows;
   for (const SparseModel* part : {&a, &b})

@@ -1,6 +1,6 @@
-// Thin-walled parts as people have them (tests/data/parts/README.md): solved to a tolerance, or refused with the place.
-// With THINWALL_SLOW=1 in the environment they are solved to 1 % (the lever to 5 %) and compared with a finer and
-// graded mesh of their own.
+// Thin-walled parts as found in practice (tests/data/parts/README.md): solved to a tolerance, or refused with the
+// place. With THINWALL_SLOW=1 in the environment they are solved to 1 % (the lever to 5 %) and compared with a finer
+// and graded mesh of their own.
 
 #include <gtest/gtest.h>
 

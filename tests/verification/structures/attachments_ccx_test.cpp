@@ -1,5 +1,5 @@
-// CalculiX as an oracle of what is attached: two materials, a rigid body with a mass beside the part and springs to
-// ground, on the same tet10 mesh. Skipped where ccx is absent.
+// CalculiX as an oracle for attachments: two materials, a rigid body with a mass beside the part and springs to ground,
+// on the same tet10 mesh. Skipped where ccx is absent.
 
 #include <gtest/gtest.h>
 #include <unistd.h>

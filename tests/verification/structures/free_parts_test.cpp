@@ -1,4 +1,4 @@
-// Parts that nothing holds: exactly six modes without stiffness, whatever their shape.
+// Free parts have exactly six modes without stiffness, whatever their shape.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Meshes of other programs: their frequencies by thinwall and by CalculiX on one file of tetrahedra. Skipped where ccx
-// is absent.
+// Meshes of other programs have the same frequencies by thinwall and by CalculiX, on one file of tetrahedra. Skipped if
+// ccx is absent.
 
 #include <gtest/gtest.h>
 #include <unistd.h>

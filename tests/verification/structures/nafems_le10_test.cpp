@@ -22,8 +22,8 @@ const fem::Material steel{210e9, 0.3, 7850.0};
 constexpr double thickness = 0.6;
 constexpr double pressure = 1e6;
 
-/// From the block (s, t, z) ∈ [0, 1]² × [0, thickness] onto the plate, s outwards and t around; cells of equal size in
-/// the block shrink towards D, where s = t = 0.
+/// The map from the block (s, t, z) ∈ [0, 1]² × [0, thickness] to the plate, s outwards and t around; cells of equal
+/// size in the block shrink towards D, where s = t = 0.
 Eigen::Vector3d onto_plate(const Eigen::Vector3d& x) {
   const double s = x.x() * (0.4 + 0.6 * x.x());
   const double angle = 0.5 * std::numbers::pi * x.y() * (0.4 + 0.6 * x.y());

@@ -25,7 +25,7 @@ fem::SolidPart clamped_plate() {
   return part;
 }
 
-/// Of order 6 on a finer mesh with two layers: about a hundred-thousandth above the limit.
+/// The frequencies at order 6 on a finer mesh with two layers: about a hundred-thousandth above the limit.
 Eigen::VectorXd reference() {
   return elastic(solved(graded_mesh(plate, 0.075, 2), 6, steel_part, clamped_plate().supports, 7).modes);
 }
@@ -62,7 +62,8 @@ mesh::Prism rib_on_foot() {
   return part;
 }
 
-/// The same with elements graded to the edge from all sides, which the graded mesh of a prism does not do across a rib.
+/// A solution with elements graded to the edge from all sides, which the graded mesh of a prism does not do across a
+/// rib.
 mesh::TetMesh rib_graded_all_around() {
   const std::vector<double> x{0, 1.8, 2.76, 2.952, 2.99, 3, 3.01, 3.048, 3.24, 4.2, 8, 30};
   const std::vector<double> z{0, 2.5, 4.2, 4.76, 4.952, 4.99, 5, 5.01, 5.048, 5.24, 6.2, 8.5, 14, 20};

@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 
 const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ();
 
-/// Both points' displacements along x and y, in the order of Lei 2022, Eq. 5.
+/// The displacements of both points along x and y, in the order of Lei 2022, Eq. 5.
 dynamics::DofTable two_points() {
   return {{"1", x, dynamics::DofKind::translation},
           {"1", y, dynamics::DofKind::translation},

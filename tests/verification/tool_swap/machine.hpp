@@ -38,7 +38,7 @@ inline fem::BeamFrame spindle_frame() {
   return frame;
 }
 
-/// From "holder", where a tool is held, at z = 0 upwards: holder, then spindle, in one frame.
+/// The machine from "holder", where a tool is held, at z = 0 upwards: holder, then spindle, in one frame.
 inline SpatialModel spindle_and_holder() {
   fem::BeamFrame frame = spindle_frame();
   frame.nodes.push_back({Vector3d::Zero(), "holder"});

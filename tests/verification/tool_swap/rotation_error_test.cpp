@@ -1,4 +1,4 @@
-// What rotations by finite differences cost a tool swap, and whether their own estimate says so.
+// The error that rotations by finite differences cause in a tool swap, against its own estimate.
 
 #include <gtest/gtest.h>
 

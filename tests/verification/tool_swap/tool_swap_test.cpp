@@ -18,7 +18,7 @@ const std::vector<std::string> tip_1{"1tip.x", "1tip.ry", "1tip.y", "1tip.rx"};
 const std::vector<std::string> tip_2{"2tip.x", "2tip.ry", "2tip.y", "2tip.rx"};
 const std::vector<std::string> two_points{"1tip.x", "1up.x", "1tip.y", "1up.y"};
 
-/// Both tools, alone and in the machine, over a band with lines on all its resonances.
+/// The receptances of both tools, alone and in the machine, over a band with lines on all resonances.
 struct Pair {
   SpatialModel model_1 = tool("1", steel(0.016), 0.090, 0.02), model_2 = tool("2", carbide(0.012), 0.065, 0.02);
   Contact joint_1 = shrink_fit("1root", 3e8, 2e-6), joint_2 = shrink_fit("2root", 1.2e8, 3e-6);

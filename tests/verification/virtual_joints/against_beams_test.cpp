@@ -73,7 +73,7 @@ TEST(VirtualJointsAgainstBeams, CondensedToTheTipTheMatricesAreTheSame) {
   }
 }
 
-/// By how much the first six frequencies come out too high, in percent; a Ritz model's are never too low.
+/// The excess of the first six frequencies over those of the frame, in percent; a Ritz model's are never too low.
 VectorXd percent_too_high(const Chain& arm, const std::string& name) {
   const VectorXd full = hertz(beam_model(arm, 4), 6);
   const VectorXd ritz = hertz(robot::spatial_model(robot::reduced_tip({arm}), "tip"), 6);
@@ -110,7 +110,7 @@ TEST(VirtualJointsAgainstBeams, ThreeFrequenciesAreWithinTwoPercentIfTheTipCarri
   EXPECT_LT(worst_of_three({.elbow = 80, .wrist = 40, .tip = 100}), 2.0);
 }
 
-// What docs/theory/robots.md warns of: the shapes follow the tip, so mass elsewhere is moved wrongly.
+// The error of which docs/theory/robots.md warns: the shapes follow the tip, so that mass elsewhere moves wrongly.
 TEST(VirtualJointsAgainstBeams, AHeavyElbowBehindAnEmptyTipAndTheFourthModeAreBeyondTheModel) {
   EXPECT_LT(worst_of_three({.elbow = 80, .wrist = 40, .tip = 0}), 2.0);
   const double worst = worst_of_three({.elbow = 400, .wrist = 0, .tip = 0});

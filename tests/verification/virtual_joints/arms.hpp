@@ -31,7 +31,7 @@ inline VirtualJoint motor(const Eigen::Vector3d& axis, double degrees, double st
           .damping = 2e-4 * stiffness};
 }
 
-/// What an arm carries besides its links: at the elbow, at the wrist, at the tip.
+/// The bodies that an arm carries besides its links: at the elbow, at the wrist, at the tip.
 struct Masses {
   double elbow = 80.0;
   double wrist = 40.0;
@@ -53,7 +53,7 @@ inline Chain three_joint_arm(const Eigen::Vector3d& q, const Masses& masses) {
                        BeamLink{steel_tube(0.18, 0.12), 0.215}, cube(masses.tip, 0.3)}};
 }
 
-/// The same with a wrist of three joints.
+/// The arm with a wrist of three joints.
 inline Chain six_joint_arm(const Eigen::Vector<double, 6>& q, const Masses& masses) {
   const auto x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
   Chain arm = three_joint_arm(q.head<3>(), masses);
