@@ -1,6 +1,8 @@
-# thinwall_library(<folder> LINKS ...)   the target thinwall::<folder> from every .cpp of the folder and its sub-folders, except
-#                                        those whose path matches EXCLUDES, which belong to another target
-# thinwall_test(<name> LINKS ...)        one GoogleTest program from every .cpp of the current folder
+# thinwall_library(<folder> LINKS ...)   makes the target thinwall::<folder> from every .cpp of the folder and its sub-folders.
+#     EXCLUDES <pattern>    leaves out those whose path matches: they belong to a target of their own
+#     TEXT                  says that nothing is computed there: -O1, and JSON among the precompiled headers
+#     OWN_HEADERS           says that its options are others than those of the shared precompiled headers
+# thinwall_test(<name> LINKS ...)        makes one GoogleTest program from every .cpp of the current folder, a ctest entry a suite
 
 add_library(thinwall_flags INTERFACE)
 target_compile_options(thinwall_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wsuggest-override
@@ -22,8 +24,8 @@ if(THINWALL_NATIVE)
   target_compile_options(thinwall_flags INTERFACE -march=native -mno-avx512f)
 endif()
 if(THINWALL_SANITIZE)
-  target_compile_options(thinwall_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
-  target_link_options(thinwall_flags INTERFACE -fsanitize=address,undefined)
+  target_compile_options(thinwall_flags INTERFACE -fsanitize=${THINWALL_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(thinwall_flags INTERFACE -fsanitize=${THINWALL_SANITIZE})
 endif()
 
 # The alignment of Eigen's matrices depends on the vector unit for which a file is compiled; the layout of our structs
@@ -32,45 +34,83 @@ endif()
 # the library must be compiled with the same two definitions.
 set(THINWALL_EIGEN_ALIGNMENT EIGEN_MAX_ALIGN_BYTES=32 EIGEN_MAX_STATIC_ALIGN_BYTES=32)
 
-# Headers that nearly every file includes are parsed once for each target. Every file must nevertheless include what it
-# uses; the build with sanitizers checks that, because it goes without precompiled headers
+# Headers that nearly every file includes are parsed once for all targets whose options are equal: thinwall_headers holds
+# them for the libraries. A file still includes what it uses, which the build with sanitizers holds it to: it goes without
 # (CMAKE_DISABLE_PRECOMPILE_HEADERS).
 set(THINWALL_COMMON_HEADERS <Eigen/Geometry> <Eigen/LU> <Eigen/SparseCore> <algorithm> <cmath> <filesystem> <functional>
                             <map> <memory> <numeric> <optional> <sstream> <string> <vector>)
 
+# thinwall_precompiled(<name> <header>...)   a target that others name in HEADERS
+function(thinwall_precompiled name)
+  file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/${name}.cpp CONTENT "// Only for the headers that are parsed with it.\n")
+  add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/${name}.cpp)
+  target_compile_definitions(${name} PRIVATE ${THINWALL_EIGEN_ALIGNMENT})
+  target_link_libraries(${name} PRIVATE thinwall_flags Eigen3::Eigen nlohmann_json::nlohmann_json Threads::Threads)
+  target_precompile_headers(${name} PRIVATE ${ARGN})
+endfunction()
+thinwall_precompiled(thinwall_headers ${THINWALL_COMMON_HEADERS})
+# For folders in which nothing is computed: they write and read JSON, and are compiled in less time with -O1.
+thinwall_precompiled(thinwall_text_headers ${THINWALL_COMMON_HEADERS} <nlohmann/json.hpp>)
+target_compile_options(thinwall_text_headers PRIVATE -O1)
+
+# Puts the sources of a target into batches, each compiled at once (THINWALL_BATCHES). Those that include one of the
+# large libraries share batches of their own: its headers are parsed once or twice, and its names meet few of ours.
+function(thinwall_batches target)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    file(STRINGS ${source} foreign REGEX "^#include <(CGAL|vtk|toml|CLI|cereal)" LIMIT_COUNT 1)
+    string(REGEX MATCH "CGAL|vtk|toml|CLI|cereal" kind "${foreign}")
+    if(NOT kind)
+      set(kind ours)
+    endif()
+    if(NOT DEFINED held_${kind})
+      set(held_${kind} 0)
+    endif()
+    set(size 8)
+    if(kind STREQUAL CGAL)
+      set(size 4)  # so that two cores have one each
+    endif()
+    math(EXPR batch "${held_${kind}} / ${size}")
+    math(EXPR held_${kind} "${held_${kind}} + 1")
+    set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${kind}_${batch})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
+
 function(thinwall_library name)
-  cmake_parse_arguments(ARG "" "EXCLUDES" "LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "TEXT;OWN_HEADERS" "EXCLUDES" "LINKS;PRIVATE_LINKS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
   list(SORT sources COMPARE FILE_BASENAME)  # which files share a batch does not depend on their sub-folders
   if(ARG_EXCLUDES)
     list(FILTER sources EXCLUDE REGEX "${ARG_EXCLUDES}[^/]*$")
   endif()
-  if(sources)
-    add_library(thinwall_${name} STATIC ${sources})
+  add_library(thinwall_${name} STATIC ${sources})
+  if(ARG_OWN_HEADERS)
     target_precompile_headers(thinwall_${name} PRIVATE ${THINWALL_COMMON_HEADERS})
-    if(THINWALL_BATCHES)
-      set_target_properties(thinwall_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-    endif()
-    target_include_directories(thinwall_${name} PUBLIC ${PROJECT_SOURCE_DIR})
-    target_compile_definitions(thinwall_${name} PUBLIC ${THINWALL_EIGEN_ALIGNMENT})
-    target_link_libraries(thinwall_${name} PUBLIC ${ARG_LINKS} PRIVATE thinwall_flags ${ARG_PRIVATE_LINKS})
+  elseif(ARG_TEXT)
+    target_compile_options(thinwall_${name} PRIVATE -O1)
+    target_precompile_headers(thinwall_${name} REUSE_FROM thinwall_text_headers)
   else()
-    add_library(thinwall_${name} INTERFACE)
-    target_include_directories(thinwall_${name} INTERFACE ${PROJECT_SOURCE_DIR})
-    target_link_libraries(thinwall_${name} INTERFACE ${ARG_LINKS})
+    target_precompile_headers(thinwall_${name} REUSE_FROM thinwall_headers)
   endif()
+  if(THINWALL_BATCHES)
+    thinwall_batches(thinwall_${name})
+  endif()
+  target_include_directories(thinwall_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_compile_definitions(thinwall_${name} PUBLIC ${THINWALL_EIGEN_ALIGNMENT})
+  target_link_libraries(thinwall_${name} PUBLIC ${ARG_LINKS} PRIVATE thinwall_flags ${ARG_PRIVATE_LINKS})
   add_library(thinwall::${name} ALIAS thinwall_${name})
 endfunction()
 
+# Tests are compiled with -O1: they compute little themselves. A ctest entry is a suite, not a test: 1600 programs that
+# each load a hundred libraries take a minute more. The suites are asked of the program when it was built.
 function(thinwall_test name)
   cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  if(NOT sources)
-    return()
-  endif()
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE thinwall_flags ${ARG_LINKS} GTest::gtest_main)
+  target_compile_options(test_${name} PRIVATE -O1)
   if(NOT name STREQUAL "core")
     target_precompile_headers(test_${name} REUSE_FROM test_core)
   else()
@@ -78,5 +118,15 @@ function(thinwall_test name)
   endif()
   target_compile_definitions(test_${name} PRIVATE THINWALL_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                   THINWALL_BUILD_DIR="${PROJECT_BINARY_DIR}")
-  gtest_discover_tests(test_${name} PROPERTIES LABELS ${name} TIMEOUT 280 DISCOVERY_TIMEOUT 60)
+  set(suites ${CMAKE_CURRENT_BINARY_DIR}/test_${name}_suites.cmake)
+  add_custom_command(TARGET test_${name} POST_BUILD VERBATIM BYPRODUCTS ${suites}
+    COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:test_${name}> -DLABEL=${name} -DFILE=${suites}
+            -DSECONDS=${PROJECT_SOURCE_DIR}/tests/seconds.txt -P ${PROJECT_SOURCE_DIR}/cmake/list_suites.cmake)
+  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/test_${name}.cmake "if(EXISTS \"${suites}\")
+  include(\"${suites}\")
+else()
+  add_test(test_${name}_NOT_BUILT test_${name}_NOT_BUILT)
+endif()
+")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/test_${name}.cmake)
 endfunction()

@@ -1,20 +1,70 @@
 #!/bin/bash
 # Runs clang-tidy with .clang-tidy over the program's sources; fails on any finding.
-#   check_tidy.sh [PATTERN]     pattern of the sources' paths; the whole program, without the tests, if left out
-# Most of the time goes to the headers of Eigen and CGAL. So the whole program is read in batches of one folder's files
-# (a unity build, a third of the time), and files of a pattern each by itself. Nothing is built.
+#   check_tidy.sh               the whole program, without the tests
+#   check_tidy.sh --changed     what changed since the last release, or in the last twenty commits where there is none,
+#                               and a share of the rest, another one each day: at most so much as takes four minutes
+#   check_tidy.sh PATTERN       files whose paths match, each by itself
+# Most of the time goes to the headers of Eigen and CGAL. So files are read in the batches in which they are compiled
+# (THINWALL_BATCHES, a third of the time), and files of a pattern each by itself. Nothing is built.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
-mkdir -p build
+at_most=20  # batches
 build=$PWD/build/tidy
 folders="core|dynamics|linalg|mesh|fem|reduction|robot|coupling|milling|io|setup|case|study|report|app"
-pattern=${1:-"^($build|$PWD)/($folders)/.*\.(cxx|cpp)$"}
-batches=ON
-[[ $# -eq 0 ]] || batches=OFF
-cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
-  -DCMAKE_UNITY_BUILD=$batches -DCMAKE_UNITY_BUILD_BATCH_SIZE=8 >"$build.log" 2>&1 || { cat "$build.log" >&2; exit 2; }
-sed -i 's/ -fcx-limited-range//g' "$build/compile_commands.json"  # gcc's, which clang does not know
+
+configure() {  # batches or not
+  mkdir -p build
+  cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
+    -DTHINWALL_BATCHES="$1" >"$build.log" 2>&1 || { cat "$build.log" >&2; exit 2; }
+  sed -i 's/ -fcx-limited-range//g' "$build/compile_commands.json"  # gcc's, which clang does not know
+}
+
 # The sources are compiled by gcc, which also finds what shadows what, and not across the files of a batch.
-run-clang-tidy -quiet -p "$build" -j "$(nproc)" -extra-arg=-Wno-unknown-warning-option \
-  -extra-arg=-Wno-shadow "$pattern"
+analyse() {  # patterns
+  run-clang-tidy -quiet -p "$build" -j "$(nproc)" -extra-arg=-Wno-unknown-warning-option -extra-arg=-Wno-shadow "$@"
+}
+
+batches() { sed -nE "s#^ *\"file\": \"(($build|$PWD)/($folders)/.*\.(cxx|cpp))\".*#\1#p" "$build/compile_commands.json"; }
+
+changed_sources() {  # a header stands for the source of its name
+  local since
+  since=$(git describe --tags --abbrev=0 2>/dev/null || git rev-parse -q --verify HEAD~20 2>/dev/null) || return 0
+  git diff --name-only --diff-filter=d "$since" -- '*.cpp' '*.hpp' | sed 's/\.hpp$/.cpp/' | sort -u
+}
+
+# All batches, those with a changed source first; where in the list one begins follows from the commit's day.
+in_turn() {
+  local all day first batch touched=() others=()
+  changed_sources >"$build/changed"
+  mapfile -t all < <(batches | sort -u)
+  day=$(($(git log -1 --format=%ct 2>/dev/null || date +%s) / 86400))
+  first=$((day * at_most % ${#all[@]}))
+  for batch in "${all[@]:first}" "${all[@]:0:first}"; do
+    if { echo "$batch"; grep -h '^#include' "$batch"; } | grep -qFf "$build/changed"; then
+      touched+=("$batch")
+    else
+      others+=("$batch")
+    fi
+  done
+  printf '%s\n' "${touched[@]}" "${others[@]}" | sed '/^$/d'
+}
+
+case ${1:-} in
+  "")
+    configure ON
+    analyse "^($build|$PWD)/($folders)/.*\.(cxx|cpp)$"
+    ;;
+  --changed)
+    configure ON
+    in_turn >"$build/in_turn"
+    head -n $at_most "$build/in_turn" | sed 's/.*/^&$/' >"$build/patterns"
+    printf '%d of %d batches of sources\n' "$(wc -l <"$build/patterns")" "$(wc -l <"$build/in_turn")"
+    mapfile -t patterns <"$build/patterns"
+    analyse "${patterns[@]}"
+    ;;
+  *)
+    configure OFF
+    analyse "$1"
+    ;;
+esac

@@ -243,7 +243,7 @@ Geometry geometry_of(const SparseModel& model, const ReportOptions& options) {
   return geometry;
 }
 
-void find_in_rigid_body(const ReportOptions& options, ReducedModelReport& report) {
+void find_in_free_motions(const ReportOptions& options, ReducedModelReport& report) {
   const RigidBodyState& rigid = *report.rigid;
   const auto add = [&](const std::string& name, double value, double bound, bool ok, const std::string& advice) {
     report.findings.push_back({name, value, bound, ok, advice});
@@ -313,7 +313,7 @@ ReducedModelReport sparse_report(const SparseModel& model, const ReportOptions& 
   find_frequencies(model.size() > 1 && model.K.norm() > 0.0, frequencies.missing, result);
   find_in_matrices(options, result);
   find_pieces(model, piece, result);
-  if (result.rigid) find_in_rigid_body(options, result);
+  if (result.rigid) find_in_free_motions(options, result);
   find_free_modes(options, result);
   return result;
 }

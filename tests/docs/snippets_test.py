@@ -2,6 +2,7 @@
 """Runs what the documentation shows.
 
     snippets_test.py PROGRAM [PAGE ...]     PROGRAM: the built thinwall; pages: all unless named
+    snippets_test.py --pages                the names of all pages
 
 Each page is read from its top in a scratch folder of its own, in which `thinwall`, `./thinwall`, `cases` and `docs` are there. A
 remark before a block says what becomes of it:
@@ -34,7 +35,7 @@ import time
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-LIMIT_S = 300
+LIMIT_S = 900
 COMMAND = re.compile(r"(\w+=\S+ )*(\$ )?(\./|((build|bench|cmake|fuzz|docs|\.ci|tests)/)+)?"
                      r"(thinwall|run|cmake|bench_\w+|check_\w+\.\w+|build|python3|apt-get|g\+\+|git|pip|export|cd|paraview)( |$)")
 MARK = re.compile(r"^<!-- *(run|printed|file|add to|not run)\b:?(.*?)-->$")
@@ -257,6 +258,9 @@ def pages():
 
 
 def main():
+    if sys.argv[1:] == ["--pages"]:
+        print("\n".join(pages()))
+        return 0
     start = time.monotonic()
     runner = Runner(sys.argv[1])
     chosen = sys.argv[2:] or pages()

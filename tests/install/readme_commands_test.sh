@@ -9,7 +9,7 @@ tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 
 mkdir "$tree/.ci"
-cp "$here/../../.ci/run" "$tree/.ci/run"
+cp "$here"/../../.ci/{run,steps.sh} "$tree/.ci"
 
 commands_of() {  # text of the README
   printf '%s\n' "$1" >"$tree/README.md"
@@ -41,4 +41,5 @@ expect_equal "it does not pass" "" "$(grep -e passed -e code <<<"$skipped" || tr
 expect_contains "one that is skipped and fails" "=== FAILED: a" "$(step a sh -c 'echo SKIPPED: a part; exit 1')"
 
 expect_equal "this README" 2 "$("$here/../../.ci/run" commands | wc -l)"
+expect_contains "a slow step that is not there" "no step \"thread\"; there are sanitizers" "$("$here/../../.ci/slow" thread 2>&1 || true)"
 finish

@@ -1,0 +1,28 @@
+# cmake -DPROGRAM=... -DLABEL=... -DFILE=... -DSECONDS=... -P list_suites.cmake     the ctest entries of a GoogleTest program
+#
+# An entry runs a suite, with all values of its parameters. Suites that are named in SECONDS, a file of lines "suite
+# seconds", begin in that order, the longest first: an idle core at the end is what a late long one would cost.
+execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listed COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "(^|\n)[^ \n][^\n]*\\." lines "${listed}")
+set(suites "")
+foreach(line IN LISTS lines)
+  string(REGEX REPLACE "^\n|\\.$" "" line "${line}")
+  string(REGEX REPLACE "^[^/]*/([A-Za-z].*)$" "\\1" line "${line}")  # the values' name before a suite with parameters
+  string(REGEX REPLACE "/[0-9]+$" "" line "${line}")                 # the number of a type behind a suite of types
+  list(APPEND suites ${line})
+endforeach()
+list(REMOVE_DUPLICATES suites)
+file(STRINGS ${SECONDS} seconds REGEX "^[A-Z]")
+foreach(suite IN LISTS suites)
+  set(cost 0)
+  foreach(line IN LISTS seconds)
+    if(line MATCHES "^${suite} +([0-9]+)$")
+      set(cost ${CMAKE_MATCH_1})
+    endif()
+  endforeach()
+  set(filter "${suite}.*:*/${suite}.*:${suite}/*.*:*/${suite}/*.*")
+  string(APPEND text "add_test([=[${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${filter}]=])\n"
+         "set_tests_properties([=[${suite}]=] PROPERTIES LABELS ${LABEL} TIMEOUT 1800 COST ${cost}\n"
+         "  SKIP_REGULAR_EXPRESSION [=[0 tests\\.\n(\\[  SKIPPED [^\n]*\n)+$]=])\n")
+endforeach()
+file(WRITE ${FILE} "${text}")
