@@ -107,7 +107,7 @@ ExitCode lobes(const Arguments& arguments, const RunCase& run_case, std::ostream
 
 ExitCode robot(const Arguments& arguments, std::ostream& out) {
   const cases::Case source = cases::read_case(arguments.case_path, arguments.overrides);
-  const study::RobotSurvey found = study::survey(source);
+  const study::RobotSurvey found = study::survey(study::survey_input(source));
   const report::ResultFolder folder(arguments.out.empty() ? report::default_result_folder(source.name)
                                                           : std::filesystem::path(arguments.out));
   log_to_file(folder.path() / "run.log");  // marks the folder as ours
@@ -146,7 +146,7 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
     const auto rounded = [](double value) { return core::readable_text(value, core::kind::number); };
     if (size.elements > 0.0)
       out << "  elements  about " << rounded(size.elements) << " of order " << size.order << ", "
-          << (source.part->shape == "mesh" ? "as the file has them"
+          << (source.part->shape == setup::PartShape::mesh ? "as the file has them"
               : source.part->mesh.element_size
                   ? "size " + core::readable_text(*source.part->mesh.element_size, core::kind::length)
                   : "size and order from the tolerance of " + rounded(source.part->mesh.tolerance))

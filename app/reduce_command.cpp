@@ -183,11 +183,11 @@ std::string written(const cases::Case& source, const ReduceRequest& request, con
                     const study::Solution& part) {
   report::PlacedModel model{std::get<dynamics::SpatialModel>(reduced.reduction.model),
                             positions_of(source, part.model)};
-  if (source.damping.model == "matrices") {
+  if (source.damping.model == setup::DampingModel::matrices) {
     spdlog::warn("the part's damping matrix is not carried into the reduced model; \"thinwall run\" does that");
   } else if (takes_damping(reduced.reduction.method)) {
     std::vector<reduction::IdentifiedMode> identified;
-    model.model = study::damped(source, model.model, identified);
+    model.model = study::damped(source.damping, model.model, identified);
   }
   const std::string left_out = report::write_model(request.out, model);
   const reduction::ReducedModelReport report =
@@ -210,7 +210,7 @@ std::string reduce_part(const cases::Case& source, const ReduceRequest& request)
   StageDisplay display(request.display);
   study::Stages stages(display.listener());
   stages.begin("mesh, order and modes");
-  const study::Solution part = study::solved_part(source, study::discretise(source), stages);
+  const study::Solution part = study::solved_part(source, study::discretise(study::part_input(source)), stages);
   const double least = study::least_loss_factor(source.damping, part.modes, band.from_hz, band.to_hz);
   if (least > 0.0) band.loss_factor = least;
   const reduction::Interface interface = study::part_interface(source, part.model);

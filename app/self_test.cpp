@@ -52,7 +52,8 @@ SelfTest self_test() {
   try {
     const cases::Case source = cases::parse_case(cantilever, ".");
     study::Stages stages;
-    test.found_hz = study::solved_part(source, study::discretise(source), stages).modes.frequency_hz(0);
+    test.found_hz =
+        study::solved_part(source, study::discretise(study::part_input(source)), stages).modes.frequency_hz(0);
   } catch (const core::Interrupted&) {
     throw;
   } catch (const std::exception& error) {

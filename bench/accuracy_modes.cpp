@@ -12,16 +12,16 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "case/reader.hpp"
-#include "study/part/discretisation.hpp"
 #include "bench/stages.hpp"
+#include "case/reader.hpp"
 #include "core/memory.hpp"
 #include "core/parallel.hpp"
 #include "io/mesh/inp.hpp"
 #include "mesh/box.hpp"
-#include "mesh/volume/delaunay_volume.hpp"
 #include "mesh/planar/prism_mesh.hpp"
+#include "mesh/volume/delaunay_volume.hpp"
 #include "mesh/volume/tetgen.hpp"
+#include "study/part/discretisation.hpp"
 
 namespace {
 
@@ -101,7 +101,7 @@ mesh::TetMesh subdivided(const mesh::TetMesh& mesh, int n) {
 
 /// The closed surface of the flat part, in triangles as large as its borders allow.
 mesh::FacetedSurface flat_surface(const setup::Part& part) {
-  if (part.shape == "box") return mesh::surface(mesh::Box{setup::box_size(part)});
+  if (part.shape == setup::PartShape::box) return mesh::surface(mesh::Box{setup::box_size(part)});
   const mesh::TetMesh filled = one_layer(part, mesh::diagonal(part.prism));
   mesh::FacetedSurface surface{filled.vertices, {}};
   for (const auto& t : mesh::boundary(filled)) surface.facets.emplace_back(t.vertices.begin(), t.vertices.end());

@@ -122,11 +122,12 @@ void bind_attachments(const Table& table, setup::Part& part) {
 setup::Part bind_part(const Table& table, const std::filesystem::path& folder) {
   setup::Part part;
   part.file = bind_part_file(table, folder);
-  part.shape = table.has("shape")                ? table.text("shape")
-               : table.has("matrices.stiffness") ? "matrices"
-               : table.has("file")               ? setup::shape_of_file(part.file.path)
-                                                 : "box";
-  if (part.shape == "prism") part.prism = bind_prism(table);
+  using setup::PartShape;
+  part.shape = table.has("shape")                ? table.choice<PartShape>("shape")
+               : table.has("matrices.stiffness") ? PartShape::matrices
+               : table.has("file")               ? setup::shape_of_file(part.file.path).value_or(PartShape::surface)
+                                                 : PartShape::box;
+  if (part.shape == setup::PartShape::prism) part.prism = bind_prism(table);
   if (const Table bend = table.table("bend"); bend.exists()) {
     part.bend = setup::Bend{bend.number("radius"), {}};
     if (bend.has("along")) part.bend->along = axis_index(bend.text("along"));
@@ -209,7 +210,7 @@ setup::ModeRange bind_range(const Table& table, std::string_view count, int othe
 setup::Damping bind_damping(const Table& table, const std::filesystem::path& folder) {
   setup::Damping damping;
   if (!table.exists()) return damping;
-  damping.model = table.text("model");
+  damping.model = table.choice<setup::DampingModel>("model");
   damping.ratio = table.number("ratio");
   damping.ratios = table.numbers("ratios");
   damping.alpha = table.number("alpha");
@@ -240,14 +241,14 @@ setup::Contact bind_contact(const Table& table, const std::filesystem::path& fol
   contact.stiffness = spread(table.numbers("stiffness"), contact.directions.size());
   contact.damping = spread(table.numbers("damping"), contact.directions.size());
   contact.loss_factor = table.number("loss_factor");
-  contact.model = table.text("model");
+  contact.model = table.choice<setup::ContactModel>("model");
   contact.preload = table.optional("preload");
   if (const std::string file = table.text("table"); !file.empty()) contact.table = folder / file;
   if (const Table ball = table.table("ball"); ball.exists()) contact.ball = bind_ball(ball);
   if (const Table surface = table.table("surface"); surface.exists())
     contact.surface = {surface.number("youngs_modulus"), surface.number("poisson_ratio")};
   contact.measured = bind_all_measured(table.tables("measured"), folder);
-  contact.damping_model = table.text("damping_model");
+  contact.damping_sought = table.choice<setup::DampingSought>("damping_model");
   contact.noise = spread(table.numbers("noise"), 3);
   return contact;
 }
@@ -277,7 +278,7 @@ double bind_amount(const std::string& text, const core::QuantityKind& kind) {
 std::vector<setup::Updating> bind_updating(const std::vector<Table>& tables) {
   std::vector<setup::Updating> list;
   for (const auto& table : tables) {
-    setup::Updating updating{table.text("name"), table.text("on"), {}, {}};
+    setup::Updating updating{table.text("name"), table.choice<setup::FitOf>("on"), {}, {}};
     for (const auto& parameter : table.tables("parameters")) {
       const std::string key = full_path(case_schema(), parameter.text("key"));
       const Key* described = find_key(case_schema(), pattern_of(case_schema(), key));
@@ -287,11 +288,12 @@ std::vector<setup::Updating> bind_updating(const std::vector<Table>& tables) {
     }
     for (const auto& target : table.tables("targets")) {
       setup::UpdatingTarget bound;
-      bound.quantity = target.text("quantity");
-      bound.value = bind_amount(target.text("value"),
-                                bound.quantity == "reduction_at" ? core::kind::number : core::kind::frequency);
+      bound.quantity = target.choice<setup::FittedQuantity>("quantity");
+      bound.value = bind_amount(target.text("value"), bound.quantity == setup::FittedQuantity::reduction_at
+                                                          ? core::kind::number
+                                                          : core::kind::frequency);
       bound.point = target.text("point");
-      bound.match = target.text("match");
+      bound.match = target.choice<setup::ModeMatch>("match");
       bound.rank = target.integer("rank");
       bound.frequency_hz = target.has("frequency") ? target.number("frequency") : 0.0;
       bound.weight = target.number("weight");
@@ -317,7 +319,7 @@ setup::ToolSwap bind_swap(const Table& table, const std::filesystem::path& folde
           table.text("tip"),
           table.text("up"),
           table.number("distance"),
-          table.text("rotations"),
+          table.choice<setup::SwapRotations>("rotations"),
           bind_steps(table.tables("reference")),
           bind_steps(table.tables("target"))};
 }
@@ -330,7 +332,7 @@ setup::Tool bind_tool(const Table& table, const std::filesystem::path& folder) {
   tool.pitches = table.numbers("pitches");
   tool.helices = table.numbers("helices");
   tool.runout = table.numbers("runout");
-  tool.end = table.text("end");
+  tool.end = table.choice<setup::ToolEnd>("end");
   tool.corner_radius = table.optional("corner_radius").value_or(0.0);
   tool.corner_radial = table.optional("corner_radial").value_or(0.0);
   tool.corner_axial = table.optional("corner_axial").value_or(0.0);
@@ -364,7 +366,7 @@ setup::Cutting bind_cutting(const Table& table) {
   cutting.Kte = table.number("Kte");
   cutting.Kre = table.number("Kre");
   cutting.Kae = table.number("Kae");
-  cutting.law = table.text("law");
+  cutting.law = table.choice<setup::ForceLawKind>("law");
   cutting.exponents = spread(table.numbers("exponents"), 3);
   cutting.chip_scale = table.optional("chip_scale");
   cutting.stiffness_ratio = table.optional("stiffness_ratio");
@@ -412,7 +414,8 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   }
   bound.contacts = bind_contacts(root.tables("contacts"), folder);
   if (root.table("coupling").exists())
-    bound.coupling = {root.text("coupling.regularisation"), root.number("coupling.threshold")};
+    bound.coupling = {root.choice<coupling::Regularisation>("coupling.regularisation"),
+                      root.number("coupling.threshold")};
   bound.response = bind_response(root.table("response"));
   if (bound.response.points.empty()) bound.response.points = bound.reduction.interface;
   bound.updating = bind_updating(root.tables("updating"));

@@ -68,9 +68,10 @@ void require_kept(const Case& source, const std::string& key, const std::string&
 void check_damping(const Case& source, Findings& findings) {
   const setup::Damping& damping = source.damping;
   const auto belongs_to = [&](const char* key, const char* model, bool used) {
-    if (!used || damping.model.empty() || damping.model == model) return;
-    findings.report(
-        key, "belongs to damping.model = \"" + std::string(model) + "\", but the model is \"" + damping.model + "\"");
+    if (!used || damping.model == core::from_word<setup::DampingModel>(model) || findings.unreadable("damping.model"))
+      return;
+    findings.report(key, "belongs to damping.model = \"" + std::string(model) + "\", but the model is \"" +
+                             core::word_of(damping.model) + "\"");
   };
   belongs_to("damping.ratios", "modal", !damping.ratios.empty());
   belongs_to("damping.from_frf.file", "modal", damping.from_frf.has_value());
@@ -79,7 +80,7 @@ void check_damping(const Case& source, Findings& findings) {
   belongs_to("damping.loss_factor", "structural", damping.loss_factor != 0.0);
   if (!damping.ratios.empty() && damping.from_frf)
     findings.report("damping.ratios", "give either damping.ratios or damping.from_frf, not both");
-  if (damping.model == "rayleigh" && damping.alpha == 0.0 && damping.beta == 0.0) {
+  if (damping.model == setup::DampingModel::rayleigh && damping.alpha == 0.0 && damping.beta == 0.0) {
     findings.report("damping.model", "rayleigh needs alpha or beta");
   }
 }
@@ -250,18 +251,18 @@ void check_response(const Case& source, Findings& findings) {
 }
 
 /// Part fits keep the mesh and stretch it; coupled fits keep the reduced part: other keys would change nothing.
-void require_effect(const std::string& on, const std::string& key, const setup::UpdatingParameter& parameter,
+void require_effect(setup::FitOf on, const std::string& key, const setup::UpdatingParameter& parameter,
                     Findings& findings) {
   const auto starts = [&](const char* prefix) { return parameter.key.starts_with(prefix); };
   const bool on_part = parameter.key == "part.length" || parameter.key == "part.height" ||
                        parameter.key == "part.thickness" || starts("part.material.");
   const bool on_coupled = starts("robot.") || starts("damping.") || starts("contacts[");
-  if (on == "part" && !on_part) {
+  if (on == setup::FitOf::part && !on_part) {
     findings.report(key + ".key", parameter.key +
                                       " does not move the modes of the part; with on = \"part\" fit part.length, "
                                       "part.height, part.thickness or part.material.*");
   }
-  if (on == "coupled" && !on_coupled) {
+  if (on == setup::FitOf::coupled && !on_coupled) {
     findings.report(key + ".key", parameter.key +
                                       " does not change the reduced part; with on = \"coupled\" fit robot.*, "
                                       "damping.* or contacts[].*");
@@ -272,16 +273,17 @@ void require_effect(const std::string& on, const std::string& key, const setup::
 bool unread_stiffness(const Case& source, const std::string& key, const setup::UpdatingParameter& parameter,
                       Findings& findings) {
   for (std::size_t i = 0; i < source.contacts.size(); ++i) {
-    const std::string& model = source.contacts[i].model;
-    if (model == "springs" || !parameter.key.starts_with(indexed("contacts", i) + ".stiffness")) continue;
-    findings.report(key + ".key", parameter.key + " is not read with model = \"" + model +
+    const setup::ContactModel model = source.contacts[i].model;
+    if (model == setup::ContactModel::springs || !parameter.key.starts_with(indexed("contacts", i) + ".stiffness"))
+      continue;
+    findings.report(key + ".key", parameter.key + " is not read with model = \"" + core::word_of(model) +
                                       "\"; fit the contact's preload or ball, or take \"springs\"");
     return true;
   }
   return false;
 }
 
-void check_parameter(const Case& source, const std::string& on, const std::string& key,
+void check_parameter(const Case& source, setup::FitOf on, const std::string& key,
                      const setup::UpdatingParameter& parameter, Findings& findings) {
   double start = 0.0;
   try {
@@ -312,11 +314,11 @@ void check_parameter(const Case& source, const std::string& on, const std::strin
 
 void check_coupled_target(const Case& source, const std::string& key, const setup::UpdatingTarget& target,
                           Findings& findings) {
-  if (target.quantity == "part_frequency") {
+  if (target.quantity == setup::FittedQuantity::part_frequency) {
     findings.report(key + ".quantity",
                     "\"part_frequency\" is a result of the part alone; set on = \"part\", or fit coupled_frequency");
   }
-  if (target.match == "mac")
+  if (target.match == setup::ModeMatch::mac)
     findings.report(key + ".match", "\"mac\" compares shapes of the part alone; take participation or number");
   const auto directions = directions_at(source, setup::point_of(target.point));
   const auto direction = direction_of(target.point);
@@ -324,10 +326,10 @@ void check_coupled_target(const Case& source, const std::string& key, const setu
     findings.report(key + ".point", "\"" + target.point + "\" is none of the point's directions; add it to the point");
 }
 
-void check_target(const Case& source, const std::string& on, const std::string& key,
-                  const setup::UpdatingTarget& target, Findings& findings) {
-  const bool reduction = target.quantity == "reduction_at";
-  if (on == "coupled") {
+void check_target(const Case& source, setup::FitOf on, const std::string& key, const setup::UpdatingTarget& target,
+                  Findings& findings) {
+  const bool reduction = target.quantity == setup::FittedQuantity::reduction_at;
+  if (on == setup::FitOf::coupled) {
     require_kept(source, key + ".point", setup::point_of(target.point), findings);
   } else {
     findings.require_known(key + ".point", setup::point_of(target.point), part_points(source), "point");
@@ -345,17 +347,18 @@ void check_target(const Case& source, const std::string& on, const std::string& 
       findings.report(key + ".value", error.what());
     }
   }
-  if (on == "part" && (target.quantity == "coupled_frequency" || reduction)) {
-    findings.report(key + ".quantity",
-                    "\"" + target.quantity + "\" is a result of the coupled model; set on = \"coupled\"");
+  if (on == setup::FitOf::part && (target.quantity == setup::FittedQuantity::coupled_frequency || reduction)) {
+    findings.report(key + ".quantity", "\"" + core::word_of(target.quantity) +
+                                           "\" is a result of the coupled model; set on = \"coupled\"");
   }
-  if (on == "coupled") check_coupled_target(source, key, target, findings);
+  if (on == setup::FitOf::coupled) check_coupled_target(source, key, target, findings);
 }
 
 void check_coupled_fit(const Case& source, const std::string& key, Findings& findings) {
   if (!source.robot || source.contacts.empty() || source.points.empty())
     findings.report(key + ".on", "\"coupled\" needs [robot], [[contacts]] and [points]");
-  if (source.robot && (source.robot->model == "measured" || source.robot->model == "modal_table"))
+  if (source.robot &&
+      (source.robot->model == setup::RobotModel::measured || source.robot->model == setup::RobotModel::modal_table))
     findings.report(key + ".on", "\"coupled\" needs a robot that is modelled, not a measured one; set robot.model");
   if (!setup::may_be_held(*source.part))
     findings.report(key + ".on", "\"coupled\" needs a part that is held; add [[part.supports]]");
@@ -365,7 +368,7 @@ void check_updating(const Case& source, Findings& findings) {
   for (std::size_t i = 0; i < source.updating.size(); ++i) {
     const std::string key = indexed("updating", i);
     const setup::Updating& updating = source.updating[i];
-    if (!source.part || (updating.on == "part" && source.part->shape == "matrices")) {
+    if (!source.part || (updating.on == setup::FitOf::part && source.part->shape == setup::PartShape::matrices)) {
       findings.report(key, "there is no modelled part to fit; add part.length, part.height, part.thickness");
       continue;
     }
@@ -377,7 +380,7 @@ void check_updating(const Case& source, Findings& findings) {
     for (std::size_t j = 0; j < updating.targets.size(); ++j) {
       check_target(source, updating.on, indexed(key + ".targets", j), updating.targets[j], findings);
     }
-    if (updating.on == "coupled") check_coupled_fit(source, key, findings);
+    if (updating.on == setup::FitOf::coupled) check_coupled_fit(source, key, findings);
   }
 }
 

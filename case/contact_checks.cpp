@@ -16,7 +16,7 @@ namespace thinwall::cases {
 namespace {
 
 bool rolls(const setup::Contact& contact) {
-  return contact.model == "hertz" || contact.model == "caster";
+  return contact.model == setup::ContactModel::hertz || contact.model == setup::ContactModel::caster;
 }
 
 // A resolved case writes defaults out: only another value shows that the user meant it.
@@ -32,16 +32,18 @@ bool gives_damping(const setup::Contact& contact) {
 void check_belongings(const std::string& key, const setup::Contact& contact, Findings& findings) {
   const auto belongs = [&](const std::string& name, bool there, bool fits, const std::string& to) {
     if (there && !fits)
-      findings.report(key + name, "belongs to contacts.model = " + to + ", but the model is \"" + contact.model + "\"");
+      findings.report(key + name, "belongs to contacts.model = " + to + ", but the model is \"" +
+                                      core::word_of(contact.model) + "\"");
   };
-  const bool springs = contact.model == "springs", table = contact.model == "table";
+  const bool springs = contact.model == setup::ContactModel::springs,
+             table = contact.model == setup::ContactModel::table;
   belongs(".stiffness", gives_stiffness(contact), springs, "\"springs\"");
   belongs(".damping", gives_damping(contact), !table, "\"springs\", \"hertz\" or \"caster\"");
   belongs(".table", !contact.table.empty(), table, "\"table\"");
   belongs(".preload", contact.preload.has_value(), !springs, "\"table\", \"hertz\" or \"caster\"");
   belongs(".ball", contact.ball.has_value(), rolls(contact), "\"hertz\" or \"caster\"");
   belongs(".surface", contact.surface.has_value(), rolls(contact), "\"hertz\" or \"caster\"");
-  if (contact.model != "hertz" || !contact.ball) return;
+  if (contact.model != setup::ContactModel::hertz || !contact.ball) return;
   belongs(".ball.supports", contact.ball->supports.has_value(), false, "\"caster\"");
   belongs(".ball.support_radius", contact.ball->support_radius.has_value(), false, "\"caster\"");
   belongs(".ball.support_angle", contact.ball->support_angle.has_value(), false, "\"caster\"");
@@ -49,7 +51,7 @@ void check_belongings(const std::string& key, const setup::Contact& contact, Fin
 
 void check_directions(const std::string& key, const setup::Contact& contact, Findings& findings) {
   const auto& directions = contact.directions;
-  if (contact.model == "hertz") {
+  if (contact.model == setup::ContactModel::hertz) {
     const bool across = std::all_of(directions.begin() + 1, directions.end(), [&](const Eigen::Vector3d& d) {
       return std::abs(d.dot(directions.front())) <= 1e-6;
     });
@@ -58,7 +60,7 @@ void check_directions(const std::string& key, const setup::Contact& contact, Fin
           key + ".directions",
           "a ball resists along its normal, the first direction, and at right angles to it; turn the others");
   } else if (directions.size() > 1) {
-    findings.report(key + ".directions", "\"" + contact.model +
+    findings.report(key + ".directions", "\"" + core::word_of(contact.model) +
                                              "\" is known along one direction; join the others by a [[contacts]] of "
                                              "their own");
   }
@@ -67,7 +69,7 @@ void check_directions(const std::string& key, const setup::Contact& contact, Fin
 void check_ball(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
   if (!contact.ball) {
     findings.report(key + ".ball", "missing; give [contacts.ball] with its radius");
-  } else if (contact.model == "caster") {
+  } else if (contact.model == setup::ContactModel::caster) {
     const auto need = [&](const char* name, bool there) {
       if (!there) findings.report(key + name, "missing; a caster needs the balls that carry its main ball");
     };
@@ -90,7 +92,7 @@ void check_preload(const Case& source, const std::string& key, const setup::Cont
 /// What the model itself says of a contact that has all it needs. Numbers that could not be read were reported before.
 void try_contact(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
   std::error_code ignored;
-  if (contact.model == "table" && !std::filesystem::is_regular_file(contact.table, ignored)) {
+  if (contact.model == setup::ContactModel::table && !std::filesystem::is_regular_file(contact.table, ignored)) {
     findings.report(key + ".table", contact.table.empty() ? "missing; name the CSV"
                                                           : "there is no file \"" + contact.table.string() + "\"");
     return;
@@ -98,7 +100,7 @@ void try_contact(const Case& source, const std::string& key, const setup::Contac
   std::vector<double> numbers{setup::preload_of(source, contact).value_or(0.0), contact.loss_factor};
   const coupling::Elastic surface =
       contact.surface ? *contact.surface
-      : source.part && source.part->shape != "matrices"
+      : source.part && source.part->shape != setup::PartShape::matrices
           ? coupling::Elastic{source.part->material.youngs_modulus, source.part->material.poisson_ratio}
           : coupling::Elastic{};
   if (rolls(contact)) {
@@ -110,9 +112,9 @@ void try_contact(const Case& source, const std::string& key, const setup::Contac
   }
   if (!std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); })) return;
   try {
-    (void)setup::joined_contact(source, contact);
+    (void)setup::joined_contact(source, source, contact);
   } catch (const core::Error& error) {
-    findings.report(key + (contact.model == "table" ? ".table" : ".model"), error.what());
+    findings.report(key + (contact.model == setup::ContactModel::table ? ".table" : ".model"), error.what());
   }
 }
 
@@ -170,14 +172,15 @@ void check_identification(const Case& source, const std::string& key, const setu
                           Findings& findings) {
   if (source.contacts.size() > 1)
     findings.report(key + ".measured", "a joint is found where the robot has one contact; remove the other contacts");
-  if (contact.model != "springs")
-    findings.report(key + ".measured", "finds stiffness and damping, which model = \"" + contact.model +
+  if (contact.model != setup::ContactModel::springs)
+    findings.report(key + ".measured", "finds stiffness and damping, which model = \"" + core::word_of(contact.model) +
                                            "\" tells too; remove one of them");
-  if (contact.model == "springs" && (gives_stiffness(contact) || gives_damping(contact) || contact.loss_factor > 0.0))
+  if (contact.model == setup::ContactModel::springs &&
+      (gives_stiffness(contact) || gives_damping(contact) || contact.loss_factor > 0.0))
     findings.report(key + ".measured",
                     "finds stiffness and damping; remove stiffness, damping and loss_factor, or the FRFs");
   check_measured_points(source, key, contact, findings);
-  const auto coupled = [](const setup::Updating& updating) { return updating.on == "coupled"; };
+  const auto coupled = [](const setup::Updating& updating) { return updating.on == setup::FitOf::coupled; };
   if (std::ranges::any_of(source.updating, coupled))
     findings.report(
         key + ".measured",
@@ -190,7 +193,7 @@ void check_contact_models(const Case& source, Findings& findings) {
   for (std::size_t i = 0; i < source.contacts.size(); ++i) {
     const std::string key = "contacts[" + std::to_string(i) + "]";
     const setup::Contact& contact = source.contacts[i];
-    if (contact.model.empty()) continue;  // it could not be read
+    if (findings.unreadable(key + ".model")) continue;  // it could not be read
     check_belongings(key, contact, findings);
     if (!contact.noise.empty() && contact.noise.size() != 3)
       findings.report(key + ".noise", "give one value, or three: of the assembly, of the part, of the robot");
@@ -201,23 +204,24 @@ void check_contact_models(const Case& source, Findings& findings) {
     const std::vector<double> usual(3, 0.01);
     if (contact.noise.size() == 3 && contact.noise != usual)
       findings.report(key + ".noise", "is that of [[contacts.measured]], which are not there; remove it, or add them");
-    if (contact.damping_model != "viscous" && !contact.damping_model.empty())
+    if (contact.damping_sought != setup::DampingSought::viscous)
       findings.report(key + ".damping_model",
                       "is what [[contacts.measured]] are searched for, which are not there; remove it, or add them");
-    if (contact.model != "springs") check_preloaded(source, key, contact, findings);
+    if (contact.model != setup::ContactModel::springs) check_preloaded(source, key, contact, findings);
   }
 }
 
 void check_coupling(const Case& source, Findings& findings) {
   const setup::CouplingChoice& choice = source.coupling;
-  if (choice.regularisation == "none" && choice.threshold != setup::CouplingChoice{}.threshold)
+  if (choice.regularisation == coupling::Regularisation::none && choice.threshold != setup::CouplingChoice{}.threshold)
     findings.report("coupling.threshold", "there is nothing to regularise; give coupling.regularisation, or remove it");
-  if (choice.regularisation != "none" && source.contacts.empty())
+  if (choice.regularisation != coupling::Regularisation::none && source.contacts.empty())
     findings.report("coupling.regularisation", "nothing is coupled; add [[contacts]], or remove it");
-  if (choice.regularisation == "none") return;
+  if (choice.regularisation == coupling::Regularisation::none) return;
   for (std::size_t i = 0; i < source.updating.size(); ++i) {
-    if (std::ranges::any_of(source.updating[i].targets,
-                            [](const setup::UpdatingTarget& target) { return target.quantity == "coupled_frequency"; }))
+    if (std::ranges::any_of(source.updating[i].targets, [](const setup::UpdatingTarget& target) {
+          return target.quantity == setup::FittedQuantity::coupled_frequency;
+        }))
       findings.report(
           "updating[" + std::to_string(i) + "]",
           "coupled_frequency joins matrices, which coupling.regularisation does not reach; take reduction_at, "

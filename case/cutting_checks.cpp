@@ -22,7 +22,7 @@ struct Belongings {
   std::string chosen;
 
   void allow(const std::string& key, std::initializer_list<const char*> choices, Findings& findings) const {
-    if (chosen.empty() || !findings.given(key)) return;  // an unreadable choice was reported
+    if (findings.unreadable(choice_key) || !findings.given(key)) return;
     for (const char* choice : choices) {
       if (chosen == choice) return;
     }
@@ -31,13 +31,13 @@ struct Belongings {
 };
 
 void check_end(const setup::Tool& tool, Findings& findings) {
-  const Belongings end{"tool.end", tool.end};
+  const Belongings end{"tool.end", core::word_of(tool.end)};
   end.allow("tool.corner_radius", {"bull_nose", "general"}, findings);
   for (const char* key : {"tool.corner_radial", "tool.corner_axial", "tool.tip_angle", "tool.taper"})
     end.allow(key, {"general"}, findings);
-  if (tool.end == "bull_nose" && tool.corner_radius == 0.0)
+  if (tool.end == setup::ToolEnd::bull_nose && tool.corner_radius == 0.0)
     findings.report("tool.end", "a bull nose needs tool.corner_radius above 0");
-  if (tool.end == "bull_nose" && tool.corner_radius > 0.5 * tool.diameter) {
+  if (tool.end == setup::ToolEnd::bull_nose && tool.corner_radius > 0.5 * tool.diameter) {
     findings.report("tool.corner_radius", core::readable_text(tool.corner_radius, core::kind::length) +
                                               " is more than half the tool's diameter of " +
                                               core::readable_text(tool.diameter, core::kind::length));
@@ -78,23 +78,23 @@ void require_feed(const Case& source, const std::string& key, const std::string&
 }
 
 void check_law_keys(const setup::Cutting& c, Findings& findings) {
-  const Belongings law{"cutting.law", c.law};
+  const Belongings law{"cutting.law", core::word_of(c.law)};
   law.allow("cutting.exponents", {"power"}, findings);
   law.allow("cutting.chip_scale", {"fractional"}, findings);
   law.allow("cutting.stiffness_ratio", {"fractional"}, findings);
   for (const char* key :
        {"cutting.shear_stress", "cutting.shear_angle", "cutting.friction_angle", "cutting.rake_angle"})
     law.allow(key, {"oblique"}, findings);
-  if (c.law == "oblique" && findings.given("cutting.Kt"))
+  if (c.law == setup::ForceLawKind::oblique && findings.given("cutting.Kt"))
     findings.report("cutting.Kt", "follows from the orthogonal data; leave it out, or set cutting.law = \"linear\"");
-  if (c.law != "oblique" && !findings.given("cutting.Kt"))
+  if (c.law != setup::ForceLawKind::oblique && !findings.given("cutting.Kt"))
     findings.report("cutting.Kt", "missing; for example \"1800 N/mm^2\"");
   const bool unreadable = findings.given("cutting.exponents") && c.exponents.empty();  // reported
-  if (c.law == "power" && c.exponents.size() != 3 && !unreadable)
+  if (c.law == setup::ForceLawKind::power && c.exponents.size() != 3 && !unreadable)
     findings.report("cutting.exponents", "the power law needs one exponent, or three for Kt, Kr, Ka");
-  if (c.law == "fractional" && !(c.chip_scale && c.stiffness_ratio))
+  if (c.law == setup::ForceLawKind::fractional && !(c.chip_scale && c.stiffness_ratio))
     findings.report("cutting.law", "fractional needs cutting.chip_scale and cutting.stiffness_ratio");
-  if (c.law == "oblique" && !(c.orthogonal.shear_stress && c.orthogonal.friction_angle))
+  if (c.law == setup::ForceLawKind::oblique && !(c.orthogonal.shear_stress && c.orthogonal.friction_angle))
     findings.report("cutting.law", "oblique needs cutting.shear_stress and cutting.friction_angle");
 }
 
@@ -128,7 +128,7 @@ void check_engagement(const Case& source, Findings& findings) {
   if (angles) check_angles(cutting, findings);
   if (cutting.radial_depth && source.tool) {
     const setup::Tool& tool = *source.tool;
-    const bool round_end = !tool.end.empty() && tool.end != "flat";
+    const bool round_end = tool.end != setup::ToolEnd::flat;
     if (*cutting.radial_depth > tool.diameter) {
       findings.report("cutting.radial_depth", core::readable_text(*cutting.radial_depth, core::kind::length) +
                                                   " is more than the tool's diameter of " +
@@ -145,17 +145,17 @@ void check_engagement(const Case& source, Findings& findings) {
 
 void check_force_law(const Case& source, Findings& findings) {
   const setup::Cutting& c = *source.cutting;
-  const bool curved = c.law == "power" || c.law == "fractional";
+  const bool curved = c.law == setup::ForceLawKind::power || c.law == setup::ForceLawKind::fractional;
   check_law_keys(c, findings);
   if (curved) require_feed(source, "cutting.law", "a law that is not linear", findings);
   if (!source.tool) return;
   if (!source.tool->runout.empty()) require_feed(source, "tool.runout", "what runout does", findings);
-  if (curved && source.tool->end != "flat") {
+  if (curved && source.tool->end != setup::ToolEnd::flat) {
     findings.report("cutting.law",
                     "only the linear law serves a tool whose chip thins towards the tip; give Kt, Kr "
                     "and Ka for its mean chip");
   }
-  if (c.process_damping > 0.0 && source.tool->end != "flat")
+  if (c.process_damping > 0.0 && source.tool->end != setup::ToolEnd::flat)
     findings.report("cutting.process_damping", "is known for flat ends only; leave it out");
 }
 

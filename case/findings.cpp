@@ -20,6 +20,12 @@ void Findings::report(const std::string& key, const std::string& text) {
   problems.push_back({place == nullptr ? 0 : place->line, place == nullptr ? 0 : place->column, key + ": " + text});
 }
 
+bool Findings::unreadable(const std::string& key) const {
+  const CaseValue* value = find(values, key);
+  const auto* text = value == nullptr ? nullptr : std::get_if<std::string>(&value->value);
+  return text != nullptr && text->empty();
+}
+
 void Findings::require_known(const std::string& key, const std::string& name, const std::vector<std::string>& known,
                              const std::string& what) {
   if (name.empty() || std::ranges::find(known, name) != known.end()) return;

@@ -37,9 +37,9 @@ bool lies_in(const std::string& key, const std::string& name) {
 
 /// Whether anything of the undamped part follows from the damping.
 bool damping_shapes_part(const Case& source) {
-  const bool from_file = source.part && source.part->shape == "matrices";
+  const bool from_file = source.part && source.part->shape == setup::PartShape::matrices;
   return source.reduction.tolerance || from_file ||
-         std::ranges::count(source.updating, "part", &setup::Updating::on) > 0;
+         std::ranges::count(source.updating, setup::FitOf::part, &setup::Updating::on) > 0;
 }
 
 /// The points that move along a path, from which the positions of all others follow; none without one.
@@ -79,7 +79,8 @@ std::string structure_key(const Case& source) {
 
 std::string charts_key(const Case& source) {
   std::vector<std::string> without{"title", "machine"};
-  const bool asks_for_feed = source.cutting && (source.cutting->law == "power" || source.cutting->law == "fractional");
+  const bool asks_for_feed = source.cutting && (source.cutting->law == setup::ForceLawKind::power ||
+                                                source.cutting->law == setup::ForceLawKind::fractional);
   if (!asks_for_feed) without.emplace_back("cutting.spindle_speed");
   return key_of(source, without);
 }

@@ -10,8 +10,9 @@ setup::LobesOptions bind_lobes(const Table& table, const std::optional<setup::To
   lobes.depth_limit = table.optional("depth_limit").value_or(tool ? tool->length : NAN);
   lobes.tolerance = table.number("tolerance");
   lobes.modes_up_to_hz = table.optional("modes_up_to");
-  lobes.method = table.text("method");
-  lobes.compare = table.names("compare");
+  lobes.method = table.choice<milling::Method>("method");
+  for (const std::string& name : table.names("compare"))
+    if (const auto method = core::from_word<milling::Method>(name)) lobes.compare.push_back(*method);
   const auto integer = [&](const char* key) {
     return table.has(key) ? std::optional(table.integer(key)) : std::nullopt;
   };

@@ -17,17 +17,17 @@ namespace {
 
 /// Whether the chart or one beside it is of a method whose name begins so.
 bool uses(const setup::LobesOptions& lobes, std::string_view beginning) {
-  return lobes.method.starts_with(beginning) ||
-         std::ranges::any_of(lobes.compare, [&](const std::string& name) { return name.starts_with(beginning); });
+  const auto begins = [&](milling::Method method) { return milling::name(method).starts_with(beginning); };
+  return begins(lobes.method) || std::ranges::any_of(lobes.compare, begins);
 }
 
 void check_method_keys(const setup::LobesOptions& lobes, Findings& findings) {
   const auto belongs = [&](const char* key, std::initializer_list<const char*> methods, const char* which) {
     const auto used = [&](const char* beginning) { return uses(lobes, beginning); };
-    if (!findings.given(key) || lobes.method.empty() || std::ranges::any_of(methods, used)) return;
+    if (!findings.given(key) || findings.unreadable("lobes.method") || std::ranges::any_of(methods, used)) return;
     findings.report(key, fmt::format("belongs to {}, but lobes.method is \"{}\"; remove it, or set lobes.method or "
                                      "lobes.compare",
-                                     which, lobes.method));
+                                     which, milling::name(lobes.method)));
   };
   belongs("lobes.steps_per_period", {"semi_discretization", "full_discretization"},
           "semi_discretization and full_discretization");
@@ -42,40 +42,43 @@ milling::MillingProcess outline_of(const Case& source) {
   const std::size_t arcs = source.cutting->entry_angles.size();
   process.further_engagements.resize(arcs > 1 ? arcs - 1 : 0);
   process.damping.C = source.cutting->process_damping;
-  const bool linear = source.cutting->law == "linear" || source.cutting->law == "oblique";
+  const bool linear =
+      source.cutting->law == setup::ForceLawKind::linear || source.cutting->law == setup::ForceLawKind::oblique;
   const bool own_chips = source.tool && !linear && !source.tool->runout.empty();
   if (own_chips) process.tooth_coefficients.resize(source.tool->runout.size());  // by a law of the chip, each its own
   return process;
 }
 
-void check_method(const Case& source, const std::string& key, const std::string& method, Findings& findings) {
-  if (method.empty() || method == "direct") return;  // an unknown one was reported
+void check_method(const Case& source, const std::string& key, milling::Method method, Findings& findings) {
+  if (method == milling::Method::direct) return;
   if (source.tool && (!source.tool->measured.empty() || source.tool->swap)) {
-    findings.report(key, "\"" + method + "\" needs poles, tool.measured has none; take \"direct\", or give tool.modes");
+    findings.report(key, "\"" + milling::name(method) +
+                             "\" needs poles, tool.measured has none; take \"direct\", or give tool.modes");
     return;
   }
-  const std::string why = milling::objection(milling::method_named(method), outline_of(source));
+  const std::string why = milling::objection(method, outline_of(source));
   if (!why.empty()) findings.report(key, why);
 }
 
 void check_compared(const Case& source, Findings& findings) {
-  const auto& names = source.lobes->compare;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i] == source.lobes->method) {
-      findings.report("lobes.compare", "\"" + names[i] + "\" is lobes.method itself; name others");
-    } else if (std::ranges::count(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) > 0) {
-      findings.report("lobes.compare", "\"" + names[i] + "\" is there twice; name each once");
+  const auto& methods = source.lobes->compare;
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const std::string name = milling::name(methods[i]);
+    if (methods[i] == source.lobes->method) {
+      findings.report("lobes.compare", "\"" + name + "\" is lobes.method itself; name others");
+    } else if (std::ranges::count(methods.begin(), methods.begin() + static_cast<std::ptrdiff_t>(i), methods[i]) > 0) {
+      findings.report("lobes.compare", "\"" + name + "\" is there twice; name each once");
     } else {
-      check_method(source, "lobes.compare", names[i], findings);
+      check_method(source, "lobes.compare", methods[i], findings);
     }
   }
 }
 
 void check_robust(const setup::LobesOptions& lobes, Findings& findings) {
   const milling::Uncertainty& u = lobes.robust->uncertainty;
-  if (lobes.method != "direct" && !lobes.method.empty())
+  if (lobes.method != milling::Method::direct)
     findings.report("lobes.uncertainty", "sensitivities are those of lobes.method = \"direct\", but it is \"" +
-                                             lobes.method + "\"; set lobes.method, or remove the table");
+                                             milling::name(lobes.method) + "\"; set lobes.method, or remove the table");
   if (u.frequency == 0.0 && u.damping_ratio == 0.0 && u.mass == 0.0 && u.coefficients == 0.0)
     findings.report("lobes.uncertainty",
                     "nothing is uncertain; give frequency, damping_ratio, receptance or "
@@ -128,7 +131,7 @@ void check_machine(const Case& source, Findings& findings) {
                                            "lobes.to, or the machine's",
                                            source.lobes->from_rpm, source.lobes->to_rpm));
   }
-  const bool flat = !source.tool || source.tool->end == "flat";
+  const bool flat = !source.tool || source.tool->end == setup::ToolEnd::flat;
   const bool feed = !source.cutting || source.cutting->feed_per_tooth ||
                     (source.cutting->feed_rate && source.cutting->spindle_speed_rpm);
   for (const char* key : {"machine.max_power", "machine.max_torque", "machine.max_feed_rate"}) {

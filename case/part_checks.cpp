@@ -40,7 +40,7 @@ bool axes_differ(const setup::Part& part) {
 
 bool geometry_known(const setup::Part& part) {
   if (setup::from_file(part)) return part.imported != nullptr;
-  if (part.shape == "prism") return mesh::violations(part.prism).empty();
+  if (part.shape == setup::PartShape::prism) return mesh::violations(part.prism).empty();
   return axes_differ(part) && std::isfinite(part.length) && std::isfinite(part.height) && std::isfinite(part.thickness);
 }
 
@@ -64,33 +64,34 @@ bool on_face(const setup::Part& part, const std::string& face, const Eigen::Vect
 void check_belonging(const setup::Part& part, Findings& findings) {
   struct Belonging {
     const char* key;
-    std::vector<std::string> shapes;
+    std::vector<setup::PartShape> shapes;
   };
-  const std::vector<Belonging> all{{"part.length", {"box"}},
-                                   {"part.height", {"box"}},
-                                   {"part.thickness", {"box", "prism"}},
-                                   {"part.outline", {"prism"}},
-                                   {"part.holes[0].outline", {"prism"}},
-                                   {"part.zones[0].outline", {"prism"}},
-                                   {"part.bend.radius", {"box", "prism"}},
-                                   {"part.file", {"surface", "mesh"}},
-                                   {"part.unit", {"surface", "mesh", "matrices"}},
-                                   {"part.mass_unit", {"mesh", "matrices"}},
-                                   {"part.matrices.stiffness", {"matrices"}},
-                                   {"part.origin", {"surface", "mesh", "matrices"}},
-                                   {"part.supports[0].on", {"box", "prism", "surface", "mesh"}},
-                                   {"part.clamps[0].on", {"box", "prism", "surface", "mesh"}},
-                                   {"part.masses[0].at", {"box", "prism", "surface", "mesh"}},
-                                   {"part.springs[0].at", {"box", "prism", "surface", "mesh"}},
-                                   {"part.materials[0].on", {"box", "prism", "surface", "mesh"}},
-                                   {"part.material.density", {"box", "prism", "surface", "mesh"}},
-                                   {"part.mesh.tolerance", {"box", "prism", "surface", "mesh"}},
-                                   {"part.repair.merge_tolerance", {"surface"}}};
+  using enum setup::PartShape;
+  const std::vector<Belonging> all{{"part.length", {box}},
+                                   {"part.height", {box}},
+                                   {"part.thickness", {box, prism}},
+                                   {"part.outline", {prism}},
+                                   {"part.holes[0].outline", {prism}},
+                                   {"part.zones[0].outline", {prism}},
+                                   {"part.bend.radius", {box, prism}},
+                                   {"part.file", {surface, mesh}},
+                                   {"part.unit", {surface, mesh, matrices}},
+                                   {"part.mass_unit", {mesh, matrices}},
+                                   {"part.matrices.stiffness", {matrices}},
+                                   {"part.origin", {surface, mesh, matrices}},
+                                   {"part.supports[0].on", {box, prism, surface, mesh}},
+                                   {"part.clamps[0].on", {box, prism, surface, mesh}},
+                                   {"part.masses[0].at", {box, prism, surface, mesh}},
+                                   {"part.springs[0].at", {box, prism, surface, mesh}},
+                                   {"part.materials[0].on", {box, prism, surface, mesh}},
+                                   {"part.material.density", {box, prism, surface, mesh}},
+                                   {"part.mesh.tolerance", {box, prism, surface, mesh}},
+                                   {"part.repair.merge_tolerance", {surface}}};
   for (const auto& [key, shapes] : all) {
     if (!findings.given(key) || std::ranges::find(shapes, part.shape) != shapes.end()) continue;
     std::string list;
-    for (const auto& shape : shapes) list += (list.empty() ? "\"" : " or \"") + shape + "\"";
-    findings.report(key, "belongs to a part of shape " + list + ", this one is a \"" + part.shape +
+    for (const auto shape : shapes) list += (list.empty() ? "\"" : " or \"") + core::word_of(shape) + "\"";
+    findings.report(key, "belongs to a part of shape " + list + ", this one is a \"" + core::word_of(part.shape) +
                              "\"; set part.shape, or remove it");
   }
 }
@@ -106,8 +107,8 @@ void check_matrices(const setup::Part& part, Findings& findings) {
 }
 
 void check_part_file(const setup::Part& part, Findings& findings) {
-  if (part.shape == "matrices") return check_matrices(part, findings);
-  if (part.shape.empty()) {
+  if (part.shape == setup::PartShape::matrices) return check_matrices(part, findings);
+  if (!findings.given("part.shape") && findings.given("part.file") && !setup::shape_of_file(part.file.path)) {
     findings.report("part.file", "\"" + part.file.path.filename().string() +
                                      "\" has an ending that is not read; take a .stl, .off, .obj, .ply or .step, or a "
                                      "mesh as .msh, .inp or .vtu");
@@ -157,9 +158,10 @@ void check_shape(const Case& source, Findings& findings) {
   if (!source.measured_part.empty()) {
     findings.report("part.measured", "a part is either modelled (part.length …) or measured; remove one of the two");
   }
-  if (!part.shape.empty()) check_belonging(part, findings);
-  if (part.shape.empty() || setup::from_file(part)) return check_part_file(part, findings);
-  if (part.shape == "prism") return check_prism(part, findings);
+  if (findings.unreadable("part.shape")) return;
+  check_belonging(part, findings);
+  if (setup::from_file(part)) return check_part_file(part, findings);
+  if (part.shape == setup::PartShape::prism) return check_prism(part, findings);
   for (const auto* extent : {"part.length", "part.height", "part.thickness"}) {
     if (!findings.given(extent)) findings.report(extent, "missing; a box has a length, a height and a thickness");
   }
@@ -170,7 +172,7 @@ void check_shape(const Case& source, Findings& findings) {
 
 /// Parts that TetGen meshes: boxes with a given element size.
 bool by_tetgen(const setup::Part& part) {
-  return part.shape == "box" && !part.bend && part.mesh.element_size.has_value();
+  return part.shape == setup::PartShape::box && !part.bend && part.mesh.element_size.has_value();
 }
 
 /// Element size as the mesher is asked for it: `near` at the points, growing with the distance to them up to `far`.
@@ -264,11 +266,11 @@ void check_mesh_size(const Case& source, Findings& findings) {
     findings.report(other_quality ? "part.mesh.quality" : "part.mesh.point_element_size",
                     "belongs to boxes with a given element_size; elsewhere meshes are graded by rule; remove it");
   }
-  if (source.part->shape == "surface" && !mesh.element_size && mesh.tolerance < 1e-3)
+  if (source.part->shape == setup::PartShape::surface && !mesh.element_size && mesh.tolerance < 1e-3)
     findings.report("part.mesh.tolerance", "a surface from a file is followed to 0.001 at best; take that or more");
   if (mesh.element_size && mesh.tolerance != setup::usual_tolerance(*source.part))
     findings.report("part.mesh.tolerance", "nothing is estimated with a given element_size; remove one of the two");
-  if (source.part->shape == "surface") check_surface_size(source, findings);
+  if (source.part->shape == setup::PartShape::surface) check_surface_size(source, findings);
   if (!by_tetgen(*source.part)) return;
   const int order_now = mesh.order.value_or(2);
   const SizeEstimate size = estimate_size(source);
@@ -315,7 +317,8 @@ std::string text(const Eigen::Vector3d& p) {
 
 void check_node(const Case& source, const setup::Point& point, Findings& findings) {
   const std::string key = "points." + point.name;
-  if (!source.part || (source.part->shape != "matrices" && source.part->shape != "mesh"))
+  if (!source.part ||
+      (source.part->shape != setup::PartShape::matrices && source.part->shape != setup::PartShape::mesh))
     return findings.report(key + ".node", "this part has no numbered nodes; give at or position");
   if (point.at || point.position)
     return findings.report(key, "give the node = its number, and neither at nor position (matrices know no places)");
@@ -334,7 +337,7 @@ void check_node(const Case& source, const setup::Point& point, Findings& finding
 
 void check_point(const Case& source, const setup::Point& point, Findings& findings) {
   const std::string key = "points." + point.name;
-  const bool matrices = source.part && source.part->shape == "matrices";
+  const bool matrices = source.part && source.part->shape == setup::PartShape::matrices;
   if (matrices || point.node) return check_node(source, point, findings);
   if (point.at.has_value() == point.position.has_value()) {
     findings.report(key, "give either at = [fractions of the box] or position = [lengths]");
@@ -368,7 +371,7 @@ void check_material_places(const Case& source, Findings& findings) {
   }
 }
 
-bool holds(const setup::Setup& source, const setup::Support& support, const Eigen::Vector3d& p) {
+bool holds(const setup::PartSetup& source, const setup::Support& support, const Eigen::Vector3d& p) {
   const auto& part = *source.part;
   if (std::ranges::find(mesh::face_names(), support.on) != mesh::face_names().end())
     return on_face(part, support.on, p);
@@ -381,18 +384,19 @@ bool holds(const setup::Setup& source, const setup::Support& support, const Eige
 SizeEstimate estimate_size(const Case& source) {
   const setup::Part& part = *source.part;
   SizeEstimate size;
-  if (part.shape == "matrices") {
+  if (part.shape == setup::PartShape::matrices) {
     size.dofs = static_cast<double>(part.imported->matrices->size());
     size.seconds = 3.0 * std::pow(size.dofs / 4e4, 1.3);
     return size;
   }
   size.order = part.mesh.order.value_or(part.mesh.element_size ? 2 : 5);
-  if (part.shape == "mesh") size.order = part.mesh.order.value_or(std::max(2, part.imported->mesh->solid.nodes.order));
-  size.elements = part.shape == "mesh"     ? static_cast<double>(part.imported->mesh->solid.mesh.tets.size())
-                  : setup::from_file(part) ? elements_in_surface(part)
-                  : by_tetgen(part)
-                      ? std::max(6.0, tets_in({Eigen::Vector3d::Zero(), setup::box_size(part)}, grading_of(source)))
-                      : static_cast<double>(setup::graded_mesh(source, 0).tets.size());
+  if (part.shape == setup::PartShape::mesh)
+    size.order = part.mesh.order.value_or(std::max(2, part.imported->mesh->solid.nodes.order));
+  size.elements =
+      part.shape == setup::PartShape::mesh ? static_cast<double>(part.imported->mesh->solid.mesh.tets.size())
+      : setup::from_file(part)             ? elements_in_surface(part)
+      : by_tetgen(part) ? std::max(6.0, tets_in({Eigen::Vector3d::Zero(), setup::box_size(part)}, grading_of(source)))
+                        : static_cast<double>(setup::graded_mesh(source, 0).tets.size());
   // A tetrahedral mesh of a thin wall has about 0.3 vertices, 1.6 edges and 2.3 faces an element.
   const double p = size.order;
   size.nodes = size.elements * (0.3 + 1.6 * (p - 1) + 2.3 * (p - 1) * (p - 2) / 2 + (p - 1) * (p - 2) * (p - 3) / 6);
@@ -417,7 +421,8 @@ void check_part(const Case& source, Findings& findings) {
     check_description(source, findings);
     check_bend(*source.part, findings);
     if (geometry_known(*source.part)) check_material_places(source, findings);
-    if (geometry_known(*source.part) && source.part->shape != "matrices" && source.part->shape != "mesh")
+    if (geometry_known(*source.part) && source.part->shape != setup::PartShape::matrices &&
+        source.part->shape != setup::PartShape::mesh)
       check_mesh_size(source, findings);
   }
   for (const auto& selection : source.selections) check_selection(selection, findings);
@@ -432,7 +437,7 @@ std::string outside_part(const setup::Part& part, const Eigen::Vector3d& p, doub
     return text(p) + " lies outside the part, which reaches from " +
            (box.min().isZero() ? "the origin" : text(box.min())) + " to " + text(box.max());
   }
-  if (part.shape != "surface") return "";
+  if (part.shape != setup::PartShape::surface) return "";
   const mesh::PointToSurface place = mesh::point_to_surface(part.imported->surface->surface, p);
   const bool inside_is_well = patch_radius <= 0.0;
   if (place.distance_m <= given_to(part) || (place.inside && inside_is_well)) return "";
@@ -488,7 +493,7 @@ bool spanned(const std::vector<Eigen::Vector3d>& directions, const Eigen::Vector
   return !(beyond_basis(direction).norm() > 1e-6);
 }
 
-std::string clamped_by(const setup::Setup& source, const std::string& name, const Eigen::Vector3d& direction) {
+std::string clamped_by(const setup::PartSetup& source, const std::string& name, const Eigen::Vector3d& direction) {
   const auto found = std::ranges::find(source.points, name, &setup::Point::name);
   if (!source.part || !geometry_known(*source.part) || found == source.points.end()) return "";
   if (found->at.has_value() == found->position.has_value()) return "";

@@ -18,7 +18,7 @@ void check_part(const Case& source, Findings& findings);
 [[nodiscard]] std::string outside_part(const setup::Part& part, const Eigen::Vector3d& p, double patch_radius);
 
 /// Name of the support that holds the point in the direction, or "" if it is free to move (or not known well enough).
-[[nodiscard]] std::string clamped_by(const setup::Setup& source, const std::string& point,
+[[nodiscard]] std::string clamped_by(const setup::PartSetup& source, const std::string& point,
                                      const Eigen::Vector3d& direction);
 
 /// True if at most three directions are given and none follows from the others.

@@ -32,7 +32,7 @@ void check_keys(Findings& findings) {
 /// True if nothing is missing that a path needs.
 bool check_needs(const Case& source, Findings& findings) {
   const std::size_t before = findings.problems.size();
-  if (!source.part || source.part->shape == "matrices")
+  if (!source.part || source.part->shape == setup::PartShape::matrices)
     findings.report("path", "there is no modelled part to move along; describe it (part.length …), or remove [path]");
   if (!source.tool || !source.cutting || !source.lobes)
     findings.report("path", "a path needs [tool], [cutting] and [lobes]; add what is missing, or remove [path]");
@@ -46,10 +46,9 @@ bool check_needs(const Case& source, Findings& findings) {
   if (source.tool && (!source.tool->measured.empty() || source.tool->swap))
     findings.report("path",
                     "lobes along a path need a tool known by its modes; give tool.modes in place of measured FRFs");
-  const bool known_method = source.lobes && !source.lobes->method.empty();  // another was reported by the reader
-  if (known_method && source.lobes->method != "direct")
+  if (source.lobes && source.lobes->method != milling::Method::direct)
     findings.report("lobes.method", "lobes along a path are by the direct method; leave it at \"direct\" and name \"" +
-                                        source.lobes->method + "\" in lobes.compare");
+                                        milling::name(source.lobes->method) + "\" in lobes.compare");
   return findings.problems.size() == before;
 }
 
@@ -68,7 +67,7 @@ void check_length(const setup::Path& path, Findings& findings) {
 }
 
 /// What is wrong with a point of the case at one position; empty if nothing.
-std::string fault_at(const setup::Setup& there, const setup::Point& p) {
+std::string fault_at(const setup::PartSetup& there, const setup::Point& p) {
   if (std::string outside = outside_part(*there.part, *p.position, p.patch_radius); !outside.empty()) return outside;
   for (const Eigen::Vector3d& direction : p.directions) {
     const std::string support = clamped_by(there, p.name, direction);
@@ -81,9 +80,10 @@ std::string fault_at(const setup::Setup& there, const setup::Point& p) {
 bool check_position(const Case& source, std::size_t i, std::optional<Eigen::VectorXd>& near, Findings& findings) {
   const std::string number =
       "position " + std::to_string(i + 1) + " of " + std::to_string(source.path->positions.size());
-  const setup::Setup there = setup::at_position(source, i);
+  const setup::PathStation station = setup::station(source, i);
+  const setup::PartSetup there = setup::part_at(source, station);
   for (const setup::Point& p : there.points) {
-    const bool is_cut = p.name == there.cutting->at;
+    const bool is_cut = p.name == station.cut;
     if (!is_cut && !source.path->robot_follows) continue;
     const std::string fault = fault_at(there, p);
     if (fault.empty()) continue;
@@ -99,7 +99,7 @@ bool check_position(const Case& source, std::size_t i, std::optional<Eigen::Vect
     return false;
   }
   if (!source.path->robot_follows || !source.robot) return true;
-  const std::string fault = fault_of_posture(there, near);
+  const std::string fault = fault_of_posture(there, setup::support_at(source, station), near);
   if (fault.empty()) return true;
   findings.report("path.support", fmt::format("at {} {}", number, fault));
   return false;

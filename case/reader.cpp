@@ -21,7 +21,7 @@ std::shared_ptr<const setup::ImportedPart> read_imported(const setup::Part& part
   try {
     return setup::read_part_file(part);
   } catch (const core::InputError&) {
-    if (part.shape == "matrices") setup::require_plausible_files(part.file.matrices);
+    if (part.shape == setup::PartShape::matrices) setup::require_plausible_files(part.file.matrices);
     throw;
   }
 }

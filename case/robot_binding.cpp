@@ -181,7 +181,7 @@ setup::Robot bind_robot(const Table& table, std::vector<setup::MeasuredFrf> meas
   const auto file = [&](const char* key) {
     return table.has(key) ? folder / table.text(key) : std::filesystem::path();
   };
-  return {table.text("model"),
+  return {table.choice<setup::RobotModel>("model"),
           table.text("point"),
           table.direction("direction"),
           table.optional("frequency"),

@@ -54,9 +54,9 @@ void check_belongings(const Case& source, Findings& findings) {
   for (const Belongs& b : belongings) {
     const std::string key(b.key);
     const bool there = findings.given(key) || has_table(source.values, key) || array_size(source.values, key) > 0;
-    if (!there || names(b.models, source.robot->model)) continue;
+    if (!there || names(b.models, core::word_of(source.robot->model))) continue;
     findings.report(key, "belongs to robot.model = \"" + std::string(b.models) + "\", but the model is \"" +
-                             source.robot->model + "\"");
+                             core::word_of(source.robot->model) + "\"");
   }
 }
 
@@ -192,7 +192,8 @@ void check_arm(const Case& source, Findings& findings) {
   // Places of a workspace that are not reached are told by the survey; what the coupling needs must be.
   if (!robot.workspace.empty() && source.contacts.empty() && !robot.posture.tip) return;
   std::optional<Eigen::VectorXd> near;
-  if (const std::string fault = fault_of_posture(source, near); !fault.empty()) findings.report("robot.posture", fault);
+  if (const std::string fault = fault_of_posture(source, source, near); !fault.empty())
+    findings.report("robot.posture", fault);
 }
 
 void check_table(const Case& source, Findings& findings) {
@@ -253,13 +254,14 @@ std::vector<Eigen::Vector3d> modelled_directions(const setup::Robot& robot) {
 }  // namespace
 
 std::vector<Eigen::Vector3d> tip_directions(const setup::Robot& robot) {
-  if (robot.model == "flexible_joints")
+  if (robot.model == setup::RobotModel::flexible_joints)
     return {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
-  if (robot.model == "modal_table" || robot.model == "virtual_joints") return modelled_directions(robot);
+  if (robot.model == setup::RobotModel::modal_table || robot.model == setup::RobotModel::virtual_joints)
+    return modelled_directions(robot);
   std::vector<Eigen::Vector3d> directions;
-  if (robot.model == "modes") {
+  if (robot.model == setup::RobotModel::modes) {
     for (const setup::TipMode& mode : robot.modes) directions.push_back(mode.direction);
-  } else if (robot.model == "measured" && robot.measured.size() > 1) {
+  } else if (robot.model == setup::RobotModel::measured && robot.measured.size() > 1) {
     for (const setup::MeasuredFrf& frf : robot.measured) {
       if (const auto d = direction_of(frf.response)) directions.push_back(*d);
     }
@@ -269,11 +271,12 @@ std::vector<Eigen::Vector3d> tip_directions(const setup::Robot& robot) {
   return directions;
 }
 
-std::string fault_of_posture(const setup::Setup& source, std::optional<Eigen::VectorXd>& near) {
-  if (source.robot->model != "flexible_joints") return "";
+std::string fault_of_posture(const setup::PartSetup& part, const setup::SupportSetup& support,
+                             std::optional<Eigen::VectorXd>& near) {
+  if (support.robot->model != setup::RobotModel::flexible_joints) return "";
   try {
-    const setup::RobotPosture stands = setup::robot_posture(source, near);
-    (void)robot::linearised(source.robot->arm, stands.posture, source.robot->point);
+    const setup::RobotPosture stands = setup::robot_posture(part, support, near);
+    (void)robot::linearised(support.robot->arm, stands.posture, support.robot->point);
     near = stands.posture.q;
   } catch (const core::InputError& error) {
     return error.what();
@@ -283,19 +286,19 @@ std::string fault_of_posture(const setup::Setup& source, std::optional<Eigen::Ve
 
 void check_robot(const Case& source, Findings& findings) {
   const setup::Robot& robot = *source.robot;
-  if (robot.model.empty()) return;  // reported by the reader
+  if (findings.unreadable("robot.model")) return;
   check_belongings(source, findings);
   if (std::abs(robot.arm.base.linear().col(0).dot(robot.arm.base.linear().col(2))) > 1e-9) {
     findings.report("robot.base.x", "is not at a right angle to robot.base.z; a frame's axes are");
     return;
   }
-  if (robot.model == "one_mode") check_one_mode(robot, findings);
-  if (robot.model == "modes" && robot.modes.empty())
+  if (robot.model == setup::RobotModel::one_mode) check_one_mode(robot, findings);
+  if (robot.model == setup::RobotModel::modes && robot.modes.empty())
     findings.report("robot.model", "modes needs [[robot.modes]], at least one");
-  if (robot.model == "measured") check_measured_robot(robot, findings);
-  if (robot.model == "flexible_joints") check_arm(source, findings);
-  if (robot.model == "modal_table") check_table(source, findings);
-  if (robot.model == "virtual_joints") check_elements(source, findings);
+  if (robot.model == setup::RobotModel::measured) check_measured_robot(robot, findings);
+  if (robot.model == setup::RobotModel::flexible_joints) check_arm(source, findings);
+  if (robot.model == setup::RobotModel::modal_table) check_table(source, findings);
+  if (robot.model == setup::RobotModel::virtual_joints) check_elements(source, findings);
 }
 
 }  // namespace thinwall::cases

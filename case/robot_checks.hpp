@@ -17,6 +17,7 @@ void check_robot(const Case& source, Findings& findings);
 
 /// What keeps the robot from standing as the case asks it to; empty if nothing, or where the case does not tell. A
 /// search starts from the joints `near`, if there are, which then are those found.
-[[nodiscard]] std::string fault_of_posture(const setup::Setup& source, std::optional<Eigen::VectorXd>& near);
+[[nodiscard]] std::string fault_of_posture(const setup::PartSetup& part, const setup::SupportSetup& support,
+                                           std::optional<Eigen::VectorXd>& near);
 
 }  // namespace thinwall::cases

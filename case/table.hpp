@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "case/values.hpp"
+#include "core/words.hpp"
 
 namespace thinwall::cases {
 
@@ -49,6 +50,12 @@ struct Table {
   }
   /// The text of that name; empty if it is absent.
   [[nodiscard]] std::string text(std::string_view name) const { return value<std::string>(name, ""); }
+  /// The value whose word the text of that name is; `otherwise` if it is absent or a word of none, which the checks
+  /// report.
+  template <class Enum>
+  [[nodiscard]] Enum choice(std::string_view name, Enum otherwise = Enum{}) const {
+    return core::from_word<Enum>(text(name)).value_or(otherwise);
+  }
   /// The truth value of that name; false if it is absent.
   [[nodiscard]] bool flag(std::string_view name) const { return value<bool>(name, false); }
   /// The list of numbers of that name; empty if it is absent.

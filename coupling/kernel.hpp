@@ -2,6 +2,7 @@
 // The kernel of the receptance route, solved line by line, with the condition of each solution.
 
 #include "core/dense_factorisations.hpp"
+#include "core/words.hpp"
 
 namespace thinwall::coupling {
 
@@ -53,3 +54,10 @@ class Kernel {
 };
 
 }  // namespace thinwall::coupling
+
+namespace thinwall::core {
+
+template <>
+inline constexpr std::array<std::string_view, 3> words<coupling::Regularisation>{"none", "truncated", "tikhonov"};
+
+}  // namespace thinwall::core

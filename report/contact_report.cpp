@@ -139,14 +139,14 @@ json contacts_summary(const study::Results& results) {
   return list;
 }
 
-json regularisation_summary(const std::string& regularisation, double threshold,
+json regularisation_summary(coupling::Regularisation regularisation, double threshold,
                             const coupling::CoupledResponse& receptance) {
-  if (regularisation == "none") return nullptr;
+  if (regularisation == coupling::Regularisation::none) return nullptr;
   Eigen::Index most = 0, widest = 0;
   const int dropped = receptance.dropped.maxCoeff(&most);
   const double residual = receptance.compatibility_residual.maxCoeff(&widest);
   const auto hz = [&](Eigen::Index line) { return receptance.response.axis.hz(line); };
-  return {{"method", regularisation},
+  return {{"method", core::word_of(regularisation)},
           {"threshold", threshold},
           {"lines", receptance.dropped.size()},
           {"lines_with_dropped", (receptance.dropped.array() > 0).count()},

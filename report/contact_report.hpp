@@ -19,7 +19,7 @@ struct ContactAlong {
 [[nodiscard]] ContactAlong along(const coupling::Contact& contact, std::size_t direction);
 
 /// What a regularised kernel dropped; null without a regularisation.
-[[nodiscard]] nlohmann::json regularisation_summary(const std::string& regularisation, double threshold,
+[[nodiscard]] nlohmann::json regularisation_summary(coupling::Regularisation regularisation, double threshold,
                                                     const coupling::CoupledResponse& receptance);
 
 /// A line a contact, more where it was found from FRFs; from a summary. Empty without a contact.

@@ -20,10 +20,6 @@ std::string estimate_text(const json& relative) {
   return percent < 0.01 ? "below 0.01 %" : fmt::format("{:.2g} %", percent);
 }
 
-std::string depth_text(double depth_m, bool at_limit) {
-  return fmt::format("{}{:.3f} mm", at_limit ? "over " : "", depth_m * 1e3);
-}
-
 std::string chart_text(const json& chart) {
   const bool all = chart["speeds_stable_to_depth_limit"] == chart["speeds"];
   std::string text = fmt::format(
@@ -96,6 +92,10 @@ std::string point_text(const json& p) {
 }
 
 }  // namespace
+
+std::string depth_text(double depth_m, bool at_limit) {
+  return fmt::format("{}{:.3f} mm", at_limit ? "over " : "", depth_m * 1e3);
+}
 
 std::string chart_title(const std::string& chart) {
   return chart == "part" ? "part alone" : chart == "tool" ? "tool" : "with the robot";

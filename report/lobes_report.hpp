@@ -9,6 +9,9 @@ namespace thinwall::report {
 /// Plain text, at most 100 columns, from a summary. Ends with a line break.
 [[nodiscard]] std::string lobes_report(const nlohmann::json& summary, const std::string& result_folder);
 
+/// A depth (m) in mm, "over 3.000 mm" where the search ended at its limit.
+[[nodiscard]] std::string depth_text(double depth_m, bool at_limit);
+
 /// "part alone", "with the robot", "tool".
 [[nodiscard]] std::string chart_title(const std::string& chart);
 

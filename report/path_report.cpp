@@ -70,16 +70,12 @@ json at_case_speed(const std::vector<milling::LobeRow>& rows) {
           {"positions_not_converged", open}};
 }
 
-std::string depth_text(double depth_m, bool at_limit) {
-  return fmt::format("{}{:.3f} mm", at_limit ? "over " : "", depth_m * 1e3);
-}
-
 std::string place_text(const json& at_m) {
   const auto mm = [&](std::size_t i) { return at_m[i].get<double>() * 1e3; };
   return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", mm(0), mm(1), mm(2));
 }
 
-std::string chart_text(const json& path) {
+std::string text_of_chart(const json& path) {
   const json& weakest = path["weakest"];
   const json& deepest = path["deepest_everywhere"];
   const json& error = path["error_estimate_relative"];
@@ -135,7 +131,7 @@ json path_summary(const setup::Setup& source, const study::PathLobes& path) {
 std::string path_text(const json& summary) {
   std::string text;
   if (!summary.contains("path")) return text;
-  for (const json& path : summary["path"]) text += chart_text(path);
+  for (const json& path : summary["path"]) text += text_of_chart(path);
   return text;
 }
 

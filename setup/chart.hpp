@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "milling/chart/lobe_method.hpp"
 #include "milling/chart/sensitivity.hpp"
 
 namespace thinwall::setup {
@@ -26,8 +27,8 @@ struct LobesOptions {
   double depth_limit = 0.0;  ///< m
   double tolerance = 1e-4;   ///< bound on the estimated relative error of the limiting depth
   std::optional<double> modes_up_to_hz;
-  std::string method = "direct";                   ///< a name of milling::Method
-  std::vector<std::string> compare = {};           ///< others
+  milling::Method method = milling::Method::direct;
+  std::vector<milling::Method> compare = {};       ///< others
   std::optional<int> steps_per_period, harmonics;  ///< none: milling::MethodOptions' own
   std::optional<int> map_depths;                   ///< none: no map
   std::optional<RobustOptions> robust;

@@ -9,11 +9,24 @@
 #include <string>
 #include <vector>
 
+#include "core/words.hpp"
 #include "coupling/contact.hpp"
 #include "coupling/hertz_contact.hpp"
+#include "coupling/kernel.hpp"
 #include "setup/measured_frf.hpp"
 
 namespace thinwall::setup {
+
+/// Sources of a contact's stiffness.
+enum class ContactModel {
+  springs,  ///< given
+  table,    ///< a table over the preload
+  hertz,    ///< a ball on the part
+  caster,   ///< a ball on smaller balls in a cup
+};
+
+/// Kinds of damping that are sought in FRFs of the assembly.
+enum class DampingSought { viscous, structural, both };
 
 /// The ball by which a robot touches; the supports are a caster's.
 struct ContactBall {
@@ -30,21 +43,29 @@ struct Contact {
   std::vector<double> stiffness;            ///< N/m, one per direction; infinite allowed
   std::vector<double> damping;              ///< N s/m, one per direction
   double loss_factor = 0.0;
-  std::string model = "springs";    ///< springs, table, hertz, caster
+  ContactModel model = ContactModel::springs;
   std::optional<double> preload{};  ///< N; none: from robot.preload
   std::filesystem::path table{};    ///< of model table
   std::optional<ContactBall> ball{};
-  std::optional<coupling::Elastic> surface{};           ///< that the ball touches; none: part.material
-  std::vector<MeasuredFrf> measured{};                  ///< of the assembly, from which the joint is found
-  std::string damping_model = "viscous";                ///< that is sought: viscous, structural, both
-  std::vector<double> noise{};                          ///< relative: of the assembly, of the part, of the robot
-  std::optional<coupling::JointMatrices> identified{};  ///< what was found; the file knows it not, the run sets it
+  std::optional<coupling::Elastic> surface{};  ///< that the ball touches; none: part.material
+  std::vector<MeasuredFrf> measured{};         ///< of the assembly, from which the joint is found
+  DampingSought damping_sought = DampingSought::viscous;
+  std::vector<double> noise{};  ///< relative: of the assembly, of the part, of the robot
 };
 
 /// How the receptance route solves its kernel.
 struct CouplingChoice {
-  std::string regularisation = "none";  ///< none, truncated, tikhonov
-  double threshold = 1e-10;             ///< of the largest singular value
+  coupling::Regularisation regularisation = coupling::Regularisation::none;
+  double threshold = 1e-10;  ///< of the largest singular value
 };
 
 }  // namespace thinwall::setup
+
+namespace thinwall::core {
+
+template <>
+inline constexpr std::array<std::string_view, 4> words<setup::ContactModel>{"springs", "table", "hertz", "caster"};
+template <>
+inline constexpr std::array<std::string_view, 3> words<setup::DampingSought>{"viscous", "structural", "both"};
+
+}  // namespace thinwall::core

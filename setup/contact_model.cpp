@@ -9,16 +9,16 @@ namespace thinwall::setup {
 
 namespace {
 
-double required_preload(const Setup& source, const Contact& contact) {
+double required_preload(const SupportSetup& source, const Contact& contact) {
   if (const auto preload = preload_of(source, contact)) return *preload;
   throw core::InputError(
       "its stiffness depends on the preload, and none presses it: give contacts.preload" +
       std::string(source.contacts.size() == 1 ? ", or robot.preload along its first direction" : ""));
 }
 
-coupling::Elastic surface_of(const Setup& source, const Contact& contact) {
+coupling::Elastic surface_of(const PartSetup& source, const Contact& contact) {
   if (contact.surface) return *contact.surface;
-  if (source.part && source.part->shape != "matrices")
+  if (source.part && source.part->shape != PartShape::matrices)
     return {source.part->material.youngs_modulus, source.part->material.poisson_ratio};
   throw core::InputError("what the ball touches is not known: give [contacts.surface]");
 }
@@ -29,12 +29,12 @@ coupling::BallCaster caster_of(const ContactBall& ball) {
 }
 
 /// Stiffness of a ball along each direction, N/m.
-std::vector<double> ball_stiffness(const Setup& source, const Contact& contact, JoinedContact& result) {
+std::vector<double> ball_stiffness(const PartSetup& source, const Contact& contact, JoinedContact& result) {
   if (!contact.ball) throw core::InputError("its ball is not known: give [contacts.ball]");
   const coupling::Elastic surface = surface_of(source, contact);
   const coupling::HertzContact touch{coupling::relative_radius(contact.ball->radius), contact.ball->steel, surface};
   result.hertz = coupling::hertz(touch, *result.preload_n);
-  if (contact.model == "caster")
+  if (contact.model == ContactModel::caster)
     return {coupling::caster_stiffness(caster_of(*contact.ball), surface, *result.preload_n)};
   std::vector<double> stiffness(contact.directions.size(), result.hertz->tangential);
   stiffness.front() = result.hertz->normal;
@@ -43,7 +43,7 @@ std::vector<double> ball_stiffness(const Setup& source, const Contact& contact, 
 
 }  // namespace
 
-std::optional<double> preload_of(const Setup& source, const Contact& contact) {
+std::optional<double> preload_of(const SupportSetup& source, const Contact& contact) {
   if (contact.preload) return contact.preload;
   if (!source.robot || source.contacts.size() != 1 || contact.directions.empty()) return std::nullopt;
   const Eigen::Vector3d& force = source.robot->preload;
@@ -66,34 +66,36 @@ coupling::ContactTable read_contact_table(const std::filesystem::path& path) {
   return table;
 }
 
-JoinedContact joined_contact(const Setup& source, const Contact& contact) {
-  JoinedContact result{contact.model, {contact.part_point, contact.robot_point, {}, {}}, {}, {}};
-  if (contact.identified) {
+JoinedContact joined_contact(const PartSetup& part, const SupportSetup& support, const Contact& contact,
+                             const std::optional<coupling::JointMatrices>& identified) {
+  JoinedContact result{core::word_of(contact.model), {contact.part_point, contact.robot_point, {}, {}}, {}, {}};
+  if (identified) {
     result.model = "identified";
-    result.contact.matrices = *contact.identified;
+    result.contact.matrices = *identified;
     for (const auto& direction : contact.directions) result.contact.springs.push_back({direction});
     return result;
   }
-  if (contact.model != "springs") result.preload_n = required_preload(source, contact);
-  if (contact.model == "table") {
+  if (contact.model != ContactModel::springs) result.preload_n = required_preload(support, contact);
+  if (contact.model == ContactModel::table) {
     result.contact.springs.push_back(
         coupling::spring_at(read_contact_table(contact.table), *result.preload_n, contact.directions.front()));
     result.contact.springs.back().loss_factor = contact.loss_factor;
     return result;
   }
   const std::vector<double> stiffness =
-      contact.model == "springs" ? contact.stiffness : ball_stiffness(source, contact, result);
+      contact.model == ContactModel::springs ? contact.stiffness : ball_stiffness(part, contact, result);
   for (std::size_t i = 0; i < stiffness.size(); ++i)
     result.contact.springs.push_back({contact.directions[i], stiffness[i], contact.damping[i], contact.loss_factor});
   return result;
 }
 
-std::vector<JoinedContact> joined_contacts(const Setup& source) {
+std::vector<JoinedContact> joined_contacts(const PartSetup& part, const SupportSetup& support,
+                                           const std::optional<coupling::JointMatrices>& identified) {
   std::vector<JoinedContact> list;
-  list.reserve(source.contacts.size());
-  for (const Contact& contact : source.contacts) {
+  list.reserve(support.contacts.size());
+  for (const Contact& contact : support.contacts) {
     try {
-      list.push_back(joined_contact(source, contact));
+      list.push_back(joined_contact(part, support, contact, list.empty() ? identified : std::nullopt));
     } catch (const core::InputError& error) {
       throw core::InputError("contact " + contact.part_point + "-" + contact.robot_point + ": " + error.what());
     }

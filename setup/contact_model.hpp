@@ -23,19 +23,22 @@ struct JoinedContact {
 /// The force (N) that presses the contact together: its own, else |n·F| with its normal n (the first direction) and F
 /// of robot.preload. A part only pushes, so the sign of n·F tells on which side the tip is, no more. None where that is
 /// zero, or where several contacts share F.
-[[nodiscard]] std::optional<double> preload_of(const Setup& source, const Contact& contact);
+[[nodiscard]] std::optional<double> preload_of(const SupportSetup& source, const Contact& contact);
 
 /// Columns preload_n, stiffness_n_per_m and damping_n_s_per_m of a CSV, a row a preload. Throws DataError with the file
 /// for a column that is absent, and for a table that coupling::require_valid() refuses.
 [[nodiscard]] coupling::ContactTable read_contact_table(const std::filesystem::path& path);
 
 /// The contact with its stiffness (coupling/contact_table.hpp, coupling/hertz_contact.hpp): of a ball k_n along the
-/// first direction and k_t along the others, which are at right angles to it. What was found from FRFs stands as
-/// matrices in place of springs. Throws InputError for a preload that is missing or outside the table, a ball or
-/// material that is none; DataError as read_contact_table(). Cost: microseconds, and one reading of the table.
-[[nodiscard]] JoinedContact joined_contact(const Setup& source, const Contact& contact);
+/// first direction and k_t along the others, which are at right angles to it. The `identified` joint that was found
+/// from FRFs stands as matrices in place of springs. Throws InputError for a preload that is missing or outside the
+/// table, a ball or material that is none; DataError as read_contact_table(). Cost: microseconds, and one reading of
+/// the table.
+[[nodiscard]] JoinedContact joined_contact(const PartSetup& part, const SupportSetup& support, const Contact& contact,
+                                           const std::optional<coupling::JointMatrices>& identified = {});
 
-/// All of them in their order; errors say which contact they are of.
-[[nodiscard]] std::vector<JoinedContact> joined_contacts(const Setup& source);
+/// All contacts in their order, the first with the `identified` joint where one was found; errors name the contact.
+[[nodiscard]] std::vector<JoinedContact> joined_contacts(const PartSetup& part, const SupportSetup& support,
+                                                         const std::optional<coupling::JointMatrices>& identified = {});
 
 }  // namespace thinwall::setup

@@ -9,7 +9,17 @@
 #include <string>
 #include <vector>
 
+#include "core/words.hpp"
+
 namespace thinwall::setup {
+
+/// Laws of the cutting force over the chip thickness.
+enum class ForceLawKind {
+  linear,
+  power,
+  fractional,
+  oblique,  ///< linear, with coefficients from orthogonal cutting
+};
 
 /// What turning tells of a material: coefficients follow by the tool's helix.
 struct OrthogonalData {
@@ -25,10 +35,10 @@ struct Cutting {
   double lead_angle = 0.0;  ///< rad
   Eigen::Vector3d feed_direction = Eigen::Vector3d::UnitY();
   Eigen::Vector3d tool_axis = Eigen::Vector3d::UnitZ();
-  std::string at;                                                ///< name of the point that is cut
-  double Kt = 0.0, Kr = 0.0, Ka = 0.0;                           ///< N/m²
-  double Kte = 0.0, Kre = 0.0, Kae = 0.0;                        ///< N/m
-  std::string law = "linear";                                    ///< linear, power, fractional, oblique
+  std::string at;                          ///< name of the point that is cut
+  double Kt = 0.0, Kr = 0.0, Ka = 0.0;     ///< N/m²
+  double Kte = 0.0, Kre = 0.0, Kae = 0.0;  ///< N/m
+  ForceLawKind law = ForceLawKind::linear;
   std::vector<double> exponents;                                 ///< of power: for Kt, Kr, Ka
   std::optional<double> chip_scale, stiffness_ratio;             ///< of fractional: m, 1
   OrthogonalData orthogonal;                                     ///< of oblique
@@ -45,3 +55,10 @@ struct Path {
 };
 
 }  // namespace thinwall::setup
+
+namespace thinwall::core {
+
+template <>
+inline constexpr std::array<std::string_view, 4> words<setup::ForceLawKind>{"linear", "power", "fractional", "oblique"};
+
+}  // namespace thinwall::core

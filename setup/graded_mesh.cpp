@@ -20,7 +20,7 @@ double thinnest(const mesh::Prism& prism) {
 
 /// About the frequency (Hz) of the highest mode wanted: of a plate N modes lie below N · 2 c_L t / (√12 A), less what
 /// free edges add to their number; c_L the speed of longitudinal waves in a plate (Cremer, Heckl & Petersson 2005).
-double highest_frequency(const Setup& source, const mesh::Prism& prism) {
+double highest_frequency(const PartSetup& source, const mesh::Prism& prism) {
   if (source.modes.range.up_to_hz) return *source.modes.range.up_to_hz;
   const Material& m = source.part->material;
   const double wave_speed = std::sqrt(m.youngs_modulus / (m.density * (1.0 - m.poisson_ratio * m.poisson_ratio)));
@@ -39,7 +39,7 @@ double bending_wavelength(const Material& m, double thickness, double hz) {
 
 }  // namespace
 
-mesh::TetMesh graded_mesh(const Setup& source, int level) {
+mesh::TetMesh graded_mesh(const PartSetup& source, int level) {
   const PlanarPart part = planar(*source.part);
   const Eigen::Vector3d size = box_size(*source.part);
   const double wave =

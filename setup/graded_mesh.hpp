@@ -8,6 +8,6 @@ namespace thinwall::setup {
 
 /// A graded mesh of one layer of elements through the wall; the coarsest is level 0, whose elements are a third as long
 /// as a bending wave of the highest mode wanted.
-[[nodiscard]] mesh::TetMesh graded_mesh(const Setup& source, int level);
+[[nodiscard]] mesh::TetMesh graded_mesh(const PartSetup& source, int level);
 
 }  // namespace thinwall::setup

@@ -80,14 +80,15 @@ ImportedPart read_matrix_part(const PartFile& file) {
 }  // namespace
 
 const std::filesystem::path& main_file(const Part& part) {
-  return part.shape == "matrices" ? part.file.matrices.stiffness : part.file.path;
+  return part.shape == PartShape::matrices ? part.file.matrices.stiffness : part.file.path;
 }
 
-std::string shape_of_file(const std::filesystem::path& file) {
+std::optional<PartShape> shape_of_file(const std::filesystem::path& file) {
   const auto among = [end = ending(file)](const auto& endings) {
     return std::ranges::find(endings, end) != endings.end();
   };
-  return among(surface_endings) ? "surface" : among(mesh_endings) ? "mesh" : "";
+  if (among(surface_endings)) return PartShape::surface;
+  return among(mesh_endings) ? std::optional(PartShape::mesh) : std::nullopt;
 }
 
 bool tells_its_unit(const std::filesystem::path& file) {
@@ -95,7 +96,7 @@ bool tells_its_unit(const std::filesystem::path& file) {
 }
 
 bool from_file(const Part& part) {
-  return part.shape == "surface" || part.shape == "mesh" || part.shape == "matrices";
+  return part.shape == PartShape::surface || part.shape == PartShape::mesh || part.shape == PartShape::matrices;
 }
 
 Eigen::Vector3d node_position(const Part& part, int node) {
@@ -144,9 +145,9 @@ std::vector<int> node_numbers(const ImportedPart& part) {
 
 std::shared_ptr<const ImportedPart> read_part_file(const Part& part) {
   try {
-    return std::make_shared<ImportedPart>(part.shape == "matrices" ? read_matrix_part(part.file)
-                                          : part.shape == "mesh"   ? read_mesh_part(part.file)
-                                                                   : read_surface_part(part.file));
+    return std::make_shared<ImportedPart>(part.shape == PartShape::matrices ? read_matrix_part(part.file)
+                                          : part.shape == PartShape::mesh   ? read_mesh_part(part.file)
+                                                                            : read_surface_part(part.file));
   } catch (const core::InputError& error) {
     throw core::InputError(main_file(part).string() + ": " + error.what());
   }

@@ -25,7 +25,7 @@ struct ImportedPart {
 };
 
 /// The shape that a file's ending tells: "surface", "mesh"; empty for an ending that no reader knows.
-[[nodiscard]] std::string shape_of_file(const std::filesystem::path& file);
+[[nodiscard]] std::optional<PartShape> shape_of_file(const std::filesystem::path& file);
 
 /// Whether a file of that ending states its unit of length: STEP.
 [[nodiscard]] bool tells_its_unit(const std::filesystem::path& file);

@@ -7,14 +7,14 @@
 
 namespace thinwall::setup {
 
-bool names_node_set(const Setup& source, const std::string& name) {
+bool names_node_set(const PartSetup& source, const std::string& name) {
   const bool face = name.size() == 5 && std::string("xyz").find(name[0]) != std::string::npos &&
                     (name.ends_with("_min") || name.ends_with("_max"));
-  return source.part && source.part->shape == "mesh" && !face &&
+  return source.part && source.part->shape == PartShape::mesh && !face &&
          std::ranges::find(source.selections, name, &Selection::name) == source.selections.end();
 }
 
-const Point& point(const Setup& source, const std::string& name) {
+const Point& point(const PartSetup& source, const std::string& name) {
   const auto found = std::ranges::find(source.points, name, &Point::name);
   if (found != source.points.end()) return *found;
   std::vector<std::string> names;

@@ -20,33 +20,49 @@
 
 namespace thinwall::setup {
 
-/// All that is known of one set-up. What is absent is not computed.
-struct Setup {
+/// The part, its named points, and the model of it that is asked for. This is all that the part's own stages read.
+struct PartSetup {
   std::optional<Part> part;
-  std::vector<MeasuredFrf> measured_part;
-  std::vector<Sensor> part_sensors;  ///< during all of `measured_part`
   std::vector<Selection> selections;
   std::vector<Point> points;
   Modes modes;
   Reduction reduction;
   Damping damping;
+  ResponseOptions response;
+};
+
+/// A part that is known by measured FRFs instead of a model.
+struct MeasuredPart {
+  std::vector<MeasuredFrf> measured_part;
+  std::vector<Sensor> part_sensors;  ///< during all of `measured_part`
+};
+
+/// The robot, the places where it holds the part, and the options of the coupling.
+struct SupportSetup {
   std::optional<Robot> robot;
   std::vector<Contact> contacts;
   CouplingChoice coupling;
-  ResponseOptions response;
-  std::vector<Updating> updating;
+};
+
+/// The cutter, the cut, and the stability chart that is asked for.
+struct CutSetup {
   std::optional<Tool> tool;
   std::optional<Cutting> cutting;
   std::optional<LobesOptions> lobes;
   std::optional<milling::MachineLimits> machine;
+};
+
+/// All that is known of one set-up. What is absent is not computed. A stage takes those of the bases that it reads.
+struct Setup : PartSetup, MeasuredPart, SupportSetup, CutSetup {
+  std::vector<Updating> updating;
   std::optional<Path> path;
 };
 
 /// The point of that name; throws InputError with the nearest name if there is none.
-[[nodiscard]] const Point& point(const Setup& source, const std::string& name);
+[[nodiscard]] const Point& point(const PartSetup& source, const std::string& name);
 
-/// Whether a name of part.supports is a set of nodes of the mesh file: no face of the box around the part (x_min …),
-/// no selection.
-[[nodiscard]] bool names_node_set(const Setup& source, const std::string& name);
+/// True if a name of part.supports is a set of nodes of the mesh file, that is, neither a face of the box around the
+/// part (x_min …) nor a selection.
+[[nodiscard]] bool names_node_set(const PartSetup& source, const std::string& name);
 
 }  // namespace thinwall::setup

@@ -55,14 +55,15 @@ void warn_of_missed_chips(const milling::MillingProcess& process, double feed_m)
 }
 
 milling::ForceLaw law_of(const Cutting& c) {
-  if (c.law == "power") return milling::PowerLaw{c.Kt, c.Kr, c.Ka, c.exponents[0], c.exponents[1], c.exponents[2]};
+  if (c.law == ForceLawKind::power)
+    return milling::PowerLaw{c.Kt, c.Kr, c.Ka, c.exponents[0], c.exponents[1], c.exponents[2]};
   return milling::FractionalLaw{c.Kt, c.Kr, c.Ka, c.chip_scale.value_or(0.0), c.stiffness_ratio.value_or(0.0)};
 }
 
-void set_force(const Setup& source, milling::MillingProcess& process) {
+void set_force(const CutSetup& source, milling::MillingProcess& process) {
   const Cutting& c = *source.cutting;
-  if (c.law == "oblique") set_oblique(c, process);
-  else if (c.law == "linear") process.coefficients = {c.Kt, c.Kr, c.Ka, c.Kte, c.Kre, c.Kae};
+  if (c.law == ForceLawKind::oblique) set_oblique(c, process);
+  else if (c.law == ForceLawKind::linear) process.coefficients = {c.Kt, c.Kr, c.Ka, c.Kte, c.Kre, c.Kae};
   else milling::set_force_law(process, law_of(c), feed_per_tooth(source).value_or(0.0));
   if (!process.cutter.runout_m.empty()) warn_of_missed_chips(process, feed_per_tooth(source).value_or(0.0));
 }
@@ -71,22 +72,22 @@ void set_force(const Setup& source, milling::MillingProcess& process) {
 
 milling::Cutter cutter_of(const Tool& tool) {
   milling::Cutter cutter{tool.teeth, tool.diameter, tool.pitches, tool.helices, {}, tool.runout};
-  if (tool.end == "ball") cutter.envelope = milling::ball_end(tool.diameter);
-  else if (tool.end == "bull_nose") cutter.envelope = milling::bull_nose(tool.diameter, tool.corner_radius);
-  else if (tool.end == "general")
+  if (tool.end == ToolEnd::ball) cutter.envelope = milling::ball_end(tool.diameter);
+  else if (tool.end == ToolEnd::bull_nose) cutter.envelope = milling::bull_nose(tool.diameter, tool.corner_radius);
+  else if (tool.end == ToolEnd::general)
     cutter.envelope = {tool.corner_radius, tool.corner_radial, tool.corner_axial, tool.tip_angle, tool.taper};
   cutter.envelope.height_m = tool.length;
   return cutter;
 }
 
-std::optional<double> feed_per_tooth(const Setup& source) {
+std::optional<double> feed_per_tooth(const CutSetup& source) {
   const Cutting& c = *source.cutting;
   if (c.feed_per_tooth) return c.feed_per_tooth;
   if (!c.feed_rate || !c.spindle_speed_rpm || !source.tool) return std::nullopt;
   return milling::feed_per_tooth_m(cutter_of(*source.tool), *c.feed_rate, *c.spindle_speed_rpm);
 }
 
-milling::MillingProcess milling_process(const Setup& source) {
+milling::MillingProcess milling_process(const CutSetup& source) {
   const Cutting& c = *source.cutting;
   milling::MillingProcess process;
   process.cutter = cutter_of(*source.tool);

@@ -13,9 +13,9 @@ namespace thinwall::setup {
 /// per tooth, or the feed rate over teeth and spindle speed, whatever the speed of a row of the chart. Logs a warning
 /// where runout lets a tooth miss a part of its arcs, since what it misses is cut with the delay of two pitches. Throws
 /// InputError as milling::set_force_law and engagement_of do.
-[[nodiscard]] milling::MillingProcess milling_process(const Setup& source);
+[[nodiscard]] milling::MillingProcess milling_process(const CutSetup& source);
 
 /// Feed per tooth in m, if the case gives it or what it follows from.
-[[nodiscard]] std::optional<double> feed_per_tooth(const Setup& source);
+[[nodiscard]] std::optional<double> feed_per_tooth(const CutSetup& source);
 
 }  // namespace thinwall::setup

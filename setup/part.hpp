@@ -9,12 +9,22 @@
 #include <string>
 #include <vector>
 
+#include "core/words.hpp"
 #include "io/matrices/matrix_files.hpp"
 #include "mesh/planar/prism.hpp"
 #include "mesh/surface/surface_repair.hpp"
 #include "setup/point.hpp"
 
 namespace thinwall::setup {
+
+/// Shapes of a part, or the kind of file that its shape comes from.
+enum class PartShape {
+  box,
+  prism,     ///< an outline in x and y, extruded along z
+  surface,   ///< a closed surface of triangles
+  mesh,      ///< a mesh of tetrahedra
+  matrices,  ///< stiffness and mass matrices
+};
 
 /// Isotropic linear elasticity.
 struct Material {
@@ -89,7 +99,7 @@ struct PartFile {
 
 /// A box with one corner at the origin, a prism, or what a file holds.
 struct Part {
-  std::string shape = "box";                                 ///< box, prism, surface, mesh, matrices
+  PartShape shape = PartShape::box;
   double length = 0.0, height = 0.0, thickness = 0.0;        ///< m
   int length_axis = 1, height_axis = 2, thickness_axis = 0;  ///< 0, 1, 2 for x, y, z
   mesh::Prism prism;                                         ///< of shape prism: outline in x, y; height along z
@@ -121,3 +131,10 @@ struct Part {
 [[nodiscard]] Eigen::Vector3d position(const Part& part, const Point& point);
 
 }  // namespace thinwall::setup
+
+namespace thinwall::core {
+
+template <>
+inline constexpr std::array<std::string_view, 5> words<setup::PartShape>{"box", "prism", "surface", "mesh", "matrices"};
+
+}  // namespace thinwall::core

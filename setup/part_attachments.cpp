@@ -15,7 +15,7 @@ bool carries(const Part& part, const Point& point) {
 
 }  // namespace
 
-fem::Attachments attachments_of(const Setup& source) {
+fem::Attachments attachments_of(const PartSetup& source) {
   const Part& part = *source.part;
   fem::Attachments result;
   for (const Clamp& clamp : part.clamps)

@@ -8,6 +8,6 @@ namespace thinwall::setup {
 
 /// Clamps on their faces; the points that carry masses or springs, or are rigid, with their patches; the masses and
 /// springs themselves.
-[[nodiscard]] fem::Attachments attachments_of(const Setup& source);
+[[nodiscard]] fem::Attachments attachments_of(const PartSetup& source);
 
 }  // namespace thinwall::setup

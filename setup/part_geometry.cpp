@@ -21,7 +21,7 @@ int along_axis(const Part& part, int through) {
 }  // namespace
 
 PlanarPart planar(const Part& part) {
-  if (part.shape == "prism") return {part.prism, {0, 1, 2}};
+  if (part.shape == PartShape::prism) return {part.prism, {0, 1, 2}};
   PlanarPart result;
   result.axes = {part.length_axis, part.height_axis, part.thickness_axis};
   result.prism.outline = {{0.0, 0.0}, {part.length, 0.0}, {part.length, part.height}, {0.0, part.height}};
@@ -55,7 +55,7 @@ double mass(const Part& part, const mesh::TetMesh& flat) {
   return part.material.density * volume;
 }
 
-mesh::Region region_of(const Setup& source, const std::string& name) {
+mesh::Region region_of(const PartSetup& source, const std::string& name) {
   const auto selection = std::find_if(source.selections.begin(), source.selections.end(),
                                       [&](const Selection& s) { return s.name == name; });
   if (selection == source.selections.end()) {
@@ -69,7 +69,7 @@ mesh::Region region_of(const Setup& source, const std::string& name) {
   return mesh::SphereRegion{selection->sphere->centre, selection->sphere->radius};
 }
 
-std::vector<int> rows_held_by_sets(const Setup& source, const mesh::SolidMesh& solid) {
+std::vector<int> rows_held_by_sets(const PartSetup& source, const mesh::SolidMesh& solid) {
   std::vector<int> rows;
   for (const Support& support : source.part->supports) {
     if (!names_node_set(source, support.on)) continue;
@@ -84,7 +84,7 @@ fem::Material material_of(const Part& part) {
   return {m.youngs_modulus, m.poisson_ratio, m.density};
 }
 
-std::vector<fem::Support> supports_of(const Setup& source) {
+std::vector<fem::Support> supports_of(const PartSetup& source) {
   std::vector<fem::Support> supports;
   for (const Support& s : source.part->supports) {
     if (!names_node_set(source, s.on)) supports.push_back({s.on, region_of(source, s.on), s.fixed});
@@ -93,7 +93,7 @@ std::vector<fem::Support> supports_of(const Setup& source) {
 }
 
 double off_surface(const Part& part) {
-  if (part.shape == "surface") return 0.01 * bounds(part).diagonal().norm();
+  if (part.shape == PartShape::surface) return 0.01 * bounds(part).diagonal().norm();
   const mesh::SolidMesh* solid = solid_of(part);
   if (solid == nullptr || solid->midside_offset < 1e-6) return 0.0;
   const auto vertex = [solid](int v) { return solid->mesh.vertices[static_cast<std::size_t>(v)]; };
@@ -104,19 +104,19 @@ double off_surface(const Part& part) {
   return solid->midside_offset * longest;
 }
 
-fem::NamedPoint named_point(const Setup& source, const std::string& name) {
+fem::NamedPoint named_point(const PartSetup& source, const std::string& name) {
   const Point& p = point(source, name);
   return {p.name, position(*source.part, p), p.patch_radius, p.directions, {}, {}, off_surface(*source.part)};
 }
 
-fem::ModeOptions mode_options(const Setup& source) {
+fem::ModeOptions mode_options(const PartSetup& source) {
   return {source.modes.range.count.value_or(10), source.modes.range.up_to_hz, source.modes.verify_count};
 }
 
-std::vector<std::string> unreachable_tolerances(const Setup& source) {
+std::vector<std::string> unreachable_tolerances(const PartSetup& source) {
   std::vector<std::string> warnings;
   if (!source.part || source.part->mesh.element_size) return warnings;
-  if (source.part->shape == "matrices" || source.part->shape == "mesh") return warnings;
+  if (source.part->shape == PartShape::matrices || source.part->shape == PartShape::mesh) return warnings;
   for (const std::string& name : source.reduction.interface) {
     if (point(source, name).patch_radius > 0.0) continue;
     warnings.push_back("points." + name +

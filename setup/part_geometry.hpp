@@ -33,16 +33,16 @@ struct PlanarPart {
 [[nodiscard]] double mass(const Part& part, const mesh::TetMesh& flat);
 
 /// A face of the box around the part, or a selection, by its name.
-[[nodiscard]] mesh::Region region_of(const Setup& source, const std::string& name);
+[[nodiscard]] mesh::Region region_of(const PartSetup& source, const std::string& name);
 
 /// The nodes of a mesh from a file that are held: 3·node + axis of the supports on its sets.
-[[nodiscard]] std::vector<int> rows_held_by_sets(const Setup& source, const mesh::SolidMesh& solid);
+[[nodiscard]] std::vector<int> rows_held_by_sets(const PartSetup& source, const mesh::SolidMesh& solid);
 
 /// The material of the part as the finite elements take it.
 [[nodiscard]] fem::Material material_of(const Part& part);
 
 /// Supports on faces and selections; those on sets of nodes are rows_held_by_sets().
-[[nodiscard]] std::vector<fem::Support> supports_of(const Setup& source);
+[[nodiscard]] std::vector<fem::Support> supports_of(const PartSetup& source);
 
 /// How far (m) the elements may lie off a place that is given on the part: nothing where they fill it exactly; 0.01 of
 /// the diagonal where they follow a file's surface by chords (outside_part() has held the place to the surface itself);
@@ -50,13 +50,13 @@ struct PlanarPart {
 [[nodiscard]] double off_surface(const Part& part);
 
 /// The point of that name as the finite elements take it. Throws InputError with the nearest name if there is none.
-[[nodiscard]] fem::NamedPoint named_point(const Setup& source, const std::string& name);
+[[nodiscard]] fem::NamedPoint named_point(const PartSetup& source, const std::string& name);
 
 /// The modes that the set-up asks for.
-[[nodiscard]] fem::ModeOptions mode_options(const Setup& source);
+[[nodiscard]] fem::ModeOptions mode_options(const PartSetup& source);
 
 /// A line for each point on whose receptance no tolerance can be met, for it has no patch: a force on a single place of
 /// a solid moves it without bound as elements shrink. None where size or mesh are given.
-[[nodiscard]] std::vector<std::string> unreachable_tolerances(const Setup& source);
+[[nodiscard]] std::vector<std::string> unreachable_tolerances(const PartSetup& source);
 
 }  // namespace thinwall::setup

@@ -30,7 +30,7 @@ Eigen::Vector3d centre(const mesh::TetMesh& mesh, std::size_t tet) {
 }
 
 /// Tetrahedra of a set of the file, or whose centres the selection of that name holds.
-std::vector<int> tets_in(const Setup& source, const std::string& name, const mesh::TetMesh& mesh) {
+std::vector<int> tets_in(const PartSetup& source, const std::string& name, const mesh::TetMesh& mesh) {
   const auto selection = std::ranges::find(source.selections, name, &Selection::name);
   if (selection == source.selections.end())
     return mesh::element_set(*solid_of(*source.part), name, source.part->file.path.string()).tets;
@@ -71,8 +71,8 @@ bool materials_in_file(const Part& part) {
          !part.file.mass_unit.empty();
 }
 
-mesh::TetMesh cut_at_materials(const Setup& source, mesh::TetMesh mesh) {
-  if (source.part->shape == "mesh") return mesh;
+mesh::TetMesh cut_at_materials(const PartSetup& source, mesh::TetMesh mesh) {
+  if (source.part->shape == PartShape::mesh) return mesh;
   for (const MaterialRegion& region : source.part->materials) {
     const auto selection = std::ranges::find(source.selections, region.on, &Selection::name);
     if (selection == source.selections.end() || !selection->box) continue;
@@ -83,7 +83,7 @@ mesh::TetMesh cut_at_materials(const Setup& source, mesh::TetMesh mesh) {
   return mesh;
 }
 
-double misplaced_share(const Setup& source, const mesh::TetMesh& mesh) {
+double misplaced_share(const PartSetup& source, const mesh::TetMesh& mesh) {
   constexpr int n = 4;  // lattice of points within an element
   double misplaced = 0.0;
   for (const MaterialRegion& region : source.part->materials) {
@@ -109,7 +109,7 @@ double misplaced_share(const Setup& source, const mesh::TetMesh& mesh) {
   return misplaced / mesh::volume(mesh);
 }
 
-fem::Materials materials_on(const Setup& source, const mesh::TetMesh& mesh) {
+fem::Materials materials_on(const PartSetup& source, const mesh::TetMesh& mesh) {
   const Part& part = *source.part;
   fem::Materials materials;
   if (given(part.material)) materials.list.push_back(material(part.material));

@@ -9,17 +9,17 @@ namespace thinwall::setup {
 
 /// The mesh cut along the faces of the boxes that part.materials names, so that an element is of one material; what a
 /// sphere holds goes by the elements' centres. Meshes of files stay as they are.
-[[nodiscard]] mesh::TetMesh cut_at_materials(const Setup& source, mesh::TetMesh mesh);
+[[nodiscard]] mesh::TetMesh cut_at_materials(const PartSetup& source, mesh::TetMesh mesh);
 
 /// Share of the part's volume whose material is another than its sphere's, for elements lie across the border, 0 to 1;
 /// sampled at 35 places of an element.
-[[nodiscard]] double misplaced_share(const Setup& source, const mesh::TetMesh& mesh);
+[[nodiscard]] double misplaced_share(const PartSetup& source, const mesh::TetMesh& mesh);
 
 /// part.material everywhere, or what the sections of the part's mesh file say where the case gives none, and over it
 /// each of part.materials: on a set of elements of the file, or where a selection (box or sphere) holds an element's
 /// centre; later ones win. Throws InputError for an element without a material, a region that holds no element, or a
 /// plane.
-[[nodiscard]] fem::Materials materials_on(const Setup& source, const mesh::TetMesh& mesh);
+[[nodiscard]] fem::Materials materials_on(const PartSetup& source, const mesh::TetMesh& mesh);
 
 /// Whether the mesh file gives a material to all of its elements, with a unit of mass to read them by.
 [[nodiscard]] bool materials_in_file(const Part& part);

@@ -9,9 +9,18 @@
 #include <string>
 #include <vector>
 
+#include "core/words.hpp"
 #include "setup/measured_frf.hpp"
 
 namespace thinwall::setup {
+
+/// Models of the part's damping.
+enum class DampingModel {
+  modal,       ///< a ratio of each mode
+  rayleigh,    ///< C = αM + βK
+  structural,  ///< a loss factor
+  matrices,    ///< the damping matrix of the part's file
+};
 
 /// Modes wanted, by count or by frequency.
 struct ModeRange {
@@ -27,7 +36,6 @@ struct Modes {
 
 /// The reduced model of the part that is asked for.
 struct Reduction {
-  std::string method = "craig_bampton";
   ModeRange fixed_interface;
   std::optional<double> tolerance;     ///< on the interface's receptance, in place of a range
   std::vector<std::string> interface;  ///< names of points
@@ -36,9 +44,9 @@ struct Reduction {
 
 /// Damping of the part: one of the models, with its numbers.
 struct Damping {
-  std::string model = "modal";  ///< modal, rayleigh, structural, matrices
-  double ratio = 0.0;           ///< of every mode that `ratios` does not name
-  std::vector<double> ratios;   ///< of the first modes
+  DampingModel model = DampingModel::modal;
+  double ratio = 0.0;          ///< of every mode that `ratios` does not name
+  std::vector<double> ratios;  ///< of the first modes
   std::optional<MeasuredFrf> from_frf;
   double alpha = 0.0;  ///< 1/s
   double beta = 0.0;   ///< s
@@ -54,3 +62,11 @@ struct ResponseOptions {
 };
 
 }  // namespace thinwall::setup
+
+namespace thinwall::core {
+
+template <>
+inline constexpr std::array<std::string_view, 4> words<setup::DampingModel>{"modal", "rayleigh", "structural",
+                                                                            "matrices"};
+
+}  // namespace thinwall::core

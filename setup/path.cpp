@@ -22,27 +22,53 @@ bool coincide(const Part& part, const Point& a, const Point& b) {
 
 }  // namespace
 
-Setup at_position(const Setup& source, std::size_t position_number) {
+PathStation station(const Setup& source, std::size_t position_number) {
   const Part& part = *source.part;
   const Point& start = point(source, source.cutting->at);
   const Eigen::Vector3d way = source.path->positions[position_number] - position(part, start);
-  Setup there = source;
   Point cut = moved(part, start, way);
   cut.position = source.path->positions[position_number];  // to the last bit
   cut.name = "the cut";                                    // no name that a user can give
-  there.cutting->at = cut.name;
-  there.points = {cut};
-  there.reduction.interface = {cut.name};
-  for (Contact& contact : there.contacts) {
+  PathStation there{{cut}, cut.name, {}};
+  for (const Contact& contact : source.contacts) {
     const Eigen::Vector3d by = source.path->robot_follows ? way : Eigen::Vector3d::Zero();
     const Point touched = moved(part, point(source, contact.part_point), by);
     if (coincide(part, touched, cut)) {
-      contact.part_point = cut.name;
-    } else if (std::ranges::count(there.reduction.interface, touched.name) == 0) {
-      there.points.push_back(touched);
-      there.reduction.interface.push_back(touched.name);
+      there.touched.push_back(cut.name);
+      continue;
     }
+    there.touched.push_back(touched.name);
+    if (std::ranges::find(there.points, touched.name, &Point::name) == there.points.end())
+      there.points.push_back(touched);
   }
+  return there;
+}
+
+std::vector<PathStation> stations(const Setup& source) {
+  std::vector<PathStation> all;
+  if (!source.path || !source.part) return all;
+  all.reserve(source.path->positions.size());
+  for (std::size_t i = 0; i < source.path->positions.size(); ++i) all.push_back(station(source, i));
+  return all;
+}
+
+PartSetup part_at(const PartSetup& source, const PathStation& station) {
+  PartSetup there = source;
+  there.points = station.points;
+  there.reduction.interface.clear();
+  for (const Point& point : station.points) there.reduction.interface.push_back(point.name);
+  return there;
+}
+
+SupportSetup support_at(const SupportSetup& source, const PathStation& station) {
+  SupportSetup there = source;
+  for (std::size_t i = 0; i < there.contacts.size(); ++i) there.contacts[i].part_point = station.touched[i];
+  return there;
+}
+
+CutSetup cut_at(const CutSetup& source, const PathStation& station) {
+  CutSetup there = source;
+  there.cutting->at = station.cut;
   return there;
 }
 

@@ -9,11 +9,22 @@
 #include <string>
 #include <vector>
 
+#include "core/words.hpp"
 #include "robot/serial_arm.hpp"
 #include "robot/virtual_joints.hpp"
 #include "setup/measured_frf.hpp"
 
 namespace thinwall::setup {
+
+/// Models of a robot's tip.
+enum class RobotModel {
+  one_mode,
+  modes,
+  measured,         ///< FRFs
+  modal_table,      ///< a table of modes over postures
+  flexible_joints,  ///< an arm with elastic joints
+  virtual_joints,   ///< chains of links and elastic joints
+};
 
 /// A mode of a tip along a direction.
 struct TipMode {
@@ -35,8 +46,7 @@ struct PostureWish {
 /// What is known of the robot's tip. `one_mode`: stiffness with frequency and damping ratio, or mass with stiffness and
 /// damping (or damping ratio); what was not given is empty.
 struct Robot {
-  std::string model = "one_mode";  ///< one_mode, modes, measured, modal_table, flexible_joints,
-                                   ///< virtual_joints
+  RobotModel model = RobotModel::one_mode;
   std::string point = "R";
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
   std::optional<double> frequency_hz, damping_ratio, mass, stiffness, damping;
@@ -55,3 +65,11 @@ struct Robot {
 };
 
 }  // namespace thinwall::setup
+
+namespace thinwall::core {
+
+template <>
+inline constexpr std::array<std::string_view, 6> words<setup::RobotModel>{
+    "one_mode", "modes", "measured", "modal_table", "flexible_joints", "virtual_joints"};
+
+}  // namespace thinwall::core

@@ -63,9 +63,9 @@ dynamics::ModalModel tabled_tip(const Robot& robot) {
 }
 
 /// Where the tip is to be, in space.
-Vector3d wanted_place(const Setup& source) {
-  if (source.robot->posture.tip) return *source.robot->posture.tip;
-  if (const auto place = contact_place(source)) return *place;
+Vector3d wanted_place(const PartSetup& part, const SupportSetup& support) {
+  if (support.robot->posture.tip) return *support.robot->posture.tip;
+  if (const auto place = contact_place(part, support)) return *place;
   throw core::InputError("the place of the robot's tip is not known; give robot.posture.tip or a contact");
 }
 
@@ -106,18 +106,19 @@ Eigen::VectorXd searched_posture(const Robot& robot, const Vector3d& place, cons
       place.x(), place.y(), place.z(), found.position_error, found.rotation_error * 180.0 / std::numbers::pi));
 }
 
-Eigen::VectorXd joints_of(const Setup& source, const std::optional<Eigen::VectorXd>& near) {
-  const Robot& robot = *source.robot;
+Eigen::VectorXd joints_of(const PartSetup& part, const SupportSetup& support,
+                          const std::optional<Eigen::VectorXd>& near) {
+  const Robot& robot = *support.robot;
   const PostureWish& wish = robot.posture;
   const auto as_vector = [](const std::vector<double>& list) -> Eigen::VectorXd {
     return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
   };
   if (!wish.joints.empty()) return as_vector(wish.joints);
-  if (wish.pitch) return four_axis_posture(robot, wanted_place(source));
+  if (wish.pitch) return four_axis_posture(robot, wanted_place(part, support));
   if (!wish.approach)
     throw core::InputError("how the robot stands is not known; give robot.posture by joints, pitch or approach");
   const Eigen::VectorXd start = wish.start.empty() ? Eigen::VectorXd::Zero(robot.arm.joints()) : as_vector(wish.start);
-  return searched_posture(robot, wanted_place(source), near.value_or(start));
+  return searched_posture(robot, wanted_place(part, support), near.value_or(start));
 }
 
 /// Of the tip's Jacobian with 1 m a radian, smallest over largest.
@@ -128,11 +129,11 @@ double smallest_singular(const robot::ArmPose& at) {
 
 }  // namespace
 
-std::optional<Vector3d> contact_place(const Setup& source) {
-  if (source.contacts.empty() || !source.part) return std::nullopt;
-  const Vector3d flat = position(*source.part, point(source, source.contacts.front().part_point));
+std::optional<Vector3d> contact_place(const PartSetup& part, const SupportSetup& support) {
+  if (support.contacts.empty() || !part.part) return std::nullopt;
+  const Vector3d flat = position(*part.part, point(part, support.contacts.front().part_point));
   if (!flat.allFinite()) return std::nullopt;  // a node of matrices whose place no file tells
-  return source.part->bend ? mesh::bent(bend_of(*source.part), flat) : flat;
+  return part.part->bend ? mesh::bent(bend_of(*part.part), flat) : flat;
 }
 
 std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list) {
@@ -144,21 +145,22 @@ std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list) {
 }
 
 robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis) {
-  if (robot.model == "flexible_joints") return robot::flexible_joints(robot.arm, robot.point);
-  if (robot.model == "measured") return robot::in_one_posture(measured_tip(robot, axis));
-  if (robot.model == "modal_table") return robot::in_one_posture(tabled_tip(robot));
-  if (robot.model == "virtual_joints")
+  if (robot.model == RobotModel::flexible_joints) return robot::flexible_joints(robot.arm, robot.point);
+  if (robot.model == RobotModel::measured) return robot::in_one_posture(measured_tip(robot, axis));
+  if (robot.model == RobotModel::modal_table) return robot::in_one_posture(tabled_tip(robot));
+  if (robot.model == RobotModel::virtual_joints)
     return robot::in_one_posture(robot::spatial_model(robot::reduced_tip(robot.chains), robot.point));
-  const auto modes = robot.model == "modes" ? one_modes(robot.modes) : std::vector{single_mode(robot)};
+  const auto modes = robot.model == RobotModel::modes ? one_modes(robot.modes) : std::vector{single_mode(robot)};
   return robot::in_one_posture(robot::spatial_model(modes, robot.point));
 }
 
-RobotPosture robot_posture(const Setup& source, const std::optional<Eigen::VectorXd>& near) {
-  const Robot& robot = *source.robot;
+RobotPosture robot_posture(const PartSetup& part, const SupportSetup& support,
+                           const std::optional<Eigen::VectorXd>& near) {
+  const Robot& robot = *support.robot;
   RobotPosture result;
   result.posture.preload = robot.preload;
-  if (robot.model != "flexible_joints") return result;
-  result.posture.q = joints_of(source, near);
+  if (robot.model != RobotModel::flexible_joints) return result;
+  result.posture.q = joints_of(part, support, near);
   const robot::ArmPose at = robot::pose(robot.arm, result.posture.q);
   result.tip = at.tip.translation();
   result.smallest_singular = smallest_singular(at);
@@ -168,15 +170,15 @@ RobotPosture robot_posture(const Setup& source, const std::optional<Eigen::Vecto
 }
 
 dynamics::SpatialModel robot_matrices(const Robot& robot, const robot::Posture& posture) {
-  if (robot.model != "measured" && robot.model != "modal_table") {
+  if (robot.model != RobotModel::measured && robot.model != RobotModel::modal_table) {
     robot::Tip tip = tip_model(robot, {})(posture);
     if (auto* spatial = std::get_if<dynamics::SpatialModel>(&tip)) return std::move(*spatial);
   }
-  throw core::InputError("robot.model = \"" + robot.model + "\" has no matrices; take a modelled robot");
+  throw core::InputError("robot.model = \"" + core::word_of(robot.model) + "\" has no matrices; take a modelled robot");
 }
 
-dynamics::SpatialModel robot_matrices(const Setup& source) {
-  return robot_matrices(*source.robot, robot_posture(source).posture);
+dynamics::SpatialModel robot_matrices(const PartSetup& part, const SupportSetup& support) {
+  return robot_matrices(*support.robot, robot_posture(part, support).posture);
 }
 
 }  // namespace thinwall::setup

@@ -18,7 +18,7 @@ struct RobotPosture {
 };
 
 /// Where the first contact is on the part, in space, m; none without a contact or a modelled part.
-[[nodiscard]] std::optional<Eigen::Vector3d> contact_place(const Setup& source);
+[[nodiscard]] std::optional<Eigen::Vector3d> contact_place(const PartSetup& part, const SupportSetup& support);
 
 /// The modes of a robot's tip or a tool's, as the case lists them. Errors as robot::one_mode().
 [[nodiscard]] std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list);
@@ -29,12 +29,13 @@ struct RobotPosture {
 /// How the case's robot stands: its joints by the case's word, or by inverse kinematics for the place of its tip, from
 /// `near` on where a search is needed. For a model without posture only the preload is told. Throws InputError for a
 /// place out of reach, an arm that the closed form is not for, a search that ends beside the place.
-[[nodiscard]] RobotPosture robot_posture(const Setup& source, const std::optional<Eigen::VectorXd>& near = {});
+[[nodiscard]] RobotPosture robot_posture(const PartSetup& part, const SupportSetup& support,
+                                         const std::optional<Eigen::VectorXd>& near = {});
 
 /// The robot's matrices in that posture. Throws InputError for a robot that has none.
 [[nodiscard]] dynamics::SpatialModel robot_matrices(const Robot& robot, const robot::Posture& posture);
 
-/// The same in the posture that the case asks for.
-[[nodiscard]] dynamics::SpatialModel robot_matrices(const Setup& source);
+/// The robot's matrices in the posture that the set-up asks for. Errors as the other, and as robot_posture().
+[[nodiscard]] dynamics::SpatialModel robot_matrices(const PartSetup& part, const SupportSetup& support);
 
 }  // namespace thinwall::setup

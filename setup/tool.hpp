@@ -9,10 +9,22 @@
 #include <string>
 #include <vector>
 
+#include "core/words.hpp"
 #include "setup/measured_frf.hpp"
 #include "setup/robot.hpp"
 
 namespace thinwall::setup {
+
+/// Shapes of a tool's end.
+enum class ToolEnd {
+  flat,
+  ball,
+  bull_nose,
+  general,  ///< a torus between two cones
+};
+
+/// Rotations at the tip of the measured tool.
+enum class SwapRotations { none, second_difference, corrected, rank_one };
 
 /// A cylinder of a tool, in order from the tip to the root.
 struct ToolStep {
@@ -26,19 +38,19 @@ struct ToolSwap {
   std::vector<MeasuredFrf> measured;  ///< between two directions of two points
   std::string tip, up;                ///< names of the points
   double distance = 0.0;              ///< m, of `up` from the tip
-  std::string rotations = "none";     ///< none, second_difference, corrected, rank_one
+  SwapRotations rotations = SwapRotations::none;
   std::vector<ToolStep> reference, target;
 };
 
 /// The cutter, and the motion of its tip.
 struct Tool {
   int teeth = 0;
-  double diameter = 0.0;                           ///< m
-  double length = 0.0;                             ///< m
-  std::vector<double> pitches;                     ///< rad; empty: equal
-  std::vector<double> helices;                     ///< rad, one a tooth; empty: none
-  std::vector<double> runout;                      ///< m, one a tooth; empty: none
-  std::string end = "flat";                        ///< flat, ball, bull_nose, general
+  double diameter = 0.0;        ///< m
+  double length = 0.0;          ///< m
+  std::vector<double> pitches;  ///< rad; empty: equal
+  std::vector<double> helices;  ///< rad, one a tooth; empty: none
+  std::vector<double> runout;   ///< m, one a tooth; empty: none
+  ToolEnd end = ToolEnd::flat;
   double corner_radius = 0.0;                      ///< m; of bull_nose and general, the next four of general alone
   double corner_radial = 0.0, corner_axial = 0.0;  ///< m
   double tip_angle = 0.0, taper = 0.0;             ///< rad
@@ -48,3 +60,13 @@ struct Tool {
 };
 
 }  // namespace thinwall::setup
+
+namespace thinwall::core {
+
+template <>
+inline constexpr std::array<std::string_view, 4> words<setup::ToolEnd>{"flat", "ball", "bull_nose", "general"};
+template <>
+inline constexpr std::array<std::string_view, 4> words<setup::SwapRotations>{"none", "second_difference", "corrected",
+                                                                             "rank_one"};
+
+}  // namespace thinwall::core

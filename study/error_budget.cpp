@@ -30,54 +30,55 @@ coupling::Deviations noise_of(const std::string& whose, const std::vector<setup:
 }
 
 /// Noise of both components into the coupled response, whose kernel is not regularised; empty if neither is noisy.
-coupling::Deviations coupled_noise(const setup::Setup& source, const Results& results, const ErrorBudget& budget) {
+coupling::Deviations coupled_noise(const Results& results, const ErrorBudget& budget) {
   if (budget.part.noise.empty() && budget.robot.noise.empty()) return {};
-  return coupling::error_budget({results.part->response, results.robot->response}, contacts_of(source),
+  return coupling::error_budget({results.part->response, results.robot->response}, contacts_of(results.contacts),
                                 {{budget.part.noise}, {budget.robot.noise}})
       .noise;
 }
 
 /// The part with what its reduction left out (reduction/trust/truncation.hpp), damped as the part is. None of a
 /// measured part, or where nothing was left out.
-std::optional<Component> richer_part(const setup::Setup& source, const Results& results,
+std::optional<Component> richer_part(const setup::Damping& damping, const Results& results,
                                      const dynamics::FrequencyAxis& axis) {
   if (!results.finite_elements || !results.finite_elements->damped) return std::nullopt;
   const reduction::CraigBampton& reduced = *results.finite_elements->reduced;
   const dynamics::SpatialModel richer = reduction::with_left_out(reduced.model, *results.finite_elements->truncation);
   if (richer.size() == reduced.model.size()) return std::nullopt;
   auto identified = results.finite_elements->identified;
-  return component(damped(source, richer, identified), axis);
+  return component(damped(damping, richer, identified), axis);
 }
 
-void add_coupled_truncation(const setup::Setup& source, const Results& results, ErrorBudget& budget) {
+void add_coupled_truncation(const coupling::CouplingOptions& options, const Results& results, ErrorBudget& budget) {
   const Component& richer = *budget.richer_part;
-  const auto contacts = contacts_of(source);
-  budget.coupled.truncation = difference(
-      results.coupled->receptance.response,
-      coupling::couple(richer.response, results.robot->response, contacts, coupling_options(source)).response);
+  const auto contacts = contacts_of(results.contacts);
+  budget.coupled.truncation =
+      difference(results.coupled->receptance.response,
+                 coupling::couple(richer.response, results.robot->response, contacts, options).response);
   if (results.coupled->modal)
     budget.richer_coupled = modes_of(coupling::couple(*richer.spatial, *results.robot->spatial, contacts));
 }
 
 }  // namespace
 
-ErrorBudget error_budget(const setup::Setup& source, const Results& results) {
+ErrorBudget error_budget(const BudgetInput& input, const Results& results) {
   ErrorBudget budget;
   if (results.part) {
-    budget.richer_part = richer_part(source, results, results.part->response.axis);
+    budget.richer_part = richer_part(input.damping, results, results.part->response.axis);
     if (budget.richer_part) budget.part.truncation = difference(results.part->response, budget.richer_part->response);
-    budget.part.noise = noise_of("part", source.measured_part, source.part_sensors, results.part->response);
+    budget.part.noise = noise_of("part", input.measured_part, input.part_sensors, results.part->response);
   }
   if (results.robot)
-    budget.robot.noise = noise_of("robot", source.robot->measured, source.robot->sensors, results.robot->response);
+    budget.robot.noise = noise_of("robot", input.robot->measured, input.robot->sensors, results.robot->response);
   const bool exact = !budget.richer_part && budget.part.noise.empty() && budget.robot.noise.empty();
   if (!results.coupled || exact) return budget;
-  if (coupling_options(source).regularisation != coupling::Regularisation::none) {
+  const coupling::CouplingOptions options = coupling_options(input.coupling);
+  if (options.regularisation != coupling::Regularisation::none) {
     core::warn("no error budget of the coupled response: its kernel is regularised");
     return budget;
   }
-  budget.coupled.noise = coupled_noise(source, results, budget);
-  if (budget.richer_part) add_coupled_truncation(source, results, budget);
+  budget.coupled.noise = coupled_noise(results, budget);
+  if (budget.richer_part) add_coupled_truncation(options, results, budget);
   return budget;
 }
 

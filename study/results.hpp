@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/words.hpp"
 #include "coupling/frf_noise.hpp"
 #include "coupling/hertz_contact.hpp"
 #include "coupling/joint_identification.hpp"
@@ -79,9 +80,12 @@ struct OutOfReach {
   std::string reason;
 };
 
+/// The places over which a robot is surveyed: its one posture, the positions of a path, or its workspace.
+enum class SurveyPlaces { posture, path, workspace };
+
 /// The robot's tip over many postures.
 struct RobotSurvey {
-  std::string over = "posture";  ///< posture, path, workspace
+  SurveyPlaces over = SurveyPlaces::posture;
   std::vector<TipReport> tips;
   std::vector<OutOfReach> out_of_reach;
 };
@@ -237,3 +241,10 @@ struct Results {
 };
 
 }  // namespace thinwall::study
+
+namespace thinwall::core {
+
+template <>
+inline constexpr std::array<std::string_view, 3> words<study::SurveyPlaces>{"posture", "path", "workspace"};
+
+}  // namespace thinwall::core

@@ -29,14 +29,14 @@ namespace {
 /// Mesh, fits of the part, the part itself. Parameters that were fitted are put into `work`.
 void compute_part_of(const setup::Variation& variation, setup::VariedSetup& work, Results& results, Stages& stages) {
   stages.begin(work.setup.part->mesh.element_size ? "mesh" : "mesh, order and modes");
-  Discretisation discretisation = discretise(work.setup);
+  Discretisation discretisation = discretise(part_input(work.setup));
   const mesh::TetMesh& mesh = discretisation.mesh;
   const Eigen::Vector3d meshed_size = setup::box_size(*work.setup.part);
   core::inform(fmt::format("{} tetrahedra, {} vertices, order {}", mesh.tets.size(), mesh.vertices.size(),
                            discretisation.order));
   const std::vector<setup::Updating> fits = work.setup.updating;  // a fit rewrites `work`
   for (const setup::Updating& updating : fits) {
-    if (updating.on != "part") continue;
+    if (updating.on != setup::FitOf::part) continue;
     stages.begin("updating");
     const Eigen::Vector3d size_before = setup::box_size(*work.setup.part);
     discretisation.solved.reset();  // the part changes: mesh and order stay, the solution does not
@@ -47,7 +47,7 @@ void compute_part_of(const setup::Variation& variation, setup::VariedSetup& work
     core::inform(fmt::format("{}: {} evaluations", updating.name, results.updating.back().evaluations));
   }
   discretisation.mesh = stretched(std::move(discretisation.mesh), meshed_size, setup::box_size(*work.setup.part));
-  results.finite_elements = compute_part(work.setup, std::move(discretisation), stages);
+  results.finite_elements = compute_part(part_input(work.setup), std::move(discretisation), stages);
 }
 
 /// The part of an earlier run of the same input, or computed now.
@@ -57,37 +57,38 @@ void run_part(const setup::Variation& variation, setup::VariedSetup& work, Check
   part_of_checkpoint(kept, variation, work, results,
                      [&](setup::VariedSetup& w, Results& r) { compute_part_of(variation, w, r, stages); });
   PartResult& part = *results.finite_elements;
-  if (part.reduced && !part.damped) part.damped = damped(work.setup, part.reduced->model, part.identified);
+  if (part.reduced && !part.damped) part.damped = damped(work.setup.damping, part.reduced->model, part.identified);
 }
 
 /// Fits on the reduced part; damping may be among the parameters, so it is applied anew.
 void run_coupled_updating(const setup::Variation& variation, setup::VariedSetup& work, Checkpoint& kept,
                           Results& results, Stages& stages) {
-  if (std::ranges::count(work.setup.updating, "coupled", &setup::Updating::on) == 0) return;
+  if (std::ranges::count(work.setup.updating, setup::FitOf::coupled, &setup::Updating::on) == 0) return;
   stages.begin("updating");
   fits_of_checkpoint(kept, variation, work, results, [&variation](setup::VariedSetup& w, Results& r) {
     const std::vector<setup::Updating> fits = w.setup.updating;  // a fit rewrites the set-up
     for (const setup::Updating& updating : fits) {
-      if (updating.on != "coupled") continue;
+      if (updating.on != setup::FitOf::coupled) continue;
       r.updating.push_back(update_coupled(variation, w, updating, r.finite_elements->reduced->model));
     }
   });
   PartResult& part = *results.finite_elements;
-  part.damped = damped(work.setup, part.reduced->model, part.identified);
+  part.damped = damped(work.setup.damping, part.reduced->model, part.identified);
 }
 
 /// An arm that stands by its joints may stand elsewhere than at its contact.
-void warn_of_distance(const setup::Setup& work, const setup::RobotPosture& robot) {
-  const auto place = setup::contact_place(work);
+void warn_of_distance(const setup::PartSetup& part, const setup::SupportSetup& support,
+                      const setup::RobotPosture& robot) {
+  const auto place = setup::contact_place(part, support);
   if (!robot.tip || !place || (*robot.tip - *place).norm() <= 1e-3) return;
   core::warn(
       fmt::format("the robot's tip stands {:.1f} mm from its contact at \"{}\": it is joined as if it touched; check "
                   "robot.base and robot.posture",
-                  (*robot.tip - *place).norm() * 1e3, work.contacts.front().part_point));
+                  (*robot.tip - *place).norm() * 1e3, support.contacts.front().part_point));
 }
 
-/// A joint that is to be found takes its place in `work`, so that whatever joins the contact later has it.
-void find_contact(setup::Setup& work, Results& results, Stages& stages) {
+/// Finds the joint of the first contact where FRFs of the assembly are given.
+void find_contact(const setup::Setup& work, Results& results, Stages& stages) {
   if (work.contacts.front().measured.empty()) return;
   if (!work.part_sensors.empty()) {
     core::warn(
@@ -96,9 +97,8 @@ void find_contact(setup::Setup& work, Results& results, Stages& stages) {
         "contact that is found bears its inertia");
   }
   stages.begin("contact");
-  results.identification = identify_contact(work, *results.part, *results.robot);
-  warn_of_misfit(work, *results.identification);
-  work.contacts.front().identified = results.identification->joined;
+  results.identification = identify_contact(work.contacts.front(), *results.part, *results.robot);
+  warn_of_misfit(work.contacts.front(), *results.identification);
 }
 
 void warn_of_kernel(const setup::Setup& work, const CouplingResult& coupled) {
@@ -112,42 +112,46 @@ void warn_of_kernel(const setup::Setup& work, const CouplingResult& coupled) {
     core::warn(fmt::format(
         "coupling.regularisation = \"{}\" changed the kernel, singular values below the threshold at {} of {} lines; a "
         "joint is left open by up to {:.2g} of its opening",
-        work.coupling.regularisation, (receptance.dropped.array() > 0).count(), receptance.dropped.size(),
-        receptance.compatibility_residual.maxCoeff()));
+        core::word_of(work.coupling.regularisation), (receptance.dropped.array() > 0).count(),
+        receptance.dropped.size(), receptance.compatibility_residual.maxCoeff()));
   }
   if (!coupled.no_spatial_route.empty())
     core::warn(fmt::format("no spatial route, so no modes of part and robot together: {}", coupled.no_spatial_route));
 }
 
-void run_coupling(Checkpoint& kept, setup::Setup& work, Results& results, Stages& stages) {
+void run_coupling(Checkpoint& kept, const setup::Setup& work, Results& results, Stages& stages) {
   find_contact(work, results, stages);
   stages.begin("coupling");
-  results.contacts = setup::joined_contacts(work);
-  results.coupled = coupling_of_checkpoint(kept, [&] { return couple(work, *results.part, *results.robot); });
-  results.reductions = reductions(work, *results.part, *results.coupled);
+  const auto identified = results.identification ? std::optional(results.identification->joined) : std::nullopt;
+  results.contacts = setup::joined_contacts(work, work, identified);
+  const std::vector<coupling::Contact> contacts = contacts_of(results.contacts);
+  results.coupled = coupling_of_checkpoint(
+      kept, [&] { return couple(contacts, coupling_options(work.coupling), *results.part, *results.robot); });
+  results.reductions = reductions(contacts, *results.part, *results.coupled);
   warn_of_kernel(work, *results.coupled);
 }
 
-void run_responses(Checkpoint& kept, setup::Setup& work, Results& results, Stages& stages) {
+void run_responses(Checkpoint& kept, const setup::Setup& work, Results& results, Stages& stages) {
   const bool reduced = results.finite_elements && results.finite_elements->damped;
   const bool part = reduced || !work.measured_part.empty();
   if (!part && !work.robot) return;
   stages.begin("receptances");
-  const dynamics::FrequencyAxis axis = frequency_axis(work);
+  const dynamics::FrequencyAxis axis = frequency_axis(work.response);
   if (part) results.part = reduced ? component(*results.finite_elements->damped, axis) : measured_part(work, axis);
   if (work.robot) {
-    results.robot_posture = setup::robot_posture(work);
-    results.robot = robot_component(work, axis, results.robot_posture->posture);
-    warn_of_distance(work, *results.robot_posture);
-    results.survey = survey(work, tip_report(*results.robot_posture, *results.robot));
+    results.robot_posture = setup::robot_posture(work, work);
+    results.robot = robot_component(*work.robot, axis, results.robot_posture->posture);
+    warn_of_distance(work, work, *results.robot_posture);
+    results.survey = survey(survey_input(work), tip_report(*results.robot_posture, *results.robot));
     if (results.survey->tips.empty()) core::warn("the robot reaches no place of its workspace");
   }
   if (!work.measured_part.empty()) setup::warn_of_doubts(results.part->response, "the part's");
-  if (work.robot && work.robot->model == "measured") setup::warn_of_doubts(results.robot->response, "the robot's");
+  if (work.robot && work.robot->model == setup::RobotModel::measured)
+    setup::warn_of_doubts(results.robot->response, "the robot's");
   if (part && work.robot && !work.contacts.empty()) run_coupling(kept, work, results, stages);
   stages.begin("error budget");
   try {
-    results.errors = error_budget(work, results);
+    results.errors = error_budget(budget_input(work), results);
   } catch (const core::Interrupted&) {
     throw;
   } catch (const core::Error& error) {
@@ -156,7 +160,7 @@ void run_responses(Checkpoint& kept, setup::Setup& work, Results& results, Stage
 }
 
 /// The supported part where the robot has no poles. What cannot be charted from samples leaves the rest of the run.
-void add_sampled_chart(const setup::Setup& work, const milling::ToolFrame& frame,
+void add_sampled_chart(const setup::CutSetup& work, const milling::ToolFrame& frame,
                        const std::vector<milling::OperatingPoint>& points, Checkpoint& kept, Results& results) {
   try {
     const auto structure = sampled_structure(work, frame, results.coupled->receptance.response);
@@ -171,10 +175,12 @@ void add_sampled_chart(const setup::Setup& work, const milling::ToolFrame& frame
 
 /// What the contact bears at the operating points of the supported part; not told of a regularised kernel.
 void flag_contacts(const setup::Setup& work, Results& results) {
-  if (work.coupling.regularisation != "none") return;
+  if (work.coupling.regularisation != coupling::Regularisation::none) return;
+  const CutPlace place{work.cutting->at, setup::milling_process(work).frame.rotation()};
   for (PointStability& point : results.lobes.back().points) {
     if (results.lobes.back().name != "supported" || !point.forced) continue;
-    point.contact = contact_force(work, *results.part, *results.robot, *point.forced);
+    point.contact =
+        contact_force(work, contacts_of(results.contacts), place, *results.part, *results.robot, *point.forced);
     if (!point.contact->lost) continue;
     core::warn(
         fmt::format("at {:.0f} rpm the cut pulls the contact open: its force falls to {:.3g} N of {:.3g} N preload",
@@ -214,7 +220,7 @@ void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoi
   if (pressed) flag_contacts(work, results);
   if (!work.path) return;
   stages.begin("lobes along the path");
-  results.path = lobes_along_path(work, results, kept);
+  results.path = lobes_along_path(path_input(work), results, kept);
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ double ranked(const setup::UpdatingTarget& target, const std::vector<Participati
 }
 
 double coupled_frequency(const setup::UpdatingTarget& target, const dynamics::ModalModel& coupled) {
-  if (target.match == "participation") return ranked(target, participating_modes(coupled, target.point));
+  if (target.match == setup::ModeMatch::participation)
+    return ranked(target, participating_modes(coupled, target.point));
   const auto modes = dynamics::oscillating_modes(coupled);
   if (static_cast<std::size_t>(target.rank) > modes.size()) throw no_such_mode(target, modes.size());
   return dynamics::summarise(coupled.poles(modes[static_cast<std::size_t>(target.rank) - 1])).frequency_hz;
@@ -42,8 +43,8 @@ double reduction_at(const setup::Setup& now, const setup::UpdatingTarget& target
   const dynamics::ResponseModel H = part.spatial->has_structural_damping()
                                         ? dynamics::direct_response(*part.spatial, line)
                                         : dynamics::to_response(*part.modal, line);
-  const auto G = coupling::couple(H, robot_component(now, line, setup::robot_posture(now).posture).response,
-                                  contacts_of(now), coupling_options(now))
+  const auto G = coupling::couple(H, robot_component(*now.robot, line, setup::robot_posture(now, now).posture).response,
+                                  contacts_of(setup::joined_contacts(now, now)), coupling_options(now.coupling))
                      .response.H.front();
   const auto row = static_cast<Eigen::Index>(dynamics::row_of(H.responses, target.point));
   return 1.0 - std::abs(G(row, row)) / std::abs(H.H.front()(row, row));
@@ -57,15 +58,18 @@ void require_held(const dynamics::SpatialModel& part) {
 /// Modes of part and robot joined only if a target asks for them, and receptances likewise.
 Eigen::VectorXd evaluate_coupled(const setup::Setup& now, const setup::Updating& updating,
                                  const dynamics::SpatialModel& reduced) {
-  const auto is_frequency = [](const setup::UpdatingTarget& target) { return target.quantity == "coupled_frequency"; };
+  const auto is_frequency = [](const setup::UpdatingTarget& target) {
+    return target.quantity == setup::FittedQuantity::coupled_frequency;
+  };
   std::vector<reduction::IdentifiedMode> identified;
   Component part;
-  part.spatial = damped(now, reduced, identified);
+  part.spatial = damped(now.damping, reduced, identified);
   require_held(*part.spatial);
   if (!std::ranges::all_of(updating.targets, is_frequency)) part.modal = modes_of(*part.spatial);
   dynamics::ModalModel coupled;
   if (std::ranges::any_of(updating.targets, is_frequency))
-    coupled = modes_of(coupling::couple(*part.spatial, setup::robot_matrices(now), contacts_of(now)));
+    coupled = modes_of(coupling::couple(*part.spatial, setup::robot_matrices(now, now),
+                                        contacts_of(setup::joined_contacts(now, now))));
   Eigen::VectorXd values(static_cast<Eigen::Index>(updating.targets.size()));
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     const setup::UpdatingTarget& target = updating.targets[static_cast<std::size_t>(i)];
@@ -75,7 +79,8 @@ Eigen::VectorXd evaluate_coupled(const setup::Setup& now, const setup::Updating&
 }
 
 double residual(const setup::UpdatingTarget& target, double value) {
-  if (target.quantity == "reduction_at") return target.weight * std::log((1.0 - value) / (1.0 - target.value));
+  if (target.quantity == setup::FittedQuantity::reduction_at)
+    return target.weight * std::log((1.0 - value) / (1.0 - target.value));
   return target.weight * (value - target.value) / target.value;
 }
 
@@ -129,9 +134,9 @@ UpdatingResult fit(const setup::Variation& variation, setup::VariedSetup& source
   }
   for (Eigen::Index i = 0; i < found.residuals.size(); ++i) {
     const setup::UpdatingTarget& target = updating.targets[static_cast<std::size_t>(i)];
-    UpdatingResult::Target reached{target.quantity, target.value, 0.0, {}};
+    UpdatingResult::Target reached{core::word_of(target.quantity), target.value, 0.0, {}};
     const double r = found.residuals(i) / target.weight;
-    const bool remains = target.quantity == "reduction_at";
+    const bool remains = target.quantity == setup::FittedQuantity::reduction_at;
     reached.reached = remains ? 1.0 - (1.0 - target.value) * std::exp(r) : target.value * (1.0 + r);
     for (Eigen::Index k = 0; k < start.size(); ++k) {
       const auto& p = result.parameters[static_cast<std::size_t>(k)];

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/words.hpp"
 #include "milling/cut/process.hpp"
 #include "milling/direct/lobe_row.hpp"
 #include "milling/structure/relative_structure.hpp"
@@ -28,7 +29,7 @@ enum class Method {
 /// All of them, as in the enumeration.
 [[nodiscard]] const std::vector<Method>& all_methods();
 
-/// As in the enumeration, "zeroth_order" and so on.
+/// The name of a method as in the enumeration: "zeroth_order" and so on.
 [[nodiscard]] std::string name(Method method);
 
 /// The method of that name. Throws InputError with the nearest one if there is none.
@@ -90,3 +91,18 @@ class LobeMethod {
                                                       const MillingProcess& process, const MethodOptions& options);
 
 }  // namespace thinwall::milling
+
+namespace thinwall::core {
+
+template <>
+inline constexpr std::array<std::string_view, 9> words<milling::Method>{"direct",
+                                                                        "zeroth_order",
+                                                                        "multi_frequency",
+                                                                        "semi_discretization_0",
+                                                                        "semi_discretization_1",
+                                                                        "semi_discretization_2",
+                                                                        "full_discretization_1",
+                                                                        "full_discretization_2",
+                                                                        "full_discretization_3"};
+
+}  // namespace thinwall::core

@@ -11,9 +11,9 @@ namespace thinwall::milling {
 namespace {
 
 bool overlap(const Engagement& a, const Engagement& b) {
-  constexpr double turn = 2.0 * std::numbers::pi;
+  constexpr double full_turn = 2.0 * std::numbers::pi;
   constexpr double touch = 1e-9;
-  const auto into_turn = [](double angle) { return angle - turn * std::floor(angle / turn); };
+  const auto into_turn = [](double angle) { return angle - full_turn * std::floor(angle / full_turn); };
   return into_turn(b.entry_rad - a.entry_rad + touch) < a.arc_rad() ||
          into_turn(a.entry_rad - b.entry_rad + touch) < b.arc_rad();
 }
@@ -33,9 +33,9 @@ Engagement engagement_of(const Cutter& cutter, double radial_depth_m, MillingDir
 }
 
 std::vector<std::string> validate(const Engagement& engagement) {
-  constexpr double turn = 2.0 * std::numbers::pi * (1.0 + 1e-12);
+  constexpr double full_turn = 2.0 * std::numbers::pi * (1.0 + 1e-12);
   const double arc = engagement.arc_rad();
-  if (arc > 0.0 && arc <= turn && std::isfinite(engagement.entry_rad)) return {};
+  if (arc > 0.0 && arc <= full_turn && std::isfinite(engagement.entry_rad)) return {};
   std::ostringstream text;
   text << "engagement: from " << engagement.entry_rad << " to " << engagement.exit_rad
        << " rad, the arc must be above 0 and at most 2π; correct the entry or the exit angle";

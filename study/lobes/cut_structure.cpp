@@ -24,7 +24,7 @@ milling::RelativeStructure tool_modes(const setup::Tool& tool) {
                                      "tool");
 }
 
-milling::RelativeStructure part_structure(const setup::Setup& source, const dynamics::ModalModel& part) {
+milling::RelativeStructure part_structure(const setup::CutSetup& source, const dynamics::ModalModel& part) {
   const auto& limit = source.lobes->modes_up_to_hz;
   const auto kept = limit ? dynamics::truncate(part, 2.0 * std::numbers::pi * *limit, true) : part;
   return milling::relative_structure(kept, source.cutting->at);
@@ -71,7 +71,7 @@ void warn_of_doubts(const milling::SampledReceptance& tip, const std::string& wh
 }
 
 /// The swapped tip, with a warning where digits were lost.
-milling::SampledReceptance swapped(const setup::Setup& source) {
+milling::SampledReceptance swapped(const setup::CutSetup& source) {
   SwappedTip result = swapped_tip(source);
   if (result.status == coupling::SwapStatus::ill_conditioned)
     core::warn(fmt::format(
@@ -99,14 +99,14 @@ bool gives_reverse(const std::vector<setup::MeasuredFrf>& files, const setup::Me
   });
 }
 
-std::optional<milling::RelativeStructure> cut_poles(const setup::Setup& source, const dynamics::ModalModel* part) {
+std::optional<milling::RelativeStructure> cut_poles(const setup::CutSetup& source, const dynamics::ModalModel* part) {
   std::optional<milling::RelativeStructure> poles;
   if (part != nullptr) poles = part_structure(source, *part);
   if (source.tool->modes.empty()) return poles;
   return poles ? milling::sum(*poles, tool_modes(*source.tool)) : tool_modes(*source.tool);
 }
 
-milling::SampledStructure sampled_structure(const setup::Setup& source, const milling::ToolFrame& frame,
+milling::SampledStructure sampled_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                             const dynamics::ResponseModel& coupled) {
   const dynamics::ResponseModel at_cut = dynamics::between(coupled, source.cutting->at, source.cutting->at);
   const Eigen::Matrix3Xd D = dynamics::displacement_matrix(at_cut.responses, source.cutting->at);
@@ -125,7 +125,7 @@ milling::SampledStructure sampled_structure(const setup::Setup& source, const mi
   return {in_tool_axes(std::move(felt), frame), tool};
 }
 
-CutStructure cut_structure(const setup::Setup& source, const milling::ToolFrame& frame,
+CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                            const dynamics::ModalModel* part) {
   const std::optional<milling::RelativeStructure> modal = cut_poles(source, part);
   if (source.tool->swap) return milling::SampledStructure{in_tool_axes(swapped(source), frame), modal};

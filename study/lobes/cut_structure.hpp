@@ -21,7 +21,7 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::SampledSt
 
 /// What of the cut is known by its modes: the part (null: a rigid one), and the tool where it is given by modes. None
 /// if nothing is.
-[[nodiscard]] std::optional<milling::RelativeStructure> cut_poles(const setup::Setup& source,
+[[nodiscard]] std::optional<milling::RelativeStructure> cut_poles(const setup::CutSetup& source,
                                                                   const dynamics::ModalModel* part);
 
 /// 0, 1, 2 of "tool.x", "tool.y", "tool.z".
@@ -34,13 +34,14 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::SampledSt
 /// lie on the lines of the first measured file; what speaks against them is logged as a warning: a driving point that
 /// gives energy, the highest resonance with fewer than two lines in half its width. Throws InputError if nothing moves,
 /// DataError as io::read_frf and io::resample.
-[[nodiscard]] CutStructure cut_structure(const setup::Setup& source, const milling::ToolFrame& frame,
+[[nodiscard]] CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                          const dynamics::ModalModel* part);
 
 /// The part as it is held by a robot that has no poles: samples of `coupled` (part axes) at the point that is cut, on
 /// its lines, and the tool: its modes as poles, or its measured receptance put on these lines. Warns as above. Throws
 /// DataError as io::resample.
-[[nodiscard]] milling::SampledStructure sampled_structure(const setup::Setup& source, const milling::ToolFrame& frame,
+[[nodiscard]] milling::SampledStructure sampled_structure(const setup::CutSetup& source,
+                                                          const milling::ToolFrame& frame,
                                                           const dynamics::ResponseModel& coupled);
 
 }  // namespace thinwall::study

@@ -43,20 +43,18 @@ struct Chart {
   [[nodiscard]] const milling::RelativeStructure* poles() const {
     return std::get_if<milling::RelativeStructure>(&structure);
   }
-  [[nodiscard]] milling::Lobes by(const std::string& method, const milling::KeptRows& kept = {}) const {
+  [[nodiscard]] milling::Lobes by(milling::Method method, const milling::KeptRows& kept = {}) const {
     if (const auto* sampled = std::get_if<milling::SampledStructure>(&structure))
       return milling::stability_lobes(*sampled, process, speeds_rpm, options.stability, kept);
-    return milling::stability_lobes(*milling::lobe_method(milling::method_named(method), *poles(), process, options),
-                                    speeds_rpm, kept);
+    return milling::stability_lobes(*milling::lobe_method(method, *poles(), process, options), speeds_rpm, kept);
   }
-  [[nodiscard]] milling::RowAt row_at(const std::string& method) const {
+  [[nodiscard]] milling::RowAt row_at(milling::Method method) const {
     return [this, method](double rpm, const milling::StabilityOptions& with) {
       if (const auto* sampled = std::get_if<milling::SampledStructure>(&structure))
         return milling::limiting_depth(*sampled, process, rpm, with);
       milling::MethodOptions all = options;
       all.stability = with;
-      return milling::lobe_method(milling::method_named(method), *poles(), process, all)
-          ->limiting_depth(rpm, with.expected_depth_m);
+      return milling::lobe_method(method, *poles(), process, all)->limiting_depth(rpm, with.expected_depth_m);
     };
   }
   /// Where the direct method gave the crossing from poles.
@@ -67,7 +65,7 @@ struct Chart {
 };
 
 /// Errors of the limiting depths, and at the case's own speed; the rows share out among the threads.
-void add_errors(const setup::Setup& source, const Chart& chart, const StructureErrors& errors, NamedLobes& result) {
+void add_errors(const setup::CutSetup& source, const Chart& chart, const StructureErrors& errors, NamedLobes& result) {
   if (errors.none() || (chart.poles() != nullptr && !chart.direct)) return;  // crossings of other methods are their own
   const auto at = [&](const milling::LobeRow& row) {
     if (row.crossings.empty()) return DepthError{};
@@ -86,7 +84,7 @@ void add_errors(const setup::Setup& source, const Chart& chart, const StructureE
 }
 
 /// Of a stable point; none without poles or a feed. What the library does not model is a warning.
-std::optional<milling::ForcedVibration> forced_at(const setup::Setup& source, const PointStability& found,
+std::optional<milling::ForcedVibration> forced_at(const setup::CutSetup& source, const PointStability& found,
                                                   const Chart& chart) {
   const auto feed = setup::feed_per_tooth(source);
   if (chart.poles() == nullptr || !feed || !found.stable) return std::nullopt;
@@ -102,7 +100,7 @@ std::optional<milling::ForcedVibration> forced_at(const setup::Setup& source, co
 }
 
 /// |μ| where there are poles, and the margins to the boundary.
-PointStability stability_of(const milling::OperatingPoint& point, const Chart& chart, const std::string& method,
+PointStability stability_of(const milling::OperatingPoint& point, const Chart& chart, milling::Method method,
                             const milling::Lobes& lobes) {
   const milling::StabilityOptions& options = chart.options.stability;
   const milling::RowAt row_at = chart.row_at(method);
@@ -116,7 +114,7 @@ PointStability stability_of(const milling::OperatingPoint& point, const Chart& c
   if (chart.poles() == nullptr) return result;
   if (!result.depth.at_limit)
     result.sensitivities = chart.sensitivities(point.spindle_speed_rpm, result.depth.boundary);
-  result.multiplier = milling::lobe_method(milling::method_named(method), *chart.poles(), chart.process, chart.options)
+  result.multiplier = milling::lobe_method(method, *chart.poles(), chart.process, chart.options)
                           ->multiplier_at(point.spindle_speed_rpm, point.depth_m);
   if (result.multiplier->status != milling::StabilityStatus::converged) {
     // The crossings' word, which converged by itself, stands.
@@ -130,8 +128,8 @@ PointStability stability_of(const milling::OperatingPoint& point, const Chart& c
   return result;
 }
 
-ComparedLobes compared(const Chart& chart, const milling::Lobes& reference, const std::string& method) {
-  ComparedLobes result{method, chart.by(method)};
+ComparedLobes compared(const Chart& chart, const milling::Lobes& reference, milling::Method method) {
+  ComparedLobes result{milling::name(method), chart.by(method)};
   for (std::size_t i = 0; i < reference.rows.size(); ++i) {
     const milling::LobeRow& row = reference.rows[i];
     const double difference = std::abs(result.lobes.rows[i].limiting_depth_m / row.limiting_depth_m - 1.0);
@@ -143,13 +141,13 @@ ComparedLobes compared(const Chart& chart, const milling::Lobes& reference, cons
 }
 
 /// A comparison that fails leaves the chart as it is.
-void add_compared(const Chart& chart, const std::string& method, NamedLobes& result) {
+void add_compared(const Chart& chart, milling::Method method, NamedLobes& result) {
   try {
     result.compared.push_back(compared(chart, result.lobes, method));
   } catch (const core::InputError& error) {
-    core::warn(fmt::format("no chart by {} to compare with: {}", method, error.what()));
+    core::warn(fmt::format("no chart by {} to compare with: {}", milling::name(method), error.what()));
   } catch (const core::NumericalError& error) {
-    core::warn(fmt::format("no chart by {} to compare with: {}", method, error.what()));
+    core::warn(fmt::format("no chart by {} to compare with: {}", milling::name(method), error.what()));
   }
 }
 
@@ -170,11 +168,11 @@ std::vector<milling::LobeRow> robust_rows(std::vector<milling::LobeRow> rows, co
   return rows;
 }
 
-void add_pockets(const setup::Setup& source, const milling::MillingProcess& process, NamedLobes& result) {
+void add_pockets(const setup::CutSetup& source, const milling::MillingProcess& process, NamedLobes& result) {
   constexpr std::size_t most = 5;
   const milling::MachineLimits machine = source.machine.value_or(milling::MachineLimits{});
   std::optional<milling::CutLoad> load;
-  if (const auto feed = setup::feed_per_tooth(source); feed && source.tool->end == "flat")
+  if (const auto feed = setup::feed_per_tooth(source); feed && source.tool->end == setup::ToolEnd::flat)
     load = milling::cut_load(process, *feed);
   result.pockets = milling::best_pockets(result.lobes.rows, machine, load, most);
   if (!result.robust) return;
@@ -191,13 +189,14 @@ milling::StabilityOptions stability_options(const setup::LobesOptions& wanted) {
   return options;
 }
 
-NamedLobes compute_lobes(const setup::Setup& source, const std::string& name, CutStructure structure,
+NamedLobes compute_lobes(const setup::CutSetup& source, const std::string& name, CutStructure structure,
                          const StructureErrors& errors, const std::vector<milling::OperatingPoint>& points,
                          Checkpoint& kept) {
   const setup::LobesOptions& wanted = *source.lobes;
   const milling::MillingProcess process = setup::milling_process(source);
   const Chart chart{std::move(structure), process, options_of(wanted),
-                    milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count), wanted.method == "direct"};
+                    milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count),
+                    wanted.method == milling::Method::direct};
   NamedLobes result;
   result.name = name;
   result.main_modes_hz = main_modes_hz(chart.structure);
@@ -217,7 +216,7 @@ NamedLobes compute_lobes(const setup::Setup& source, const std::string& name, Cu
     add_pockets(source, process, result);
     return result;
   }
-  for (const auto& method : wanted.compare) add_compared(chart, method, result);
+  for (const milling::Method method : wanted.compare) add_compared(chart, method, result);
   if (wanted.map_depths) result.map = map_of(chart, result.lobes, *wanted.map_depths);
   if (wanted.robust) {
     result.robust = milling::robust_lobes(*chart.poles(), process, chart.speeds_rpm, chart.options.stability,
@@ -227,7 +226,7 @@ NamedLobes compute_lobes(const setup::Setup& source, const std::string& name, Cu
   return result;
 }
 
-void require_chart_of(const setup::Setup& source, const std::vector<milling::OperatingPoint>& points) {
+void require_chart_of(const setup::CutSetup& source, const std::vector<milling::OperatingPoint>& points) {
   if (points.empty()) return;
   if (!source.lobes || !source.cutting || !source.tool)
     throw core::InputError("an operating point needs a chart; add [tool], [cutting] and [lobes] to the case");

@@ -17,12 +17,12 @@ namespace thinwall::study {
 /// The chart of what the cut feels, what `errors` of the structure make of its depths, and what it says of operating
 /// points. Rows that are kept are taken, others kept as they are found. From samples there are neither comparisons, a
 /// map, a robust chart nor sensitivities.
-[[nodiscard]] NamedLobes compute_lobes(const setup::Setup& source, const std::string& name, CutStructure structure,
+[[nodiscard]] NamedLobes compute_lobes(const setup::CutSetup& source, const std::string& name, CutStructure structure,
                                        const StructureErrors& errors,
                                        const std::vector<milling::OperatingPoint>& points, Checkpoint& kept);
 
 /// Throws InputError, before anything is computed, if operating points are asked of a case without a chart or lie
 /// deeper than it goes.
-void require_chart_of(const setup::Setup& source, const std::vector<milling::OperatingPoint>& points);
+void require_chart_of(const setup::CutSetup& source, const std::vector<milling::OperatingPoint>& points);
 
 }  // namespace thinwall::study

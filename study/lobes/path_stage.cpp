@@ -32,23 +32,32 @@ struct StructuresAlongPath {
 };
 
 /// How the robot stands at each position: as it was surveyed along the path, or in its one posture.
-std::vector<setup::RobotPosture> postures_along_path(const setup::Setup& source, const Results& results) {
-  const std::size_t count = source.path->positions.size();
-  const bool surveyed = results.survey && results.survey->over == "path";
-  if (!source.path->robot_follows) return std::vector<setup::RobotPosture>(count, *results.robot_posture);
+std::vector<setup::RobotPosture> postures_along_path(const PathInput& input, const Results& results) {
+  if (!input.robot_follows) return std::vector<setup::RobotPosture>(input.stations.size(), *results.robot_posture);
+  const bool surveyed = results.survey && results.survey->over == SurveyPlaces::path;
   if (surveyed && !results.survey->out_of_reach.empty())
     throw core::InputError(results.survey->out_of_reach.front().reason);
   std::vector<setup::RobotPosture> postures;
   std::optional<Eigen::VectorXd> near;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < input.stations.size(); ++i) {
+    const setup::PathStation& station = input.stations[i];
     postures.push_back(surveyed ? results.survey->tips[i].robot
-                                : setup::robot_posture(setup::at_position(source, i), near));
+                                : setup::robot_posture(setup::part_at(input.part, station),
+                                                       setup::support_at(input.support, station), near));
     near = postures.back().posture.q;
   }
   return postures;
 }
 
-StructuresAlongPath structures_along_path(const setup::Setup& source, const Results& results,
+/// The joined contacts at the points of the station.
+std::vector<coupling::Contact> contacts_at(const std::vector<setup::JoinedContact>& joined,
+                                           const setup::PathStation& station) {
+  std::vector<coupling::Contact> contacts = contacts_of(joined);
+  for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i].point_a = station.touched[i];
+  return contacts;
+}
+
+StructuresAlongPath structures_along_path(const PathInput& input, const Results& results,
                                           const milling::ToolFrame& frame) {
   const auto& models = results.finite_elements->along_path;
   const bool supported = results.coupled && results.coupled->model;
@@ -56,24 +65,25 @@ StructuresAlongPath structures_along_path(const setup::Setup& source, const Resu
   core::Progress progress("positions", models.size());
   structures.part.reserve(models.size());
   structures.supported.reserve(models.size());
-  if (supported) structures.robot = postures_along_path(source, results);
+  if (supported) structures.robot = postures_along_path(input, results);
   for (std::size_t i = 0; i < models.size(); ++i) {
-    const setup::Setup there = setup::at_position(source, i);
+    const setup::CutSetup cut = setup::cut_at(input.cut, input.stations[i]);
     std::vector<reduction::IdentifiedMode> identified;
-    const dynamics::SpatialModel part = damped(there, models[i], identified);
+    const dynamics::SpatialModel part = damped(input.part.damping, models[i], identified);
     const auto felt = [&](const dynamics::ModalModel& modal) {
-      return std::get<milling::RelativeStructure>(cut_structure(there, frame, &modal));
+      return std::get<milling::RelativeStructure>(cut_structure(cut, frame, &modal));
     };
     structures.part.push_back(felt(modes_of(part)));
     progress.step();
     if (!supported) continue;
-    const dynamics::SpatialModel robot = setup::robot_matrices(*there.robot, structures.robot[i].posture);
-    structures.supported.push_back(felt(modes_of(coupling::couple(part, robot, contacts_of(there)))));
+    const dynamics::SpatialModel robot = setup::robot_matrices(*input.support.robot, structures.robot[i].posture);
+    structures.supported.push_back(
+        felt(modes_of(coupling::couple(part, robot, contacts_at(results.contacts, input.stations[i])))));
   }
   return structures;
 }
 
-PathLobes charts(const setup::Setup& source, const std::string& name, const std::string& method,
+PathLobes charts(const setup::CutSetup& source, const std::string& name, const std::string& method,
                  const milling::MillingProcess& process, const std::vector<milling::RelativeStructure>& structures,
                  Checkpoint& kept) {
   const setup::LobesOptions& wanted = *source.lobes;
@@ -95,16 +105,16 @@ PathLobes charts(const setup::Setup& source, const std::string& name, const std:
 
 }  // namespace
 
-std::vector<dynamics::SpatialModel> models_along_path(const setup::Setup& source, const PartResult& part,
+std::vector<dynamics::SpatialModel> models_along_path(const PartInput& source, const PartResult& part,
                                                       const linalg::ShiftedInverse& inverse) {
   const reduction::PartModes modes = reduction::part_modes(*part.reduced, part.model.M, inverse);
-  const std::size_t count = source.path->positions.size();
+  const std::size_t count = source.path.size();
   std::vector<dynamics::SpatialModel> models;
   core::Progress progress("positions", count);
   models.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     try {
-      const reduction::Interface interface = part_interface(setup::at_position(source, i), part.model);
+      const reduction::Interface interface = part_interface(setup::part_at(source, source.path[i]), part.model);
       models.push_back(reduction::with_attachment_modes(modes, part.model.M, inverse, interface));
       progress.step();
     } catch (const core::InputError& error) {
@@ -114,15 +124,19 @@ std::vector<dynamics::SpatialModel> models_along_path(const setup::Setup& source
   return models;
 }
 
-std::vector<PathLobes> lobes_along_path(const setup::Setup& source, const Results& results, Checkpoint& kept) {
-  const milling::MillingProcess process = setup::milling_process(source);
-  const StructuresAlongPath structures = structures_along_path(source, results, process.frame);
+PathInput path_input(const setup::Setup& source) {
+  return {source, source, source, setup::stations(source), source.path->robot_follows};
+}
+
+std::vector<PathLobes> lobes_along_path(const PathInput& input, const Results& results, Checkpoint& kept) {
+  const milling::MillingProcess process = setup::milling_process(input.cut);
+  const StructuresAlongPath structures = structures_along_path(input, results, process.frame);
   const std::string& method = results.lobes.front().lobes.method;
   if (structures.supported.empty() && results.coupled)
     core::warn("no charts of the supported part along the path: part and robot are not joined by matrices");
-  std::vector<PathLobes> all{charts(source, "part", method, process, structures.part, kept)};
+  std::vector<PathLobes> all{charts(input.cut, "part", method, process, structures.part, kept)};
   if (!structures.supported.empty()) {
-    all.push_back(charts(source, "supported", method, process, structures.supported, kept));
+    all.push_back(charts(input.cut, "supported", method, process, structures.supported, kept));
     all.back().robot = structures.robot;
   }
   return all;

@@ -5,22 +5,35 @@
 
 #include "linalg/eigenpairs.hpp"
 #include "setup/machining_setup.hpp"
+#include "setup/path.hpp"
 #include "study/kept/checkpoint.hpp"
+#include "study/part/part_input.hpp"
 #include "study/results.hpp"
 
 namespace thinwall::study {
+
+/// All that the charts along a path follow from, beside the results of the earlier stages.
+struct PathInput {
+  setup::PartSetup part;
+  setup::SupportSetup support;
+  setup::CutSetup cut;
+  std::vector<setup::PathStation> stations;
+  bool robot_follows = false;  ///< the robot's contacts keep their distance to the cut; else they stay
+};
+
+/// The path's input of a set-up that has one. Errors as setup::stations().
+[[nodiscard]] PathInput path_input(const setup::Setup& source);
 
 /// Undamped models of the part at each position of the case's path, between the cut and the contacts there. Mesh,
 /// factor (`inverse`, at zero shift) and modes are those of the part as it was reduced; a position costs a solve of
 /// three right-hand sides, and as many a contact (reduction/methods/attachment_modes.hpp). Throws InputError for a
 /// position off the part's surface, with its number.
-[[nodiscard]] std::vector<dynamics::SpatialModel> models_along_path(const setup::Setup& source, const PartResult& part,
+[[nodiscard]] std::vector<dynamics::SpatialModel> models_along_path(const PartInput& source, const PartResult& part,
                                                                     const linalg::ShiftedInverse& inverse);
 
 /// Charts at every position: the part alone, and with the robot at its contacts where that is known by its matrices.
 /// A position costs an eigen-problem of the reduced size beside its chart. `results` must hold the models along the
 /// path. Charts that are kept are taken, others kept once they are there. Throws as milling::lobe_field.
-[[nodiscard]] std::vector<PathLobes> lobes_along_path(const setup::Setup& source, const Results& results,
-                                                      Checkpoint& kept);
+[[nodiscard]] std::vector<PathLobes> lobes_along_path(const PathInput& input, const Results& results, Checkpoint& kept);
 
 }  // namespace thinwall::study

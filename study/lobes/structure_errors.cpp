@@ -44,7 +44,7 @@ milling::SampleCovariance tip_covariance(const std::vector<setup::MeasuredFrf>& 
   return covariance;
 }
 
-void add_tool_noise(const setup::Setup& source, const milling::ToolFrame& frame, const dynamics::FrequencyAxis& axis,
+void add_tool_noise(const setup::CutSetup& source, const milling::ToolFrame& frame, const dynamics::FrequencyAxis& axis,
                     milling::SampleCovariance& noise) {
   const Matrix9d turn = turn_of_entries(frame);
   const milling::SampleCovariance tool = tip_covariance(source.tool->measured, axis);
@@ -53,14 +53,14 @@ void add_tool_noise(const setup::Setup& source, const milling::ToolFrame& frame,
 }
 
 /// Of the coupled response at the point that is cut, tool axes.
-milling::SampleCovariance coupled_noise(const setup::Setup& source, const milling::ToolFrame& frame,
+milling::SampleCovariance coupled_noise(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                         const Results& results) {
   const std::string& at = source.cutting->at;
   const dynamics::DofTable dofs = dynamics::between(results.coupled->receptance.response, at, at).responses;
   std::vector<std::string> names;
   std::ranges::transform(dofs, std::back_inserter(names), dynamics::name);
   const auto covariance =
-      coupling::entry_covariance({results.part->response, results.robot->response}, contacts_of(source),
+      coupling::entry_covariance({results.part->response, results.robot->response}, contacts_of(results.contacts),
                                  {{results.errors.part.noise}, {results.errors.robot.noise}}, names, names);
   const Eigen::Matrix3Xd E = frame.rotation().transpose() * dynamics::displacement_matrix(dofs, at);
   const Eigen::MatrixXd turn = Eigen::kroneckerProduct(E, E);
@@ -104,7 +104,7 @@ DepthError sampled_error(const milling::SampledStructure& structure, const Struc
 
 }  // namespace
 
-StructureErrors structure_errors(const setup::Setup& source, const milling::ToolFrame& frame,
+StructureErrors structure_errors(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                  const CutStructure& structure, const dynamics::ModalModel* richer_part) {
   StructureErrors errors;
   if (richer_part != nullptr) errors.richer = cut_poles(source, richer_part);
@@ -113,7 +113,7 @@ StructureErrors structure_errors(const setup::Setup& source, const milling::Tool
   return errors;
 }
 
-StructureErrors sampled_structure_errors(const setup::Setup& source, const milling::ToolFrame& frame,
+StructureErrors sampled_structure_errors(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                          const Results& results) {
   StructureErrors errors;
   const dynamics::ResponseModel& coupled = results.coupled->receptance.response;

@@ -23,12 +23,12 @@ struct StructureErrors {
 
 /// Of cut_structure() with the part (`richer_part`: with what its reduction left out, null if nothing was) or with the
 /// supported part by its poles: noise of a measured tool.
-[[nodiscard]] StructureErrors structure_errors(const setup::Setup& source, const milling::ToolFrame& frame,
+[[nodiscard]] StructureErrors structure_errors(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                                const CutStructure& structure, const dynamics::ModalModel* richer_part);
 
 /// Of sampled_structure() with the coupled response of `results`: its noise and truncation at the point that is cut,
 /// and the noise of a measured tool.
-[[nodiscard]] StructureErrors sampled_structure_errors(const setup::Setup& source, const milling::ToolFrame& frame,
+[[nodiscard]] StructureErrors sampled_structure_errors(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                                        const Results& results);
 
 /// Of one crossing of a chart, first order in both (milling/chart/sensitivity.hpp,

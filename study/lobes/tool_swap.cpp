@@ -88,15 +88,16 @@ coupling::Contact joint(const std::vector<Vector3d>& directions, const Vector3d&
   return contact;
 }
 
-coupling::RotationRule rule_of(const std::string& word) {
-  if (word == "rank_one") return coupling::RotationRule::rank_one;
-  return word == "corrected" ? coupling::RotationRule::corrected : coupling::RotationRule::second_difference;
+coupling::RotationRule rule_of(setup::SwapRotations rotations) {
+  if (rotations == setup::SwapRotations::rank_one) return coupling::RotationRule::rank_one;
+  return rotations == setup::SwapRotations::corrected ? coupling::RotationRule::corrected
+                                                      : coupling::RotationRule::second_difference;
 }
 
 /// The measured FRFs as they are, or as the tip's displacements and rotations.
 dynamics::ResponseModel with_rotations(const dynamics::ResponseModel& measured, const setup::ToolSwap& swap,
                                        const std::vector<Vector3d>& directions, const Vector3d& axis) {
-  if (swap.rotations == "none") return measured;
+  if (swap.rotations == setup::SwapRotations::none) return measured;
   coupling::RotationOptions options;
   options.rule = rule_of(swap.rotations);
   options.tip_section = tube(swap.reference.front());
@@ -106,7 +107,7 @@ dynamics::ResponseModel with_rotations(const dynamics::ResponseModel& measured, 
 
 }  // namespace
 
-SwappedTip swapped_tip(const setup::Setup& source) {
+SwappedTip swapped_tip(const setup::CutSetup& source) {
   const setup::ToolSwap& swap = *source.tool->swap;
   const Vector3d& axis = source.cutting->tool_axis;
   const dynamics::FrequencyAxis lines = setup::read_measured(swap.measured.front()).axis;

@@ -29,7 +29,7 @@ namespace thinwall::study {
 namespace {
 
 /// Size near the named points, growing by `grading` (m of size per m of distance) away from them.
-std::function<double(const Eigen::Vector3d&)> graded_size(const setup::Setup& source) {
+std::function<double(const Eigen::Vector3d&)> graded_size(const setup::PartSetup& source) {
   const setup::MeshOptions& options = source.part->mesh;
   if (!options.point_element_size) return {};
   std::vector<Eigen::Vector3d> points;
@@ -43,7 +43,7 @@ std::function<double(const Eigen::Vector3d&)> graded_size(const setup::Setup& so
 }
 
 /// TetGen's mesh of the part's box, graded towards the named points where the case asks for it.
-mesh::TetMesh tetgen_mesh(const setup::Setup& source) {
+mesh::TetMesh tetgen_mesh(const setup::PartSetup& source) {
   const setup::MeshOptions& wanted = source.part->mesh;
   mesh::TetgenOptions options;
   options.element_size_m = *wanted.element_size;
@@ -55,7 +55,7 @@ mesh::TetMesh tetgen_mesh(const setup::Setup& source) {
 }
 
 /// A mesh of the closed surface of a file with elements of the size that the case gives, one through the wall.
-mesh::TetMesh surface_mesh(const setup::Setup& source) {
+mesh::TetMesh surface_mesh(const setup::PartSetup& source) {
   const setup::MeshOptions& wanted = source.part->mesh;
   mesh::SurfaceMeshOptions options;
   options.size.size_m = *wanted.element_size;
@@ -69,15 +69,15 @@ mesh::TetMesh surface_mesh(const setup::Setup& source) {
 }
 
 /// Where the tolerance on receptances is to hold: at the interface, and at both ends and the middle of the path.
-std::vector<fem::NamedPoint> watched_points(const setup::Setup& source) {
+std::vector<fem::NamedPoint> watched_points(const PartInput& source) {
   std::vector<fem::NamedPoint> points;
-  const auto add = [&points](const setup::Setup& at) {
+  const auto add = [&points](const setup::PartSetup& at) {
     for (const std::string& name : at.reduction.interface) points.push_back(setup::named_point(at, name));
   };
   add(source);
-  if (!source.path) return points;
-  const std::size_t last = source.path->positions.size() - 1;
-  for (const std::size_t i : {std::size_t{0}, last / 2, last}) add(setup::at_position(source, i));
+  if (source.path.empty()) return points;
+  const std::size_t last = source.path.size() - 1;
+  for (const std::size_t i : {std::size_t{0}, last / 2, last}) add(setup::part_at(source, source.path[i]));
   return points;
 }
 
@@ -95,7 +95,7 @@ void log_steps(const fem::Estimate& estimate) {
 }
 
 /// Says what spheres of another material cost; returns their share of the part.
-double warn_of_misplaced(const setup::Setup& source, const mesh::TetMesh& mesh) {
+double warn_of_misplaced(const setup::PartSetup& source, const mesh::TetMesh& mesh) {
   const double share = setup::misplaced_share(source, mesh);
   if (share > 0.0)
     core::warn(fmt::format(
@@ -111,7 +111,7 @@ void add_misplaced(double share, fem::Estimate& estimate) {
   estimate.met = estimate.met && estimate.frequency <= estimate.tolerance;
 }
 
-Discretisation discretised(const setup::Setup& source, fem::Refined refined) {
+Discretisation discretised(const setup::PartSetup& source, fem::Refined refined) {
   add_misplaced(warn_of_misplaced(source, refined.model.mesh), refined.estimate);
   log_steps(refined.estimate);
   Discretisation result{refined.model.mesh, refined.model.nodes.order, refined.estimate, {}};
@@ -119,13 +119,13 @@ Discretisation discretised(const setup::Setup& source, fem::Refined refined) {
   return result;
 }
 
-std::function<fem::Materials(const mesh::TetMesh&)> several_materials(const setup::Setup& source) {
+std::function<fem::Materials(const mesh::TetMesh&)> several_materials(const setup::PartSetup& source) {
   if (source.part->materials.empty()) return {};
   return [&source](const mesh::TetMesh& mesh) { return setup::materials_on(source, mesh); };
 }
 
 /// The closed surface of a file, by its walls.
-Discretisation refined_surface(const setup::Setup& source) {
+Discretisation refined_surface(const PartInput& source) {
   const setup::MeshOptions& wanted = source.part->mesh;
   fem::ClosedPartOptions options;
   options.tolerance = wanted.tolerance;
@@ -159,9 +159,9 @@ Discretisation refined_surface(const setup::Setup& source) {
   return discretised(source, std::move(part.refined));
 }
 
-Discretisation refined_to_tolerance(const setup::Setup& source) {
+Discretisation refined_to_tolerance(const PartInput& source) {
   for (const std::string& warning : setup::unreachable_tolerances(source)) core::warn(warning);
-  if (source.part->shape == "surface") return refined_surface(source);
+  if (source.part->shape == setup::PartShape::surface) return refined_surface(source);
   const setup::MeshOptions& wanted = source.part->mesh;
   fem::SolidPart part{[&](int level) { return setup::cut_at_materials(source, setup::graded_mesh(source, level)); },
                       setup::shaping(*source.part),
@@ -187,27 +187,27 @@ Discretisation refined_to_tolerance(const setup::Setup& source) {
 
 }  // namespace
 
-Discretisation discretise(const setup::Setup& source) {
+Discretisation discretise(const PartInput& source) {
   const setup::Part& part = *source.part;
-  if (part.shape == "matrices") {
+  if (part.shape == setup::PartShape::matrices) {
     Discretisation result;
     result.solved.emplace(matrix_solution(source));
     return result;
   }
-  if (part.shape == "mesh") {
+  if (part.shape == setup::PartShape::mesh) {
     const mesh::SolidMesh& solid = part.imported->mesh->solid;
     return {solid.mesh, part.mesh.order.value_or(std::max(2, solid.nodes.order)), {}, {}};
   }
-  if (part.shape == "box" && part.thickness > std::max(part.length, part.height)) {
+  if (part.shape == setup::PartShape::box && part.thickness > std::max(part.length, part.height)) {
     core::warn(
         fmt::format("the part is {:g} m thick, more than it is long or high; a number without a unit is in metres",
                     part.thickness));
   }
   if (!part.mesh.element_size) return refined_to_tolerance(source);
   const int order = part.mesh.order.value_or(2);
-  mesh::TetMesh mesh = part.shape == "surface"             ? surface_mesh(source)
-                       : part.shape == "box" && !part.bend ? tetgen_mesh(source)
-                                                           : setup::graded_mesh(source, 0);
+  mesh::TetMesh mesh = part.shape == setup::PartShape::surface             ? surface_mesh(source)
+                       : part.shape == setup::PartShape::box && !part.bend ? tetgen_mesh(source)
+                                                                           : setup::graded_mesh(source, 0);
   mesh = setup::cut_at_materials(source, std::move(mesh));
   warn_of_misplaced(source, mesh);
   return {std::move(mesh), order, {}, {}};

@@ -11,7 +11,7 @@
 #include "mesh/selection.hpp"
 #include "mesh/solid/solid_mesh.hpp"
 #include "mesh/tet_mesh.hpp"
-#include "setup/machining_setup.hpp"
+#include "study/part/part_input.hpp"
 
 namespace thinwall::study {
 
@@ -31,6 +31,6 @@ struct Discretisation {
 };
 
 /// Mesh and order: from the tolerance (fem::refine_to_tolerance), or as the case gives them.
-[[nodiscard]] Discretisation discretise(const setup::Setup& source);
+[[nodiscard]] Discretisation discretise(const PartInput& source);
 
 }  // namespace thinwall::study

@@ -93,7 +93,7 @@ void count_rigid_motions(fem::Model& model) {
                   point, node, "xyz"[axis]));
 }
 
-Solution solved_matrices(const setup::Setup& source) {
+Solution solved_matrices(const setup::PartSetup& source) {
   fem::Model model = model_of(*source.part->imported->matrices);
   if (!has_definite_mass(model))
     setup::require_definite_files(source.part->file.matrices,
@@ -113,7 +113,7 @@ Solution solved_matrices(const setup::Setup& source) {
 
 }  // namespace
 
-Solution matrix_solution(const setup::Setup& source) {
+Solution matrix_solution(const setup::PartSetup& source) {
   try {
     return solved_matrices(source);
   } catch (const linalg::MemoryLimitError&) {
@@ -124,7 +124,7 @@ Solution matrix_solution(const setup::Setup& source) {
   }
 }
 
-reduction::Interface matrix_interface(const setup::Setup& source) {
+reduction::Interface matrix_interface(const setup::PartSetup& source) {
   const dynamics::SparseModel& matrices = *source.part->imported->matrices;
   std::map<dynamics::NodeDof, int> row_of;
   for (std::size_t i = 0; i < matrices.dofs.size(); ++i) row_of[matrices.dofs[i]] = static_cast<int>(i);

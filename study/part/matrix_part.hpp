@@ -12,10 +12,10 @@ namespace thinwall::study {
 /// next (|λ|, K shifted by −1e-8 tr K / tr M), at most twelve. Throws NumericalError where no such gap tells rigid from
 /// elastic modes, DataError that names the file where K or M is indefinite beyond round-off. Cost: a factorisation
 /// of M and one of K, two for a held part, and the modes.
-[[nodiscard]] Solution matrix_solution(const setup::Setup& source);
+[[nodiscard]] Solution matrix_solution(const setup::PartSetup& source);
 
 /// The points of the reduction by the rows of their nodes: a column for each direction n, Σ n_i of component i. Throws
 /// InputError for a direction along which the node has no row.
-[[nodiscard]] reduction::Interface matrix_interface(const setup::Setup& source);
+[[nodiscard]] reduction::Interface matrix_interface(const setup::PartSetup& source);
 
 }  // namespace thinwall::study

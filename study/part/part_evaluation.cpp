@@ -17,7 +17,8 @@ namespace thinwall::study {
 namespace {
 
 /// The rank-th mode that takes part at "P.x" by at least a tenth of the largest share φ²/ω².
-Eigen::Index participating_mode(const setup::Setup& source, const Solution& part, const setup::UpdatingTarget& target) {
+Eigen::Index participating_mode(const setup::PartSetup& source, const Solution& part,
+                                const setup::UpdatingTarget& target) {
   const auto dot = target.point.rfind('.');
   const setup::Point& p = setup::point(source, target.point.substr(0, dot));
   const fem::NamedPoint named{
@@ -51,7 +52,7 @@ core::InputError no_such_mode(const setup::UpdatingTarget& target, std::size_t f
                           " take part there; raise modes.count or modes.up_to, or choose another point");
 }
 
-PartEvaluation::PartEvaluation(const setup::Variation& variation, const setup::Setup& start,
+PartEvaluation::PartEvaluation(const setup::Variation& variation, const setup::PartSetup& start,
                                const setup::Updating& updating, const mesh::TetMesh& mesh, int order)
     : variation_(variation),
       updating_(updating),
@@ -95,8 +96,8 @@ fem::Modes PartEvaluation::modes(const setup::VariedSetup& now) {
 
 Eigen::Index PartEvaluation::mode_of(const setup::VariedSetup& now, const setup::UpdatingTarget& target) const {
   const Eigen::Index number = target.rank - 1 + latest_->modes.rigid_motions;
-  if (target.match == "participation") return participating_mode(now.setup, *latest_, target);
-  return target.match == "mac" ? most_alike(*latest_, reference_.col(number)) : number;
+  if (target.match == setup::ModeMatch::participation) return participating_mode(now.setup, *latest_, target);
+  return target.match == setup::ModeMatch::mac ? most_alike(*latest_, reference_.col(number)) : number;
 }
 
 std::vector<double> PartEvaluation::parameters(const setup::VariedSetup& now) const {

@@ -20,7 +20,7 @@ namespace thinwall::study {
 class PartEvaluation {
  public:
   /// `mesh` fits the part of `start`; it, `variation` and `updating` are kept by reference.
-  PartEvaluation(const setup::Variation& variation, const setup::Setup& start, const setup::Updating& updating,
+  PartEvaluation(const setup::Variation& variation, const setup::PartSetup& start, const setup::Updating& updating,
                  const mesh::TetMesh& mesh, int order);
 
   /// The targets' frequencies, Hz. The first evaluation, where a fit starts, is solved as far as a fit can tell; those

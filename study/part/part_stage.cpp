@@ -42,7 +42,7 @@ void require_solved(double relative_residual) {
 }
 
 /// As many modes as a tolerance on the interface's receptance needs.
-void reduce_to_tolerance(const setup::Setup& source, PartResult& part) {
+void reduce_to_tolerance(const setup::PartSetup& source, PartResult& part) {
   reduction::Band band{source.response.from_hz, source.response.to_hz};
   if (const double least = least_loss_factor(source.damping, part.modes, band.from_hz, band.to_hz); least > 0.0)
     band.loss_factor = least;
@@ -64,7 +64,7 @@ void reduce_to_tolerance(const setup::Setup& source, PartResult& part) {
 }
 
 /// The reduced model and what it leaves out.
-void reduce(const setup::Setup& source, PartResult& part, const fem::Factored& factored) {
+void reduce(const setup::PartSetup& source, PartResult& part, const fem::Factored& factored) {
   if (factored.sigma != 0.0)
     fem::require_motions_seen(part.model, part.modes, part.interface.W.transpose() * part.modes.pairs.Phi);
   if (source.reduction.tolerance) return reduce_to_tolerance(source, part);
@@ -103,7 +103,7 @@ std::vector<reduction::FullReceptance> full_receptances(const PartResult& part, 
   return result;
 }
 
-void check_reduction(const setup::Setup& source, PartResult& part, const fem::Factored& factored) {
+void check_reduction(const setup::PartSetup& source, PartResult& part, const fem::Factored& factored) {
   const Eigen::Index rigid = part.modes.rigid_motions;
   const Eigen::VectorXd elastic = part.modes.frequency_hz.tail(part.modes.frequency_hz.size() - rigid);
   part.error_by_size = reduction::frequency_error_by_size(*part.reduced, elastic, static_cast<int>(rigid));
@@ -119,14 +119,14 @@ void check_reduction(const setup::Setup& source, PartResult& part, const fem::Fa
 }  // namespace
 
 double least_loss_factor(const setup::Damping& damping, const fem::Modes& modes, double from_hz, double to_hz) {
-  if (damping.model == "structural") return damping.loss_factor;
-  if (damping.model == "modal") {
+  if (damping.model == setup::DampingModel::structural) return damping.loss_factor;
+  if (damping.model == setup::DampingModel::modal) {
     double least = 2.0 * damping.ratio;
     for (const double ratio : damping.ratios)
       if (ratio > 0.0) least = least > 0.0 ? std::min(least, 2.0 * ratio) : 2.0 * ratio;
     return least;
   }
-  if (damping.model != "rayleigh") return 0.0;
+  if (damping.model != setup::DampingModel::rayleigh) return 0.0;
   double least = 0.0;
   for (const double hz : modes.frequency_hz.tail(modes.frequency_hz.size() - modes.rigid_motions)) {
     if (hz < from_hz || hz > to_hz) continue;
@@ -140,7 +140,7 @@ double least_loss_factor(const setup::Damping& damping, const fem::Modes& modes,
 namespace {
 
 /// The mesh of a file with its own nodes, curved where they are, or straight-sided of a higher order.
-fem::Model mesh_model(const setup::Setup& source, int order, const fem::Materials& materials) {
+fem::Model mesh_model(const setup::PartSetup& source, int order, const fem::Materials& materials) {
   mesh::SolidMesh solid = source.part->imported->mesh->solid;
   if (order == 2) solid = mesh::with_order(std::move(solid), 2);
   mesh::LagrangeNodes nodes = order > 2 ? mesh::lagrange_nodes(solid.mesh, order) : solid.nodes;
@@ -159,15 +159,15 @@ mesh::TetMesh stretched(mesh::TetMesh mesh, const Eigen::Vector3d& from_size, co
   return mesh;
 }
 
-fem::Model part_model(const setup::Setup& source, mesh::TetMesh mesh, int order) {
+fem::Model part_model(const setup::PartSetup& source, mesh::TetMesh mesh, int order) {
   const fem::Materials materials = setup::materials_on(source, mesh);
-  if (source.part->shape == "mesh") return mesh_model(source, order, materials);
+  if (source.part->shape == setup::PartShape::mesh) return mesh_model(source, order, materials);
   return fem::supported_model(std::move(mesh), order, materials, setup::supports_of(source),
                               setup::shaping(*source.part), setup::attachments_of(source));
 }
 
-reduction::Interface part_interface(const setup::Setup& source, const fem::Model& model) {
-  if (source.part->shape == "matrices") return matrix_interface(source);
+reduction::Interface part_interface(const setup::PartSetup& source, const fem::Model& model) {
+  if (source.part->shape == setup::PartShape::matrices) return matrix_interface(source);
   reduction::Interface interface;
   std::vector<Eigen::Triplet<double>> entries;
   for (const std::string& name : source.reduction.interface) {
@@ -185,12 +185,13 @@ reduction::Interface part_interface(const setup::Setup& source, const fem::Model
   return interface;
 }
 
-dynamics::SpatialModel damped(const setup::Setup& source, const dynamics::SpatialModel& reduced,
+dynamics::SpatialModel damped(const setup::Damping& damping, const dynamics::SpatialModel& reduced,
                               std::vector<reduction::IdentifiedMode>& identified) {
-  const setup::Damping& damping = source.damping;
-  if (damping.model == "matrices") return reduced;
-  if (damping.model == "rayleigh") return reduction::with_rayleigh_damping(reduced, damping.alpha, damping.beta);
-  if (damping.model == "structural") return reduction::with_structural_damping(reduced, damping.loss_factor);
+  if (damping.model == setup::DampingModel::matrices) return reduced;
+  if (damping.model == setup::DampingModel::rayleigh)
+    return reduction::with_rayleigh_damping(reduced, damping.alpha, damping.beta);
+  if (damping.model == setup::DampingModel::structural)
+    return reduction::with_structural_damping(reduced, damping.loss_factor);
   if (!damping.from_frf) return reduction::with_modal_damping(reduced, damping.ratios, damping.ratio);
   const io::MeasuredFrf frf = setup::read_measured(*damping.from_frf);
   identified = reduction::identify_modes(frf.axis, frf.H);
@@ -201,9 +202,9 @@ dynamics::SpatialModel damped(const setup::Setup& source, const dynamics::Spatia
 namespace {
 
 /// C of the part's file on the reduced coordinates, TᵀCT.
-void take_damping_of_file(const setup::Setup& source, PartResult& part) {
-  if (source.part->shape != "matrices" || !source.part->imported->matrices->has_damping()) return;
-  if (source.damping.model == "matrices") {
+void take_damping_of_file(const setup::PartSetup& source, PartResult& part) {
+  if (source.part->shape != setup::PartShape::matrices || !source.part->imported->matrices->has_damping()) return;
+  if (source.damping.model == setup::DampingModel::matrices) {
     const Eigen::MatrixXd C_T = source.part->imported->matrices->C * part.reduced->T;
     part.reduced->model.C = part.reduced->T.transpose() * C_T;
   } else {
@@ -234,14 +235,14 @@ void look_at_mesh(PartResult& part) {
 }
 
 /// The matrix's mass against the geometry's: exact for straight elements, to the accuracy of the curve for bent ones.
-void check_mass(const setup::Setup& source, PartResult& part) {
-  const bool summed = source.part->shape == "mesh" || !source.part->materials.empty();
+void check_mass(const setup::PartSetup& source, PartResult& part) {
+  const bool summed = source.part->shape == setup::PartShape::mesh || !source.part->materials.empty();
   if (summed && part.model.curved_elements > 0) return;  // nothing to compare with
   const double expected = summed ? setup::mass(setup::materials_on(source, part.model.mesh), part.model.mesh)
                                  : mass(*source.part, part.model.mesh);
   part.mass_difference = std::abs(part.model.mass.mass_kg / expected - 1.0);
   double bound = part.model.curved_elements > 0 ? 1e-4 : 1e-8;
-  if (source.part->shape == "surface" && !summed) {
+  if (source.part->shape == setup::PartShape::surface && !summed) {
     const setup::MeshOptions& mesh = source.part->mesh;
     bound = mesh.element_size ? mesh::SurfaceMeshOptions{}.volume_tolerance : fem::share_of_surface * mesh.tolerance;
   }
@@ -254,7 +255,7 @@ void check_mass(const setup::Setup& source, PartResult& part) {
 
 }  // namespace
 
-Solution solved_part(const setup::Setup& source, Discretisation discretisation, Stages& stages) {
+Solution solved_part(const setup::PartSetup& source, Discretisation discretisation, Stages& stages) {
   if (discretisation.solved) return std::move(*discretisation.solved);
   stages.begin("assembly");
   fem::Model model = part_model(source, std::move(discretisation.mesh), discretisation.order);
@@ -264,7 +265,7 @@ Solution solved_part(const setup::Setup& source, Discretisation discretisation, 
   return {std::move(model), std::move(factored), std::move(modes)};
 }
 
-PartResult compute_part(const setup::Setup& source, Discretisation discretisation, Stages& stages) {
+PartResult compute_part(const PartInput& source, Discretisation discretisation, Stages& stages) {
   PartResult part;
   part.estimate = discretisation.estimate;
   Solution solved = solved_part(source, std::move(discretisation), stages);
@@ -295,8 +296,8 @@ PartResult compute_part(const setup::Setup& source, Discretisation discretisatio
                                " found): ask for fewer in reduction.modes, or mesh more evenly");
   }
   take_damping_of_file(source, part);
-  part.damped = damped(source, part.reduced->model, part.identified);
-  if (source.path) {
+  part.damped = damped(source.damping, part.reduced->model, part.identified);
+  if (!source.path.empty()) {
     stages.begin("path");
     part.along_path = models_along_path(source, part, fem::inverse_of(factored));
   }

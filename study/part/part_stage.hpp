@@ -4,6 +4,7 @@
 #include "mesh/tet_mesh.hpp"
 #include "setup/machining_setup.hpp"
 #include "study/part/discretisation.hpp"
+#include "study/part/part_input.hpp"
 #include "study/results.hpp"
 #include "study/stages.hpp"
 
@@ -15,13 +16,13 @@ namespace thinwall::study {
                                       const Eigen::Vector3d& to_size);
 
 /// Assembles the constrained model of that order on the mesh.
-[[nodiscard]] fem::Model part_model(const setup::Setup& source, mesh::TetMesh mesh, int order);
+[[nodiscard]] fem::Model part_model(const setup::PartSetup& source, mesh::TetMesh mesh, int order);
 
 /// Interface of all points that the reduction keeps.
-[[nodiscard]] reduction::Interface part_interface(const setup::Setup& source, const fem::Model& model);
+[[nodiscard]] reduction::Interface part_interface(const setup::PartSetup& source, const fem::Model& model);
 
 /// The reduced model with the damping that the case gives; `identified` receives what was found in a measured FRF.
-[[nodiscard]] dynamics::SpatialModel damped(const setup::Setup& source, const dynamics::SpatialModel& reduced,
+[[nodiscard]] dynamics::SpatialModel damped(const setup::Damping& damping, const dynamics::SpatialModel& reduced,
                                             std::vector<reduction::IdentifiedMode>& identified);
 
 /// The least loss factor (2ζ) that the case's damping gives to a peak from `from_hz` to `to_hz`: of Rayleigh damping,
@@ -31,9 +32,9 @@ namespace thinwall::study {
                                        double to_hz);
 
 /// Model, factor and modes: as the tolerance or a fit left them, or computed now.
-[[nodiscard]] Solution solved_part(const setup::Setup& source, Discretisation discretisation, Stages& stages);
+[[nodiscard]] Solution solved_part(const setup::PartSetup& source, Discretisation discretisation, Stages& stages);
 
 /// Factor, modes, reduction, damping, with their checks. The discretisation must fit the part of the case.
-[[nodiscard]] PartResult compute_part(const setup::Setup& source, Discretisation discretisation, Stages& stages);
+[[nodiscard]] PartResult compute_part(const PartInput& source, Discretisation discretisation, Stages& stages);
 
 }  // namespace thinwall::study

@@ -49,7 +49,7 @@ dynamics::ResponseModel response_on(const Component& known, const dynamics::Freq
 
 /// What presses the contact, N, and the unit vector along which it presses the tip: the normal of an only contact with
 /// a preload along it (preload_of()), turned to the side from which robot.preload comes; else robot.preload.
-std::pair<double, Eigen::Vector3d> pressing_force(const setup::Setup& source) {
+std::pair<double, Eigen::Vector3d> pressing_force(const setup::SupportSetup& source) {
   const Eigen::Vector3d& on_tip = source.robot->preload;
   const setup::Contact& first = source.contacts.front();
   if (const auto preload = setup::preload_of(source, first); preload && source.contacts.size() == 1) {
@@ -63,19 +63,20 @@ std::pair<double, Eigen::Vector3d> pressing_force(const setup::Setup& source) {
 
 }  // namespace
 
-ContactForce contact_force(const setup::Setup& source, const Component& part, const Component& tip,
+ContactForce contact_force(const setup::SupportSetup& support, const std::vector<coupling::Contact>& contacts,
+                           const CutPlace& place, const Component& part, const Component& tip,
                            const milling::ForcedVibration& cut) {
-  const auto [preload, n] = pressing_force(source);
+  const auto [preload, n] = pressing_force(support);
   dynamics::FrequencyAxis axis{Eigen::VectorXd::LinSpaced(harmonics + 1, 0.0, static_cast<double>(harmonics)) /
                                cut.period_s};
   axis.hz(0) = 1e-3 * axis.hz(1);
   const std::vector<dynamics::ResponseModel> both{response_on(part, axis), response_on(tip, axis)};
-  const coupling::CouplingSensitivity sensitivity = coupling::coupling_sensitivity(both, contacts_of(source));
+  const coupling::CouplingSensitivity sensitivity = coupling::coupling_sensitivity(both, contacts);
   dynamics::DofTable forces = both[0].forces;
   forces.insert(forces.end(), both[1].forces.begin(), both[1].forces.end());
-  const Eigen::Matrix3Xd at_tip = dynamics::displacement_matrix(forces, source.robot->point);
-  const Eigen::Matrix3Xd at_cut = dynamics::displacement_matrix(sensitivity.forces, source.cutting->at);
-  const Eigen::Matrix3Xcd F = force_harmonics(cut, setup::milling_process(source).frame.rotation());
+  const Eigen::Matrix3Xd at_tip = dynamics::displacement_matrix(forces, support.robot->point);
+  const Eigen::Matrix3Xd at_cut = dynamics::displacement_matrix(sensitivity.forces, place.point);
+  const Eigen::Matrix3Xcd F = force_harmonics(cut, place.rotation);
   ContactForce result{preload, preload, preload, false};
   constexpr int samples = 512;
   Eigen::VectorXd force = Eigen::VectorXd::Constant(samples, preload);

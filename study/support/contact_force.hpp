@@ -6,6 +6,12 @@
 
 namespace thinwall::study {
 
+/// The point that is cut and the cut's axes.
+struct CutPlace {
+  std::string point;         ///< name of the part's point
+  Eigen::Matrix3d rotation;  ///< R of x_part = R x_tool
+};
+
 /// The force of the part on the robot's tip along the preload over a period of the cut, and whether it falls to zero.
 /// With the harmonics F_k of the cutting force on the part at the cut and Q of dG = P dY Q (coupling/sensitivity.hpp),
 /// whose rows at the tip are the joints' force there for a unit force on the part,
@@ -15,7 +21,9 @@ namespace thinwall::study {
 /// N₀ and n: preload and normal of an only contact (setup/contact_model.hpp), else size and direction of robot.preload;
 /// the mean force (k = 0) at a thousandth of the first harmonic. The coupling is two-sided: where N < 0 it is not what
 /// the robot does. `tip`: the robot in its posture. Throws InputError without preload. Cost: 65 lines of a coupling.
-[[nodiscard]] ContactForce contact_force(const setup::Setup& source, const Component& part, const Component& tip,
+[[nodiscard]] ContactForce contact_force(const setup::SupportSetup& support,
+                                         const std::vector<coupling::Contact>& contacts, const CutPlace& place,
+                                         const Component& part, const Component& tip,
                                          const milling::ForcedVibration& cut);
 
 }  // namespace thinwall::study

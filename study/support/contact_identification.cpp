@@ -98,8 +98,8 @@ coupling::IdentificationOptions options_of(const setup::Contact& contact) {
     return Eigen::VectorXd::Constant(1, std::numbers::sqrt2 * contact.noise[which]);
   };
   options.noise = {level(1), level(2), level(0)};
-  options.viscous = contact.damping_model != "structural";
-  options.structural = contact.damping_model != "viscous";
+  options.viscous = contact.damping_sought != setup::DampingSought::structural;
+  options.structural = contact.damping_sought != setup::DampingSought::viscous;
   return options;
 }
 
@@ -152,8 +152,7 @@ dynamics::ResponseModel assembly_response(const std::vector<setup::MeasuredFrf>&
   return model;
 }
 
-ContactIdentification identify_contact(const setup::Setup& source, const Component& part, const Component& robot) {
-  const setup::Contact& contact = source.contacts.front();
+ContactIdentification identify_contact(const setup::Contact& contact, const Component& part, const Component& robot) {
   const dynamics::ResponseModel assembly = assembly_response(contact.measured, part.response.axis);
   setup::warn_of_doubts(assembly, "the assembly's");
   const Eigen::VectorXd& hz = assembly.axis.hz;
@@ -174,8 +173,8 @@ ContactIdentification identify_contact(const setup::Setup& source, const Compone
   return result;
 }
 
-void warn_of_misfit(const setup::Setup& source, const ContactIdentification& identification) {
-  const std::string contact = name_of(source.contacts.front());
+void warn_of_misfit(const setup::Contact& contact, const ContactIdentification& identification) {
+  const std::string name = name_of(contact);
   const double chi_squared = identification.found.chi_squared;
   if (chi_squared > far_above_one) {
     core::warn(fmt::format(
@@ -183,11 +182,11 @@ void warn_of_misfit(const setup::Setup& source, const ContactIdentification& ide
         "a "
         "direction may be missing, the points may lie apart, or part or robot may be off; the intervals are widened, "
         "but no interval knows of a bias",
-        contact, std::sqrt(chi_squared), chi_squared));
+        name, std::sqrt(chi_squared), chi_squared));
   }
   if (identification.damping_raised)
     core::warn(fmt::format(
-        "contact {}: the damping that was found gives energy along some direction; there none is taken", contact));
+        "contact {}: the damping that was found gives energy along some direction; there none is taken", name));
 }
 
 }  // namespace thinwall::study

@@ -40,19 +40,22 @@ double stiffness_of(double compliance, double largest) {
   return std::abs(compliance) > 1e-12 * largest ? 1.0 / compliance : infinite;
 }
 
-TipReport report_at(const setup::Setup& source, const std::optional<Eigen::VectorXd>& near) {
-  const setup::RobotPosture robot = setup::robot_posture(source, near);
-  const bool measured = source.robot->model == "measured";
+TipReport report_at(const setup::PartSetup& part, const setup::SupportSetup& support,
+                    const std::optional<Eigen::VectorXd>& near) {
+  const setup::RobotPosture robot = setup::robot_posture(part, support, near);
+  const bool measured = support.robot->model == setup::RobotModel::measured;
   const dynamics::FrequencyAxis one_line{Eigen::VectorXd::Ones(1)};  // modes and stiffness need no more
-  return tip_report(robot, robot_component(source, measured ? frequency_axis(source) : one_line, robot.posture));
+  return tip_report(
+      robot, robot_component(*support.robot, measured ? frequency_axis(part.response) : one_line, robot.posture));
 }
 
-/// Adds the robot of `there`, or why it cannot stand so.
-void add(const setup::Setup& there, const Eigen::Vector3d& place, RobotSurvey& survey) {
+/// Adds the robot at that place, or why it cannot stand so.
+void add(const setup::PartSetup& part, const setup::SupportSetup& support, const Eigen::Vector3d& place,
+         RobotSurvey& survey) {
   std::optional<Eigen::VectorXd> near;
   if (!survey.tips.empty()) near = survey.tips.back().robot.posture.q;
   try {
-    survey.tips.push_back(report_at(there, near));
+    survey.tips.push_back(report_at(part, support, near));
   } catch (const core::InputError& error) {
     survey.out_of_reach.push_back({place, error.what()});
   }
@@ -81,26 +84,33 @@ TipReport tip_report(const setup::RobotPosture& robot, const Component& tip) {
   return report;
 }
 
-RobotSurvey survey(const setup::Setup& source, const std::optional<TipReport>& as_it_stands) {
-  if (!source.robot) throw core::InputError("the case has no robot; add [robot]");
-  const auto own_tip = [&] { return as_it_stands ? *as_it_stands : report_at(source, {}); };
+SurveyInput survey_input(const setup::Setup& source) {
+  SurveyInput input{source, source, {}};
+  if (source.path && source.path->robot_follows) input.followed = setup::stations(source);
+  return input;
+}
+
+RobotSurvey survey(const SurveyInput& input, const std::optional<TipReport>& as_it_stands) {
+  if (!input.support.robot) throw core::InputError("the case has no robot; add [robot]");
+  const setup::Robot& robot = *input.support.robot;
+  const auto own_tip = [&] { return as_it_stands ? *as_it_stands : report_at(input.part, input.support, {}); };
   RobotSurvey survey;
-  if (!source.robot->workspace.empty()) {
-    survey.over = "workspace";
-    setup::Setup there = source;
-    there.robot->workspace.clear();
-    for (const Eigen::Vector3d& place : source.robot->workspace) {
+  if (!robot.workspace.empty()) {
+    survey.over = SurveyPlaces::workspace;
+    setup::SupportSetup there = input.support;
+    for (const Eigen::Vector3d& place : robot.workspace) {
       there.robot->posture.tip = place;
-      add(there, place, survey);
+      add(input.part, there, place, survey);
     }
-  } else if (source.path && source.path->robot_follows && source.part) {
-    survey.over = "path";
-    if (source.robot->model != "flexible_joints") {
-      survey.tips.assign(source.path->positions.size(), own_tip());
+  } else if (!input.followed.empty()) {
+    survey.over = SurveyPlaces::path;
+    if (robot.model != setup::RobotModel::flexible_joints) {
+      survey.tips.assign(input.followed.size(), own_tip());
       return survey;
     }
-    for (std::size_t i = 0; i < source.path->positions.size(); ++i)
-      add(setup::at_position(source, i), source.path->positions[i], survey);
+    for (const setup::PathStation& station : input.followed)
+      add(setup::part_at(input.part, station), setup::support_at(input.support, station),
+          *station.points.front().position, survey);
   } else {
     survey.tips.push_back(own_tip());
   }

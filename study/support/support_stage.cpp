@@ -15,11 +15,11 @@ namespace thinwall::study {
 namespace {
 
 /// Names of a contact's directed DOFs on the part, "P.x".
-std::vector<std::string> contact_dofs(const setup::Setup& source) {
+std::vector<std::string> contact_dofs(const std::vector<coupling::Contact>& contacts) {
   std::vector<std::string> names;
-  for (const setup::Contact& c : source.contacts) {
-    for (const auto& n : c.directions)
-      names.push_back(dynamics::name({c.part_point, n, dynamics::DofKind::translation}));
+  for (const coupling::Contact& c : contacts) {
+    for (const coupling::ContactSpring& spring : c.springs)
+      names.push_back(dynamics::name({c.point_a, spring.direction, dynamics::DofKind::translation}));
   }
   return names;
 }
@@ -73,8 +73,7 @@ void add_spatial_route(const Component& part, const Component& robot, const std:
 
 }  // namespace
 
-dynamics::FrequencyAxis frequency_axis(const setup::Setup& source) {
-  const setup::ResponseOptions& r = source.response;
+dynamics::FrequencyAxis frequency_axis(const setup::ResponseOptions& r) {
   return r.logarithmic ? dynamics::logarithmic_axis(r.from_hz, r.to_hz, r.lines)
                        : dynamics::linear_axis(r.from_hz, r.to_hz, r.lines);
 }
@@ -94,9 +93,9 @@ Component component(dynamics::SpatialModel model, const dynamics::FrequencyAxis&
   return result;
 }
 
-Component robot_component(const setup::Setup& source, const dynamics::FrequencyAxis& axis,
+Component robot_component(const setup::Robot& robot, const dynamics::FrequencyAxis& axis,
                           const robot::Posture& posture) {
-  robot::Tip tip = setup::tip_model(*source.robot, axis)(posture);
+  robot::Tip tip = setup::tip_model(robot, axis)(posture);
   if (auto* spatial = std::get_if<dynamics::SpatialModel>(&tip)) return component(std::move(*spatial), axis);
   Component result;
   if (auto* modal = std::get_if<dynamics::ModalModel>(&tip)) {
@@ -108,25 +107,24 @@ Component robot_component(const setup::Setup& source, const dynamics::FrequencyA
   return result;
 }
 
-Component measured_part(const setup::Setup& source, const dynamics::FrequencyAxis& axis) {
+Component measured_part(const setup::MeasuredPart& source, const dynamics::FrequencyAxis& axis) {
   Component part;
   part.response =
       setup::without_sensors(setup::measured_response(source.measured_part, axis), source.part_sensors, "the part's");
   return part;
 }
 
-std::vector<coupling::Contact> contacts_of(const setup::Setup& source) {
+std::vector<coupling::Contact> contacts_of(const std::vector<setup::JoinedContact>& joined) {
   std::vector<coupling::Contact> contacts;
-  contacts.reserve(source.contacts.size());
-  for (setup::JoinedContact& joined : setup::joined_contacts(source)) contacts.push_back(std::move(joined.contact));
+  contacts.reserve(joined.size());
+  for (const setup::JoinedContact& one : joined) contacts.push_back(one.contact);
   return contacts;
 }
 
-coupling::CouplingOptions coupling_options(const setup::Setup& source) {
+coupling::CouplingOptions coupling_options(const setup::CouplingChoice& choice) {
   coupling::CouplingOptions options;
-  if (source.coupling.regularisation == "truncated") options.regularisation = coupling::Regularisation::truncated;
-  if (source.coupling.regularisation == "tikhonov") options.regularisation = coupling::Regularisation::tikhonov;
-  options.threshold = source.coupling.threshold;
+  options.regularisation = choice.regularisation;
+  options.threshold = choice.threshold;
   return options;
 }
 
@@ -134,10 +132,9 @@ dynamics::ModalModel modes_of(const dynamics::SpatialModel& model) {
   return dynamics::to_modal(model.has_structural_damping() ? dynamics::equivalent_viscous(model) : model);
 }
 
-CouplingResult couple(const setup::Setup& source, const Component& part, const Component& robot) {
-  const auto contacts = contacts_of(source);
+CouplingResult couple(const std::vector<coupling::Contact>& contacts, const coupling::CouplingOptions& options,
+                      const Component& part, const Component& robot) {
   const dynamics::FrequencyAxis& axis = part.response.axis;
-  const coupling::CouplingOptions options = coupling_options(source);
   CouplingResult result{coupling::couple(part.response, robot.response, contacts, options), {}, {}, {}, {}, {}, {}};
   try {
     add_spatial_route(part, robot, contacts, axis, result);
@@ -147,11 +144,11 @@ CouplingResult couple(const setup::Setup& source, const Component& part, const C
     result.no_spatial_route = error.what();
   }
   if (result.spatial_response) {
-    const std::string& point = source.contacts.front().part_point;
+    const std::string& point = contacts.front().point_a;
     result.difference = coupling::route_difference(*result.spatial_response,
                                                    part_block(result.receptance.response, part.response), point, point);
   }
-  const std::string dof = contact_dofs(source).front();
+  const std::string dof = contact_dofs(contacts).front();
   if (!result.modal && has_dof(part.response.responses, dof)) {
     result.identified = identified_peaks(axis, dynamics::entry(result.receptance.response, dof, dof));
   }
@@ -172,11 +169,11 @@ std::vector<Participation> participating_modes(const dynamics::ModalModel& model
   return all;
 }
 
-std::vector<AmplitudeReduction> reductions(const setup::Setup& source, const Component& part,
+std::vector<AmplitudeReduction> reductions(const std::vector<coupling::Contact>& contacts, const Component& part,
                                            const CouplingResult& coupled) {
   std::vector<AmplitudeReduction> result;
   const dynamics::FrequencyAxis& axis = part.response.axis;
-  for (const std::string& dof : contact_dofs(source)) {
+  for (const std::string& dof : contact_dofs(contacts)) {
     if (!has_dof(part.response.responses, dof)) continue;
     const Eigen::VectorXcd H = dynamics::entry(part.response, dof, dof);
     const Eigen::VectorXcd G = dynamics::entry(coupled.receptance.response, dof, dof);

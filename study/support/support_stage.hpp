@@ -7,24 +7,24 @@
 namespace thinwall::study {
 
 /// The axis of [response].
-[[nodiscard]] dynamics::FrequencyAxis frequency_axis(const setup::Setup& source);
+[[nodiscard]] dynamics::FrequencyAxis frequency_axis(const setup::ResponseOptions& options);
 
 /// A component from its matrices: poles (structural damping taken as equivalent viscous) and receptances; with
 /// structural damping the receptances come from the matrices directly.
 [[nodiscard]] Component component(dynamics::SpatialModel model, const dynamics::FrequencyAxis& axis);
 
 /// The robot in that posture.
-[[nodiscard]] Component robot_component(const setup::Setup& source, const dynamics::FrequencyAxis& axis,
+[[nodiscard]] Component robot_component(const setup::Robot& robot, const dynamics::FrequencyAxis& axis,
                                         const robot::Posture& posture);
 
 /// The part from its measured FRFs, less its sensors. Errors as measured_response() and setup::without_sensors().
-[[nodiscard]] Component measured_part(const setup::Setup& source, const dynamics::FrequencyAxis& axis);
+[[nodiscard]] Component measured_part(const setup::MeasuredPart& source, const dynamics::FrequencyAxis& axis);
 
-/// The contacts of the case. Errors as joined_contacts() (setup/contact_model.hpp).
-[[nodiscard]] std::vector<coupling::Contact> contacts_of(const setup::Setup& source);
+/// The contacts as the coupling takes them, without what their stiffness came from.
+[[nodiscard]] std::vector<coupling::Contact> contacts_of(const std::vector<setup::JoinedContact>& joined);
 
 /// What [coupling] says of the receptance route.
-[[nodiscard]] coupling::CouplingOptions coupling_options(const setup::Setup& source);
+[[nodiscard]] coupling::CouplingOptions coupling_options(const setup::CouplingChoice& choice);
 
 /// Modes of a component's matrices, structural damping taken as equivalent viscous. Errors as dynamics::to_modal.
 [[nodiscard]] dynamics::ModalModel modes_of(const dynamics::SpatialModel& model);
@@ -32,7 +32,9 @@ namespace thinwall::study {
 /// Both routes and their difference. Throws NumericalError if the kernel cannot be solved. With a regularised kernel a
 /// spatial model that cannot be assembled, as of rigid directions that depend on each other, is left out with its
 /// reason; without one it is an error.
-[[nodiscard]] CouplingResult couple(const setup::Setup& source, const Component& part, const Component& robot);
+[[nodiscard]] CouplingResult couple(const std::vector<coupling::Contact>& contacts,
+                                    const coupling::CouplingOptions& options, const Component& part,
+                                    const Component& robot);
 
 /// A mode that a DOF feels: its frequency, and its share φ²/ω² of the static receptance there.
 struct Participation {
@@ -45,7 +47,7 @@ struct Participation {
 
 /// Alone and supported at the participating modes of the part, at every contact direction: the largest |H| near the
 /// mode, and |G| at the same frequency.
-[[nodiscard]] std::vector<AmplitudeReduction> reductions(const setup::Setup& source, const Component& part,
-                                                         const CouplingResult& coupled);
+[[nodiscard]] std::vector<AmplitudeReduction> reductions(const std::vector<coupling::Contact>& contacts,
+                                                         const Component& part, const CouplingResult& coupled);
 
 }  // namespace thinwall::study

@@ -55,6 +55,11 @@ void expect_problem(const std::string& text, const std::string& key, const std::
   }
 }
 
+/// The first contact as it is joined.
+JoinedContact first_joined(const Case& source) {
+  return joined_contacts(source, source).front();
+}
+
 /// k_n = (6 F R E*²)^⅓ of a steel ball of 12.7 mm on the plate's steel (Johnson 1985, Eq. 4.22-4.24).
 double normal_stiffness(double force) {
   const double E = 1.0 / (2.0 * (1.0 - 0.3 * 0.3) / 210e9);
@@ -71,7 +76,7 @@ TEST(ContactCase, ABallIsHertzsAlongItsNormalAndMindlinsAcross) {
            "modes = [{ frequency = \"29 Hz\", damping_ratio = 0.02, stiffness = \"1.7e6 N/m\", direction = \"x\" },"
            " { frequency = \"30 Hz\", damping_ratio = 0.02, stiffness = \"1.7e6 N/m\", direction = \"y\" }]\n"),
       ".");
-  const JoinedContact joined = joined_contacts(source).front();
+  const JoinedContact joined = joined_contacts(source, source).front();
   ASSERT_EQ(joined.contact.springs.size(), 2U);
   EXPECT_NEAR(joined.contact.springs[0].stiffness / normal_stiffness(80.0), 1.0, 1e-14);
   // k_t / k_n = 2(1 − ν)/(2 − ν) of equal materials (Johnson 1985, Eq. 7.44)
@@ -89,7 +94,7 @@ TEST(ContactCase, TheRobotsPreloadPressesByItsShareAlongTheNormalOnEitherSide) {
   const std::string text = with_contact("model = \"hertz\"\n" + ball);
   for (const char* preload : {"[\"40 N\", \"70 N\", 0]", "[\"-40 N\", 0, \"5 N\"]"}) {
     const Case source = parse_case(pressed(text, preload), ".");
-    EXPECT_NEAR(contacts_of(source)[0].springs[0].stiffness / normal_stiffness(40.0), 1.0, 1e-14) << preload;
+    EXPECT_NEAR(first_joined(source).contact.springs[0].stiffness / normal_stiffness(40.0), 1.0, 1e-14) << preload;
   }
   const Case both =
       parse_case(pressed(with_contact("model = \"hertz\"\npreload = \"10 N\"\n" + ball), "[40, 0, 0]"), ".");
@@ -102,14 +107,16 @@ TEST(ContactCase, TheRobotsPreloadPressesByItsShareAlongTheNormalOnEitherSide) {
 
 TEST(ContactCase, FitsAndPathsMoveAStiffnessThatComesFromThePreload) {
   Case source = parse_case(with_contact("model = \"hertz\"\npreload = \"10 N\"\n" + ball), ".");
-  const double before = contacts_of(source)[0].springs[0].stiffness;
+  const double before = first_joined(source).contact.springs[0].stiffness;
   set_value(source, "contacts[0].preload", 80.0);
-  EXPECT_NEAR(contacts_of(source)[0].springs[0].stiffness / before, 2.0, 1e-14) << "as the cube root of the force";
+  EXPECT_NEAR(first_joined(source).contact.springs[0].stiffness / before, 2.0, 1e-14)
+      << "as the cube root of the force";
   set_value(source, "contacts[0].ball.radius", 8.0 * 0.0127);
-  EXPECT_NEAR(contacts_of(source)[0].springs[0].stiffness / before, 4.0, 1e-14);
+  EXPECT_NEAR(first_joined(source).contact.springs[0].stiffness / before, 4.0, 1e-14);
   source.path = Path{{{0.006, 0.1, 0.095}, {0.006, 0.2, 0.095}}, true};
-  const setup::Setup there = at_position(source, 1);
-  EXPECT_EQ(contacts_of(there)[0].springs[0].stiffness, contacts_of(source)[0].springs[0].stiffness);
+  const setup::PathStation there = station(source, 1);
+  EXPECT_EQ(joined_contacts(part_at(source, there), support_at(source, there))[0].contact.springs[0].stiffness,
+            first_joined(source).contact.springs[0].stiffness);
 }
 
 TEST(ContactCase, WhatTheBallTouchesMayBeAnotherThanThePart) {
@@ -119,8 +126,8 @@ TEST(ContactCase, WhatTheBallTouchesMayBeAnotherThanThePart) {
                               "[contacts.surface]\nyoungs_modulus = \"70 GPa\"\npoisson_ratio = 0.33\n"),
                  ".");
   const double E = 1.0 / ((1.0 - 0.09) / 210e9 + (1.0 - 0.33 * 0.33) / 70e9);
-  EXPECT_NEAR(contacts_of(on_pad)[0].springs[0].stiffness / std::cbrt(6.0 * 80.0 * 0.0127 * E * E), 1.0, 1e-14);
-  EXPECT_LT(contacts_of(on_pad)[0].springs[0].stiffness, contacts_of(on_part)[0].springs[0].stiffness);
+  EXPECT_NEAR(first_joined(on_pad).contact.springs[0].stiffness / std::cbrt(6.0 * 80.0 * 0.0127 * E * E), 1.0, 1e-14);
+  EXPECT_LT(first_joined(on_pad).contact.springs[0].stiffness, first_joined(on_part).contact.springs[0].stiffness);
 }
 
 // All parts of a caster in series: the ball on the part, and 60 balls at 30 degrees between ball and cup (Eq. 20).
@@ -131,7 +138,7 @@ TEST(ContactCase, ACasterIsSofterThanItsBallByTheBallsThatCarryIt) {
   const double ball_to_ball = k(Q, 1.0 / 0.0127 + 1.0 / 0.0015), ball_to_cup = k(Q, 1.0 / 0.0015 - 1.0 / 0.0157);
   const double carrying = 60.0 * cosine * cosine / (1.0 / ball_to_ball + 1.0 / ball_to_cup);
   const double expected = 1.0 / (1.0 / normal_stiffness(80.0) + 1.0 / carrying);
-  EXPECT_NEAR(contacts_of(source)[0].springs[0].stiffness / expected, 1.0, 1e-12);
+  EXPECT_NEAR(first_joined(source).contact.springs[0].stiffness / expected, 1.0, 1e-12);
 }
 
 TEST(ContactCase, ATableGivesItsRowsAndNothingBeyondThem) {
@@ -142,12 +149,12 @@ TEST(ContactCase, ATableGivesItsRowsAndNothingBeyondThem) {
   const std::string text =
       with_contact("model = \"table\"\npreload = \"40 N\"\ntable = \"pad.csv\"\nloss_factor = 0.1\n");
   const Case source = parse_case(text, folder.path);
-  const coupling::ContactSpring spring = contacts_of(source)[0].springs.at(0);
+  const coupling::ContactSpring spring = first_joined(source).contact.springs.at(0);
   EXPECT_DOUBLE_EQ(spring.stiffness, 3e6);
   EXPECT_DOUBLE_EQ(spring.damping, 35.0);
   EXPECT_EQ(spring.loss_factor, 0.1);
   EXPECT_EQ(input_files(source).front(), folder.path / "pad.csv");
-  const double between = contacts_of(parse_case(with(text, "40 N", "60 N"), folder.path))[0].springs[0].stiffness;
+  const double between = first_joined(parse_case(with(text, "40 N", "60 N"), folder.path)).contact.springs[0].stiffness;
   EXPECT_GT(between, 3e6);
   EXPECT_LT(between, 4e6);
   expect_problem(with(text, "40 N", "90 N"), "contacts[0].table", "measured from 10 to 80 N", folder.path);
@@ -261,14 +268,14 @@ TEST(ContactCase, TheResolvedCaseIsTheSame) {
     const Case first = parse_case(text, ".");
     const Case second = parse_case(resolved_text(first), ".");
     EXPECT_EQ(resolved_text(second), resolved_text(first));
-    EXPECT_EQ(contacts_of(second)[0].springs[0].stiffness, contacts_of(first)[0].springs[0].stiffness);
-    EXPECT_EQ(coupling_options(second).threshold, coupling_options(first).threshold);
-    EXPECT_EQ(coupling_options(second).regularisation, coupling_options(first).regularisation);
+    EXPECT_EQ(first_joined(second).contact.springs[0].stiffness, first_joined(first).contact.springs[0].stiffness);
+    EXPECT_EQ(coupling_options(second.coupling).threshold, coupling_options(first.coupling).threshold);
+    EXPECT_EQ(coupling_options(second.coupling).regularisation, coupling_options(first.coupling).regularisation);
   }
 }
 
 TEST(ContactCase, ARegularisationIsAskedForInFull) {
-  EXPECT_EQ(coupling_options(parse_case(plate_case(), ".")).regularisation, coupling::Regularisation::none);
+  EXPECT_EQ(coupling_options(parse_case(plate_case(), ".").coupling).regularisation, coupling::Regularisation::none);
   expect_problem(plate_case() + "[coupling]\nthreshold = 1e-6\n", "coupling.threshold", "nothing to regularise");
   expect_problem(plate_case() + "[coupling]\nregularisation = \"truncated\"\nthreshold = 1\n", "coupling.threshold",
                  "below 1");

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
+#include "study/support/support_stage.hpp"
 
 namespace thinwall::tests {
 
@@ -46,6 +47,13 @@ setup::Setup touching(double preload_n) {
   return source;
 }
 
+/// The force on the contact of that set-up at a cut at P.
+ContactForce force_of(const setup::Setup& source, const milling::ForcedVibration& cut) {
+  const Eigen::Matrix3d R = milling::ToolFrame{source.cutting->feed_direction, source.cutting->tool_axis}.rotation();
+  return contact_force(source, contacts_of(joined_contacts(source, source)), {"P", R},
+                       known(mass_on_spring("P", m1, c1, k1)), known(mass_on_spring("R", m2, c2, k2)), cut);
+}
+
 /// F₀ + F₁ cos ωt on the part along x, as the tool feels it in its own axes.
 milling::ForcedVibration cosine(double mean_n, double amplitude_n, double hz, const Eigen::Matrix3d& R) {
   milling::ForcedVibration cut;
@@ -74,8 +82,7 @@ TEST(ContactForce, IsWhatTheSpringBetweenTwoMassesBears) {
   const setup::Setup source = touching(100.0);
   const Eigen::Matrix3d R = milling::ToolFrame{source.cutting->feed_direction, source.cutting->tool_axis}.rotation();
   for (const double hz : {40.0, 130.0, 300.0}) {
-    const ContactForce found = contact_force(source, known(mass_on_spring("P", m1, c1, k1)),
-                                             known(mass_on_spring("R", m2, c2, k2)), cosine(30.0, 50.0, hz, R));
+    const ContactForce found = force_of(source, cosine(30.0, 50.0, hz, R));
     const double mean = 30.0 * transmitted(1e-3 * hz).real(), swing = 50.0 * std::abs(transmitted(hz));
     EXPECT_NEAR(found.least_n, 100.0 - mean - swing, 2e-4 * 100.0) << hz;
     EXPECT_NEAR(found.largest_n, 100.0 - mean + swing, 2e-4 * 100.0) << hz;
@@ -88,8 +95,7 @@ TEST(ContactForce, APreloadAskewPressesByItsShareAlongTheNormal) {
   setup::Setup source = touching(100.0);
   source.robot->preload = {-60.0, 0.0, 80.0};
   const Eigen::Matrix3d R = milling::ToolFrame{source.cutting->feed_direction, source.cutting->tool_axis}.rotation();
-  const ContactForce found = contact_force(source, known(mass_on_spring("P", m1, c1, k1)),
-                                           known(mass_on_spring("R", m2, c2, k2)), cosine(0.0, 50.0, 130.0, R));
+  const ContactForce found = force_of(source, cosine(0.0, 50.0, 130.0, R));
   EXPECT_NEAR(found.preload_n, 60.0, 1e-12);
   const double swing = 50.0 * std::abs(transmitted(130.0));
   EXPECT_NEAR(found.least_n, 60.0 - swing, 2e-4 * 60.0);
@@ -98,10 +104,7 @@ TEST(ContactForce, APreloadAskewPressesByItsShareAlongTheNormal) {
 
 TEST(ContactForce, IsLostWhereTheCutPullsHarderThanTheRobotPresses) {
   const Eigen::Matrix3d R = milling::ToolFrame{Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()}.rotation();
-  const auto at = [&](double preload) {
-    return contact_force(touching(preload), known(mass_on_spring("P", m1, c1, k1)),
-                         known(mass_on_spring("R", m2, c2, k2)), cosine(0.0, 50.0, 40.0, R));
-  };
+  const auto at = [&](double preload) { return force_of(touching(preload), cosine(0.0, 50.0, 40.0, R)); };
   const double swing = 50.0 * std::abs(transmitted(40.0));
   EXPECT_FALSE(at(1.01 * swing).lost);
   EXPECT_TRUE(at(0.99 * swing).lost);

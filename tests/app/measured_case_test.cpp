@@ -164,7 +164,7 @@ TEST(SensorMass, IsTakenOffARobotMeasuredAsAMatrix) {
   const std::string text = robot_by_universal_file(folder.path, with) + lines;
   const auto truth = dynamics::direct_response(bare, measured_axis());
   const auto found = [&](const std::string& sensors) {
-    return robot_component(parse_case(text + sensors, folder.path), measured_axis(), {}).response;
+    return robot_component(*parse_case(text + sensors, folder.path).robot, measured_axis(), {}).response;
   };
   EXPECT_GT(difference(found(""), truth), 0.05);
   EXPECT_LT(difference(found(sensor("robot", "R", "0.2 kg")), truth), 1e-8);
@@ -187,7 +187,7 @@ TEST(SensorMass, IsTakenOffOneReceptanceAlongASlantedDirection) {
   const std::string text = "[robot]\nmodel = \"measured\"\ndirection = [3, 4, 0]\n" + lines +
                            entry("robot", "R.x", "R.x", "tip.csv", "quantity = \"receptance\"\nunit = \"m/N\"\n") +
                            sensor("robot", "R", "100 g");
-  const auto tip = robot_component(parse_case(text, folder.path), measured_axis(), {}).response;
+  const auto tip = robot_component(*parse_case(text, folder.path).robot, measured_axis(), {}).response;
   const Eigen::VectorXcd truth = one_mass(measured_axis(), 2.0);
   for (Eigen::Index line = 0; line < truth.size(); ++line)
     EXPECT_LT(std::abs(tip.H[static_cast<std::size_t>(line)](0, 0) / truth(line) - 1.0), 1e-8);

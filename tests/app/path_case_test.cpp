@@ -68,12 +68,15 @@ TEST(PathCase, AStraightPathIsEvenlySpacedAndHeldUnlessTheCaseSaysOtherwise) {
 
 TEST(PathCase, AHeldRobotStaysAtItsPointAndSharesItWhereTheCutPassesThere) {
   const Case c = parse_case(path_case(straight), ".");
-  const setup::Setup first = at_position(c, 0), middle = at_position(c, 5);
+  const PathStation at_first = station(c, 0), at_middle = station(c, 5);
+  const PartSetup first = part_at(c, at_first), middle = part_at(c, at_middle);
   ASSERT_EQ(first.points.size(), 2U);
-  EXPECT_EQ(position(*first.part, point(first, first.cutting->at)), c.path->positions[0]);
-  EXPECT_EQ(position(*first.part, point(first, first.contacts[0].part_point)), position(*c.part, point(c, "P")));
+  EXPECT_EQ(position(*first.part, point(first, cut_at(c, at_first).cutting->at)), c.path->positions[0]);
+  EXPECT_EQ(position(*first.part, point(first, support_at(c, at_first).contacts[0].part_point)),
+            position(*c.part, point(c, "P")));
   ASSERT_EQ(middle.points.size(), 1U) << "two points of one place would depend on each other";
-  EXPECT_EQ(middle.contacts[0].part_point, middle.cutting->at);
+  EXPECT_EQ(middle.reduction.interface, std::vector<std::string>{at_middle.cut});
+  EXPECT_EQ(support_at(c, at_middle).contacts[0].part_point, at_middle.cut);
 }
 
 TEST(PathCase, ARobotThatFollowsKeepsItsDistanceToTheCut) {
@@ -81,9 +84,10 @@ TEST(PathCase, ARobotThatFollowsKeepsItsDistanceToTheCut) {
                                   "[points.P]\npatch_radius = \"3 mm\"\n");
   const Case c = parse_case(behind, ".");
   for (std::size_t i = 0; i < c.path->positions.size(); ++i) {
-    const setup::Setup there = at_position(c, i);
-    const Point& cut = point(there, there.cutting->at);
-    const Point& contact = point(there, there.contacts[0].part_point);
+    const PathStation at = station(c, i);
+    const PartSetup there = part_at(c, at);
+    const Point& cut = point(there, at.cut);
+    const Point& contact = point(there, at.touched[0]);
     EXPECT_LT((*contact.position - *cut.position - Eigen::Vector3d(0.0, 20e-3, 0.0)).norm(), 1e-12);
     EXPECT_EQ(cut.patch_radius, 3e-3) << "the cut keeps the patch of cutting.at";
     EXPECT_EQ(contact.patch_radius, 0.0);

@@ -27,6 +27,14 @@ std::string with(std::string text, const std::string& from, const std::string& t
   return text.replace(at, from.size(), to);
 }
 
+RobotPosture posture_of(const Case& source) {
+  return robot_posture(source, source);
+}
+
+dynamics::SpatialModel matrices_of(const Case& source) {
+  return robot_matrices(source, source);
+}
+
 std::string link(const std::string& name, const std::string& axis, double length) {
   return "[[robot.links]]\nname = \"" + name + "\"\nposition = [0, 0, " + std::to_string(length) + "]\naxis = \"" +
          axis +
@@ -56,12 +64,12 @@ void expect_problem(const std::string& text, const std::string& key, const std::
 
 TEST(RobotCase, ThePostureBringsTheTipWhereItIsAskedToBe) {
   const Case by_pitch = parse_case(arm + reaching, ".");
-  const RobotPosture stands = robot_posture(by_pitch);
+  const RobotPosture stands = robot_posture(by_pitch, by_pitch);
   EXPECT_LT((*stands.tip - Eigen::Vector3d(1.2, 0.5, 0.9)).norm(), 1e-12);
   const Eigen::Vector3d along = robot::pose(by_pitch.robot->arm, stands.posture.q).tip.linear().col(2);
   EXPECT_NEAR(along.z(), 0.0, 1e-12) << "a pitch of 90 degrees is level";
   EXPECT_GT(stands.posture.q(2), 0.0) << "elbow up";
-  const RobotPosture down = robot_posture(parse_case(arm + reaching + "elbow = \"down\"\n", "."));
+  const RobotPosture down = posture_of(parse_case(arm + reaching + "elbow = \"down\"\n", "."));
   EXPECT_LT((*down.tip - *stands.tip).norm(), 1e-12);
   EXPECT_LT(down.posture.q(2), 0.0);
 }
@@ -69,7 +77,7 @@ TEST(RobotCase, ThePostureBringsTheTipWhereItIsAskedToBe) {
 TEST(RobotCase, TheBaseStandsWhereItIsPutAndGravityPullsAgainstItsZ) {
   const Case hung = parse_case(
       arm + "[robot.base]\nposition = [1, 2, 3]\nx = \"x\"\nz = \"-z\"\n[robot.posture]\njoints = [0, 0, 0, 0]\n", ".");
-  EXPECT_LT((*robot_posture(hung).tip - Eigen::Vector3d(1, 2, 3 - 2.6)).norm(), 1e-12);
+  EXPECT_LT((*robot_posture(hung, hung).tip - Eigen::Vector3d(1, 2, 3 - 2.6)).norm(), 1e-12);
   EXPECT_EQ(hung.robot->arm.gravity, Eigen::Vector3d(0, 0, 9.81));
   EXPECT_GT(hung.robot->arm.base.linear().determinant(), 0.0);
 }
@@ -81,7 +89,7 @@ TEST(RobotCase, AnArmOfSixJointsIsSearchedWithTheRedundancyAngle) {
                           "[robot.tip]\nposition = [0, 0, \"200 mm\"]\n[robot.posture]\ntip = [1.1, 0.3, 0.9]\n"
                           "approach = \"x\"\nangle = \"30 deg\"\nstart = [0.2, 0.4, 1.0, 0.1, 0.5, 0.2]\n";
   const Case source = parse_case(six, ".");
-  const RobotPosture stands = robot_posture(source);
+  const RobotPosture stands = robot_posture(source, source);
   const robot::ArmPose at = robot::pose(source.robot->arm, stands.posture.q);
   EXPECT_LT((*stands.tip - Eigen::Vector3d(1.1, 0.3, 0.9)).norm(), 1e-9);
   EXPECT_LT((at.tip.linear().col(2) - Eigen::Vector3d::UnitX()).norm(), 1e-9);
@@ -127,7 +135,7 @@ TEST(RobotCase, SeveralModesHoldInTheirDirectionsOnly) {
   };
   const std::string robot = "[robot]\nmodel = \"modes\"\n" + mode("\"x\"") + mode("[0.6, 0.8, 0]");
   EXPECT_NO_THROW((void)parse_case(robot, "."));
-  const auto matrices = robot_matrices(parse_case(robot, "."));
+  const auto matrices = matrices_of(parse_case(robot, "."));
   EXPECT_EQ(matrices.dofs.size(), 2U);
   EXPECT_EQ(matrices.size(), 2);
   expect_problem("[robot]\nmodel = \"modes\"\n", "robot.model", "modes needs [[robot.modes]]");
@@ -179,8 +187,8 @@ TEST(RobotCase, AnArmFromAUrdfIsTheOneWrittenOutLinkByLink) {
       "[robot]\nmodel = \"flexible_joints\"\n[[robot.links]]\n" + body("30", "[0, 0, 0.3]", "[2, 2, 1]", "2e6") +
       "[[robot.links]]\nposition = [0, 0, 0.7]\n" + body("10", "[0, 0, 0.2]", "[1, 1, 0.5]", "1e6") +
       "[robot.tip]\nposition = [0, 0, 0.5]\n[robot.posture]\njoints = [0.3, 0.4]\n";
-  const dynamics::SpatialModel a = robot_matrices(parse_case(by_urdf, folder.path));
-  const dynamics::SpatialModel b = robot_matrices(parse_case(by_links, folder.path));
+  const dynamics::SpatialModel a = matrices_of(parse_case(by_urdf, folder.path));
+  const dynamics::SpatialModel b = matrices_of(parse_case(by_links, folder.path));
   EXPECT_LT((a.M - b.M).norm(), 1e-12 * b.M.norm());
   EXPECT_LT((a.K - b.K).norm(), 1e-12 * b.K.norm());
   EXPECT_LT((a.T - b.T).norm(), 1e-12 * b.T.norm());

@@ -16,17 +16,17 @@ using namespace setup;
 using namespace cases;
 using namespace study;
 
-SyntheticMeasurement synthetic_measurement(const Case& source, const PartResult& part, const std::string& point) {
+SyntheticMeasurement synthetic_measurement(const Setup& source, const PartResult& part, const std::string& point) {
   const fem::Factored factored = fem::factorise(part.model);
   SyntheticMeasurement result;
-  result.axis = frequency_axis(source);
+  result.axis = frequency_axis(source.response);
   const auto full = reduction::full_response(part.model.K, part.model.M, fem::inverse_of(factored), part.modes.pairs,
                                              source.damping.ratios, source.damping.ratio, part.interface, result.axis);
   result.part = dynamics::entry(full.response, point + ".x", point + ".x");
   result.relative_residual = full.max_relative_residual;
   const std::string tip = source.robot->point + ".x";
-  result.robot =
-      dynamics::entry(robot_component(source, result.axis, robot_posture(source).posture).response, tip, tip);
+  result.robot = dynamics::entry(
+      robot_component(*source.robot, result.axis, robot_posture(source, source).posture).response, tip, tip);
   return result;
 }
 

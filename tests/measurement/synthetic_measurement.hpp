@@ -24,9 +24,9 @@ struct SyntheticMeasurement {
   double relative_residual = 0.0;  ///< of the full model's equations
 };
 
-/// From the full (unreduced) model of the case's part at `point` and the case's robot mode, on the case's axis. Errors
-/// as reduction::full_response.
-[[nodiscard]] SyntheticMeasurement synthetic_measurement(const Case& source, const PartResult& part,
+/// The measurement of the full (unreduced) model of the set-up's part at `point` and of its robot's mode, on its axis.
+/// Errors as reduction::full_response.
+[[nodiscard]] SyntheticMeasurement synthetic_measurement(const setup::Setup& source, const study::PartResult& part,
                                                          const std::string& point);
 
 /// H (1 + level (a + ib)) line by line, a and b standard normal and independent, from std::mt19937 with this seed.

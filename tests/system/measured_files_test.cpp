@@ -36,11 +36,14 @@ TEST(MeasuredCase, NoiseFreeFilesGiveTheModelsPredictionWithinAThousandthOfThePe
                                                   "response.to=1000 Hz", "response.lines=1999", "reduction.modes=40"});
   model.updating.clear();
   study::Stages stages;
-  const study::PartResult part = study::compute_part(model, study::discretise(model), stages);
-  const auto axis = study::frequency_axis(model);
+  const study::PartInput input = study::part_input(model);
+  const study::PartResult part = study::compute_part(input, study::discretise(input), stages);
+  const auto axis = study::frequency_axis(model.response);
   const study::Component part_component = study::component(*part.damped, axis);
-  const study::Component robot = study::robot_component(model, axis, setup::robot_posture(model).posture);
-  const auto predicted = dynamics::entry(study::couple(model, part_component, robot).receptance.response, "P.x", "P.x");
+  const study::Component robot = study::robot_component(*model.robot, axis, setup::robot_posture(model, model).posture);
+  const auto contacts = study::contacts_of(setup::joined_contacts(model, model));
+  const auto predicted =
+      dynamics::entry(study::couple(contacts, {}, part_component, robot).receptance.response, "P.x", "P.x");
 
   const auto files = synthetic_measurement(model, part, "P");
   EXPECT_LT(files.relative_residual, 1e-7) << "the full model is solved, not approximated";
