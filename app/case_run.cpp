@@ -11,7 +11,6 @@
 #include "app/log.hpp"
 #include "app/stage_display.hpp"
 #include "case/expectation.hpp"
-#include "case/keys.hpp"
 #include "case/numbers.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
@@ -20,6 +19,7 @@
 #include "report/page/page.hpp"
 #include "report/result_files.hpp"
 #include "report/summary.hpp"
+#include "study/kept/stage_keys.hpp"
 #include "study/run.hpp"
 
 namespace thinwall::app {
@@ -38,7 +38,7 @@ std::string now_utc() {
 /// The part's checkpoint: of this result folder, or one of those that several runs share.
 study::Checkpoint part_checkpoint(const cases::Case& source, const RunOptions& options) {
   if (!source.part) return {};
-  const std::string key = cases::part_key(source);
+  const std::string key = study::part_key(source);
   if (options.parts.empty()) return {options.out / "cache" / "part.bin", key, options.fresh};
   return {options.parts / ("part-" + key.substr(0, 16) + ".bin"), key, false};
 }
@@ -80,8 +80,8 @@ RunResult run_case(const cases::Case& source, const RunOptions& options) {
                        : options.stage_lines ? ProgressDisplay::lines
                                              : ProgressDisplay::none);
   study::Kept kept{part_checkpoint(source, options),
-                   {options.out / "cache" / "structure.bin", cases::structure_key(source), options.fresh},
-                   {options.out / "cache" / "lobes.bin", cases::charts_key(source), options.fresh}};
+                   {options.out / "cache" / "structure.bin", study::structure_key(source), options.fresh},
+                   {options.out / "cache" / "lobes.bin", study::charts_key(source), options.fresh}};
   study::Results results = study::run(source, cases::variation_of(source), kept, {options.points, display.listener()});
   study::Stages stages(display.listener());
   stages.begin("output");

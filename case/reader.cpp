@@ -9,6 +9,7 @@
 #include "case/schema.hpp"
 #include "case/toml_values.hpp"
 #include "core/atomic_file.hpp"
+#include "setup/file_stamps.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/matrix_faults.hpp"
 
@@ -46,6 +47,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& folder, co
   auto problems = std::move(read.problems);
   std::ranges::move(check_case(result), std::back_inserter(problems));
   if (!problems.empty()) throw CaseError({name, text, overrides}, std::move(problems));
+  setup::stamp_files(result);
   if (!result.part || !setup::from_file(*result.part)) return result;
   result.part->imported = read_imported(*result.part);
   problems = check_case(result);  // what could not be told before its size was known

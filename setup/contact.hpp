@@ -46,6 +46,7 @@ struct Contact {
   ContactModel model = ContactModel::springs;
   std::optional<double> preload{};  ///< N; none: from robot.preload
   std::filesystem::path table{};    ///< of model table
+  std::string table_sha256 = {};  ///< checksum of the table (setup/file_stamps.hpp); empty: not known
   std::optional<ContactBall> ball{};
   std::optional<coupling::Elastic> surface{};  ///< that the ball touches; none: part.material
   std::vector<MeasuredFrf> measured{};         ///< of the assembly, from which the joint is found

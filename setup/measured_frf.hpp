@@ -22,6 +22,7 @@ struct MeasuredFrf {
   std::optional<int> record;      ///< number of the FRF in the file, from 1; none: its only one
   std::optional<double> noise{};  ///< standard deviation of real and imaginary part alike, relative to |H|
   std::optional<int> averages{};  ///< that the file's coherence belongs to, in place of `noise`
+  std::string sha256 = {};        ///< checksum of the file (setup/file_stamps.hpp); empty: not known
 };
 
 /// An accelerometer that sat on a component while its FRFs were measured.

@@ -62,6 +62,7 @@ struct Robot {
   Eigen::Vector3d preload = Eigen::Vector3d::Zero();  ///< N, on the tip
   std::vector<Eigen::Vector3d> workspace;             ///< places of the tip, m
   std::vector<Sensor> sensors = {};                   ///< during all of `measured`
+  std::string table_sha256 = {};                      ///< checksum of the table (setup/file_stamps.hpp)
 };
 
 }  // namespace thinwall::setup

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "case/checks.hpp"
-#include "case/keys.hpp"
 #include "case/numbers.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
@@ -17,6 +16,7 @@
 #include "setup/imported_part.hpp"
 #include "setup/part_geometry.hpp"
 #include "setup/part_materials.hpp"
+#include "study/kept/stage_keys.hpp"
 #include "study/part/discretisation.hpp"
 #include "temporary_folder.hpp"
 #include "tests/mesh/kuhn_box.hpp"
@@ -291,9 +291,9 @@ TEST(PartFile, ATableThatIsReadBesideItsMatrixIsAnInput) {
   };
   const Case source = with_dofs("3.1\n8.1\n");
   EXPECT_EQ(std::ranges::count(input_files(source), folder.path / "job.dof"), 1);
-  const std::string key = part_key(source);
-  EXPECT_EQ(part_key(with_dofs("3.1\n8.1\n")), key);
-  EXPECT_NE(part_key(with_dofs("8.1\n3.1\n")), key) << "the nodes have changed places";
+  const std::string key = study::part_key(source);
+  EXPECT_EQ(study::part_key(with_dofs("3.1\n8.1\n")), key);
+  EXPECT_NE(study::part_key(with_dofs("8.1\n3.1\n")), key) << "the nodes have changed places";
 }
 
 TEST(PartFile, WhatMatricesDoNotTellIsRefused) {

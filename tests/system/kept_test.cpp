@@ -14,6 +14,7 @@
 #include "report/page/document.hpp"
 #include "run_in_folder.hpp"
 #include "study/kept/checkpoint.hpp"
+#include "study/kept/stage_keys.hpp"
 #include "tests/report/unpacked.hpp"
 
 namespace thinwall::tests {
@@ -302,7 +303,7 @@ TEST(Kept, TheProgramIsKnownByWhatItHolds) {
 TEST(Kept, WhereAPathLeadsThePointThatIsCutBelongsToTheStructure) {
   const fs::path folder = scratch("kept_path_keys");
   const std::string path = along_path(wall);
-  const auto key = [&](const std::string& text) { return structure_key(parse_case(text, folder)); };
+  const auto key = [&](const std::string& text) { return study::structure_key(parse_case(text, folder)); };
   EXPECT_NE(key(path), key(replaced(path, "at = \"P\"", "at = \"Q\""))) << "postures of the robot follow from it";
   EXPECT_EQ(key(path), key(replaced(path, "radial_depth = \"1 mm\"", "radial_depth = \"2 mm\"")));
   EXPECT_EQ(key(wall), key(replaced(wall, "radial_depth = \"1 mm\"", "radial_depth = \"2 mm\"")));

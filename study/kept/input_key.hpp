@@ -1,0 +1,144 @@
+#pragma once
+// The key under which the result of a stage is kept: a hash over every byte of the stage's input.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/SparseCore>
+#include <array>
+#include <complex>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/fields.hpp"
+#include "setup/point.hpp"
+#include "setup/robot.hpp"
+
+// A struct with an optional Eigen vector has to state the number of its members (core/fields.hpp).
+namespace thinwall::core {
+
+template <>
+inline constexpr std::size_t member_count<setup::Point> = 8;
+template <>
+inline constexpr std::size_t member_count<setup::PostureWish> = 8;
+
+}  // namespace thinwall::core
+
+namespace thinwall::study {
+
+/// Bytes that tell one value from any other of its type. Members of structs are found by core::fields_of, so a member
+/// that is added later belongs to the key without being named. Lengths stand before what varies in length, and the
+/// number of the alternative before a variant, so that no two values have equal bytes.
+class InputBytes {
+ public:
+  template <class T>
+    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+  void add(const T& value) {
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  template <class Real>
+  void add(const std::complex<Real>& value) {
+    add(value.real());
+    add(value.imag());
+  }
+  void add(const std::string& text) {
+    add(text.size());
+    bytes_ += text;
+  }
+  void add(const std::filesystem::path& path) { add(path.string()); }
+  template <class T>
+  void add(const std::optional<T>& value) {
+    add(value.has_value());
+    if (value) add(*value);
+  }
+  template <class T>
+  void add(const std::shared_ptr<T>& value) {
+    add(value != nullptr);
+    if (value) add(*value);
+  }
+  template <class... Alternatives>
+  void add(const std::variant<Alternatives...>& value) {
+    add(value.index());
+    std::visit([this](const auto& alternative) { add(alternative); }, value);
+  }
+  void add(const std::monostate& /*nothing*/) {}
+  template <class First, class Second>
+  void add(const std::pair<First, Second>& pair) {
+    add(pair.first);
+    add(pair.second);
+  }
+  template <class T>
+  void add(const std::vector<T>& list) {
+    add(list.size());
+    for (const auto& item : list) add(static_cast<const T&>(item));
+  }
+  template <class T, std::size_t n>
+  void add(const std::array<T, n>& list) {
+    for (const T& item : list) add(item);
+  }
+  template <class Name, class T>
+  void add(const std::map<Name, T>& list) {
+    add(list.size());
+    for (const auto& item : list) add(item);
+  }
+  template <class Scalar, int rows, int cols, int options, int max_rows, int max_cols>
+  void add(const Eigen::Matrix<Scalar, rows, cols, options, max_rows, max_cols>& matrix) {
+    add(matrix.rows());
+    add(matrix.cols());
+    bytes_.append(reinterpret_cast<const char*>(matrix.data()),
+                  static_cast<std::size_t>(matrix.size()) * sizeof(Scalar));
+  }
+  template <class Scalar, int options, class Index>
+  void add(const Eigen::SparseMatrix<Scalar, options, Index>& matrix) {
+    add(matrix.rows());
+    add(matrix.cols());
+    add(matrix.nonZeros());
+    for (Eigen::Index column = 0; column < matrix.outerSize(); ++column) {
+      for (typename Eigen::SparseMatrix<Scalar, options, Index>::InnerIterator entry(matrix, column); entry; ++entry) {
+        add(entry.row());
+        add(entry.col());
+        add(entry.value());
+      }
+    }
+  }
+  template <class Scalar, int dimension, int mode, int options>
+  void add(const Eigen::Transform<Scalar, dimension, mode, options>& frame) {
+    add(typename Eigen::Transform<Scalar, dimension, mode, options>::MatrixType(frame.matrix()));
+  }
+  template <class Scalar, int dimension>
+  void add(const Eigen::AlignedBox<Scalar, dimension>& box) {
+    add(Eigen::Matrix<Scalar, dimension, 1>(box.min()));
+    add(Eigen::Matrix<Scalar, dimension, 1>(box.max()));
+  }
+  template <class Struct>
+    requires std::is_class_v<Struct> && std::is_aggregate_v<Struct>
+  void add(const Struct& value) {
+    std::apply([this](const auto&... member) { (add(member), ...); }, core::fields_of(value));
+  }
+
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+/// SHA-256, in hexadecimal digits, of the running program and of `bytes`. Two programs share nothing that is kept, because
+/// they may compute it in different ways. Cost: the hash of the bytes.
+[[nodiscard]] std::string key_of_bytes(const std::string& bytes);
+
+/// The key of a stage's input, which may be several structs.
+template <class... Inputs>
+[[nodiscard]] std::string input_key(const Inputs&... inputs) {
+  InputBytes all;
+  (all.add(inputs), ...);
+  return key_of_bytes(all.bytes());
+}
+
+}  // namespace thinwall::study

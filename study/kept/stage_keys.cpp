@@ -1,0 +1,55 @@
+#include "study/kept/stage_keys.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "setup/imported_part.hpp"
+#include "study/kept/input_key.hpp"
+
+namespace thinwall::study {
+
+namespace {
+
+bool fits_the_part(const setup::Updating& fit) {
+  return fit.on == setup::FitOf::part;
+}
+
+const setup::PartSetup& points_and_model(const PartInput& input) {
+  return input;
+}
+
+bool damping_shapes_part(const PartInput& input, const std::vector<setup::Updating>& fits) {
+  const bool from_matrices = input.part && input.part->shape == setup::PartShape::matrices;
+  return input.reduction.tolerance || from_matrices || !fits.empty();
+}
+
+}  // namespace
+
+std::string part_key(PartInput input, const std::vector<setup::Updating>& fits) {
+  if (!damping_shapes_part(input, fits)) input.damping = {};
+  return input_key(points_and_model(input), input.path, fits);
+}
+
+std::string part_key(const setup::Setup& source) {
+  std::vector<setup::Updating> fits;
+  std::ranges::copy_if(source.updating, std::back_inserter(fits), fits_the_part);
+  return part_key(part_input(source), fits);
+}
+
+std::string structure_key(const setup::Setup& source) {
+  const PartInput part = part_input(source);
+  const bool follows = source.path && source.path->robot_follows;
+  return input_key(points_and_model(part), part.path, follows, static_cast<const setup::MeasuredPart&>(source),
+                   static_cast<const setup::SupportSetup&>(source), source.updating);
+}
+
+std::string charts_key(const setup::Setup& source) {
+  setup::CutSetup cut = source;
+  cut.machine.reset();
+  const bool asks_for_feed = cut.cutting && (cut.cutting->law == setup::ForceLawKind::power ||
+                                             cut.cutting->law == setup::ForceLawKind::fractional);
+  if (cut.cutting && !asks_for_feed) cut.cutting->spindle_speed_rpm.reset();
+  return input_key(structure_key(source), cut);
+}
+
+}  // namespace thinwall::study

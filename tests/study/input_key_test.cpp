@@ -1,0 +1,246 @@
+// The keys of kept results: every field of every stage's input changes them.
+
+#include "study/kept/input_key.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <set>
+
+#include "setup/imported_part.hpp"
+#include "study/kept/stage_keys.hpp"
+
+namespace thinwall::tests {
+namespace {
+
+template <class T>
+constexpr bool is_number = std::is_arithmetic_v<T>;
+template <class T, template <class...> class Template>
+constexpr bool is_a = false;
+template <template <class...> class Template, class... Arguments>
+constexpr bool is_a<Template<Arguments...>, Template> = true;
+template <class T>
+concept DenseMatrix = std::derived_from<T, Eigen::MatrixBase<T>>;
+template <class T>
+constexpr bool is_sparse = std::is_same_v<T, Eigen::SparseMatrix<double>>;
+template <class T>
+constexpr bool is_frame = std::is_same_v<T, Eigen::Isometry3d>;
+template <class T>
+constexpr bool is_box = std::is_same_v<T, Eigen::AlignedBox3d>;
+
+/// Gives a value to everything below `value`: lists have one item, what may be absent is there.
+template <class T>
+void fill(T& value);
+
+template <class... Alternatives>
+void fill_alternative(std::variant<Alternatives...>& value) {
+  std::visit([](auto& held) { fill(held); }, value);
+}
+
+template <class T>
+void fill(T& value) {
+  if constexpr (is_number<T>) {
+    value = static_cast<T>(1);
+  } else if constexpr (std::is_enum_v<T> || std::is_same_v<T, std::monostate>) {
+  } else if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::filesystem::path>) {
+    value = "name";
+  } else if constexpr (is_a<T, std::complex>) {
+    value = {1.0, 2.0};
+  } else if constexpr (is_a<T, std::optional>) {
+    fill(value.emplace());
+  } else if constexpr (is_a<T, std::shared_ptr>) {
+    auto held = std::make_shared<std::remove_const_t<typename T::element_type>>();
+    fill(*held);
+    value = held;
+  } else if constexpr (std::is_same_v<T, std::vector<bool>>) {
+    value = {true};
+  } else if constexpr (is_a<T, std::vector>) {
+    value.resize(1);
+    fill(value.front());
+  } else if constexpr (is_a<T, std::map>) {
+    typename T::key_type name{};
+    fill(name);
+    fill(value[name]);
+  } else if constexpr (is_a<T, std::pair>) {
+    fill(value.first);
+    fill(value.second);
+  } else if constexpr (is_a<T, std::variant>) {
+    fill_alternative(value);
+  } else if constexpr (DenseMatrix<T>) {
+    if (value.size() == 0) value.resize(value.rows() > 0 ? value.rows() : 1, value.cols() > 0 ? value.cols() : 1);
+    value.setOnes();
+  } else if constexpr (is_sparse<T>) {
+    value.resize(2, 2);
+    value.insert(0, 0) = 1.0;
+    value.makeCompressed();
+  } else if constexpr (is_frame<T>) {
+    value.setIdentity();
+  } else if constexpr (is_box<T>) {
+    value = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()};
+  } else if constexpr (requires { value.fill(value.front()); }) {
+    for (auto& item : value) fill(item);
+  } else {
+    std::apply([](auto&... member) { (fill(member), ...); }, core::fields_of(value));
+  }
+}
+
+/// Changes one thing after another below a value and calls `changed` while it is so.
+struct Variation {
+  std::function<void()> changed;
+  int fields = 0;
+
+  template <class T>
+  void with(T& value, const T& other) {
+    const T before = value;
+    value = other;
+    ++fields;
+    changed();
+    value = before;
+  }
+
+  template <class... Alternatives>
+  void alternatives(std::variant<Alternatives...>& value) {
+    const auto one = [&](auto alternative) {
+      const std::variant<Alternatives...> before = value;
+      fill(alternative);
+      if (before.index() != std::variant<Alternatives...>(alternative).index()) with(value, {alternative});
+      value = alternative;
+      std::visit([this](auto& held) { vary(held); }, value);
+      value = before;
+    };
+    (one(Alternatives{}), ...);
+  }
+
+  template <class T>
+  void vary(T& value) {
+    if constexpr (std::is_same_v<T, bool>) {
+      with(value, !value);
+    } else if constexpr (std::is_floating_point_v<T>) {
+      with(value, std::nextafter(value, std::numeric_limits<T>::infinity()));
+    } else if constexpr (is_number<T>) {
+      with(value, static_cast<T>(value + 1));
+    } else if constexpr (std::is_enum_v<T>) {
+      with(value, static_cast<T>(static_cast<int>(value) == 0 ? 1 : 0));
+    } else if constexpr (std::is_same_v<T, std::monostate>) {
+    } else if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::filesystem::path>) {
+      with(value, T("nam"));
+    } else if constexpr (is_a<T, std::complex>) {
+      with(value, value + 1.0);
+      with(value, value + T(0.0, 1.0));
+    } else if constexpr (is_a<T, std::optional>) {
+      with(value, T{});
+      vary(*value);
+    } else if constexpr (is_a<T, std::shared_ptr>) {
+      with(value, T{});
+      auto held = std::make_shared<std::remove_const_t<typename T::element_type>>(*value);
+      const T before = value;
+      value = held;
+      vary(*held);
+      value = before;
+    } else if constexpr (std::is_same_v<T, std::vector<bool>>) {
+      with(value, {false});
+    } else if constexpr (is_a<T, std::vector>) {
+      with(value, T{});
+      with(value, T{value.front(), value.front()});
+      vary(value.front());
+    } else if constexpr (is_a<T, std::map>) {
+      with(value, T{});
+      vary(value.begin()->second);
+    } else if constexpr (is_a<T, std::pair>) {
+      vary(value.first);
+      vary(value.second);
+    } else if constexpr (is_a<T, std::variant>) {
+      alternatives(value);
+    } else if constexpr (DenseMatrix<T>) {
+      for (Eigen::Index i = 0; i < value.size(); ++i) vary(value.data()[i]);
+    } else if constexpr (is_sparse<T>) {
+      T other = value;
+      other.coeffRef(0, 0) = 2.0;
+      with(value, other);
+    } else if constexpr (is_frame<T>) {
+      with(value, T(Eigen::Translation3d(0.0, 0.0, 1e-9)));
+    } else if constexpr (is_box<T>) {
+      with(value, T(value.min(), 2.0 * value.max()));
+      with(value, T(value.min() - value.max(), value.max()));
+    } else if constexpr (requires { value.fill(value.front()); }) {
+      for (auto& item : value) vary(item);
+    } else {
+      std::apply([this](auto&... member) { (vary(member), ...); }, core::fields_of(value));
+    }
+  }
+};
+
+/// The number of fields below `value`, after a check that `key` differs for each of them that is changed.
+template <class T>
+int expect_all_fields_count(T& value, const std::function<std::string()>& key, const char* what) {
+  std::set<std::string> keys{key()};
+  const std::string first = *keys.begin();
+  int equal = 0;
+  Variation variation{[&] { equal += key() == first ? 1 : 0; }};
+  variation.vary(value);
+  EXPECT_EQ(equal, 0) << what << ": fields whose change leaves the key";
+  EXPECT_EQ(key(), first) << what << ": each change was taken back";
+  return variation.fields;
+}
+
+template <class Base>
+Base& base(setup::Setup& source) {
+  return source;
+}
+
+/// A set-up in which everything is there but a path, whose stations follow from other fields.
+setup::Setup full_setup() {
+  setup::Setup source;
+  fill(base<setup::PartSetup>(source));
+  fill(base<setup::MeasuredPart>(source));
+  fill(base<setup::SupportSetup>(source));
+  fill(base<setup::CutSetup>(source));
+  fill(source.updating);
+  return source;
+}
+
+TEST(InputKey, EveryFieldOfThePartsInputChangesThePartsKey) {
+  study::PartInput input;
+  std::vector<setup::Updating> fits;
+  fill(static_cast<setup::PartSetup&>(input));
+  fill(input.path);
+  fill(fits);
+  const auto key = [&] { return study::part_key(input, fits); };
+  const int fields = expect_all_fields_count(static_cast<setup::PartSetup&>(input), key, "part") +
+                     expect_all_fields_count(input.path, key, "path") + expect_all_fields_count(fits, key, "fits");
+  EXPECT_GT(fields, 200) << "of all structs that the part's stage reads";
+}
+
+TEST(InputKey, EveryFieldOfPartRobotAndContactsChangesTheKeyOfTheStructure) {
+  setup::Setup source = full_setup();
+  const auto key = [&] { return study::structure_key(source); };
+  const int fields = expect_all_fields_count(base<setup::PartSetup>(source), key, "part") +
+                     expect_all_fields_count(base<setup::MeasuredPart>(source), key, "measured part") +
+                     expect_all_fields_count(base<setup::SupportSetup>(source), key, "support") +
+                     expect_all_fields_count(source.updating, key, "fits");
+  EXPECT_GT(fields, 400);
+}
+
+TEST(InputKey, EveryFieldOfTheCutButTheMachineChangesTheKeyOfTheCharts) {
+  setup::Setup source = full_setup();
+  source.machine.reset();
+  source.cutting->law = setup::ForceLawKind::power;  // its feed follows from the speed
+  const auto key = [&] { return study::charts_key(source); };
+  expect_all_fields_count(*source.tool, key, "tool");
+  expect_all_fields_count(*source.lobes, key, "lobes");
+  setup::Cutting& cutting = *source.cutting;
+  Variation fields;
+  const std::string first = key();
+  int equal = 0;
+  fields.changed = [&] { equal += key() == first ? 1 : 0; };
+  fields.vary(cutting);
+  EXPECT_EQ(equal, 0);
+  expect_all_fields_count(base<setup::SupportSetup>(source), key, "support");
+  const std::string without = key();
+  source.machine.emplace();
+  EXPECT_EQ(key(), without) << "the machine's limits are applied to finished charts";
+}
+
+}  // namespace
+}  // namespace thinwall::tests
