@@ -26,7 +26,7 @@ struct RunResult {
   bool expectations_hold = true;  ///< false: exit 6
 };
 
-/// What `run`, `lobes` and `sweep` hand a case to; in the program this is run_case().
+/// The function to which `run`, `lobes` and `sweep` hand a case; in the program this is run_case().
 using RunCase = std::function<RunResult(const cases::Case&, const RunOptions&)>;
 
 /// Does what the case holds and writes the result folder. Throws core::Error.

@@ -37,7 +37,7 @@ struct ProgramDescription {
 
 [[nodiscard]] ProgramDescription description_of(const CLI::App& program);
 
-/// What stands where an option wants a value, for completion.
+/// The word that stands where an option wants a value, for completion.
 enum class ValueKind {
   none,       ///< no words can be proposed
   words,      ///< choices, "a|b"

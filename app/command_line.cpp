@@ -232,7 +232,7 @@ void add_log_arguments(CLI::App& command, Arguments& arguments) {
       ->type_name("auto|always|never");
 }
 
-/// What `run` and `lobes` have in common.
+/// Options that `run` and `lobes` have in common.
 void add_run_arguments(CLI::App& command, Arguments& arguments) {
   command.add_flag("--fresh", arguments.fresh, "compute everything anew, whatever an earlier run left");
   command.add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");

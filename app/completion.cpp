@@ -45,7 +45,7 @@ std::vector<std::string> names_of(const std::vector<OptionDescription>& options)
   return names;
 }
 
-/// What an option wants, as an action of bash.
+/// The value that an option wants, as an action of bash.
 std::string bash_action(const OptionDescription& option) {
   switch (value_kind(option)) {
     case ValueKind::words:

@@ -41,14 +41,14 @@ std::string memory_text(const std::string& name) {
   return "unknown";
 }
 
-/// What OpenBLAS says of itself; asked by name, for another BLAS may stand in its place.
+/// The description that OpenBLAS gives of itself. It is asked for by name, because another BLAS may stand in its place.
 std::string blas_text(const char* function) {
   using Answer = char* (*)();
   const auto ask = reinterpret_cast<Answer>(::dlsym(RTLD_DEFAULT, function));
   return ask == nullptr ? "unknown: the BLAS is not OpenBLAS" : ask();
 }
 
-/// Where python3, the one on the PATH, finds the module; its first path, the working directory, does not count.
+/// The place where the python3 on the PATH finds the module; its first path, the working directory, does not count.
 std::string python_text() {
   FILE* answer = ::popen(
       "python3 -c 'import sys; sys.path.pop(0); import thinwall; print(thinwall.__path__[0])' 2>/dev/null", "r");

@@ -15,7 +15,7 @@ namespace {
 
 constexpr Eigen::Index largest_dense = 1500;  // rows; a dense report takes some ten seconds there
 
-/// What matrices need beside their file; the options that state it are named.
+/// Checks for what matrices need beside their file; the options that state it are named.
 void require_inspectable(const io::MatrixFiles& files) {
   if (files.stiffness.empty())
     throw core::UsageError("nothing to inspect: name a model, or matrices with --stiffness and --mass");

@@ -9,7 +9,7 @@
 
 namespace thinwall::app {
 
-/// What `thinwall inspect` is asked for.
+/// The request of `thinwall inspect`.
 struct InspectRequest {
   std::filesystem::path model;                ///< a folder of `thinwall reduce`, or a MAT file; or, empty:
   io::MatrixFiles files;                      ///< matrices of any program

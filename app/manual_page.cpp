@@ -36,7 +36,7 @@ std::string synopsis(const CommandDescription& command) {
   return text + " [\\fIoptions\\fR]\n";
 }
 
-/// What no command's description tells.
+/// Sections that no command's description gives.
 constexpr auto rest = R"(.SH EXIT STATUS
 .TP
 \fB0\fR

@@ -47,7 +47,7 @@ Method method_of(const ReduceRequest& request) {
   return method;
 }
 
-/// What the options alone tell, before anything is computed.
+/// Checks that the options alone allow, before anything is computed.
 void require_options(const ReduceRequest& request) {
   const Method method = method_of(request);
   if (!request.tolerance) return;
@@ -151,7 +151,7 @@ ReducedPart reduced_part(const cases::Case& source, const ReduceRequest& request
   return {reduction::reduce(method, full, interface, options), ""};
 }
 
-/// Where the points are: the centres of their patches, which an edge may cut, or their nodes; empty unless all are
+/// Positions of the points: the centres of their patches, which an edge may cut, or their nodes; empty unless all are
 /// known.
 reduction::Positions positions_of(const cases::Case& source, const fem::Model& model) {
   reduction::Positions positions;

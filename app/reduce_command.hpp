@@ -10,7 +10,7 @@
 
 namespace thinwall::app {
 
-/// What `thinwall reduce` is asked for beside the case.
+/// The request of `thinwall reduce` beside the case.
 struct ReduceRequest {
   std::filesystem::path out = "model";   ///< folder
   std::string method = "craig_bampton";  ///< a name of reduction::Method

@@ -1,5 +1,5 @@
 #pragma once
-// Whether the program, on this machine, computes what it should.
+// A test that the program computes on this machine what it should.
 
 #include <string>
 

@@ -56,7 +56,7 @@ bool read_row(const fs::path& folder, const SweepPlan& plan, SweepRow& row) {
   return true;
 }
 
-/// The same; what is damaged counts as not computed.
+/// The record of a point; a damaged one counts as not computed.
 void read_row_if_whole(const fs::path& folder, const SweepPlan& plan, SweepRow& row) {
   try {
     (void)read_row(folder, plan, row);
@@ -65,7 +65,7 @@ void read_row_if_whole(const fs::path& folder, const SweepPlan& plan, SweepRow& 
   }
 }
 
-/// What an earlier sweep left of the point with this key, unless it failed or is damaged.
+/// The record that an earlier sweep left of the point with this key, unless it failed or is damaged.
 std::optional<PointRecord> kept_point(const fs::path& folder, const std::string& key) {
   try {
     auto record = read_point(folder);
@@ -107,7 +107,7 @@ ProgressDisplay stage_display(const SweepRequest& request) {
   return display == ProgressDisplay::lines && request.progress != "always" ? ProgressDisplay::none : display;
 }
 
-/// Where the points of a sweep keep their parts: those that differ in the cut only share one.
+/// The folder in which the points of a sweep keep their parts: those that differ in the cut only share one.
 fs::path shared_parts(const fs::path& sweep) {
   return sweep / "cache";
 }

@@ -45,7 +45,7 @@ std::string without_quotes(const std::string& text) {
   return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-/// What follows the number: "4 mm" → "mm".
+/// The unit that follows the number: "4 mm" → "mm".
 std::string unit_of(const std::string& quantity) {
   return trimmed(quantity.substr(std::min(quantity.find_first_not_of("+-0123456789.eE"), quantity.size())));
 }

@@ -14,9 +14,9 @@ struct SweepAxis {
   std::string unit;
   std::vector<double> numbers;
 
-  /// What a table writes above the values: "part.thickness [mm]".
+  /// The heading that a table writes above the values: "part.thickness [mm]".
   [[nodiscard]] std::string title() const;
-  /// What a table writes: "4.5"; a word as it is.
+  /// The text that a table writes: "4.5"; a word as it is.
   [[nodiscard]] std::string entry(std::size_t value) const;
 };
 

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using io::JsonValue;
 using nlohmann::json;
 
-/// Of the expectations beside a case; "" where it has none.
+/// The checksum of the expectations beside a case; "" where it has none.
 std::string hash_if_there(const fs::path& file) {
   return fs::exists(file) ? io::sha256_of_file(file) : "";
 }

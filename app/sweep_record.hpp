@@ -1,5 +1,5 @@
 #pragma once
-// What a sweep leaves of itself: sweep.json in its folder, point.json in that of each point.
+// Records of a sweep: sweep.json in its folder, point.json in that of each point.
 
 #include <filesystem>
 #include <optional>
@@ -30,14 +30,14 @@ struct SweepPlan {
 /// Writes sweep.json to the folder; throws DataError.
 void write_plan(const std::filesystem::path& folder, const SweepPlan& plan);
 
-/// What write_plan() wrote. Throws DataError for a folder without sweep.json, or with a damaged one.
+/// The plan that write_plan() wrote. Throws DataError for a folder without sweep.json, or with a damaged one.
 [[nodiscard]] SweepPlan read_plan(const std::filesystem::path& folder);
 
 /// Folder of a point: 001, 002 …; as many digits as the last one has, three at least.
 [[nodiscard]] std::filesystem::path point_folder(const std::filesystem::path& sweep, std::size_t number,
                                                  std::size_t count);
 
-/// What became of a point, and which point of which sweep it was.
+/// The outcome of a point, and which point of which sweep it was.
 struct PointRecord {
   std::string sweep;                ///< SweepPlan::key
   std::string key;                  ///< point_key(); "" where the values made no case
@@ -51,8 +51,8 @@ struct PointRecord {
 /// Writes point.json, with the hash of the summary.json that lies beside it; throws DataError.
 void write_point(const std::filesystem::path& folder, std::size_t number, const PointRecord& record);
 
-/// What write_point() wrote; none where there is no point.json. Throws DataError if it is damaged, or if summary.json
-/// is not the one that the sweep left.
+/// The record that write_point() wrote; none where there is no point.json. Throws DataError if it is damaged, or if
+/// summary.json is not the one that the sweep left.
 [[nodiscard]] std::optional<PointRecord> read_point(const std::filesystem::path& folder);
 
 }  // namespace thinwall::app

@@ -1,5 +1,5 @@
 #pragma once
-// What a sweep found, a row a point.
+// Results of a sweep, a row for each point.
 
 #include <filesystem>
 #include <string>
@@ -40,7 +40,7 @@ struct SweepTable {
 /// The table as CSV: point, one column an axis ("part.thickness [mm]"), the figures, status and reason.
 [[nodiscard]] std::string sweep_csv(const SweepTable& table);
 
-/// The same for a terminal: aligned, four digits, without the higher modes.
+/// The table for a terminal: aligned, four digits, without the higher modes.
 [[nodiscard]] std::string sweep_text(const SweepTable& table);
 
 /// Stable depths (or least depths, without a speed) and the first modes over the first axis that has numbers, as a

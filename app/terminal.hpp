@@ -1,5 +1,5 @@
 #pragma once
-// What a terminal gets that a file does not: colour, bold, a line that is overwritten.
+// Output that a terminal gets and a file does not: colour, bold, a line that is overwritten.
 
 #include <ostream>
 #include <string>
@@ -31,9 +31,9 @@ struct Style {
 /// green or red. Without colour the text itself; marks change nothing else.
 [[nodiscard]] std::string coloured(const std::string& report, Style style);
 
-/// What `--progress` and `-q` ask for. "auto": a line on a terminal, lines elsewhere, nothing with -q; "always": with
-/// -q, too; "never": nothing. Escape sequences go to a terminal only, whatever is asked. Throws UsageError for another
-/// word.
+/// The display that `--progress` and `-q` ask for. "auto": a line on a terminal, lines elsewhere, nothing with -q;
+/// "always": with -q, too; "never": nothing. Escape sequences go to a terminal only, whatever is asked. Throws
+/// UsageError for another word.
 [[nodiscard]] ProgressDisplay progress_display(const std::string& wanted, bool quiet);
 
 }  // namespace thinwall::app

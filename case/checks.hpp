@@ -1,5 +1,5 @@
 #pragma once
-// What one key alone cannot tell: references, exclusions, geometry, sizes.
+// Checks that one key alone cannot make: references, exclusions, geometry, sizes.
 
 #include "case/machining_case.hpp"
 #include "case/problem.hpp"

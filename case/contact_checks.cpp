@@ -89,7 +89,8 @@ void check_preload(const Case& source, const std::string& key, const setup::Cont
                                                      : ", and robot.preload has none along the first direction"));
 }
 
-/// What the model itself says of a contact that has all it needs. Numbers that could not be read were reported before.
+/// Reports what the model itself refuses of a contact that has all it needs. Numbers that could not be read were
+/// reported before.
 void try_contact(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
   std::error_code ignored;
   if (contact.model == setup::ContactModel::table && !std::filesystem::is_regular_file(contact.table, ignored)) {

@@ -1,5 +1,5 @@
 #pragma once
-// Where a check puts what it finds.
+// The list in which a check puts what it finds.
 
 #include <string>
 #include <vector>

@@ -85,7 +85,7 @@ Json value_schema(const Key& key) {
   return Json::object();
 }
 
-/// What an editor shows: the meaning, then unit and bounds in words.
+/// The text that an editor shows: the meaning, then unit and bounds in words.
 std::string description(const Key& key) {
   std::string text(key.meaning);
   if (!key.kind.unit.empty()) text += " Unit: " + std::string(key.kind.unit) + ".";

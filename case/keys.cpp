@@ -30,7 +30,7 @@ struct Exactly {
   }
 };
 
-/// Whether the key is `name` or lies in the table of that name.
+/// True if the key is `name` or lies in the table of that name.
 bool lies_in(const std::string& key, const std::string& name) {
   return key.starts_with(name) && (key.size() == name.size() || key[name.size()] == '.' || key[name.size()] == '[');
 }

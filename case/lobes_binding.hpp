@@ -11,7 +11,7 @@ namespace thinwall::cases {
 /// `tool` gives the depth limit where the table does not.
 [[nodiscard]] setup::LobesOptions bind_lobes(const Table& table, const std::optional<setup::Tool>& tool);
 
-/// What the table does not bound stays without bound.
+/// The limits of the machine; those that the table does not give stay without bound.
 [[nodiscard]] milling::MachineLimits bind_machine(const Table& table);
 
 /// Positions as they are listed, or evenly on the line; none where the path could not be read.

@@ -15,7 +15,7 @@ namespace thinwall::cases {
 
 namespace {
 
-/// Whether the chart or one beside it is of a method whose name begins so.
+/// True if the chart or one beside it is of a method whose name begins so.
 bool uses(const setup::LobesOptions& lobes, std::string_view beginning) {
   const auto begins = [&](milling::Method method) { return milling::name(method).starts_with(beginning); };
   return begins(lobes.method) || std::ranges::any_of(lobes.compare, begins);

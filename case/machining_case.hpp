@@ -1,5 +1,5 @@
 #pragma once
-// What a case file says, in SI and typed (frequencies in Hz, spindle speeds in rpm, as their names tell).
+// The content of a case file, in SI and typed (frequencies in Hz, spindle speeds in rpm, as their names tell).
 // Every key is described in case/schema.cpp and docs/case-file.md. A run does what the case holds.
 
 #include <filesystem>
@@ -24,7 +24,7 @@ struct Case : setup::Setup {
 /// Data files that the case names, besides the case file itself.
 [[nodiscard]] std::vector<std::filesystem::path> input_files(const Case& source);
 
-/// The same without those that only the given sections name ("robot", "tool").
+/// The data files without those that only the given sections name ("robot", "tool").
 [[nodiscard]] std::vector<std::filesystem::path> input_files(const Case& source,
                                                              const std::vector<std::string>& without_sections);
 

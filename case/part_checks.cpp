@@ -49,7 +49,7 @@ double tolerance(const setup::Part& part) {
   return 1e-9 * bounds(part).sizes().maxCoeff();
 }
 
-/// How near to a file's surface a point must be given: the nearest place of the surface is meant.
+/// The distance within which a point must be given of a file's surface: the nearest place of the surface is meant.
 double given_to(const setup::Part& part) {
   return 1e-4 * bounds(part).diagonal().norm();
 }
@@ -255,7 +255,7 @@ void check_surface_size(const Case& source, Findings& findings) {
   }
 }
 
-/// What is too much, and the size or order that would do; a uniform mesh grows with the cube of its fineness.
+/// The excess, and the size or order that would do; a uniform mesh grows with the cube of its fineness.
 void check_mesh_size(const Case& source, Findings& findings) {
   const setup::MeshOptions& mesh = source.part->mesh;
   if (mesh.grading && !findings.given("part.mesh.point_element_size"))
@@ -352,7 +352,7 @@ void check_point(const Case& source, const setup::Point& point, Findings& findin
   }
 }
 
-/// Whether a box or sphere shares no volume with the block around the part.
+/// True if a box or sphere shares no volume with the block around the part.
 bool misses_part(const setup::Part& part, const setup::Selection& selection) {
   const Eigen::AlignedBox3d block = setup::bounds(part);
   if (selection.sphere) return block.exteriorDistance(selection.sphere->centre) >= selection.sphere->radius;

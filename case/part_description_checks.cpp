@@ -58,7 +58,7 @@ void check_material(const Case& source, Findings& findings) {
   }
 }
 
-/// What the case gives to a set of the file goes before the file's own.
+/// A material that the case gives to a set of the file goes before the file's own.
 bool given_by_case(const setup::Part& part, const std::string& set) {
   return std::ranges::any_of(part.materials,
                              [&](const setup::MaterialRegion& r) { return io::capitals(r.on) == io::capitals(set); });
@@ -122,7 +122,7 @@ void check_attachments(const Case& source, Findings& findings) {
   }
 }
 
-/// What a mesh from a file cannot be asked for.
+/// Reports keys that a mesh from a file cannot take.
 void check_given_mesh(const Case& source, Findings& findings) {
   const setup::Part& part = *source.part;
   const mesh::SolidMesh* solid = setup::solid_of(part);

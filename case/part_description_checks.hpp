@@ -1,5 +1,5 @@
 #pragma once
-// What a part is made of and what holds on to it: names that must be known, keys that must be there.
+// Checks of a part's materials, supports and attachments: names that must be known, keys that must be there.
 
 #include "case/findings.hpp"
 #include "case/machining_case.hpp"

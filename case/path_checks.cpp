@@ -66,7 +66,7 @@ void check_length(const setup::Path& path, Findings& findings) {
   }
 }
 
-/// What is wrong with a point of the case at one position; empty if nothing.
+/// The fault of a point of the case at one position; empty if nothing.
 std::string fault_at(const setup::PartSetup& there, const setup::Point& p) {
   if (std::string outside = outside_part(*there.part, *p.position, p.patch_radius); !outside.empty()) return outside;
   for (const Eigen::Vector3d& direction : p.directions) {

@@ -47,8 +47,8 @@ std::string line_of(const std::string& text, int number) {
   return line;
 }
 
-/// How many characters from `first` on make one key or value: a text up to its quote, a list up to its bracket (or the
-/// end of the line), else a word.
+/// The number of characters from `first` on that make one key or value: a text up to its quote, a list up to its
+/// bracket (or the end of the line), else a word.
 std::size_t token_length(const std::vector<std::string>& line, std::size_t first) {
   const std::string& open = line[first];
   std::size_t at = first + 1;

@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with a case, all of it at once.
+// All problems of a case at once.
 
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ struct Problem {
   std::string text;  ///< key, value, bound, remedy, in one line
 };
 
-/// What problems are found in: a file, and what was put over it by --set.
+/// The text in which problems are found: a file, and what was put over it by --set.
 struct CaseText {
   std::string name;  ///< as messages call the file
   std::string text;

@@ -20,7 +20,7 @@ namespace thinwall::cases {
 [[nodiscard]] Case read_case(const std::filesystem::path& folder_or_file,
                              const std::vector<std::string>& overrides = {});
 
-/// The same from text; data files are looked for in `folder`. `name` is shown in messages.
+/// Reads a case from text; data files are looked for in `folder`. `name` is shown in messages.
 [[nodiscard]] Case parse_case(const std::string& text, const std::filesystem::path& folder,
                               const std::string& name = "case.toml", const std::vector<std::string>& overrides = {});
 

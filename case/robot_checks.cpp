@@ -122,7 +122,7 @@ void check_counterbalances(const Case& source, Findings& findings) {
   }
 }
 
-/// How the arm is asked to stand.
+/// Checks the posture that is asked of the arm.
 void check_posture_keys(const setup::Robot& robot, Findings& findings) {
   const setup::PostureWish& wish = robot.posture;
   const int ways = (findings.given("robot.posture.joints") ? 1 : 0) + (wish.pitch ? 1 : 0) + (wish.approach ? 1 : 0);

@@ -15,7 +15,7 @@ void check_robot(const Case& source, Findings& findings);
 /// Directions in which the tip can be held; empty where the case does not tell.
 [[nodiscard]] std::vector<Eigen::Vector3d> tip_directions(const setup::Robot& robot);
 
-/// What keeps the robot from standing as the case asks it to; empty if nothing, or where the case does not tell. A
+/// The reason why the robot cannot stand as the case asks it to; empty if nothing, or where the case does not tell. A
 /// search starts from the joints `near`, if there are, which then are those found.
 [[nodiscard]] std::string fault_of_posture(const setup::PartSetup& part, const setup::SupportSetup& support,
                                            std::optional<Eigen::VectorXd>& near);

@@ -21,7 +21,7 @@ std::string_view last_name(std::string_view path) {
   return dot == std::string_view::npos ? path : path.substr(dot + 1);
 }
 
-/// What stands between '|'.
+/// The words between '|'.
 std::vector<std::string> words(std::string_view list) {
   std::vector<std::string> words;
   std::istringstream text{std::string(list)};
@@ -93,7 +93,7 @@ bool is_numeric(Type type) {
          type == Type::polygon || type == Type::positions;
 }
 
-/// What the page says of a key's range: numbers without bounds take any.
+/// The text of a key's range on the page: numbers without bounds take any.
 std::string range_cell(const Key& key) {
   if (!is_numeric(key.type)) return "";
   const std::string bounds = bounds_text(key);

@@ -186,7 +186,7 @@ Value read_value(const toml::node& node, const Key& key) {
   return {};
 }
 
-/// What stands for a value that could not be read: later checks see that the key is there, and pass over it.
+/// The stand-in of a value that could not be read: later checks see that the key is there, and pass over it.
 Value unread_value(const Key& key) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   switch (key.type) {
@@ -244,7 +244,7 @@ class Walk {
     return entries;
   }
 
-  /// Where `path` stands: its place in the file; else in the last --set that is it, lies in it or holds it.
+  /// The place of `path`: its place in the file; else in the last --set that is it, lies in it or holds it.
   [[nodiscard]] Problem place_of(const toml::source_position& place, const std::string& path) const {
     if (place.line > 0) return {static_cast<int>(place.line), static_cast<int>(place.column), ""};
     const auto within = [](const std::string& inner, const std::string& outer) {
@@ -317,7 +317,7 @@ class Walk {
   }
 
   void value(const Key& key, const toml::node& node, const std::string& path) {
-    // What --set puts into the document has no place in the file: toml++ says line 0.
+    // A value that --set puts into the document has no place in the file: toml++ says line 0.
     const auto source = node.source().begin;
     const Problem place = place_of(source, path);
     CaseValue read{path, {}, place.line, place.column, true};

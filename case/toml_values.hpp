@@ -10,7 +10,7 @@
 
 namespace thinwall::cases {
 
-/// What a file says, defaults filled in, and what is wrong with it: unknown keys, wrong types, dimensions, bounds.
+/// Values of a file with defaults filled in, and its problems: unknown keys, wrong types, dimensions, bounds.
 struct ReadValues {
   CaseValues values;
   std::vector<Problem> problems;

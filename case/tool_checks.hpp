@@ -1,5 +1,5 @@
 #pragma once
-// What a tool that is known by measured FRFs can be asked.
+// Checks of a tool that is known by measured FRFs.
 
 #include "case/findings.hpp"
 #include "case/machining_case.hpp"

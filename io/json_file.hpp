@@ -26,7 +26,7 @@ struct JsonValue {
   std::string file;
   std::string place;  ///< "axes[0].key"; "" is the document
 
-  /// Whether the object has this key, with something else than null.
+  /// True if the object has this key, with something else than null.
   [[nodiscard]] bool has(const std::string& key) const;
   /// The value of this key of the object.
   [[nodiscard]] JsonValue at(const std::string& key) const;
@@ -46,7 +46,7 @@ struct JsonValue {
   [[nodiscard]] int integer(int lower, int upper) const;
 };
 
-/// What a value is, in few words: "a number", "a list of 3", "an object with name, value and 4 more".
+/// The kind of a value in few words: "a number", "a list of 3", "an object with name, value and 4 more".
 [[nodiscard]] std::string kind_of(const nlohmann::json& value);
 
 }  // namespace thinwall::io

@@ -1,5 +1,5 @@
 #pragma once
-// What a result was made from and consists of: files with their SHA-256.
+// The manifest of a result, which lists what it was made from and consists of: files with their SHA-256.
 
 #include <cstdint>
 #include <filesystem>

@@ -15,7 +15,8 @@ namespace thinwall::io {
 
 namespace {
 
-/// Of the notes in a segment of an ELF file: each a header, a name and a description, padded to four bytes.
+/// The build ID among the notes in a segment of an ELF file: each note is a header, a name and a description, padded to
+/// four bytes.
 std::string build_id_in(std::string_view notes) {
   const auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
   ElfW(Nhdr) note;

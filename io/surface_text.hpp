@@ -32,15 +32,15 @@ class SurfaceText {
   [[nodiscard]] double number(const char* what);
   /// The next word as a whole number from `least` to `most`. Throws DataError with file and line.
   [[nodiscard]] std::int64_t whole_number(const char* what, std::int64_t least, std::int64_t most);
-  /// The same for a word at hand.
+  /// Converts a word at hand; otherwise as the function above.
   [[nodiscard]] double number(std::string_view word, const char* what) const;
-  /// The same for a word at hand.
+  /// Converts a word at hand; otherwise as the function above.
   [[nodiscard]] std::int64_t whole_number(std::string_view word, const char* what, std::int64_t least,
                                           std::int64_t most) const;
 
   /// Bytes that are not yet passed: no count in a file is believed beyond them.
   [[nodiscard]] std::size_t bytes_left() const { return rest_.size(); }
-  /// What is not yet passed.
+  /// The text that is not yet passed.
   [[nodiscard]] std::string_view rest() const { return rest_; }
   /// Number of the line, from 1.
   [[nodiscard]] int line() const { return line_; }

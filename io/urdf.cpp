@@ -23,7 +23,7 @@ Eigen::Isometry3d frame(const urdf::Pose& pose) {
   return T;
 }
 
-/// What the parser says goes into our message, not to the terminal.
+/// Catches the parser's messages, which go into our message, not to the terminal.
 class Said : public console_bridge::OutputHandler {
  public:
   Said() { console_bridge::useOutputHandler(this); }

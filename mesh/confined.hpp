@@ -8,7 +8,7 @@
 
 namespace thinwall::mesh {
 
-/// What a mesher's process may use.
+/// Resources that a mesher's process may use.
 struct ProcessLimits {
   double time_s = 120.0;      ///< the process is killed after this
   double memory_bytes = 4e9;  ///< address space that it may take beyond what it starts with
@@ -20,9 +20,9 @@ struct ProcessLimits {
 [[nodiscard]] std::vector<char> run_confined(const std::function<std::vector<char>()>& work, double time_limit_s,
                                              double memory_limit_bytes);
 
-/// The same for work that makes a mesh. Tetrahedra are turned to positive volume and order_along_curve() is applied.
-/// Throws NumericalError, whose message begins with the mesher's `name`, as run_confined() and for a mesh without
-/// tetrahedra.
+/// Confines work that makes a mesh; otherwise as the function above. Tetrahedra are turned to positive volume and
+/// order_along_curve() is applied. Throws NumericalError, whose message begins with the mesher's `name`, as
+/// run_confined() and for a mesh without tetrahedra.
 [[nodiscard]] TetMesh mesh_confined(const char* name, const std::function<TetMesh()>& work,
                                     const ProcessLimits& limits);
 

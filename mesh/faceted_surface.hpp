@@ -13,7 +13,7 @@ struct FacetedSurface {
   std::vector<std::vector<int>> facets;
 };
 
-/// The same with triangles only. Vertices in m, part axes.
+/// A surface of triangles only. Vertices in m, part axes.
 struct TriangleSurface {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<int, 3>> triangles;
@@ -23,12 +23,12 @@ struct TriangleSurface {
 /// fewer than three vertices or an index out of range.
 [[nodiscard]] TriangleSurface triangulated(const FacetedSurface& polygons);
 
-/// The same surface, each facet a triangle.
+/// The surface with each facet as a triangle.
 [[nodiscard]] FacetedSurface faceted(const TriangleSurface& surface);
 
 /// Enclosed volume of a faceted surface by the divergence theorem, m³.
 [[nodiscard]] double volume(const FacetedSurface& surface);
-/// The same of triangles.
+/// Meshes a surface of triangles; otherwise as the function above.
 [[nodiscard]] double volume(const TriangleSurface& surface);
 
 /// ½ (b − a) × (c − a) of a triangle with corners a, b, c: outward normal times area, m².

@@ -26,7 +26,7 @@ struct LagrangeNodes {
 /// orientation needs no special case. Throws InputError for another order. Cost O(nodes log nodes).
 [[nodiscard]] LagrangeNodes lagrange_nodes(const TetMesh& mesh, int order);
 
-/// How many nodes lagrange_nodes() would make, without making them: V + (p − 1) E + (p − 1)(p − 2)/2 F
+/// The number of nodes that lagrange_nodes() would make, without making them: V + (p − 1) E + (p − 1)(p − 2)/2 F
 /// + (p − 1)(p − 2)(p − 3)/6 T for the vertices that elements use, edges, faces and elements. Throws InputError for
 /// another order than 1…6. Cost O(elements log elements).
 [[nodiscard]] std::int64_t lagrange_node_count(const TetMesh& mesh, int order);

@@ -11,7 +11,7 @@ namespace thinwall::mesh {
 [[nodiscard]] Eigen::Vector3d nearest_on_triangle(const Eigen::Vector3d& x, const Eigen::Vector3d& a,
                                                   const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
-/// Whether a point lies inside a closed surface, and how far from it.
+/// True if a point lies inside a closed surface, and how far from it.
 struct PointToSurface {
   bool inside = false;
   double distance_m = 0.0;  ///< to the surface, from either side

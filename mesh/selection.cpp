@@ -12,7 +12,7 @@ namespace thinwall::mesh {
 
 namespace {
 
-/// How far x lies outside the region; 0 inside.
+/// The distance of x outside the region; 0 inside.
 double distance(const PlaneRegion& plane, const Eigen::Vector3d& x) {
   return std::abs(plane.normal.normalized().dot(x - plane.point));
 }

@@ -30,7 +30,7 @@ struct SphereRegion {
   double radius = 0.0;
 };
 
-/// What selects faces of a part.
+/// The region that selects faces of a part.
 using Region = std::variant<PlaneRegion, BoxRegion, SphereRegion>;
 
 /// The plane of a box's face by its name ("y_min"); throws InputError with the nearest name otherwise.

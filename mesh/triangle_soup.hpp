@@ -17,7 +17,7 @@ struct TriangleSoup {
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// The same points and triangles with nothing promised any more.
+/// The points and triangles as a soup, of which nothing is promised.
 [[nodiscard]] TriangleSoup soup(const TriangleSurface& surface);
 
 /// A soup whose points were made one where they are equal or near.

@@ -23,14 +23,14 @@ std::string last_key(const std::string& path) {
   return key.substr(0, key.find('['));
 }
 
-/// Whether a name ends in a unit, as the names of all quantities with a dimension do.
+/// True if a name ends in a unit, as the names of all quantities with a dimension do.
 bool has_unit(const std::string& key) {
   static constexpr std::array units{"_m", "_mm", "_hz", "_n", "_nm", "_w", "_s", "_kg", "_pa", "_rad", "_deg", "_rpm"};
   return key.find("_per_") != std::string::npos ||
          std::ranges::any_of(units, [&key](const char* unit) { return key.ends_with(unit); });
 }
 
-/// Whether a number of that name is a residual or a relative error: a number without a dimension whose size is that of
+/// True if a number of that name is a residual or a relative error: a number without a dimension whose size is that of
 /// round-off or of an estimate, so that only its staying small counts, and a relative comparison would tell nothing. An
 /// error with a unit, as surface_location_error_m, is a quantity like any other.
 bool is_relative_error(const std::string& path) {

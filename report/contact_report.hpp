@@ -18,7 +18,7 @@ struct ContactAlong {
 };
 [[nodiscard]] ContactAlong along(const coupling::Contact& contact, std::size_t direction);
 
-/// What a regularised kernel dropped; null without a regularisation.
+/// The summary of what a regularised kernel dropped; null without a regularisation.
 [[nodiscard]] nlohmann::json regularisation_summary(coupling::Regularisation regularisation, double threshold,
                                                     const coupling::CoupledResponse& receptance);
 

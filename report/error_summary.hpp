@@ -18,7 +18,7 @@ namespace thinwall::report {
 /// Null where there is none.
 [[nodiscard]] nlohmann::json chart_errors_summary(const study::NamedLobes& named);
 
-/// Of the row at the case's own speed, with what drawing samples gave.
+/// The error summary of the row at the case's own speed, with what drawing samples gave.
 [[nodiscard]] nlohmann::json row_errors_summary(const study::DepthError& error,
                                                 const std::optional<milling::DepthScatter>& scatter, int seed);
 

@@ -45,7 +45,7 @@ std::string robust_text(const json& robust) {
   return text + pockets_text(robust["best_pockets"], "pockets");
 }
 
-/// What errors of the structure make of the least depth; a reduction below a thousandth is not worth a line.
+/// The text on the least depth's error by errors of the structure; a reduction below a thousandth is not worth a line.
 void add_error_budget(std::vector<std::string>& notes, const json& budget, double least_depth_m) {
   if (!budget.contains("at_minimum")) return;
   const json &reduction = budget["at_minimum"]["truncation_m"], &noise = budget["at_minimum"]["noise_deviation_m"];

@@ -14,7 +14,7 @@ namespace thinwall::report {
 /// by 0.80 %". Empty where nothing is known.
 [[nodiscard]] std::string sensitivities_text(const nlohmann::json& sensitivities);
 
-/// What a reader of a chart of summary.json should know, a line each without its end: what the part's reduction and the
+/// Notes for the reader of a chart of summary.json, a line each without its end: what the part's reduction and the
 /// noise of measured FRFs make of the least depth, other methods, compliance without dynamics, speeds that did not
 /// converge. Empty if there is nothing.
 [[nodiscard]] std::vector<std::string> chart_notes(const nlohmann::json& chart);
@@ -22,7 +22,7 @@ namespace thinwall::report {
 /// `robust` of a chart and its notes, lines indented by four; empty if it has none of them.
 [[nodiscard]] std::string asked_text(const nlohmann::json& chart);
 
-/// What a page says below its first line, from a summary: sensitivities at the case's speed and notes of every chart,
+/// The text of a page below its first line, from a summary: sensitivities at the case's speed and notes of every chart,
 /// as sentences.
 [[nodiscard]] std::vector<std::string> answer_sentences(const nlohmann::json& summary);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What `thinwall lobes` prints: the chart in a few figures, and a line an operating point.
+// The output of `thinwall lobes`: the chart in a few figures, and a line an operating point.
 
 #include <nlohmann/json.hpp>
 #include <string>

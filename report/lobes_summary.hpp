@@ -1,5 +1,5 @@
 #pragma once
-// What summary.json says of a chart beyond its limits: pockets, sensitivities, and what the case asked for besides.
+// Entries of summary.json on a chart beyond its limits: pockets, sensitivities, and what the case asked for besides.
 
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace thinwall::report {
 
-/// What the cut of the case is, as pages and scripts ask for it beside the charts: teeth, the point that is cut (absent
+/// The cut of the set-up, as pages and scripts ask for it beside the charts: teeth, the point that is cut (absent
 /// of a tool alone), the depth limit and whether it is the tool's length ("tool_length", "depth_limit"), the case's own
 /// speed and the machine's range of speeds (null where unbounded), each if it is given. Needs tool, cutting and lobes.
 [[nodiscard]] nlohmann::json cutting_summary(const setup::Setup& source);

@@ -29,8 +29,8 @@ void make_model_folder(const std::filesystem::path& folder);
 /// written.
 std::string write_model(const std::filesystem::path& folder, const PlacedModel& model);
 
-/// What write_model() left in a folder, or a MAT file of io/matrices/mat.hpp or io/matrices/mat_sparse.hpp in SI.
-/// Throws DataError that says what is missing.
+/// The model that write_model() left in a folder, or a MAT file of io/matrices/mat.hpp or io/matrices/mat_sparse.hpp in
+/// SI. Throws DataError that says what is missing.
 [[nodiscard]] PlacedModel read_model(const std::filesystem::path& path);
 
 }  // namespace thinwall::report

@@ -1,5 +1,5 @@
 #pragma once
-// What a chart along a path comes to: for summary.json and for the terminal.
+// The summary of a chart along a path: for summary.json and for the terminal.
 
 #include <nlohmann/json.hpp>
 #include <string>

@@ -80,7 +80,7 @@ ResultFolder::~ResultFolder() {
   try {
     remove_unfinished_files(path_);
   } catch (const std::exception&) {
-    // What remains is removed by the next run; the results themselves are whole.
+    // The next run removes what remains; the results themselves are whole.
   }
   ::close(lock_);
 }

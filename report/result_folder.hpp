@@ -1,5 +1,5 @@
 #pragma once
-// Where a run leaves its results: one run at a time, and nothing that is not whole.
+// The folder in which a run leaves its results: one run at a time, and nothing that is not whole.
 
 #include <array>
 #include <filesystem>

@@ -85,7 +85,7 @@ std::vector<bool> nodes_held_by(const std::string& name, const setup::Setup& sou
   return held;
 }
 
-/// What is known on the triangles of the surface: "held", the same of each support ("held by y_min"), the wall's
+/// Fields on the triangles of the surface: "held", the same of each support ("held by y_min"), the wall's
 /// thickness.
 std::vector<io::TriangleNumbers> fields(const setup::Setup& source, const study::PartResult& part,
                                         const Triangles& triangles) {

@@ -14,7 +14,7 @@
 
 namespace thinwall::setup {
 
-/// What a robust chart allows for.
+/// Uncertainties that a robust chart allows for.
 struct RobustOptions {
   milling::Uncertainty uncertainty;
   double confidence = 2.0;  ///< k, standard uncertainties

@@ -1,5 +1,5 @@
 #pragma once
-// Where the robot touches the part, and what its stiffness comes from.
+// Places where the robot touches the part, and the sources of their stiffness.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -46,7 +46,7 @@ struct Contact {
   ContactModel model = ContactModel::springs;
   std::optional<double> preload{};  ///< N; none: from robot.preload
   std::filesystem::path table{};    ///< of model table
-  std::string table_sha256 = {};  ///< checksum of the table (setup/file_stamps.hpp); empty: not known
+  std::string table_sha256 = {};    ///< checksum of the table (setup/file_stamps.hpp); empty: not known
   std::optional<ContactBall> ball{};
   std::optional<coupling::Elastic> surface{};  ///< that the ball touches; none: part.material
   std::vector<MeasuredFrf> measured{};         ///< of the assembly, from which the joint is found
@@ -54,7 +54,7 @@ struct Contact {
   std::vector<double> noise{};  ///< relative: of the assembly, of the part, of the robot
 };
 
-/// How the receptance route solves its kernel.
+/// Options for the solution of the receptance route's kernel.
 struct CouplingChoice {
   coupling::Regularisation regularisation = coupling::Regularisation::none;
   double threshold = 1e-10;  ///< of the largest singular value

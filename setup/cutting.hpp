@@ -21,7 +21,7 @@ enum class ForceLawKind {
   oblique,  ///< linear, with coefficients from orthogonal cutting
 };
 
-/// What turning tells of a material: coefficients follow by the tool's helix.
+/// Orthogonal cutting data of a material, from turning: coefficients follow by the tool's helix.
 struct OrthogonalData {
   std::optional<double> shear_stress;                             ///< Pa
   std::optional<double> shear_angle, friction_angle, rake_angle;  ///< rad
@@ -48,7 +48,7 @@ struct Cutting {
   std::optional<double> feed_per_tooth;  ///< m
 };
 
-/// Where the cut goes along the part, and what the robot does meanwhile.
+/// The path of the cut along the part, and the robot's behaviour meanwhile.
 struct Path {
   std::vector<Eigen::Vector3d> positions;  ///< m, of the point that is cut, in order
   bool robot_follows = false;              ///< its contacts keep their distance to the cut; else they stay

@@ -14,7 +14,7 @@
 
 namespace thinwall::setup {
 
-/// What the file of a part holds, in m, in the part's axes.
+/// Contents of a part's file, in m, in the part's axes.
 struct ImportedPart {
   std::optional<mesh::SurfaceRepair> surface;     ///< of shape surface
   std::optional<io::MeshFile> mesh;               ///< of shape mesh
@@ -27,10 +27,10 @@ struct ImportedPart {
 /// The shape that a file's ending tells: "surface", "mesh"; empty for an ending that no reader knows.
 [[nodiscard]] std::optional<PartShape> shape_of_file(const std::filesystem::path& file);
 
-/// Whether a file of that ending states its unit of length: STEP.
+/// True if a file of that ending states its unit of length: STEP.
 [[nodiscard]] bool tells_its_unit(const std::filesystem::path& file);
 
-/// Whether the part's shape is one that a file holds.
+/// True if the part's shape is one that a file holds.
 [[nodiscard]] bool from_file(const Part& part);
 
 /// The mesh of the part's file, once it is read; null for parts of other shapes.
@@ -39,7 +39,7 @@ struct ImportedPart {
 /// The node that a point stands for: by its number, or, where it has none, by its name in the part's DOF table.
 [[nodiscard]] std::optional<int> node_of(const ImportedPart& part, const Point& point);
 
-/// Where the numbered node of an imported part lies, m; NaN where no file says it.
+/// The position of a numbered node of an imported part, m; NaN where no file says it.
 [[nodiscard]] Eigen::Vector3d node_position(const Part& part, int node);
 
 /// Numbers of the nodes that can move, ascending; empty for parts without numbered nodes.

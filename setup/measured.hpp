@@ -13,7 +13,7 @@
 
 namespace thinwall::setup {
 
-/// What a file of FRFs is, by the end of its name: .frf, .uff or .unv, .mat; anything else is a CSV.
+/// The kind of a file of FRFs, by the end of its name: .frf, .uff or .unv, .mat; anything else is a CSV.
 enum class FrfFileKind { csv, cutpro, universal, mat };
 /// The kind of a file of FRFs by its ending.
 [[nodiscard]] FrfFileKind frf_file_kind(const std::filesystem::path& file);

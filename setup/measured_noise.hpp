@@ -1,5 +1,5 @@
 #pragma once
-// How far the measured FRFs of a case scatter, by what the case says of them.
+// The scatter of the measured FRFs of a set-up, by its own statements.
 
 #include <optional>
 #include <string>
@@ -21,7 +21,7 @@ namespace thinwall::setup {
 [[nodiscard]] coupling::Deviations measured_deviations(const std::vector<MeasuredFrf>& files,
                                                        const dynamics::ResponseModel& response);
 
-/// Whether the case states the noise of one of them.
+/// True if the case states the noise of one of them.
 [[nodiscard]] bool any_noise(const std::vector<MeasuredFrf>& files);
 
 /// Why `averages` of this file tell no noise: no coherence, or one of 0 at some line; empty if they do. Reads the file.

@@ -121,7 +121,7 @@ struct Part {
 /// part.mesh.tolerance where the case does not give it: 0.01 of a surface from a file, 0.001 of other parts.
 [[nodiscard]] double usual_tolerance(const Part& part);
 
-/// Whether something holds the part, as far as the case tells: matrices may be those of a held part.
+/// True if something holds the part, as far as the case tells: matrices may be those of a held part.
 [[nodiscard]] bool may_be_held(const Part& part);
 
 /// Its extents along x, y, z, m.

@@ -1,5 +1,5 @@
 #pragma once
-// What hangs on the part of a case, as the finite elements take it.
+// Masses, springs and clamps on the part of a set-up, as the finite elements take them.
 
 #include "fem/attachments.hpp"
 #include "setup/machining_setup.hpp"

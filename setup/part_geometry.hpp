@@ -44,9 +44,9 @@ struct PlanarPart {
 /// Supports on faces and selections; those on sets of nodes are rows_held_by_sets().
 [[nodiscard]] std::vector<fem::Support> supports_of(const PartSetup& source);
 
-/// How far (m) the elements may lie off a place that is given on the part: nothing where they fill it exactly; 0.01 of
-/// the diagonal where they follow a file's surface by chords (outside_part() has held the place to the surface itself);
-/// what the edges of a file's curved elements bow by.
+/// The distance (m) by which elements may lie off a place that is given on the part: nothing where they fill it
+/// exactly; 0.01 of the diagonal where they follow a file's surface by chords (outside_part() has held the place to the
+/// surface itself); what the edges of a file's curved elements bow by.
 [[nodiscard]] double off_surface(const Part& part);
 
 /// The point of that name as the finite elements take it. Throws InputError with the nearest name if there is none.

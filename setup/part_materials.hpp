@@ -21,7 +21,7 @@ namespace thinwall::setup {
 /// plane.
 [[nodiscard]] fem::Materials materials_on(const PartSetup& source, const mesh::TetMesh& mesh);
 
-/// Whether the mesh file gives a material to all of its elements, with a unit of mass to read them by.
+/// True if the mesh file gives a material to all of its elements, with a unit of mass to read them by.
 [[nodiscard]] bool materials_in_file(const Part& part);
 
 /// Mass of a mesh of straight tetrahedra, kg: Σ ρ V.

@@ -32,7 +32,8 @@ struct TipMode {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
 };
 
-/// How an arm is to stand: by its joints, or by the place of its tip (in the part's axes) with a pitch or an approach.
+/// The posture that is asked of an arm: by its joints, or by the place of its tip (in the part's axes) with a pitch or
+/// an approach.
 struct PostureWish {
   std::vector<double> joints;               ///< rad; empty: by the place
   std::optional<Eigen::Vector3d> tip;       ///< m; none: the place of the first contact
@@ -43,7 +44,7 @@ struct PostureWish {
   std::vector<double> start;                ///< rad; empty: zeros
 };
 
-/// What is known of the robot's tip. `one_mode`: stiffness with frequency and damping ratio, or mass with stiffness and
+/// The model of the robot's tip. `one_mode`: stiffness with frequency and damping ratio, or mass with stiffness and
 /// damping (or damping ratio); what was not given is empty.
 struct Robot {
   RobotModel model = RobotModel::one_mode;

@@ -62,7 +62,7 @@ dynamics::ModalModel tabled_tip(const Robot& robot) {
   return tip;
 }
 
-/// Where the tip is to be, in space.
+/// The place in space where the tip is to be.
 Vector3d wanted_place(const PartSetup& part, const SupportSetup& support) {
   if (support.robot->posture.tip) return *support.robot->posture.tip;
   if (const auto place = contact_place(part, support)) return *place;
@@ -121,7 +121,7 @@ Eigen::VectorXd joints_of(const PartSetup& part, const SupportSetup& support,
   return searched_posture(robot, wanted_place(part, support), near.value_or(start));
 }
 
-/// Of the tip's Jacobian with 1 m a radian, smallest over largest.
+/// The ratio of the smallest to the largest singular value of the tip's Jacobian with 1 m a radian.
 double smallest_singular(const robot::ArmPose& at) {
   const Eigen::VectorXd s = Eigen::JacobiSVD<Eigen::MatrixXd>(robot::tip_jacobian(at)).singularValues();
   return s(s.size() - 1) / s(0);

@@ -9,7 +9,7 @@
 
 namespace thinwall::setup {
 
-/// How the robot stands; what an arm's joints tell is empty for other models.
+/// The posture of the robot; what an arm's joints tell is empty for other models.
 struct RobotPosture {
   robot::Posture posture;
   std::optional<Eigen::Vector3d> tip;       ///< m, part axes
@@ -17,7 +17,7 @@ struct RobotPosture {
   std::vector<Eigen::Vector3d> arm;         ///< from joint to joint to the tip, m, part axes
 };
 
-/// Where the first contact is on the part, in space, m; none without a contact or a modelled part.
+/// The place of the first contact on the part, in space, m; none without a contact or a modelled part.
 [[nodiscard]] std::optional<Eigen::Vector3d> contact_place(const PartSetup& part, const SupportSetup& support);
 
 /// The modes of a robot's tip or a tool's, as the case lists them. Errors as robot::one_mode().
@@ -26,9 +26,9 @@ struct RobotPosture {
 /// The tip at any posture, by the model that the case names. Measured receptances are put on `axis`.
 [[nodiscard]] robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis);
 
-/// How the case's robot stands: its joints by the case's word, or by inverse kinematics for the place of its tip, from
-/// `near` on where a search is needed. For a model without posture only the preload is told. Throws InputError for a
-/// place out of reach, an arm that the closed form is not for, a search that ends beside the place.
+/// The posture of the set-up's robot: its joints by the case's word, or by inverse kinematics for the place of its tip,
+/// from `near` on where a search is needed. For a model without posture only the preload is told. Throws InputError for
+/// a place out of reach, an arm that the closed form is not for, a search that ends beside the place.
 [[nodiscard]] RobotPosture robot_posture(const PartSetup& part, const SupportSetup& support,
                                          const std::optional<Eigen::VectorXd>& near = {});
 

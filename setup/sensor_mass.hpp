@@ -1,5 +1,5 @@
 #pragma once
-// What accelerometers weigh, taken off the FRFs that were measured with them.
+// The masses of accelerometers, taken off the FRFs that were measured with them.
 
 #include <optional>
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace thinwall::setup {
 
-/// How much a sensor changed the direct FRF of its point along one direction: |H − G|/|G| = ω² m |H| for one direction
-/// alone, H without the sensor, G with it; and the lowest resonance that a fit of peaks finds in either
+/// The relative change by a sensor of the direct FRF of its point along one direction: |H − G|/|G| = ω² m |H| for one
+/// direction alone, H without the sensor, G with it; and the lowest resonance that a fit of peaks finds in either
 /// (reduction/identification.hpp), none where it finds none.
 struct SensorEffect {
   std::string dof;

@@ -21,7 +21,8 @@ std::vector<Eigen::MatrixXcd> difference(const dynamics::ResponseModel& model, c
   return list;
 }
 
-/// What the files' noise makes of a component; none where a sensor's mass was taken off, which changes the noise, too.
+/// The deviation of a component by its files' noise; none where a sensor's mass was taken off, which changes the noise,
+/// too.
 coupling::Deviations noise_of(const std::string& whose, const std::vector<setup::MeasuredFrf>& files,
                               const std::vector<setup::Sensor>& sensors, const dynamics::ResponseModel& response) {
   if (sensors.empty() || !setup::any_noise(files)) return setup::measured_deviations(files, response);

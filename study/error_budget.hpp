@@ -1,5 +1,5 @@
 #pragma once
-// What part, robot and both together are off by: the noise of what was measured, what the part's reduction leaves out.
+// Errors of part, robot and both together: the noise of what was measured, what the part's reduction leaves out.
 
 #include <optional>
 
@@ -20,10 +20,10 @@ struct BudgetInput : setup::MeasuredPart {
   return {source, source.damping, source.robot, source.coupling};
 }
 
-/// Of the responses in `results`: noise as the case states it, carried into the coupled response to first order
-/// (coupling/error_budget.hpp); truncation as the difference of the models with and without what was left out, coupled
-/// anew: no expansion. With a regularised kernel the coupled response has neither, which is logged as a warning, as is
-/// noise that a sensor's mass hides. Errors as coupling::error_budget() and coupling::couple().
+/// The error budget of the responses in `results`: noise as the case states it, carried into the coupled response to
+/// first order (coupling/error_budget.hpp); truncation as the difference of the models with and without what was left
+/// out, coupled anew: no expansion. With a regularised kernel the coupled response has neither, which is logged as a
+/// warning, as is noise that a sensor's mass hides. Errors as coupling::error_budget() and coupling::couple().
 [[nodiscard]] ErrorBudget error_budget(const BudgetInput& input, const Results& results);
 
 }  // namespace thinwall::study

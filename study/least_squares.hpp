@@ -12,7 +12,7 @@ using ResidualsAt = std::function<Eigen::VectorXd(const Eigen::VectorXd& x)>;
 /// ∂r/∂x (residuals × parameters) at x, where the residuals are r.
 using JacobianAt = std::function<Eigen::MatrixXd(const Eigen::VectorXd& x, const Eigen::VectorXd& r)>;
 
-/// Where the search ended.
+/// The outcome of the search.
 struct [[nodiscard]] LeastSquares {
   Eigen::VectorXd parameters;  ///< scaled
   Eigen::VectorXd residuals;

@@ -1,5 +1,5 @@
 #pragma once
-// What the stages of a run hand to each other and to the output: one plain struct a stage.
+// Results that the stages of a run hand to each other and to the output: one plain struct a stage.
 
 #include <optional>
 #include <string>
@@ -110,26 +110,26 @@ struct CouplingResult {
   std::string no_spatial_route;  ///< why matrices that are known were not joined; empty: nothing hindered it
 };
 
-/// What a response is off by, in its shape, one matrix a line; empty where nothing is known to be wrong.
+/// The error of a response, in its shape, one matrix a line; empty where nothing is known to be wrong.
 struct ResponseErrors {
   coupling::Deviations noise{};                ///< standard deviation of real and imaginary part alike
   std::vector<Eigen::MatrixXcd> truncation{};  ///< signed: this model less that with what its reduction left out
 };
 
-/// The same of all components, and the models with what was left out.
+/// Errors of all components, and the models with what was left out.
 struct ErrorBudget {
   ResponseErrors part, robot, coupled;
   std::optional<Component> richer_part;
   std::optional<dynamics::ModalModel> richer_coupled;
 };
 
-/// What a limiting depth is off by, m; none where it is not known: no limit there, or not found again.
+/// The error of a limiting depth, m; none where it is not known: no limit there, or not found again.
 struct DepthError {
   std::optional<double> truncation_m;  ///< signed: this depth less that with what the part's reduction left out
   std::optional<double> noise_m;       ///< standard deviation by the noise of what was measured, first order
 };
 
-/// How much smaller the coupled receptance is at a resonance of the part.
+/// The reduction by which the coupled receptance is at a resonance of the part.
 struct AmplitudeReduction {
   std::string dof;
   double frequency_hz = 0.0;
@@ -152,7 +152,7 @@ struct ContactForce {
   bool lost = false;  ///< least_n < 0: the contact opens, and what is linear here no longer holds
 };
 
-/// What a chart says of one operating point.
+/// The answer of a chart for one operating point.
 struct PointStability {
   milling::OperatingPoint point;
   bool stable = false;

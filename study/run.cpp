@@ -173,7 +173,7 @@ void add_sampled_chart(const setup::CutSetup& work, const milling::ToolFrame& fr
   }
 }
 
-/// What the contact bears at the operating points of the supported part; not told of a regularised kernel.
+/// Computes the force on the contact at the operating points of the supported part; not told of a regularised kernel.
 void flag_contacts(const setup::Setup& work, Results& results) {
   if (work.coupling.regularisation != coupling::Regularisation::none) return;
   const CutPlace place{work.cutting->at, setup::milling_process(work).frame.rotation()};

@@ -16,7 +16,7 @@ namespace thinwall::io {
 /// or duplicate frequencies, 0 Hz where the conversion divides by it, and a coherence outside of 0 to 1.
 [[nodiscard]] MeasuredFrf read_frf(const std::filesystem::path& path, const FrfFormat& format);
 
-/// The same from text that is split into fields already, whatever separated them.
+/// The FRF of text that is split into fields already, whatever separated them.
 [[nodiscard]] MeasuredFrf measured_frf(const CsvText& text, const FrfFormat& format);
 
 /// Adds the coherence from a file of its own: two columns, frequency (times unit_in_hz) and coherence, on the axis of

@@ -31,7 +31,7 @@ bool starts_with_numbers(const std::vector<std::string>& words) {
 constexpr int most_words = 1000;
 constexpr std::size_t longest_unit = 32;
 
-/// What the words of a header tell.
+/// Facts that the words of a header tell.
 struct Told {
   std::optional<FrfFormat> frf;  ///< quantity and unit
   std::optional<double> in_hz;

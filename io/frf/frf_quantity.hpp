@@ -1,5 +1,5 @@
 #pragma once
-// What the numbers of a measured FRF mean: quantity and units.
+// The meaning of the numbers of a measured FRF: quantity and units.
 
 #include <complex>
 #include <string>
@@ -9,7 +9,7 @@ namespace thinwall::io {
 /// Displacement, velocity or acceleration per force: H, iω H, −ω² H.
 enum class FrfQuantity { receptance, mobility, accelerance };
 
-/// What the numbers of a file mean; e^{+iωt} always. Nothing here has a default: a file states what it holds.
+/// The meaning of the numbers of a file; e^{+iωt} always. Nothing here has a default: a file states what it holds.
 struct FrfFormat {
   FrfQuantity quantity;
   double unit_in_si;  ///< the unit of the values in m/N, m/(s N) or m/(s² N)

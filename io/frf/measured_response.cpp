@@ -37,7 +37,7 @@ Complex interpolate(std::span<const double> x_i, std::span<const Complex> y_i, d
   return sum;
 }
 
-/// What tells two DOFs apart.
+/// The key that tells two DOFs apart.
 using DofKey = std::tuple<std::string, int, std::array<double, 3>>;
 
 DofKey key_of(const Dof& dof) {

@@ -34,7 +34,7 @@ struct Columns {
 
 using ColumnIndices = std::map<std::string, std::size_t>;
 
-/// Where each column stands; a header of a million names is searched in no time.
+/// The number of each column; a header of a million names is searched in no time.
 ColumnIndices indices_of(const std::vector<std::string>& header) {
   ColumnIndices indices;
   for (std::size_t i = 0; i < header.size(); ++i) indices.emplace(header[i], i);

@@ -9,13 +9,13 @@
 
 namespace thinwall::io {
 
-/// Where a point of the table lay: so far up the tool from its tip, m; one number, or one a line of the file.
+/// The place of a point of the table: so far up the tool from its tip, m; one number, or one a line of the file.
 struct PointPlace {
   std::string point;
   std::vector<double> place_m;
 };
 
-/// What the numbers of a file mean. Nothing here has a default: a file states what it holds.
+/// The meaning of the numbers of a file. Nothing here has a default: a file states what it holds.
 struct ModalTableFormat {
   double left_unit;   ///< the unit of the L columns in √(s/kg)
   double right_unit;  ///< the unit of the R columns in √(s/kg)

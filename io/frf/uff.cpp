@@ -207,7 +207,7 @@ struct Coherence {
   bool taken = false;
 };
 
-/// What tells the DOFs of two functions apart: points, directions of record 6 and of the ID lines.
+/// The key that tells the DOFs of two functions apart: points, directions of record 6 and of the ID lines.
 using FunctionKey = std::tuple<std::string, int, std::array<double, 3>, std::string, int, std::array<double, 3>>;
 
 FunctionKey key_of(const UffFunction& function, const UffDofs& dofs) {
@@ -216,7 +216,7 @@ FunctionKey key_of(const UffFunction& function, const UffDofs& dofs) {
           dofs.force.point,    function.reference.direction, numbers(dofs.force.direction)};
 }
 
-/// What a file holds while it is read.
+/// Contents of a file while it is read.
 struct Contents {
   std::optional<UffUnits> units;
   std::vector<MeasuredEntry> entries;

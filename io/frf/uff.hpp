@@ -37,12 +37,12 @@ namespace thinwall::io {
 /// beyond single precision if that is asked for (named); DataError if the file cannot be written.
 void write_uff(const std::filesystem::path& path, const dynamics::ResponseModel& model, const UffForm& form = {});
 
-/// The same with the coherence of each entry that has one: function type 6 (coherence) behind its FRF, ID line 1
+/// Writes the entries with the coherence of each that has one: function type 6 (coherence) behind its FRF, ID line 1
 /// "coherence at <point>".
 void write_uff(const std::filesystem::path& path, const MeasuredResponse& measured, const UffForm& form = {});
 
-/// What the caller knows of the FRFs in a file. Quantity and units, that of the frequencies too, fill in what the file
-/// leaves open, which is noted; a file that says otherwise is refused (io/frf/uff_meaning.hpp).
+/// Knowledge of the caller about the FRFs in a file. Quantity and units, that of the frequencies too, fill in what the
+/// file leaves open, which is noted; a file that says otherwise is refused (io/frf/uff_meaning.hpp).
 struct UffReading {
   std::optional<FrfFormat> stated;
 };
@@ -57,7 +57,7 @@ struct UffReading {
 [[nodiscard]] MeasuredEntries uff_entries(std::string_view bytes, const std::string& source,
                                           const UffReading& reading = {});
 
-/// The same from a file.
+/// Reads it from a file; otherwise as the function above.
 [[nodiscard]] MeasuredEntries read_uff_entries(const std::filesystem::path& path, const UffReading& reading = {});
 
 /// The FRFs of a file as a matrix: read_uff_entries(), then response_matrix(), with the errors of both.

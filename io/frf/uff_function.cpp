@@ -121,7 +121,8 @@ struct TextNumbers {
   }
 };
 
-/// What stands behind the last number: nothing, or zeros by which some programs fill the record up.
+/// Requires that nothing of meaning stands behind the last number: nothing, or zeros by which some programs fill the
+/// record up.
 void require_no_more(TextNumbers& numbers, const UffDataSet& set, UffNotes& notes) {
   bool filled = false;
   while (numbers.place != 0 && !field(numbers.record, numbers.start, uff_record_width).empty()) {

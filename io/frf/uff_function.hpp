@@ -61,8 +61,9 @@ struct UffFunction {
   std::vector<std::complex<double>> values;
 };
 
-/// How values are written. Double precision keeps 13 digits as text and every bit as bytes, single precision six digits
-/// and 24 bits; an uneven abscissa keeps six digits as text and the precision of the values as bytes.
+/// The form in which values are written. Double precision keeps 13 digits as text and every bit as bytes, single
+/// precision six digits and 24 bits; an uneven abscissa keeps six digits as text and the precision of the values as
+/// bytes.
 struct UffForm {
   bool binary = false;
   bool little_endian = true;

@@ -29,7 +29,7 @@ bool may_be_force(int type) {
   return is_open(type) || type == uff::excitation_force || type == uff::reaction_force;
 }
 
-/// What follows the words, if the text starts with them.
+/// The text that follows the words, if the text starts with them.
 std::optional<std::string_view> after(std::string_view text, std::string_view words) {
   if (!text.starts_with(words) || text.size() == words.size()) return std::nullopt;
   return text.substr(words.size());

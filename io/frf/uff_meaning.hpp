@@ -1,5 +1,5 @@
 #pragma once
-// What a data set 58 means: between which DOFs it was measured, of which quantity, in which units.
+// The meaning of a data set 58: between which DOFs it was measured, of which quantity, in which units.
 
 #include <optional>
 

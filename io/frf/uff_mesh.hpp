@@ -63,7 +63,7 @@ void write_uff_mesh(const std::filesystem::path& path, const UffMesh& mesh);
 [[nodiscard]] UffMesh uff_mesh(std::string_view bytes, const std::string& source,
                                std::optional<double> unit_in_m = std::nullopt);
 
-/// The same from a file.
+/// Reads it from a file; otherwise as the function above.
 [[nodiscard]] UffMesh read_uff_mesh(const std::filesystem::path& path, std::optional<double> unit_in_m = std::nullopt);
 
 }  // namespace thinwall::io

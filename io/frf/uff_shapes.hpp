@@ -53,7 +53,7 @@ void write_uff_shapes(const std::filesystem::path& path, const std::vector<UffSh
 /// numbers, units other than SI (a shape has no unit by which it could be converted). Memory and cost O(bytes).
 [[nodiscard]] UffShapes uff_shapes(std::string_view bytes, const std::string& source);
 
-/// The same from a file.
+/// Reads it from a file; otherwise as the function above.
 [[nodiscard]] UffShapes read_uff_shapes(const std::filesystem::path& path);
 
 }  // namespace thinwall::io

@@ -81,7 +81,7 @@ std::vector<Storage> storages(bool even, bool stated_double) {
   return {{4, 4, true}, {8, 8, false}, {4, 8, false}};
 }
 
-/// What record 7 tells of the values.
+/// The form of the values, from record 7.
 struct DataForm {
   long type = 0;
   long count = 0;

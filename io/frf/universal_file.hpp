@@ -36,7 +36,7 @@ struct UffDataSet {
   UffBinary binary{};
 };
 
-/// What was odd in a file: "file:line: what", in the order of the file.
+/// Oddities of a file: "file:line: what", in the order of the file.
 using UffNotes = std::vector<std::string>;
 
 /// "source:line: what" about the record taken last.

@@ -25,7 +25,7 @@ constexpr std::array component_words{"mode", "x", "y", "z", "rx", "ry", "rz"};
   throw core::DataError(location(text, line) + ": " + what);
 }
 
-/// Where the columns of these names stand; −1: not there.
+/// The numbers of the columns of these names; −1 for one that is not there.
 std::vector<int> columns_of(const CsvText& text, const std::vector<std::string>& names, std::size_t needed) {
   std::vector<int> columns(names.size(), -1);
   std::string list;

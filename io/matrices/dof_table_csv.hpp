@@ -28,8 +28,8 @@ struct DofTableFile {
 /// cannot be written.
 void write_dof_table(const std::filesystem::path& path, const dynamics::SparseModel& model);
 
-/// Where nodes are: of *NODE of an input file of Abaqus or CalculiX, whatever its elements (io/mesh/inp_text.hpp), or
-/// of a table with the columns node, x, y, z; in the unit of the file. Throws DataError with file and line. Cost
+/// Positions of nodes: of *NODE of an input file of Abaqus or CalculiX, whatever its elements (io/mesh/inp_text.hpp),
+/// or of a table with the columns node, x, y, z; in the unit of the file. Throws DataError with file and line. Cost
 /// O(bytes).
 [[nodiscard]] std::map<int, Eigen::Vector3d> read_node_positions(const std::filesystem::path& path);
 

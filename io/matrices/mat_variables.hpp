@@ -32,7 +32,7 @@ using MatVariables = std::map<std::string, MatVariable>;
 /// Throws DataError "path: cause".
 [[noreturn]] void fail_in(const std::filesystem::path& path, const std::string& cause);
 
-/// What `read` returns. Sizes that a damaged file states and no memory holds are thrown as DataError, with its path.
+/// The result of `read`. Sizes that a damaged file states and no memory holds are thrown as DataError, with its path.
 template <typename Read>
 auto in_memory(const std::filesystem::path& path, const Read& read) {
   constexpr const char* cause = "states more than the memory holds: it is damaged, or too large; write it again";

@@ -105,7 +105,7 @@ class GmshReader {
     }
   }
 
-  /// What an entity of the geometry belongs to.
+  /// Reads to which groups each entity of the geometry belongs.
   void read_entities() {
     std::array<std::int64_t, 4> counts{};
     for (auto& count : counts) count = in_.count("a number of entities", 0, many);

@@ -20,7 +20,7 @@ class GmshNumbers {
 
   /// From here on numbers are bytes; they begin with the number 1, which tells their order.
   void begin_binary();
-  /// Whether numbers are bytes by now.
+  /// True if numbers are bytes by now.
   [[nodiscard]] bool is_binary() const { return is_binary_; }
 
   /// An integer of four bytes, a count or a number of eight bytes, a real of eight bytes; as text a word each.

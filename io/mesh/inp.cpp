@@ -17,7 +17,7 @@ namespace {
 using Labels = std::vector<std::int64_t>;
 using TextSets = std::map<std::string, InpTextSet>;
 
-// What steps cost, in units of one label that is looked at: about the time they take.
+// Costs of steps, in units of one label that is looked at: about the time they take.
 constexpr std::size_t set_cost = 25, range_cost = 5, member_cost = 5;
 
 /// Turns ranges into labels, and keeps count of the work: text of a few bytes may name every node, or every set.

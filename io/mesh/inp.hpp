@@ -15,8 +15,8 @@
 
 namespace thinwall::io {
 
-/// What a *SOLID SECTION gives to a set of elements, in the file's own units; absent where the file does not say it, or
-/// where the material is not isotropic.
+/// The material that a *SOLID SECTION gives to a set of elements, in the file's own units; absent where the file does
+/// not say it, or where the material is not isotropic.
 struct InpMaterial {
   std::string element_set;
   std::string name;
@@ -52,7 +52,7 @@ struct InpLabelled {
 /// The file as tetrahedra: mesh::solid_mesh of inp_mesh.
 [[nodiscard]] InpPart read_inp_part(const std::filesystem::path& path, double metres_per_unit);
 
-/// The same without the materials.
+/// Reads the mesh without its materials; otherwise as the function above.
 [[nodiscard]] mesh::SolidMesh read_inp(const std::filesystem::path& path, double metres_per_unit);
 
 /// "Young's modulus, density": what a section does not say; "" if it says all.

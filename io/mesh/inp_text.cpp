@@ -16,7 +16,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// What the lines after a keyword hold.
+/// The kind of data in the lines after a keyword.
 enum class Section {
   passed_over,
   counted,  ///< elements that are passed over

@@ -23,7 +23,7 @@ struct MeshFile {
 /// mesh/solid/solid_mesh.hpp say.
 [[nodiscard]] MeshFile read_mesh_file(const std::filesystem::path& path, const std::string& unit);
 
-/// The same without the materials.
+/// Reads the mesh without its materials; otherwise as the function above.
 [[nodiscard]] mesh::SolidMesh read_solid_mesh(const std::filesystem::path& path, const std::string& unit);
 
 }  // namespace thinwall::io

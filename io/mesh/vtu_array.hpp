@@ -10,7 +10,7 @@
 
 namespace thinwall::io {
 
-/// What the file says of all its arrays.
+/// The encoding that the file states for all its arrays.
 struct VtuEncoding {
   std::string path;  ///< for messages
   bool big_endian = false;
@@ -34,7 +34,7 @@ struct VtuArray {
 /// DataError with the array's name: truncated data, another encoding or type, text where a number belongs. Memory and
 /// cost are bounded by 1100 times the bytes of the array, which is what zlib can hold, and by most_bytes.
 [[nodiscard]] std::vector<double> vtu_reals(const VtuEncoding& encoding, const VtuArray& array);
-/// The same of integers.
+/// The integers of an array; otherwise as the function above.
 [[nodiscard]] std::vector<std::int64_t> vtu_integers(const VtuEncoding& encoding, const VtuArray& array);
 
 }  // namespace thinwall::io

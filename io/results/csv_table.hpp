@@ -34,7 +34,7 @@ void write_csv(const std::filesystem::path& path, const Table& table, const std:
 [[nodiscard]] const std::vector<double>& numbers(const Table& table, const std::string& name,
                                                  const std::filesystem::path& path);
 
-/// The same of a column that may have empty cells, which are NaN; all of them NaN where every cell is empty.
+/// The numbers of a column that may have empty cells, which are NaN; all of them NaN where every cell is empty.
 [[nodiscard]] std::vector<double> numbers_or_gaps(const Table& table, const std::string& name,
                                                   const std::filesystem::path& path);
 

@@ -17,7 +17,7 @@ namespace thinwall::io {
 /// facets. Cost O(bytes).
 [[nodiscard]] mesh::TriangleSoup read_off(const std::filesystem::path& path, double metres_per_unit);
 
-/// The same from bytes; `name` is what messages call them.
+/// Reads the surface from bytes, which messages call `name`; otherwise as the function above.
 [[nodiscard]] mesh::TriangleSoup off_surface(std::string_view bytes, const std::string& name, double metres_per_unit);
 
 }  // namespace thinwall::io

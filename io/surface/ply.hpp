@@ -18,7 +18,7 @@ namespace thinwall::io {
 /// Cost O(bytes).
 [[nodiscard]] mesh::TriangleSoup read_ply(const std::filesystem::path& path, double metres_per_unit);
 
-/// The same from bytes; `name` is what messages call them.
+/// Reads the surface from bytes, which messages call `name`; otherwise as the function above.
 [[nodiscard]] mesh::TriangleSoup ply_surface(std::string_view bytes, const std::string& name, double metres_per_unit);
 
 }  // namespace thinwall::io

@@ -9,7 +9,7 @@
 
 namespace thinwall::io {
 
-/// How the numbers of the body are written.
+/// The form in which the numbers of the body are written.
 enum class PlyFormat { ascii, little_endian, big_endian };
 
 /// Type of a number.
@@ -33,7 +33,7 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 };
 
-/// What stands before the body.
+/// The heading that stands before the body.
 struct PlyHeading {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;

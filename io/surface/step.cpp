@@ -29,7 +29,7 @@ namespace {
 constexpr double reader_unit_m = 1e-3;  // Open CASCADE converts to millimetres
 constexpr std::size_t longest_heading = 1000;
 
-/// What the process for the file gives back: a fault in words, or triangles (mm) and the unit of the file.
+/// The result of the process that reads the file: a fault in words, or triangles (mm) and the unit of the file.
 struct Found {
   std::string fault;
   std::string unit;
@@ -77,7 +77,7 @@ std::vector<TopoDS_Shape> parts_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum k
   return result;
 }
 
-/// What keeps the shapes of a file from being one solid; empty if nothing does.
+/// The reason why the shapes of a file are not one solid; empty if nothing does.
 std::string fault_of(const TopoDS_Shape& shape) {
   const auto solids = parts_of(shape, TopAbs_SOLID, TopAbs_SHAPE);
   const auto loose = parts_of(shape, TopAbs_FACE, TopAbs_SOLID);

@@ -9,9 +9,10 @@
 
 namespace thinwall::io {
 
-/// How finely a STEP file's faces become triangles.
+/// The fineness with which a STEP file's faces become triangles.
 struct StepOptions {
-  /// How far a triangle may lie off the true surface, as a fraction of the diagonal of the part's block, 1e-6 to 0.1.
+  /// The distance by which a triangle may lie off the true surface, as a fraction of the diagonal of the part's block,
+  /// 1e-6 to 0.1.
   double linear_deflection = 1e-3;
   double angular_deflection_rad = 0.25;  ///< turning between neighbouring triangles of a curved face, 0.01 to 1.5
   double metres_per_unit = 0.0;          ///< instead of the unit that the file states; 0: the file's own

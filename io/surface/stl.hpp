@@ -16,7 +16,7 @@ namespace thinwall::io {
 /// size, a truncated text, a coordinate that is not finite, no facets. Cost O(bytes); memory some four times the file.
 [[nodiscard]] mesh::TriangleSoup read_stl(const std::filesystem::path& path, double metres_per_unit);
 
-/// The same from bytes; `name` is what messages call them.
+/// Reads the surface from bytes, which messages call `name`; otherwise as the function above.
 [[nodiscard]] mesh::TriangleSoup stl_surface(std::string_view bytes, const std::string& name, double metres_per_unit);
 
 /// Writes a binary STL in one step. Coordinates are divided by metres_per_unit and rounded to single precision (6e-8 of

@@ -26,8 +26,9 @@ struct Bend {
   double middle_m = 0.0;  ///< x_through of the mid-surface
 };
 
-/// What keeps the positions (nodes × 3, m) from being bent, one line each: axes that are not two of 0, 1, 2; a radius
-/// that is not beyond the largest |w|, half the thickness of a wall with its middle at middle_m; 360 degrees or more.
+/// The faults that keep the positions (nodes × 3, m) from being bent, one line each: axes that are not two of 0, 1, 2;
+/// a radius that is not beyond the largest |w|, half the thickness of a wall with its middle at middle_m; 360 degrees
+/// or more.
 [[nodiscard]] std::vector<std::string> violations(const Bend& bend, const Positions& positions);
 
 /// The bent position of a point of the flat part, and the way back; m, part axes. The way back takes angles within

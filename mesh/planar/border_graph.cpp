@@ -68,7 +68,7 @@ Eigen::Vector2d left_normal(const Eigen::Vector2d& along) {
   return Eigen::Vector2d(-along.y(), along.x()).normalized();
 }
 
-/// What lies beside the line from a to b, looked up at its middle, nearer than any other border may be.
+/// The region beside the line from a to b, looked up at its middle, nearer than any other border may be.
 Border border_between(const Prism& prism, const Points& points, std::pair<int, int> ends) {
   const Eigen::Vector2d a = at(points, ends.first);
   const Eigen::Vector2d b = at(points, ends.second);

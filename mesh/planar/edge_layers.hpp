@@ -1,5 +1,5 @@
 #pragma once
-// How wide the graded layers along each border may be.
+// The largest width that the graded layers along each border may have.
 
 #include <vector>
 

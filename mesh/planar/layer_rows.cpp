@@ -10,7 +10,7 @@ namespace thinwall::mesh {
 
 namespace {
 
-/// What the steps below share.
+/// Data that the steps below share.
 struct Layout {
   const Prism& prism;
   const BorderGraph& graph;  ///< in pieces
@@ -51,8 +51,8 @@ bool reentrant(const Layout& layout, const BorderSide& side, bool at_end) {
   return (at_end ? side : side_at(layout, side.previous)).angle > std::numbers::pi;
 }
 
-/// Where the border of a side gets points besides its ends: the feet on it, and at re-entrant corners the same
-/// distances again, so that the layers also grade the border towards the corner.
+/// The places where the border of a side gets points besides its ends: the feet on it, and at re-entrant corners the
+/// same distances again, so that the layers also grade the border towards the corner.
 std::vector<double> foot_stations(const Layout& layout, const BorderSide& side) {
   const double span = length(layout.graph, side);
   std::vector<double> result;

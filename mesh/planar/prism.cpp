@@ -35,7 +35,8 @@ bool finite(const Polygon& polygon) {
   return std::all_of(polygon.begin(), polygon.end(), [](const auto& p) { return p.allFinite(); });
 }
 
-/// Where edges i and j of one polygon meet though they should not: neighbours share their corner and nothing else.
+/// True if edges i and j of one polygon meet though they should not: neighbours share their corner and nothing
+/// else.
 bool meet(const Polygon& polygon, std::size_t i, std::size_t j, double gap) {
   const std::size_t n = polygon.size();
   const Segment a = edge(polygon, i);

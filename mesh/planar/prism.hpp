@@ -39,7 +39,7 @@ struct Prism {
 /// The part's extent above the point p, or nothing where there is no material.
 [[nodiscard]] std::optional<Extent> extent_at(const Prism& prism, const Eigen::Vector2d& p);
 
-/// The same part with coordinates that differ by less than 1e-9 of the diagonal made equal, axis by axis: "0.1 + 0.2"
+/// The part with coordinates that differ by less than 1e-9 of the diagonal made equal, axis by axis: "0.1 + 0.2"
 /// and "0.3" name one line.
 [[nodiscard]] Prism cleaned(const Prism& prism);
 

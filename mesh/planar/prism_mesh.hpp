@@ -19,7 +19,7 @@ struct Spot {
   double radius_m = 0.0;
 };
 
-/// How fine the mesh of a prism is, and where.
+/// The fineness of a prism's mesh, by places.
 struct PrismMeshOptions {
   double size_m = 0.0;  ///< wanted edge of an element away from borders, in the plane and along a rib's height; above 0
   int layers = 1;       ///< graded layers along every border, 0 to 8; none: size_m everywhere
@@ -32,7 +32,7 @@ struct PrismMeshOptions {
   double spot_growth = 1.0;   ///< size of an element over its distance from the spot, 0.2 to 10: high orders bear 4
 };
 
-/// What is out of range, one line each; `prism` tells the bounds on lengths.
+/// Every violation in a line of its own; `prism` tells the bounds on lengths.
 [[nodiscard]] std::vector<std::string> violations(const PrismMeshOptions& options, const Prism& prism);
 
 /// Wanted edge of an element at p: min(size_m, max(r, g |p − c|)) over the spots, g the growth, m.

@@ -21,10 +21,10 @@ namespace thinwall::mesh {
 /// finite.
 void sort_nodes(LabelledMesh& labelled);
 
-/// What a node is to the cells.
+/// The role of a node in the cells.
 enum class NodeRole : char { unused, corner, middle };
 
-/// What each node is to the cells. Throws DataError for one that is a corner here and within an edge there.
+/// The role of each node in the cells. Throws DataError for one that is a corner here and within an edge there.
 [[nodiscard]] std::vector<NodeRole> node_roles(const LabelledMesh& labelled, const std::vector<int>& rows);
 
 }  // namespace thinwall::mesh

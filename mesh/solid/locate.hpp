@@ -1,5 +1,5 @@
 #pragma once
-// Where a point lies in a mesh, and the sample points of a contact patch.
+// The place of a point in a mesh, and the sample points of a contact patch.
 
 #include <Eigen/Core>
 #include <vector>
@@ -23,7 +23,7 @@ struct Located {
 /// See above; x in part axes, m.
 [[nodiscard]] Located locate(const TetMesh& mesh, const Eigen::Vector3d& x);
 
-/// Where a disc about a point lies on the part's surface.
+/// The disc about a point on the part's surface.
 struct DiscFace {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< the surface's point nearest to the point
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< of the triangle there, outwards

@@ -1,5 +1,5 @@
 #pragma once
-// What looks wrong in a mesh of tetrahedra although it can be computed with: pieces, cracks, hinges.
+// Doubtful places of a mesh of tetrahedra that can be computed with all the same: pieces, cracks, hinges.
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// Whether mid-edge nodes stand in the order that their edges have, told from where they lie.
+// A test whether mid-edge nodes stand in the order that their edges have, told from where they lie.
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-// How flat the elements are.
+// Measures of how flat the elements are.
 
 #include "mesh/tet_mesh.hpp"
 

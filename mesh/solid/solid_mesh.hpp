@@ -37,7 +37,7 @@ struct SolidMesh {
   double least_jacobian = 1.0;  ///< smallest det J over its mean in an element
   int pieces = 1;               ///< that share no node
   int coincident_nodes = 0;     ///< corners that lie where another one lies and are not shared
-  /// What was passed over, split or put right, and what looks wrong, each in a line for people.
+  /// Notes on what was passed over, split or put right, and what looks wrong, each in a line for people.
   std::vector<std::string> notices;
 };
 
@@ -52,14 +52,14 @@ struct SolidMesh {
 /// det J below 1e-3 of its mean anywhere in an element (mesh/solid/tet_jacobian.hpp), with its place. Cost O(n log n).
 [[nodiscard]] SolidMesh solid_mesh(LabelledMesh labelled);
 
-/// The same tetrahedra with nodes in the middles of their edges, straight-sided. A middle joins a node set that has all
+/// The tetrahedra with nodes in the middles of their edges, straight-sided. A middle joins a node set that has all
 /// three corners of one of its boundary faces, or all four of one of its tetrahedra. Order 2 comes back as it is.
 /// Throws InputError for another order, or to lower it.
 [[nodiscard]] SolidMesh with_order(SolidMesh solid, int order);
 
 /// The set of that name, whatever its case; throws DataError that offers the nearest name. `path` is for the message.
 [[nodiscard]] const NodeSet& node_set(const SolidMesh& solid, const std::string& name, const std::string& path);
-/// The same of sets of elements.
+/// The set of elements of that name; errors as above.
 [[nodiscard]] const ElementSet& element_set(const SolidMesh& solid, const std::string& name, const std::string& path);
 
 }  // namespace thinwall::mesh

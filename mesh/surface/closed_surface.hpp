@@ -1,5 +1,5 @@
 #pragma once
-// Whether triangles enclose one body.
+// A test whether triangles enclose one body.
 
 #include <array>
 #include <limits>
@@ -15,7 +15,7 @@ namespace thinwall::mesh {
 /// (CGAL Polygon Mesh Processing, exact predicates). Cost O(n log n).
 void require_closed(const TriangleSurface& surface);
 
-/// The same without the search for triangles that cross, which costs most.
+/// The test without the search for triangles that cross, which costs most.
 void require_closed_shell(const TriangleSurface& surface);
 
 /// Pairs of triangles that intersect each other beyond their common vertices and edges, at most `most` of them. Throws

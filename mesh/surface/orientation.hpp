@@ -8,7 +8,7 @@
 
 namespace thinwall::mesh {
 
-/// What orient() did, and the shells: sets of triangles that hang together by edges.
+/// The result of orient(), and the shells: sets of triangles that hang together by edges.
 struct Orientation {
   SurfaceFinding turned;
   SurfaceFinding one_sided;  ///< edges across which no orientation fits: the surface is one-sided

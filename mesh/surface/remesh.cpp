@@ -114,7 +114,7 @@ bool lies_on(const SizeSpace& space, int patch, const Eigen::Vector3d& x) {
   return space.is_planar(patch) || (space.on_patch(patch, x) - x).norm() <= space.allowed_deviation_m(patch);
 }
 
-/// Whether the triangle may stand for its piece of the patch.
+/// True if the triangle may stand for its piece of the patch.
 bool is_faithful(const SizeSpace& space, const Place& a, const Place& b, const Place& c) {
   return faces_outwards(a, b, c) && lies_on(space, a.patch, (a.x + b.x + c.x) / 3.0) &&
          lies_on(space, a.patch, 0.5 * (a.x + b.x)) && lies_on(space, a.patch, 0.5 * (b.x + c.x)) &&
@@ -195,7 +195,7 @@ int split_long_edges(Work& work) {
   return splits;
 }
 
-/// Whether moving source(h) into target(h) keeps lines, corners, sizes and the surface's shape.
+/// True if moving source(h) into target(h) keeps lines, corners, sizes and the surface's shape.
 bool may_collapse(Work& work, Half h) {
   Mesh& mesh = work.mesh;
   const Vertex gone = mesh.source(h);
@@ -227,7 +227,7 @@ void collapse(Work& work, Half h) {
   const Eigen::Vector3d x = mesh.point(kept);
   const bool corner = work.is_corner[kept];
   auto places = work.places[kept];
-  // Of the two edges that become one at each apex, the one of the kept vertex may be sharp.
+  // The edge of the kept vertex may be sharp, of the two that become one at each apex.
   std::array<std::pair<Vertex, int>, 2> apexes;
   std::size_t k = 0;
   for (const Half side : {h, mesh.opposite(h)}) {
@@ -310,7 +310,7 @@ std::optional<double> worst_around(Work& work, Vertex v, const Eigen::Vector3d& 
   return worst;
 }
 
-/// Where a vertex may go: towards its neighbours, along its line if it lies on one.
+/// Places to which a vertex may go: towards its neighbours, along its line if it lies on one.
 std::vector<Eigen::Vector3d> candidates(const Work& work, Vertex v) {
   constexpr double step = 0.2;
   const Mesh& mesh = work.mesh;

@@ -49,9 +49,10 @@ class SizeSpace {
   [[nodiscard]] Eigen::Vector3d on_patch(int patch, const Eigen::Vector3d& x) const;
   /// See on_patch().
   [[nodiscard]] Eigen::Vector3d on_line(int line, const Eigen::Vector3d& x) const;
-  /// How far a face of the new mesh may lie off the patch, m: 5 % of the wall; 0 for a planar patch needs no look.
+  /// The distance by which a face of the new mesh may lie off the patch, m: 5 % of the wall; 0 for a planar patch needs
+  /// no look.
   [[nodiscard]] double allowed_deviation_m(int patch) const;
-  /// Whether the patch is planar.
+  /// True if the patch is planar.
   [[nodiscard]] bool is_planar(int patch) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// How far two surfaces lie apart.
+// The distance between two surfaces.
 
 #include "mesh/faceted_surface.hpp"
 #include "mesh/tet_mesh.hpp"

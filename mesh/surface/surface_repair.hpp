@@ -12,7 +12,7 @@
 
 namespace thinwall::mesh {
 
-/// What may be mended, and how far.
+/// Repairs that are allowed, and their bounds.
 struct SurfaceRepairOptions {
   double merge_tolerance_m = 0.0;  ///< points within this become one, 0: only equal ones; closes cracks of exporters
   int largest_hole_edges = 0;      ///< holes with at most so many edges are filled, 0 to 100; 0: none
@@ -42,7 +42,7 @@ struct SurfaceRepair {
 /// a double, bad options. NumericalError if a search does not end within the limits. Cost O(n log n).
 [[nodiscard]] SurfaceRepair repaired_surface(const TriangleSoup& soup, const SurfaceRepairOptions& options = {});
 
-/// What was mended in one line; "nothing to mend" if nothing was.
+/// The repairs in one line; "nothing to mend" if nothing was.
 [[nodiscard]] std::string text(const SurfaceRepair& repair);
 
 }  // namespace thinwall::mesh

@@ -1,5 +1,5 @@
 #pragma once
-// Where a part is thinner than it may be.
+// Places where a part is thinner than it may be.
 
 #include <limits>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace thinwall::mesh {
 
-/// What thin_walls() finds.
+/// The result of thin_walls().
 struct ThinWalls {
   std::vector<int> triangles;  ///< with a wall beneath them that is thinner than the bound
   double thinnest_m = std::numeric_limits<double>::infinity();  ///< of all walls; infinite if there is none

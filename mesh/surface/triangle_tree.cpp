@@ -76,7 +76,7 @@ std::optional<double> TriangleTree::first_hit(const Eigen::Vector3d& origin, con
   };
   const auto hit = own.tree.first_intersected_primitive(ray, is_skipped);
   if (!hit) return std::nullopt;
-  // Where the ray meets the triangle's plane; a ray within the plane meets the triangle where it enters it.
+  // The ray is cut with the triangle's plane; a ray within the plane meets the triangle where it enters it.
   const Kernel::Triangle_3& triangle = **hit;
   const Kernel::Vector_3 normal = triangle.supporting_plane().orthogonal_vector();
   const double along = normal * ray.to_vector();

@@ -1,5 +1,5 @@
 #pragma once
-// How thick the part is beneath its surface.
+// The thickness of the part beneath its surface.
 
 #include <vector>
 

@@ -37,7 +37,7 @@ void validate(const SurfaceMeshOptions& options) {
   }
 }
 
-/// What all attempts at a surface share.
+/// Data that all attempts at a surface share.
 struct Analysed {
   SurfaceFeatures features;
   std::vector<double> thickness;

@@ -48,10 +48,10 @@ struct VolumeMesher {
 /// degenerate tetrahedron. Throws InputError for a bad surface or option; NumericalError, one line with what each
 /// mesher said, if all fail; Interrupted. Interruptible.
 [[nodiscard]] SurfaceMeshed mesh_closed_surface(const FacetedSurface& surface, const SurfaceMeshOptions& options = {});
-/// The same of triangles.
+/// Meshes a surface of triangles; otherwise as the function above.
 [[nodiscard]] SurfaceMeshed mesh_closed_surface(const TriangleSurface& surface, const SurfaceMeshOptions& options = {});
 
-/// The same with meshers of one's own, tried in order.
+/// Meshes a surface with meshers of one's own, tried in order.
 [[nodiscard]] SurfaceMeshed mesh_closed_surface(const TriangleSurface& surface, const SurfaceMeshOptions& options,
                                                 const std::vector<VolumeMesher>& meshers);
 

@@ -10,7 +10,7 @@
 
 namespace thinwall::mesh {
 
-/// What the mesher is asked for, and what it may use.
+/// Requests to the mesher, and the resources that it may use.
 struct TetgenOptions {
   /// Edge of the wanted tetrahedra; the volume bound is that of the regular one. TetGen's closing flips for better
   /// angles may exceed the bounds of a few tetrahedra (seen: 26 % in volume, 3 % in the ratio).

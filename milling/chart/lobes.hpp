@@ -46,7 +46,7 @@ struct KeptRows {
 [[nodiscard]] Lobes stability_lobes(const LobeMethod& method, const std::vector<double>& spindle_speeds_rpm,
                                     const KeptRows& kept = {});
 
-/// The same by the direct method. Throws InputError for a bad process or option too.
+/// Lobes by the direct method; otherwise as the function above. Throws InputError for a bad process or option too.
 [[nodiscard]] Lobes stability_lobes(const RelativeStructure& structure, const MillingProcess& process,
                                     const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options);
 

@@ -13,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Of the arcs, where sin φ > 0: ∫ sin φ dφ and ∫ dφ.
+/// The integrals over the arcs where sin φ > 0: ∫ sin φ dφ and ∫ dφ.
 struct ChipArc {
   double sine = 0.0;
   double angle_rad = 0.0;

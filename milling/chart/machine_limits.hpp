@@ -1,5 +1,5 @@
 #pragma once
-// What the machine allows of a cut: speed, feed rate, and the power and torque that a static chip asks for.
+// Limits that the machine sets to a cut: speed, feed rate, and the power and torque that a static chip asks for.
 
 #include <limits>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace thinwall::milling {
 
-/// What the machine can do; without bounds unless given.
+/// Limits of the machine; without bounds unless given.
 struct MachineLimits {
   static constexpr double none = std::numeric_limits<double>::infinity();
   double min_spindle_speed_rpm = 0.0;   ///< ≥ 0
@@ -23,7 +23,7 @@ struct MachineLimits {
 /// Every violation, empty if there is none.
 [[nodiscard]] std::vector<std::string> validate(const MachineLimits& machine);
 
-/// What a cut takes per axial depth while nothing vibrates.
+/// The load of a cut per axial depth while nothing vibrates.
 struct CutLoad {
   double torque_per_depth_N = 0.0;         ///< mean over a turn
   double removal_per_depth_turn_m2 = 0.0;  ///< volume removed per axial depth in a turn

@@ -43,7 +43,8 @@ double root_between(const std::function<double(double)>& value_at, Sample a, Sam
   constexpr double tolerance = 1e-6;
   int kept = 0;  // 1: b was kept, −1: a
   for (int i = 0; i < 60 && std::abs(b.rpm - a.rpm) > tolerance * b.rpm; ++i) {
-    // Where the value jumps (another boundary becomes the nearest) the rule may stall: halve now and then.
+    // The rule may stall where the value jumps because another boundary becomes the nearest; halving now and then
+    // helps.
     const double share = i % 4 == 3 ? 0.5 : std::clamp(a.value / (a.value - b.value), 0.01, 0.99);
     const double rpm = a.rpm + share * (b.rpm - a.rpm);
     const Sample middle{rpm, value_at(rpm)};

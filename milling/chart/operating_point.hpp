@@ -1,5 +1,5 @@
 #pragma once
-// How far an operating point is from the boundary of stability, in depth and in speed.
+// The distance of an operating point from the boundary of stability, in depth and in speed.
 
 #include <functional>
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace thinwall::milling {
 
-/// Whether a cut is stable, and how far the boundary is.
+/// A cut whose stability is asked for.
 struct OperatingPoint {
   double spindle_speed_rpm = 0.0;
   double depth_m = 0.0;
@@ -18,7 +18,7 @@ struct OperatingPoint {
 /// limiting_depth() of a structure and process, from poles or from samples: all crossings of a speed.
 using RowAt = std::function<LobeRow(double spindle_speed_rpm, const StabilityOptions& options)>;
 
-/// Where the boundary lies in depth, seen from a point.
+/// The boundary in depth above or below an operating point.
 struct DepthMargin {
   double margin_m = 0.0;  ///< up to the next loss of stability; of an unstable point, negative, down to the nearest
                           ///< stable depth
@@ -27,13 +27,13 @@ struct DepthMargin {
   LobePoint boundary;     ///< the crossing; of no meaning at the limit
 };
 
-/// Where it lies in speed, at the point's depth.
+/// The boundary in speed at the point's depth.
 struct SpeedMargin {
   std::optional<double> below_rpm;  ///< the nearest speed below at which stability changes; none within the chart
   std::optional<double> above_rpm;
 };
 
-/// Whether a cut of this depth is stable by the crossings of a row: multipliers that have left the circle below it have
+/// True if a cut of this depth is stable by the crossings of a row: multipliers that have left the circle below it have
 /// all returned. Beyond what was searched an unstable cut is taken to stay so.
 [[nodiscard]] bool stable_at(const LobeRow& row, double depth_m);
 

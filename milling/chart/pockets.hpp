@@ -11,7 +11,7 @@
 
 namespace thinwall::milling {
 
-/// What keeps a pocket from a higher removal rate.
+/// The limit that keeps a pocket from a higher removal rate.
 enum class PocketLimit {
   stability,
   depth_limit,    ///< stable up to there
@@ -37,9 +37,9 @@ struct Pocket {
 /// The best `most` pockets, highest speed times depth first. `rows` by rising speed. Cost O(rows log rows).
 [[nodiscard]] std::vector<Pocket> best_pockets(const std::vector<LobeRow>& rows, std::size_t most);
 
-/// The same within the machine's speeds, every depth cut to what power and torque allow under `load`, which is none if
-/// the feed is not known: then neither they nor the feed rate bound anything. Speeds are those of the rows. Throws
-/// InputError for a bad machine.
+/// The best pockets within the machine's speeds, with every depth cut to what power and torque allow under `load`,
+/// which is none if the feed is not known: then neither they nor the feed rate bound anything. Speeds are those of the
+/// rows. Throws InputError for a bad machine.
 [[nodiscard]] std::vector<Pocket> best_pockets(const std::vector<LobeRow>& rows, const MachineLimits& machine,
                                                const std::optional<CutLoad>& load, std::size_t most);
 

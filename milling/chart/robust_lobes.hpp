@@ -31,8 +31,8 @@ struct RobustLobes {
 /// Largest change of frequencies that is followed, as a share.
 constexpr double most_reach = 0.5;
 
-/// How far frequencies are followed: u_f times k', beyond which on either side as much probability lies as below k
-/// standard deviations on one, erfc(k'/√2) = erfc(k/√2)/2. k = 2: k' = 2.28.
+/// The multiple k' of u_f over which frequencies are varied, beyond which on either side as much probability lies as
+/// below k standard deviations on one, erfc(k'/√2) = erfc(k/√2)/2. k = 2: k' = 2.28.
 [[nodiscard]] double two_sided_coverage(double confidence);
 
 /// The robust limiting depth at n. A change of all natural frequencies by the share δ, at constant modal masses and

@@ -30,7 +30,7 @@ using std::complex;
 
 using std::numbers::pi;
 
-/// What does not change with resolution and depth. Keeps references.
+/// The part of a cut that does not change with resolution and depth. It keeps references.
 struct SampledCut {
   const SampledReceptance& receptance;
   std::optional<CutAtSpeed> by_poles;
@@ -257,7 +257,7 @@ LobeRow row_of(const SampledCut& cut, const StabilityOptions& options) {
   for (int tries = 0; true;) {
     SampledGrids grids(cut, fineness, options.most_nodes);
     FirstCrossing first = first_crossing(grids.gain(0), beyond_limit(options));
-    // What is stable up to a depth must be so with every line that could regenerate there.
+    // A cut counts as stable up to a depth only if the grid resolves every line that could regenerate there.
     const Fineness needed = resolving(cut, std::min(options.depth_limit_m, first.depth_m()));
     if (nodes(fineness) < nodes(needed)) {
       fineness = needed;

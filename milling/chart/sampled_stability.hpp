@@ -12,8 +12,8 @@
 
 namespace thinwall::milling {
 
-/// What the cut feels where something is known by samples only: both receptances add. Beside a measured tool a part
-/// keeps all its modes, also those beyond the tool's lines.
+/// The structure at the cut where something is known by samples only: both receptances add. Beside a measured tool a
+/// part keeps all its modes, also those beyond the tool's lines.
 struct SampledStructure {
   SampledReceptance samples;               ///< tool axes
   std::optional<RelativeStructure> poles;  ///< part axes
@@ -45,9 +45,9 @@ struct SampledStructure {
                                     const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options,
                                     const KeptRows& kept = {});
 
-/// How a critical depth w follows the samples: g, one 3 × 3 a line (N, tool axes), with dw = Re Σ_lines Σ_ij g_ij dH_ij
-/// for independent changes of real and imaginary parts. At a crossing 1/w is an eigenvalue ν of −Z(e^{iθ}) with vectors
-/// l and r; from dν + ν_θ dθ = −dw/w², dθ and dw real (sensitivity.hpp),
+/// The gradient of a critical depth w with respect to the samples: g, one 3 × 3 a line (N, tool axes), with dw = Re
+/// Σ_lines Σ_ij g_ij dH_ij for independent changes of real and imaginary parts. At a crossing 1/w is an eigenvalue ν of
+/// −Z(e^{iθ}) with vectors l and r; from dν + ν_θ dθ = −dw/w², dθ and dw real (sensitivity.hpp),
 ///
 ///     dw = −w² Re [ (1 + i Re ν_θ/Im ν_θ) dν ],     dν = −lᵀ dZ r / lᵀ r
 ///
@@ -59,10 +59,10 @@ struct SampledStructure {
                                                            const MillingProcess& process, double spindle_speed_rpm,
                                                            const LobePoint& point, const StabilityOptions& options);
 
-/// What must be measured: the highest resonance f with its neighbours at the distance of a tooth passing, f + z n/60
-/// and |f − z n/60|, the harmonics that chatter at f has beside it; a first line of up to f/2 may stand for what is
-/// below it. This is the least: the estimate tells what a range costs. Throws InputError that names the harmonic that
-/// is missing and the range that would do.
+/// Requires the range that must be measured: the highest resonance f with its neighbours at the distance of a tooth
+/// passing, f + z n/60 and |f − z n/60|, the harmonics that chatter at f has beside it; a first line of up to f/2 may
+/// stand for what is below it. This is the least: the estimate tells what a range costs. Throws InputError that names
+/// the harmonic that is missing and the range that would do.
 void require_range(const SampledReceptance& receptance, const MillingProcess& process, double spindle_speed_rpm);
 
 }  // namespace thinwall::milling

@@ -1,5 +1,5 @@
 #pragma once
-// How far a limiting depth scatters with the samples of a measured or coupled receptance.
+// The scatter of a limiting depth with the samples of a measured or coupled receptance.
 
 #include <cstdint>
 #include <vector>
@@ -21,7 +21,7 @@ using SampleCovariance = std::vector<Eigen::Matrix<std::complex<double>, 9, 9>>;
 [[nodiscard]] double depth_deviation_m(const std::vector<Eigen::Matrix3cd>& gradient,
                                        const SampleCovariance& covariance);
 
-/// What comes of drawing the samples again and again.
+/// Results of drawing the samples again and again.
 struct DepthScatter {
   std::vector<double> depth_m;  ///< limiting depths, one a draw, in the order of the draws
   double mean_m = 0.0;          ///< of those with a limit

@@ -1,5 +1,5 @@
 #pragma once
-// How a critical depth follows the structure and the coefficients.
+// The sensitivity of a critical depth to the structure and the coefficients.
 
 #include <Eigen/Core>
 

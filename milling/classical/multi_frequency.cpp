@@ -36,7 +36,7 @@ Eigen::Matrix3cd receptance_slope(const RelativeStructure& s, double omega) {
   return slope;
 }
 
-/// What the gain is made of at any angle.
+/// The terms of which the gain is made at any angle.
 struct HarmonicLoop {
   RelativeStructure structure;
   Eigen::Matrix3Xd yielding;

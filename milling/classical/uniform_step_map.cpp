@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Where the values of a polynomial of this order stand, in steps from the start of the step.
+/// The places of the values of a polynomial of this order, in steps from the start of the step.
 VectorXd places(int order) {
   if (order == 0) return VectorXd::Zero(1);
   return VectorXd::LinSpaced(order + 1, 1.0, 1.0 - order);

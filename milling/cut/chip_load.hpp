@@ -1,5 +1,5 @@
 #pragma once
-// How thick the chips of each tooth are when nothing vibrates: feed, unequal pitches and runout.
+// The chip thickness of each tooth when nothing vibrates: feed, unequal pitches and runout.
 
 #include <vector>
 

@@ -64,7 +64,7 @@ std::vector<Moment> past_at(const ContactGrid& grid, double theta_rad) {
   return past;
 }
 
-/// What an edge, or a height of it, does at a node: D [q(t_node) − Σ weight q(past)].
+/// The force of an edge, or of a height of it, at a node: D [q(t_node) − Σ weight q(past)].
 struct Regeneration {
   Eigen::Matrix3d D;
   std::vector<Moment> past;

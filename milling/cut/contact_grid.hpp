@@ -1,5 +1,5 @@
 #pragma once
-// Where and how the teeth touch within a period of the cut, sampled at nodes: what is known before speed and structure.
+// The contact of the teeth within a period of the cut, sampled at nodes: what is known before speed and structure.
 
 #include <Eigen/Core>
 #include <vector>
@@ -46,7 +46,7 @@ struct ContactGrid {
   bool one_delay = true;  ///< every past is the same node, one period ago
 };
 
-/// How finely a cut is sampled.
+/// The fineness with which a cut is sampled.
 struct Resolution {
   int elements = 1;  ///< of the longest stretch between entries and exits; others in proportion
   int nodes = 8;     ///< of an element

@@ -22,7 +22,7 @@ double wrapped(double theta, double period) {
   return std::max(0.0, theta - period * std::floor(theta / period + 1e-12));
 }
 
-/// Where the cut is not smooth, from 0 to the period, ascending.
+/// The places where the cut is not smooth, from 0 to the period, ascending.
 std::vector<double> breaks_of(const CutCycle& cycle) {
   constexpr double same = 1e-9;
   std::vector<double> breaks;

@@ -19,7 +19,7 @@ struct Sweep {
   CuttingCoefficients coefficients;
   int tooth = 0;
 
-  /// Whether all heights of the edge have one delay.
+  /// True if all heights of the edge have one delay.
   [[nodiscard]] bool one_delay() const { return lag_rad == ahead_lag_rad; }
   /// Rotation since the edge ahead passed, at a height (share of the depth).
   [[nodiscard]] double delay_rad(double height) const { return pitch_rad + height * (lag_rad - ahead_lag_rad); }

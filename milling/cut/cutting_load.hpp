@@ -1,5 +1,5 @@
 #pragma once
-// What the edges do to the tool as a whole: force and torque, with the feed in the chip and the edge terms.
+// Force and torque of all edges together on the tool, with the feed in the chip and the edge terms.
 
 #include <Eigen/Core>
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace thinwall::milling {
 
-/// What the cut does to tool and spindle at a moment.
+/// Force and torque of the cut on tool and spindle at a moment.
 struct CuttingLoad {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< on the tool, tool axes, N
   double torque = 0.0;                              ///< that the spindle must give, N m

@@ -21,7 +21,7 @@ struct EdgeShape {
 /// or is 0 where it matters.
 [[nodiscard]] EdgeShape edge_shape(const Cutter& cutter, double depth_m);
 
-/// What a point of the edge is worth in the mean over the depth.
+/// The weight of a point of the edge in the mean over the depth.
 struct EdgeWeight {
   double height = 0.0;  ///< share of the depth
   double kappa_rad = 0.0;

@@ -33,7 +33,7 @@ struct Engagement {
 /// Every violation, empty if there is none: finite, entry < exit ≤ entry + 2π.
 [[nodiscard]] std::vector<std::string> validate(const Engagement& engagement);
 
-/// The same for the arcs of one turn, which must not overlap either.
+/// Every violation of the arcs of one turn, which must not overlap either.
 [[nodiscard]] std::vector<std::string> validate(const std::vector<Engagement>& arcs);
 
 /// A stretch of the tooth period during which the same number of teeth cuts.

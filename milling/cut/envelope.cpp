@@ -37,7 +37,7 @@ double side_radius(const Envelope& e, double diameter_m, double height_m) {
          height_m * std::tan(e.taper_rad);
 }
 
-/// Where the arc leaves the tip cone z = r tan α: the outer of the two intersections.
+/// The place where the arc leaves the tip cone z = r tan α: the outer of the two intersections.
 std::optional<Joint> cone_joint(const Envelope& e) {
   const double slope = std::tan(e.tip_angle_rad);
   const double square = 1.0 + slope * slope;
@@ -50,7 +50,7 @@ std::optional<Joint> cone_joint(const Envelope& e) {
   return Joint{r->upper, r->upper * slope};
 }
 
-/// Where the arc meets the side r = u + z tan β: the lower of the two intersections.
+/// The place where the arc meets the side r = u + z tan β: the lower of the two intersections.
 std::optional<Joint> side_joint(const Envelope& e, double diameter_m) {
   const double slope = std::tan(e.taper_rad);
   const double square = 1.0 + slope * slope;

@@ -8,7 +8,7 @@
 
 namespace thinwall::milling {
 
-/// What turning a tube tells of a material and a rake.
+/// Orthogonal cutting data of a material and a rake, from turning a tube.
 struct OrthogonalCutting {
   double shear_stress_pa = 0.0;     ///< τ_s > 0
   double shear_angle_rad = 0.0;     ///< φ_c, 0 to π/2, taken for the normal shear angle

@@ -29,10 +29,10 @@ struct MillingProcess {
 /// Of one tooth.
 [[nodiscard]] const CuttingCoefficients& coefficients(const MillingProcess& process, int tooth);
 
-/// Whether the cut repeats itself with every tooth: equal pitches, helices and coefficients.
+/// True if the cut repeats itself with every tooth: equal pitches, helices and coefficients.
 [[nodiscard]] bool equal_teeth(const MillingProcess& process);
 
-/// Whether A(t) of cutting_force.hpp says it all: equal teeth without helix on a cylinder, one arc, no process damping.
+/// True if A(t) of cutting_force.hpp says it all: equal teeth without helix on a cylinder, one arc, no process damping.
 /// Methods that know nothing else refuse what is not.
 [[nodiscard]] bool elementary(const MillingProcess& process);
 

@@ -23,7 +23,7 @@ struct GaussRule {
 /// ℓ_j'(node_i) of the same, for one of the nodes.
 [[nodiscard]] Eigen::VectorXd lagrange_slopes(const Eigen::VectorXd& node, Eigen::Index i);
 
-/// What polynomial forces of an element of unit length do to modes u_k' = z_k u_k + ℓ_j(s), u_k(0) = 0:
+/// The motion of modes under polynomial forces of an element of unit length, u_k' = z_k u_k + ℓ_j(s), u_k(0) = 0:
 ///
 ///     inside[i](k, j) = ∫₀^{c_i} e^{z_k (c_i − s)} ℓ_j(s) ds,      end(k, j) = ∫₀¹ e^{z_k (1 − s)} ℓ_j(s) ds
 struct ModeMoments {

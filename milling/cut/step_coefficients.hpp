@@ -1,5 +1,5 @@
 #pragma once
-// What equal time steps see of a cut: its directional matrices and delays.
+// The coefficients of a cut for equal time steps: its directional matrices and delays.
 
 #include <Eigen/Core>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace thinwall::milling {
 
-/// What a step takes for exact, and what for a polynomial. With x' = Λ x − w B [P(t) y(t) − Σ_d Q_d(t) y(t−τ_d)],
-/// y = C x, and steps of the length Δ from t_i to t_{i+1}:
+/// The terms that a step takes for exact, and those that it takes for a polynomial. With x' = Λ x − w B [P(t) y(t) −
+/// Σ_d Q_d(t) y(t−τ_d)], y = C x, and steps of the length Δ from t_i to t_{i+1}:
 ///
 /// semi-discretization (Insperger & Stepan 2002, 2004; of any order Insperger, Stepan & Turi 2008): P and Q are their
 /// means over the step, the state is exact, and y(t−τ) is the polynomial through its values at t_{i+1} − τ, t_i − τ …,
@@ -43,7 +43,7 @@ struct StepCoefficients {
   std::vector<DelayedTerm> delayed;
 };
 
-/// Whether the force is a directional matrix times the displacement in the plane of the cut, now and in the past, and
+/// True if the force is a directional matrix times the displacement in the plane of the cut, now and in the past, and
 /// nothing else: a cylinder without process damping; with any pitches, helices, arcs and coefficients of the teeth.
 [[nodiscard]] bool regenerates_in_plane(const MillingProcess& process);
 

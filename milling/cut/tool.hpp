@@ -28,11 +28,11 @@ struct Cutter {
   /// Rotation by which a tooth's edge lags behind its tip per metre of height, 2 tan β / D: of constant lead, whatever
   /// the envelope, so that β is the helix angle where the radius is D/2 and the local one is atan(r lag).
   [[nodiscard]] double lag_rad_per_m(int tooth) const;
-  /// Whether any tooth has a helix.
+  /// True if any tooth has a helix.
   [[nodiscard]] bool has_helix() const;
-  /// Whether the mean of the force over the depth changes with the depth: a helix, or an envelope that is not straight.
+  /// True if the mean of the force over the depth changes with the depth: a helix, or an envelope that is not straight.
   [[nodiscard]] bool depends_on_depth() const { return has_helix() || !envelope.straight(); }
-  /// Whether the cut repeats itself with every tooth: equal pitches and equal helices.
+  /// True if the cut repeats itself with every tooth: equal pitches and equal helices.
   [[nodiscard]] bool equal_teeth() const;
 };
 

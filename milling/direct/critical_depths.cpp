@@ -100,7 +100,7 @@ Matching matched(const std::vector<Path>& a, std::vector<Path>& b, double length
   return result;
 }
 
-/// Whether a step between stops may hide something: a match that is not clear, or a path near the positive real axis
+/// True if a step between stops may hide something: a match that is not clear, or a path near the positive real axis
 /// that could cross it twice. A path bends away from its chord by about an eighth of the change of its slope over the
 /// step; four times as much is allowed for.
 bool unclear(const Step& s, double length_rad, double smallest) {

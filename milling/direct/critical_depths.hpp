@@ -17,8 +17,8 @@ namespace thinwall::milling {
 /// a bound of them says that the depth can reach one, and kept, so that a search to a greater depth costs little more.
 class CriticalDepths {
  public:
-  /// What `gain` refers to must outlive the search. Throws NumericalError if an eigen-solution fails. Cost: Z at
-  /// every stop and two products.
+  /// Keeps `gain`, whose references must outlive the search. Throws NumericalError if an eigen-solution fails. Cost: Z
+  /// at every stop and two products.
   explicit CriticalDepths(GainOnCircle gain);
 
   /// An eigenvalue ν(θ) of −Z, and how it came there.

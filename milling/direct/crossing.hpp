@@ -50,8 +50,8 @@ struct Eigenpair {
 /// if it does not settle at a positive depth. Cost: some four factorisations of the size of Z.
 [[nodiscard]] bool to_axis(const GainOnCircle& gain, std::complex<double> nu, Crossing& crossing);
 
-/// The same crossing on another gain (finer nodes), or the one that a guess with any unstable_change leads to. False if
-/// it does not settle within a tenth of the depth.
+/// Moves a crossing to where it lies on another gain (finer nodes), or a guess with any unstable_change to a crossing.
+/// False if it does not settle within a tenth of the depth.
 [[nodiscard]] bool refine(const GainOnCircle& gain, Crossing& crossing);
 
 }  // namespace thinwall::milling

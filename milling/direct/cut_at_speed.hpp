@@ -9,7 +9,7 @@
 
 namespace thinwall::milling {
 
-/// What does not change with resolution and depth. Keeps a reference to the process.
+/// The part of a cut that does not change with resolution and depth. Keeps a reference to the process.
 struct CutAtSpeed {
   RelativeStructure structure;  ///< tool axes
   const MillingProcess& process;
@@ -51,13 +51,13 @@ struct DiscreteCut {
 /// eigen-solution fails.
 [[nodiscard]] Eigen::VectorXcd multipliers(const DiscreteCut& d, double depth_m);
 
-/// How many of them lie outside of the unit circle.
+/// The number of multipliers outside of the unit circle.
 [[nodiscard]] int unstable(const DiscreteCut& d, double depth_m);
 
-/// Whether none does: by powers_vanish(), or where that cannot tell by the count.
+/// True if no multiplier lies outside of the unit circle: by powers_vanish(), or where that cannot tell by the count.
 [[nodiscard]] bool stable(const DiscreteCut& d, double depth_m);
 
-/// The same of chatter_frequency.hpp, from the poles.
+/// The chatter frequency of chatter_frequency.hpp, from the poles.
 [[nodiscard]] double chatter_frequency_hz(const CutAtSpeed& cut, const DiscreteCut& d, double theta_rad,
                                           const Eigen::VectorXcd& c);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a search for crossings at one speed has found, before it becomes a row.
+// Results of a search for crossings at one speed, before they become a row.
 
 #include <vector>
 

@@ -33,7 +33,8 @@ struct PairAtDepth {
 PairAtDepth pair_at(const CutAtSpeed& cut, Resolution resolution, double depth_m, double theta) {
   const DiscreteCut d = discrete(cut, resolution, depth_m);
   PairAtDepth result{eigenpair_near(gain_of(d), theta, 1.0 / depth_m), INFINITY};
-  // Where a stretch of the cut appears with the depth ν jumps by the error of the grid: not on both sides.
+  // The eigenvalue ν jumps by the error of the grid where a stretch of the cut appears with the depth, so the
+  // difference is one-sided there.
   const double above = std::min(1e-6 * depth_m, cut.process.cutter.envelope.height_m - depth_m);
   for (const double step_m : {-1e-6 * depth_m, above}) {
     if (step_m == 0.0 || std::abs(result.by_depth) * depth_m * depth_m < 100.0) continue;
@@ -83,7 +84,7 @@ bool settled(const CutAtSpeed& cut, Resolution resolution, double from_m, double
   return false;
 }
 
-/// The same, false where a guess leads to no eigenvalue.
+/// Settles a crossing as above; returns false where a guess leads to no eigenvalue.
 bool settle(const CutAtSpeed& cut, Resolution resolution, double from_m, double to_m, Crossing& crossing) {
   try {
     return settled(cut, resolution, from_m, to_m, crossing);
@@ -92,7 +93,7 @@ bool settle(const CutAtSpeed& cut, Resolution resolution, double from_m, double 
   }
 }
 
-/// What is known of the cut at one depth.
+/// Values that are known of the cut at one depth.
 struct Probe {
   double depth_m = 0.0;
   int unstable = 0;               ///< multipliers outside of the unit circle

@@ -1,5 +1,5 @@
 #pragma once
-// What is known of the stability of one speed, or of one point, with its error.
+// The stability at one speed, or of one point, with its error.
 
 #include <complex>
 #include <optional>
@@ -8,14 +8,14 @@
 
 namespace thinwall::milling {
 
-/// How stability is lost.
+/// The kind of the loss of stability.
 enum class Bifurcation {
   hopf,  ///< complex multiplier: quasi-periodic chatter
   flip,  ///< μ = −1: period doubling
   fold,  ///< μ = +1
 };
 
-/// How a row came out.
+/// The outcome of a row.
 enum class StabilityStatus {
   converged,              ///< the error estimate meets the tolerance
   node_limit_reached,     ///< it does not, at the largest number of nodes; the estimate says by how much
@@ -36,7 +36,7 @@ enum class StabilityStatus {
 /// As in the enumeration.
 [[nodiscard]] std::string name(StabilityStatus status);
 
-/// How deep to look, how exactly and with how many nodes.
+/// The depth to search, the accuracy wanted and the nodes allowed.
 struct StabilityOptions {
   double depth_limit_m = 0.02;    ///< > 0: the deepest cut of interest, for instance the tool's cutting length
   double error_tolerance = 1e-4;  ///< relative, in (0, 1): of the depth, or of |μ| at a point

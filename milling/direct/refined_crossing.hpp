@@ -23,7 +23,7 @@ struct RefinedCrossing {
   bool kept = true;       ///< it has not been lost on the way
 };
 
-/// What became of a crossing on the next grid.
+/// The outcome of following a crossing to the next grid.
 enum class OnFinerGrid { kept, lost, none_finer };
 
 /// Moves a crossing to the grid of a level.

@@ -24,7 +24,7 @@ void drop_last(std::vector<RefinedCrossing>& all, LobeRow& row) {
 /// The crossings that bound a stable range to the tolerance; `all` ends before one that gets lost. The changes of all.
 int refine_boundaries(SearchGrids& grids, std::vector<RefinedCrossing>& all, const StabilityOptions& options,
                       LobeRow& row) {
-  // What lies this near to the first may turn out to be the first.
+  // A crossing this near to the first may turn out to be the first on a finer grid.
   const double beside_first_m = 1.01 * all.front().crossing.depth_m;
   int count = 0;  // of unstable multipliers above the crossings so far
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -22,11 +22,11 @@ class SearchGrids {
   [[nodiscard]] virtual const GainOnCircle& gain(std::size_t level) = 0;
   /// Nodes of that grid.
   [[nodiscard]] virtual int nodes(std::size_t level) = 0;
-  /// Whether a level beyond this one may be made.
+  /// True if a level beyond this one may be made.
   [[nodiscard]] virtual bool more_after(std::size_t level) = 0;
   /// Multipliers outside of the unit circle.
   [[nodiscard]] virtual int unstable(std::size_t level, double depth_m) = 0;
-  /// Whether there is none.
+  /// True if no multiplier lies outside of the unit circle.
   [[nodiscard]] virtual bool stable(std::size_t level, double depth_m) { return unstable(level, depth_m) == 0; }
   /// Of a crossing of that grid, Hz.
   [[nodiscard]] virtual double chatter_frequency_hz(std::size_t level, const Crossing& crossing) = 0;
@@ -48,7 +48,7 @@ struct FirstCrossing {
   std::vector<Crossing> found;  ///< empty: stable up to the limit
   double searched_m = 0.0;
 
-  /// Of the first; of the search where there is none.
+  /// The depth of the first crossing, or the depth that was searched where there is none.
   [[nodiscard]] double depth_m() const { return found.empty() ? searched_m : found.front().depth_m; }
 };
 
@@ -68,7 +68,7 @@ struct FirstCrossing {
 [[nodiscard]] LobeRow row_from(SearchGrids& grids, FirstCrossing first, double spindle_speed_rpm,
                                const StabilityOptions& options);
 
-/// Whether nothing failed that a finer grid could mend.
+/// True if nothing failed that a finer grid could mend.
 [[nodiscard]] bool sound(const LobeRow& row);
 
 }  // namespace thinwall::milling

@@ -69,7 +69,7 @@ struct Resonance {
 [[nodiscard]] GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGrid& grid,
                                          double spindle_speed_rpm, double reach = 6.0, const Continuation& beyond = {});
 
-/// How a value of that gain follows the samples: g, one 3 × 3 a line, with
+/// The gradient of a value of that gain with respect to the samples: g, one 3 × 3 a line, with
 ///
 ///     Re (factor · lᵀ dZ(e^{iθ}) r) = Re Σ_lines Σ_ij g_ij dH_ij
 ///

@@ -124,7 +124,7 @@ LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
   while (true) {
     PoleGrids grids(cut, resolution, 0.0, options.most_nodes);
     FirstCrossing first = first_crossing(grids.gain(0), beyond_limit(options));
-    // What is stable up to a depth must be so with every mode that could regenerate there.
+    // A cut counts as stable up to a depth only if the grid resolves every mode that could regenerate there.
     const Resolution needed = resolving(cut, std::min(options.depth_limit_m, first.depth_m()));
     if (fewer(resolution, needed)) {
       resolution = needed;

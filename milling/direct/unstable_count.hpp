@@ -1,5 +1,5 @@
 #pragma once
-// How many multipliers lie outside of the unit circle, from the loop's gain on the circle alone.
+// The number of multipliers outside of the unit circle, from the loop's gain on the circle alone.
 
 #include "milling/direct/crossing.hpp"
 
@@ -15,7 +15,7 @@ namespace thinwall::milling {
 /// on no crossing. Throws NumericalError if Z is not finite. Cost: a factorisation of the size of Z a stop.
 [[nodiscard]] int unstable_count(const GainOnCircle& gain, double depth_m);
 
-/// The same gain with its values kept, for searches that come back to the same angles. Not for several threads.
+/// The gain with its values kept, for searches that come back to the same angles. Not for several threads.
 [[nodiscard]] GainOnCircle remembering(GainOnCircle gain);
 
 }  // namespace thinwall::milling

@@ -21,7 +21,7 @@ namespace {
 
 using Eigen::Index;
 
-/// What does not change from grid to grid.
+/// Values that do not change from grid to grid.
 struct FedCut {
   CutAtSpeed cut;
   double depth_m = 0.0;
@@ -40,7 +40,7 @@ Eigen::MatrixXd static_force(const FedCut& given, const ContactGrid& grid) {
   return force;
 }
 
-/// What the contacts see of a periodic motion, chipᵀ q − Σ chip_pastᵀ q(past).
+/// The part of a periodic motion that the contacts see, chipᵀ q − Σ chip_pastᵀ q(past).
 Eigen::VectorXd seen(const ContactGrid& grid, const Eigen::Matrix3Xd& q) {
   Eigen::VectorXd c(static_cast<Index>(grid.contacts.size()));
   for (Index k = 0; k < c.size(); ++k) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a stable cut does all the time: the vibration that the teeth force, the surface it leaves, peak force and
+// Forced motion of a stable cut: the vibration that the teeth force, the surface it leaves, peak force and
 // torque.
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@
 
 namespace thinwall::milling {
 
-/// How well the periodic motion is resolved.
+/// The fineness with which the periodic motion is resolved.
 struct ForcedOptions {
   double error_tolerance = 1e-4;  ///< relative, in (0, 1), of every figure
   int most_nodes = 240;           ///< ≥ 8: nodes in the cut at which refinement of unequal teeth gives up

@@ -1,5 +1,5 @@
 #pragma once
-// Where the surface that a cut leaves comes to lie.
+// The position of the surface that a cut leaves.
 
 #include <Eigen/Core>
 #include <vector>

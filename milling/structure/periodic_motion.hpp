@@ -1,5 +1,5 @@
 #pragma once
-// How a structure moves under a force that repeats itself.
+// The motion of a structure under a force that repeats itself.
 
 #include <Eigen/Core>
 
@@ -17,7 +17,8 @@ struct Moment {
 /// The moment at a rotation, which is brought into the period.
 [[nodiscard]] Moment moment_at(const ContactGrid& grid, double rotation_rad);
 
-/// What is known at the nodes (rows × nodes), at a moment: the polynomial of the element, zero between elements.
+/// The value at a moment of what is known at the nodes (rows × nodes): the polynomial of the element, zero between
+/// elements.
 [[nodiscard]] Eigen::VectorXd at_moment(const ContactGrid& grid, const Eigen::MatrixXd& at_nodes, const Moment& moment);
 
 /// The periodic motion of the modes z' = λ z + bᵀf, q = 2 Re Σ φ z + R f (a real pole once), under forces that are
@@ -45,7 +46,7 @@ struct PeriodicMotion {
 /// q of tool minus part, tool axes, m. Cost O(poles nodes_of_an_element²).
 [[nodiscard]] Eigen::Vector3d displacement(const PeriodicMotion& motion, const Moment& moment);
 
-/// The same at every node, 3 × nodes.
+/// The displacement at every node, 3 × nodes.
 [[nodiscard]] Eigen::Matrix3Xd displacement_at_nodes(const PeriodicMotion& motion);
 
 }  // namespace thinwall::milling

@@ -17,8 +17,8 @@ namespace {
 using Eigen::Index;
 using std::complex;
 
-/// What polynomial forces of an element of `length_s` do to the modes. The last few are kept, each thread its own:
-/// along a path the poles often stay while shapes change.
+/// The motion of the modes under polynomial forces of an element of `length_s`. The last few are kept, each thread its
+/// own: along a path the poles often stay while shapes change.
 std::shared_ptr<const ModeMoments> moments_of(const Eigen::VectorXcd& poles, int nodes, double length_s) {
   struct Known {
     Eigen::VectorXcd poles;
@@ -40,7 +40,7 @@ std::shared_ptr<const ModeMoments> moments_of(const Eigen::VectorXcd& poles, int
   return known[std::exchange(oldest, (oldest + 1) % known.size())].moments;
 }
 
-/// What unit modal forces at the nodes do to the modes: at a node, and at the end of the period.
+/// The motion of the modes under unit modal forces at the nodes: at a node, and at the end of the period.
 class ModeHistory {
  public:
   ModeHistory(const Eigen::VectorXcd& poles, const ContactGrid& grid, double seconds_per_rad)
@@ -94,7 +94,7 @@ class ModeHistory {
   std::vector<std::shared_ptr<const ModeMoments>> moments_;  ///< of each element
 };
 
-/// What a contact sees of a node: chipᵀ q.
+/// The displacement of a node that a contact sees: chipᵀ q.
 struct Seen {
   Index row;
   Eigen::Vector3d chip;
@@ -120,8 +120,8 @@ Sight sight(const ContactGrid& grid) {
   return result;
 }
 
-/// What the contacts that see a node see of the modes there: `flow` e^{λt}, and `forced`, the motion by unit forces at
-/// all contacts, poles × contacts.
+/// The motion of the modes at a node as the contacts there see it: `flow` e^{λt}, and `forced`, the motion by unit
+/// forces at all contacts, poles × contacts.
 void add_motion(const RelativeStructure& structure, const std::vector<Seen>& seen, const Eigen::VectorXcd& flow,
                 const Eigen::MatrixXcd& forced, const Eigen::VectorXd& share, Eigen::MatrixXd& E, Eigen::MatrixXd& K) {
   const Index poles = flow.size();

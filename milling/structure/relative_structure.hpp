@@ -1,5 +1,5 @@
 #pragma once
-// What the cut feels: the displacement of the tool relative to the part under a force between them.
+// The structure that the cut feels: the displacement of the tool relative to the part under a force between them.
 
 #include <Eigen/Core>
 #include <complex>
@@ -32,7 +32,7 @@ struct RelativeStructure {
 /// Sum of two receptances: part and tool, in any order.
 [[nodiscard]] RelativeStructure sum(const RelativeStructure& a, const RelativeStructure& b);
 
-/// The same structure in the tool's axes.
+/// The structure in the tool's axes.
 [[nodiscard]] RelativeStructure in_tool_axes(const RelativeStructure& structure, const ToolFrame& frame);
 
 /// G(ω), 3 × 3, m/N.

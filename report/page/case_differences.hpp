@@ -1,5 +1,5 @@
 #pragma once
-// What several cases say differently.
+// Differences between several cases.
 
 #include <map>
 #include <nlohmann/json.hpp>

@@ -26,7 +26,7 @@ std::string text_in(const fs::path& file) {
   return fs::exists(file) ? core::read_file(file) : "";
 }
 
-/// What reading of `file` gives to `use`; where it is not as expected, the file is named.
+/// Gives the content of `file` to `use`; where it is not as expected, the file is named.
 template <class Use>
 auto as_written(const fs::path& file, const Use& use) {
   try {

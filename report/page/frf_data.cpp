@@ -52,7 +52,7 @@ dynamics::ResponseModel first(const dynamics::ResponseModel& all, const FrfChoic
   return kept;
 }
 
-/// Whether the entry below the diagonal shows nothing that its mirror image does not.
+/// True if the entry below the diagonal shows nothing that its mirror image does not.
 bool mirrors(const dynamics::ResponseModel& response, Eigen::Index i, Eigen::Index j) {
   if (i <= j || i >= std::ssize(response.forces) || j >= std::ssize(response.responses)) return false;
   for (const Eigen::Index k : {i, j}) {
@@ -120,7 +120,7 @@ json entry_of(const std::string& name, const dynamics::ResponseModel& response, 
   return result;
 }
 
-/// What a folder holds, at the DOFs that are shown.
+/// The receptances of a folder at the DOFs that are shown.
 struct Responses {
   fs::path folder;
   std::vector<std::pair<std::string, dynamics::ResponseModel>> list;

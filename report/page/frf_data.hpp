@@ -8,7 +8,7 @@
 
 namespace thinwall::report {
 
-/// How much of the receptances a page takes.
+/// The amount of receptances that a page takes.
 struct FrfChoice {
   std::vector<std::string> points_first{};  ///< their DOFs before those of other points
   std::size_t most_dofs = 6;                ///< of each file

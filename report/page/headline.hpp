@@ -1,5 +1,5 @@
 #pragma once
-// What a run answers, in sentences; the answer first.
+// The answers of a run in sentences; the main answer first.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,13 +13,14 @@ namespace thinwall::report {
 /// limit that did not converge is not called stable. Plain text, not escaped.
 [[nodiscard]] std::vector<std::string> headline(const nlohmann::json& summary);
 
-/// What stands below: operating points, the chart at the cut point of a run with a path, how both routes agree, and
-/// what the run itself said of its charts (`sentences` of summary.json).
+/// Sentences below the main answer: operating points, the chart at the cut point of a run with a path, how both routes
+/// agree, and what the run itself said of its charts (`sentences` of summary.json).
 [[nodiscard]] std::vector<std::string> sentences(const nlohmann::json& summary);
 
-/// How far a limit at a row of summary.json (at_case_speed, or a chart with its least depth) may be off, relative: the
-/// estimate of the computation, what the part's reduction left out, and twice the standard deviation by the noise of
-/// measured FRFs, as the chart's band has them. Where the row does not tell, the chart's largest. 0: nothing is known.
+/// The relative error of a limit at a row of summary.json (at_case_speed, or a chart with its least depth) may be off,
+/// relative: the estimate of the computation, what the part's reduction left out, and twice the standard deviation by
+/// the noise of measured FRFs, as the chart's band has them. Where the row does not tell, the chart's largest. 0:
+/// nothing is known.
 [[nodiscard]] double depth_error(const nlohmann::json& row, const nlohmann::json& chart);
 
 }  // namespace thinwall::report

@@ -15,7 +15,7 @@ namespace thinwall::report {
 /// The text with a capital letter.
 [[nodiscard]] std::string capital(std::string text);
 
-/// Whether a row or a point of summary.json is right by its `status`: converged, or stable to the depth limit.
+/// True if a row or a point of summary.json is right by its `status`: converged, or stable to the depth limit.
 [[nodiscard]] bool is_sound(const nlohmann::json& row);
 
 /// A limiting depth with all that is to be said of it.
@@ -30,7 +30,7 @@ struct Limit {
 /// "stable up to 20 mm at 1900 rpm (tool length)", "not converged: 13.7 mm at 1900 rpm".
 [[nodiscard]] std::string text_of(const Limit& limit);
 
-/// The same after another of the same speed: "20 mm (tool length)".
+/// The text of a limit that follows another of the same speed: "20 mm (tool length)".
 [[nodiscard]] std::string short_text_of(const Limit& limit);
 
 /// Of a chart of summary.json: at the case's speed, else its least depth. `cutting` says what the depth limit is.

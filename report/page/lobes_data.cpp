@@ -112,7 +112,7 @@ json path_of(const fs::path& file, const std::string& name) {
           {"depth_m", packed(depths, {positions, speeds.size()})}};
 }
 
-/// What the lobes are drawn over; the removal rate's factor follows from a pocket, if there is one.
+/// The axis over which the lobes are drawn; the removal rate's factor follows from a pocket, if there is one.
 json cutting_of(const json& summary) {
   json cutting = summary.value("cutting", json::object());
   for (const json& chart : summary.at("lobes")) {

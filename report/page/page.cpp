@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What a policy calls 'sha256-…': base64 of the sum's bytes.
+/// The checksum that a policy calls 'sha256-…': base64 of the sum's bytes.
 std::string sum_of(std::string_view text) {
   const std::string hex = io::sha256(text);
   std::string bytes;

@@ -71,7 +71,7 @@ void add_fixture(json& shapes, const std::string& name, const io::TriangleNumber
   if (!held.empty()) shapes["fixtures"].push_back({{"name", name}, {"triangles", packed(held, {held.size()})}});
 }
 
-/// Of the triangles that are left: which are held by which support, and how thick the wall is beneath them.
+/// Fields of the triangles that are left: which are held by which support, and how thick the wall is beneath them.
 void add_triangle_fields(json& shapes, const io::SurfaceFields& fields, const Thinned& thin) {
   const std::string held_by = "held by ";
   for (const io::TriangleNumbers& field : fields.numbers) {

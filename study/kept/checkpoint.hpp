@@ -1,5 +1,5 @@
 #pragma once
-// What a run has finished, kept beside its results so that the next run, or one that was interrupted, goes on from
+// Finished pieces of a run, kept beside its results so that the next run, or one that was interrupted, goes on from
 // there.
 
 #include <filesystem>

@@ -3,7 +3,7 @@
 #include "core/messages.hpp"
 #include "study/kept/archive_models.hpp"
 
-// What each type holds, for cereal, which looks in the type's own namespace.
+// Members of each type, for cereal, which looks in the type's own namespace.
 namespace thinwall {
 
 namespace mesh {

@@ -1,5 +1,5 @@
 #pragma once
-// What the cut of a case feels: the part at the point that is cut, and the tool.
+// The structure that the cut feels: the part at the point that is cut, and the tool.
 
 #include <optional>
 #include <string>
@@ -19,7 +19,7 @@ namespace thinwall::study {
 /// tip is measured.
 using CutStructure = std::variant<milling::RelativeStructure, milling::SampledStructure>;
 
-/// What of the cut is known by its modes: the part (null: a rigid one), and the tool where it is given by modes. None
+/// The poles of what is known by its modes: the part (null: a rigid one), and the tool where it is given by modes. None
 /// if nothing is.
 [[nodiscard]] std::optional<milling::RelativeStructure> cut_poles(const setup::CutSetup& source,
                                                                   const dynamics::ModalModel* part);
@@ -27,7 +27,7 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::SampledSt
 /// 0, 1, 2 of "tool.x", "tool.y", "tool.z".
 [[nodiscard]] int direction_of_dof(const std::string& dof);
 
-/// Whether one of the files is the transpose of `file`, an entry off the diagonal.
+/// True if one of the files is the transpose of `file`, an entry off the diagonal.
 [[nodiscard]] bool gives_reverse(const std::vector<setup::MeasuredFrf>& files, const setup::MeasuredFrf& file);
 
 /// Part and tool together; `frame` is the cut's, `part` must hold the point that is cut, null: a rigid part. Samples

@@ -1,5 +1,5 @@
 #pragma once
-// What the depth at a crossing depends on, by name.
+// Sensitivities of the depth at a crossing, by the names of the parameters.
 
 #include <vector>
 

@@ -32,7 +32,7 @@ milling::MethodOptions options_of(const setup::LobesOptions& wanted) {
   return options;
 }
 
-/// What a chart and its answers are computed from; `poles` is null where the structure is known by samples.
+/// The data from which a chart and its answers are computed; `poles` is null where the structure is known by samples.
 struct Chart {
   CutStructure structure;
   milling::MillingProcess process;
@@ -57,7 +57,7 @@ struct Chart {
       return milling::lobe_method(method, *poles(), process, all)->limiting_depth(rpm, with.expected_depth_m);
     };
   }
-  /// Where the direct method gave the crossing from poles.
+  /// Sensitivities of a crossing that the direct method gave from poles; else empty.
   [[nodiscard]] std::vector<ParameterSensitivity> sensitivities(double rpm, const milling::LobePoint& point) const {
     if (!direct || poles() == nullptr) return {};
     return parameter_sensitivities(*poles(), process, rpm, point, options.stability);
@@ -212,7 +212,7 @@ NamedLobes compute_lobes(const setup::CutSetup& source, const std::string& name,
     result.points.back().forced = forced_at(source, result.points.back(), chart);
   }
   if (chart.poles() == nullptr) {
-    // What needs poles is refused for a measured tool by the checks; a measured robot's chart goes without.
+    // The checks refuse for a measured tool what needs poles; a chart with a measured robot goes without it.
     add_pockets(source, process, result);
     return result;
   }

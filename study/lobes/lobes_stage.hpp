@@ -11,7 +11,7 @@
 
 namespace thinwall::study {
 
-/// What [lobes] asks of the search at a speed.
+/// Options of the search at a speed, from [lobes].
 [[nodiscard]] milling::StabilityOptions stability_options(const setup::LobesOptions& wanted);
 
 /// The chart of what the cut feels, what `errors` of the structure make of its depths, and what it says of operating

@@ -24,14 +24,14 @@ namespace thinwall::study {
 
 namespace {
 
-/// What the cut feels at each position: of the part alone, and held by the robot, as it stands there (empty without
-/// one).
+/// Structures that the cut feels at each position: of the part alone, and held by the robot, as it stands there (empty
+/// without one).
 struct StructuresAlongPath {
   std::vector<milling::RelativeStructure> part, supported;
   std::vector<setup::RobotPosture> robot;
 };
 
-/// How the robot stands at each position: as it was surveyed along the path, or in its one posture.
+/// Postures of the robot at each position: as it was surveyed along the path, or in its one posture.
 std::vector<setup::RobotPosture> postures_along_path(const PathInput& input, const Results& results) {
   if (!input.robot_follows) return std::vector<setup::RobotPosture>(input.stations.size(), *results.robot_posture);
   const bool surveyed = results.survey && results.survey->over == SurveyPlaces::path;

@@ -27,7 +27,8 @@ Matrix9d turn_of_entries(const milling::ToolFrame& frame) {
   return Eigen::kroneckerProduct(Rt, Rt);
 }
 
-/// Of the tool's files on `axis`, part axes: an entry that serves as its transpose, too, scatters with it.
+/// The covariance of the tool's files on `axis`, part axes: an entry that serves as its transpose, too, scatters with
+/// it.
 milling::SampleCovariance tip_covariance(const std::vector<setup::MeasuredFrf>& files,
                                          const dynamics::FrequencyAxis& axis) {
   milling::SampleCovariance covariance;
@@ -52,7 +53,7 @@ void add_tool_noise(const setup::CutSetup& source, const milling::ToolFrame& fra
   for (std::size_t line = 0; line < tool.size(); ++line) noise[line] += turn * tool[line] * turn.transpose();
 }
 
-/// Of the coupled response at the point that is cut, tool axes.
+/// The covariance of the coupled response at the point that is cut, tool axes.
 milling::SampleCovariance coupled_noise(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                         const Results& results) {
   const std::string& at = source.cutting->at;

@@ -1,5 +1,5 @@
 #pragma once
-// What the structure of a chart is off by, and what that makes of its depths.
+// Errors of the structure of a chart, and their effect on its depths.
 
 #include <optional>
 #include <vector>

@@ -68,7 +68,8 @@ mesh::TetMesh surface_mesh(const setup::PartSetup& source) {
   return std::move(meshed.mesh);
 }
 
-/// Where the tolerance on receptances is to hold: at the interface, and at both ends and the middle of the path.
+/// Points at which the tolerance on receptances is to hold: at the interface, and at both ends and the middle of the
+/// path.
 std::vector<fem::NamedPoint> watched_points(const PartInput& source) {
   std::vector<fem::NamedPoint> points;
   const auto add = [&points](const setup::PartSetup& at) {

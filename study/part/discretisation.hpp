@@ -22,7 +22,7 @@ struct Solution {
   fem::Modes modes;
 };
 
-/// How the part is cut into elements, in the part's own coordinates (before it is bent).
+/// The division of the part into elements, in the part's own coordinates (before it is bent).
 struct Discretisation {
   mesh::TetMesh mesh;
   int order = 2;

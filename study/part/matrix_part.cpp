@@ -38,7 +38,7 @@ fem::Model model_of(const dynamics::SparseModel& matrices) {
   return model;
 }
 
-/// Whether M is positive semi-definite: with another a search for modes may end with numbers all the same. Rows scaled
+/// True if M is positive semi-definite: with another a search for modes may end with numbers all the same. Rows scaled
 /// to a unit diagonal; 1e-9 is round-off and holds rows without mass.
 bool has_definite_mass(const fem::Model& model) {
   const Eigen::VectorXd diagonal = model.M.diagonal();
@@ -57,7 +57,8 @@ bool has_definite_mass(const fem::Model& model) {
   }
 }
 
-/// What is counted as free though K holds it: by a soft suspension, or by the digits that a file has lost.
+/// Warns of motions that are counted as free though K holds them: by a soft suspension, or by the digits that a file
+/// has lost.
 void warn_of_soft_springs(const Eigen::VectorXd& lambda, int free, double round_off) {
   if (free == 0) return;
   const double largest = lambda.head(free).cwiseAbs().maxCoeff();

@@ -110,8 +110,8 @@ std::vector<double> PartEvaluation::parameters(const setup::VariedSetup& now) co
 
 PartEvaluation::Neighbour PartEvaluation::neighbour(const setup::VariedSetup& now,
                                                     const setup::UpdatingParameter& p) const {
-  // Of the range. What is left out is of the order h (length / thickness)², for a bending shape that is carried along
-  // by a stretched mesh shears it; round-off still leaves some five digits.
+  // The step as a share of the range. The neglected term is of the order h (length / thickness)², for a bending shape
+  // that is carried along by a stretched mesh shears it; round-off still leaves some five digits.
   constexpr double step = 1e-5;
   const double value = setup::value_of(variation_, now, p.key);
   const double inwards = value + step * (p.upper - p.lower) <= p.upper ? step : -step;

@@ -212,7 +212,7 @@ void take_damping_of_file(const setup::PartSetup& source, PartResult& part) {
   }
 }
 
-/// Of the surface as it is drawn; a surface that no ray leaves has none.
+/// The wall thickness of the surface as it is drawn; empty for a surface that no ray leaves.
 std::vector<double> thickness_of(const fem::Model& model) {
   mesh::TriangleSurface surface{{}, mesh::surface_triangles(model.nodes, mesh::boundary(model.mesh))};
   for (const auto& x : model.nodes.positions.rowwise()) surface.vertices.emplace_back(x);
@@ -224,7 +224,7 @@ std::vector<double> thickness_of(const fem::Model& model) {
   }
 }
 
-/// What a mesh costs in quality.
+/// Measures the quality of the mesh.
 void look_at_mesh(PartResult& part) {
   part.min_quality = 1.0;
   for (int tet = 0; tet < static_cast<int>(part.model.mesh.tets.size()); ++tet) {

@@ -10,7 +10,7 @@
 
 namespace thinwall::study {
 
-/// The same mesh stretched from one box to another: model updating changes the part without changing the mesh's
+/// The mesh stretched from one box to another: model updating changes the part without changing the mesh's
 /// topology, so that frequencies move smoothly with the parameters.
 [[nodiscard]] mesh::TetMesh stretched(mesh::TetMesh mesh, const Eigen::Vector3d& from_size,
                                       const Eigen::Vector3d& to_size);

@@ -47,8 +47,9 @@ dynamics::ResponseModel response_on(const Component& known, const dynamics::Freq
   throw core::InputError("the force on a contact needs a part and a robot that are known by models");
 }
 
-/// What presses the contact, N, and the unit vector along which it presses the tip: the normal of an only contact with
-/// a preload along it (preload_of()), turned to the side from which robot.preload comes; else robot.preload.
+/// The force that presses the contact, N, and the unit vector along which it presses the tip: the normal of an only
+/// contact with a preload along it (preload_of()), turned to the side from which robot.preload comes; else
+/// robot.preload.
 std::pair<double, Eigen::Vector3d> pressing_force(const setup::SupportSetup& source) {
   const Eigen::Vector3d& on_tip = source.robot->preload;
   const setup::Contact& first = source.contacts.front();

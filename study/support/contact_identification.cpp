@@ -52,7 +52,7 @@ dynamics::FrequencyAxis common_axis(const std::vector<io::MeasuredFrf>& frfs, co
                   axis.hz(0), axis.hz(axis.size() - 1), ranges));
 }
 
-/// The same response at fewer lines.
+/// The response at fewer lines.
 dynamics::ResponseModel at_lines(const dynamics::ResponseModel& all, const std::vector<Eigen::Index>& lines) {
   dynamics::ResponseModel few{{all.axis.hz(lines)}, all.responses, all.forces, {}};
   few.H.reserve(lines.size());

@@ -1,5 +1,5 @@
 #pragma once
-// What a robot's tip is like in one posture or in many: modes and stiffness over a workspace or along a path.
+// The robot's tip in one posture or in many: modes and stiffness over a workspace or along a path.
 
 #include <optional>
 #include <string>

@@ -23,7 +23,7 @@ namespace thinwall::study {
 /// The contacts as the coupling takes them, without what their stiffness came from.
 [[nodiscard]] std::vector<coupling::Contact> contacts_of(const std::vector<setup::JoinedContact>& joined);
 
-/// What [coupling] says of the receptance route.
+/// Options of the receptance route, from [coupling].
 [[nodiscard]] coupling::CouplingOptions coupling_options(const setup::CouplingChoice& choice);
 
 /// Modes of a component's matrices, structural damping taken as equivalent viscous. Errors as dynamics::to_modal.
