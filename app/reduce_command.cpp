@@ -18,6 +18,8 @@
 #include "report/model_report_json.hpp"
 #include "setup/part_geometry.hpp"
 #include "study/part/discretisation.hpp"
+#include "study/part/part_damping.hpp"
+#include "study/part/part_model.hpp"
 #include "study/part/part_stage.hpp"
 #include "study/results.hpp"
 

@@ -17,7 +17,7 @@
 #include "app/sweep_table.hpp"
 #include "app/terminal.hpp"
 #include "case/reader.hpp"
-#include "case/schema.hpp"
+#include "case/schema/schema.hpp"
 #include "core/atomic_file.hpp"
 #include "core/interrupt.hpp"
 #include "report/result_folder.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "case/schema.hpp"
+#include "case/schema/schema.hpp"
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
 #include "core/units.hpp"

@@ -8,7 +8,7 @@
 
 #include "case/lobes_binding.hpp"
 #include "case/robot_binding.hpp"
-#include "case/schema.hpp"
+#include "case/schema/schema.hpp"
 #include "case/table.hpp"
 #include "core/error.hpp"
 #include "setup/imported_part.hpp"

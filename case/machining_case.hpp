@@ -1,6 +1,6 @@
 #pragma once
 // The content of a case file, in SI and typed (frequencies in Hz, spindle speeds in rpm, as their names tell).
-// Every key is described in case/schema.cpp and docs/case-file.md. A run does what the case holds.
+// Every key is described in case/schema/schema.cpp and docs/case-file.md. A run does what the case holds.
 
 #include <filesystem>
 #include <string>

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "case/binding.hpp"
-#include "case/schema.hpp"
+#include "case/schema/schema.hpp"
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
 

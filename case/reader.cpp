@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "case/binding.hpp"
-#include "case/checks.hpp"
-#include "case/schema.hpp"
+#include "case/checks/checks.hpp"
+#include "case/schema/schema.hpp"
 #include "case/toml_values.hpp"
 #include "core/atomic_file.hpp"
 #include "setup/file_stamps.hpp"

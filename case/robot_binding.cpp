@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "case/joint_binding.hpp"
 #include "case/urdf_arm.hpp"
 #include "core/error.hpp"
 
@@ -134,11 +135,6 @@ std::vector<Eigen::Vector3d> bind_workspace(const Table& table) {
 }
 
 }  // namespace
-
-robot::Joint bind_joint(const Table& table) {
-  return {table.number("stiffness"),  table.number("damping"),         table.number("motor_inertia"),
-          table.number("gear_ratio"), table.number("servo_stiffness"), table.number("servo_damping")};
-}
 
 robot::SerialArm bind_urdf(const Table& robot, const std::filesystem::path& folder) {
   robot::SerialArm arm = urdf_arm(folder / robot.text("urdf"), robot.text("urdf_base"), robot.text("urdf_tip"),

@@ -13,9 +13,6 @@ namespace thinwall::cases {
 [[nodiscard]] setup::Robot bind_robot(const Table& table, std::vector<setup::MeasuredFrf> measured,
                                       const std::filesystem::path& folder);
 
-/// Stiffness, damping, motor and servo of a joint, from [[robot.links]] or [[joints]].
-[[nodiscard]] robot::Joint bind_joint(const Table& table);
-
 /// The chains of [[robot.elements]]. Throws InputError for a section that no beam has.
 [[nodiscard]] std::vector<robot::Chain> bind_chains(const Table& robot);
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "case/problem.hpp"
-#include "case/schema.hpp"
+#include "case/schema/schema.hpp"
 #include "case/values.hpp"
 
 namespace thinwall::cases {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "case/robot_binding.hpp"
+#include "case/joint_binding.hpp"
 #include "case/table.hpp"
 #include "case/toml_values.hpp"
 #include "core/atomic_file.hpp"

@@ -10,7 +10,7 @@
 
 namespace thinwall::cases {
 
-/// A number is in the unit of its key (case/schema.hpp); directions are unit vectors.
+/// A number is in the unit of its key (case/schema/schema.hpp); directions are unit vectors.
 using Value = std::variant<double, bool, std::string, std::vector<double>, std::vector<std::string>,
                            std::vector<Eigen::Vector3d>>;
 

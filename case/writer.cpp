@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "case/schema.hpp"
+#include "case/schema/schema.hpp"
 #include "core/units.hpp"
 
 namespace thinwall::cases {

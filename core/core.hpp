@@ -1,6 +1,6 @@
 #pragma once
 // The headers of core/ that other programs may include.
-// Internal: atomic_file, dense_eigenvalues, dense_factorisations, faults, mode_signs, nearest_name, pieces.
+// Internal: atomic_file, dense_eigenvalues, dense_factorisations, faults, fields, mode_signs, nearest_name, pieces.
 
 #include "core/eigen_alignment.hpp"
 #include "core/error.hpp"
@@ -10,3 +10,4 @@
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 #include "core/units.hpp"
+#include "core/words.hpp"

@@ -3,7 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "case/checks.hpp"
+#include "case/checks/checks.hpp"
 #include "case/machining_case.hpp"
 #include "case/numbers.hpp"
 #include "case/reader.hpp"

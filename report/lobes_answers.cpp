@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "report/lobes_report.hpp"
+#include "report/lobes_words.hpp"
 
 namespace thinwall::report {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "report/lobes_answers.hpp"
+#include "report/lobes_words.hpp"
 #include "report/path_report.hpp"
 
 namespace thinwall::report {
@@ -92,14 +93,6 @@ std::string point_text(const json& p) {
 }
 
 }  // namespace
-
-std::string depth_text(double depth_m, bool at_limit) {
-  return fmt::format("{}{:.3f} mm", at_limit ? "over " : "", depth_m * 1e3);
-}
-
-std::string chart_title(const std::string& chart) {
-  return chart == "part" ? "part alone" : chart == "tool" ? "tool" : "with the robot";
-}
 
 std::string operating_points_text(const json& summary) {
   std::string text;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "report/finite_number.hpp"
-#include "report/lobes_report.hpp"
+#include "report/lobes_words.hpp"
 #include "report/robot_report.hpp"
 #include "study/support/robot_survey.hpp"
 

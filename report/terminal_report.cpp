@@ -8,6 +8,7 @@
 #include "report/contact_report.hpp"
 #include "report/lobes_answers.hpp"
 #include "report/lobes_report.hpp"
+#include "report/lobes_words.hpp"
 #include "report/path_report.hpp"
 
 namespace thinwall::report {

@@ -6,6 +6,7 @@
 #include "core/messages.hpp"
 #include "coupling/error_budget.hpp"
 #include "setup/measured_noise.hpp"
+#include "study/part/part_damping.hpp"
 #include "study/part/part_stage.hpp"
 #include "study/support/support_stage.hpp"
 

@@ -15,6 +15,7 @@
 #include "study/lobes/cut_structure.hpp"
 #include "study/lobes/lobes_stage.hpp"
 #include "study/lobes/path_stage.hpp"
+#include "study/part/part_damping.hpp"
 #include "study/part/part_stage.hpp"
 #include "study/support/contact_force.hpp"
 #include "study/support/contact_identification.hpp"

@@ -1,10 +1,11 @@
 #pragma once
 // All that study/ offers to other programs.
-// Internal: archive, archive_models, kept_coupling, kept_part.
+// Internal: archive, archive_models, input_key, kept_coupling, kept_part.
 
 #include "core/eigen_alignment.hpp"
 #include "study/error_budget.hpp"
 #include "study/kept/checkpoint.hpp"
+#include "study/kept/stage_keys.hpp"
 #include "study/least_squares.hpp"
 #include "study/lobes/cut_structure.hpp"
 #include "study/lobes/lobe_sensitivity.hpp"
@@ -17,7 +18,11 @@
 #include "study/part/matrix_part.hpp"
 #include "study/part/part_damping.hpp"
 #include "study/part/part_evaluation.hpp"
+#include "study/part/part_input.hpp"
+#include "study/part/part_model.hpp"
 #include "study/part/part_stage.hpp"
+#include "study/part/path_models.hpp"
+#include "study/part/solution.hpp"
 #include "study/results.hpp"
 #include "study/run.hpp"
 #include "study/stages.hpp"

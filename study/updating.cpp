@@ -9,6 +9,7 @@
 #include "dynamics/conversion.hpp"
 #include "setup/robot_tip.hpp"
 #include "study/least_squares.hpp"
+#include "study/part/part_damping.hpp"
 #include "study/part/part_evaluation.hpp"
 #include "study/part/part_stage.hpp"
 #include "study/support/support_stage.hpp"

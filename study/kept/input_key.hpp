@@ -39,10 +39,8 @@ namespace thinwall::study {
 class InputBytes {
  public:
   template <class T>
-    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-  void add(const T& value) {
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+  void add(const T& value) { bytes_.append(reinterpret_cast<const char*>(&value), sizeof value); }
   template <class Real>
   void add(const std::complex<Real>& value) {
     add(value.real());
@@ -118,7 +116,7 @@ class InputBytes {
     add(Eigen::Matrix<Scalar, dimension, 1>(box.max()));
   }
   template <class Struct>
-    requires std::is_class_v<Struct> && std::is_aggregate_v<Struct>
+  requires std::is_class_v<Struct> && std::is_aggregate_v<Struct>
   void add(const Struct& value) {
     std::apply([this](const auto&... member) { (add(member), ...); }, core::fields_of(value));
   }
@@ -129,8 +127,8 @@ class InputBytes {
   std::string bytes_;
 };
 
-/// SHA-256, in hexadecimal digits, of the running program and of `bytes`. Two programs share nothing that is kept, because
-/// they may compute it in different ways. Cost: the hash of the bytes.
+/// SHA-256, in hexadecimal digits, of the running program and of `bytes`. Two programs share nothing that is kept,
+/// because they may compute it in different ways. Cost: the hash of the bytes.
 [[nodiscard]] std::string key_of_bytes(const std::string& bytes);
 
 /// The key of a stage's input, which may be several structs.

@@ -1,6 +1,6 @@
 #pragma once
-// The keys under which results of the stages are kept: each follows from the bytes of the stage's input, so that a stage
-// cannot read what is not in its key.
+// The keys under which results of the stages are kept: each follows from the bytes of the stage's input, so that a
+// stage cannot read what is not in its key.
 
 #include <string>
 #include <vector>

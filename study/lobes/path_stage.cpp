@@ -17,7 +17,7 @@
 #include "study/kept/kept_part.hpp"
 #include "study/lobes/cut_structure.hpp"
 #include "study/lobes/lobes_stage.hpp"
-#include "study/part/part_stage.hpp"
+#include "study/part/part_damping.hpp"
 #include "study/support/support_stage.hpp"
 
 namespace thinwall::study {
@@ -104,25 +104,6 @@ PathLobes charts(const setup::CutSetup& source, const std::string& name, const s
 }
 
 }  // namespace
-
-std::vector<dynamics::SpatialModel> models_along_path(const PartInput& source, const PartResult& part,
-                                                      const linalg::ShiftedInverse& inverse) {
-  const reduction::PartModes modes = reduction::part_modes(*part.reduced, part.model.M, inverse);
-  const std::size_t count = source.path.size();
-  std::vector<dynamics::SpatialModel> models;
-  core::Progress progress("positions", count);
-  models.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    try {
-      const reduction::Interface interface = part_interface(setup::part_at(source, source.path[i]), part.model);
-      models.push_back(reduction::with_attachment_modes(modes, part.model.M, inverse, interface));
-      progress.step();
-    } catch (const core::InputError& error) {
-      throw core::InputError("position " + std::to_string(i + 1) + " of the path: " + error.what());
-    }
-  }
-  return models;
-}
 
 PathInput path_input(const setup::Setup& source) {
   return {source, source, source, setup::stations(source), source.path->robot_follows};

@@ -7,7 +7,6 @@
 #include "setup/machining_setup.hpp"
 #include "setup/path.hpp"
 #include "study/kept/checkpoint.hpp"
-#include "study/part/part_input.hpp"
 #include "study/results.hpp"
 
 namespace thinwall::study {
@@ -23,13 +22,6 @@ struct PathInput {
 
 /// The path's input of a set-up that has one. Errors as setup::stations().
 [[nodiscard]] PathInput path_input(const setup::Setup& source);
-
-/// Undamped models of the part at each position of the case's path, between the cut and the contacts there. Mesh,
-/// factor (`inverse`, at zero shift) and modes are those of the part as it was reduced; a position costs a solve of
-/// three right-hand sides, and as many a contact (reduction/methods/attachment_modes.hpp). Throws InputError for a
-/// position off the part's surface, with its number.
-[[nodiscard]] std::vector<dynamics::SpatialModel> models_along_path(const PartInput& source, const PartResult& part,
-                                                                    const linalg::ShiftedInverse& inverse);
 
 /// Charts at every position: the part alone, and with the robot at its contacts where that is known by its matrices.
 /// A position costs an eigen-problem of the reduced size beside its chart. `results` must hold the models along the

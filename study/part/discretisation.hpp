@@ -12,15 +12,9 @@
 #include "mesh/solid/solid_mesh.hpp"
 #include "mesh/tet_mesh.hpp"
 #include "study/part/part_input.hpp"
+#include "study/part/solution.hpp"
 
 namespace thinwall::study {
-
-/// The part's matrices, their factor and the modes that the case asks for.
-struct Solution {
-  fem::Model model;
-  fem::Factored factored;
-  fem::Modes modes;
-};
 
 /// The division of the part into elements, in the part's own coordinates (before it is bent).
 struct Discretisation {

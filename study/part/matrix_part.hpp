@@ -4,7 +4,7 @@
 #include "dynamics/sparse_model.hpp"
 #include "reduction/interface.hpp"
 #include "setup/machining_setup.hpp"
-#include "study/part/discretisation.hpp"
+#include "study/part/solution.hpp"
 
 namespace thinwall::study {
 

@@ -1,8 +1,47 @@
 #include "study/part/part_damping.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <numbers>
+
+#include "reduction/damping.hpp"
+#include "reduction/identification.hpp"
+#include "setup/measured.hpp"
 
 namespace thinwall::study {
+
+double least_loss_factor(const setup::Damping& damping, const fem::Modes& modes, double from_hz, double to_hz) {
+  if (damping.model == setup::DampingModel::structural) return damping.loss_factor;
+  if (damping.model == setup::DampingModel::modal) {
+    double least = 2.0 * damping.ratio;
+    for (const double ratio : damping.ratios)
+      if (ratio > 0.0) least = least > 0.0 ? std::min(least, 2.0 * ratio) : 2.0 * ratio;
+    return least;
+  }
+  if (damping.model != setup::DampingModel::rayleigh) return 0.0;
+  double least = 0.0;
+  for (const double hz : modes.frequency_hz.tail(modes.frequency_hz.size() - modes.rigid_motions)) {
+    if (hz < from_hz || hz > to_hz) continue;
+    const double omega = 2.0 * std::numbers::pi * hz;
+    const double here = damping.alpha / omega + damping.beta * omega;
+    least = least > 0.0 ? std::min(least, here) : here;
+  }
+  return least;
+}
+
+dynamics::SpatialModel damped(const setup::Damping& damping, const dynamics::SpatialModel& reduced,
+                              std::vector<reduction::IdentifiedMode>& identified) {
+  if (damping.model == setup::DampingModel::matrices) return reduced;
+  if (damping.model == setup::DampingModel::rayleigh)
+    return reduction::with_rayleigh_damping(reduced, damping.alpha, damping.beta);
+  if (damping.model == setup::DampingModel::structural)
+    return reduction::with_structural_damping(reduced, damping.loss_factor);
+  if (!damping.from_frf) return reduction::with_modal_damping(reduced, damping.ratios, damping.ratio);
+  const io::MeasuredFrf frf = setup::read_measured(*damping.from_frf);
+  identified = reduction::identify_modes(frf.axis, frf.H);
+  return reduction::with_modal_damping(reduced, setup::matched_ratios(reduced, identified, damping.ratio),
+                                       damping.ratio);
+}
 
 std::vector<double> part_damping_ratios(const Results& results) {
   const fem::Modes& modes = results.finite_elements->modes;

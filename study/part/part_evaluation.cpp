@@ -10,6 +10,7 @@
 #include "fem/points.hpp"
 #include "linalg/tall.hpp"
 #include "setup/part_geometry.hpp"
+#include "study/part/part_model.hpp"
 #include "study/part/part_stage.hpp"
 
 namespace thinwall::study {

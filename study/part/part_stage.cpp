@@ -28,8 +28,9 @@
 #include "setup/part_attachments.hpp"
 #include "setup/part_geometry.hpp"
 #include "setup/part_materials.hpp"
-#include "study/lobes/path_stage.hpp"
-#include "study/part/matrix_part.hpp"
+#include "study/part/part_damping.hpp"
+#include "study/part/part_model.hpp"
+#include "study/part/path_models.hpp"
 
 namespace thinwall::study {
 
@@ -118,85 +119,10 @@ void check_reduction(const setup::PartSetup& source, PartResult& part, const fem
 
 }  // namespace
 
-double least_loss_factor(const setup::Damping& damping, const fem::Modes& modes, double from_hz, double to_hz) {
-  if (damping.model == setup::DampingModel::structural) return damping.loss_factor;
-  if (damping.model == setup::DampingModel::modal) {
-    double least = 2.0 * damping.ratio;
-    for (const double ratio : damping.ratios)
-      if (ratio > 0.0) least = least > 0.0 ? std::min(least, 2.0 * ratio) : 2.0 * ratio;
-    return least;
-  }
-  if (damping.model != setup::DampingModel::rayleigh) return 0.0;
-  double least = 0.0;
-  for (const double hz : modes.frequency_hz.tail(modes.frequency_hz.size() - modes.rigid_motions)) {
-    if (hz < from_hz || hz > to_hz) continue;
-    const double omega = 2.0 * std::numbers::pi * hz;
-    const double here = damping.alpha / omega + damping.beta * omega;
-    least = least > 0.0 ? std::min(least, here) : here;
-  }
-  return least;
-}
-
-namespace {
-
-/// The mesh of a file with its own nodes, curved where they are, or straight-sided of a higher order.
-fem::Model mesh_model(const setup::PartSetup& source, int order, const fem::Materials& materials) {
-  mesh::SolidMesh solid = source.part->imported->mesh->solid;
-  if (order == 2) solid = mesh::with_order(std::move(solid), 2);
-  mesh::LagrangeNodes nodes = order > 2 ? mesh::lagrange_nodes(solid.mesh, order) : solid.nodes;
-  std::vector<int> fixed = fem::fixed_rows(solid.mesh, nodes, setup::supports_of(source));
-  if (order <= 2) {
-    for (const int row : setup::rows_held_by_sets(source, solid)) fixed.push_back(row);
-  }
-  return fem::build_model(std::move(solid.mesh), std::move(nodes), materials, fixed, setup::attachments_of(source));
-}
-
-}  // namespace
-
 mesh::TetMesh stretched(mesh::TetMesh mesh, const Eigen::Vector3d& from_size, const Eigen::Vector3d& to_size) {
   const Eigen::Vector3d factor = to_size.cwiseQuotient(from_size);
   for (auto& v : mesh.vertices) v = v.cwiseProduct(factor).eval();
   return mesh;
-}
-
-fem::Model part_model(const setup::PartSetup& source, mesh::TetMesh mesh, int order) {
-  const fem::Materials materials = setup::materials_on(source, mesh);
-  if (source.part->shape == setup::PartShape::mesh) return mesh_model(source, order, materials);
-  return fem::supported_model(std::move(mesh), order, materials, setup::supports_of(source),
-                              setup::shaping(*source.part), setup::attachments_of(source));
-}
-
-reduction::Interface part_interface(const setup::PartSetup& source, const fem::Model& model) {
-  if (source.part->shape == setup::PartShape::matrices) return matrix_interface(source);
-  reduction::Interface interface;
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const std::string& name : source.reduction.interface) {
-    const setup::Point& p = setup::point(source, name);
-    const linalg::SparseMatrix columns = fem::point_columns(model, setup::named_point(source, name));
-    for (Eigen::Index j = 0; j < columns.cols(); ++j) {
-      for (linalg::SparseMatrix::InnerIterator it(columns, j); it; ++it) {
-        entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(interface.dofs.size()), it.value());
-      }
-      interface.dofs.push_back({p.name, p.directions[static_cast<std::size_t>(j)], dynamics::DofKind::translation});
-    }
-  }
-  interface.W.resize(model.K.rows(), static_cast<Eigen::Index>(interface.dofs.size()));
-  interface.W.setFromTriplets(entries.begin(), entries.end());
-  return interface;
-}
-
-dynamics::SpatialModel damped(const setup::Damping& damping, const dynamics::SpatialModel& reduced,
-                              std::vector<reduction::IdentifiedMode>& identified) {
-  if (damping.model == setup::DampingModel::matrices) return reduced;
-  if (damping.model == setup::DampingModel::rayleigh)
-    return reduction::with_rayleigh_damping(reduced, damping.alpha, damping.beta);
-  if (damping.model == setup::DampingModel::structural)
-    return reduction::with_structural_damping(reduced, damping.loss_factor);
-  if (!damping.from_frf) return reduction::with_modal_damping(reduced, damping.ratios, damping.ratio);
-  const io::MeasuredFrf frf = setup::read_measured(*damping.from_frf);
-  identified = reduction::identify_modes(frf.axis, frf.H);
-  return reduction::with_modal_damping(reduced, setup::matched_ratios(reduced, identified, damping.ratio),
-                                       damping.ratio);
 }
 
 namespace {

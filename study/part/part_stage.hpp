@@ -15,22 +15,6 @@ namespace thinwall::study {
 [[nodiscard]] mesh::TetMesh stretched(mesh::TetMesh mesh, const Eigen::Vector3d& from_size,
                                       const Eigen::Vector3d& to_size);
 
-/// Assembles the constrained model of that order on the mesh.
-[[nodiscard]] fem::Model part_model(const setup::PartSetup& source, mesh::TetMesh mesh, int order);
-
-/// Interface of all points that the reduction keeps.
-[[nodiscard]] reduction::Interface part_interface(const setup::PartSetup& source, const fem::Model& model);
-
-/// The reduced model with the damping that the case gives; `identified` receives what was found in a measured FRF.
-[[nodiscard]] dynamics::SpatialModel damped(const setup::Damping& damping, const dynamics::SpatialModel& reduced,
-                                            std::vector<reduction::IdentifiedMode>& identified);
-
-/// The least loss factor (2ζ) that the case's damping gives to a peak from `from_hz` to `to_hz`: of Rayleigh damping,
-/// α/ω + βω, at the modes there. A tolerance on receptances is held with it. 0 where the case does not tell: no
-/// damping, matrices, no mode in the band. What a measured FRF gives is not known yet and not looked at.
-[[nodiscard]] double least_loss_factor(const setup::Damping& damping, const fem::Modes& modes, double from_hz,
-                                       double to_hz);
-
 /// Model, factor and modes: as the tolerance or a fit left them, or computed now.
 [[nodiscard]] Solution solved_part(const setup::PartSetup& source, Discretisation discretisation, Stages& stages);
 

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "case/checks.hpp"
+#include "case/checks/checks.hpp"
+#include "case/checks/mesh_size.hpp"
 #include "case/reader.hpp"
 #include "case_text.hpp"
 #include "core/atomic_file.hpp"

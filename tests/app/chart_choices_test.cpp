@@ -10,7 +10,7 @@
 #include "app/command_line.hpp"
 #include "case/problem.hpp"
 #include "case/reader.hpp"
-#include "case/schema.hpp"
+#include "case/schema/schema.hpp"
 #include "core/atomic_file.hpp"
 #include "io/results/csv_table.hpp"
 #include "milling/chart/lobe_method.hpp"

@@ -1,6 +1,6 @@
 // The JSON Schema that editors get says what the table of keys says.
 
-#include "case/json_schema.hpp"
+#include "case/schema/json_schema.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "study/part/part_damping.hpp"
 #include "study/part/part_stage.hpp"
 
 namespace thinwall::tests {

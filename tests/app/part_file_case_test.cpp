@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "case/checks.hpp"
+#include "case/checks/checks.hpp"
 #include "case/numbers.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"

@@ -1,4 +1,4 @@
-#include "case/schema.hpp"
+#include "case/schema/schema.hpp"
 
 #include <gtest/gtest.h>
 
@@ -94,9 +94,9 @@ TEST(Schema, EveryKeyIsDocumentedWithMeaningUnitRangeAndDefault) {
 // The page is printed from the table; with THINWALL_WRITE_DOCS set the test writes it instead.
 TEST(Schema, TheDocumentedKeysAreTheKeysOfTheTable) {
   const std::filesystem::path page = std::filesystem::path(THINWALL_SOURCE_DIR) / "docs" / "case-file.md";
-  const std::string begin = "<!-- keys of case.toml, printed from case/schema.cpp -->\n";
-  const std::string joints = "<!-- keys of the file of joints, printed from case/schema.cpp -->\n";
-  const std::string middle = "<!-- keys of expected.toml, printed from case/schema.cpp -->\n";
+  const std::string begin = "<!-- keys of case.toml, printed from case/schema/schema.cpp -->\n";
+  const std::string joints = "<!-- keys of the file of joints, printed from case/schema/schema.cpp -->\n";
+  const std::string middle = "<!-- keys of expected.toml, printed from case/schema/schema.cpp -->\n";
   const std::string text = core::read_file(page);
   const auto start = text.find(begin);
   ASSERT_NE(start, std::string::npos);

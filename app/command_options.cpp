@@ -1,0 +1,167 @@
+#include "app/command_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "app/completion.hpp"
+#include "app/doctor.hpp"
+#include "case/templates.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+/// "plate|wall": help, completion and the man page know the choices of an option by its type.
+std::string alternatives(const std::vector<std::string>& names) {
+  std::string list;
+  for (const auto& name : names) list += (list.empty() ? "" : "|") + name;
+  return list;
+}
+
+void add_overrides(CLI::App& command, Arguments& arguments) {
+  command.add_option("--set", arguments.overrides, "a value put over the case: --set part.element_size=\"8 mm\"")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void add_case_arguments(CLI::App& command, Arguments& arguments) {
+  command.add_option("CASE", arguments.case_path, "a folder with a case.toml, or the file")
+      ->type_name("PATH")
+      ->required();
+  add_overrides(command, arguments);
+}
+
+void add_log_arguments(CLI::App& command, Arguments& arguments) {
+  auto* quiet = command.add_flag("-q,--quiet", arguments.quiet, "log warnings only");
+  command.add_flag("-v,--verbose", arguments.verbose, "log everything")->excludes(quiet);
+  command.add_option("--progress", arguments.progress, "stage, count and time left (default: auto, not with -q)")
+      ->type_name("auto|always|never");
+}
+
+/// Options that `run` and `lobes` have in common.
+void add_run_arguments(CLI::App& command, Arguments& arguments) {
+  command.add_flag("--fresh", arguments.fresh, "compute everything anew, whatever an earlier run left");
+  command.add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
+  command
+      .add_option("--at", arguments.points,
+                  "an operating point, several times: --at \"5000 rpm, 0.5 mm\"; stable or not, and the margins")
+      ->type_name("\"SPEED, DEPTH\"")
+      ->allow_extra_args(false);
+  add_log_arguments(command, arguments);
+  command.add_option("--threads", arguments.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
+}
+
+void describe_lobes(CLI::App& app, Arguments& arguments) {
+  auto* command = app.add_subcommand("lobes", "stability lobes of a case, of measured tool-tip FRFs or of modes");
+  command
+      ->add_option("INPUT", arguments.lobes.sources,
+                   "a case; or CSV files and --tool: a table of modes (frequency_hz, damping_ratio, stiffness or mass, "
+                   "direction), or FRFs of the tool tip (frequency, real, imaginary), each FILE or ENTRY=FILE: x=FILE "
+                   "y=FILE xy=FILE for response and force in the part's axes. FILE alone is x: "
+                   "entries that are not given are zero, so that one file moves along x only")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("--tool", arguments.lobes.tool, "TOML with the tables [tool], [cutting], [lobes] of a case")
+      ->type_name("FILE");
+  command->add_option("--quantity", arguments.lobes.quantity, "what FRFs are")
+      ->type_name("receptance|mobility|accelerance");
+  command->add_option("--unit", arguments.lobes.unit, "of FRFs: m/N, um/N, m/s/N, m/s^2/N …")->type_name("UNIT");
+  command->add_option("--frequency-unit", arguments.lobes.frequency_unit, "of FRFs (default: Hz)")
+      ->type_name("Hz|rad/s");
+  add_overrides(*command, arguments);
+  add_run_arguments(*command, arguments);
+}
+
+void describe_reduce(CLI::App& app, Arguments& arguments) {
+  ReduceRequest& reduce = arguments.reduce;
+  auto* command = app.add_subcommand("reduce", "the part of a case as a small model, its error and a report on it");
+  add_case_arguments(*command, arguments);
+  command->add_option("-o,--out", reduce.out, "folder for the model (default: model)")->type_name("DIR");
+  command->add_option("--method", reduce.method, "how it is reduced (default: craig_bampton)")
+      ->type_name("guyan|craig_bampton|characteristic_constraint_modes|rubin|macneal|craig_chang|dual_craig_bampton");
+  auto* modes = command->add_option("--modes", reduce.modes, "elastic modes kept")->check(CLI::Range(0, 2000));
+  command
+      ->add_option("--tolerance", reduce.tolerance,
+                   "as many modes as the receptance of the points needs, relative, over the band (default: 0.01)")
+      ->excludes(modes);
+  command->add_option("--from", reduce.from_hz, "lower end of the band, Hz (default: response.from)");
+  command->add_option("--to", reduce.to_hz, "upper end of the band, Hz (default: response.to)");
+  command->add_option("--characteristic", reduce.characteristic, "amplitudes of a reduced interface")
+      ->check(CLI::Range(1, 2000));
+  command->add_flag("--compare", reduce.compare, "a table of all methods at this size");
+  add_log_arguments(*command, arguments);
+}
+
+void describe_inspect(CLI::App& app, Arguments& arguments) {
+  InspectRequest& inspect = arguments.inspect;
+  io::MatrixFiles& files = inspect.files;
+  auto* command = app.add_subcommand("inspect", "may a reduced or imported model be trusted? (exit 6: it may not)");
+  auto* model = command->add_option("MODEL", inspect.model, "a folder of \"thinwall reduce\", or a MAT file in SI")
+                    ->type_name("FILE");
+  command
+      ->add_option("--stiffness", files.stiffness,
+                   "K in place of MODEL: Matrix Market, .sti of CalculiX, Abaqus, DMIG, MAT (docs/matrices.md)")
+      ->type_name("FILE")
+      ->excludes(model);
+  command->add_option("--mass", files.mass, "M, where it is in a file of its own")->type_name("FILE");
+  command->add_option("--damping", files.damping, "C, likewise")->type_name("FILE");
+  command->add_option("--dofs", files.dofs, "which row is which: .dof of CalculiX, or CSV")->type_name("FILE");
+  command->add_option("--positions", files.positions, "where the nodes are: .inp, or CSV")->type_name("FILE");
+  command->add_option("--unit", files.length_unit, "unit of length of the files: mm, m")->type_name("UNIT");
+  command->add_option("--mass-unit", files.mass_unit, "unit of mass of the files: t, kg")->type_name("UNIT");
+  command->add_option("--rigid-motions", inspect.rigid_motions, "how many must be free: 0 held, 6 free")
+      ->check(CLI::Range(0, 6));
+  command->add_option("--json", inspect.json, "the report as JSON")->type_name("FILE");
+}
+
+void describe_for_the_shell(CLI::App& app, Arguments& arguments) {
+  auto* completion = app.add_subcommand("completion", "print a script that completes thinwall's words in a shell");
+  completion->add_option("SHELL", arguments.shell, "the shell")
+      ->type_name(alternatives(completed_shells()))
+      ->required();
+  app.add_subcommand("man", "print the manual page: thinwall man | man -l -");
+  auto* schema = app.add_subcommand("schema", "print the JSON Schema of a case, for editors that check TOML by one");
+  schema->add_option("FILE", arguments.schema, "of which file (default: case)")->type_name("case|expected|joints");
+}
+
+}  // namespace
+
+void describe(CLI::App& app, Arguments& arguments) {
+  app.require_subcommand(1);
+  app.set_version_flag("--version", program_name());
+  auto* run_command = app.add_subcommand("run", "compute a case");
+  add_case_arguments(*run_command, arguments);
+  add_run_arguments(*run_command, arguments);
+  describe_lobes(app, arguments);
+  auto* robot_command = app.add_subcommand(
+      "robot", "modes and stiffness of the robot's tip in its posture, along a path, over a workspace");
+  add_case_arguments(*robot_command, arguments);
+  robot_command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
+  add_case_arguments(*app.add_subcommand("check", "report every error of a case, and sizes to expect"), arguments);
+  describe_reduce(app, arguments);
+  describe_inspect(app, arguments);
+  describe_sweep(app, arguments.sweep, arguments.merge);
+  auto* init = app.add_subcommand("init", "write a commented case to start from");
+  init->add_option("--template", arguments.template_name, "what to start from (default: plate)")
+      ->type_name(alternatives(cases::template_names()));
+  init->add_option("DIR", arguments.folder, "folder for the case (default: the template's name)")->type_name("DIR");
+  auto* compare_command = app.add_subcommand("compare", "compare two result folders, number by number");
+  compare_command->add_option("A", arguments.left, "result folder")->type_name("DIR")->required();
+  compare_command->add_option("B", arguments.right, "result folder")->type_name("DIR")->required();
+  compare_command->add_option("--tolerance", arguments.tolerance, "relative tolerance, from 0 on (default: 1e-9)");
+  compare_command->add_option("--html", arguments.html, "both on one page, in this file; the exit code is 0 then")
+      ->type_name("FILE");
+  auto* report_command = app.add_subcommand("report", "make report.html of a result folder anew");
+  report_command->add_option("RESULTS", arguments.folder, "result folder")->type_name("DIR")->required();
+  report_command->add_option("--out", arguments.out, "the page (default: RESULTS/report.html)")->type_name("FILE");
+  auto* animate_command = app.add_subcommand("animate", "a mode shape in sixteen phases, which ParaView plays at once");
+  animate_command->add_option("RESULTS", arguments.folder, "result folder")->type_name("DIR")->required();
+  animate_command->add_option("--mode", arguments.phases.mode, "its number (default: 1)");
+  animate_command->add_option("--of", arguments.phases.of, "part (default) or coupled: with the robot")
+      ->type_name("part|coupled");
+  animate_command->add_option("--amplitude", arguments.phases.amplitude,
+                              "largest displacement over the part's diagonal (default: 0.1)");
+  describe_for_the_shell(app, arguments);
+  app.add_subcommand("doctor", "versions, libraries, threads, optional parts, and a self-test (exit 5: it fails)");
+}
+
+}  // namespace thinwall::app

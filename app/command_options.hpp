@@ -1,0 +1,38 @@
+#pragma once
+// The options of all commands, and the values that they take.
+
+#include <string>
+#include <vector>
+
+#include "app/command_sweep.hpp"
+#include "app/inspect_command.hpp"
+#include "app/lobes_input.hpp"
+#include "app/reduce_command.hpp"
+#include "report/page/phases.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace thinwall::app {
+
+/// Everything that the words of the command line can carry.
+struct Arguments {
+  std::string case_path, out, template_name = "plate", folder, left, right, html;
+  std::string progress = "auto", shell, schema = "case";
+  std::vector<std::string> overrides, points;
+  LobesInput lobes;
+  ReduceRequest reduce;
+  InspectRequest inspect;
+  report::PhasesRequest phases;
+  SweepRequest sweep;
+  MergeRequest merge;
+  bool fresh = false, quiet = false, verbose = false;
+  int threads = 0;
+  double tolerance = 1e-9;
+};
+
+/// Adds all commands and their options to `app`; parsing then fills `arguments`.
+void describe(CLI::App& app, Arguments& arguments);
+
+}  // namespace thinwall::app

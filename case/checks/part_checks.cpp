@@ -1,0 +1,354 @@
+#include "case/checks/part_checks.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "case/checks/mesh_size.hpp"
+#include "case/checks/part_description_checks.hpp"
+#include "core/dense_factorisations.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "dynamics/dof.hpp"
+#include "dynamics/unit_system.hpp"
+#include "fem/closed_part.hpp"
+#include "io/surface_unit.hpp"
+#include "mesh/box.hpp"
+#include "mesh/nearest_point.hpp"
+#include "mesh/planar/bend.hpp"
+#include "setup/graded_mesh.hpp"
+#include "setup/imported_part.hpp"
+#include "setup/measured_layout.hpp"
+#include "setup/part_geometry.hpp"
+
+namespace thinwall::cases {
+
+namespace {
+
+bool axes_differ(const setup::Part& part) {
+  const int sum = (1 << std::max(part.length_axis, 0)) + (1 << std::max(part.height_axis, 0)) +
+                  (1 << std::max(part.thickness_axis, 0));
+  return std::min({part.length_axis, part.height_axis, part.thickness_axis}) >= 0 && sum == 7 &&
+         part.length_axis != part.height_axis;
+}
+
+bool geometry_known(const setup::Part& part) {
+  if (setup::from_file(part)) return part.imported != nullptr;
+  if (part.shape == setup::PartShape::prism) return mesh::violations(part.prism).empty();
+  return axes_differ(part) && std::isfinite(part.length) && std::isfinite(part.height) && std::isfinite(part.thickness);
+}
+
+/// Coordinates equal to a face's up to this are on it.
+double tolerance(const setup::Part& part) {
+  return 1e-9 * bounds(part).sizes().maxCoeff();
+}
+
+/// The distance within which a point must be given of a file's surface: the nearest place of the surface is meant.
+double given_to(const setup::Part& part) {
+  return 1e-4 * bounds(part).diagonal().norm();
+}
+
+bool on_face(const setup::Part& part, const std::string& face, const Eigen::Vector3d& p) {
+  const int axis = face[0] - 'x';
+  const double coordinate = face.ends_with("max") ? setup::bounds(part).max()[axis] : setup::bounds(part).min()[axis];
+  return std::abs(p[axis] - coordinate) <= tolerance(part);
+}
+
+/// Keys of other shapes than the part's.
+void check_belonging(const setup::Part& part, Findings& findings) {
+  struct Belonging {
+    const char* key;
+    std::vector<setup::PartShape> shapes;
+  };
+  using enum setup::PartShape;
+  const std::vector<Belonging> all{{"part.length", {box}},
+                                   {"part.height", {box}},
+                                   {"part.thickness", {box, prism}},
+                                   {"part.outline", {prism}},
+                                   {"part.holes[0].outline", {prism}},
+                                   {"part.zones[0].outline", {prism}},
+                                   {"part.bend.radius", {box, prism}},
+                                   {"part.file", {surface, mesh}},
+                                   {"part.unit", {surface, mesh, matrices}},
+                                   {"part.mass_unit", {mesh, matrices}},
+                                   {"part.matrices.stiffness", {matrices}},
+                                   {"part.origin", {surface, mesh, matrices}},
+                                   {"part.supports[0].on", {box, prism, surface, mesh}},
+                                   {"part.clamps[0].on", {box, prism, surface, mesh}},
+                                   {"part.masses[0].at", {box, prism, surface, mesh}},
+                                   {"part.springs[0].at", {box, prism, surface, mesh}},
+                                   {"part.materials[0].on", {box, prism, surface, mesh}},
+                                   {"part.material.density", {box, prism, surface, mesh}},
+                                   {"part.mesh.tolerance", {box, prism, surface, mesh}},
+                                   {"part.repair.merge_tolerance", {surface}}};
+  for (const auto& [key, shapes] : all) {
+    if (!findings.given(key) || std::ranges::find(shapes, part.shape) != shapes.end()) continue;
+    std::string list;
+    for (const auto shape : shapes) list += (list.empty() ? "\"" : " or \"") + core::word_of(shape) + "\"";
+    findings.report(key, "belongs to a part of shape " + list + ", this one is a \"" + core::word_of(part.shape) +
+                             "\"; set part.shape, or remove it");
+  }
+}
+
+void check_matrices(const setup::Part& part, Findings& findings) {
+  if (!findings.given("part.matrices.stiffness"))
+    return findings.report("part.matrices.stiffness", "missing; the file of K");
+  try {
+    (void)dynamics::unit_system(part.file.unit, part.file.matrices.mass_unit);
+  } catch (const core::InputError& error) {
+    findings.report("part.matrices", std::string(error.what()) + "; set part.unit and part.mass_unit");
+  }
+}
+
+void check_part_file(const setup::Part& part, Findings& findings) {
+  if (part.shape == setup::PartShape::matrices) return check_matrices(part, findings);
+  if (!findings.given("part.shape") && findings.given("part.file") && !setup::shape_of_file(part.file.path)) {
+    findings.report("part.file", "\"" + part.file.path.filename().string() +
+                                     "\" has an ending that is not read; take a .stl, .off, .obj, .ply or .step, or a "
+                                     "mesh as .msh, .inp or .vtu");
+    return;
+  }
+  if (!findings.given("part.file")) findings.report("part.file", "missing; the surface or the mesh of the part");
+  if (setup::tells_its_unit(part.file.path) && !findings.given("part.unit")) return;
+  if (!findings.given("part.unit")) {
+    findings.report("part.unit", "missing; the file does not tell its unit of length: \"mm\", \"m\", \"inch\"");
+  } else {
+    try {
+      (void)io::metres_per_unit(part.file.unit, part.file.path.filename().string());
+    } catch (const core::InputError& error) {
+      findings.report("part.unit", error.what());
+    }
+  }
+}
+
+void check_prism(const setup::Part& part, Findings& findings) {
+  for (const auto* key : {"part.outline", "part.thickness"}) {
+    if (!findings.given(key)) findings.report(key, "missing; a prism has an outline and a thickness along z");
+  }
+  if (!findings.given("part.outline") || !std::isfinite(part.prism.top)) return;
+  bool unread = part.prism.outline.empty();  // and reported as such
+  for (const auto& hole : part.prism.holes) unread = unread || hole.empty();
+  for (const auto& zone : part.prism.zones) unread = unread || zone.outline.empty() || !std::isfinite(zone.top);
+  if (unread) return;
+  for (const std::string& violation : mesh::violations(part.prism)) findings.report("part.outline", violation);
+}
+
+void check_bend(const setup::Part& part, Findings& findings) {
+  if (!part.bend || setup::from_file(part) || !geometry_known(part) || !std::isfinite(part.bend->radius)) return;
+  const int through = setup::planar(part).axes[2];
+  const Eigen::AlignedBox3d box = setup::bounds(part);
+  if (part.bend->along && *part.bend->along == through) {
+    findings.report("part.bend.along", "the part is bent along its wall, not through its thickness; name another axis");
+    return;
+  }
+  mesh::Positions corners(2, 3);
+  corners << box.min().transpose(), box.max().transpose();
+  for (const std::string& violation : mesh::violations(setup::bend_of(part), corners))
+    findings.report("part.bend.radius", violation);
+}
+
+void check_shape(const Case& source, Findings& findings) {
+  const setup::Part& part = *source.part;
+  if (!source.measured_part.empty()) {
+    findings.report("part.measured", "a part is either modelled (part.length …) or measured; remove one of the two");
+  }
+  if (findings.unreadable("part.shape")) return;
+  check_belonging(part, findings);
+  if (setup::from_file(part)) return check_part_file(part, findings);
+  if (part.shape == setup::PartShape::prism) return check_prism(part, findings);
+  for (const auto* extent : {"part.length", "part.height", "part.thickness"}) {
+    if (!findings.given(extent)) findings.report(extent, "missing; a box has a length, a height and a thickness");
+  }
+  if (findings.given("part.axes.length") && !axes_differ(part)) {
+    findings.report("part.axes.length", "length, height and thickness must run along three different axes");
+  }
+}
+
+void check_selection(const setup::Selection& selection, Findings& findings) {
+  const std::string key = "selections." + selection.name;
+  const int predicates = (selection.plane ? 1 : 0) + (selection.box ? 1 : 0) + (selection.sphere ? 1 : 0);
+  if (predicates != 1) findings.report(key, "give exactly one of plane, box, sphere");
+  if (std::ranges::find(mesh::face_names(), selection.name) != mesh::face_names().end()) {
+    findings.report(key, "this is the name of a face of the box; choose another");
+  }
+  if (selection.box && (selection.box->min.array() > selection.box->max.array()).any()) {
+    findings.report(key + ".box.min", "min lies beyond max; exchange them");
+  }
+}
+
+std::string text(const Eigen::Vector3d& p) {
+  std::string list;
+  for (int i = 0; i < 3; ++i) {
+    list += (i == 0 ? "" : ", ") + core::readable_text(std::abs(p[i]) < 1e-15 ? 0.0 : p[i], core::kind::length);
+  }
+  return "(" + list + ")";
+}
+
+void check_node(const Case& source, const setup::Point& point, Findings& findings) {
+  const std::string key = "points." + point.name;
+  if (!source.part ||
+      (source.part->shape != setup::PartShape::matrices && source.part->shape != setup::PartShape::mesh))
+    return findings.report(key + ".node", "this part has no numbered nodes; give at or position");
+  if (point.at || point.position)
+    return findings.report(key, "give the node = its number, and neither at nor position (matrices know no places)");
+  if (!independent(point.directions))
+    findings.report(key + ".directions", "the directions must be independent, three at most");
+  if (!source.part->imported) return;
+  const std::vector<int> known = setup::node_numbers(*source.part->imported);
+  const std::optional<int> node = setup::node_of(*source.part->imported, point);
+  if (node && std::ranges::binary_search(known, *node)) return;
+  const std::string which = node ? "node " + std::to_string(*node) : "point of this name; give its node";
+  const std::string range =
+      known.empty() ? "none" : std::to_string(known.front()) + " to " + std::to_string(known.back());
+  findings.report(node ? key + ".node" : key,
+                  "the part's file has no " + which + " (nodes are numbered " + range + ")");
+}
+
+void check_point(const Case& source, const setup::Point& point, Findings& findings) {
+  const std::string key = "points." + point.name;
+  const bool matrices = source.part && source.part->shape == setup::PartShape::matrices;
+  if (matrices || point.node) return check_node(source, point, findings);
+  if (point.at.has_value() == point.position.has_value()) {
+    findings.report(key, "give either at = [fractions of the box] or position = [lengths]");
+    return;
+  }
+  if (source.part && geometry_known(*source.part)) {
+    const std::string outside = outside_part(*source.part, setup::position(*source.part, point), point.patch_radius);
+    if (!outside.empty()) findings.report(point.at ? key + ".at" : key + ".position", outside);
+  }
+  if (!independent(point.directions)) {
+    findings.report(key + ".directions", "the directions must be independent, three at most");
+  }
+}
+
+/// True if a box or sphere shares no volume with the block around the part.
+bool misses_part(const setup::Part& part, const setup::Selection& selection) {
+  const Eigen::AlignedBox3d block = setup::bounds(part);
+  if (selection.sphere) return block.exteriorDistance(selection.sphere->centre) >= selection.sphere->radius;
+  return selection.box && !(block.intersection({selection.box->min, selection.box->max}).sizes().minCoeff() > 0.0);
+}
+
+void check_material_places(const Case& source, Findings& findings) {
+  for (std::size_t i = 0; i < source.part->materials.size(); ++i) {
+    const std::string& on = source.part->materials[i].on;
+    const auto selection = std::ranges::find(source.selections, on, &setup::Selection::name);
+    if (selection != source.selections.end() && misses_part(*source.part, *selection))
+      findings.report("part.materials[" + std::to_string(i) + "].on",
+                      "the selection \"" + on + "\" does not meet the part, which reaches from " +
+                          text(setup::bounds(*source.part).min()) + " to " + text(setup::bounds(*source.part).max()) +
+                          "; move it");
+  }
+}
+
+bool holds(const setup::PartSetup& source, const setup::Support& support, const Eigen::Vector3d& p) {
+  const auto& part = *source.part;
+  if (std::ranges::find(mesh::face_names(), support.on) != mesh::face_names().end())
+    return on_face(part, support.on, p);
+  const auto selection = std::ranges::find(source.selections, support.on, &setup::Selection::name);
+  return selection != source.selections.end() && contains(*selection, p, tolerance(part));
+}
+
+}  // namespace
+
+bool independent(const std::vector<Eigen::Vector3d>& directions) {
+  if (directions.empty() || directions.size() > 3) return directions.empty();
+  Eigen::MatrixXd columns(3, static_cast<Eigen::Index>(directions.size()));
+  for (std::size_t i = 0; i < directions.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = directions[i];
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(columns);
+  factor.setThreshold(1e-6);
+  return factor.rank() == columns.cols();
+}
+
+void check_part(const Case& source, Findings& findings) {
+  if (source.part) {
+    check_shape(source, findings);
+    check_description(source, findings);
+    check_bend(*source.part, findings);
+    if (geometry_known(*source.part)) check_material_places(source, findings);
+    if (geometry_known(*source.part) && source.part->shape != setup::PartShape::matrices &&
+        source.part->shape != setup::PartShape::mesh)
+      check_mesh_size(source, findings);
+  }
+  for (const auto& selection : source.selections) check_selection(selection, findings);
+  for (const auto& point : source.points) check_point(source, point, findings);
+}
+
+std::string outside_part(const setup::Part& part, const Eigen::Vector3d& p, double patch_radius) {
+  if (!geometry_known(part)) return "";
+  const Eigen::AlignedBox3d box = setup::bounds(part);
+  const double slack = setup::from_file(part) ? setup::off_surface(part) : tolerance(part);
+  if (((box.min() - p).array() > slack).any() || ((p - box.max()).array() > slack).any()) {
+    return text(p) + " lies outside the part, which reaches from " +
+           (box.min().isZero() ? "the origin" : text(box.min())) + " to " + text(box.max());
+  }
+  if (part.shape != setup::PartShape::surface) return "";
+  const mesh::PointToSurface place = mesh::point_to_surface(part.imported->surface->surface, p);
+  const bool inside_is_well = patch_radius <= 0.0;
+  if (place.distance_m <= given_to(part) || (place.inside && inside_is_well)) return "";
+  return text(p) + " lies " + core::readable_text(place.distance_m, core::kind::length) +
+         (place.inside ? " inside the part, where no patch can lie" : " off the part's surface") +
+         "; move it there (within " + core::readable_text(given_to(part), core::kind::length) + ")";
+}
+
+std::vector<std::string> part_points(const Case& source) {
+  std::vector<std::string> names;
+  for (const auto& point : source.points) names.push_back(point.name);
+  for (const auto& frf : source.measured_part) {
+    for (const auto& name : {setup::point_of(frf.response), setup::point_of(frf.force)}) {
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+std::optional<Eigen::Vector3d> direction_of(const std::string& dof) {
+  const auto dot = dof.rfind('.');
+  if (dot == std::string::npos || dot == 0) return std::nullopt;
+  try {
+    return dynamics::axis(dof.substr(dot + 1));
+  } catch (const core::InputError&) {
+    return std::nullopt;
+  }
+}
+
+std::vector<Eigen::Vector3d> directions_at(const Case& source, const std::string& name) {
+  const auto found = std::ranges::find(source.points, name, &setup::Point::name);
+  if (source.part && found != source.points.end()) return found->directions;
+  std::vector<Eigen::Vector3d> directions;
+  for (const auto& frf : source.measured_part) {
+    for (const auto& dof : {frf.response, frf.force}) {
+      const auto direction = direction_of(dof);
+      if (direction && setup::point_of(dof) == name) directions.push_back(*direction);
+    }
+  }
+  return directions;
+}
+
+bool spanned(const std::vector<Eigen::Vector3d>& directions, const Eigen::Vector3d& direction) {
+  std::vector<Eigen::Vector3d> basis;  // orthonormal, by Gram and Schmidt
+  const auto beyond_basis = [&](Eigen::Vector3d v) {
+    for (const auto& b : basis) v -= b.dot(v) * b;
+    return v;
+  };
+  for (const auto& d : directions) {
+    const Eigen::Vector3d rest = beyond_basis(d);
+    if (rest.norm() > 1e-6) basis.push_back(rest.normalized());
+  }
+  return !(beyond_basis(direction).norm() > 1e-6);
+}
+
+std::string clamped_by(const setup::PartSetup& source, const std::string& name, const Eigen::Vector3d& direction) {
+  const auto found = std::ranges::find(source.points, name, &setup::Point::name);
+  if (!source.part || !geometry_known(*source.part) || found == source.points.end()) return "";
+  if (found->at.has_value() == found->position.has_value()) return "";
+  for (const auto& support : source.part->supports) {
+    if (!holds(source, support, setup::position(*source.part, *found))) continue;
+    double held = 0.0;
+    for (const int axis : support.fixed) held += direction[axis] * direction[axis];
+    if (held > 1e-12) return support.on;
+  }
+  return "";
+}
+
+}  // namespace thinwall::cases

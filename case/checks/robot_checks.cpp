@@ -1,0 +1,304 @@
+#include "case/checks/robot_checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "case/checks/measured_checks.hpp"
+#include "case/checks/part_checks.hpp"
+#include "case/robot_binding.hpp"
+#include "robot/flexible_joints.hpp"
+#include "setup/measured_layout.hpp"
+#include "setup/robot_tip.hpp"
+
+namespace thinwall::cases {
+
+namespace {
+
+/// Keys that some models alone read, by their names.
+struct Belongs {
+  std::string_view key;
+  std::string_view models;
+};
+constexpr std::array belongings{
+    Belongs{"robot.frequency", "one_mode"},
+    Belongs{"robot.mass", "one_mode"},
+    Belongs{"robot.stiffness", "one_mode"},
+    Belongs{"robot.damping", "one_mode"},
+    Belongs{"robot.damping_ratio", "one_mode"},
+    Belongs{"robot.modes", "modes"},
+    Belongs{"robot.measured", "measured"},
+    Belongs{"robot.sensors", "measured"},
+    Belongs{"robot.links", "flexible_joints"},
+    Belongs{"robot.base", "flexible_joints, virtual_joints or modal_table"},
+    Belongs{"robot.tip", "flexible_joints"},
+    Belongs{"robot.gravity", "flexible_joints"},
+    Belongs{"robot.counterbalances", "flexible_joints"},
+    Belongs{"robot.elements", "virtual_joints"},
+    Belongs{"robot.table", "modal_table"},
+    Belongs{"robot.urdf", "flexible_joints"},
+    Belongs{"robot.joints", "flexible_joints"},
+    Belongs{"robot.posture", "flexible_joints"},
+    Belongs{"robot.workspace", "flexible_joints"},
+};
+
+/// True if the list of models has this one, as a whole word.
+bool names(std::string_view models, std::string_view model) {
+  const auto at = models.find(model);
+  if (at == std::string_view::npos) return false;
+  const auto end = at + model.size();
+  return (at == 0 || models[at - 1] == ' ') && (end == models.size() || models[end] == ',' || models[end] == ' ');
+}
+
+void check_belongings(const Case& source, Findings& findings) {
+  for (const Belongs& b : belongings) {
+    const std::string key(b.key);
+    const bool there = findings.given(key) || has_table(source.values, key) || array_size(source.values, key) > 0;
+    if (!there || names(b.models, core::word_of(source.robot->model))) continue;
+    findings.report(key, "belongs to robot.model = \"" + std::string(b.models) + "\", but the model is \"" +
+                             core::word_of(source.robot->model) + "\"");
+  }
+}
+
+void check_one_mode(const setup::Robot& robot, Findings& findings) {
+  if (!robot.stiffness) findings.report("robot.stiffness", "missing; one mode needs its stiffness at the tip");
+  if (robot.mass.has_value() == robot.frequency_hz.has_value()) {
+    findings.report("robot.frequency", "give either frequency or mass beside the stiffness");
+  }
+  if (robot.damping.has_value() == robot.damping_ratio.has_value()) {
+    findings.report("robot.damping_ratio", "give either damping_ratio or damping");
+  }
+}
+
+/// One file is a driving point along robot.direction; several name the tip's axes.
+void check_measured_robot(const setup::Robot& robot, Findings& findings) {
+  if (robot.measured.empty()) {
+    findings.report("robot.model", "measured needs [[robot.measured]] with a file");
+    return;
+  }
+  check_sensors("robot.sensors", robot.sensors, {robot.point}, findings);
+  if (robot.measured.size() > 1) {
+    check_layout("robot.measured", robot.measured, findings);
+    return;
+  }
+  const setup::MeasuredFrf& frf = robot.measured.front();
+  if (!frf.response.empty() && !frf.force.empty() && frf.response != frf.force) {
+    findings.report("robot.measured[0].force",
+                    "\"" + frf.force + "\" is not the DOF that moves; a single file is a driving point, force = \"" +
+                        frf.response + "\"");
+  }
+  const auto measured_along = direction_of(frf.response);
+  if (!measured_along || setup::point_of(frf.response) != robot.point) return;
+  for (const auto* letter : {"x", "y", "z"}) {
+    const Eigen::Vector3d axis = *direction_of(robot.point + "." + letter);
+    if ((robot.direction - axis).norm() < 1e-9 && *measured_along != axis)
+      findings.report("robot.measured[0].response", "\"" + frf.response + "\" is not along robot.direction; give \"" +
+                                                        robot.point + "." + letter + "\"");
+  }
+}
+
+bool all_read(const robot::SerialArm& arm) {
+  const bool springs = std::ranges::all_of(arm.counterbalances, [](const robot::Counterbalance& s) {
+    return s.from_point.allFinite() && s.to_point.allFinite() && std::isfinite(s.length);
+  });
+  return springs && arm.base.matrix().allFinite() && arm.gravity.allFinite() &&
+         std::ranges::all_of(arm.links, [](const robot::Link& link) {
+           return std::isfinite(link.mass) && std::isfinite(link.joint.stiffness) && link.centre.allFinite() &&
+                  link.axis.allFinite() && link.placement.matrix().allFinite();
+         });
+}
+
+void check_counterbalances(const Case& source, Findings& findings) {
+  std::vector<std::string> known{"base"};
+  for (const robot::Link& link : source.robot->arm.links) {
+    if (!link.name.empty()) known.push_back(link.name);
+  }
+  for (std::size_t i = 0; i < source.robot->arm.counterbalances.size(); ++i) {
+    const std::string table = "robot.counterbalances[" + std::to_string(i) + "]";
+    for (const char* end : {".from", ".to"}) {
+      const CaseValue* name = find(source.values, table + end);
+      if (name != nullptr) findings.require_known(table + end, std::get<std::string>(name->value), known, "link");
+    }
+  }
+}
+
+/// Checks the posture that is asked of the arm.
+void check_posture_keys(const setup::Robot& robot, Findings& findings) {
+  const setup::PostureWish& wish = robot.posture;
+  const int ways = (findings.given("robot.posture.joints") ? 1 : 0) + (wish.pitch ? 1 : 0) + (wish.approach ? 1 : 0);
+  if (ways != 1) {
+    findings.report("robot.posture", "give either joints, or pitch (four-axis arms), or approach (any arm)");
+    return;
+  }
+  const CaseValue* counts = find(findings.values, "robot.workspace.counts");
+  if (counts != nullptr && std::get<std::vector<double>>(counts->value).size() != 3)
+    findings.report("robot.workspace.counts", "must be three numbers, along x, y, z");
+  if (counts != nullptr && !wish.joints.empty())
+    findings.report("robot.workspace", "needs a posture by pitch or approach; joints hold the arm in one place");
+  for (const auto& [key, list] :
+       {std::pair{"robot.posture.joints", &wish.joints}, std::pair{"robot.posture.start", &wish.start}}) {
+    if (!findings.given(key) || list->size() == robot.arm.links.size()) continue;
+    findings.report(key, std::to_string(list->size()) + " angles for " + std::to_string(robot.arm.links.size()) +
+                             " joints; give one for each");
+  }
+}
+
+/// True if the files are read.
+bool check_urdf(const Case& source, Findings& findings) {
+  if (array_size(source.values, "robot.links") > 0) {
+    findings.report("robot.urdf", "an arm's links are in the case or in a URDF, not in both; remove one");
+    return false;
+  }
+  if (source.robot->joints.empty()) {
+    findings.report("robot.urdf", "needs robot.joints: a file with the stiffness of each joint, which no URDF tells");
+    return false;
+  }
+  try {
+    (void)bind_urdf({source.values, "robot"}, source.folder);
+  } catch (const core::Error& error) {
+    std::string text = error.what();
+    for (auto end = text.find('\n'); end != std::string::npos; end = text.find('\n', end)) text.replace(end, 1, "; ");
+    findings.report("robot.urdf", text);
+    return false;
+  }
+  return true;
+}
+
+void check_arm(const Case& source, Findings& findings) {
+  const setup::Robot& robot = *source.robot;
+  if (!robot.urdf.empty()) {
+    if (!check_urdf(source, findings)) return;
+  } else if (robot.arm.links.empty()) {
+    findings.report("robot.model", "flexible_joints needs [[robot.links]], from the base to the tip, or robot.urdf");
+    return;
+  }
+  const std::size_t before = findings.problems.size();
+  check_counterbalances(source, findings);
+  for (std::size_t i = 0; i < robot.arm.links.size(); ++i) {
+    const std::string key = "robot.links[" + std::to_string(i) + "].inertia";
+    const CaseValue* inertia = find(source.values, key);
+    const auto* list = inertia == nullptr ? nullptr : std::get_if<std::vector<double>>(&inertia->value);
+    if (list != nullptr && !list->empty() && list->size() != 3 && list->size() != 6)
+      findings.report(key, "must have three moments, xx, yy, zz, or these and xy, xz, yz");
+  }
+  check_posture_keys(robot, findings);
+  if (findings.problems.size() > before || !all_read(robot.arm)) return;
+  try {
+    robot::require_valid(robot.arm);
+  } catch (const core::InputError& error) {
+    findings.report("robot.links", error.what());
+    return;
+  }
+  // Places of a workspace that are not reached are told by the survey; what the coupling needs must be.
+  if (!robot.workspace.empty() && source.contacts.empty() && !robot.posture.tip) return;
+  std::optional<Eigen::VectorXd> near;
+  if (const std::string fault = fault_of_posture(source, source, near); !fault.empty())
+    findings.report("robot.posture", fault);
+}
+
+void check_table(const Case& source, Findings& findings) {
+  if (source.robot->table.empty()) {
+    findings.report("robot.model", "modal_table needs robot.table, a CSV of modes");
+    return;
+  }
+  try {
+    (void)setup::tip_model(*source.robot, {});
+  } catch (const core::Error& error) {
+    findings.report("robot.table", error.what());
+  }
+}
+
+/// Keys that an element must have beside its kind.
+void check_element(const Case& source, std::size_t i, Findings& findings) {
+  const std::string key = "robot.elements[" + std::to_string(i) + "]";
+  const CaseValue* found = find(source.values, key + ".kind");
+  const std::string kind = found == nullptr ? "" : std::get<std::string>(found->value);
+  const auto needs = [&](const char* name) {
+    if (!findings.given(key + name)) findings.report(key + name, "missing; a " + kind + " has one");
+  };
+  if (kind == "beam") needs(".length");
+  if (kind == "beam") needs(".outer_diameter");
+  if (kind == "body") needs(".mass");
+}
+
+void check_elements(const Case& source, Findings& findings) {
+  const auto count = static_cast<std::size_t>(array_size(source.values, "robot.elements"));
+  if (count == 0) findings.report("robot.model", "virtual_joints needs [[robot.elements]], from the base to the tip");
+  const std::size_t before = findings.problems.size();
+  for (std::size_t i = 0; i < count; ++i) check_element(source, i, findings);
+  if (count == 0 || findings.problems.size() > before) return;
+  try {
+    const auto chains = bind_chains({source.values, "robot"});
+    (void)robot::spatial_model(robot::reduced_tip(chains), source.robot->point);
+  } catch (const core::InputError& error) {
+    findings.report("robot.elements", error.what());
+  }
+}
+
+/// Directions of a tip whose table or chains can be read.
+std::vector<Eigen::Vector3d> modelled_directions(const setup::Robot& robot) {
+  std::vector<Eigen::Vector3d> directions;
+  try {
+    const robot::Tip tip = setup::tip_model(robot, {})({});
+    const auto* modal = std::get_if<dynamics::ModalModel>(&tip);
+    const auto* spatial = std::get_if<dynamics::SpatialModel>(&tip);
+    for (const dynamics::Dof& dof : modal != nullptr ? modal->dofs : spatial->dofs) {
+      if (dof.kind == dynamics::DofKind::translation) directions.push_back(dof.direction);
+    }
+  } catch (const core::Error&) {
+    directions.clear();  // said by the checks of the model
+  }
+  return directions;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> tip_directions(const setup::Robot& robot) {
+  if (robot.model == setup::RobotModel::flexible_joints)
+    return {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+  if (robot.model == setup::RobotModel::modal_table || robot.model == setup::RobotModel::virtual_joints)
+    return modelled_directions(robot);
+  std::vector<Eigen::Vector3d> directions;
+  if (robot.model == setup::RobotModel::modes) {
+    for (const setup::TipMode& mode : robot.modes) directions.push_back(mode.direction);
+  } else if (robot.model == setup::RobotModel::measured && robot.measured.size() > 1) {
+    for (const setup::MeasuredFrf& frf : robot.measured) {
+      if (const auto d = direction_of(frf.response)) directions.push_back(*d);
+    }
+  } else {
+    directions.push_back(robot.direction);
+  }
+  return directions;
+}
+
+std::string fault_of_posture(const setup::PartSetup& part, const setup::SupportSetup& support,
+                             std::optional<Eigen::VectorXd>& near) {
+  if (support.robot->model != setup::RobotModel::flexible_joints) return "";
+  try {
+    const setup::RobotPosture stands = setup::robot_posture(part, support, near);
+    (void)robot::linearised(support.robot->arm, stands.posture, support.robot->point);
+    near = stands.posture.q;
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void check_robot(const Case& source, Findings& findings) {
+  const setup::Robot& robot = *source.robot;
+  if (findings.unreadable("robot.model")) return;
+  check_belongings(source, findings);
+  if (std::abs(robot.arm.base.linear().col(0).dot(robot.arm.base.linear().col(2))) > 1e-9) {
+    findings.report("robot.base.x", "is not at a right angle to robot.base.z; a frame's axes are");
+    return;
+  }
+  if (robot.model == setup::RobotModel::one_mode) check_one_mode(robot, findings);
+  if (robot.model == setup::RobotModel::modes && robot.modes.empty())
+    findings.report("robot.model", "modes needs [[robot.modes]], at least one");
+  if (robot.model == setup::RobotModel::measured) check_measured_robot(robot, findings);
+  if (robot.model == setup::RobotModel::flexible_joints) check_arm(source, findings);
+  if (robot.model == setup::RobotModel::modal_table) check_table(source, findings);
+  if (robot.model == setup::RobotModel::virtual_joints) check_elements(source, findings);
+}
+
+}  // namespace thinwall::cases

@@ -1,0 +1,15 @@
+#include "report/lobes_words.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace thinwall::report {
+
+std::string depth_text(double depth_m, bool at_limit) {
+  return fmt::format("{}{:.3f} mm", at_limit ? "over " : "", depth_m * 1e3);
+}
+
+std::string chart_title(const std::string& chart) {
+  return chart == "part" ? "part alone" : chart == "tool" ? "tool" : "with the robot";
+}
+
+}  // namespace thinwall::report
