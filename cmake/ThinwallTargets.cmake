@@ -1,6 +1,6 @@
 # thinwall_library(<folder> LINKS ...)   makes the target thinwall::<folder> from every .cpp of the folder and its sub-folders.
 #     EXCLUDES <pattern>    leaves out those whose path matches: they belong to a target of their own
-#     TEXT                  says that nothing is computed there: -O1, and JSON among the precompiled headers
+#     TEXT                  says that nothing is computed there: JSON is among the precompiled headers
 #     OWN_HEADERS           says that its options are others than those of the shared precompiled headers
 # thinwall_test(<name> LINKS ...)        makes one GoogleTest program from every .cpp of the current folder, a ctest entry a suite
 
@@ -49,9 +49,9 @@ function(thinwall_precompiled name)
   target_precompile_headers(${name} PRIVATE ${ARGN})
 endfunction()
 thinwall_precompiled(thinwall_headers ${THINWALL_COMMON_HEADERS})
-# For folders in which nothing is computed: they write and read JSON, and are compiled in less time with -O1.
+# For folders in which nothing is computed: they write and read JSON. They are optimised like all others, because the
+# linker takes one copy of a template's code for the whole program, from whichever folder comes first.
 thinwall_precompiled(thinwall_text_headers ${THINWALL_COMMON_HEADERS} <nlohmann/json.hpp>)
-target_compile_options(thinwall_text_headers PRIVATE -O1)
 
 # Puts the sources of a target into batches, each compiled at once (THINWALL_BATCHES). Those that include one of the
 # large libraries share batches of their own: its headers are parsed once or twice, and its names meet few of ours.
@@ -89,7 +89,6 @@ function(thinwall_library name)
   if(ARG_OWN_HEADERS)
     target_precompile_headers(thinwall_${name} PRIVATE ${THINWALL_COMMON_HEADERS})
   elseif(ARG_TEXT)
-    target_compile_options(thinwall_${name} PRIVATE -O1)
     target_precompile_headers(thinwall_${name} REUSE_FROM thinwall_text_headers)
   else()
     target_precompile_headers(thinwall_${name} REUSE_FROM thinwall_headers)
@@ -103,14 +102,13 @@ function(thinwall_library name)
   add_library(thinwall::${name} ALIAS thinwall_${name})
 endfunction()
 
-# Tests are compiled with -O1: they compute little themselves. A ctest entry is a suite, not a test: 1600 programs that
+# A ctest entry is a suite, not a test: 1600 programs that
 # each load a hundred libraries take a minute more. The suites are asked of the program when it was built.
 function(thinwall_test name)
   cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE thinwall_flags ${ARG_LINKS} GTest::gtest_main)
-  target_compile_options(test_${name} PRIVATE -O1)
   if(NOT name STREQUAL "core")
     target_precompile_headers(test_${name} REUSE_FROM test_core)
   else()

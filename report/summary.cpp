@@ -112,7 +112,8 @@ json mode_list(const dynamics::ModalModel& model) {
 
 /// The tip as it stands; what the model does not tell is absent.
 json robot_of(const setup::Setup& source, const study::Component& robot, const setup::RobotPosture& posture) {
-  json result = {{"model", source.robot->model}, {"modes", robot.modal ? mode_list(*robot.modal) : json::array()}};
+  json result = {{"model", core::word_of(source.robot->model)},
+                 {"modes", robot.modal ? mode_list(*robot.modal) : json::array()}};
   result.update(posture_summary(posture));
   const study::TipReport report = study::tip_report(posture, robot);
   if (!report.stiffness) return result;

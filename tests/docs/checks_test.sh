@@ -32,10 +32,10 @@ for picture in "$root"/docs/pictures/*.png; do
   name=$(basename "$picture")
   expect_equal "$name is a PNG" "89504e470d0a1a0a" "$(head -c 8 "$picture" | od -An -tx1 | tr -d ' ')"
   expect_equal "$name has at most 150 kB" yes "$([[ $(stat -c %s "$picture") -le 150000 ]] && echo yes || echo no)"
-  for page in README.md docs/tutorials/ten-minutes.md; do
-    expect_contains "$page shows $name" "pictures/$name)" "$(<"$root/$page")"
-  done
+  expect_contains "the first tutorial shows $name" "pictures/$name)" "$(<"$root/docs/tutorials/ten-minutes.md")"
 done
+expect_contains "the README shows the chart within its first 25 lines" "pictures/lobes.png)" "$(head -n 25 "$root/README.md")"
+expect_equal "the README has at most 120 lines" yes "$([[ $(wc -l <"$root/README.md") -le 120 ]] && echo yes || echo no)"
 
 # --- links
 mkdir -p "$tree/site/cpp"

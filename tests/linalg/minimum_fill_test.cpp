@@ -26,7 +26,7 @@ MatrixGraph random_graph(int nodes, int edges, std::uint64_t seed) {
   }
   std::set<std::pair<int, int>> there;
   for (int k = 0; k < edges; ++k) {
-    const auto [a, b] = std::minmax(node(random), node(random));
+    const auto [a, b] = std::minmax({node(random), node(random)});
     if (a == b || !there.emplace(a, b).second) continue;
     graph.neighbours[static_cast<std::size_t>(a)].push_back(b);
     graph.neighbours[static_cast<std::size_t>(b)].push_back(a);

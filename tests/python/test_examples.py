@@ -159,6 +159,7 @@ def test_the_docs_snippets(run_case, tmp_path):
     (tmp_path / "results").mkdir()
     (tmp_path / "results/barrios-2019").symlink_to(run_case("barrios-2019").folder)
     (tmp_path / "tip.csv").symlink_to(ROOT / "examples/data/tip.csv")
+    (tmp_path / "cases").symlink_to(ROOT / "cases")
     script = tmp_path / "snippets.py"
     script.write_text(snippets("docs/python.md"), encoding="utf-8")
     assert script.read_text(encoding="utf-8").count("thinwall.") > 10
