@@ -17,6 +17,7 @@ struct Anything {
   operator T() const;  // NOLINT(google-explicit-constructor): the conversion has to be implicit
 };
 
+/// True if the braces of T take as many initialisers as there are indices.
 template <class T, std::size_t... I>
 constexpr bool takes(std::index_sequence<I...>) {
   return requires {

@@ -38,54 +38,67 @@ namespace thinwall::study {
 /// number of the alternative before a variant, so that no two values have equal bytes.
 class InputBytes {
  public:
+  /// Adds a number or an enumeration by its bytes.
   template <class T>
   requires std::is_arithmetic_v<T> || std::is_enum_v<T>
   void add(const T& value) { bytes_.append(reinterpret_cast<const char*>(&value), sizeof value); }
+  /// Adds real and imaginary part.
   template <class Real>
   void add(const std::complex<Real>& value) {
     add(value.real());
     add(value.imag());
   }
+  /// Adds the length of a text and its characters.
   void add(const std::string& text) {
     add(text.size());
     bytes_ += text;
   }
+  /// Adds a path as it is written.
   void add(const std::filesystem::path& path) { add(path.string()); }
+  /// Adds a mark that tells if the value is there, and the value.
   template <class T>
   void add(const std::optional<T>& value) {
     add(value.has_value());
     if (value) add(*value);
   }
+  /// Adds a mark that tells if there is an object, and the object.
   template <class T>
   void add(const std::shared_ptr<T>& value) {
     add(value != nullptr);
     if (value) add(*value);
   }
+  /// Adds the number of the alternative and its value.
   template <class... Alternatives>
   void add(const std::variant<Alternatives...>& value) {
     add(value.index());
     std::visit([this](const auto& alternative) { add(alternative); }, value);
   }
+  /// Adds nothing: the number of the alternative tells it.
   void add(const std::monostate& /*nothing*/) {}
+  /// Adds both values.
   template <class First, class Second>
   void add(const std::pair<First, Second>& pair) {
     add(pair.first);
     add(pair.second);
   }
+  /// Adds the length of a list and its items.
   template <class T>
   void add(const std::vector<T>& list) {
     add(list.size());
     for (const auto& item : list) add(static_cast<const T&>(item));
   }
+  /// Adds all items of an array.
   template <class T, std::size_t n>
   void add(const std::array<T, n>& list) {
     for (const T& item : list) add(item);
   }
+  /// Adds the length of a map, and its names and values in their order.
   template <class Name, class T>
   void add(const std::map<Name, T>& list) {
     add(list.size());
     for (const auto& item : list) add(item);
   }
+  /// Adds the size of a dense matrix and its entries.
   template <class Scalar, int rows, int cols, int options, int max_rows, int max_cols>
   void add(const Eigen::Matrix<Scalar, rows, cols, options, max_rows, max_cols>& matrix) {
     add(matrix.rows());
@@ -93,6 +106,7 @@ class InputBytes {
     bytes_.append(reinterpret_cast<const char*>(matrix.data()),
                   static_cast<std::size_t>(matrix.size()) * sizeof(Scalar));
   }
+  /// Adds the size of a sparse matrix, and its entries with their places.
   template <class Scalar, int options, class Index>
   void add(const Eigen::SparseMatrix<Scalar, options, Index>& matrix) {
     add(matrix.rows());
@@ -106,21 +120,25 @@ class InputBytes {
       }
     }
   }
+  /// Adds the matrix of a frame.
   template <class Scalar, int dimension, int mode, int options>
   void add(const Eigen::Transform<Scalar, dimension, mode, options>& frame) {
     add(typename Eigen::Transform<Scalar, dimension, mode, options>::MatrixType(frame.matrix()));
   }
+  /// Adds the two corners of a box.
   template <class Scalar, int dimension>
   void add(const Eigen::AlignedBox<Scalar, dimension>& box) {
     add(Eigen::Matrix<Scalar, dimension, 1>(box.min()));
     add(Eigen::Matrix<Scalar, dimension, 1>(box.max()));
   }
+  /// Adds all members of a struct in the order of their declaration.
   template <class Struct>
   requires std::is_class_v<Struct> && std::is_aggregate_v<Struct>
   void add(const Struct& value) {
     std::apply([this](const auto&... member) { (add(member), ...); }, core::fields_of(value));
   }
 
+  /// The bytes of all that was added.
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
 
  private:
