@@ -21,6 +21,8 @@
 #include "mesh/planar/prism_mesh.hpp"
 #include "mesh/volume/delaunay_volume.hpp"
 #include "mesh/volume/tetgen.hpp"
+#include "setup/graded_mesh.hpp"
+#include "setup/part_geometry.hpp"
 #include "study/part/discretisation.hpp"
 
 namespace {
