@@ -73,6 +73,21 @@ void require_valid(const std::vector<Chain>& chains) {
   faults.raise("robot of virtual joints");
 }
 
+// ---- products that many places need, compiled once ----------------------------------------------------------------
+
+MatrixXd symmetric(const MatrixXd& A) {
+  return 0.5 * (A + A.transpose());
+}
+
+MatrixXd product(const MatrixXd& A, const MatrixXd& B) {
+  return A * B;
+}
+
+/// Tᵀ A T, a form A in the coordinates of the columns of T.
+MatrixXd congruent(const MatrixXd& A, const MatrixXd& T) {
+  return product(T.transpose(), product(A, T));
+}
+
 // ---- chains in their places --------------------------------------------------------------------------------------
 
 /// An element in its place, with the motions that it adds to the frame behind it.
@@ -92,7 +107,7 @@ struct Station {
 MatrixXd root_of(const Matrix6& S) {
   const Eigen::Vector<double, 6> scale = S.diagonal().unaryExpr([](double s) { return s > 0.0 ? std::sqrt(s) : 1.0; });
   const Matrix6 scaled = scale.cwiseInverse().asDiagonal() * S * scale.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(0.5 * (scaled + scaled.transpose()));
+  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(Matrix6(0.5 * (scaled + scaled.transpose())));
   const double zero = 1e-14 * eigen.eigenvalues().maxCoeff();
   const VectorXd roots = eigen.eigenvalues().unaryExpr([zero](double l) { return l > zero ? std::sqrt(l) : 0.0; });
   return scale.asDiagonal() * eigen.eigenvectors() * roots.asDiagonal();
@@ -168,12 +183,12 @@ Jacobians jacobians(const std::vector<Station>& stations, const Matrix6& scale) 
   Jacobians J;
   for (const Station& station : stations) {
     if (station.motions.cols() == 0) continue;
-    const Matrix6X at_tip =
-        scale * dynamics::transport(tip_of(stations) - station.after.translation()) * station.motions;
+    const Matrix6 to_tip = scale * dynamics::transport(tip_of(stations) - station.after.translation());
+    const MatrixXd at_tip = product(to_tip, station.motions);
     if (station.passive) {
       append(J.passive, at_tip);
     } else {
-      append(J.springs, at_tip * station.root);
+      append(J.springs, product(at_tip, station.root));
     }
   }
   return J;
@@ -210,7 +225,7 @@ Statics statics(Jacobians J) {
   // does.
   const MatrixXd N =
       split(J.passive.cols() > 0 ? MatrixXd(J.passive.colwise().normalized()) : MatrixXd(6, 0)).complement;
-  const MatrixXd A = N.transpose() * J.springs;
+  const MatrixXd A = product(N.transpose(), J.springs);
   Statics chain{.J = std::move(J), .springs_by_tip = MatrixXd::Zero(A.cols(), 6)};
   if (A.cols() == 0 || A.rows() == 0) {
     chain.forbidden = N;
@@ -218,11 +233,12 @@ Statics statics(Jacobians J) {
   }
   const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeFullU | Eigen::ComputeThinV);
   const Index rank = rank_of(svd.singularValues());
-  const Matrix6X wrenches = N * svd.matrixU().leftCols(rank);
+  const MatrixXd wrenches = product(N, svd.matrixU().leftCols(rank));
   const VectorXd inverse = svd.singularValues().head(rank).cwiseInverse();
-  chain.K = wrenches * inverse.cwiseAbs2().asDiagonal() * wrenches.transpose();
-  chain.springs_by_tip = svd.matrixV().leftCols(rank) * inverse.asDiagonal() * wrenches.transpose();
-  chain.forbidden = N * svd.matrixU().rightCols(A.rows() - rank);
+  const MatrixXd stretched = wrenches * inverse.asDiagonal();
+  chain.K = product(stretched, stretched.transpose());
+  chain.springs_by_tip = product(svd.matrixV().leftCols(rank), stretched.transpose());
+  chain.forbidden = product(N, svd.matrixU().rightCols(A.rows() - rank));
   return chain;
 }
 
@@ -231,12 +247,14 @@ Statics statics(Jacobians J) {
 /// The coordinates of all stations, springs and passive joints in the order of the chain, as functions of y. Z is
 /// scaled. The passive joints take the least-squares solution of smallest norm of what the springs leave of the motion.
 std::vector<MatrixXd> coordinates(const std::vector<Station>& stations, const Statics& chain, const MatrixXd& Z) {
-  const MatrixXd springs = chain.springs_by_tip * Z;
+  const MatrixXd springs = product(chain.springs_by_tip, Z);
   MatrixXd passive(0, Z.cols());
   if (chain.J.passive.cols() > 0) {
     const VectorXd length = chain.J.passive.colwise().norm();
-    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> least(chain.J.passive * length.cwiseInverse().asDiagonal());
-    passive = length.cwiseInverse().asDiagonal() * MatrixXd(least.solve(Z - chain.J.springs * springs));
+    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> least(
+        MatrixXd(chain.J.passive * length.cwiseInverse().asDiagonal()));
+    const MatrixXd left = Z - product(chain.J.springs, springs);
+    passive = length.cwiseInverse().asDiagonal() * MatrixXd(least.solve(left));
   }
   std::vector<MatrixXd> each;
   Index spring = 0, joint = 0;
@@ -247,7 +265,7 @@ std::vector<MatrixXd> coordinates(const std::vector<Station>& stations, const St
     } else if (station.passive) {
       each.push_back(passive.middleRows(std::exchange(joint, joint + k), k));
     } else {
-      each.push_back(station.root * springs.middleRows(std::exchange(spring, spring + k), k));
+      each.push_back(product(station.root, springs.middleRows(std::exchange(spring, spring + k), k)));
     }
   }
   return each;
@@ -258,12 +276,12 @@ MatrixXd mass_of(const Station& station, const Matrix6X& before, const Matrix6X&
   if (const auto* beam = std::get_if<BeamLink>(station.element)) {
     const Matrix6 R = dynamics::turned(station.before.linear().transpose());
     MatrixXd ends(12, before.cols());
-    ends << R * before, R * after;
-    return ends.transpose() * dynamics::beam_mass(beam->section, beam->length) * ends;
+    ends << product(R, before), product(R, after);
+    return congruent(dynamics::beam_mass(beam->section, beam->length), ends);
   }
   if (const auto* body = std::get_if<dynamics::RigidBody>(station.element)) {
-    const Matrix6X local = dynamics::turned(station.before.linear().transpose()) * before;
-    return local.transpose() * dynamics::mass_matrix(*body) * local;
+    const MatrixXd local = product(dynamics::turned(station.before.linear().transpose()), before);
+    return congruent(dynamics::mass_matrix(*body), local);
   }
   return MatrixXd::Zero(before.cols(), before.cols());
 }
@@ -273,9 +291,10 @@ void add_chain(const std::vector<Station>& stations, const std::vector<MatrixXd>
   Matrix6X motion = Matrix6X::Zero(6, tip.Z.cols());
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const Station& station = stations[i];
-    const Matrix6X after = dynamics::transport(station.step()) * motion + station.motions * coordinates[i];
+    const Matrix6X after =
+        product(dynamics::transport(station.step()), motion) + product(station.motions, coordinates[i]);
     tip.M += mass_of(station, motion, after);
-    if (station.damping.size() > 0) tip.C += coordinates[i].transpose() * station.damping * coordinates[i];
+    if (station.damping.size() > 0) tip.C += congruent(station.damping, coordinates[i]);
     motion = after;
   }
 }
@@ -297,10 +316,6 @@ Index rank_deficiency(const MatrixXd& A) {
   const MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
   const VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
   return (eigenvalues.array() <= 1e-13 * std::max(eigenvalues.maxCoeff(), std::numeric_limits<double>::min())).count();
-}
-
-MatrixXd symmetric(const MatrixXd& A) {
-  return 0.5 * (A + A.transpose());
 }
 
 }  // namespace
@@ -355,7 +370,7 @@ ReducedTip reduced_tip(const std::vector<Chain>& chains) {
   ReducedTip tip{.Z = all ? MatrixXd::Identity(6, 6) : MatrixXd(scale.cwiseInverse().asDiagonal() * Z),
                  .M = MatrixXd::Zero(n, n),
                  .C = MatrixXd::Zero(n, n),
-                 .K = symmetric(Z.transpose() * K * Z)};
+                 .K = symmetric(congruent(K, Z))};
   tip.free = rank_deficiency(tip.K);
   for (std::size_t c = 0; c < chains.size(); ++c) add_chain(stations[c], coordinates(stations[c], at_rest[c], Z), tip);
   tip.M = symmetric(tip.M);
@@ -368,7 +383,7 @@ Matrix6 compliance(const ReducedTip& tip) {
     throw core::InputError("robot of virtual joints: " + std::to_string(tip.free) +
                            " motions of its tip are free, so it has no compliance; hold them, or take the stiffness");
   }
-  return symmetric(tip.Z * tip.K.ldlt().solve(tip.Z.transpose()));
+  return symmetric(product(tip.Z, tip.K.ldlt().solve(MatrixXd(tip.Z.transpose()))));
 }
 
 Matrix6 stiffness(const ReducedTip& tip) {
@@ -377,7 +392,7 @@ Matrix6 stiffness(const ReducedTip& tip) {
                            " of six directions, so it has no stiffness there; take the compliance");
   }
   const Matrix6 inverse = Matrix6(tip.Z).inverse();
-  return symmetric(inverse.transpose() * tip.K * inverse);
+  return symmetric(congruent(tip.K, inverse));
 }
 
 dynamics::SpatialModel spatial_model(const ReducedTip& tip, const std::string& point) {

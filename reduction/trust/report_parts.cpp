@@ -55,7 +55,7 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> free_motions(const Eigen::MatrixXd& Y, 
   const dynamics::Matrix6 G = Y.transpose() * KY;
   const double round_off = 5e-14 * (Y.transpose() * row_stiffness.asDiagonal() * Y).trace();
   const double inertia = (Y.transpose() * MY).trace();
-  const Eigen::SelfAdjointEigenSolver<dynamics::Matrix6> eigen(0.5 * (G + G.transpose()));
+  const Eigen::SelfAdjointEigenSolver<dynamics::Matrix6> eigen(dynamics::Matrix6(0.5 * (G + G.transpose())));
   const double bound = std::max(round_off, lambda_bound * std::abs(inertia));
   return eigen.eigenvectors().leftCols((eigen.eigenvalues().array() <= bound).count());
 }
