@@ -143,37 +143,14 @@ const std::vector<Method>& all_methods() {
 }
 
 std::string name(Method method) {
-  switch (method) {
-    case Method::direct:
-      return "direct";
-    case Method::zeroth_order:
-      return "zeroth_order";
-    case Method::multi_frequency:
-      return "multi_frequency";
-    case Method::semi_discretization_0:
-      return "semi_discretization_0";
-    case Method::semi_discretization_1:
-      return "semi_discretization_1";
-    case Method::semi_discretization_2:
-      return "semi_discretization_2";
-    case Method::full_discretization_1:
-      return "full_discretization_1";
-    case Method::full_discretization_2:
-      return "full_discretization_2";
-    case Method::full_discretization_3:
-      break;
-  }
-  return "full_discretization_3";
+  return core::word_of(method);
 }
 
 Method method_named(const std::string& name) {
-  std::vector<std::string> known;
-  known.reserve(all_methods().size());
-  for (const Method method : all_methods()) {
-    if (milling::name(method) == name) return method;
-    known.push_back(milling::name(method));
-  }
-  throw core::InputError("there is no method \"" + name + "\" for lobes" + core::did_you_mean(name, known) +
+  if (const auto method = core::from_word<Method>(name)) return *method;
+  const auto& words = core::words<Method>;
+  throw core::InputError("there is no method \"" + name + "\" for lobes" +
+                         core::did_you_mean(name, std::vector<std::string>(words.begin(), words.end())) +
                          "; \"direct\" serves any cut");
 }
 
