@@ -102,8 +102,9 @@ function(thinwall_library name)
   add_library(thinwall::${name} ALIAS thinwall_${name})
 endfunction()
 
-# A ctest entry is a suite, not a test: 1600 programs that
-# each load a hundred libraries take a minute more. The suites are asked of the program when it was built.
+# A ctest entry is a suite, not a test: 1600 programs that each load a hundred libraries take a minute more. The suites
+# are asked of the program when it was built. Each source has a namespace of its own, named as the file is, so that
+# sources which are compiled as one may have helpers of the same name.
 function(thinwall_test name)
   cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
@@ -113,6 +114,11 @@ function(thinwall_test name)
     target_precompile_headers(test_${name} REUSE_FROM test_core)
   else()
     target_precompile_headers(test_${name} PRIVATE ${THINWALL_COMMON_HEADERS} <gtest/gtest.h>)
+  endif()
+  if(THINWALL_BATCHES)
+    thinwall_batches(test_${name})
+    # A fixture of an anonymous namespace counts as one of another file, as soon as its own is included into a batch.
+    target_compile_options(test_${name} PRIVATE -Wno-subobject-linkage)
   endif()
   target_compile_definitions(test_${name} PRIVATE THINWALL_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                   THINWALL_BUILD_DIR="${PROJECT_BINARY_DIR}")

@@ -3,7 +3,8 @@
 # An entry runs a suite, with all values of its parameters. Suites that are named in SECONDS, a file of lines "suite
 # seconds", begin in that order, the longest first: an idle core at the end is what a late long one would cost.
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listed COMMAND_ERROR_IS_FATAL ANY)
-string(REGEX MATCHALL "(^|\n)[^ \n][^\n]*\\." lines "${listed}")
+# "Running main() from ..." is a line of the output too, but with blanks.
+string(REGEX MATCHALL "(^|\n)[^ \n]+\\." lines "${listed}")
 set(suites "")
 foreach(line IN LISTS lines)
   string(REGEX REPLACE "^\n|\\.$" "" line "${line}")
@@ -23,6 +24,7 @@ foreach(suite IN LISTS suites)
   set(filter "${suite}.*:*/${suite}.*:${suite}/*.*:*/${suite}/*.*")
   string(APPEND text "add_test([=[${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${filter}]=])\n"
          "set_tests_properties([=[${suite}]=] PROPERTIES LABELS ${LABEL} TIMEOUT 1800 COST ${cost}\n"
+         "  FAIL_REGULAR_EXPRESSION [=[Running 0 tests]=]\n"
          "  SKIP_REGULAR_EXPRESSION [=[0 tests\\.\n(\\[  SKIPPED [^\n]*\n)+$]=])\n")
 endforeach()
 file(WRITE ${FILE} "${text}")

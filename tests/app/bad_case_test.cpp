@@ -11,7 +11,7 @@
 #include "case_text.hpp"
 #include "core/atomic_file.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::bad_case_test {
 
 using namespace setup;
 using namespace cases;
@@ -470,4 +470,4 @@ TEST(BadMesh, ToleranceAndSizeOutOfRangeOrAtOddsAreRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::bad_case_test

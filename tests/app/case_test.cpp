@@ -11,7 +11,7 @@
 #include "case_text.hpp"
 #include "core/error.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::case_test {
 
 using namespace app;
 
@@ -177,4 +177,4 @@ TEST(Expectation, AFigureMayBeComparedWithAnother) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::case_test

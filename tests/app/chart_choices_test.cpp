@@ -17,7 +17,7 @@
 #include "report/lobes_answers.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::chart_choices_test {
 
 using namespace setup;
 using namespace cases;
@@ -272,4 +272,4 @@ TEST(ChartChoicesBad, AMachineThatCannotBeIsRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::chart_choices_test

@@ -20,7 +20,7 @@
 #include "report/summary.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::command_line_test {
 
 using namespace cases;
 using namespace study;
@@ -375,4 +375,4 @@ TEST_F(Compare, ADamagedSummaryIsToldWithItsFile) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::command_line_test

@@ -14,7 +14,7 @@
 #include "core/atomic_file.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::completion_test {
 
 using namespace cases;
 using namespace app;
@@ -188,4 +188,4 @@ TEST(ManualPage, GroffHasNothingToSayOfIt) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::completion_test

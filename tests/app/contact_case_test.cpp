@@ -20,7 +20,7 @@
 #include "study/support/support_stage.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::contact_case_test {
 
 using namespace setup;
 using namespace cases;
@@ -283,4 +283,4 @@ TEST(ContactCase, ARegularisationIsAskedForInFull) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::contact_case_test

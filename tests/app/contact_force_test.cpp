@@ -11,7 +11,7 @@
 #include "dynamics/conversion.hpp"
 #include "study/support/support_stage.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::contact_force_test {
 
 using namespace setup;
 using namespace study;
@@ -112,4 +112,4 @@ TEST(ContactForce, IsLostWhereTheCutPullsHarderThanTheRobotPresses) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::contact_force_test

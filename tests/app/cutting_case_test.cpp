@@ -12,7 +12,7 @@
 #include "milling/cut/chip_load.hpp"
 #include "setup/milling_process.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::cutting_case_test {
 
 using namespace setup;
 using namespace cases;
@@ -157,4 +157,4 @@ TEST(CuttingCase, WrongLawsAreRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::cutting_case_test

@@ -6,7 +6,7 @@
 #include "case/reader.hpp"
 #include "case_text.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::excerpt_test {
 
 using namespace cases;
 
@@ -91,4 +91,4 @@ TEST(Excerpt, LongLinesAreCutAndControlCharactersDoNotReachTheTerminal) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::excerpt_test

@@ -12,7 +12,7 @@
 #include "core/atomic_file.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::json_schema_test {
 
 using namespace cases;
 
@@ -103,4 +103,4 @@ TEST(JsonSchema, AValidatorTakesEveryCaseOfOursAndRefusesWrongOnes) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::json_schema_test

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace thinwall::tests {
+namespace thinwall::tests::least_squares_test {
 
 using namespace study;
 
@@ -53,4 +53,4 @@ TEST(LeastSquares, DifferencesStayWithinTheRange) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::least_squares_test

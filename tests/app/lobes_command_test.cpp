@@ -13,7 +13,7 @@
 #include "core/atomic_file.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::lobes_command_test {
 
 using namespace setup;
 using namespace cases;
@@ -281,4 +281,4 @@ TEST_F(LobesCommand, HelixAndPitchesDoNotGoWithFrfs) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::lobes_command_test

@@ -7,7 +7,7 @@
 #include "study/part/part_damping.hpp"
 #include "study/part/part_stage.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::loss_factor_test {
 
 using namespace setup;
 using namespace study;
@@ -53,4 +53,4 @@ TEST(LeastLossFactor, OfRayleighDampingIsThatOfTheModesInTheBand) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::loss_factor_test

@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "setup/measured.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::matched_ratios_test {
 
 using namespace setup;
 
@@ -34,4 +34,4 @@ TEST(MatchedRatios, OfAFreePartBelongToItsElasticModes) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::matched_ratios_test

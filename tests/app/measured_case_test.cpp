@@ -26,7 +26,7 @@
 #include "study/support/support_stage.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::measured_case_test {
 
 using namespace setup;
 using namespace cases;
@@ -316,4 +316,4 @@ TEST(MeasuredCase, ARobotsFilesAreReadOnceInARun) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::measured_case_test

@@ -11,7 +11,7 @@
 #include "setup/part_geometry.hpp"
 #include "study/updating.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::part_evaluation_test {
 
 using namespace setup;
 using namespace cases;
@@ -98,4 +98,4 @@ TEST(PartUpdating, FindsTheLengthThatTheFrequencyCameFromAndLeavesItsSolution) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::part_evaluation_test

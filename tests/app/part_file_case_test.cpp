@@ -21,7 +21,7 @@
 #include "temporary_folder.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::part_file_case_test {
 
 using namespace setup;
 using namespace cases;
@@ -319,4 +319,4 @@ TEST(PartFile, WhatMatricesDoNotTellIsRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::part_file_case_test

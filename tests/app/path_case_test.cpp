@@ -11,7 +11,7 @@
 #include "report/path_report.hpp"
 #include "setup/path.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::path_case_test {
 
 using namespace setup;
 using namespace cases;
@@ -163,4 +163,4 @@ TEST(PathReport, TheWeakestPositionAndTheBestSpeedForAllAreNamed) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::path_case_test

@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::result_folder_test {
 
 using namespace report;
 
@@ -102,4 +102,4 @@ TEST(ResultFolder, RemainsOfAKilledRunAreRemovedAndResultsKept) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::result_folder_test

@@ -14,7 +14,7 @@
 #include "setup/robot_tip.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::robot_case_test {
 
 using namespace setup;
 using namespace cases;
@@ -212,4 +212,4 @@ TEST(RobotCase, UrdfAndItsJointsAreCheckedAgainstEachOther) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::robot_case_test

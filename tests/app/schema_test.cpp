@@ -11,7 +11,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::schema_test {
 
 using namespace cases;
 
@@ -108,4 +108,4 @@ TEST(Schema, TheDocumentedKeysAreTheKeysOfTheTable) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::schema_test

@@ -10,7 +10,7 @@
 
 #include "tests/milling/single_mode.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::structure_errors_test {
 
 using namespace setup;
 using namespace study;
@@ -83,4 +83,4 @@ TEST(DepthError, OfPolesThatOverflowIsUnknown) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::structure_errors_test

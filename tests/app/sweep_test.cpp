@@ -15,7 +15,7 @@
 #include "core/units.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::sweep_test {
 
 using namespace setup;
 using namespace cases;
@@ -359,4 +359,4 @@ TEST_F(Sweep, AFailedPointIsARowAndTheOthersGoOn) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::sweep_test

@@ -18,7 +18,7 @@
 #include "core/error.hpp"
 #include "temporary_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::terminal_test {
 
 using namespace study;
 using namespace app;
@@ -163,4 +163,4 @@ TEST_F(OnATerminal, APipeGetsPlainLinesAndNoEscapeSequence) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::terminal_test

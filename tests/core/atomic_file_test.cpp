@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 
-namespace thinwall::core {
+namespace thinwall::core::atomic_file_test {
 namespace {
 
 class AtomicFile : public testing::Test {
@@ -82,4 +82,4 @@ TEST_F(AtomicFile, ReadingNamesThePathAndTheCause) {
 }
 
 }  // namespace
-}  // namespace thinwall::core
+}  // namespace thinwall::core::atomic_file_test

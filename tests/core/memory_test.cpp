@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-namespace thinwall::core {
+namespace thinwall::core::memory_test {
 namespace {
 
 TEST(Memory, AvailableIsPositiveAndNoMoreThanTheMachineHas) {
@@ -13,4 +13,4 @@ TEST(Memory, AvailableIsPositiveAndNoMoreThanTheMachineHas) {
 }
 
 }  // namespace
-}  // namespace thinwall::core
+}  // namespace thinwall::core::memory_test

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace thinwall::core {
+namespace thinwall::core::parallel_test {
 namespace {
 
 /// Loops use at least four threads, on a machine of one core too.
@@ -65,4 +65,4 @@ TEST_F(ParallelFor, AForkedProcessRunsItsLoopsAlone) {
 }
 
 }  // namespace
-}  // namespace thinwall::core
+}  // namespace thinwall::core::parallel_test

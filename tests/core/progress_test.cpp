@@ -8,7 +8,7 @@
 
 #include "core/parallel.hpp"
 
-namespace thinwall::core {
+namespace thinwall::core::progress_test {
 namespace {
 
 struct Heard {
@@ -76,4 +76,4 @@ TEST(Progress, TheTimeLeftFollowsFromTheRate) {
 }
 
 }  // namespace
-}  // namespace thinwall::core
+}  // namespace thinwall::core::progress_test

@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 
-namespace thinwall::core {
+namespace thinwall::core::units_test {
 namespace {
 
 std::string message_of(const std::string& text, const QuantityKind& kind) {
@@ -123,4 +123,4 @@ TEST(Units, ACommaLocaleChangesNothing) {
 }
 
 }  // namespace
-}  // namespace thinwall::core
+}  // namespace thinwall::core::units_test

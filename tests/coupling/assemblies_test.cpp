@@ -12,7 +12,7 @@
 #include "coupling/spatial.hpp"
 #include "masses.hpp"
 
-namespace thinwall::coupling {
+namespace thinwall::coupling::assemblies_test {
 namespace {
 
 using dynamics::DofKind;
@@ -227,4 +227,4 @@ TEST(Refused, JointMatricesThatNoJointHas) {
 }
 
 }  // namespace
-}  // namespace thinwall::coupling
+}  // namespace thinwall::coupling::assemblies_test

@@ -14,7 +14,7 @@
 #include "masses.hpp"
 #include "tests/verification/coupling_routes/components.hpp"
 
-namespace thinwall::coupling {
+namespace thinwall::coupling::decoupling_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -206,4 +206,4 @@ TEST(PointMass, IsRefusedWhereItCannotBeMeant) {
 }
 
 }  // namespace
-}  // namespace thinwall::coupling
+}  // namespace thinwall::coupling::decoupling_test

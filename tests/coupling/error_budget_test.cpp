@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "masses.hpp"
 
-namespace thinwall::coupling {
+namespace thinwall::coupling::error_budget_test {
 namespace {
 
 using namespace testing;
@@ -210,4 +210,4 @@ TEST(ErrorBudget, RefusesErrorsThatFitNoComponent) {
 }
 
 }  // namespace
-}  // namespace thinwall::coupling
+}  // namespace thinwall::coupling::error_budget_test

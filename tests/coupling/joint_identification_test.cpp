@@ -13,7 +13,7 @@
 #include "masses.hpp"
 #include "tests/verification/coupling_routes/components.hpp"
 
-namespace thinwall::coupling {
+namespace thinwall::coupling::joint_identification_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -268,4 +268,4 @@ TEST(JointIdentification, RefusesWhatCannotBeMeant) {
 }
 
 }  // namespace
-}  // namespace thinwall::coupling
+}  // namespace thinwall::coupling::joint_identification_test

@@ -12,7 +12,7 @@
 #include "masses.hpp"
 #include "tests/verification/coupling_routes/components.hpp"
 
-namespace thinwall::coupling {
+namespace thinwall::coupling::kernel_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -194,4 +194,4 @@ TEST(Regularisation, FaultyOptionsAreAllReportedAtOnce) {
 }
 
 }  // namespace
-}  // namespace thinwall::coupling
+}  // namespace thinwall::coupling::kernel_test

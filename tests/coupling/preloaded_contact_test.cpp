@@ -9,7 +9,7 @@
 #include "coupling/contact_table.hpp"
 #include "coupling/hertz_contact.hpp"
 
-namespace thinwall::coupling {
+namespace thinwall::coupling::preloaded_contact_test {
 namespace {
 
 constexpr Elastic steel{210e9, 0.3}, aluminium{70e9, 0.33};
@@ -176,4 +176,4 @@ TEST(ContactTable, RefusesPreloadsThatWereNotMeasuredAndFaultyRows) {
 }
 
 }  // namespace
-}  // namespace thinwall::coupling
+}  // namespace thinwall::coupling::preloaded_contact_test

@@ -10,7 +10,7 @@
 #include "coupling/spatial.hpp"
 #include "masses.hpp"
 
-namespace thinwall::coupling {
+namespace thinwall::coupling::two_masses_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -195,4 +195,4 @@ TEST(RouteDifference, FindsTheEntryAndTheFrequencyOfTheLargestDifference) {
 }
 
 }  // namespace
-}  // namespace thinwall::coupling
+}  // namespace thinwall::coupling::two_masses_test

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 
-namespace thinwall::dynamics {
+namespace thinwall::dynamics::beam_element_test {
 namespace {
 
 using Vector12 = Eigen::Vector<double, 12>;
@@ -169,4 +169,4 @@ TEST(RigidBody, MovesAboutAnotherPointByItsParallelAxes) {
 }
 
 }  // namespace
-}  // namespace thinwall::dynamics
+}  // namespace thinwall::dynamics::beam_element_test

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "random_models.hpp"
 
-namespace thinwall::dynamics {
+namespace thinwall::dynamics::conversion_test {
 namespace {
 
 using testing::semidefinite;
@@ -285,4 +285,4 @@ TEST(ResponseModel, EntryAndBetweenPickByName) {
 }
 
 }  // namespace
-}  // namespace thinwall::dynamics
+}  // namespace thinwall::dynamics::conversion_test

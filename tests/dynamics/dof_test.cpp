@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 
-namespace thinwall::dynamics {
+namespace thinwall::dynamics::dof_test {
 namespace {
 
 TEST(DisplacementMatrix, SumsDirectionsOfAPointsTranslationsAndNothingElse) {
@@ -27,4 +27,4 @@ TEST(DisplacementMatrix, SumsDirectionsOfAPointsTranslationsAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace thinwall::dynamics
+}  // namespace thinwall::dynamics::dof_test

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 
-namespace thinwall::dynamics {
+namespace thinwall::dynamics::frequency_axis_test {
 namespace {
 
 TEST(FrequencyAxis, LinearHasEqualStepsAndBothEnds) {
@@ -44,4 +44,4 @@ TEST(FrequencyAxis, AxesThatAgreeInSomeLinesOnlyNeverMeet) {
 }
 
 }  // namespace
-}  // namespace thinwall::dynamics
+}  // namespace thinwall::dynamics::frequency_axis_test

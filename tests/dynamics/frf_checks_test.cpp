@@ -11,7 +11,7 @@
 #include "dynamics/conversion.hpp"
 #include "random_models.hpp"
 
-namespace thinwall::dynamics::testing {
+namespace thinwall::dynamics::testing::frf_checks_test {
 
 namespace {
 
@@ -266,4 +266,4 @@ TEST(FrfChecks, RefuseWhatIsNotFiniteOrDoesNotFit) {
   EXPECT_THROW((void)low_frequency_limit(clean.axis, clean.H), core::InputError);
 }
 
-}  // namespace thinwall::dynamics::testing
+}  // namespace thinwall::dynamics::testing::frf_checks_test

@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 
-namespace thinwall::dynamics {
+namespace thinwall::dynamics::mac_test {
 namespace {
 
 TEST(Mac, IsTheSquaredCosineWhateverTheScale) {
@@ -25,4 +25,4 @@ TEST(Mac, OfAZeroShapeIsZeroAndOfOtherRowsRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::dynamics
+}  // namespace thinwall::dynamics::mac_test

@@ -14,7 +14,7 @@
 #include "dynamics/unit_system.hpp"
 #include "random_models.hpp"
 
-namespace thinwall::dynamics {
+namespace thinwall::dynamics::sparse_model_test {
 namespace {
 
 using testing::spring_chain;
@@ -186,4 +186,4 @@ TEST(SparseModel, RefusesWhatNodesAndComponentsDoNotSay) {
 }
 
 }  // namespace
-}  // namespace thinwall::dynamics
+}  // namespace thinwall::dynamics::sparse_model_test

@@ -9,7 +9,7 @@
 #include "fem/model.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::fem {
+namespace thinwall::fem::assembly_test {
 namespace {
 
 const Material steel{210e9, 0.3, 7850.0};
@@ -171,4 +171,4 @@ TEST(Material, RefusesWhatNoSolidIs) {
 }
 
 }  // namespace
-}  // namespace thinwall::fem
+}  // namespace thinwall::fem::assembly_test

@@ -15,7 +15,7 @@
 #include "mesh/planar/bend.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::fem {
+namespace thinwall::fem::attached_points_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -378,4 +378,4 @@ TEST(Attachments, AreRefinedToATolerance) {
 }
 
 }  // namespace
-}  // namespace thinwall::fem
+}  // namespace thinwall::fem::attached_points_test

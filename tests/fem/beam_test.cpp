@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
 
-namespace thinwall::fem {
+namespace thinwall::fem::beam_test {
 namespace {
 
 using dynamics::BeamSection;
@@ -355,4 +355,4 @@ TEST(Frame, ThatCannotBeIsRefusedWithAllItsFaults) {
 }
 
 }  // namespace
-}  // namespace thinwall::fem
+}  // namespace thinwall::fem::beam_test

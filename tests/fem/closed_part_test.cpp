@@ -9,7 +9,7 @@
 #include "mesh/surface/shapes.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::fem {
+namespace thinwall::fem::closed_part_test {
 namespace {
 
 const Material steel{210e9, 0.3, 7850.0};
@@ -113,4 +113,4 @@ TEST(ClosedPart, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace thinwall::fem
+}  // namespace thinwall::fem::closed_part_test

@@ -16,7 +16,7 @@
 #include "fem/rigid_body.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::fem {
+namespace thinwall::fem::curved_element_test {
 namespace {
 
 const Material steel{210e9, 0.3, 7850.0};
@@ -194,4 +194,4 @@ TEST(CurvedAssembly, APositionThatIsNoNumberIsAnError) {
 }
 
 }  // namespace
-}  // namespace thinwall::fem
+}  // namespace thinwall::fem::curved_element_test

@@ -17,7 +17,7 @@
 #include "mesh/planar/bend.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::fem {
+namespace thinwall::fem::elastic_clamps_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -216,4 +216,4 @@ TEST(ElasticClamp, OfNoFaceOrNegativeStiffnessIsAnError) {
 }
 
 }  // namespace
-}  // namespace thinwall::fem
+}  // namespace thinwall::fem::elastic_clamps_test

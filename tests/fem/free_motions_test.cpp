@@ -12,7 +12,7 @@
 #include "fem/supports.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::fem {
+namespace thinwall::fem::free_motions_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -103,4 +103,4 @@ TEST(FreeMotions, AreListedWithCommas) {
 }
 
 }  // namespace
-}  // namespace thinwall::fem
+}  // namespace thinwall::fem::free_motions_test

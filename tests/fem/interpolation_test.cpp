@@ -11,7 +11,7 @@
 #include "fem/to_tolerance.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::fem {
+namespace thinwall::fem::interpolation_test {
 namespace {
 
 const Material steel{210e9, 0.3, 7850.0};
@@ -103,4 +103,4 @@ TEST(RefineToTolerance, EstimatesFromTheLowerOrderAsTwoFullSolutionsDo) {
 }
 
 }  // namespace
-}  // namespace thinwall::fem
+}  // namespace thinwall::fem::interpolation_test

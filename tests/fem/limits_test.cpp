@@ -14,7 +14,7 @@
 #include "fem/to_tolerance.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::fem {
+namespace thinwall::fem::limits_test {
 namespace {
 
 const Material steel{210e9, 0.3, 7850.0};
@@ -253,4 +253,4 @@ TEST(RoundOff, OfTheLowestFrequencyIsWhatRoundingTheEntriesDoes) {
 }
 
 }  // namespace
-}  // namespace thinwall::fem
+}  // namespace thinwall::fem::limits_test

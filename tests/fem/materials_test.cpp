@@ -13,7 +13,7 @@
 #include "mesh/planar/bend.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::fem {
+namespace thinwall::fem::materials_test {
 namespace {
 
 const Eigen::Vector3d size(0.4, 0.1, 0.06);
@@ -114,4 +114,4 @@ TEST(Materials, ThatDoNotFitTheMeshAreAnError) {
 }
 
 }  // namespace
-}  // namespace thinwall::fem
+}  // namespace thinwall::fem::materials_test

@@ -14,7 +14,7 @@
 #include "fem/supports.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::fem {
+namespace thinwall::fem::model_test {
 namespace {
 
 const Material steel{210e9, 0.3, 7850.0};
@@ -151,4 +151,4 @@ TEST(NamedPoint, OnASupportOrOffThePartIsAnErrorWithItsName) {
 }
 
 }  // namespace
-}  // namespace thinwall::fem
+}  // namespace thinwall::fem::model_test

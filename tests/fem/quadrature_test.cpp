@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace thinwall::fem {
+namespace thinwall::fem::quadrature_test {
 namespace {
 
 /// ∫ λ^γ dV / V = 6 Π γ_k! / (|γ| + 3)!.
@@ -74,4 +74,4 @@ TEST(TetQuadrature, OnePointIsTheCentroid) {
 }
 
 }  // namespace
-}  // namespace thinwall::fem
+}  // namespace thinwall::fem::quadrature_test

@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "mesh/lagrange_nodes.hpp"
 
-namespace thinwall::fem {
+namespace thinwall::fem::reference_element_test {
 namespace {
 
 Eigen::MatrixXd derivative_product(const ReferenceElement& element, int k, int l) {
@@ -123,4 +123,4 @@ TEST(ReferenceElement, OrdersOutsideOneToSixAreRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::fem
+}  // namespace thinwall::fem::reference_element_test

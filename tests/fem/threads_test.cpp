@@ -11,7 +11,7 @@
 #include "mesh/planar/prism_mesh.hpp"
 #include "tests/linalg/thread_count.hpp"
 
-namespace thinwall::fem {
+namespace thinwall::fem::threads_test {
 namespace {
 
 struct Solved {
@@ -58,4 +58,4 @@ TEST(Threads, OneAndMoreAssembleTheSameBitsAndFindTheSameModes) {
 }
 
 }  // namespace
-}  // namespace thinwall::fem
+}  // namespace thinwall::fem::threads_test

@@ -10,7 +10,7 @@
 #include "io/frf/frf_csv.hpp"
 #include "scratch_folder.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::frf_cutpro_test {
 
 namespace {
 
@@ -88,4 +88,4 @@ TEST_F(CutproFile, OfAnotherKindIsRefusedSoonAndAtTheLine) {
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5.0);
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::frf_cutpro_test

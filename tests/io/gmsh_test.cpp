@@ -12,7 +12,7 @@
 #include "mesh_bytes.hpp"
 #include "scratch_folder.hpp"
 
-namespace thinwall::io {
+namespace thinwall::io::gmsh_test {
 namespace {
 
 using test::data_file;
@@ -219,4 +219,4 @@ TEST_F(GmshFile, NeedsAUnit) {
 }
 
 }  // namespace
-}  // namespace thinwall::io
+}  // namespace thinwall::io::gmsh_test

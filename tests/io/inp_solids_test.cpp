@@ -9,7 +9,7 @@
 #include "mesh_bytes.hpp"
 #include "scratch_folder.hpp"
 
-namespace thinwall::io {
+namespace thinwall::io::inp_solids_test {
 namespace {
 
 using InpSolids = test::ScratchFolder;
@@ -112,4 +112,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& file) { return file.param.name; });
 
 }  // namespace
-}  // namespace thinwall::io
+}  // namespace thinwall::io::inp_solids_test

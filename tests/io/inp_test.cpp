@@ -15,7 +15,7 @@
 #include "scratch_folder.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::io {
+namespace thinwall::io::inp_test {
 namespace {
 
 using InpFile = test::ScratchFolder;
@@ -282,4 +282,4 @@ TEST_F(InpFile, KeepsItsNumbersWithinTwentyCharactersAndItsLinesWithin132) {
 }
 
 }  // namespace
-}  // namespace thinwall::io
+}  // namespace thinwall::io::inp_test

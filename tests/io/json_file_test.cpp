@@ -8,7 +8,7 @@
 #include "io/xml_text.hpp"
 #include "scratch_folder.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::json_file_test {
 
 namespace {
 
@@ -81,4 +81,4 @@ TEST(XmlText, MarksBecomeEntities) {
   EXPECT_EQ(xml_escaped("a<b & \"c\">d"), "a&lt;b &amp; &quot;c&quot;&gt;d");
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::json_file_test

@@ -13,7 +13,7 @@
 #include "io/matrices/mat_variables.hpp"
 #include "scratch_folder.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::mat_response_test {
 
 namespace {
 
@@ -204,4 +204,4 @@ TEST_F(MatResponse, IsNotWrittenWithHoles) {
   EXPECT_TRUE(is_empty());
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::mat_response_test

@@ -24,7 +24,7 @@
 #include "matrix_model.hpp"
 #include "scratch_folder.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::matrix_files_test {
 
 namespace {
 
@@ -449,4 +449,4 @@ TEST_F(MatrixFile, IsNotWrittenFromAnInconsistentModel) {
   EXPECT_TRUE(is_empty());
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::matrix_files_test

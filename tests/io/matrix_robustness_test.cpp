@@ -19,7 +19,7 @@
 #include "io/matrices/matrix_market.hpp"
 #include "io/matrices/matrix_triplets.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::matrix_robustness_test {
 
 namespace {
 
@@ -146,4 +146,4 @@ TEST(MatrixFileBytes, ThatStateMoreThanThereIsAreRefusedAtOnce) {
   EXPECT_LT(seconds_since(start), 1.0);
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::matrix_robustness_test

@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "mesh_bytes.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::mesh_robustness_test {
 
 namespace {
 
@@ -97,4 +97,4 @@ TEST(MeshFileBytes, ThatStateMoreThanThereIsAreRefusedOrReadAtOnce) {
   EXPECT_LT(seconds_since(start), 5.0);
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::mesh_robustness_test

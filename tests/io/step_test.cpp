@@ -15,7 +15,7 @@
 #include "mesh/surface/surface_repair.hpp"
 #include "scratch_folder.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::step_test {
 
 namespace {
 
@@ -143,4 +143,4 @@ TEST_F(Step, MutatedFilesNeitherCrashNorHangTheCaller) {
   EXPECT_LT(read, trials);
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::step_test

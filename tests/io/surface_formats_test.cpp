@@ -26,7 +26,7 @@
 #include "surface_bytes.hpp"
 #include "tests/mesh/solid_shapes.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::surface_formats_test {
 
 namespace {
 
@@ -243,4 +243,4 @@ TEST(SurfaceDialects, AFacetOfManyCornersIsCutFromTheOnlyOneThatSeesAll) {
 
 }  // namespace
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::surface_formats_test

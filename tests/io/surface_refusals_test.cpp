@@ -18,7 +18,7 @@
 #include "surface_bytes.hpp"
 #include "tests/mesh/solid_shapes.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::surface_refusals_test {
 
 namespace {
 
@@ -158,4 +158,4 @@ TEST_F(SurfaceUnits, TakenWronglyAreSeenByTheWall) {
 
 }  // namespace
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::surface_refusals_test

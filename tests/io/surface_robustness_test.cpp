@@ -20,7 +20,7 @@
 #include "io/surface/stl.hpp"
 #include "surface_bytes.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::surface_robustness_test {
 
 namespace {
 
@@ -158,4 +158,4 @@ TEST(SurfaceFileBytes, TakeMemoryInProportion) {
   }
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::surface_robustness_test

@@ -11,7 +11,7 @@
 #include "scratch_folder.hpp"
 #include "tests/mesh/solid_shapes.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::surface_speed_test {
 
 namespace {
 
@@ -58,4 +58,4 @@ TEST_F(SurfaceSpeed, AMillionFacetsAreReadAndCheckedInTenSeconds) {
 
 }  // namespace
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::surface_speed_test

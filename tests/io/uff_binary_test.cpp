@@ -13,7 +13,7 @@
 #include "scratch_folder.hpp"
 #include "uff_bytes.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::uff_binary_test {
 
 namespace {
 
@@ -280,4 +280,4 @@ TEST_F(BinaryUniversalFile, ThatFitsNoReadingIsRefused) {
             std::string::npos);
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::uff_binary_test

@@ -13,7 +13,7 @@
 #include "scratch_folder.hpp"
 #include "uff_bytes.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::uff_foreign_test {
 
 namespace {
 
@@ -377,4 +377,4 @@ TEST_F(ForeignUniversalFile, OfOursKeepsItsCoherence) {
   }
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::uff_foreign_test

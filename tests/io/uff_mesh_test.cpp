@@ -9,7 +9,7 @@
 #include "scratch_folder.hpp"
 #include "uff_bytes.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::uff_mesh_test {
 
 namespace {
 
@@ -134,4 +134,4 @@ TEST_F(UniversalMesh, IsNotWrittenFromWhatItCannotHold) {
   EXPECT_TRUE(is_empty());
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::uff_mesh_test

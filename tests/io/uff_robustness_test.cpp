@@ -20,7 +20,7 @@
 #include "scratch_folder.hpp"
 #include "uff_bytes.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::uff_robustness_test {
 
 namespace {
 
@@ -200,4 +200,4 @@ TEST(UniversalFileBytes, TakeTimeInProportion) {
   }
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::uff_robustness_test

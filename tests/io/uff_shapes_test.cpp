@@ -11,7 +11,7 @@
 #include "scratch_folder.hpp"
 #include "uff_bytes.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::uff_shapes_test {
 
 namespace {
 
@@ -162,4 +162,4 @@ TEST_F(UniversalShapes, AreNotWrittenFromWhatTheFormatCannotHold) {
   EXPECT_TRUE(is_empty());
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::uff_shapes_test

@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "scratch_folder.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::uff_test {
 
 namespace {
 
@@ -408,4 +408,4 @@ TEST_F(UniversalFile, WithAnEntryTooFewTooManyOrOnAnotherAxisIsRefused) {
             std::string::npos);
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::uff_test

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "tests/io/scratch_folder.hpp"
 
-namespace thinwall::io {
+namespace thinwall::io::urdf_test {
 namespace {
 
 const std::string two_links = R"(<?xml version="1.0"?>
@@ -104,4 +104,4 @@ TEST_F(Urdf, WhatAnArmCannotHaveIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace thinwall::io
+}  // namespace thinwall::io::urdf_test

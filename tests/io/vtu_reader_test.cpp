@@ -18,7 +18,7 @@
 #include "scratch_folder.hpp"
 #include "tests/mesh/labelled_grids.hpp"
 
-namespace thinwall::io {
+namespace thinwall::io::vtu_reader_test {
 namespace {
 
 using VtuFile = test::ScratchFolder;
@@ -206,4 +206,4 @@ TEST(VtuFiles, CutAnywhereAreRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::io
+}  // namespace thinwall::io::vtu_reader_test

@@ -12,7 +12,7 @@
 #include "tests/linalg/membrane.hpp"
 #include "tests/linalg/thread_count.hpp"
 
-namespace thinwall::linalg {
+namespace thinwall::linalg::block_lanczos_test {
 namespace {
 
 /// `copies` membranes side by side that do not touch: every eigenvalue is that many times more multiple.
@@ -239,4 +239,4 @@ TEST(BlockLanczos, AnInverseThatYieldsNoNumbersIsNoResult) {
 }
 
 }  // namespace
-}  // namespace thinwall::linalg
+}  // namespace thinwall::linalg::block_lanczos_test

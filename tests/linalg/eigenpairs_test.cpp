@@ -7,7 +7,7 @@
 #include "linalg/sparse_indefinite.hpp"
 #include "tests/linalg/membrane.hpp"
 
-namespace thinwall::linalg {
+namespace thinwall::linalg::eigenpairs_test {
 namespace {
 
 TEST(LowestEigenpairs, AreThoseOfTheMembraneDoubleOnesIncluded) {
@@ -122,4 +122,4 @@ TEST(LowestEigenpairs, CanBeInterrupted) {
 }
 
 }  // namespace
-}  // namespace thinwall::linalg
+}  // namespace thinwall::linalg::eigenpairs_test

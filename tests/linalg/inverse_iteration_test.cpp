@@ -5,7 +5,7 @@
 #include "linalg/sparse_cholesky.hpp"
 #include "tests/linalg/grid_problem.hpp"
 
-namespace thinwall::linalg {
+namespace thinwall::linalg::inverse_iteration_test {
 namespace {
 
 struct Solved {
@@ -49,4 +49,4 @@ TEST(InverseIteration, SaysSoWhereTheColumnsDependOnEachOther) {
 }
 
 }  // namespace
-}  // namespace thinwall::linalg
+}  // namespace thinwall::linalg::inverse_iteration_test

@@ -8,7 +8,7 @@
 
 #include "linalg/sparse_cholesky.hpp"
 
-namespace thinwall::linalg {
+namespace thinwall::linalg::memory_limit_test {
 namespace {
 
 /// The seven-point Laplacian on n³ points, shifted to be well conditioned: the fill of a solid.
@@ -69,4 +69,4 @@ TEST(MemoryLimit, NeedIsWhatTheFactorTakes) {
 }
 
 }  // namespace
-}  // namespace thinwall::linalg
+}  // namespace thinwall::linalg::memory_limit_test

@@ -10,7 +10,7 @@
 #include "linalg/symbolic_factor.hpp"
 #include "tests/linalg/grid_problem.hpp"
 
-namespace thinwall::linalg {
+namespace thinwall::linalg::minimum_fill_test {
 namespace {
 
 /// Nodes of one to four rows, edges at random.
@@ -144,4 +144,4 @@ TEST(PatternGraph, JoinsTheRowsWithOnePatternAndKeepsTheirEdges) {
 }
 
 }  // namespace
-}  // namespace thinwall::linalg
+}  // namespace thinwall::linalg::minimum_fill_test

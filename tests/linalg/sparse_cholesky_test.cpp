@@ -12,7 +12,7 @@
 #include "linalg/sparse_indefinite.hpp"
 #include "tests/linalg/grid_problem.hpp"
 
-namespace thinwall::linalg {
+namespace thinwall::linalg::sparse_cholesky_test {
 namespace {
 
 /// A random symmetric matrix of 3 × 3 blocks on a random graph of nodes, with `diagonal` added to its diagonal.
@@ -145,4 +145,4 @@ TEST(SparseMatrices, RestrictAndCombineAsDenseOnesDo) {
 }
 
 }  // namespace
-}  // namespace thinwall::linalg
+}  // namespace thinwall::linalg::sparse_cholesky_test

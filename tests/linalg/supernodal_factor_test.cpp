@@ -12,7 +12,7 @@
 #include "linalg/ordering.hpp"
 #include "tests/linalg/thread_count.hpp"
 
-namespace thinwall::linalg {
+namespace thinwall::linalg::supernodal_factor_test {
 namespace {
 
 /// Triangles of order 2 on a square grid, three rows a node, random positive definite element matrices.
@@ -209,4 +209,4 @@ TEST(SymbolicFactor, CountsValuesBeyondThe32ndBit) {
 }
 
 }  // namespace
-}  // namespace thinwall::linalg
+}  // namespace thinwall::linalg::supernodal_factor_test

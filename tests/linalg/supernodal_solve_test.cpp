@@ -11,7 +11,7 @@
 #include "tests/linalg/grid_problem.hpp"
 #include "tests/linalg/thread_count.hpp"
 
-namespace thinwall::linalg {
+namespace thinwall::linalg::supernodal_solve_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -126,4 +126,4 @@ TEST(TreeCut, PutsEverySupernodeInOnePlaceAndLetsGroupsTouchOnlyThemselvesAndThe
 }
 
 }  // namespace
-}  // namespace thinwall::linalg
+}  // namespace thinwall::linalg::supernodal_solve_test

@@ -7,7 +7,7 @@
 #include "tests/linalg/grid_problem.hpp"
 #include "tests/linalg/thread_count.hpp"
 
-namespace thinwall::linalg {
+namespace thinwall::linalg::tall_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -84,4 +84,4 @@ TEST(TallProducts, AreTheSameBitByBitForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace thinwall::linalg
+}  // namespace thinwall::linalg::tall_test

@@ -10,7 +10,7 @@
 #include "mesh/planar/prism_mesh.hpp"
 #include "tests/mesh/plane_shapes.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::bend_test {
 namespace {
 
 Positions flat_nodes() {
@@ -96,4 +96,4 @@ TEST(Bend, ImpossibleBendsAreRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::bend_test

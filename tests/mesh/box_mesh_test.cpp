@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "mesh/selection.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::box_mesh_test {
 namespace {
 
 class BoxMesh : public ::testing::TestWithParam<Eigen::Vector3d> {};
@@ -43,4 +43,4 @@ TEST(BoxMeshes, OfSidesThatAreNoneAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::box_mesh_test

@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "mesh/surface/shapes.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::closed_surface_test {
 namespace {
 
 std::string message(const TriangleSurface& surface) {
@@ -93,4 +93,4 @@ TEST(ClosedSurface, VerticesThatAreNotNumbersAreNamed) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::closed_surface_test

@@ -11,7 +11,7 @@
 #include "mesh/pieces.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::curve_order_test {
 namespace {
 
 using Corners = std::array<std::array<double, 3>, 4>;
@@ -71,4 +71,4 @@ TEST(Pieces, AreNamedByTheirLowestVertexWhateverTheOrderOfTheCells) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::curve_order_test

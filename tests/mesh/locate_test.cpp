@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::locate_test {
 namespace {
 
 const Eigen::Vector3d size(0.3, 0.2, 0.1);
@@ -173,4 +173,4 @@ TEST(Patch, EndsAtAnInnerCorner) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::locate_test

@@ -7,7 +7,7 @@
 #include "mesh/box.hpp"
 #include "mesh/surface/shapes.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::nearest_point_test {
 namespace {
 
 /// A box in closed form: max of the outer distances, or the least of the inner ones.
@@ -28,4 +28,4 @@ TEST(PointToSurface, OfABoxIsTheClosedForm) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::nearest_point_test

@@ -7,7 +7,7 @@
 
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::plane_cut_test {
 namespace {
 
 /// Area of the boundary, m²: a crack between elements adds to it.
@@ -55,4 +55,4 @@ TEST(CutAlong, APlaneThroughVerticesOrBesideThePartChangesNothing) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::plane_cut_test

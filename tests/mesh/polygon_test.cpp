@@ -6,7 +6,7 @@
 
 #include "tests/mesh/plane_shapes.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::polygon_test {
 namespace {
 
 TEST(Polygon, AreaHasTheSignOfItsOrientationAndLosesNothingFarFromTheOrigin) {
@@ -48,4 +48,4 @@ TEST(Polygon, SegmentsApartOnOneLineDoNotCrossByRoundOff) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::polygon_test

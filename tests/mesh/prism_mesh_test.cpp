@@ -13,7 +13,7 @@
 #include "mesh/solid/quality.hpp"
 #include "tests/mesh/plane_shapes.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::prism_mesh_test {
 namespace {
 
 PrismMeshOptions sized(double size_m, int layers = 1) {
@@ -366,4 +366,4 @@ TEST(PrismMeshBadInput, GradingThatCollapsesElementsIsRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::prism_mesh_test

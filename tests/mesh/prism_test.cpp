@@ -10,7 +10,7 @@
 #include "mesh/planar/border_graph.hpp"
 #include "tests/mesh/plane_shapes.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::prism_test {
 namespace {
 
 /// The one violation of a prism, "" if there is none.
@@ -179,4 +179,4 @@ TEST(Prism, KnowsWhetherAnEdgeTurnsInwards) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::prism_test

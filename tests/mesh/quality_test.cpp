@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::quality_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -35,4 +35,4 @@ TEST(Quality, ElementInsideOutHasNoFiniteRatio) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::quality_test

@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::selection_test {
 namespace {
 
 const Box box{{0.3, 0.2, 0.1}};
@@ -73,4 +73,4 @@ TEST(Selection, AnUnknownFaceIsNamedWithTheNearest) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::selection_test

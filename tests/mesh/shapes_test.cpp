@@ -8,7 +8,7 @@
 #include "mesh/box.hpp"
 #include "mesh/surface/closed_surface.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::shapes_test {
 namespace {
 
 TEST(Shapes, ABlockEnclosesItsVolumeHoweverItIsTriangulated) {
@@ -77,4 +77,4 @@ TEST(FacetedSurface, AFacetThatIsNoPolygonIsAnError) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::shapes_test

@@ -14,7 +14,7 @@
 #include "labelled_grids.hpp"
 #include "mesh/solid/tet_jacobian.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::solid_mesh_test {
 namespace {
 
 /// A frustum: tapered, so that cells are no parallelepipeds, with flat faces and straight edges.
@@ -356,4 +356,4 @@ TEST(SolidMeshOfOrderOne, IsRaisedToTwoWithItsSets) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::solid_mesh_test

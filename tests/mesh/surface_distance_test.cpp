@@ -10,7 +10,7 @@
 #include "mesh/surface/triangle_tree.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::surface_distance_test {
 namespace {
 
 TEST(SurfaceDistance, OfASurfaceToItselfTriangulatedOtherwiseIsNothing) {
@@ -64,4 +64,4 @@ TEST(Polyline, KeepsThePointsThatItNeeds) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::surface_distance_test

@@ -15,7 +15,7 @@
 #include "mesh/surface/surface_repair.hpp"
 #include "solid_shapes.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::surface_refusal_test {
 namespace {
 
 std::string refusal(const TriangleSoup& soup, const SurfaceRepairOptions& options = {}) {
@@ -248,4 +248,4 @@ TEST(SurfaceRefusal, ASurfaceThatCoversItselfEverywhereComesBackInTime) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::surface_refusal_test

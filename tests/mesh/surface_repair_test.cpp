@@ -16,7 +16,7 @@
 #include "mesh/volume/surface_to_volume.hpp"
 #include "solid_shapes.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::surface_repair_test {
 namespace {
 
 struct Shape {
@@ -266,4 +266,4 @@ TEST(SurfaceRepair, OfAPocketedRibIsMeshedToItsVolume) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::surface_repair_test

@@ -17,7 +17,7 @@
 #include "mesh/volume/delaunay_volume.hpp"
 #include "mesh/volume/tetgen.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::surface_to_volume_test {
 namespace {
 
 /// Every shape's mesh is closed, of positive tetrahedra, near the surface, and as large.
@@ -137,7 +137,8 @@ TEST(SurfaceToVolume, ARegionIsRefinedAtItsBorder) {
 TEST(SurfaceToVolume, RandomWallsAreMeshedWhateverTheirSizes) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  for (int i = 0; i < 8; ++i) {
+  const int walls = std::getenv("THINWALL_SLOW") != nullptr ? 24 : 4;
+  for (int i = 0; i < walls; ++i) {
     const double wall = 0.001 + 0.004 * unit(random);
     const double edge = 0.004 + 0.01 * unit(random);
     TriangleSurface s;
@@ -268,4 +269,4 @@ TEST(MesherChain, RefusesBadOptionsAndBadSurfaces) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::surface_to_volume_test

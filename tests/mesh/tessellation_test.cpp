@@ -7,7 +7,7 @@
 
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::tessellation_test {
 namespace {
 
 // Orientation and completeness in one: by the divergence theorem a closed surface seen from outside encloses the
@@ -37,4 +37,4 @@ TEST(SurfaceTriangles, EncloseThePartAndUseEveryNodeOfItsSurface) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::tessellation_test

@@ -11,7 +11,7 @@
 #include "mesh/volume/tetgen.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::tet_mesh_test {
 namespace {
 
 const Eigen::Vector3d size(0.3, 0.2, 0.1);
@@ -123,4 +123,4 @@ TEST(LagrangeNodes, OrdersOutsideOneToSixAreRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::tet_mesh_test

@@ -13,7 +13,7 @@
 #include "core/interrupt.hpp"
 #include "mesh/box.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::tetgen_test {
 namespace {
 
 using Bytes = std::vector<char>;
@@ -179,4 +179,4 @@ TEST(ConfinedProcess, AnInterruptionEndsItAtOnce) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::tetgen_test

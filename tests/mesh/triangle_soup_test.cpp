@@ -10,7 +10,7 @@
 #include "mesh/surface/edge_uses.hpp"
 #include "solid_shapes.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::triangle_soup_test {
 namespace {
 
 TEST(TriangleSoup, MergesEqualPointsAndNoOthers) {
@@ -97,4 +97,4 @@ TEST(EdgeUses, OfAClosedSurfaceAreTwoInOppositeDirections) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::triangle_soup_test

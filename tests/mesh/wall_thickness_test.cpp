@@ -9,7 +9,7 @@
 #include "mesh/surface/shapes.hpp"
 #include "mesh/surface/surface_features.hpp"
 
-namespace thinwall::mesh {
+namespace thinwall::mesh::wall_thickness_test {
 namespace {
 
 constexpr double thirty_degrees = std::numbers::pi / 6;
@@ -121,4 +121,4 @@ TEST(SurfaceFeatures, OfATriangulatedTubeAreClosedLinesWithoutCorners) {
 }
 
 }  // namespace
-}  // namespace thinwall::mesh
+}  // namespace thinwall::mesh::wall_thickness_test

@@ -6,7 +6,7 @@
 
 #include "milling/chart/lobes.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::benchmark_test {
 namespace {
 
 using testing::base_frequency;
@@ -74,4 +74,4 @@ TEST(Benchmark, DirectDepthsAreThoseOfTheMultipliers) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::benchmark_test

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::bracketed_root_test {
 namespace {
 
 TEST(BracketedRoot, FindsSmoothFlatAndKinkedRootsInFewValues) {
@@ -35,4 +35,4 @@ TEST(BracketedRoot, SaysSoWhenTheFunctionIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::bracketed_root_test

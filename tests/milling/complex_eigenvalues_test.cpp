@@ -10,7 +10,7 @@
 
 #include "core/dense_eigenvalues.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::complex_eigenvalues_test {
 namespace {
 
 using Eigen::Index;
@@ -75,4 +75,4 @@ TEST(ComplexEigenvalues, AreNothingWhereTheMatrixIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::complex_eigenvalues_test

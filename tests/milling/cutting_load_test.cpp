@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace thinwall::milling {
+namespace thinwall::milling::cutting_load_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -54,4 +54,4 @@ TEST(CuttingLoad, OfAHelicalBallIsTheSumOfThinSlices) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::cutting_load_test

@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "milling/cut/edge.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::envelope_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -239,4 +239,4 @@ TEST(Envelope, RefusesShapesThatDoNotClose) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::envelope_test

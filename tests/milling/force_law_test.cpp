@@ -14,7 +14,7 @@
 #include "milling/cut/oblique_cutting.hpp"
 #include "milling/cut/process.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::force_law_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -196,4 +196,4 @@ TEST(ObliqueCutting, RefusesDataThatShearNothing) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::force_law_test

@@ -16,7 +16,7 @@
 #include "tests/milling/marching.hpp"
 #include "tests/milling/single_mode.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::forced_vibration_test {
 namespace {
 
 using std::complex;
@@ -369,4 +369,4 @@ TEST(ForcedVibration, WhatItDoesNotModelIsRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::forced_vibration_test

@@ -11,7 +11,7 @@
 #include "milling/direct/stability.hpp"
 #include "tests/milling/benchmark.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::frequency_methods_test {
 namespace {
 
 using std::complex;
@@ -282,4 +282,4 @@ TEST(MultiFrequency, RefusesAToolTooSlowForIt) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::frequency_methods_test

@@ -17,7 +17,7 @@
 #include "tests/milling/marching.hpp"
 #include "tests/milling/single_mode.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::general_cut_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -324,4 +324,4 @@ TEST(General, ClassicalMethodsRefuseWhatTheyDoNotKnow) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::general_cut_test

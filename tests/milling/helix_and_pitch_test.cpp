@@ -11,7 +11,7 @@
 #include "tests/milling/marching.hpp"
 #include "tests/milling/single_mode.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::helix_and_pitch_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -216,4 +216,4 @@ TEST(Cutter, RefusesPitchesThatAreNoTurnAndHelicesTooSteep) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::helix_and_pitch_test

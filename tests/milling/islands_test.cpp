@@ -13,7 +13,7 @@
 #include "milling/chart/lobes.hpp"
 #include "milling/direct/cut_at_speed.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::islands_test {
 namespace {
 
 struct RandomCut {
@@ -97,7 +97,7 @@ TEST(DepthLimit, HidesNoCrossingThatACoarseGridSeesBeyondIt) {
   EXPECT_LE(row.searched_m, cut.deepest_m);
 }
 
-class Islands : public testing::TestWithParam<unsigned> {};
+class Islands : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(Islands, NoneIsMissed) {
   const bool slow = std::getenv("THINWALL_SLOW") != nullptr;
@@ -111,7 +111,7 @@ TEST_P(Islands, NoneIsMissed) {
   for (std::size_t i = 0; i < rpm.size(); ++i) EXPECT_EQ(wrong[i], 0) << where[i];
 }
 
-INSTANTIATE_TEST_SUITE_P(RandomSystems, Islands, testing::Range(1U, 11U));
+INSTANTIATE_TEST_SUITE_P(RandomSystems, Islands, ::testing::Range(1U, 11U));
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::islands_test

@@ -9,7 +9,7 @@
 #include "core/parallel.hpp"
 #include "tests/milling/single_mode.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::lobe_field_test {
 namespace {
 
 /// A cantilevered wall's first three modes along its edge, 0 ≤ s ≤ 1: bending alike everywhere, torsion as 2s − 1, the
@@ -76,4 +76,4 @@ TEST(LobeField, RefusesAPathWithoutPositions) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::lobe_field_test

@@ -8,7 +8,7 @@
 #include "milling/chart/lobes.hpp"
 #include "tests/milling/benchmark.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::lobe_method_test {
 namespace {
 
 using testing::benchmark_process;
@@ -150,4 +150,4 @@ TEST(LobeMethod, RefusesWhatAMethodCannotTake) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::lobe_method_test

@@ -10,7 +10,7 @@
 #include "milling/structure/regenerative_loop.hpp"
 #include "tests/milling/single_mode.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::lobes_test {
 namespace {
 
 using testing::modal_model;
@@ -233,4 +233,4 @@ TEST(Lobes, RefuseBadInput) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::lobes_test

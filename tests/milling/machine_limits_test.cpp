@@ -12,7 +12,7 @@
 #include "milling/chart/pockets.hpp"
 #include "milling/forced/forced_vibration.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::machine_limits_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -201,4 +201,4 @@ TEST(PocketsOfAMachine, EndWhereItsSpeedsEnd) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::machine_limits_test

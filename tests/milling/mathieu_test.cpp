@@ -8,7 +8,7 @@
 #include "milling/cut/product_rule.hpp"
 #include "milling/direct/cut_at_speed.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::mathieu_test {
 namespace {
 
 /// x'' + c x' + x = −(δ − b − 1 + ε cos t) x − b [x − x(t − 2π)], which is x'' + c x' + (δ + ε cos t) x = b x(t − 2π):
@@ -64,4 +64,4 @@ TEST(DelayedMathieu, BoundariesAreStraightLines) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::mathieu_test

@@ -10,7 +10,7 @@
 #include "milling/chart/pockets.hpp"
 #include "tests/milling/benchmark.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::operating_point_test {
 namespace {
 
 using testing::benchmark_process;
@@ -178,4 +178,4 @@ TEST(Pockets, AreLocalMaximaBySpeedTimesDepth) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::operating_point_test

@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::process_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -145,4 +145,4 @@ TEST(Process, RefusesFramesThatAreNotOrthonormal) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::process_test

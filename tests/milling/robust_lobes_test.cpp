@@ -14,7 +14,7 @@
 #include "milling/structure/parameter_change.hpp"
 #include "tests/milling/single_mode.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::robust_lobes_test {
 namespace {
 
 using Modes = std::vector<testing::Mode>;
@@ -209,4 +209,4 @@ TEST(RobustLobes, RefuseWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::robust_lobes_test

@@ -9,7 +9,7 @@
 #include "milling/direct/stability.hpp"
 #include "tests/milling/single_mode.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::sensitivity_test {
 namespace {
 
 using Modes = std::vector<testing::Mode>;
@@ -159,4 +159,4 @@ TEST(SensitivitySums, RefuseACrossingThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::sensitivity_test

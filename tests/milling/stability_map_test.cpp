@@ -9,7 +9,7 @@
 #include "milling/chart/lobes.hpp"
 #include "tests/milling/single_mode.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::stability_map_test {
 namespace {
 
 RelativeStructure two_modes() {
@@ -82,4 +82,4 @@ TEST(StabilityMap, RefusesEmptyRangesAndDepthsThatAreNotPositive) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::stability_map_test

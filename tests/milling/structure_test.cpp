@@ -9,7 +9,7 @@
 #include "milling/structure/contact_state.hpp"
 #include "tests/milling/single_mode.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::structure_test {
 namespace {
 
 using testing::modal_model;
@@ -78,4 +78,4 @@ TEST(ContactState, FollowsOnlyTheDirectionsThatMove) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::structure_test

@@ -13,7 +13,7 @@
 #include "milling/direct/stability.hpp"
 #include "tests/milling/single_mode.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::two_dof_benchmark_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -110,4 +110,4 @@ TEST(TwoDofBenchmark, LimitingDepthsLieOnTheCircleOfAnotherCollocation) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::two_dof_benchmark_test

@@ -13,7 +13,7 @@
 #include "tests/milling/marching.hpp"
 #include "tests/milling/single_mode.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::unequal_steps_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -161,4 +161,4 @@ TEST(UnequalSteps, DepthsOfFewStepsAreWithinTheirEstimate) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::unequal_steps_test

@@ -10,7 +10,7 @@
 #include "milling/direct/stability.hpp"
 #include "tests/milling/benchmark.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::uniform_step_test {
 namespace {
 
 using testing::benchmark_process;
@@ -320,4 +320,4 @@ TEST(DominantEigenvalue, SaysSoWhenItDoesNotConverge) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::uniform_step_test

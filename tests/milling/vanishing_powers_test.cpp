@@ -8,7 +8,7 @@
 
 #include "core/dense_eigenvalues.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::milling::vanishing_powers_test {
 namespace {
 
 using Eigen::Index;
@@ -55,4 +55,4 @@ TEST(VanishingPowers, AreNotClaimedWhereRoundOffWouldDecide) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling
+}  // namespace thinwall::milling::vanishing_powers_test

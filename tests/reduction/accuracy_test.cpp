@@ -16,7 +16,7 @@
 #include "reduction/worst.hpp"
 #include "tests/reduction/solid_part.hpp"
 
-namespace thinwall::reduction {
+namespace thinwall::reduction::accuracy_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -171,4 +171,4 @@ TEST(FullResponse, IsExactWhereItsBasisHoldsTheWholeModel) {
 }
 
 }  // namespace
-}  // namespace thinwall::reduction
+}  // namespace thinwall::reduction::accuracy_test

@@ -11,7 +11,7 @@
 #include "dynamics/conversion.hpp"
 #include "tests/reduction/solid_part.hpp"
 
-namespace thinwall::reduction {
+namespace thinwall::reduction::attachment_modes_test {
 namespace {
 
 /// A plate on its foot, its reduction at one corner, and the place to which the interface moves: two patches.
@@ -111,4 +111,4 @@ TEST(AttachmentModes, CoincidingPointsAndShiftedInversesAreRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::reduction
+}  // namespace thinwall::reduction::attachment_modes_test

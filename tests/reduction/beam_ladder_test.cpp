@@ -12,7 +12,7 @@
 #include "linalg/sparse_cholesky.hpp"
 #include "reduction/methods/craig_bampton.hpp"
 
-namespace thinwall::reduction {
+namespace thinwall::reduction::beam_ladder_test {
 namespace {
 
 constexpr double EI = 2.9e7 * 0.01;
@@ -165,4 +165,4 @@ TEST(BeamLadder, MoreModesComeCloserToTheFullModelFromAbove) {
 }
 
 }  // namespace
-}  // namespace thinwall::reduction
+}  // namespace thinwall::reduction::beam_ladder_test

@@ -12,7 +12,7 @@
 #include "dynamics/conversion.hpp"
 #include "tests/reduction/solid_part.hpp"
 
-namespace thinwall::reduction {
+namespace thinwall::reduction::craig_bampton_test {
 namespace {
 
 const Eigen::Vector3d size(0.3, 0.2, 0.1);
@@ -205,4 +205,4 @@ TEST(CraigBampton, RefusesAnInterfaceThatDependsOnItselfAndMoreModesThanThereAre
 }
 
 }  // namespace
-}  // namespace thinwall::reduction
+}  // namespace thinwall::reduction::craig_bampton_test

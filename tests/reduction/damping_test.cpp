@@ -13,7 +13,7 @@
 #include "dynamics/conversion.hpp"
 #include "reduction/identification.hpp"
 
-namespace thinwall::reduction {
+namespace thinwall::reduction::damping_test {
 namespace {
 
 /// A chain of unequal masses and springs, tied to the ground at one end or free.
@@ -173,4 +173,4 @@ TEST(Identification, WithoutAPeakIsAnError) {
 }
 
 }  // namespace
-}  // namespace thinwall::reduction
+}  // namespace thinwall::reduction::damping_test

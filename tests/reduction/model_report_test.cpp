@@ -10,7 +10,7 @@
 #include "reduction/methods/reduce.hpp"
 #include "tests/reduction/reducible_part.hpp"
 
-namespace thinwall::reduction {
+namespace thinwall::reduction::model_report_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -260,4 +260,4 @@ TEST(ModelReport, BadInputIsRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::reduction
+}  // namespace thinwall::reduction::model_report_test

@@ -13,7 +13,7 @@
 #include "reduction/trust/comparison.hpp"
 #include "tests/reduction/reducible_part.hpp"
 
-namespace thinwall::reduction {
+namespace thinwall::reduction::reduce_test {
 namespace {
 
 using Eigen::MatrixXcd;
@@ -271,4 +271,4 @@ TEST(Reduce, BadInputIsRefusedWithWhatToDo) {
 }
 
 }  // namespace
-}  // namespace thinwall::reduction
+}  // namespace thinwall::reduction::reduce_test

@@ -11,7 +11,7 @@
 #include "reduction/trust/rigid_sets.hpp"
 #include "tests/reduction/reducible_part.hpp"
 
-namespace thinwall::reduction {
+namespace thinwall::reduction::rigid_count_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -111,4 +111,4 @@ TEST(StaticFlexibility, SaysHowFarAMotionIsFromFreeThoughItIsLittle) {
 }
 
 }  // namespace
-}  // namespace thinwall::reduction
+}  // namespace thinwall::reduction::rigid_count_test

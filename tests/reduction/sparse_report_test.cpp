@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace thinwall::reduction {
+namespace thinwall::reduction::sparse_report_test {
 namespace {
 
 using dynamics::SparseModel;
@@ -85,4 +85,4 @@ TEST(SparseReport, MeasuresLengthsByThePointsOfTheTable) {
 }
 
 }  // namespace
-}  // namespace thinwall::reduction
+}  // namespace thinwall::reduction::sparse_report_test

@@ -11,7 +11,7 @@
 #include "reduction/methods/craig_bampton.hpp"
 #include "tests/reduction/solid_part.hpp"
 
-namespace thinwall::reduction {
+namespace thinwall::reduction::truncation_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -134,4 +134,4 @@ TEST(Truncation, OfAnotherModelIsRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::reduction
+}  // namespace thinwall::reduction::truncation_test

@@ -9,7 +9,7 @@
 #include "io/base64.hpp"
 #include "unpacked.hpp"
 
-namespace thinwall::report {
+namespace thinwall::report::arrays_test {
 namespace {
 
 TEST(Packed, ComesBackAsItWas) {
@@ -51,4 +51,4 @@ TEST(Base64, OfTheStandard) {  // RFC 4648, section 10
 }
 
 }  // namespace
-}  // namespace thinwall::report
+}  // namespace thinwall::report::arrays_test

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-namespace thinwall::report {
+namespace thinwall::report::compare_test {
 
 namespace {
 
@@ -62,4 +62,4 @@ TEST(Compare, AnUnknownKeyIsComparedAsANumberAndOneThatIsAbsentIsTold) {
 
 }  // namespace
 
-}  // namespace thinwall::report
+}  // namespace thinwall::report::compare_test

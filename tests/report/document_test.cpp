@@ -7,7 +7,7 @@
 #include "report/page/page.hpp"
 #include "result_folder.hpp"
 
-namespace thinwall::report {
+namespace thinwall::report::document_test {
 namespace {
 
 using nlohmann::json;
@@ -103,4 +103,4 @@ TEST(CaseDifferences, KnowTablesListsAndKeysThatOneLacks) {
 }
 
 }  // namespace
-}  // namespace thinwall::report
+}  // namespace thinwall::report::document_test

@@ -8,7 +8,7 @@
 #include "result_folder.hpp"
 #include "unpacked.hpp"
 
-namespace thinwall::report {
+namespace thinwall::report::frf_data_test {
 namespace {
 
 using nlohmann::json;
@@ -99,4 +99,4 @@ TEST(ThinnedLines, KeepTheEndsThePeaksAndTheZeros) {
 }
 
 }  // namespace
-}  // namespace thinwall::report
+}  // namespace thinwall::report::frf_data_test

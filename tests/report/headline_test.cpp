@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace thinwall::report {
+namespace thinwall::report::headline_test {
 namespace {
 
 using nlohmann::json;
@@ -163,4 +163,4 @@ TEST(Sentences, AreThePointsWhatTheRunSaidAndTheRoutes) {
 }
 
 }  // namespace
-}  // namespace thinwall::report
+}  // namespace thinwall::report::headline_test

@@ -10,7 +10,7 @@
 #include "result_folder.hpp"
 #include "unpacked.hpp"
 
-namespace thinwall::report {
+namespace thinwall::report::lobes_data_test {
 namespace {
 
 using nlohmann::json;
@@ -110,4 +110,4 @@ TEST(LobesData, AColumnThatIsMissingIsNamed) {
 }
 
 }  // namespace
-}  // namespace thinwall::report
+}  // namespace thinwall::report::lobes_data_test

@@ -9,7 +9,7 @@
 #include "report/page/document.hpp"
 #include "result_folder.hpp"
 
-namespace thinwall::report {
+namespace thinwall::report::page_test {
 namespace {
 
 using nlohmann::json;
@@ -76,4 +76,4 @@ TEST(Page, StaysSmallWithManyLines) {
 }
 
 }  // namespace
-}  // namespace thinwall::report
+}  // namespace thinwall::report::page_test

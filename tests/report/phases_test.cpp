@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "io/results/vtp.hpp"
 
-namespace thinwall::report {
+namespace thinwall::report::phases_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,4 +57,4 @@ TEST(Phases, WhatIsNotThereIsRefused) {
 }
 
 }  // namespace
-}  // namespace thinwall::report
+}  // namespace thinwall::report::phases_test

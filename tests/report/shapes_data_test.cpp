@@ -10,7 +10,7 @@
 #include "result_folder.hpp"
 #include "unpacked.hpp"
 
-namespace thinwall::report {
+namespace thinwall::report::shapes_data_test {
 namespace {
 
 using nlohmann::json;
@@ -123,4 +123,4 @@ TEST(ShapesData, FilesThatAreNotAsWrittenAreNamed) {
 }
 
 }  // namespace
-}  // namespace thinwall::report
+}  // namespace thinwall::report::shapes_data_test

@@ -6,7 +6,7 @@
 
 #include "tests/mesh/solid_shapes.hpp"
 
-namespace thinwall::report {
+namespace thinwall::report::surface_test {
 namespace {
 
 double area(const mesh::TriangleSurface& surface) {
@@ -56,4 +56,4 @@ TEST(Quantised, IsOffByHalfAStepAtMost) {
 }
 
 }  // namespace
-}  // namespace thinwall::report
+}  // namespace thinwall::report::surface_test

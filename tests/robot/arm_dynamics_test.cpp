@@ -10,7 +10,7 @@
 #include "tests/robot/arms.hpp"
 #include "tests/robot/differences.hpp"
 
-namespace thinwall::robot {
+namespace thinwall::robot::arm_dynamics_test {
 namespace {
 
 using Eigen::Index;
@@ -147,4 +147,4 @@ TEST(SerialArm, FramesMustBeFrames) {
 }
 
 }  // namespace
-}  // namespace thinwall::robot
+}  // namespace thinwall::robot::arm_dynamics_test

@@ -11,7 +11,7 @@
 #include "tests/robot/arms.hpp"
 #include "tests/robot/differences.hpp"
 
-namespace thinwall::robot {
+namespace thinwall::robot::counterbalance_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -93,4 +93,4 @@ TEST(Counterbalance, FaultsAreNamed) {
 }
 
 }  // namespace
-}  // namespace thinwall::robot
+}  // namespace thinwall::robot::counterbalance_test

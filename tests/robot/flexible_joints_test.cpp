@@ -10,7 +10,7 @@
 #include "robot/arm_dynamics.hpp"
 #include "tests/robot/arms.hpp"
 
-namespace thinwall::robot {
+namespace thinwall::robot::flexible_joints_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -215,4 +215,4 @@ TEST(LinearisedArm, RefusesWhatDoesNotStayWhereItIs) {
 }
 
 }  // namespace
-}  // namespace thinwall::robot
+}  // namespace thinwall::robot::flexible_joints_test

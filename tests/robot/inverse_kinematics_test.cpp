@@ -9,7 +9,7 @@
 #include "robot/arm_kinematics.hpp"
 #include "tests/robot/arms.hpp"
 
-namespace thinwall::robot {
+namespace thinwall::robot::inverse_kinematics_test {
 namespace {
 
 double apart(double a, double b) {
@@ -93,4 +93,4 @@ TEST(Reach, RefusesAPlaceThatIsNoneInsteadOfReachingIt) {
 }
 
 }  // namespace
-}  // namespace thinwall::robot
+}  // namespace thinwall::robot::inverse_kinematics_test

@@ -11,7 +11,7 @@
 #include "robot/flexible_joints.hpp"
 #include "tests/robot/arms.hpp"
 
-namespace thinwall::robot {
+namespace thinwall::robot::kdl_test {
 namespace {
 
 KDL::Vector to_kdl(const Eigen::Vector3d& v) {
@@ -128,4 +128,4 @@ TEST(OrocosKdl, HasTheTwoInertiaJointsLimitOfAStiffGearboxAsArmature) {
 }
 
 }  // namespace
-}  // namespace thinwall::robot
+}  // namespace thinwall::robot::kdl_test

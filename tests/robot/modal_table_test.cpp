@@ -9,7 +9,7 @@
 #include "dynamics/conversion.hpp"
 #include "robot/one_mode.hpp"
 
-namespace thinwall::robot {
+namespace thinwall::robot::modal_table_test {
 namespace {
 
 using dynamics::ModalTable;
@@ -173,4 +173,4 @@ TEST(ModalTable, ThatCannotBeIsRefusedRowByRow) {
 }
 
 }  // namespace
-}  // namespace thinwall::robot
+}  // namespace thinwall::robot::modal_table_test

@@ -8,7 +8,7 @@
 #include "robot/measured.hpp"
 #include "robot/one_mode.hpp"
 
-namespace thinwall::robot {
+namespace thinwall::robot::robot_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -99,4 +99,4 @@ TEST(MeasuredReceptance, RefusesNanUnsortedAndUnequalColumns) {
 }
 
 }  // namespace
-}  // namespace thinwall::robot
+}  // namespace thinwall::robot::robot_test

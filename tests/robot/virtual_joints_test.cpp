@@ -14,7 +14,7 @@
 #include "robot/flexible_joints.hpp"
 #include "tests/robot/arms.hpp"
 
-namespace thinwall::robot {
+namespace thinwall::robot::virtual_joints_test {
 namespace {
 
 using dynamics::Matrix6;
@@ -312,4 +312,4 @@ TEST(VirtualJoints, ThatCannotBeAreRefusedWithAllTheirFaults) {
 }
 
 }  // namespace
-}  // namespace thinwall::robot
+}  // namespace thinwall::robot::virtual_joints_test

@@ -8,10 +8,12 @@
 #include <limits>
 #include <set>
 
+#include "setup/file_stamps.hpp"
 #include "setup/imported_part.hpp"
 #include "study/kept/stage_keys.hpp"
+#include "tests/io/scratch_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::input_key_test {
 namespace {
 
 template <class T>
@@ -28,6 +30,8 @@ template <class T>
 constexpr bool is_frame = std::is_same_v<T, Eigen::Isometry3d>;
 template <class T>
 constexpr bool is_box = std::is_same_v<T, Eigen::AlignedBox3d>;
+
+using InputKeyOfFiles = io::test::ScratchFolder;
 
 /// Gives a value to everything below `value`: lists have one item, what may be absent is there.
 template <class T>
@@ -200,6 +204,66 @@ setup::Setup full_setup() {
   return source;
 }
 
+/// Calls `found` with every path below a value. Shared values are those of parts, which are held and not read again.
+template <class T>
+void each_path(T& value, const std::function<void(std::filesystem::path&)>& found) {
+  if constexpr (std::is_same_v<T, std::filesystem::path>) {
+    found(value);
+  } else if constexpr (is_number<T> || std::is_enum_v<T> || std::is_same_v<T, std::monostate> ||
+                       std::is_same_v<T, std::string> || is_a<T, std::complex> || is_a<T, std::shared_ptr> ||
+                       std::is_same_v<T, std::vector<bool>> || is_a<T, std::pair> || DenseMatrix<T> || is_sparse<T> ||
+                       is_frame<T> || is_box<T>) {
+  } else if constexpr (is_a<T, std::optional>) {
+    if (value) each_path(*value, found);
+  } else if constexpr (is_a<T, std::vector> || requires { value.fill(value.front()); }) {
+    for (auto& item : value) each_path(item, found);
+  } else if constexpr (is_a<T, std::map>) {
+    for (auto& [name, item] : value) each_path(item, found);
+  } else if constexpr (is_a<T, std::variant>) {
+    std::visit([&](auto& held) { each_path(held, found); }, value);
+  } else {
+    std::apply([&](auto&... member) { (each_path(member, found), ...); }, core::fields_of(value));
+  }
+}
+
+/// What a file holds stands in the keys, and not only its name.
+TEST_F(InputKeyOfFiles, AChangedFileChangesTheKeyWhereverItIsNamed) {
+  setup::Setup source = full_setup();
+  source.robot->urdf.clear();  // the set-up holds what these said
+  source.robot->joints.clear();
+  std::vector<std::filesystem::path> files;
+  const auto name_one = [&](std::filesystem::path& path) {
+    if (path.empty()) return;
+    path = write("file_" + std::to_string(files.size()) + ".csv", "1");
+    files.push_back(path);
+  };
+  each_path(source.damping, name_one);
+  each_path(base<setup::MeasuredPart>(source), name_one);
+  each_path(base<setup::SupportSetup>(source), name_one);
+  each_path(base<setup::CutSetup>(source), name_one);
+  EXPECT_GE(files.size(), 8U) << "FRFs of part, damping, contact, robot and tool, two tables";
+  const auto keys = [&] {
+    setup::stamp_files(source);
+    return study::structure_key(source) + study::charts_key(source);
+  };
+  const std::string first = keys();
+  for (const auto& file : files) {
+    write(file.filename(), "2");
+    EXPECT_NE(keys(), first) << file.filename();
+    write(file.filename(), "1");
+    EXPECT_EQ(keys(), first) << file.filename();
+  }
+}
+
+TEST(InputKey, ARobotThatFollowsThePathHasAnotherKeyThanOneThatStays) {
+  setup::Setup source = full_setup();
+  source.part.reset();
+  source.path.emplace();
+  const std::string stays = study::structure_key(source);
+  source.path->robot_follows = true;
+  EXPECT_NE(study::structure_key(source), stays);
+}
+
 TEST(InputKey, EveryFieldOfThePartsInputChangesThePartsKey) {
   study::PartInput input;
   std::vector<setup::Updating> fits;
@@ -243,4 +307,4 @@ TEST(InputKey, EveryFieldOfTheCutButTheMachineChangesTheKeyOfTheCharts) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::input_key_test

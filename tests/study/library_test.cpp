@@ -10,7 +10,7 @@
 #include "core/messages.hpp"
 #include "study/run.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::library_test {
 
 namespace {
 
@@ -63,4 +63,4 @@ TEST(Library, TellsItsStagesAndMessagesToWhoeverListensAndWritesNothing) {
 
 }  // namespace
 
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::library_test

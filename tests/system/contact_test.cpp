@@ -15,7 +15,7 @@
 #include "tests/measurement/synthetic_measurement.hpp"
 #include "tests/system/run_in_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::contact_test {
 
 using namespace setup;
 using namespace cases;
@@ -246,4 +246,4 @@ TEST(Contact, WhatTikhonovChangesIsReportedAndNotHidden) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::contact_test

@@ -15,7 +15,7 @@
 #include "tests/measurement/synthetic_measurement.hpp"
 #include "tests/system/run_in_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::measured_files_test {
 
 using namespace app;
 
@@ -73,4 +73,4 @@ TEST(MeasuredCase, TheCommittedFilesSayWhatTheyAreAndMeetTheCasesExpectations) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::measured_files_test

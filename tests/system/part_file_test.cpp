@@ -16,7 +16,7 @@
 #include "report/terminal_report.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::part_file_test {
 
 using namespace setup;
 using namespace cases;
@@ -375,4 +375,4 @@ TEST(PartFile, APointOnACurvedSurfaceIsHeldToTheFileAndMovedToTheMesh) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::part_file_test

@@ -10,7 +10,7 @@
 
 #include "tests/system/run_in_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::path_test {
 
 using namespace setup;
 using namespace cases;
@@ -221,4 +221,4 @@ TEST(Path, PositionsAtEqualDistanceFromTheMiddleOfASymmetricWallAreEqual) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::path_test

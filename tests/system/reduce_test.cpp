@@ -15,7 +15,7 @@
 #include "io/matrices/mat.hpp"
 #include "report/model_files.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::reduce_test {
 
 using namespace setup;
 using namespace cases;
@@ -341,4 +341,4 @@ TEST(Reduce, RigidMotionsAreCountedWithoutPlaces) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::reduce_test

@@ -11,7 +11,7 @@
 #include "core/atomic_file.hpp"
 #include "tests/system/run_in_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::robot_test {
 
 using namespace setup;
 using namespace cases;
@@ -177,4 +177,4 @@ TEST(Robot, AMeasuredTipGivesTheChartOfTheModelItWasMeasuredOn) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::robot_test

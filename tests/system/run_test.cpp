@@ -17,7 +17,7 @@
 #include "io/manifest.hpp"
 #include "report/page/document.hpp"
 
-namespace thinwall {
+namespace thinwall::run_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -252,4 +252,4 @@ TEST(Run, TwoRunsDoNotMeetInOneFolder) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::run_test

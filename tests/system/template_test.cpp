@@ -13,7 +13,7 @@
 #include "io/results/vtp.hpp"
 #include "tests/system/run_in_folder.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::template_test {
 
 using namespace app;
 using namespace cases;
@@ -121,4 +121,4 @@ TEST(Template, NoFileIsOverwritten) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::template_test

@@ -15,7 +15,7 @@
 #include "tests/system/run_in_folder.hpp"
 #include "tests/verification/tool_swap/machine.hpp"
 
-namespace thinwall::tests {
+namespace thinwall::tests::tool_swap_test {
 
 using namespace app;
 using namespace setup;
@@ -165,4 +165,4 @@ TEST(ToolSwapCase, WhatIsMissingIsSaid) {
 }
 
 }  // namespace
-}  // namespace thinwall::tests
+}  // namespace thinwall::tests::tool_swap_test

@@ -13,7 +13,7 @@
 #include "robot/measured.hpp"
 #include "robot/one_mode.hpp"
 
-namespace thinwall::coupling {
+namespace thinwall::coupling::closed_form_plate_test {
 namespace {
 
 using std::numbers::pi;
@@ -148,4 +148,4 @@ TEST_F(ClosedFormPlate, TheNineEntriesAreThoseOfThePaper) {
 }
 
 }  // namespace
-}  // namespace thinwall::coupling
+}  // namespace thinwall::coupling::closed_form_plate_test

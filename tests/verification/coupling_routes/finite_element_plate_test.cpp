@@ -16,7 +16,7 @@
 #include "reduction/methods/craig_bampton.hpp"
 #include "robot/one_mode.hpp"
 
-namespace thinwall {
+namespace thinwall::finite_element_plate_test {
 namespace {
 
 /// The clamped plate, reduced to P and P2 with 40 fixed-interface modes, 1 % damping.
@@ -72,4 +72,4 @@ TEST(FiniteElementPlate, RoutesAgreeForEveryContactStiffness) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::finite_element_plate_test

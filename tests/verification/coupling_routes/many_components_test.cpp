@@ -11,7 +11,7 @@
 #include "coupling/spatial.hpp"
 #include "dynamics/conversion.hpp"
 
-namespace thinwall::coupling {
+namespace thinwall::coupling::many_components_test {
 namespace {
 
 using dynamics::DofKind;
@@ -172,4 +172,4 @@ TEST(Assemblies, RoutesAgreeForJointsWhoseDirectionsActOnEachOther) {
 }
 
 }  // namespace
-}  // namespace thinwall::coupling
+}  // namespace thinwall::coupling::many_components_test

@@ -15,7 +15,7 @@
 #include "robot/flexible_joints.hpp"
 #include "tests/robot/arms.hpp"
 
-namespace thinwall::coupling {
+namespace thinwall::coupling::own_coordinates_test {
 namespace {
 
 constexpr double rigid = std::numeric_limits<double>::infinity();
@@ -109,4 +109,4 @@ TEST(OwnCoordinates, AnArmInASingularPostureIsRefusedRigidlyWhereNothingYields) 
 }
 
 }  // namespace
-}  // namespace thinwall::coupling
+}  // namespace thinwall::coupling::own_coordinates_test

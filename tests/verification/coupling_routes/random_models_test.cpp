@@ -12,7 +12,7 @@
 #include "coupling/route_difference.hpp"
 #include "coupling/spatial.hpp"
 
-namespace thinwall::coupling {
+namespace thinwall::coupling::random_models_test {
 namespace {
 
 using testing::Component;
@@ -306,4 +306,4 @@ TEST(StiffSprings, DigitsAreLostByAddingThemToTheComponentsAndOnlyByThat) {
 }
 
 }  // namespace
-}  // namespace thinwall::coupling
+}  // namespace thinwall::coupling::random_models_test

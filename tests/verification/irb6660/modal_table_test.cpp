@@ -16,7 +16,7 @@
 #include "dynamics/conversion.hpp"
 #include "io/frf/modal_table_csv.hpp"
 
-namespace thinwall {
+namespace thinwall::modal_table_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -111,4 +111,4 @@ TEST(Irb6660, ItsSecondPointIsTwo) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::modal_table_test

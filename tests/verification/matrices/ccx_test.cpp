@@ -21,7 +21,7 @@
 #include "io/mesh/inp.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall {
+namespace thinwall::ccx_test {
 namespace {
 
 const fem::Material steel{210e9, 0.3, 7850.0};
@@ -133,4 +133,4 @@ TEST_F(CalculixMatrices, GoOutAndComeBackBitByBit) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::ccx_test

@@ -11,7 +11,7 @@
 #include "dynamics/sparse_spatial.hpp"
 #include "tube.hpp"
 
-namespace thinwall::reduction {
+namespace thinwall::reduction::sparse_report_test {
 namespace {
 
 using dynamics::NodeDof;
@@ -137,4 +137,4 @@ TEST(SparseReport, TakesMassesAtTranslationsAlone) {
 }
 
 }  // namespace
-}  // namespace thinwall::reduction
+}  // namespace thinwall::reduction::sparse_report_test

@@ -20,7 +20,7 @@
 #include "reduction/trust/imported_model.hpp"
 #include "tube.hpp"
 
-namespace thinwall {
+namespace thinwall::substructure_test {
 namespace {
 
 using dynamics::SparseModel;
@@ -129,4 +129,4 @@ TEST(ImportedModel, WithoutMassOrWithoutDofsIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::substructure_test

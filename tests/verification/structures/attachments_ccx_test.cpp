@@ -18,7 +18,7 @@
 #include "io/mesh/inp.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall {
+namespace thinwall::attachments_ccx_test {
 namespace {
 
 const Eigen::Vector3d size(0.2, 0.05, 0.03);
@@ -143,4 +143,4 @@ TEST(CalculiXAttachments, HaveTheSameFrequencies) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::attachments_ccx_test

@@ -18,7 +18,7 @@
 #include "tests/mesh/kuhn_box.hpp"
 #include "tests/verification/structures/ccx_run.hpp"
 
-namespace thinwall {
+namespace thinwall::ccx_test {
 namespace {
 
 class CalculiX : public ::testing::TestWithParam<int> {
@@ -141,4 +141,4 @@ TEST_P(CalculiX, ConvergesToTheSameFrequenciesWithTheMassIntegratedExactly) {
 INSTANTIATE_TEST_SUITE_P(Orders, CalculiX, ::testing::Values(1, 2));
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::ccx_test

@@ -10,7 +10,7 @@
 #include "mesh/box.hpp"
 #include "mesh/volume/surface_to_volume.hpp"
 
-namespace thinwall {
+namespace thinwall::closed_surface_test {
 namespace {
 
 // 3-D Ritz values, error ≤ 1e-4.
@@ -51,4 +51,4 @@ TEST(ClosedSurface, MoreLayersAndAHigherOrderConverge) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::closed_surface_test

@@ -11,7 +11,7 @@
 #include "tests/mesh/kuhn_box.hpp"
 #include "tests/verification/structures/prism_part.hpp"
 
-namespace thinwall {
+namespace thinwall::curved_wall_test {
 namespace {
 
 fem::Shaping bending(const mesh::Bend& bend) {
@@ -167,4 +167,4 @@ TEST(BentClampedPlate, BecomesTheFlatOneWithTheSquareOfTheCurvature) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::curved_wall_test

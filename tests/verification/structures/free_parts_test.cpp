@@ -10,7 +10,7 @@
 #include "tests/mesh/plane_shapes.hpp"
 #include "tests/verification/structures/prism_part.hpp"
 
-namespace thinwall {
+namespace thinwall::free_parts_test {
 namespace {
 
 void expect_six_rigid_modes(const char* name, const mesh::TetMesh& mesh, int order, const fem::Shaping& shape = {}) {
@@ -70,4 +70,4 @@ TEST(FreeParts, MadeFromClosedSurfacesHaveSixRigidModes) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::free_parts_test

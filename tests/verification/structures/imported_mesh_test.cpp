@@ -19,7 +19,7 @@
 #include "tests/mesh/labelled_grids.hpp"
 #include "tests/verification/structures/ccx_run.hpp"
 
-namespace thinwall {
+namespace thinwall::imported_mesh_test {
 namespace {
 
 const fem::Material steel{210e9, 0.3, 7850.0};
@@ -226,4 +226,4 @@ TEST_F(ImportedMesh, OfBricksConvergesToTheBricksOwnFrequencies) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::imported_mesh_test

@@ -15,7 +15,7 @@
 #include "tests/mesh/kuhn_box.hpp"
 #include "tests/verification/structures/prism_part.hpp"
 
-namespace thinwall {
+namespace thinwall::nafems_le10_test {
 namespace {
 
 const fem::Material steel{210e9, 0.3, 7850.0};
@@ -133,4 +133,4 @@ TEST(NafemsLE10, StressAtTheInnerCornerOfTheEllipticPlateIsThePublishedOne) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::nafems_le10_test

@@ -10,7 +10,7 @@
 #include "tests/mesh/kuhn_box.hpp"
 #include "tests/verification/structures/prism_part.hpp"
 
-namespace thinwall {
+namespace thinwall::nafems_plate_test {
 namespace {
 
 const fem::Material metal{200e9, 0.3, 8000.0};
@@ -222,4 +222,4 @@ TEST(NafemsFV52, WithTheLowerEdgesHeldHasNoLimit) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::nafems_plate_test

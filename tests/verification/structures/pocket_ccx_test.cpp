@@ -14,7 +14,7 @@
 #include "tests/verification/structures/ccx_run.hpp"
 #include "tests/verification/structures/prism_part.hpp"
 
-namespace thinwall {
+namespace thinwall::pocket_ccx_test {
 namespace {
 
 /// The mass as CalculiX integrates it over its ten-node tetrahedron, by four points (exact to degree 2, not 4), on the
@@ -101,4 +101,4 @@ TEST_F(PocketByCalculiX, TenFrequenciesAreTheSameAndTheHighOrdersLieBelow) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::pocket_ccx_test

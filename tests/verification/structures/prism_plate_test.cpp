@@ -7,7 +7,7 @@
 
 #include "tests/verification/structures/prism_part.hpp"
 
-namespace thinwall {
+namespace thinwall::prism_plate_test {
 namespace {
 
 const mesh::Prism plate = plate_prism(0.45, 0.1, 0.006);
@@ -74,4 +74,4 @@ TEST(PrismPlate, ErrorFallsExponentiallyWithTheOrderOnAGradedMesh) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::prism_plate_test

@@ -8,7 +8,7 @@
 #include "tests/mesh/plane_shapes.hpp"
 #include "tests/verification/structures/prism_part.hpp"
 
-namespace thinwall {
+namespace thinwall::random_prisms_test {
 namespace {
 
 struct Part {
@@ -92,4 +92,4 @@ TEST(RandomPrisms, FrequenciesScaleWithSizeStiffnessAndDensityToTheLastDigit) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::random_prisms_test

@@ -13,7 +13,7 @@
 #include "fem/supports.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
-namespace thinwall {
+namespace thinwall::roller_box_test {
 namespace {
 
 const fem::Material steel{210e9, 0.3, 7850.0};
@@ -115,4 +115,4 @@ TEST(RollerBox, SexticElementsConvergeWithOrderTwelve) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::roller_box_test

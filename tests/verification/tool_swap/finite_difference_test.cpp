@@ -12,7 +12,7 @@
 #include "dynamics/conversion.hpp"
 #include "fem/beam.hpp"
 
-namespace thinwall::coupling {
+namespace thinwall::coupling::finite_difference_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -337,4 +337,4 @@ TEST(FrfNoise, AnAveragedEstimateScattersAsItsCoherenceSays) {
 }
 
 }  // namespace
-}  // namespace thinwall::coupling
+}  // namespace thinwall::coupling::finite_difference_test

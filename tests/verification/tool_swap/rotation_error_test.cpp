@@ -8,7 +8,7 @@
 #include "coupling/finite_difference_rotations.hpp"
 #include "machine.hpp"
 
-namespace thinwall::coupling {
+namespace thinwall::coupling::rotation_error_test {
 namespace {
 
 using namespace testing;
@@ -117,4 +117,4 @@ TEST(RotationError, ASectionThatIsKnownToSomePercentIsCovered) {
 }
 
 }  // namespace
-}  // namespace thinwall::coupling
+}  // namespace thinwall::coupling::rotation_error_test

@@ -8,7 +8,7 @@
 #include "coupling/decoupling.hpp"
 #include "machine.hpp"
 
-namespace thinwall::coupling {
+namespace thinwall::coupling::tool_swap_test {
 namespace {
 
 using namespace testing;
@@ -227,4 +227,4 @@ TEST(ToolSwap, RefusesWhatIsNoSwap) {
 }
 
 }  // namespace
-}  // namespace thinwall::coupling
+}  // namespace thinwall::coupling::tool_swap_test

@@ -9,7 +9,7 @@
 #include "dynamics/conversion.hpp"
 #include "tests/verification/virtual_joints/arms.hpp"
 
-namespace thinwall {
+namespace thinwall::against_beams_test {
 namespace {
 
 using dynamics::Matrix6;
@@ -198,4 +198,4 @@ TEST(FiveBar, IsTheFrameWithItsHinges) {
 }
 
 }  // namespace
-}  // namespace thinwall
+}  // namespace thinwall::against_beams_test

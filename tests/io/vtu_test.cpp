@@ -1,3 +1,5 @@
+#include "io/results/vtu.hpp"
+
 #include <vtkCell.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -17,11 +19,10 @@
 #include "core/parallel.hpp"
 #include "io/results/pvd.hpp"
 #include "io/results/vtp.hpp"
-#include "io/results/vtu.hpp"
 #include "mesh/tet_mesh.hpp"
 #include "scratch_folder.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::vtu_test {
 
 namespace {
 
@@ -225,4 +226,4 @@ TEST_F(Vtu, CollectionNamesItsFilesEscaped) {
   EXPECT_THROW(write_pvd(path("x.pvd"), {{std::nan(""), "a.vtu"}}), core::NumericalError);
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::vtu_test

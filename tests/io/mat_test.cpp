@@ -1,13 +1,14 @@
+#include "io/matrices/mat.hpp"
+
 #include <set>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "io/matrices/mat.hpp"
 #include "io/matrices/mat_sparse.hpp"
 #include "matrix_model.hpp"
 #include "scratch_folder.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::mat_test {
 
 namespace {
 
@@ -151,4 +152,4 @@ TEST(Libraries, OfOneHdf5AtMostAreInThisProcess) {
   EXPECT_LE(found.size(), 1U);
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::mat_test

@@ -1,8 +1,9 @@
-#include "core/error.hpp"
 #include "io/manifest.hpp"
+
+#include "core/error.hpp"
 #include "scratch_folder.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::manifest_test {
 
 namespace {
 class Manifest : public ScratchFolder {};
@@ -39,4 +40,4 @@ TEST_F(Manifest, ListsEveryFinishedFileByName) {
   EXPECT_THROW((void)file_records(path("absent")), core::DataError);
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::manifest_test

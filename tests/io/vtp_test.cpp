@@ -1,3 +1,5 @@
+#include "io/results/vtp.hpp"
+
 #include <gtest/gtest.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -9,13 +11,12 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "io/results/vtp.hpp"
 #include "mesh/solid/tessellation.hpp"
 #include "mesh/surface/shapes.hpp"
 #include "mesh/surface/wall_thickness.hpp"
 #include "scratch_folder.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::vtp_test {
 
 namespace {
 
@@ -94,4 +95,4 @@ TEST_F(Vtp, NumbersThatDoNotFitTheTrianglesAreRefused) {
 
 }  // namespace
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::vtp_test

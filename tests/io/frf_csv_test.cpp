@@ -1,13 +1,14 @@
+#include "io/frf/frf_csv.hpp"
+
 #include <cmath>
 #include <complex>
 #include <numbers>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "io/frf/frf_csv.hpp"
 #include "scratch_folder.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::frf_csv_test {
 
 namespace {
 
@@ -210,4 +211,4 @@ TEST_F(MeasuredFrfFile, MayHaveItsCoherenceInAFileOfItsOwn) {
   }
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::frf_csv_test

@@ -1,13 +1,14 @@
+#include "io/results/csv_table.hpp"
+
 #include <cmath>
 #include <limits>
 #include <locale>
 #include <random>
 
 #include "core/error.hpp"
-#include "io/results/csv_table.hpp"
 #include "scratch_folder.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::csv_table_test {
 
 namespace {
 
@@ -96,4 +97,4 @@ TEST_F(CsvTable, IsRefusedWithoutHeaderOrWithAWordAmongNumbers) {
   EXPECT_THROW((void)read_csv(write("c.csv", "x,y\n1,nan\n")), core::DataError);
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::csv_table_test

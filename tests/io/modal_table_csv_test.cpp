@@ -1,10 +1,11 @@
+#include "io/frf/modal_table_csv.hpp"
+
 #include <chrono>
 
 #include "core/error.hpp"
-#include "io/frf/modal_table_csv.hpp"
 #include "scratch_folder.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::modal_table_csv_test {
 
 namespace {
 
@@ -106,4 +107,4 @@ TEST(ModalUnit, IsARootOfSecondsPerKilogram) {
 
 }  // namespace
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::modal_table_csv_test

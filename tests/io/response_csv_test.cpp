@@ -1,9 +1,10 @@
+#include "io/frf/response_csv.hpp"
+
 #include "core/error.hpp"
 #include "io/frf/frf_csv.hpp"
-#include "io/frf/response_csv.hpp"
 #include "scratch_folder.hpp"
 
-namespace thinwall::io::test {
+namespace thinwall::io::test::response_csv_test {
 
 namespace {
 
@@ -93,4 +94,4 @@ TEST_F(ResponseFile, WithoutDofTableIsRefused) {
   EXPECT_THROW((void)read_response(wrong), core::DataError);
 }
 
-}  // namespace thinwall::io::test
+}  // namespace thinwall::io::test::response_csv_test
