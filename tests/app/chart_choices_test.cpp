@@ -15,7 +15,7 @@
 #include "io/results/csv_table.hpp"
 #include "milling/chart/lobe_method.hpp"
 #include "report/lobes_answers.hpp"
-#include "temporary_folder.hpp"
+#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::chart_choices_test {
 

@@ -13,12 +13,12 @@
 #include "app/self_test.hpp"
 #include "case/reader.hpp"
 #include "case/templates.hpp"
-#include "case_text.hpp"
 #include "core/atomic_file.hpp"
 #include "core/interrupt.hpp"
 #include "report/compare.hpp"
 #include "report/summary.hpp"
-#include "temporary_folder.hpp"
+#include "tests/case/case_text.hpp"
+#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::command_line_test {
 

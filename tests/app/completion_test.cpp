@@ -12,7 +12,7 @@
 
 #include "app/command_line.hpp"
 #include "core/atomic_file.hpp"
-#include "temporary_folder.hpp"
+#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::completion_test {
 

@@ -9,9 +9,9 @@
 #include "app/command_line.hpp"
 #include "app/lobes_input.hpp"
 #include "case/reader.hpp"
-#include "case_text.hpp"
 #include "core/atomic_file.hpp"
-#include "temporary_folder.hpp"
+#include "tests/case/case_text.hpp"
+#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::lobes_command_test {
 

@@ -15,7 +15,6 @@
 #include "app/command_line.hpp"
 #include "case/problem.hpp"
 #include "case/reader.hpp"
-#include "case_text.hpp"
 #include "core/atomic_file.hpp"
 #include "dynamics/conversion.hpp"
 #include "io/frf/uff.hpp"
@@ -24,7 +23,8 @@
 #include "setup/robot_tip.hpp"
 #include "setup/sensor_mass.hpp"
 #include "study/support/support_stage.hpp"
-#include "temporary_folder.hpp"
+#include "tests/case/case_text.hpp"
+#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::measured_case_test {
 

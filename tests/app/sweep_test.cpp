@@ -9,11 +9,11 @@
 
 #include "app/sweep_table.hpp"
 #include "case/reader.hpp"
-#include "case_text.hpp"
 #include "core/atomic_file.hpp"
 #include "core/interrupt.hpp"
 #include "core/units.hpp"
-#include "temporary_folder.hpp"
+#include "tests/case/case_text.hpp"
+#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::sweep_test {
 

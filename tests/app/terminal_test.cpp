@@ -13,10 +13,10 @@
 #include <sstream>
 
 #include "app/stage_display.hpp"
-#include "case_text.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "temporary_folder.hpp"
+#include "tests/case/case_text.hpp"
+#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::terminal_test {
 

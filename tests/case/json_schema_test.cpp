@@ -8,9 +8,9 @@
 #include <cstdio>
 
 #include "case/templates.hpp"
-#include "case_text.hpp"
 #include "core/atomic_file.hpp"
-#include "temporary_folder.hpp"
+#include "tests/case/case_text.hpp"
+#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::json_schema_test {
 
@@ -78,7 +78,7 @@ TEST(JsonSchema, AValidatorTakesEveryCaseOfOursAndRefusesWrongOnes) {
   const fs::path schema = temporary.path / "schema.json";
   core::write_file_atomically(schema, schema_of_cases().dump(1));
   std::string command =
-      "python3 '" + std::string(THINWALL_SOURCE_DIR) + "/tests/app/validate_cases.py' '" + schema.string() + "'";
+      "python3 '" + std::string(THINWALL_SOURCE_DIR) + "/tests/case/validate_cases.py' '" + schema.string() + "'";
   for (const auto& entry : fs::directory_iterator(fs::path(THINWALL_SOURCE_DIR) / "cases"))
     command += " '" + (entry.path() / "case.toml").string() + "'";
   for (const auto& name : template_names())

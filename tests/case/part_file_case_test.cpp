@@ -18,7 +18,7 @@
 #include "setup/part_materials.hpp"
 #include "study/kept/stage_keys.hpp"
 #include "study/part/discretisation.hpp"
-#include "temporary_folder.hpp"
+#include "tests/core/temporary_folder.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
 namespace thinwall::tests::part_file_case_test {

@@ -10,7 +10,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "temporary_folder.hpp"
+#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::result_folder_test {
 

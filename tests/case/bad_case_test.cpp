@@ -8,8 +8,8 @@
 #include "case/checks/checks.hpp"
 #include "case/checks/mesh_size.hpp"
 #include "case/reader.hpp"
-#include "case_text.hpp"
 #include "core/atomic_file.hpp"
+#include "tests/case/case_text.hpp"
 
 namespace thinwall::tests::bad_case_test {
 

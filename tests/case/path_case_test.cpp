@@ -7,9 +7,9 @@
 #include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "case/writer.hpp"
-#include "case_text.hpp"
 #include "report/path_report.hpp"
 #include "setup/path.hpp"
+#include "tests/case/case_text.hpp"
 
 namespace thinwall::tests::path_case_test {
 

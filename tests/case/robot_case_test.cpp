@@ -12,7 +12,7 @@
 #include "robot/arm_kinematics.hpp"
 #include "setup/measured.hpp"
 #include "setup/robot_tip.hpp"
-#include "temporary_folder.hpp"
+#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::robot_case_test {
 

@@ -10,7 +10,6 @@
 #include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "case/writer.hpp"
-#include "case_text.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "coupling/hertz_contact.hpp"
@@ -18,7 +17,8 @@
 #include "setup/path.hpp"
 #include "study/support/contact_identification.hpp"
 #include "study/support/support_stage.hpp"
-#include "temporary_folder.hpp"
+#include "tests/case/case_text.hpp"
+#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::contact_case_test {
 

@@ -8,8 +8,8 @@
 #include "case/numbers.hpp"
 #include "case/reader.hpp"
 #include "case/writer.hpp"
-#include "case_text.hpp"
 #include "core/error.hpp"
+#include "tests/case/case_text.hpp"
 
 namespace thinwall::tests::case_test {
 

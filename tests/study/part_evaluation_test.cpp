@@ -6,10 +6,10 @@
 
 #include "case/numbers.hpp"
 #include "case/reader.hpp"
-#include "case_text.hpp"
 #include "setup/graded_mesh.hpp"
 #include "setup/part_geometry.hpp"
 #include "study/updating.hpp"
+#include "tests/case/case_text.hpp"
 
 namespace thinwall::tests::part_evaluation_test {
 

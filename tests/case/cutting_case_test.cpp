@@ -8,9 +8,9 @@
 #include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "case/writer.hpp"
-#include "case_text.hpp"
 #include "milling/cut/chip_load.hpp"
 #include "setup/milling_process.hpp"
+#include "tests/case/case_text.hpp"
 
 namespace thinwall::tests::cutting_case_test {
 

@@ -4,7 +4,7 @@
 
 #include "case/problem.hpp"
 #include "case/reader.hpp"
-#include "case_text.hpp"
+#include "tests/case/case_text.hpp"
 
 namespace thinwall::tests::excerpt_test {
 
