@@ -9,7 +9,7 @@
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
-at_most=20  # batches
+at_least=20 at_most=40  # batches: what changed, up to the second, and of the rest so many as make up the first
 build=$PWD/build/tidy
 folders="core|dynamics|linalg|mesh|fem|reduction|robot|coupling|milling|io|setup|case|study|report|app"
 
@@ -27,19 +27,25 @@ analyse() {  # patterns
 
 batches() { sed -nE "s#^ *\"file\": \"(($build|$PWD)/($folders)/.*\.(cxx|cpp))\".*#\1#p" "$build/compile_commands.json"; }
 
-changed_sources() {  # a header stands for the source of its name
-  local since
+changed_sources() {  # a header stands for the source of its name, or, without one, for the first that includes it
+  local since file source
   since=$(git describe --tags --abbrev=0 2>/dev/null || git rev-parse -q --verify HEAD~20 2>/dev/null) || return 0
-  git diff --name-only --diff-filter=d "$since" -- '*.cpp' '*.hpp' | sed 's/\.hpp$/.cpp/' | sort -u
+  git diff --name-only --diff-filter=d "$since" -- '*.cpp' '*.hpp' | while read -r file; do
+    source=${file%.hpp}
+    source=${source%.cpp}.cpp
+    [[ -e $source ]] || source=$(git grep -l "#include \"$file\"" -- '*.cpp' | grep -m 1 -E "^($folders)/" || true)
+    [[ -z $source ]] || echo "$source"
+  done | sort -u
 }
 
-# All batches, those with a changed source first; where in the list one begins follows from the commit's day.
+# Writes all batches to the file in_turn, those with a changed source first, and sets `chosen`, how many are read. Where
+# in the list the rest begins follows from the commit's day.
 in_turn() {
   local all day first batch touched=() others=()
   changed_sources >"$build/changed"
   mapfile -t all < <(batches | sort -u)
   day=$(($(git log -1 --format=%ct 2>/dev/null || date +%s) / 86400))
-  first=$((day * at_most % ${#all[@]}))
+  first=$((day * at_least % ${#all[@]}))
   for batch in "${all[@]:first}" "${all[@]:0:first}"; do
     if { echo "$batch"; grep -h '^#include' "$batch"; } | grep -qFf "$build/changed"; then
       touched+=("$batch")
@@ -47,7 +53,8 @@ in_turn() {
       others+=("$batch")
     fi
   done
-  printf '%s\n' "${touched[@]}" "${others[@]}" | sed '/^$/d'
+  printf '%s\n' "${touched[@]}" "${others[@]}" | sed '/^$/d' >"$build/in_turn"
+  chosen=$((${#touched[@]} < at_least ? at_least : ${#touched[@]} > at_most ? at_most : ${#touched[@]}))
 }
 
 case ${1:-} in
@@ -57,8 +64,8 @@ case ${1:-} in
     ;;
   --changed)
     configure ON
-    in_turn >"$build/in_turn"
-    head -n $at_most "$build/in_turn" | sed 's/.*/^&$/' >"$build/patterns"
+    in_turn
+    head -n "$chosen" "$build/in_turn" | sed 's/.*/^&$/' >"$build/patterns"
     printf '%d of %d batches of sources\n' "$(wc -l <"$build/patterns")" "$(wc -l <"$build/in_turn")"
     mapfile -t patterns <"$build/patterns"
     analyse "${patterns[@]}"
