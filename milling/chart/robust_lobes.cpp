@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
-#include "milling/direct/bracketed_root.hpp"
+#include "linalg/bracketed_root.hpp"
 #include "milling/direct/row_search.hpp"
 #include "milling/direct/stability.hpp"
 #include "milling/structure/parameter_change.hpp"
@@ -206,7 +206,8 @@ double two_sided_coverage(double confidence) {
   const double one_side = 0.5 * std::erfc(confidence / std::sqrt(2.0));
   const auto excess = [&](double k) { return std::log(std::erfc(k / std::sqrt(2.0)) / one_side); };
   const double far = confidence + 1.0;
-  return bracketed_root(excess, confidence, excess(confidence), far, excess(far), 1e-12);
+  return linalg::bracketed_root(excess, {confidence, excess(confidence), far, excess(far)}, {.relative = 1e-12},
+                                "the confidence of both sides");
 }
 
 RobustLobes robust_lobes(const RelativeStructure& structure, const MillingProcess& process,
