@@ -12,9 +12,9 @@
 
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
+#include "core/gauss_rule.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
-#include "milling/cut/product_rule.hpp"
 #include "milling/direct/chatter_frequency.hpp"
 #include "milling/direct/cut_at_speed.hpp"
 #include "milling/direct/row_search.hpp"
@@ -78,7 +78,7 @@ double highest_resonance_hz(const SampledReceptance& r) {
 double mean_stiffness(const ContactGrid& grid) {
   Eigen::VectorXd weight(grid.node_rad.size());
   for (const CutElement& e : grid.elements)
-    weight.segment(e.first_node, e.nodes) = gauss_legendre(e.nodes).weight * (e.to_rad - e.from_rad);
+    weight.segment(e.first_node, e.nodes) = core::gauss_legendre(e.nodes).weight * (e.to_rad - e.from_rad);
   Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
   for (const Contact& c : grid.contacts) mean += weight(c.node) / grid.period_rad * c.force * c.chip.transpose();
   return mean.norm();

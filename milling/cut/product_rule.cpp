@@ -3,31 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
-namespace thinwall::milling {
+#include "core/gauss_rule.hpp"
 
-GaussRule gauss_legendre(int count) {
-  GaussRule rule{Eigen::VectorXd(count), Eigen::VectorXd(count)};
-  for (int i = 0; i < count; ++i) {
-    double x = -std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5));  // within Newton's reach of the root
-    double slope = 0.0;
-    for (int iteration = 0; iteration < 20; ++iteration) {
-      double before = 1.0;
-      double value = x;
-      for (int k = 2; k <= count; ++k)
-        before = std::exchange(value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
-      slope = count * (x * value - before) / (x * x - 1.0);
-      const double step = value / slope;
-      x -= step;
-      if (std::abs(step) < 1e-15) break;
-    }
-    rule.node(i) = 0.5 * (1.0 + x);
-    rule.weight(i) = 1.0 / ((1.0 - x * x) * slope * slope);
-  }
-  return rule;
-}
+namespace thinwall::milling {
 
 Eigen::VectorXd lagrange_polynomials(const Eigen::VectorXd& node, double at) {
   Eigen::VectorXd value = Eigen::VectorXd::Ones(node.size());
@@ -56,12 +36,13 @@ namespace {
 
 /// Gauss points that integrate a polynomial of the degree of `nodes` times e^{z s}, |z| up to `largest_exponent`, whose
 /// Legendre series ends at about |z|/2.
-GaussRule points_for(int nodes, double largest_exponent) {
-  return gauss_legendre((nodes + 1) / 2 + 8 + static_cast<int>(std::ceil(0.6 * largest_exponent)));
+core::GaussRule points_for(int nodes, double largest_exponent) {
+  return core::gauss_legendre((nodes + 1) / 2 + 8 + static_cast<int>(std::ceil(0.6 * largest_exponent)));
 }
 
 /// length weight_q ℓ_j(from + length x_q), points × nodes.
-Eigen::MatrixXd weighted_polynomials(const Eigen::VectorXd& node, const GaussRule& points, double from, double length) {
+Eigen::MatrixXd weighted_polynomials(const Eigen::VectorXd& node, const core::GaussRule& points, double from,
+                                     double length) {
   Eigen::MatrixXd table(points.node.size(), node.size());
   for (Eigen::Index q = 0; q < points.node.size(); ++q)
     table.row(q) = length * points.weight(q) * lagrange_polynomials(node, from + length * points.node(q)).transpose();
@@ -93,14 +74,14 @@ Eigen::MatrixXcd as_complex(const Eigen::MatrixXd& parts) {
 
 }  // namespace
 
-ProductRule::ProductRule(int nodes, double largest_exponent) : node_(gauss_legendre(nodes).node) {
-  const GaussRule whole = points_for(nodes, largest_exponent);
+ProductRule::ProductRule(int nodes, double largest_exponent) : node_(core::gauss_legendre(nodes).node) {
+  const core::GaussRule whole = points_for(nodes, largest_exponent);
   distance_ = 1.0 - whole.node.array();
   whole_ = weighted_polynomials(node_, whole, 0.0, 1.0);
   Eigen::VectorXd ends(nodes + 2);
   ends << 0.0, node_, 1.0;
   gap_ = ends.tail(nodes + 1) - ends.head(nodes + 1);
-  const GaussRule points = points_for(nodes, gap_.maxCoeff() * largest_exponent);
+  const core::GaussRule points = points_for(nodes, gap_.maxCoeff() * largest_exponent);
   gap_distance_ = 1.0 - points.node.array();
   for (int i = 0; i <= nodes; ++i) gap_table_.push_back(weighted_polynomials(node_, points, ends(i), gap_(i)));
 }

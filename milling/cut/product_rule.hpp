@@ -7,16 +7,6 @@
 
 namespace thinwall::milling {
 
-/// Nodes in (0, 1) and weights of sum 1.
-struct GaussRule {
-  Eigen::VectorXd node;
-  Eigen::VectorXd weight;
-};
-
-/// Gauss-Legendre on (0, 1): Newton's method on P_n by its recurrence, weights 2/((1 − x²) P_n'²) (Abramowitz & Stegun
-/// 25.4.29). `count` ≥ 1. Cost O(count²).
-[[nodiscard]] GaussRule gauss_legendre(int count);
-
 /// ℓ_j(at) of the Lagrange polynomials of `node`.
 [[nodiscard]] Eigen::VectorXd lagrange_polynomials(const Eigen::VectorXd& node, double at);
 

@@ -8,6 +8,7 @@
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/gauss_rule.hpp"
 #include "milling/cut/cutting_load.hpp"
 #include "milling/cut/product_rule.hpp"
 #include "milling/direct/cut_at_speed.hpp"
@@ -153,7 +154,7 @@ double peak(const std::vector<Run>& runs, const Eigen::VectorXd& value) {
 Eigen::VectorXd mean_of(const ContactGrid& grid, const Eigen::MatrixXd& at_nodes) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(at_nodes.rows());
   for (const CutElement& e : grid.elements) {
-    sum += (e.to_rad - e.from_rad) * at_nodes.middleCols(e.first_node, e.nodes) * gauss_legendre(e.nodes).weight;
+    sum += (e.to_rad - e.from_rad) * at_nodes.middleCols(e.first_node, e.nodes) * core::gauss_legendre(e.nodes).weight;
   }
   return sum / grid.period_rad;
 }
