@@ -172,7 +172,7 @@ GainOnCircle sum(const GainOnCircle& a, const GainOnCircle& b) {
 }
 
 /// Grids of a cut known by samples, each finer one with more harmonics, too.
-class SampledGrids : public SearchGrids {
+class SampledGrids : public FixedGrids {
  public:
   SampledGrids(const SampledCut& cut, Fineness first, int most_nodes)
       : cut_(cut), next_(first), most_nodes_(most_nodes) {}
@@ -263,7 +263,7 @@ LobeRow row_of(const SampledCut& cut, const StabilityOptions& options) {
       fineness = needed;
       continue;
     }
-    const double wanted = wanted_m(first, options);
+    const double wanted = wanted_m(first.found, options);
     LobeRow row = row_from(grids, std::move(first), cut.spindle_speed_rpm, options);
     if (row.crossings.empty()) describe_depth_limit(cut, grids, options.depth_limit_m, row);
     if ((sound(row) && row.searched_m >= wanted) || ++tries == 2 || 3 * row.nodes >= options.most_nodes) return row;

@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 #include "milling/direct/critical_depths.hpp"
-#include "milling/direct/refined_crossing.hpp"
+#include "milling/direct/row_search.hpp"
 
 namespace thinwall::milling {
 
@@ -100,12 +100,6 @@ struct Probe {
   std::vector<Crossing> guesses;  ///< where crossings of other depths may lie
 };
 
-/// Crossings on grids of one resolution.
-struct Scan {
-  std::vector<Crossing> found;
-  double searched_m = 0.0;  ///< up to here they explain the counts
-};
-
 /// The search for the crossings of a speed on grids of one resolution, so many times finer than is needed.
 class HelicalSearch {
  public:
@@ -173,7 +167,7 @@ class HelicalSearch {
 
   /// Adds the crossings between two depths; false if from some depth on, searched_m then, what is found does not
   /// explain the counts, however often the step is halved.
-  [[nodiscard]] bool between(const Probe& low, const Probe& high, int halvings, Scan& scan) const {
+  [[nodiscard]] bool between(const Probe& low, const Probe& high, int halvings, CoarseCrossings& scan) const {
     std::vector<Crossing> inside;
     int change = 0;
     const auto add_from = [&](const std::vector<Crossing>& guesses) {
@@ -208,13 +202,9 @@ class HelicalSearch {
   std::size_t refinements_;
 };
 
-double wanted_m(const std::vector<Crossing>& found, const StabilityOptions& options) {
-  if (found.empty()) return options.depth_limit_m;
-  return std::min(options.depth_limit_m, options.follow * found.front().depth_m);
-}
-
-Scan scan(const HelicalSearch& search, const StabilityOptions& options) {
-  Scan result;
+/// The depths from 0 to where the crossings are wanted, or to where what is found no longer explains the counts.
+CoarseCrossings scan(const HelicalSearch& search, const StabilityOptions& options) {
+  CoarseCrossings result;
   Probe low;
   while (low.depth_m < wanted_m(result.found, options)) {
     Probe high = search.after(low, std::min(search.next_depth(low.depth_m), wanted_m(result.found, options)));
@@ -226,75 +216,54 @@ Scan scan(const HelicalSearch& search, const StabilityOptions& options) {
   return result;
 }
 
-/// On finer grids: to the tolerance those that bound a stable range.
-std::vector<RefinedCrossing> refined(const CutAtSpeed& cut, const HelicalSearch& search, Scan scan,
-                                     const StabilityOptions& options, LobeRow& row) {
-  std::vector<RefinedCrossing> all;
-  all.reserve(scan.found.size());
-  const double first_m = scan.found.empty() ? 0.0 : scan.found.front().depth_m;
-  int count = 0;
-  for (Crossing& crossing : scan.found) {
-    RefinedCrossing c{std::move(crossing)};
-    const Resolution coarsest = search.resolution(c.crossing.depth_m);
-    const auto to_level = [&](std::size_t level, Crossing& moved) {
-      const Resolution next = finer_by(coarsest, level);
-      if (level > 2 && next.elements * next.nodes > options.most_nodes) return OnFinerGrid::none_finer;
-      row.nodes = std::max(row.nodes, next.elements * next.nodes);
-      return settle(cut, next, 0.9 * moved.depth_m, 1.1 * moved.depth_m, moved) ? OnFinerGrid::kept : OnFinerGrid::lost;
-    };
-    const bool beside_first = c.crossing.depth_m <= 1.01 * first_m;
-    const bool bounds = count == 0 || count + c.crossing.unstable_change == 0 || beside_first;
-    count += c.crossing.unstable_change;
-    refine_until(bounds ? 2 : 1, bounds ? options.error_tolerance : 1.0, to_level, c);
-    if (!c.kept && all.size() > 1 && !beside_first) {  // what lies as deep is not known
-      row.searched_m = std::min(row.searched_m, std::sqrt(all.back().crossing.depth_m * c.crossing.depth_m));
-      break;
-    }
-    if (!c.kept) row.status = StabilityStatus::crossing_missed;
-    else if (bounds && c.error_estimate > options.error_tolerance && row.status == StabilityStatus::converged)
-      row.status = StabilityStatus::node_limit_reached;
-    all.push_back(std::move(c));
-  }
-  std::ranges::stable_sort(all, {}, [](const RefinedCrossing& c) { return c.crossing.depth_m; });
-  return all;
-}
+/// Grids that each depth has of its own: a level is so many times finer than the depth's first.
+class HelicalGrids : public SearchGrids {
+ public:
+  HelicalGrids(const CutAtSpeed& cut, const HelicalSearch& search, int most_nodes)
+      : cut_(cut), search_(search), most_nodes_(most_nodes) {}
 
-/// A row that the counts of multipliers at its end and below its first crossing agree with; deep crossings that do not
-/// add up are left out.
+  [[nodiscard]] OnFinerGrid move_to(std::size_t level, Crossing& crossing) override {
+    const Resolution next = resolution(level, crossing.depth_m);
+    if (level > 2 && next.elements * next.nodes > most_nodes_) return OnFinerGrid::none_finer;
+    finest_ = std::max(finest_, next.elements * next.nodes);
+    return settle(cut_, next, 0.9 * crossing.depth_m, 1.1 * crossing.depth_m, crossing) ? OnFinerGrid::kept
+                                                                                        : OnFinerGrid::lost;
+  }
+  /// Of the finest grid so far, whatever the level.
+  [[nodiscard]] int nodes(std::size_t /*level*/) override { return finest_; }
+  [[nodiscard]] int unstable(std::size_t level, double depth_m) override {
+    return milling::unstable(discrete(cut_, resolution(level, depth_m), depth_m), depth_m);
+  }
+  [[nodiscard]] double chatter_frequency_hz(std::size_t level, const Crossing& crossing) override {
+    const DiscreteCut d = discrete(cut_, resolution(level, crossing.depth_m), crossing.depth_m);
+    const double theta = crossing.theta_rad;
+    const complex<double> mu = theta == std::numbers::pi ? complex<double>(-1.0) : std::polar(1.0, theta);
+    return milling::chatter_frequency_hz(cut_, d, theta, modulation(d, crossing.depth_m, mu));
+  }
+
+ private:
+  [[nodiscard]] Resolution resolution(std::size_t level, double depth_m) const {
+    return finer_by(search_.resolution(depth_m), level);
+  }
+
+  const CutAtSpeed& cut_;
+  const HelicalSearch& search_;
+  int most_nodes_;
+  int finest_ = 0;
+};
+
+/// The row of a search on grids that are so many times finer than is needed.
 LobeRow row_of(const CutAtSpeed& cut, std::size_t refinements, const StabilityOptions& options) {
   const HelicalSearch search(cut, refinements);
+  CoarseCrossings coarse = scan(search, options);
+  const bool ended_early = coarse.found.empty() && coarse.searched_m < options.depth_limit_m;
   LobeRow row;
   row.spindle_speed_rpm = cut.spindle_speed_rpm;
-  Scan found = scan(search, options);
-  row.searched_m = found.searched_m;
-  if (found.found.empty() && found.searched_m < options.depth_limit_m) row.status = StabilityStatus::crossing_missed;
-  if (found.searched_m == 0.0) return row;  // not even near zero
-  std::vector<RefinedCrossing> all = refined(cut, search, std::move(found), options, row);
-  const auto count_at = [&](double depth_m, std::size_t level) {
-    return unstable(discrete(cut, finer_by(search.resolution(depth_m), level), depth_m), depth_m);
-  };
-  int count = 0;
-  for (const RefinedCrossing& c : all) count += c.crossing.unstable_change;
-  while (options.follow > 1.0 && count_at(row.searched_m, 0) != count) {
-    if (all.size() <= 1) {
-      row.status = StabilityStatus::crossing_missed;
-      break;
-    }
-    count -= all.back().crossing.unstable_change;
-    const double deepest = all.back().crossing.depth_m;
-    all.pop_back();
-    row.searched_m = std::sqrt(all.back().crossing.depth_m * std::min(deepest, row.searched_m));
+  if (coarse.searched_m > 0.0) {
+    HelicalGrids grids(cut, search, options.most_nodes);
+    row = checked_row(grids, std::move(coarse), cut.spindle_speed_rpm, options);
   }
-  for (const RefinedCrossing& c : all) {
-    const Resolution finest = finer_by(search.resolution(c.crossing.depth_m), c.level);
-    const DiscreteCut d = discrete(cut, finest, c.crossing.depth_m);
-    const double theta = c.crossing.theta_rad;
-    const complex<double> mu = theta == std::numbers::pi ? complex<double>(-1.0) : std::polar(1.0, theta);
-    row.crossings.push_back(lobe_point(c, chatter_frequency_hz(cut, d, theta, modulation(d, c.crossing.depth_m, mu))));
-  }
-  const double below = all.empty() ? row.searched_m : 0.999 * all.front().crossing.depth_m;
-  if (count_at(below, all.empty() ? 1 : all.front().level) != 0) row.status = StabilityStatus::crossing_missed;
-  take_limit_from_crossings(row);
+  if (ended_early) row.status = StabilityStatus::crossing_missed;
   return row;
 }
 

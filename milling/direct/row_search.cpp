@@ -14,6 +14,10 @@ void sort_by_depth(std::vector<RefinedCrossing>& all) {
   });
 }
 
+ToLevel to_level_of(SearchGrids& grids) {
+  return [&grids](std::size_t level, Crossing& crossing) { return grids.move_to(level, crossing); };
+}
+
 /// Without the last: what lies as deep is not known.
 void drop_last(std::vector<RefinedCrossing>& all, LobeRow& row) {
   const double deepest = all.back().crossing.depth_m;
@@ -32,7 +36,7 @@ int refine_boundaries(SearchGrids& grids, std::vector<RefinedCrossing>& all, con
     const bool bounds = count == 0 || count + c.crossing.unstable_change == 0 || c.crossing.depth_m <= beside_first_m;
     count += c.crossing.unstable_change;
     if (!bounds || c.crossing.depth_m > options.depth_limit_m) continue;
-    refine_until(2, options.error_tolerance, grids.to_level(), c);
+    refine_until(2, options.error_tolerance, to_level_of(grids), c);
     if (!c.kept && i > 0 && c.crossing.depth_m > beside_first_m) {
       count -= c.crossing.unstable_change;
       while (all.size() > i) drop_last(all, row);
@@ -55,7 +59,7 @@ std::vector<RefinedCrossing> refined(SearchGrids& grids, std::vector<Crossing> f
   all.reserve(found.size());
   for (Crossing& crossing : found) {
     all.push_back({std::move(crossing)});
-    refine_until(1, 1.0, grids.to_level(), all.back());
+    refine_until(1, 1.0, to_level_of(grids), all.back());
   }
   sort_by_depth(all);
   int count = all.empty() ? 0 : refine_boundaries(grids, all, options, row);
@@ -75,11 +79,9 @@ std::vector<RefinedCrossing> refined(SearchGrids& grids, std::vector<Crossing> f
 
 }  // namespace
 
-ToLevel SearchGrids::to_level() {
-  return [this](std::size_t level, Crossing& crossing) {
-    if (level > 1 && !more_after(level - 1)) return OnFinerGrid::none_finer;
-    return refine(gain(level), crossing) ? OnFinerGrid::kept : OnFinerGrid::lost;
-  };
+OnFinerGrid FixedGrids::move_to(std::size_t level, Crossing& crossing) {
+  if (level > 1 && !more_after(level - 1)) return OnFinerGrid::none_finer;
+  return refine(gain(level), crossing) ? OnFinerGrid::kept : OnFinerGrid::lost;
 }
 
 StabilityOptions beyond_limit(StabilityOptions options) {
@@ -99,14 +101,14 @@ FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& o
   return first;
 }
 
-double wanted_m(const FirstCrossing& first, const StabilityOptions& options) {
-  if (first.found.empty()) return std::min(options.depth_limit_m, first.searched_m);
-  return std::min(options.depth_limit_m, options.follow * first.found.front().depth_m);
+double wanted_m(const std::vector<Crossing>& found, const StabilityOptions& options) {
+  if (found.empty()) return options.depth_limit_m;
+  return std::min(options.depth_limit_m, options.follow * found.front().depth_m);
 }
 
 double follow(FirstCrossing& first, const StabilityOptions& options) {
   if (first.found.empty()) return first.searched_m;
-  const double wanted = wanted_m(first, options);
+  const double wanted = wanted_m(first.found, options);
   if (options.follow == 1.0) {
     std::erase_if(first.found, [&](const Crossing& c) { return c.depth_m > 1.1 * wanted; });
     return wanted;
@@ -116,12 +118,18 @@ double follow(FirstCrossing& first, const StabilityOptions& options) {
   return wanted;
 }
 
-LobeRow row_from(SearchGrids& grids, FirstCrossing first, double spindle_speed_rpm, const StabilityOptions& options) {
+LobeRow row_from(FixedGrids& grids, FirstCrossing first, double spindle_speed_rpm, const StabilityOptions& options) {
+  const double searched_m = follow(first, beyond_limit(options));
+  return checked_row(grids, {std::move(first.found), searched_m}, spindle_speed_rpm, options);
+}
+
+LobeRow checked_row(SearchGrids& grids, CoarseCrossings coarse, double spindle_speed_rpm,
+                    const StabilityOptions& options) {
   LobeRow row;
   row.spindle_speed_rpm = spindle_speed_rpm;
-  row.searched_m = follow(first, beyond_limit(options));
+  row.searched_m = coarse.searched_m;
   std::size_t finest = 1;
-  const std::vector<RefinedCrossing> all = refined(grids, std::move(first.found), options, row);
+  const std::vector<RefinedCrossing> all = refined(grids, std::move(coarse.found), options, row);
   row.searched_m = std::min(row.searched_m, options.depth_limit_m);
   for (const RefinedCrossing& c : all) {
     if (c.crossing.depth_m > options.depth_limit_m) continue;

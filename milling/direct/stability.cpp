@@ -29,7 +29,7 @@ complex<double> dominant(const Eigen::VectorXcd& eigenvalues) {
 }
 
 /// Grids of a cut known by its poles.
-class PoleGrids : public SearchGrids {
+class PoleGrids : public FixedGrids {
  public:
   PoleGrids(const CutAtSpeed& cut, Resolution first, double depth_m, int most_nodes)
       : cut_(cut), next_(first), depth_m_(depth_m), most_nodes_(most_nodes) {}
@@ -130,7 +130,7 @@ LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
       resolution = needed;
       continue;
     }
-    const double wanted = wanted_m(first, options);
+    const double wanted = wanted_m(first.found, options);
     LobeRow row = row_from(grids, std::move(first), cut.spindle_speed_rpm, options);
     if (row.crossings.empty()) describe_depth_limit(row, cut, options);
     // By the nodes of the search: a crossing that is none on finer grids (two flips that become one Hopf crossing
