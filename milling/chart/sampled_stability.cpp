@@ -182,15 +182,15 @@ class SampledGrids : public FixedGrids {
   [[nodiscard]] const GainOnCircle& gain(std::size_t level) override { return made(level).gain; }
   [[nodiscard]] int nodes(std::size_t level) override { return static_cast<int>((*this)[level].node_rad.size()); }
   [[nodiscard]] bool more_after(std::size_t level) override { return level < 2 || 3 * nodes(level) < 2 * most_nodes_; }
-  /// On the second grid at most: the count costs as much as a search, and its harmonics are many enough for it.
+  /// The count on the second grid at most: it costs as much as a search, and its harmonics are many enough for it.
   [[nodiscard]] int unstable(std::size_t level, double depth_m) override {
     return unstable_count(gain(std::min<std::size_t>(level, 1)), depth_m);
   }
   [[nodiscard]] double chatter_frequency_hz(std::size_t level, const Crossing& crossing) override {
     return chatter_hz(cut_, (*this)[level], crossing.theta_rad, crossing.mode);
   }
-  /// For what lies beyond the range of the receptance: twice what the depth moves by with a plain line at either end,
-  /// since the oscillator that matters there may be another than the one that is taken.
+  /// The error by what lies beyond the range of the receptance: twice what the depth moves by with a plain line at
+  /// either end, since the oscillator that matters there may be another than the one that is taken.
   [[nodiscard]] double error_beyond_grids(std::size_t level, const Crossing& crossing) override {
     double error = 0.0;
     for (const Continuation& plain : {Continuation{0.0, cut_.resonance_hz}, Continuation{cut_.resonance_hz, 0.0}}) {
@@ -233,7 +233,7 @@ class SampledGrids : public FixedGrids {
   std::vector<std::unique_ptr<Level>> levels_;
 };
 
-/// Of a row without crossings: the motion nearest to growing at the depth limit.
+/// Describes the limit of a row without crossings by the motion nearest to growing at the depth limit.
 void describe_depth_limit(const SampledCut& cut, SampledGrids& grids, double depth_limit_m, LobeRow& row) {
   double nearest = INFINITY;
   for (const double theta : grids.gain(0).stops) {

@@ -71,7 +71,7 @@ struct Regeneration {
   std::vector<Moment> past;
 };
 
-/// With as few contacts as D has rank.
+/// Adds as many contacts as D has rank, for each of them is a row and a column of the loop's gain.
 void add_by_rank(const Regeneration& one, int node, std::vector<Contact>& contacts) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(one.D, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d& size = svd.singularValues();

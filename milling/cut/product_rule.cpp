@@ -49,7 +49,8 @@ Eigen::MatrixXd weighted_polynomials(const Eigen::VectorXd& node, const core::Ga
   return table;
 }
 
-/// e^{z_k d_q}, real parts above imaginary ones: 2 modes × distances.
+/// e^{z_k d_q}, real parts above imaginary ones: 2 modes × distances. As real numbers, for the tables that they are
+/// multiplied by are real: half the products of a complex one.
 Eigen::MatrixXd exponentials(const Eigen::VectorXcd& z, const Eigen::ArrayXd& distance) {
   const Eigen::Index modes = z.size();
   Eigen::MatrixXd result(2 * modes, distance.size());
@@ -76,9 +77,11 @@ Eigen::MatrixXcd as_complex(const Eigen::MatrixXd& parts) {
 
 ProductRule::ProductRule(int nodes, double largest_exponent) : node_(core::gauss_legendre(nodes).node) {
   const core::GaussRule whole = points_for(nodes, largest_exponent);
+  // A force at s acts for 1 − s until the end: e^{z (1 − s)} is taken at these distances.
   distance_ = 1.0 - whole.node.array();
   whole_ = weighted_polynomials(node_, whole, 0.0, 1.0);
   Eigen::VectorXd ends(nodes + 2);
+  // The motion at each node needs the integral up to it. From node to node the intervals are short, and few points do.
   ends << 0.0, node_, 1.0;
   gap_ = ends.tail(nodes + 1) - ends.head(nodes + 1);
   const core::GaussRule points = points_for(nodes, gap_.maxCoeff() * largest_exponent);
@@ -100,6 +103,7 @@ ModeMoments ProductRule::moments(const Eigen::VectorXcd& z) const {
     auto& in_gap = decay[static_cast<std::size_t>(same)];
     if (i == same) in_gap = exponentials(z * gap_(i), gap_distance_);
     const Eigen::VectorXcd over_gap = (z * gap_(i)).array().exp();
+    // What was there is carried over the gap, and what the gap adds comes to it. After the last gap this is the end.
     result.end =
         (over_gap.asDiagonal() * result.end + as_complex(in_gap * gap_table_[static_cast<std::size_t>(i)])).eval();
     if (i < n) result.inside.push_back(result.end);
@@ -108,6 +112,7 @@ ModeMoments ProductRule::moments(const Eigen::VectorXcd& z) const {
 }
 
 const ProductRule& shared_product_rule(int nodes, double exponent) {
+  // In steps of √2 neighbouring speeds share a rule. More points than an exponent needs do no harm.
   thread_local std::map<std::pair<int, int>, ProductRule> rules;
   const int half_powers = std::max(4, static_cast<int>(std::ceil(2.0 * std::log2(std::max(exponent, 1.0)))));
   return rules.try_emplace({nodes, half_powers}, nodes, std::exp2(0.5 * half_powers)).first->second;

@@ -18,14 +18,16 @@ ToLevel to_level_of(SearchGrids& grids) {
   return [&grids](std::size_t level, Crossing& crossing) { return grids.move_to(level, crossing); };
 }
 
-/// Without the last: what lies as deep is not known.
+/// Leaves out the deepest crossing. The depths up to it are no longer known to be searched: the row ends half way, in
+/// ratio, between the two deepest.
 void drop_last(std::vector<RefinedCrossing>& all, LobeRow& row) {
   const double deepest = all.back().crossing.depth_m;
   all.pop_back();
   row.searched_m = std::sqrt(all.back().crossing.depth_m * std::min(deepest, row.searched_m));
 }
 
-/// The crossings that bound a stable range to the tolerance; `all` ends before one that gets lost. The changes of all.
+/// Refines the crossings that bound a stable range to the tolerance; `all` ends before one of them that gets lost.
+/// Returns the sum of the changes of those that are left: the multipliers that should be unstable at the end.
 int refine_boundaries(SearchGrids& grids, std::vector<RefinedCrossing>& all, const StabilityOptions& options,
                       LobeRow& row) {
   // A crossing this near to the first may turn out to be the first on a finer grid.
@@ -33,10 +35,15 @@ int refine_boundaries(SearchGrids& grids, std::vector<RefinedCrossing>& all, con
   int count = 0;  // of unstable multipliers above the crossings so far
   for (std::size_t i = 0; i < all.size(); ++i) {
     RefinedCrossing& c = all[i];
+    // A stable range ends where the first multiplier leaves the circle, and begins where the last one returns. What
+    // crosses while others are outside changes no limit, so that the second grid does for it.
     const bool bounds = count == 0 || count + c.crossing.unstable_change == 0 || c.crossing.depth_m <= beside_first_m;
     count += c.crossing.unstable_change;
     if (!bounds || c.crossing.depth_m > options.depth_limit_m) continue;
     refine_until(2, options.error_tolerance, to_level_of(grids), c);
+    // A deep crossing that finer grids do not have was one of the coarse grid only, and what is beyond it is as
+    // doubtful. The limiting depth does not depend on it, and the row ends before. Without the first one there is no
+    // row.
     if (!c.kept && i > 0 && c.crossing.depth_m > beside_first_m) {
       count -= c.crossing.unstable_change;
       while (all.size() > i) drop_last(all, row);
@@ -57,12 +64,16 @@ std::vector<RefinedCrossing> refined(SearchGrids& grids, std::vector<Crossing> f
                                      LobeRow& row) {
   std::vector<RefinedCrossing> all;
   all.reserve(found.size());
+  // One finer grid for each before anything is said of their order: the coarse grid's may be another.
   for (Crossing& crossing : found) {
     all.push_back({std::move(crossing)});
     refine_until(1, 1.0, to_level_of(grids), all.back());
   }
   sort_by_depth(all);
   int count = all.empty() ? 0 : refine_boundaries(grids, all, options, row);
+  // The count knows nothing of how crossings are found. Where it differs one was missed or is none, as a rule a deep
+  // one: the row is cut back to where both agree. With `follow` = 1 there is the first crossing alone, which is checked
+  // below it in any case.
   if (options.follow > 1.0) {
     while (grids.unstable(0, row.searched_m) != count) {
       if (all.size() <= 1) {
@@ -90,6 +101,9 @@ StabilityOptions beyond_limit(StabilityOptions options) {
 }
 
 FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& options) {
+  // Each search costs an eigenvalue problem at every stop that the depth can reach, so that a search to the limit of a
+  // cut that chatters at a hundredth of it would be dear. A neighbour's depth is passed by a tenth, so that one search
+  // is enough where the lobes change little from speed to speed.
   constexpr double step = 1.5;
   FirstCrossing first{CriticalDepths(gain), {}, 0.0};
   const double expected = 1.1 * options.expected_depth_m.value_or(0.75 * first.search.none_below_m());
@@ -137,6 +151,7 @@ LobeRow checked_row(SearchGrids& grids, CoarseCrossings coarse, double spindle_s
     row.crossings.push_back(lobe_point(c, grids.chatter_frequency_hz(c.level, c.crossing)));
   }
   row.nodes = grids.nodes(finest);
+  // The limiting depth rests on nothing unstable below it, which is counted a thousandth below.
   const double below = row.crossings.empty() ? row.searched_m : 0.999 * row.crossings.front().depth_m;
   if (!grids.stable(finest, below)) row.status = StabilityStatus::crossing_missed;
   take_limit_from_crossings(row);

@@ -25,9 +25,9 @@ class SearchGrids {
   [[nodiscard]] virtual int unstable(std::size_t level, double depth_m) = 0;
   /// True if no multiplier lies outside of the unit circle.
   [[nodiscard]] virtual bool stable(std::size_t level, double depth_m) { return unstable(level, depth_m) == 0; }
-  /// Of a crossing of that grid, Hz.
+  /// The chatter frequency of a crossing of that grid, Hz.
   [[nodiscard]] virtual double chatter_frequency_hz(std::size_t level, const Crossing& crossing) = 0;
-  /// Error of a depth, relative, that no finer grid shows.
+  /// The error of a depth, relative, that no finer grid shows.
   [[nodiscard]] virtual double error_beyond_grids(std::size_t /*level*/, const Crossing& /*crossing*/) { return 0.0; }
 };
 
@@ -41,7 +41,7 @@ class FixedGrids : public SearchGrids {
   [[nodiscard]] OnFinerGrid move_to(std::size_t level, Crossing& crossing) final;
 };
 
-/// What a search of the coarse grids gives.
+/// The outcome of a search of the coarse grids.
 struct CoarseCrossings {
   std::vector<Crossing> found;  ///< by rising depth
   double searched_m = 0.0;      ///< the depth up to which they are all
@@ -68,8 +68,8 @@ struct FirstCrossing {
 /// The depth up to which a row's crossings are wanted, m: `follow` times the first, or the depth limit.
 [[nodiscard]] double wanted_m(const std::vector<Crossing>& found, const StabilityOptions& options);
 
-/// Goes on to `follow` times the first crossing, if there is one; with `follow` = 1 those within a tenth of it are
-/// kept, one of which may turn out to be the first on a finer grid. Returns the depth that was searched, m.
+/// Extends the search to `follow` times the first crossing, if there is one; with `follow` = 1 those within a tenth of
+/// it are kept, one of which may turn out to be the first on a finer grid. Returns the depth that was searched, m.
 [[nodiscard]] double follow(FirstCrossing& first, const StabilityOptions& options);
 
 /// The row of the crossings that a coarse search found: each on a finer grid, those that bound a stable range to the

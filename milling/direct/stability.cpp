@@ -93,7 +93,7 @@ Multiplier multiplier_of(const CutAtSpeed& cut, double depth_m, const StabilityO
   }
 }
 
-/// Of a row without crossings: the multiplier at the depth limit.
+/// Describes the limit of a row without crossings by the multiplier at the depth limit.
 void describe_depth_limit(LobeRow& row, const CutAtSpeed& cut, const StabilityOptions& options) {
   const Multiplier mu = multiplier_of(cut, options.depth_limit_m, options);
   row.limiting_depth_m = options.depth_limit_m;
