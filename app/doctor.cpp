@@ -65,7 +65,8 @@ std::string python_text() {
 std::string self_test_text(const SelfTest& test) {
   if (!test.failure.empty()) return "cantilever: " + test.failure;
   return "cantilever: " + core::number_text(test.found_hz, 5) + " Hz, by beam theory " +
-         core::number_text(test.expected_hz, 5) + " Hz, " + (test.ok() ? "ok" : "WRONG") + ", " +
+         core::number_text(test.expected_hz, 5) + " Hz, " + (test.ok() ? "ok" : "WRONG") + ", modes confirmed to " +
+         core::number_text(test.mode_difference, 2) + " by a Sturm count and Spectra's Lanczos, " +
          core::readable_text(test.seconds, core::kind::time);
 }
 

@@ -31,6 +31,7 @@ order = 3
 on = "y_min"
 [modes]
 count = 2
+verify = true
 )";
 
 double cantilever_hz() {
@@ -52,8 +53,9 @@ SelfTest self_test() {
   try {
     const cases::Case source = cases::parse_case(cantilever, ".");
     study::Stages stages;
-    test.found_hz =
-        study::solved_part(source, study::discretise(study::part_input(source)), stages).modes.frequency_hz(0);
+    const fem::Modes modes = study::solved_part(source, study::discretise(study::part_input(source)), stages).modes;
+    test.found_hz = modes.frequency_hz(0);
+    test.mode_difference = modes.check.value().largest_difference;
   } catch (const core::Interrupted&) {
     throw;
   } catch (const std::exception& error) {

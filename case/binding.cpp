@@ -400,7 +400,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   bound.part_sensors = bind_sensors(root.tables("part.sensors"));
   bound.selections = bind_selections(root.table("selections"));
   bound.points = bind_points(root.table("points"));
-  bound.modes = {bind_range(root.table("modes"), "count", 10), root.flag("modes.verify_count")};
+  bound.modes = {bind_range(root.table("modes"), "count", 10), root.flag("modes.verify")};
   bound.reduction.fixed_interface = bind_range(root.table("reduction"), "modes", 30);
   bound.reduction.tolerance = root.table("reduction").optional("tolerance");
   bound.reduction.interface = root.names("reduction.interface");

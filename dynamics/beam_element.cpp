@@ -1,8 +1,9 @@
 #include "dynamics/beam_element.hpp"
 
-#include <array>
 #include <cmath>
 #include <numbers>
+
+#include "core/gauss_rule.hpp"
 
 namespace thinwall::dynamics {
 
@@ -144,16 +145,11 @@ Matrix12 beam_stiffness(const BeamSection& s, double L) {
 Matrix12 beam_mass(const BeamSection& s, double L) {
   Eigen::Vector<double, 6> Q;
   Q << Eigen::Vector3d::Constant(s.area_m2), s.I_y_m4 + s.I_z_m4, s.I_y_m4, s.I_z_m4;
-  // Gauss-Legendre quadrature with four points is exact to degree 7; the integrand has degree 6.
-  const double inner = std::sqrt(3.0 / 7.0 - 2.0 / 7.0 * std::sqrt(1.2));
-  const double outer = std::sqrt(3.0 / 7.0 + 2.0 / 7.0 * std::sqrt(1.2));
-  const double more = (18.0 + std::sqrt(30.0)) / 72.0;
-  const double less = (18.0 - std::sqrt(30.0)) / 72.0;
-  const std::array<std::pair<double, double>, 4> points{{{-outer, less}, {-inner, more}, {inner, more}, {outer, less}}};
+  const core::GaussRule rule = core::gauss_legendre(4);  // exact to degree 7; the integrand has degree 6
   Matrix12 M = Matrix12::Zero();
-  for (const auto& [place, weight] : points) {
-    const Eigen::Matrix<double, 6, 12> N = section_motion(s, L, 0.5 + 0.5 * place);
-    M += weight * s.density_kg_m3 * L * N.transpose() * Q.asDiagonal() * N;
+  for (Eigen::Index q = 0; q < rule.node.size(); ++q) {
+    const Eigen::Matrix<double, 6, 12> N = section_motion(s, L, rule.node(q));
+    M += rule.weight(q) * s.density_kg_m3 * L * N.transpose() * Q.asDiagonal() * N;
   }
   return 0.5 * (M + M.transpose());
 }

@@ -20,7 +20,7 @@ struct ClosedPartOptions {
   /// Tolerance on frequencies, relative, 1e-3 to 0.1. The part share_of_surface of it is for the surface, which the
   /// elements follow with straight edges; the rest is for the elements.
   double tolerance = 1e-2;
-  ModeOptions modes{.count = 5, .up_to_hz = {}, .verify_count = false};
+  ModeOptions modes{.count = 5, .up_to_hz = {}};
   std::vector<Support> supports;   ///< empty for a free part
   std::vector<NamedPoint> points;  ///< points between which receptances must meet the tolerance
   bool points_hold = false;        ///< as in ToleranceOptions

@@ -10,6 +10,7 @@
 #include "fem/closed_part.hpp"
 #include "fem/free_motions.hpp"
 #include "fem/material.hpp"
+#include "fem/mode_check.hpp"
 #include "fem/model.hpp"
 #include "fem/modes.hpp"
 #include "fem/patch.hpp"

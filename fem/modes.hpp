@@ -4,15 +4,15 @@
 #include <optional>
 
 #include "fem/model.hpp"
+#include "linalg/eigenpair_check.hpp"
 #include "linalg/eigenpairs.hpp"
 
 namespace thinwall::fem {
 
-/// The modes wanted, by number or by frequency, and whether to prove that none was missed.
+/// The modes wanted, by number or by frequency.
 struct ModeOptions {
   int count = 10;                    ///< number of elastic modes; used if up_to_hz is not given
   std::optional<double> up_to_hz{};  ///< if given, all modes below this frequency instead
-  bool verify_count = false;         ///< Sturm count: inertia of K − σM just above the last mode
   double inverse_residual = 3e-10;   ///< ≤ 1e-6, for `count` modes: error of a shape; its square is that of λ
 };
 
@@ -25,18 +25,13 @@ struct [[nodiscard]] Modes {
   /// The relative change of the lowest elastic frequency that rounding the entries of K may cause: ε tr K / (2 λ tr M).
   /// No residual shows it; for very thin parts it grows as (length / thickness)⁴.
   double round_off = 0.0;
-  std::optional<bool> count_verified;  ///< set on request: true if the Sturm count agrees
+  std::optional<linalg::EigenpairCheck> check;  ///< of verify() (mode_check.hpp), where it was asked for
 };
-
-/// True if a Sturm count proves that no eigenvalue other than those of the pairs lies below the last of them. The
-/// eigenvalues are counted at a shift just above the last one (linalg::count_eigenvalues_below()).
-[[nodiscard]] bool none_missed(const Model& model, const linalg::Eigenpairs& pairs);
 
 /// The natural modes of a model, the rigid-body modes first. Throws NumericalError if the iteration does not converge,
 /// if a free part does not show exactly its rigid-body modes (|λ| < 1e-6 of the first elastic eigenvalue or of the size
 /// of K's round-off, 10 ε tr K / tr M), or if the first elastic eigenvalue, of a held part too, is no larger than that
-/// round-off. Throws InputError if no elastic mode lies below up_to_hz. Cost: that of linalg::lowest_eigenpairs(); the
-/// Sturm count adds a simplicial factorisation.
+/// round-off. Throws InputError if no elastic mode lies below up_to_hz. Cost: that of linalg::lowest_eigenpairs().
 Modes modes(const Model& model, const Factored& factored, const ModeOptions& options);
 
 /// The modes near given ones, which must lie near the lowest: inverse iteration (linalg::inverse_iteration) until the

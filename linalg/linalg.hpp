@@ -5,6 +5,9 @@
 
 #include "core/eigen_alignment.hpp"
 #include "linalg/block_lanczos.hpp"
+#include "linalg/bracketed_root.hpp"
+#include "linalg/complex_eigenvalues.hpp"
+#include "linalg/eigenpair_check.hpp"
 #include "linalg/eigenpairs.hpp"
 #include "linalg/inverse_iteration.hpp"
 #include "linalg/library_threads.hpp"

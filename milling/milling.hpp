@@ -1,6 +1,6 @@
 #pragma once
 // All that milling/ offers to other programs.
-// Internal: bracketed_root, complex_eigenvalues, contact_grid, contact_state, critical_depths, crossing,
+// Internal: contact_grid, contact_state, critical_depths, crossing,
 // cut_at_speed, cut_cycle, dominant_eigenvalue, edge, found_crossings, helical_row, parameter_change,
 // product_rule, refined_crossing, row_search, sampled_peak, step_coefficients, uniform_step_map,
 // uniform_step_stability, unstable_count, vanishing_powers.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "milling/direct/stability.hpp"
 #include "report/contact_report.hpp"
@@ -76,7 +77,12 @@ json part_of(const study::Results& results) {
                  {"rigid_body_modes", part.modes.rigid_motions},
                  {"modes", modes}};
   if (!part.model.mesh.tets.empty()) result["free_motions"] = part.model.free_motions;
-  if (part.modes.count_verified) result["count_verified"] = *part.modes.count_verified;
+  if (const auto& check = part.modes.check) {
+    result["mode_check"] = {{"modes_counted", check->counted},
+                            {"below_hz", std::sqrt(check->shift) / (2.0 * std::numbers::pi)},
+                            {"largest_difference_relative", check->largest_difference},
+                            {"of_mode", check->pair + 1}};
+  }
   for (const auto& found : part.identified) {
     json entry = mode(found.frequency_hz, found.damping_ratio);
     entry["relative_misfit"] = found.relative_misfit;

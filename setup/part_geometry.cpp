@@ -110,7 +110,7 @@ fem::NamedPoint named_point(const PartSetup& source, const std::string& name) {
 }
 
 fem::ModeOptions mode_options(const PartSetup& source) {
-  return {source.modes.range.count.value_or(10), source.modes.range.up_to_hz, source.modes.verify_count};
+  return {source.modes.range.count.value_or(10), source.modes.range.up_to_hz};
 }
 
 std::vector<std::string> unreachable_tolerances(const PartSetup& source) {

@@ -31,7 +31,7 @@ struct ModeRange {
 /// The modes of the whole part that are asked for.
 struct Modes {
   ModeRange range;
-  bool verify_count = false;
+  bool verify = false;  ///< by a Sturm count and a second eigen-solver
 };
 
 /// The reduced model of the part that is asked for.

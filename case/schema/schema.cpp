@@ -104,7 +104,7 @@ constexpr Key case_keys[] = {
 
     Key{"modes.count", Type::integer, kind::number, "", {1, 2000, false, false, false, ""}, "", "Number of modes."},
     Key{"modes.up_to", Type::quantity, kind::frequency, "", positive, "", "All modes up to this frequency."},
-    Key{"modes.verify_count", Type::boolean, kind::number, "false", any, "", "Confirm by a Sturm count that no mode was missed."},
+    Key{"modes.verify", Type::boolean, kind::number, "false", any, "", "Check the modes by a Sturm count, which shows whether one was missed, and by a second eigen-solver."},
 
     Key{"reduction.method", Type::choice, kind::number, "\"craig_bampton\"", any, "craig_bampton", "The method."},
     Key{"reduction.modes", Type::integer, kind::number, "", {0, 2000, false, false, false, ""}, "", "Number of fixed-interface modes."},

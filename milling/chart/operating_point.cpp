@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "linalg/bracketed_root.hpp"
 
 namespace thinwall::milling {
 
@@ -31,31 +32,6 @@ double signed_distance(const LobeRow& row, double depth_m) {
   for (const LobePoint& point : boundaries(row))
     nearest = std::min(nearest, std::abs(std::log(point.depth_m / depth_m)));
   return stable_at(row, depth_m) ? nearest : -nearest;
-}
-
-struct Sample {
-  double rpm;
-  double value;
-};
-
-/// The root between two speeds of opposite sign.
-double root_between(const std::function<double(double)>& value_at, Sample a, Sample b) {
-  constexpr double tolerance = 1e-6;
-  int kept = 0;  // 1: b was kept, −1: a
-  for (int i = 0; i < 60 && std::abs(b.rpm - a.rpm) > tolerance * b.rpm; ++i) {
-    // The rule may stall where the value jumps because another boundary becomes the nearest; halving now and then
-    // helps.
-    const double share = i % 4 == 3 ? 0.5 : std::clamp(a.value / (a.value - b.value), 0.01, 0.99);
-    const double rpm = a.rpm + share * (b.rpm - a.rpm);
-    const Sample middle{rpm, value_at(rpm)};
-    if (std::abs(middle.value) < tolerance) return rpm;
-    const bool replaces_a = (middle.value > 0.0) == (a.value > 0.0);
-    Sample& stays = replaces_a ? b : a;
-    if (kept == (replaces_a ? 1 : -1)) stays.value *= 0.5;
-    (replaces_a ? a : b) = middle;
-    kept = replaces_a ? 1 : -1;
-  }
-  return 0.5 * (a.rpm + b.rpm);
 }
 
 }  // namespace
@@ -109,6 +85,10 @@ SpeedMargin speed_margin(const RowAt& row_at, const std::vector<LobeRow>& chart,
   const auto value_at = [&](double rpm) {
     return signed_distance(row_to(row_at, {rpm, point.depth_m}, options), point.depth_m);
   };
+  struct Sample {
+    double rpm;
+    double value;
+  };
   const Sample here{point.spindle_speed_rpm, value_at(point.spindle_speed_rpm)};
   const auto boundary = [&](auto first, auto last) -> std::optional<double> {
     double like_here_rpm = here.rpm;
@@ -117,7 +97,10 @@ SpeedMargin speed_margin(const RowAt& row_at, const std::vector<LobeRow>& chart,
       if (stable_at(*row, point.depth_m) != (here.value > 0.0)) {
         const Sample there{rpm, value_at(rpm)};
         const Sample before = like_here_rpm == here.rpm ? here : Sample{like_here_rpm, value_at(like_here_rpm)};
-        if ((there.value > 0.0) != (before.value > 0.0)) return root_between(value_at, before, there);
+        if ((there.value > 0.0) != (before.value > 0.0)) {
+          return linalg::bracketed_root(value_at, {before.rpm, before.value, there.rpm, there.value},
+                                        {.relative = 1e-6, .value = 1e-6}, "the speed at the boundary of stability");
+        }
       }
       like_here_rpm = rpm;
     }

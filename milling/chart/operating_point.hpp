@@ -46,7 +46,7 @@ struct SpeedMargin {
 
 /// The boundary at fixed depth: the neighbouring speeds of the chart that differ from the point, then the root between
 /// them (to 1e-6 of the speed) of the logarithmic distance to the nearest crossing that bounds a stable range, positive
-/// where stable, by the false position rule of Illinois (Dowell & Jarratt 1971). A change of stability that lies
+/// where stable, by linalg::bracketed_root(). A change of stability that lies
 /// between two speeds of the chart as a whole is not seen. `chart` by rising speed. Cost: some eight rows a side.
 [[nodiscard]] SpeedMargin speed_margin(const RowAt& row_at, const std::vector<LobeRow>& chart,
                                        const OperatingPoint& point, const StabilityOptions& options);

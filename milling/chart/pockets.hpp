@@ -18,10 +18,10 @@ enum class PocketLimit {
   power,          ///< of the machine
   torque,         ///< of the machine
   spindle_speed,  ///< its range ends where the rate would still rise
-  feed_rate,      ///< the same of the speed at which the feed per tooth can be kept
+  feed_rate,      ///< beyond this speed the feed per tooth cannot be kept
 };
 
-/// As in the enumeration.
+/// The limit's name as in the enumeration.
 [[nodiscard]] std::string name(PocketLimit limit);
 
 /// A range of neighbouring speeds of a chart around a local maximum of speed times depth, which at a given feed per

@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
-#include "milling/direct/bracketed_root.hpp"
+#include "linalg/bracketed_root.hpp"
 #include "milling/direct/row_search.hpp"
 #include "milling/direct/stability.hpp"
 #include "milling/structure/parameter_change.hpp"
@@ -51,12 +51,15 @@ double require_reach(double frequency_uncertainty, double confidence) {
   throw core::InputError(text.str());
 }
 
-/// The speeds, and around each of them as far as frequencies reach a grid whose steps are shares of that.
+/// The speeds, and around each of them as far as frequencies reach a grid whose steps are shares of that. A change of
+/// all frequencies by δ turns the limit at n into that at n/(1 + δ), which is known once it is computed: the grid is
+/// one of ln n, common to all speeds, so that neighbours share its rows.
 std::vector<double> with_neighbours(const std::vector<double>& speeds, double reach) {
   std::vector<double> all = speeds;
   if (reach == 0.0) return all;
   const double step = std::log1p(reach) / steps_of_reach;
   const double origin = std::log(speeds.front());
+  // `last` is the last line of the grid that a speed before has asked for: the speeds ascend.
   long last = std::numeric_limits<long>::min();
   for (const double rpm : speeds) {
     const double here = std::log(rpm) - origin;
@@ -70,14 +73,17 @@ std::vector<double> with_neighbours(const std::vector<double>& speeds, double re
   return all;
 }
 
-/// Without what a common change of all frequencies explains.
+/// The sensitivities less the part that a common change of all frequencies explains. That change moves the chart as a
+/// whole and is followed exactly, over the neighbouring speeds; in the slope it would count twice.
 DepthSensitivity beside_common_change(DepthSensitivity s) {
   const double magnitude = s.to_frequency.cwiseAbs().sum();
   if (magnitude > 0.0) s.to_frequency -= (s.to_frequency.sum() / magnitude * s.to_frequency.cwiseAbs()).eval();
   return s;
 }
 
-/// The slope of ln w in standard uncertainties: frequencies, damping ratios, masses, K_t, K_r, K_a.
+/// The slope of ln w in standard uncertainties: frequencies, damping ratios, masses, K_t, K_r, K_a. In these units
+/// equal probability lies on spheres about the nominal parameters, and to first order the limit on a sphere is least
+/// down the slope.
 Eigen::VectorXd standard_slope(const DepthSensitivity& s, const Uncertainty& u) {
   Eigen::VectorXd slope(3 * s.to_mass.size() + 3);
   slope << u.frequency * s.to_frequency, u.damping_ratio * s.to_damping_ratio, u.mass * s.to_mass,
@@ -96,7 +102,7 @@ ParameterChange change_of(const Eigen::VectorXd& z, const Uncertainty& u) {
           K(2)};
 }
 
-/// A limit, infinite at the end of what is looked at; 0 where no structure or cut is any more.
+/// A limit with changed parameters, infinite at the end of what is looked at; 0 if no structure or cut has them.
 struct ChangedLimit {
   LobeRow row;
   double depth_m = 0.0;
@@ -124,6 +130,9 @@ void add_worst_depth(const RelativeStructure& structure, const MillingProcess& p
                      const Uncertainty& u, double confidence, Eigen::VectorXd slope, UncertainRow& result) {
   constexpr int most_steps = 4;
   Eigen::VectorXd direction = Eigen::VectorXd::Zero(slope.size());
+  // On the sphere of k standard uncertainties the limit is least where the direction is that of the slope there. From
+  // the slope at the centre on, each step turns half way to the new slope: two modes of like depth, which take turns in
+  // being the limit, would otherwise be sought in turns.
   for (int step = 0; step < most_steps && slope.norm() > 0.0; ++step) {
     direction = (direction - slope.normalized()).normalized();
     const ChangedLimit there =
@@ -138,8 +147,8 @@ void add_worst_depth(const RelativeStructure& structure, const MillingProcess& p
   }
 }
 
-/// Of a row that is stable to the limit, where no slope is known: less damping of every mode, lighter modes, higher
-/// coefficients, all at once, which is on the safe side.
+/// The worst depth of a row that is stable to the limit, where no slope is known: with less damping of every mode,
+/// lighter modes and higher coefficients, all at once, which is on the safe side.
 void add_adverse_depth(const RelativeStructure& structure, const MillingProcess& process,
                        const StabilityOptions& options, const Uncertainty& u, double confidence, UncertainRow& result) {
   const Eigen::VectorXd one = Eigen::VectorXd::Ones(structure.poles.size());
@@ -151,8 +160,8 @@ void add_adverse_depth(const RelativeStructure& structure, const MillingProcess&
   result.converged = result.converged && sound(there.row);
 }
 
-/// Depths that nothing is known of are 0, which is on the safe side: parameters that no structure has any more, a
-/// sensitivity that cannot be had.
+/// The limit at a speed with its worst depth. Depths that nothing is known of are 0, which is on the safe side:
+/// parameters that no structure has any more, a sensitivity that cannot be had.
 UncertainRow uncertain_row(const RelativeStructure& structure, const MillingProcess& process, double rpm,
                            const StabilityOptions& options, const Uncertainty& uncertainty, double confidence) {
   const LobeRow row = limiting_depth(structure, process, rpm, options);
@@ -175,7 +184,7 @@ UncertainRow uncertain_row(const RelativeStructure& structure, const MillingProc
   return result;
 }
 
-/// Between the limit and the worst one, which counts alone where the limit is not known.
+/// The depth between the limit and the worst one, which counts alone if the limit is not known.
 double weighed_depth(const UncertainRow& row, double share) {
   if (std::isinf(row.depth_m)) return share > 0.0 ? row.worst_depth_m : row.depth_m;
   return row.depth_m - share * (row.depth_m - row.worst_depth_m);
@@ -190,6 +199,9 @@ RobustRow robust_row(const std::vector<UncertainRow>& rows, double rpm, double r
   auto row = std::ranges::lower_bound(rows, reach == 0.0 ? rpm : low, {}, &UncertainRow::rpm);
   for (; row != rows.end() && row->rpm <= (reach == 0.0 ? rpm : high); ++row) {
     if (row->rpm == rpm) result.relative_uncertainty = row->uncertainty;
+    // The structure whose frequencies are higher by 1 + δ = moved has at rpm the limit of row->rpm, times moved²: at
+    // constant modal masses its stiffness is so much higher. The share of the confidence that δ uses is not left for
+    // the other parameters.
     const double moved = rpm / row->rpm;
     const double used = reach == 0.0 ? 0.0 : std::min(1.0, std::abs(moved - 1.0) / reach);
     result.depth_m = std::min(result.depth_m, moved * moved * weighed_depth(*row, std::sqrt(1.0 - used * used)));
@@ -204,9 +216,11 @@ RobustRow robust_row(const std::vector<UncertainRow>& rows, double rpm, double r
 
 double two_sided_coverage(double confidence) {
   const double one_side = 0.5 * std::erfc(confidence / std::sqrt(2.0));
+  // The tails fall as e^{−k²/2}: their logarithm is nearly straight, which the root finder needs at any confidence.
   const auto excess = [&](double k) { return std::log(std::erfc(k / std::sqrt(2.0)) / one_side); };
   const double far = confidence + 1.0;
-  return bracketed_root(excess, confidence, excess(confidence), far, excess(far), 1e-12);
+  return linalg::bracketed_root(excess, {confidence, excess(confidence), far, excess(far)}, {.relative = 1e-12},
+                                "the confidence of both sides");
 }
 
 RobustLobes robust_lobes(const RelativeStructure& structure, const MillingProcess& process,
@@ -218,6 +232,7 @@ RobustLobes robust_lobes(const RelativeStructure& structure, const MillingProces
   const double limit = options.depth_limit_m;
   MillingProcess endless = process;
   if (process.cutter.envelope.straight()) {
+    // A cut that is stable to the limit by little is not robust there; only the depth beyond tells it from others.
     endless.cutter.envelope.height_m = std::numeric_limits<double>::infinity();
     options.depth_limit_m *= 2.0;
   }

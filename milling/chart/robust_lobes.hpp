@@ -28,7 +28,7 @@ struct RobustLobes {
   int rows_not_converged = 0;
 };
 
-/// Largest change of frequencies that is followed, as a share.
+/// The largest change of frequencies that is followed, as a share.
 constexpr double most_reach = 0.5;
 
 /// The multiple k' of u_f over which frequencies are varied, beyond which on either side as much probability lies as

@@ -12,9 +12,9 @@
 
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
+#include "core/gauss_rule.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
-#include "milling/cut/product_rule.hpp"
 #include "milling/direct/chatter_frequency.hpp"
 #include "milling/direct/cut_at_speed.hpp"
 #include "milling/direct/row_search.hpp"
@@ -78,7 +78,7 @@ double highest_resonance_hz(const SampledReceptance& r) {
 double mean_stiffness(const ContactGrid& grid) {
   Eigen::VectorXd weight(grid.node_rad.size());
   for (const CutElement& e : grid.elements)
-    weight.segment(e.first_node, e.nodes) = gauss_legendre(e.nodes).weight * (e.to_rad - e.from_rad);
+    weight.segment(e.first_node, e.nodes) = core::gauss_legendre(e.nodes).weight * (e.to_rad - e.from_rad);
   Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
   for (const Contact& c : grid.contacts) mean += weight(c.node) / grid.period_rad * c.force * c.chip.transpose();
   return mean.norm();
@@ -172,7 +172,7 @@ GainOnCircle sum(const GainOnCircle& a, const GainOnCircle& b) {
 }
 
 /// Grids of a cut known by samples, each finer one with more harmonics, too.
-class SampledGrids : public SearchGrids {
+class SampledGrids : public FixedGrids {
  public:
   SampledGrids(const SampledCut& cut, Fineness first, int most_nodes)
       : cut_(cut), next_(first), most_nodes_(most_nodes) {}
@@ -182,15 +182,15 @@ class SampledGrids : public SearchGrids {
   [[nodiscard]] const GainOnCircle& gain(std::size_t level) override { return made(level).gain; }
   [[nodiscard]] int nodes(std::size_t level) override { return static_cast<int>((*this)[level].node_rad.size()); }
   [[nodiscard]] bool more_after(std::size_t level) override { return level < 2 || 3 * nodes(level) < 2 * most_nodes_; }
-  /// On the second grid at most: the count costs as much as a search, and its harmonics are many enough for it.
+  /// The count on the second grid at most: it costs as much as a search, and its harmonics are many enough for it.
   [[nodiscard]] int unstable(std::size_t level, double depth_m) override {
     return unstable_count(gain(std::min<std::size_t>(level, 1)), depth_m);
   }
   [[nodiscard]] double chatter_frequency_hz(std::size_t level, const Crossing& crossing) override {
     return chatter_hz(cut_, (*this)[level], crossing.theta_rad, crossing.mode);
   }
-  /// For what lies beyond the range of the receptance: twice what the depth moves by with a plain line at either end,
-  /// since the oscillator that matters there may be another than the one that is taken.
+  /// The error by what lies beyond the range of the receptance: twice what the depth moves by with a plain line at
+  /// either end, since the oscillator that matters there may be another than the one that is taken.
   [[nodiscard]] double error_beyond_grids(std::size_t level, const Crossing& crossing) override {
     double error = 0.0;
     for (const Continuation& plain : {Continuation{0.0, cut_.resonance_hz}, Continuation{cut_.resonance_hz, 0.0}}) {
@@ -233,7 +233,7 @@ class SampledGrids : public SearchGrids {
   std::vector<std::unique_ptr<Level>> levels_;
 };
 
-/// Of a row without crossings: the motion nearest to growing at the depth limit.
+/// Describes the limit of a row without crossings by the motion nearest to growing at the depth limit.
 void describe_depth_limit(const SampledCut& cut, SampledGrids& grids, double depth_limit_m, LobeRow& row) {
   double nearest = INFINITY;
   for (const double theta : grids.gain(0).stops) {
@@ -263,7 +263,7 @@ LobeRow row_of(const SampledCut& cut, const StabilityOptions& options) {
       fineness = needed;
       continue;
     }
-    const double wanted = wanted_m(first, options);
+    const double wanted = wanted_m(first.found, options);
     LobeRow row = row_from(grids, std::move(first), cut.spindle_speed_rpm, options);
     if (row.crossings.empty()) describe_depth_limit(cut, grids, options.depth_limit_m, row);
     if ((sound(row) && row.searched_m >= wanted) || ++tries == 2 || 3 * row.nodes >= options.most_nodes) return row;

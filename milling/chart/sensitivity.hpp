@@ -20,7 +20,8 @@ struct DepthSensitivity {
   double to_K_a = 0.0;
 };
 
-/// At a crossing 1/w is an eigenvalue ν of −Z(e^{iθ}) with vectors l and r (crossing.hpp). With
+/// The sensitivities of a crossing's depth. There 1/w is an eigenvalue ν of −Z(e^{iθ}) with vectors l and r
+/// (crossing.hpp). With
 ///
 ///     ν_p = −lᵀ (∂Z/∂p) r / lᵀ r,      ν_θ dθ + (ν_w + 1/w²) dw + ν_p dp = 0
 ///

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "milling/cut/product_rule.hpp"
+#include "core/gauss_rule.hpp"
 #include "milling/direct/critical_depths.hpp"
 #include "milling/direct/row_search.hpp"
 
@@ -122,7 +122,7 @@ ContactGrid harmonic_grid(const CutAtSpeed& cut, const std::vector<Eigen::Matrix
   ContactGrid grid;
   grid.period_rad = cut.process.cutter.pitch_rad();
   grid.node_rad.resize(Index{r.elements} * r.nodes);
-  const GaussRule rule = gauss_legendre(r.nodes);
+  const core::GaussRule rule = core::gauss_legendre(r.nodes);
   const double length = grid.period_rad / r.elements;
   for (int e = 0; e < r.elements; ++e) {
     grid.elements.push_back({e * length, (e + 1) * length, e * r.nodes, r.nodes});
@@ -169,7 +169,7 @@ std::vector<Eigen::Matrix3cd> directional_harmonics(const MillingProcess& proces
     const auto e = std::find_if(grid.elements.begin(), grid.elements.end(),
                                 [&](const CutElement& x) { return c.node < x.first_node + x.nodes; });
     const double share =
-        gauss_legendre(e->nodes).weight(c.node - e->first_node) * (e->to_rad - e->from_rad) / grid.period_rad;
+        core::gauss_legendre(e->nodes).weight(c.node - e->first_node) * (e->to_rad - e->from_rad) / grid.period_rad;
     const double turn = 2.0 * pi * grid.node_rad(c.node) / grid.period_rad;
     for (std::size_t r = 0; r < harmonics.size(); ++r)
       harmonics[r] += std::polar(share, -static_cast<double>(r) * turn) * (c.force * c.chip.transpose());

@@ -9,6 +9,7 @@
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/gauss_rule.hpp"
 #include "milling/cut/product_rule.hpp"
 
 namespace thinwall::milling {
@@ -28,7 +29,7 @@ VectorXd places(int order) {
 /// ∫ e^{Λ (t_{i+1} − t)} B ℓ(t) (1 − σ, σ) dt of each ℓ. The integrands are entire: Gauss's sums converge to round-off.
 std::vector<std::array<MatrixXd, 2>> pushes(const ContactState& state, double step_s, const VectorXd& place) {
   const double phase = std::min(200.0, fastest_pole(state) * step_s);
-  const GaussRule gauss = gauss_legendre(10 + static_cast<int>(std::ceil(phase)));
+  const core::GaussRule gauss = core::gauss_legendre(10 + static_cast<int>(std::ceil(phase)));
   const MatrixXd zero = MatrixXd::Zero(state.size(), 3);
   std::vector<std::array<MatrixXd, 2>> sums(static_cast<std::size_t>(place.size()), {zero, zero});
   for (Index q = 0; q < gauss.node.size(); ++q) {

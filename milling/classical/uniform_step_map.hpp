@@ -17,7 +17,7 @@ namespace thinwall::milling {
 /// unknowns, where the papers carry 2M (m + 1); the map is applied, never formed.
 class UniformStepMap {
  public:
-  /// Of `steps` m in the period. Cost O(m).
+  /// The map of a period of `steps` m steps, without a depth yet. Cost O(m).
   UniformStepMap(ContactState state, int steps, double period_s, StepRule rule);
 
   /// Sets w, m; coefficients of m steps. Throws InputError unless every delay is at least three steps. Cost: semi
@@ -59,7 +59,7 @@ class UniformStepMap {
     int offset = 0;
     double weight = 0.0;
   };
-  /// Of one delay, for each value of the delayed polynomial.
+  /// The shares of one delay, for each value of the delayed polynomial.
   using Reach = std::vector<std::vector<Share>>;
 
   [[nodiscard]] static std::vector<Share> displacement_at(double steps_from_start);

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "milling/direct/bracketed_root.hpp"
+#include "linalg/bracketed_root.hpp"
 
 namespace thinwall::milling {
 
@@ -105,7 +105,9 @@ double estimate_at(CutInSteps& finer, StepRule rule, double depth_m) {
 LobePoint crossing_between(const CutAtSpeed& cut, StepRule rule, CutInSteps& coarse, CutInSteps& finer, double low,
                            double g_low, double high, double g_high) {
   LobePoint point;
-  point.depth_m = bracketed_root([&](double depth) { return coarse.growth(depth); }, low, g_low, high, g_high, 1e-11);
+  point.depth_m =
+      linalg::bracketed_root([&](double depth) { return coarse.growth(depth); }, {low, g_low, high, g_high},
+                             {.relative = 1e-11}, "stability: the depth of a crossing of the uniform steps");
   const DominantEigenvalue mu = coarse.dominant(point.depth_m);
   point.kind = bifurcation_of(mu.value);
   point.unstable_change = (g_high > g_low ? 1 : -1) * (point.kind == Bifurcation::hopf ? 2 : 1);

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
+#include <string>
 
-#include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
+#include "linalg/bracketed_root.hpp"
+#include "linalg/complex_eigenvalues.hpp"
 #include "milling/classical/multi_frequency.hpp"
-#include "milling/direct/bracketed_root.hpp"
 
 namespace thinwall::milling {
 
@@ -28,8 +30,12 @@ struct MeanCut {
   /// λ(ω), eigenvalues of G A_0.
   [[nodiscard]] std::vector<complex<double>> eigenvalues(double omega) const {
     const Eigen::MatrixXcd loop = yielding.transpose() * receptance(structure, omega) * A * yielding;
-    const Eigen::VectorXcd values = Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(loop, false).eigenvalues();
-    return {values.begin(), values.end()};
+    const std::optional<Eigen::VectorXcd> values = linalg::complex_eigenvalues(loop);
+    if (!values) {
+      throw core::NumericalError("zeroth-order solution: an eigen-solution failed at " + std::to_string(omega) +
+                                 " rad/s; check the structure at the cut");
+    }
+    return {values->begin(), values->end()};
   }
 };
 
@@ -106,7 +112,8 @@ void add_between(const MeanCut& cut, double period, double depth_limit_m, double
     };
     const auto phase = [&](double omega) { return std::arg(on_path(omega)); };
     if (std::abs(std::arg(start) - std::arg(end)) > pi) continue;  // over the negative axis
-    const double omega = bracketed_root(phase, from, std::arg(start), to, std::arg(end), 1e-14);
+    const double omega = linalg::bracketed_root(phase, {from, std::arg(start), to, std::arg(end)}, {.relative = 1e-14},
+                                                "zeroth-order solution: the frequency of a crossing");
     const double depth = 1.0 / on_path(omega).real();
     if (depth > 0.0 && depth <= depth_limit_m) found.push_back({omega, depth, start.imag() > 0.0 ? 2 : -2});
   }

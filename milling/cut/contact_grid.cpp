@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/dense_factorisations.hpp"
+#include "core/gauss_rule.hpp"
 #include "milling/cut/cut_cycle.hpp"
 #include "milling/cut/edge.hpp"
 #include "milling/cut/product_rule.hpp"
@@ -23,7 +24,7 @@ double longest_of(const std::vector<CutStretch>& stretches) {
 void add_elements(const CutCycle& cycle, Resolution resolution, ContactGrid& grid) {
   const std::vector<CutStretch> stretches = cut_stretches(cycle);
   const double longest = longest_of(stretches);
-  const GaussRule rule = gauss_legendre(resolution.nodes);
+  const core::GaussRule rule = core::gauss_legendre(resolution.nodes);
   std::vector<double> nodes;
   for (const CutStretch& s : stretches) {
     const double share = (s.to_rad - s.from_rad) / longest;
@@ -70,7 +71,7 @@ struct Regeneration {
   std::vector<Moment> past;
 };
 
-/// With as few contacts as D has rank.
+/// Adds as many contacts as D has rank, for each of them is a row and a column of the loop's gain.
 void add_by_rank(const Regeneration& one, int node, std::vector<Contact>& contacts) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(one.D, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d& size = svd.singularValues();

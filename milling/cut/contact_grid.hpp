@@ -29,7 +29,7 @@ struct Past {
 ///
 ///     f(t_node) = −w Σ force · c,      c = chipᵀ q(t_node) − Σ chip_pastᵀ q(past)      over the node's contacts
 ///
-/// Where heights of an edge differ, by helix or envelope, this is the mean over the depth.
+/// The matrices are means over the depth if the heights of an edge differ, by helix or envelope.
 struct Contact {
   int node = 0;
   Eigen::Vector3d force;  ///< N/m²

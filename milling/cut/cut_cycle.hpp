@@ -42,7 +42,7 @@ struct CutCycle {
   std::vector<double> joints;  ///< heights, as shares of the depth, at which edges change their shape; 0 and 1 too
 };
 
-/// Of a process; depth in m.
+/// The cycle of a process at a depth, m.
 [[nodiscard]] CutCycle cut_cycle(const MillingProcess& process, double depth_m);
 
 /// Stretch of the period in which some edge cuts and no joint of an edge enters or leaves.
@@ -51,7 +51,7 @@ struct CutStretch {
   double to_rad = 0.0;
 };
 
-/// With unequal teeth stretches also end where such a moment is felt again a pitch later.
+/// The stretches of a cycle. With unequal teeth they also end where such a moment is felt again a pitch later.
 [[nodiscard]] std::vector<CutStretch> cut_stretches(const CutCycle& cycle);
 
 /// body(s) for every rotation s since the tip entered, of this and earlier periods, while any of the edge may cut.

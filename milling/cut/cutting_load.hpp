@@ -15,15 +15,16 @@ struct CuttingLoad {
   double torque = 0.0;                              ///< that the spindle must give, N m
 };
 
-/// By how much the tool has moved towards the part since the surface that an edge meets was left there, tool axes, m,
-/// of a height of the edge (share of the depth). The chip is h = nᵀ d: d = f x_T of a tool that does not vibrate.
+/// The displacement d of the tool towards the part since the surface that an edge meets was left there, tool axes, m,
+/// as a function of a height of the edge (share of the depth). The chip is h = nᵀ d: d = f x_T of a tool that does not
+/// vibrate.
 using Advance = std::function<Eigen::Vector3d(const Sweep& sweep, double height)>;
 
 /// f x_T with f = z f_z delay/2π, the feed while the edge ahead was followed: the chip of a circle that moves on by f_z
 /// a tooth, h = f sin κ sin φ (Martellotti 1941). `feed_per_tooth_m`: the mean over the teeth.
 [[nodiscard]] Advance feed_advance(const Cutter& cutter, double feed_per_tooth_m);
 
-/// With `sweep.coefficients`, the edge of one tooth whose tip entered s rad ago:
+/// The load of one tooth's edge whose tip entered s rad ago, with `sweep.coefficients`:
 ///
 ///     force  = −∫ [(K_t t + K_r n − K_a a) nᵀd db + (K_te t + K_re n − K_ae a) dS],
 ///     torque =  ∫ [K_t nᵀd db + K_te dS] r(z)                          over the heights in the cut

@@ -6,7 +6,7 @@
 #include <optional>
 #include <sstream>
 
-#include "milling/cut/product_rule.hpp"
+#include "core/gauss_rule.hpp"
 
 namespace thinwall::milling {
 
@@ -117,7 +117,7 @@ MeridianPoint at_height(const Envelope& envelope, double diameter_m, double heig
 std::vector<EdgeSlice> edge_slices(const MeridianPiece& piece, double low_m, double high_m, int points) {
   const double from = piece.straight() ? 0.0 : kappa_on_arc(piece, low_m);
   const double to = piece.straight() ? 0.0 : kappa_on_arc(piece, high_m);
-  const GaussRule rule = gauss_legendre(points);
+  const core::GaussRule rule = core::gauss_legendre(points);
   std::vector<EdgeSlice> slices;
   for (Eigen::Index i = 0; i < rule.node.size(); ++i) {
     if (piece.straight()) {

@@ -47,7 +47,7 @@ struct MeridianPiece {
 
   /// A cone or a cylinder.
   [[nodiscard]] bool straight() const { return corner_radius_m == 0.0; }
-  /// At a height of the piece, m.
+  /// The point of the meridian at a height of the piece, m.
   [[nodiscard]] MeridianPoint at(double height_m) const;
 };
 

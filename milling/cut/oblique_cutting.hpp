@@ -17,8 +17,8 @@ struct OrthogonalCutting {
   double K_te = 0.0, K_re = 0.0;    ///< N/m; taken over as they are
 };
 
-/// With the oblique angle i, the helix angle of an end mill, chip flow η = i (Stabler's rule) and
-/// tan β_n = tan β_a cos η,
+/// The coefficients of an oblique edge from orthogonal data: with the oblique angle i, the helix angle of an end mill,
+/// chip flow η = i (Stabler's rule) and tan β_n = tan β_a cos η,
 ///
 ///     K_tc = τ/sin φ_n [cos(β_n − α_n) + tan i tan η sin β_n]/c
 ///     K_rc = τ/(sin φ_n cos i) sin(β_n − α_n)/c

@@ -26,7 +26,7 @@ struct MillingProcess {
 /// All arcs, `engagement` first.
 [[nodiscard]] std::vector<Engagement> arcs(const MillingProcess& process);
 
-/// Of one tooth.
+/// The coefficients of one tooth.
 [[nodiscard]] const CuttingCoefficients& coefficients(const MillingProcess& process, int tooth);
 
 /// True if the cut repeats itself with every tooth: equal pitches, helices and coefficients.

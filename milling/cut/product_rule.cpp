@@ -3,31 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
-namespace thinwall::milling {
+#include "core/gauss_rule.hpp"
 
-GaussRule gauss_legendre(int count) {
-  GaussRule rule{Eigen::VectorXd(count), Eigen::VectorXd(count)};
-  for (int i = 0; i < count; ++i) {
-    double x = -std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5));  // within Newton's reach of the root
-    double slope = 0.0;
-    for (int iteration = 0; iteration < 20; ++iteration) {
-      double before = 1.0;
-      double value = x;
-      for (int k = 2; k <= count; ++k)
-        before = std::exchange(value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
-      slope = count * (x * value - before) / (x * x - 1.0);
-      const double step = value / slope;
-      x -= step;
-      if (std::abs(step) < 1e-15) break;
-    }
-    rule.node(i) = 0.5 * (1.0 + x);
-    rule.weight(i) = 1.0 / ((1.0 - x * x) * slope * slope);
-  }
-  return rule;
-}
+namespace thinwall::milling {
 
 Eigen::VectorXd lagrange_polynomials(const Eigen::VectorXd& node, double at) {
   Eigen::VectorXd value = Eigen::VectorXd::Ones(node.size());
@@ -56,19 +36,21 @@ namespace {
 
 /// Gauss points that integrate a polynomial of the degree of `nodes` times e^{z s}, |z| up to `largest_exponent`, whose
 /// Legendre series ends at about |z|/2.
-GaussRule points_for(int nodes, double largest_exponent) {
-  return gauss_legendre((nodes + 1) / 2 + 8 + static_cast<int>(std::ceil(0.6 * largest_exponent)));
+core::GaussRule points_for(int nodes, double largest_exponent) {
+  return core::gauss_legendre((nodes + 1) / 2 + 8 + static_cast<int>(std::ceil(0.6 * largest_exponent)));
 }
 
 /// length weight_q ℓ_j(from + length x_q), points × nodes.
-Eigen::MatrixXd weighted_polynomials(const Eigen::VectorXd& node, const GaussRule& points, double from, double length) {
+Eigen::MatrixXd weighted_polynomials(const Eigen::VectorXd& node, const core::GaussRule& points, double from,
+                                     double length) {
   Eigen::MatrixXd table(points.node.size(), node.size());
   for (Eigen::Index q = 0; q < points.node.size(); ++q)
     table.row(q) = length * points.weight(q) * lagrange_polynomials(node, from + length * points.node(q)).transpose();
   return table;
 }
 
-/// e^{z_k d_q}, real parts above imaginary ones: 2 modes × distances.
+/// e^{z_k d_q}, real parts above imaginary ones: 2 modes × distances. As real numbers, for the tables that they are
+/// multiplied by are real: half the products of a complex one.
 Eigen::MatrixXd exponentials(const Eigen::VectorXcd& z, const Eigen::ArrayXd& distance) {
   const Eigen::Index modes = z.size();
   Eigen::MatrixXd result(2 * modes, distance.size());
@@ -93,14 +75,16 @@ Eigen::MatrixXcd as_complex(const Eigen::MatrixXd& parts) {
 
 }  // namespace
 
-ProductRule::ProductRule(int nodes, double largest_exponent) : node_(gauss_legendre(nodes).node) {
-  const GaussRule whole = points_for(nodes, largest_exponent);
+ProductRule::ProductRule(int nodes, double largest_exponent) : node_(core::gauss_legendre(nodes).node) {
+  const core::GaussRule whole = points_for(nodes, largest_exponent);
+  // A force at s acts for 1 − s until the end: e^{z (1 − s)} is taken at these distances.
   distance_ = 1.0 - whole.node.array();
   whole_ = weighted_polynomials(node_, whole, 0.0, 1.0);
   Eigen::VectorXd ends(nodes + 2);
+  // The motion at each node needs the integral up to it. From node to node the intervals are short, and few points do.
   ends << 0.0, node_, 1.0;
   gap_ = ends.tail(nodes + 1) - ends.head(nodes + 1);
-  const GaussRule points = points_for(nodes, gap_.maxCoeff() * largest_exponent);
+  const core::GaussRule points = points_for(nodes, gap_.maxCoeff() * largest_exponent);
   gap_distance_ = 1.0 - points.node.array();
   for (int i = 0; i <= nodes; ++i) gap_table_.push_back(weighted_polynomials(node_, points, ends(i), gap_(i)));
 }
@@ -119,6 +103,7 @@ ModeMoments ProductRule::moments(const Eigen::VectorXcd& z) const {
     auto& in_gap = decay[static_cast<std::size_t>(same)];
     if (i == same) in_gap = exponentials(z * gap_(i), gap_distance_);
     const Eigen::VectorXcd over_gap = (z * gap_(i)).array().exp();
+    // What was there is carried over the gap, and what the gap adds comes to it. After the last gap this is the end.
     result.end =
         (over_gap.asDiagonal() * result.end + as_complex(in_gap * gap_table_[static_cast<std::size_t>(i)])).eval();
     if (i < n) result.inside.push_back(result.end);
@@ -127,6 +112,7 @@ ModeMoments ProductRule::moments(const Eigen::VectorXcd& z) const {
 }
 
 const ProductRule& shared_product_rule(int nodes, double exponent) {
+  // In steps of √2 neighbouring speeds share a rule. More points than an exponent needs do no harm.
   thread_local std::map<std::pair<int, int>, ProductRule> rules;
   const int half_powers = std::max(4, static_cast<int>(std::ceil(2.0 * std::log2(std::max(exponent, 1.0)))));
   return rules.try_emplace({nodes, half_powers}, nodes, std::exp2(0.5 * half_powers)).first->second;

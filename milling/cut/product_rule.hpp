@@ -7,20 +7,10 @@
 
 namespace thinwall::milling {
 
-/// Nodes in (0, 1) and weights of sum 1.
-struct GaussRule {
-  Eigen::VectorXd node;
-  Eigen::VectorXd weight;
-};
-
-/// Gauss-Legendre on (0, 1): Newton's method on P_n by its recurrence, weights 2/((1 − x²) P_n'²) (Abramowitz & Stegun
-/// 25.4.29). `count` ≥ 1. Cost O(count²).
-[[nodiscard]] GaussRule gauss_legendre(int count);
-
-/// ℓ_j(at) of the Lagrange polynomials of `node`.
+/// The values ℓ_j(at) of the Lagrange polynomials of `node`.
 [[nodiscard]] Eigen::VectorXd lagrange_polynomials(const Eigen::VectorXd& node, double at);
 
-/// ℓ_j'(node_i) of the same, for one of the nodes.
+/// The slopes ℓ_j'(node_i) of these polynomials at one of the nodes.
 [[nodiscard]] Eigen::VectorXd lagrange_slopes(const Eigen::VectorXd& node, Eigen::Index i);
 
 /// The motion of modes under polynomial forces of an element of unit length, u_k' = z_k u_k + ℓ_j(s), u_k(0) = 0:
@@ -32,21 +22,23 @@ struct ModeMoments {
 };
 
 /// Product integration at n Gauss nodes c_i: the exponential of each mode is integrated against the polynomials as it
-/// is, so that stiff modes need no more nodes than their share of the force asks for. The integrals themselves are
-/// Gauss sums with as many points as |z| needs; their integrands are entire, so that they converge to round-off. From
-/// node to node they are carried on: I(c_i) = e^{z (c_i − c_{i−1})} I(c_{i−1}) + ∫ between the two.
+/// is, so that stiff modes need no more nodes than their share of the force asks for: a rule of quadrature on the nodes
+/// would have to resolve e^{z s}, although the force that it carries is smooth. The integrals themselves are Gauss sums
+/// with as many points as |z| needs; their integrands are entire, so that they converge to round-off. From node to node
+/// they are carried on: I(c_i) = e^{z (c_i − c_{i−1})} I(c_{i−1}) + ∫ between the two.
 class ProductRule {
  public:
-  /// `nodes` ≥ 1; serves |z| ≤ `largest_exponent`.
+  /// The rule of `nodes` ≥ 1, which serves |z| ≤ `largest_exponent`.
   ProductRule(int nodes, double largest_exponent);
 
   /// The nodes c_i.
   [[nodiscard]] const Eigen::VectorXd& node() const { return node_; }
 
-  /// Re z ≤ 0, |z| within what the rule serves. Cost O(modes nodes² points), in products of matrices.
+  /// The moments of modes with Re z ≤ 0, |z| within what the rule serves. Cost O(modes nodes² points), in products of
+  /// matrices.
   [[nodiscard]] ModeMoments moments(const Eigen::VectorXcd& z) const;
 
-  /// `end` of one mode alone. Cost O(nodes points).
+  /// ModeMoments::end of one mode alone. Cost O(nodes points).
   [[nodiscard]] Eigen::RowVectorXcd end(std::complex<double> z) const;
 
  private:

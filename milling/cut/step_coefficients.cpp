@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/gauss_rule.hpp"
 #include "milling/cut/cut_cycle.hpp"
 #include "milling/cut/edge.hpp"
 #include "milling/cut/product_rule.hpp"
@@ -72,7 +73,7 @@ void add_moment(double theta, double weight, std::size_t slot, SteppedCut& cut) 
 }
 
 /// The mean over a step that begins `from` < period, Gauss's sum over what it shares with each smooth stretch.
-void add_mean(double from, const GaussRule& gauss, const std::vector<CutStretch>& stretches, std::size_t slot,
+void add_mean(double from, const core::GaussRule& gauss, const std::vector<CutStretch>& stretches, std::size_t slot,
               SteppedCut& cut) {
   for (const double later : {0.0, cut.cycle.period_rad}) {
     for (const CutStretch& s : stretches) {
@@ -108,11 +109,11 @@ StepCoefficients step_coefficients(const MillingProcess& process, const Eigen::M
   }
   SteppedCut cut{cut_cycle(process, depth_m), edge_shape(process.cutter, depth_m), in_plane};
   cut.step_rad = cut.cycle.period_rad / steps;
-  cut.height = gauss_legendre(6).node;
+  cut.height = core::gauss_legendre(6).node;
   cut.result.present.assign(static_cast<std::size_t>(rule.full ? 2 * steps : steps),
                             MatrixXd::Zero(3, in_plane.cols()));
   const std::vector<CutStretch> stretches = cut_stretches(cut.cycle);
-  const GaussRule gauss = gauss_legendre(4 + static_cast<int>(std::ceil(6.0 * cut.step_rad)));
+  const core::GaussRule gauss = core::gauss_legendre(4 + static_cast<int>(std::ceil(6.0 * cut.step_rad)));
   constexpr double inside = 1e-9;
   for (int i = 0; i < steps; ++i) {
     // The cycle starts when the first tooth enters.

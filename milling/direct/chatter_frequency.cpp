@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "milling/cut/product_rule.hpp"
+#include "core/gauss_rule.hpp"
 
 namespace thinwall::milling {
 
@@ -17,7 +17,7 @@ double chatter_frequency_hz(const ContactGrid& grid, double period_s, const Rece
   for (std::size_t k = 0; k < grid.contacts.size(); ++k)
     force.col(grid.contacts[k].node) += grid.contacts[k].force * c(static_cast<Eigen::Index>(k));
   for (const CutElement& e : grid.elements) {
-    const Eigen::VectorXd weight = gauss_legendre(e.nodes).weight * (e.to_rad - e.from_rad);
+    const Eigen::VectorXd weight = core::gauss_legendre(e.nodes).weight * (e.to_rad - e.from_rad);
     force.middleCols(e.first_node, e.nodes) *= weight.asDiagonal();
   }
   double largest = -1.0;

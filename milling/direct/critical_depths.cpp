@@ -9,7 +9,7 @@
 
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
-#include "milling/direct/complex_eigenvalues.hpp"
+#include "linalg/complex_eigenvalues.hpp"
 
 namespace thinwall::milling {
 
@@ -33,7 +33,7 @@ Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXcd& Z, double theta) {
     require_found(eigen.info() == Eigen::Success);
     return -eigen.eigenvalues();
   }
-  const std::optional<Eigen::VectorXcd> eigenvalues = complex_eigenvalues(Z);
+  const std::optional<Eigen::VectorXcd> eigenvalues = linalg::complex_eigenvalues(Z);
   require_found(eigenvalues.has_value());
   return -*eigenvalues;
 }

@@ -10,11 +10,12 @@
 
 namespace thinwall::milling {
 
-/// On the boundary det(I + w Z(e^{iθ})) = 0: the depths are the reciprocals of real positive eigenvalues ν of
-/// −Z(e^{iθ}) as θ runs over the half circle. The eigenvalues are followed between stops; where the nearest match is
-/// not clear or a path so near to the real axis that it could touch it the step is halved. A path that crosses the axis
-/// is brought to it by to_axis(). At θ = π (and 0) real eigenvalues count as they are. Eigenvalues are found only where
-/// a bound of them says that the depth can reach one, and kept, so that a search to a greater depth costs little more.
+/// The search for all critical depths. On the boundary det(I + w Z(e^{iθ})) = 0: the depths are the reciprocals of real
+/// positive eigenvalues ν of −Z(e^{iθ}) as θ runs over the half circle. The eigenvalues are followed between stops;
+/// where the nearest match is not clear or a path so near to the real axis that it could touch it the step is halved. A
+/// path that crosses the axis is brought to it by to_axis(). At θ = π (and 0) real eigenvalues count as they are.
+/// Eigenvalues are found only where a bound of them says that the depth can reach one, and kept, so that a search to a
+/// greater depth costs little more.
 class CriticalDepths {
  public:
   /// Keeps `gain`, whose references must outlive the search. Throws NumericalError if an eigen-solution fails. Cost: Z

@@ -27,10 +27,10 @@ struct DiscreteCut {
   RegenerativeLoop loop;
 };
 
-/// On a grid of a resolution; depth in m.
+/// The cut on a grid of a resolution at a depth, m.
 [[nodiscard]] DiscreteCut discrete(const CutAtSpeed& cut, Resolution resolution, double depth_m);
 
-/// Keeps a reference to the loop.
+/// The loop's gain on the unit circle; it keeps a reference to the loop.
 [[nodiscard]] GainOnCircle gain_of(const DiscreteCut& d);
 
 /// Elements of at most 14 rad, and nodes for the phase, of the fastest mode that matters: every mode that could

@@ -29,9 +29,9 @@ struct [[nodiscard]] DominantEigenvalue {
 DominantEigenvalue dominant_eigenvalue(const LinearMap& map, Eigen::Index size, double tolerance,
                                        Eigen::Index first_look = 20);
 
-/// The two ways, for comparison.
+/// The dominant eigenvalue by all eigenvalues of the matrix, for comparison.
 DominantEigenvalue dominant_eigenvalue_dense(const LinearMap& map, Eigen::Index size, double tolerance);
-/// By Arnoldi's method, Ritz values first looked at after so many steps.
+/// The dominant eigenvalue by Arnoldi's method, whose Ritz values are first looked at after so many steps.
 DominantEigenvalue dominant_eigenvalue_arnoldi(const LinearMap& map, Eigen::Index size, double tolerance,
                                                Eigen::Index first_look = 20);
 

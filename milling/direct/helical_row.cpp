@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 #include "milling/direct/critical_depths.hpp"
-#include "milling/direct/refined_crossing.hpp"
+#include "milling/direct/row_search.hpp"
 
 namespace thinwall::milling {
 
@@ -24,7 +24,7 @@ Resolution finer_by(Resolution r, std::size_t levels) {
   return r;
 }
 
-/// The eigenvalue ν of −Z near 1/depth on a grid of this depth, with its change with the depth of the grid.
+/// The eigenvalue ν of −Z near 1/depth on a grid of this depth, with its change ∂ν/∂w as the depth shapes the cut.
 struct PairAtDepth {
   Eigenpair pair;
   complex<double> by_depth;
@@ -37,6 +37,7 @@ PairAtDepth pair_at(const CutAtSpeed& cut, Resolution resolution, double depth_m
   // difference is one-sided there.
   const double above = std::min(1e-6 * depth_m, cut.process.cutter.envelope.height_m - depth_m);
   for (const double step_m : {-1e-6 * depth_m, above}) {
+    // ν ~ 1/w changes with the depth by about 1/w². A hundred times as much is a jump, and the other side is tried.
     if (step_m == 0.0 || std::abs(result.by_depth) * depth_m * depth_m < 100.0) continue;
     const DiscreteCut beside = discrete(cut, resolution, depth_m + step_m);
     const complex<double> change = eigenpair_near(gain_of(beside), theta, result.pair.nu).nu - result.pair.nu;
@@ -60,11 +61,13 @@ bool settled(const CutAtSpeed& cut, Resolution resolution, double from_m, double
   double depth = std::min(crossing.depth_m, height);
   double theta = crossing.theta_rad;
   for (int step = 0; step < 12; ++step) {
+    // ν(θ, w) − 1/w = 0 is one complex equation for two real unknowns, linearised in both.
     const PairAtDepth at = pair_at(cut, resolution, depth, theta);
     const complex<double> miss = at.pair.nu - 1.0 / depth;
     const complex<double> by_depth = at.by_depth + 1.0 / (depth * depth);
     Eigen::Matrix2d rows;
     rows << at.pair.slope.real(), by_depth.real(), at.pair.slope.imag(), by_depth.imag();
+    // At θ = 0 and π ν is real and the angle stays: a fold or a flip, with the depth alone unknown.
     const Eigen::Vector2d change = at_end
                                        ? Eigen::Vector2d(0.0, -miss.real() / by_depth.real())
                                        : Eigen::Vector2d(-rows.inverse() * Eigen::Vector2d(miss.real(), miss.imag()));
@@ -76,6 +79,7 @@ bool settled(const CutAtSpeed& cut, Resolution resolution, double from_m, double
       crossing = {depth + change(1), theta + change(0), (at_end ? 1 : 2) * (leaves > 0.0 ? 1 : -1), at.pair.right};
       return crossing.depth_m <= height;
     }
+    // ν is known near here only: the depth moves by a tenth at most, the angle by half a radian.
     const double shorter = std::min({1.0, 0.1 * depth / std::abs(change(1)), 0.5 / std::abs(change(0))});
     const double before = std::exchange(depth, std::min(depth + shorter * change(1), height));
     theta += shorter * change(0);
@@ -100,12 +104,6 @@ struct Probe {
   std::vector<Crossing> guesses;  ///< where crossings of other depths may lie
 };
 
-/// Crossings on grids of one resolution.
-struct Scan {
-  std::vector<Crossing> found;
-  double searched_m = 0.0;  ///< up to here they explain the counts
-};
-
 /// The search for the crossings of a speed on grids of one resolution, so many times finer than is needed.
 class HelicalSearch {
  public:
@@ -115,8 +113,10 @@ class HelicalSearch {
     return finer_by(resolving(cut_, std::min(depth_m, cut_.process.cutter.envelope.height_m)), refinements_);
   }
 
-  /// The cut keeps the shape of this depth while its force grows: what crosses the unit circle up to a sixth beyond,
-  /// pairs that leave no trace in a count among it. Below the depth of interest a search costs less than a count.
+  /// The cut keeps the shape of this depth while its force grows: what crosses the unit circle up to a sixth beyond.
+  /// The crossings up to the depth itself say how many multipliers are outside there, for there the frozen cut is the
+  /// true one; those near it are guesses of the true crossings. Pairs that leave the circle and return within a step,
+  /// which no count shows, are among them. While the cut is stable such a search costs less than a count.
   [[nodiscard]] Probe frozen(double depth_m) const {
     constexpr double beyond = 7.0 / 6.0;
     const DiscreteCut d = discrete(cut_, resolution(beyond * depth_m), depth_m);
@@ -133,8 +133,10 @@ class HelicalSearch {
     Probe probe{depth_m, 0, {}};
     for (const complex<double> mu : multipliers(d, depth_m)) {
       probe.unstable += std::abs(mu) > 1.0 ? 1 : 0;
+      // Of conjugate pairs one, and none that is near zero: the nodes' share of the past decays within a period.
       if (mu.imag() >= 0.0 && std::abs(mu) > 0.2) near.push_back(mu);
     }
+    // ln|μ| is 0 on the circle and changes in proportion to a small change of the depth: the least are the nearest.
     std::ranges::sort(near, {}, [](complex<double> mu) { return std::abs(std::log(std::abs(mu))); });
     near.resize(std::min(near.size(), most));
     for (const complex<double> mu : near) {
@@ -164,16 +166,19 @@ class HelicalSearch {
     }
     double shortest = INFINITY;
     for (const Engagement& arc : arcs(process)) shortest = std::min(shortest, arc.arc_rad());
+    // A tooth is in the cut over its arc and its lag from tip to top: that is what grows by the share.
     const double step_m = growth * (depth_m + shortest / steepest);
     if (steepest == least) return depth_m + step_m;
     const double spindle_rad_s = cut_.spindle_speed_rpm * std::numbers::pi / 30.0;
+    // Unequal helices change the delay along the edge: in a radian of it the phase of regeneration turns too far for
+    // the guesses of one depth to lead to the crossings of the next.
     const double phase_rad_per_m = (steepest - least) * fastest_that_matters(cut_, 0.0, depth_m) / spindle_rad_s;
     return depth_m + std::max(0.05 * depth_m, std::min(step_m, 1.0 / phase_rad_per_m));
   }
 
   /// Adds the crossings between two depths; false if from some depth on, searched_m then, what is found does not
   /// explain the counts, however often the step is halved.
-  [[nodiscard]] bool between(const Probe& low, const Probe& high, int halvings, Scan& scan) const {
+  [[nodiscard]] bool between(const Probe& low, const Probe& high, int halvings, CoarseCrossings& scan) const {
     std::vector<Crossing> inside;
     int change = 0;
     const auto add_from = [&](const std::vector<Crossing>& guesses) {
@@ -185,8 +190,12 @@ class HelicalSearch {
         inside.push_back(std::move(c));
       }
     };
+    // Deep in an unstable range with an unchanged count nothing is looked for: what cancels there changes no limit. The
+    // guesses of the upper depth come first, since crossings lie below it; those of the lower one only if they are
+    // needed.
     if (low.unstable == 0 || high.unstable != low.unstable) add_from(high.guesses);
     if (change != high.unstable - low.unstable) add_from(low.guesses);
+    // The crossings between two depths are all if their changes add up to that of the count.
     if (change == high.unstable - low.unstable) {
       std::move(inside.begin(), inside.end(), std::back_inserter(scan.found));
       scan.searched_m = high.depth_m;
@@ -198,6 +207,7 @@ class HelicalSearch {
   }
 
  private:
+  /// Two guesses may settle to one crossing; two at one depth that change in opposite directions are two.
   [[nodiscard]] static bool is_known(const Crossing& c, const std::vector<Crossing>& all) {
     return std::any_of(all.begin(), all.end(), [&](const Crossing& other) {
       return std::abs(other.depth_m / c.depth_m - 1.0) < 1e-5 && other.unstable_change == c.unstable_change;
@@ -208,13 +218,9 @@ class HelicalSearch {
   std::size_t refinements_;
 };
 
-double wanted_m(const std::vector<Crossing>& found, const StabilityOptions& options) {
-  if (found.empty()) return options.depth_limit_m;
-  return std::min(options.depth_limit_m, options.follow * found.front().depth_m);
-}
-
-Scan scan(const HelicalSearch& search, const StabilityOptions& options) {
-  Scan result;
+/// The depths from 0 to where the crossings are wanted, or to where what is found no longer explains the counts.
+CoarseCrossings scan(const HelicalSearch& search, const StabilityOptions& options) {
+  CoarseCrossings result;
   Probe low;
   while (low.depth_m < wanted_m(result.found, options)) {
     Probe high = search.after(low, std::min(search.next_depth(low.depth_m), wanted_m(result.found, options)));
@@ -226,81 +232,62 @@ Scan scan(const HelicalSearch& search, const StabilityOptions& options) {
   return result;
 }
 
-/// On finer grids: to the tolerance those that bound a stable range.
-std::vector<RefinedCrossing> refined(const CutAtSpeed& cut, const HelicalSearch& search, Scan scan,
-                                     const StabilityOptions& options, LobeRow& row) {
-  std::vector<RefinedCrossing> all;
-  all.reserve(scan.found.size());
-  const double first_m = scan.found.empty() ? 0.0 : scan.found.front().depth_m;
-  int count = 0;
-  for (Crossing& crossing : scan.found) {
-    RefinedCrossing c{std::move(crossing)};
-    const Resolution coarsest = search.resolution(c.crossing.depth_m);
-    const auto to_level = [&](std::size_t level, Crossing& moved) {
-      const Resolution next = finer_by(coarsest, level);
-      if (level > 2 && next.elements * next.nodes > options.most_nodes) return OnFinerGrid::none_finer;
-      row.nodes = std::max(row.nodes, next.elements * next.nodes);
-      return settle(cut, next, 0.9 * moved.depth_m, 1.1 * moved.depth_m, moved) ? OnFinerGrid::kept : OnFinerGrid::lost;
-    };
-    const bool beside_first = c.crossing.depth_m <= 1.01 * first_m;
-    const bool bounds = count == 0 || count + c.crossing.unstable_change == 0 || beside_first;
-    count += c.crossing.unstable_change;
-    refine_until(bounds ? 2 : 1, bounds ? options.error_tolerance : 1.0, to_level, c);
-    if (!c.kept && all.size() > 1 && !beside_first) {  // what lies as deep is not known
-      row.searched_m = std::min(row.searched_m, std::sqrt(all.back().crossing.depth_m * c.crossing.depth_m));
-      break;
-    }
-    if (!c.kept) row.status = StabilityStatus::crossing_missed;
-    else if (bounds && c.error_estimate > options.error_tolerance && row.status == StabilityStatus::converged)
-      row.status = StabilityStatus::node_limit_reached;
-    all.push_back(std::move(c));
-  }
-  std::ranges::stable_sort(all, {}, [](const RefinedCrossing& c) { return c.crossing.depth_m; });
-  return all;
-}
+/// Grids that each depth has of its own: a level is so many times finer than the depth's first.
+class HelicalGrids : public SearchGrids {
+ public:
+  HelicalGrids(const CutAtSpeed& cut, const HelicalSearch& search, int most_nodes)
+      : cut_(cut), search_(search), most_nodes_(most_nodes) {}
 
-/// A row that the counts of multipliers at its end and below its first crossing agree with; deep crossings that do not
-/// add up are left out.
+  [[nodiscard]] OnFinerGrid move_to(std::size_t level, Crossing& crossing) override {
+    const Resolution next = resolution(level, crossing.depth_m);
+    if (level > 2 && next.elements * next.nodes > most_nodes_) return OnFinerGrid::none_finer;
+    finest_ = std::max(finest_, next.elements * next.nodes);
+    return settle(cut_, next, 0.9 * crossing.depth_m, 1.1 * crossing.depth_m, crossing) ? OnFinerGrid::kept
+                                                                                        : OnFinerGrid::lost;
+  }
+  /// Of the finest grid so far, whatever the level.
+  [[nodiscard]] int nodes(std::size_t /*level*/) override { return finest_; }
+  [[nodiscard]] int unstable(std::size_t level, double depth_m) override {
+    return milling::unstable(discrete(cut_, resolution(level, depth_m), depth_m), depth_m);
+  }
+  [[nodiscard]] double chatter_frequency_hz(std::size_t level, const Crossing& crossing) override {
+    const DiscreteCut d = discrete(cut_, resolution(level, crossing.depth_m), crossing.depth_m);
+    const double theta = crossing.theta_rad;
+    // e^{iπ} of floating point has an imaginary part, which would make a flip's motion complex.
+    const complex<double> mu = theta == std::numbers::pi ? complex<double>(-1.0) : std::polar(1.0, theta);
+    return milling::chatter_frequency_hz(cut_, d, theta, modulation(d, crossing.depth_m, mu));
+  }
+
+ private:
+  [[nodiscard]] Resolution resolution(std::size_t level, double depth_m) const {
+    return finer_by(search_.resolution(depth_m), level);
+  }
+
+  const CutAtSpeed& cut_;
+  const HelicalSearch& search_;
+  int most_nodes_;
+  int finest_ = 0;
+};
+
+/// The row of a search on grids that are so many times finer than is needed.
 LobeRow row_of(const CutAtSpeed& cut, std::size_t refinements, const StabilityOptions& options) {
   const HelicalSearch search(cut, refinements);
+  CoarseCrossings coarse = scan(search, options);
+  const bool ended_early = coarse.found.empty() && coarse.searched_m < options.depth_limit_m;
   LobeRow row;
   row.spindle_speed_rpm = cut.spindle_speed_rpm;
-  Scan found = scan(search, options);
-  row.searched_m = found.searched_m;
-  if (found.found.empty() && found.searched_m < options.depth_limit_m) row.status = StabilityStatus::crossing_missed;
-  if (found.searched_m == 0.0) return row;  // not even near zero
-  std::vector<RefinedCrossing> all = refined(cut, search, std::move(found), options, row);
-  const auto count_at = [&](double depth_m, std::size_t level) {
-    return unstable(discrete(cut, finer_by(search.resolution(depth_m), level), depth_m), depth_m);
-  };
-  int count = 0;
-  for (const RefinedCrossing& c : all) count += c.crossing.unstable_change;
-  while (options.follow > 1.0 && count_at(row.searched_m, 0) != count) {
-    if (all.size() <= 1) {
-      row.status = StabilityStatus::crossing_missed;
-      break;
-    }
-    count -= all.back().crossing.unstable_change;
-    const double deepest = all.back().crossing.depth_m;
-    all.pop_back();
-    row.searched_m = std::sqrt(all.back().crossing.depth_m * std::min(deepest, row.searched_m));
+  if (coarse.searched_m > 0.0) {
+    HelicalGrids grids(cut, search, options.most_nodes);
+    row = checked_row(grids, std::move(coarse), cut.spindle_speed_rpm, options);
   }
-  for (const RefinedCrossing& c : all) {
-    const Resolution finest = finer_by(search.resolution(c.crossing.depth_m), c.level);
-    const DiscreteCut d = discrete(cut, finest, c.crossing.depth_m);
-    const double theta = c.crossing.theta_rad;
-    const complex<double> mu = theta == std::numbers::pi ? complex<double>(-1.0) : std::polar(1.0, theta);
-    row.crossings.push_back(lobe_point(c, chatter_frequency_hz(cut, d, theta, modulation(d, c.crossing.depth_m, mu))));
-  }
-  const double below = all.empty() ? row.searched_m : 0.999 * all.front().crossing.depth_m;
-  if (count_at(below, all.empty() ? 1 : all.front().level) != 0) row.status = StabilityStatus::crossing_missed;
-  take_limit_from_crossings(row);
+  if (ended_early) row.status = StabilityStatus::crossing_missed;
   return row;
 }
 
 }  // namespace
 
 LobeRow helical_row(const CutAtSpeed& cut, const StabilityOptions& options) {
+  // A crossing that is missed on grids of one fineness is as a rule found on finer ones.
   for (std::size_t refinements = 0;; ++refinements) {
     LobeRow row = row_of(cut, refinements, options);
     if (row.status != StabilityStatus::crossing_missed || refinements == 2) return row;

@@ -6,13 +6,14 @@
 
 namespace thinwall::milling {
 
-/// With a helix the directional matrix changes with the depth. It is frozen at depths in steps in which the stretch of
-/// a tooth in the cut grows by 12 % (with unequal helices the delay by a radian of the fastest mode at most; on round
-/// ends the depth itself by 12 %): what crosses the unit circle as the force alone grows (CriticalDepths) tells whether
-/// the cut is stable there, and where crossings of other depths lie near. Those are brought to grids of their own depth
-/// by Newton's rule for angle and depth. Where they do not add up to the change from one depth to the next the step is
-/// halved. Deep in an unstable range multipliers are counted instead, and crossings that cancel within a step are left
-/// out.
+/// The row of a speed whose cut changes with its depth, by helix or by round ends. Critical depths are eigenvalues only
+/// while Z does not depend on the depth; here the directional matrix does, and det(I + w Z(e^{iθ}; w)) = 0 is nonlinear
+/// in w. So Z is frozen at depths in steps in which the stretch of a tooth in the cut grows by 12 % (with unequal
+/// helices the delay by a radian of the fastest mode at most; on round ends the depth itself by 12 %): what crosses the
+/// unit circle as the force alone grows (CriticalDepths) tells whether the cut is stable there, and where crossings of
+/// other depths lie near. Those are brought to grids of their own depth by Newton's rule for angle and depth. Where
+/// they do not add up to the change from one depth to the next the step is halved. Deep in an unstable range
+/// multipliers are counted instead, and crossings that cancel within a step are left out.
 ///
 /// Checked as rows without helix (stability.hpp): no multiplier outside just below the first crossing, as many as the
 /// crossings say at the end of the search, or the search ends earlier (searched_m). A row that fails is searched again

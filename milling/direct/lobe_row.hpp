@@ -24,16 +24,16 @@ enum class StabilityStatus {
   crossing_missed,        ///< the count of unstable multipliers at the end of the search is not that of the crossings
 };
 
-/// In one word, as files have it.
+/// The kind in one word, as files have it.
 [[nodiscard]] std::string name(Bifurcation kind);
 
-/// Of a multiplier on, inside or outside of the circle.
+/// The kind of a multiplier on, inside or outside of the circle.
 [[nodiscard]] Bifurcation bifurcation_of(std::complex<double> mu);
 
-/// Of a multiplier e^{iθ}, 0 ≤ θ ≤ π.
+/// The kind of a multiplier e^{iθ}, 0 ≤ θ ≤ π.
 [[nodiscard]] Bifurcation bifurcation_at(double theta_rad);
 
-/// As in the enumeration.
+/// The status as in the enumeration.
 [[nodiscard]] std::string name(StabilityStatus status);
 
 /// The depth to search, the accuracy wanted and the nodes allowed.
@@ -72,7 +72,7 @@ struct LobePoint {
 /// arg μ of a crossing, 0 to π, where the cut repeats itself after period_s.
 [[nodiscard]] double multiplier_angle_rad(const LobePoint& point, double period_s);
 
-/// All that is known of one speed.
+/// All that is known of one speed: a column of the chart.
 struct LobeRow {
   double spindle_speed_rpm = 0.0;
   double limiting_depth_m = 0.0;      ///< the depth limit itself if `at_limit`

@@ -18,6 +18,7 @@ void refine_until(std::size_t levels, double tolerance, const ToLevel& to_level,
     c.kept = outcome == OnFinerGrid::kept;
     if (c.kept) ++c.level;  // else the crossing stays that of the level before
     const double change_before = std::exchange(c.change, std::abs(before / c.crossing.depth_m - 1.0));
+    // The first change has none before it: `change` began as 1, which would stand in as a tenth.
     c.error_estimate = c.kept ? estimate_from(c.change, c.level > 1 ? change_before : 0.0) : 1.0;
   }
 }

@@ -9,9 +9,10 @@
 
 namespace thinwall::milling {
 
-/// Error of the value on the finest grid from the last two changes, relative. A change alone may be small by chance,
-/// where the error of two neighbours is the same: the one before stands in with a tenth. 1e-11 is the round-off of an
-/// eigenvalue.
+/// The error of the value on the finest grid from the last two changes, relative. Collocation converges fast, so that
+/// the last change is mostly the error of the grid before: as an estimate of the finest grid's it is on the safe side.
+/// A change alone may be small by chance, where the error of two neighbours is the same: the one before stands in with
+/// a tenth. 1e-11 is the round-off of an eigenvalue.
 [[nodiscard]] double estimate_from(double change, double change_before);
 
 /// A crossing on the finest grid so far.
@@ -29,11 +30,12 @@ enum class OnFinerGrid { kept, lost, none_finer };
 /// Moves a crossing to the grid of a level.
 using ToLevel = std::function<OnFinerGrid(std::size_t level, Crossing& crossing)>;
 
-/// On finer grids, at least `levels` of them, until the tolerance is met, the crossing is lost or no finer grid is
-/// left.
+/// Follows a crossing to finer grids, at least `levels` of them, until the tolerance is met, the crossing is lost or no
+/// finer grid is left. One level more than an estimate needs is a second change, without which a small one could be
+/// chance.
 void refine_until(std::size_t levels, double tolerance, const ToLevel& to_level, RefinedCrossing& crossing);
 
-/// As it stands in a row.
+/// The crossing as it stands in a row.
 [[nodiscard]] LobePoint lobe_point(const RefinedCrossing& crossing, double chatter_frequency_hz);
 
 }  // namespace thinwall::milling

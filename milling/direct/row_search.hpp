@@ -9,8 +9,7 @@
 
 namespace thinwall::milling {
 
-/// Grids of one cut without helix, the search's view of them: level 0 is searched, finer ones are made when they are
-/// asked for.
+/// Grids of one cut from coarse to fine, the search's view of them: crossings are found on level 0.
 class SearchGrids {
  public:
   SearchGrids() = default;
@@ -18,23 +17,34 @@ class SearchGrids {
   SearchGrids(const SearchGrids&) = delete;
   SearchGrids& operator=(const SearchGrids&) = delete;
 
-  /// The loop's gain on the grid of a level.
-  [[nodiscard]] virtual const GainOnCircle& gain(std::size_t level) = 0;
+  /// Moves a crossing to the grid of a level ≥ 1.
+  [[nodiscard]] virtual OnFinerGrid move_to(std::size_t level, Crossing& crossing) = 0;
   /// Nodes of that grid.
   [[nodiscard]] virtual int nodes(std::size_t level) = 0;
-  /// True if a level beyond this one may be made.
-  [[nodiscard]] virtual bool more_after(std::size_t level) = 0;
   /// Multipliers outside of the unit circle.
   [[nodiscard]] virtual int unstable(std::size_t level, double depth_m) = 0;
   /// True if no multiplier lies outside of the unit circle.
   [[nodiscard]] virtual bool stable(std::size_t level, double depth_m) { return unstable(level, depth_m) == 0; }
-  /// Of a crossing of that grid, Hz.
+  /// The chatter frequency of a crossing of that grid, Hz.
   [[nodiscard]] virtual double chatter_frequency_hz(std::size_t level, const Crossing& crossing) = 0;
-  /// Error of a depth, relative, that no finer grid shows.
+  /// The error of a depth, relative, that no finer grid shows.
   [[nodiscard]] virtual double error_beyond_grids(std::size_t /*level*/, const Crossing& /*crossing*/) { return 0.0; }
+};
 
-  /// For refine_until().
-  [[nodiscard]] ToLevel to_level();
+/// Grids of a cut without helix, one a level for all depths; finer ones are made when they are asked for.
+class FixedGrids : public SearchGrids {
+ public:
+  /// The loop's gain on the grid of a level.
+  [[nodiscard]] virtual const GainOnCircle& gain(std::size_t level) = 0;
+  /// True if a level beyond this one may be made.
+  [[nodiscard]] virtual bool more_after(std::size_t level) = 0;
+  [[nodiscard]] OnFinerGrid move_to(std::size_t level, Crossing& crossing) final;
+};
+
+/// The outcome of a search of the coarse grids.
+struct CoarseCrossings {
+  std::vector<Crossing> found;  ///< by rising depth
+  double searched_m = 0.0;      ///< the depth up to which they are all
 };
 
 /// The options of a search: a twentieth beyond the depth limit, for a crossing that lies there on a coarse grid may lie
@@ -56,16 +66,22 @@ struct FirstCrossing {
 [[nodiscard]] FirstCrossing first_crossing(const GainOnCircle& gain, const StabilityOptions& options);
 
 /// The depth up to which a row's crossings are wanted, m: `follow` times the first, or the depth limit.
-[[nodiscard]] double wanted_m(const FirstCrossing& first, const StabilityOptions& options);
+[[nodiscard]] double wanted_m(const std::vector<Crossing>& found, const StabilityOptions& options);
 
-/// Goes on to `follow` times the first crossing, if there is one; with `follow` = 1 those within a tenth of it are
-/// kept, one of which may turn out to be the first on a finer grid. Returns the depth that was searched, m.
+/// Extends the search to `follow` times the first crossing, if there is one; with `follow` = 1 those within a tenth of
+/// it are kept, one of which may turn out to be the first on a finer grid. Returns the depth that was searched, m.
 [[nodiscard]] double follow(FirstCrossing& first, const StabilityOptions& options);
 
-/// The row that follows from there: crossings up to `follow` times the first, each on a finer grid, those that bound a
-/// stable range to the tolerance; the two counts of limiting_depth() (stability.hpp). The status tells what failed. The
-/// limit is filled in if there is a crossing. Throws NumericalError as CriticalDepths.
-[[nodiscard]] LobeRow row_from(SearchGrids& grids, FirstCrossing first, double spindle_speed_rpm,
+/// The row of the crossings that a coarse search found: each on a finer grid, those that bound a stable range to the
+/// tolerance; then the two counts of limiting_depth() (stability.hpp), deep crossings that do not add up left out. The
+/// status tells what failed. The limit is filled in if there is a crossing. Throws NumericalError if an eigen-solution
+/// fails.
+[[nodiscard]] LobeRow checked_row(SearchGrids& grids, CoarseCrossings coarse, double spindle_speed_rpm,
+                                  const StabilityOptions& options);
+
+/// checked_row() of a cut without helix, from its first crossing on: followed up to `follow` times that one. Throws
+/// NumericalError as CriticalDepths.
+[[nodiscard]] LobeRow row_from(FixedGrids& grids, FirstCrossing first, double spindle_speed_rpm,
                                const StabilityOptions& options);
 
 /// True if nothing failed that a finer grid could mend.

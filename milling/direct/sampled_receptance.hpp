@@ -43,7 +43,7 @@ struct LineWeights {
   bool real_part = false;
 };
 
-/// At a frequency, Hz.
+/// The weights at a frequency, Hz.
 [[nodiscard]] LineWeights line_weights(const SampledReceptance& receptance, double hz, const Continuation& beyond = {});
 
 /// A peak of ‖H‖ (Frobenius) that falls to half its power on both sides before anything higher is met: noise on a flank
@@ -54,7 +54,7 @@ struct Resonance {
   double size = 0.0;           ///< ‖H‖ there, m/N
 };
 
-/// In ascending frequency. Cost O(lines), times the lines within a peak.
+/// The resonances in ascending frequency. Cost O(lines), times the lines within a peak.
 [[nodiscard]] std::vector<Resonance> resonances(const SampledReceptance& receptance);
 
 /// The loop's gain from the receptance alone (regenerative_loop.hpp has it from poles): with ω_k = (θ + 2πk)/T,

@@ -29,7 +29,7 @@ complex<double> dominant(const Eigen::VectorXcd& eigenvalues) {
 }
 
 /// Grids of a cut known by its poles.
-class PoleGrids : public SearchGrids {
+class PoleGrids : public FixedGrids {
  public:
   PoleGrids(const CutAtSpeed& cut, Resolution first, double depth_m, int most_nodes)
       : cut_(cut), next_(first), depth_m_(depth_m), most_nodes_(most_nodes) {}
@@ -93,7 +93,7 @@ Multiplier multiplier_of(const CutAtSpeed& cut, double depth_m, const StabilityO
   }
 }
 
-/// Of a row without crossings: the multiplier at the depth limit.
+/// Describes the limit of a row without crossings by the multiplier at the depth limit.
 void describe_depth_limit(LobeRow& row, const CutAtSpeed& cut, const StabilityOptions& options) {
   const Multiplier mu = multiplier_of(cut, options.depth_limit_m, options);
   row.limiting_depth_m = options.depth_limit_m;
@@ -130,7 +130,7 @@ LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
       resolution = needed;
       continue;
     }
-    const double wanted = wanted_m(first, options);
+    const double wanted = wanted_m(first.found, options);
     LobeRow row = row_from(grids, std::move(first), cut.spindle_speed_rpm, options);
     if (row.crossings.empty()) describe_depth_limit(row, cut, options);
     // By the nodes of the search: a crossing that is none on finer grids (two flips that become one Hopf crossing

@@ -8,6 +8,7 @@
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/gauss_rule.hpp"
 #include "milling/cut/cutting_load.hpp"
 #include "milling/cut/product_rule.hpp"
 #include "milling/direct/cut_at_speed.hpp"
@@ -70,7 +71,7 @@ void add_regeneration(const FedCut& given, const ContactGrid& grid, Eigen::Matri
   }
 }
 
-/// Of flanks that rub on the slope of the motion, at the nodes.
+/// Adds the torque of flanks that rub on the slope of the motion, at the nodes.
 void add_damping_torque(const FedCut& given, const ContactGrid& grid, const Eigen::Matrix3Xd& q,
                         Eigen::RowVectorXd& torque) {
   const MillingProcess& process = given.cut.process;
@@ -88,7 +89,7 @@ void add_damping_torque(const FedCut& given, const ContactGrid& grid, const Eige
   }
 }
 
-/// At the nodes.
+/// The torque at the nodes, N m.
 Eigen::RowVectorXd torque_of(const FedCut& given, const PeriodicMotion& motion) {
   const ContactGrid& grid = motion.grid;
   const Cutter& cutter = given.cut.process.cutter;
@@ -118,7 +119,7 @@ struct Samples {
   std::vector<Run> runs;
 };
 
-/// From `from` to `to`; in the cut the elements on the way, without it none.
+/// Adds samples from `from` to `to`, rad; in the cut they lie in the elements on the way, outside of it in none.
 void add_run(const ContactGrid& grid, double from, double to, bool in_cut, double per_rad, Samples& samples) {
   if (to - from < 1e-9) return;
   const int steps = std::max(8, static_cast<int>(std::ceil((to - from) * per_rad)));
@@ -153,7 +154,7 @@ double peak(const std::vector<Run>& runs, const Eigen::VectorXd& value) {
 Eigen::VectorXd mean_of(const ContactGrid& grid, const Eigen::MatrixXd& at_nodes) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(at_nodes.rows());
   for (const CutElement& e : grid.elements) {
-    sum += (e.to_rad - e.from_rad) * at_nodes.middleCols(e.first_node, e.nodes) * gauss_legendre(e.nodes).weight;
+    sum += (e.to_rad - e.from_rad) * at_nodes.middleCols(e.first_node, e.nodes) * core::gauss_legendre(e.nodes).weight;
   }
   return sum / grid.period_rad;
 }
@@ -250,7 +251,7 @@ void require_modelled(const MillingProcess& process) {
   }
 }
 
-/// On finer and finer grids until the figures stand still.
+/// The vibration on finer and finer grids, until its figures stand still.
 ForcedVibration refined(const FedCut& given, const ForcedOptions& options) {
   const MillingProcess& process = given.cut.process;
   const Resolution waves = resolving(given.cut, given.depth_m);

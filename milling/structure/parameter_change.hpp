@@ -27,7 +27,8 @@ struct ParameterChange {
 /// InputError if a frequency or mass is no longer positive, or a damping ratio leaves (0, 1).
 [[nodiscard]] RelativeStructure changed(const RelativeStructure& structure, const ParameterChange& change);
 
-/// Of every tooth. Edge forces stay. Throws InputError if a coefficient changes its sign or vanishes.
+/// The process with changed coefficients of every tooth. Edge forces stay. Throws InputError if a coefficient changes
+/// its sign or vanishes.
 [[nodiscard]] MillingProcess changed(MillingProcess process, const ParameterChange& change);
 
 }  // namespace thinwall::milling

@@ -48,6 +48,7 @@ class ModeHistory {
     double last_length = -1.0;
     moments_.reserve(grid.elements.size());
     for (const CutElement& e : grid.elements) {
+      // Teeth are in the cut one after the other for equal times: their elements share their moments.
       const double length = (e.to_rad - e.from_rad) * seconds_per_rad;
       const bool as_before = !moments_.empty() && std::abs(length - last_length) <= 1e-12 * length;
       moments_.push_back(as_before ? moments_.back() : moments_of(poles, e.nodes, length));
@@ -58,7 +59,7 @@ class ModeHistory {
   /// e^{λ t}, poles.
   [[nodiscard]] Eigen::VectorXcd flow(double rad) const { return (poles_ * (rad * seconds_per_rad_)).array().exp(); }
 
-  /// At a node, poles × the nodes up to the end of its element; later ones have no part in it.
+  /// The motion at a node, poles × the nodes up to the end of its element; later ones have no part in it.
   [[nodiscard]] Eigen::MatrixXcd at_node(int node) const {
     Eigen::MatrixXcd history;
     for (std::size_t e = moments_.size(); e-- > 0;) {
@@ -66,9 +67,12 @@ class ModeHistory {
       const int inside = node - element.first_node;
       if (inside < 0) continue;
       if (inside < element.nodes) {
+        // The node's own element, the last that matters: within it a node feels forces of later ones, too, since the
+        // force is one polynomial over the element.
         history.resize(poles_.size(), element.first_node + element.nodes);
         history.rightCols(element.nodes) = moments_[e]->inside[static_cast<std::size_t>(inside)];
       } else {
+        // An element that has passed: the motion at its end decays until the node; later elements add their own.
         history.middleCols(element.first_node, element.nodes).noalias() =
             flow(grid_.node_rad(node) - element.to_rad).asDiagonal() * moments_[e]->end;
       }
@@ -76,7 +80,7 @@ class ModeHistory {
     return history;
   }
 
-  /// At the end of the period, poles × nodes.
+  /// The motion at the end of the period, poles × nodes.
   [[nodiscard]] Eigen::MatrixXcd at_end() const {
     Eigen::MatrixXcd history(poles_.size(), grid_.node_rad.size());
     for (std::size_t e = 0; e < moments_.size(); ++e) {
@@ -113,6 +117,8 @@ Sight sight(const ContactGrid& grid) {
     result.now[static_cast<std::size_t>(grid.contacts[k].node)].push_back({row, grid.contacts[k].chip});
     for (const Past& past : grid.contacts[k].past) {
       const auto node = static_cast<std::size_t>(past.node);
+      // The past within this period is known from this period's own forces; what lies before its start enters the
+      // next equation as h. Its sign is that of h in c = ... − h.
       if (past.previous_period) result.before[node].push_back({row, past.chip});
       else result.now[node].push_back({row, -past.chip});
     }
@@ -130,10 +136,12 @@ void add_motion(const RelativeStructure& structure, const std::vector<Seen>& see
     const Eigen::RowVectorXcd free = shape.cwiseProduct(flow.transpose());
     E.row(s.row).head(poles) += free.real();
     E.row(s.row).tail(poles) += free.imag();
+    // A mode and its conjugate together move by twice the real part; a real pole has half a share.
     K.row(s.row) += 2.0 * (shape.cwiseProduct(share.transpose()) * forced).real();
   }
 }
 
+/// Adds the static residual R: a contact's force moves its own node at once, and no other.
 void add_residual(const RelativeStructure& structure, const ContactGrid& grid,
                   const std::vector<std::vector<Seen>>& seen, Eigen::MatrixXd& K) {
   if (structure.R.isZero(0.0)) return;
@@ -144,6 +152,7 @@ void add_residual(const RelativeStructure& structure, const ContactGrid& grid,
   }
 }
 
+/// The matrix of the previous period, which is this period's where all delays are one period.
 const Eigen::MatrixXd& before(const Eigen::MatrixXd& now, const Eigen::MatrixXd& previous) {
   return previous.size() > 0 ? previous : now;
 }
@@ -194,6 +203,8 @@ RegenerativeLoop regenerative_loop(const RelativeStructure& structure, const Con
     loop.E_previous = loop.E;
     loop.K_previous = loop.K;
   }
+  // Forces of the nodes move the modes; contacts are ways in which a node's force acts, so that a column of a contact
+  // is its node's, times the modal force of its direction.
   const ModeHistory history(structure.poles, grid, seconds_per_rad);
   Eigen::MatrixXcd modal_force(poles, contacts);
   for (Index l = 0; l < contacts; ++l)
@@ -207,6 +218,7 @@ RegenerativeLoop regenerative_loop(const RelativeStructure& structure, const Con
     }
     return forced;
   };
+  // Node by node, since the motion of all modes at a node serves all contacts that look at it.
   const Sight seen = sight(grid);
   for (int node = 0; node < static_cast<int>(grid.node_rad.size()); ++node) {
     const Eigen::VectorXcd flow = history.flow(grid.node_rad(node));
@@ -264,6 +276,7 @@ Eigen::MatrixXcd loop_gain(const RegenerativeLoop& loop, complex<double> mu) {
   const Eigen::ArrayXcd gain = loop.share.array() / (mu - loop.flow.array());
   const Eigen::ArrayXcd conjugate_gain = loop.share.array() / (mu - loop.flow.conjugate().array());
   const Eigen::MatrixXd motion = modal_motion(loop.L, gain, conjugate_gain);
+  // With one delay Z = (1 − 1/μ) (K + Σ …): the factor of regeneration of the zeroth-order solution.
   if (loop.K_previous.size() == 0) return (1.0 - past) * (loop.K.cast<complex<double>>() + seen_motion(loop.E, motion));
   return loop.K.cast<complex<double>>() + seen_motion(loop.E, motion) -
          past * (loop.K_previous.cast<complex<double>>() + seen_motion(loop.E_previous, motion));

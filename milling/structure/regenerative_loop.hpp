@@ -9,15 +9,17 @@
 
 namespace thinwall::milling {
 
-/// With c the contacts' chip modulations of a period, z_k the modes at its start (one of each conjugate pair) and
-/// h the share of the modulation that the previous period has left behind, the forces −w force c act:
+/// The loop of a period. With c the contacts' chip modulations, z_k the modes at the start of the period (one of each
+/// conjugate pair) and h the share of the modulation that the previous period has left behind, the forces −w force c
+/// act:
 ///
 ///     c   = 2 Re(E z) − w K c − h,
 ///     z⁺  = Φ z − w L c,
 ///     h⁺  = 2 Re(E⁻ z) − w K⁻ c
 ///
-/// (contact-phase collocation; docs/theory/lobes.md). A real pole counts once instead of twice. Where all delays are
-/// one period, E⁻ = E and K⁻ = K.
+/// (contact-phase collocation; docs/theory/lobes.md). Between cuts the modes are free and known in closed form, so that
+/// the state of the delay, a function over the period, shrinks to its values at the nodes in the cut. A real pole
+/// counts once instead of twice. Where all delays are one period, E⁻ = E and K⁻ = K.
 struct RegenerativeLoop {
   double period_s = 0.0;
   Eigen::VectorXd share;       ///< 1 of a pair (with its conjugate), ½ of a real pole
@@ -29,8 +31,8 @@ struct RegenerativeLoop {
   Eigen::MatrixXd K_previous;  ///< contacts × contacts; empty where it is K
 };
 
-/// `structure` in tool axes; its residual R, without inertia, follows the force at once. Cost O(poles (nodes² points +
-/// contacts²)).
+/// The loop of a structure, in tool axes, on a grid; the structure's residual R, without inertia, follows the force at
+/// once. Cost O(poles (nodes² points + contacts²)).
 [[nodiscard]] RegenerativeLoop regenerative_loop(const RelativeStructure& structure, const ContactGrid& grid,
                                                  double spindle_speed_rpm);
 
@@ -42,11 +44,12 @@ struct RegenerativeLoop {
 ///
 ///     Z(μ) = K − K⁻/μ + Σ (E − E⁻/μ)_k L_k / (μ − Φ_k) + the same of the conjugates
 ///
-/// On the boundary of stability |μ| = 1, so that its depths are the reciprocals of the real positive eigenvalues of −Z.
+/// The boundary of stability is |μ| = 1, so that its depths are the reciprocals of the real positive eigenvalues of −Z.
 /// Cost O(contacts² poles).
 [[nodiscard]] Eigen::MatrixXcd loop_gain(const RegenerativeLoop& loop, std::complex<double> mu);
 
-/// Along the circle μ = e^{iθ}: dZ/dθ = iμ dZ/dμ. Cost as above.
+/// The change of the gain along the circle μ = e^{iθ}: dZ/dθ = iμ dZ/dμ, which Newton's rule for a crossing needs. Cost
+/// as that of loop_gain().
 [[nodiscard]] Eigen::MatrixXcd loop_gain_slope(const RegenerativeLoop& loop, std::complex<double> mu);
 
 }  // namespace thinwall::milling

@@ -23,6 +23,11 @@ void serialize(Archive& archive, Quality& q) {
 
 namespace linalg {
 template <class Archive>
+void serialize(Archive& archive, EigenpairCheck& c) {
+  archive(c.status, c.shift, c.below, c.counted, c.pair, c.lambda, c.other_lambda, c.second_alone, c.largest_difference,
+          c.tolerance);
+}
+template <class Archive>
 void serialize(Archive& archive, Eigenpairs& p) {
   archive(p.lambda, p.Phi, p.inverse_residual, p.status);
 }
@@ -44,7 +49,7 @@ void serialize(Archive& archive, Model& m) {
 }
 template <class Archive>
 void serialize(Archive& archive, Modes& m) {
-  archive(m.frequency_hz, m.pairs, m.residual, m.rigid_motions, m.round_off, m.count_verified);
+  archive(m.frequency_hz, m.pairs, m.residual, m.rigid_motions, m.round_off, m.check);
 }
 template <class Archive>
 void serialize(Archive& archive, RefinementStep& s) {

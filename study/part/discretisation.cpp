@@ -131,7 +131,6 @@ Discretisation refined_surface(const PartInput& source) {
   fem::ClosedPartOptions options;
   options.tolerance = wanted.tolerance;
   options.modes = setup::mode_options(source);
-  options.modes.verify_count = false;
   options.supports = setup::supports_of(source);
   options.points = watched_points(source);
   options.points_hold = !source.reduction.interface.empty();
@@ -173,7 +172,6 @@ Discretisation refined_to_tolerance(const PartInput& source) {
   fem::ToleranceOptions options;
   options.tolerance = wanted.tolerance;
   options.modes = setup::mode_options(source);
-  options.modes.verify_count = false;
   options.memory_limit_bytes = core::available_memory_bytes();
   options.reentrant_edges = mesh::has_reentrant_edge(setup::planar(*source.part).prism);
   if (options.reentrant_edges) options.levels = 2;  // more bring little: across a rib one element remains

@@ -84,8 +84,7 @@ fem::Modes PartEvaluation::modes(const setup::VariedSetup& now) {
   fem::ModeOptions enough;
   enough.count = needed;
   enough.inverse_residual = 1e-6;  // far below what a fit can tell
-  fem::ModeOptions asked = setup::mode_options(now.setup);
-  asked.verify_count = false;  // of the part that is kept, later
+  const fem::ModeOptions asked = setup::mode_options(now.setup);
   const bool first = reference_.cols() == 0;
   as_asked_ = !first && asked_suffices_ && (asked.up_to_hz || asked.count >= needed);
   if (!as_asked_) return fem::modes(latest_->model, latest_->factored, enough);

@@ -15,7 +15,8 @@ namespace thinwall::study {
 [[nodiscard]] mesh::TetMesh stretched(mesh::TetMesh mesh, const Eigen::Vector3d& from_size,
                                       const Eigen::Vector3d& to_size);
 
-/// Model, factor and modes: as the tolerance or a fit left them, or computed now.
+/// Model, factor and modes: as the tolerance or a fit left them, or computed now; the modes are checked where
+/// modes.verify asks for it. Throws NumericalError if the check disagrees.
 [[nodiscard]] Solution solved_part(const setup::PartSetup& source, Discretisation discretisation, Stages& stages);
 
 /// Factor, modes, reduction, damping, with their checks. The discretisation must fit the part of the case.

@@ -41,7 +41,7 @@ Attachments at_tip(Connection connection) {
 
 Modes modes_of(const Model& model, int count) {
   const Factored factored = factorise(model);
-  return modes(model, factored, {.count = count, .up_to_hz = {}, .verify_count = false});
+  return modes(model, factored, {.count = count, .up_to_hz = {}});
 }
 
 template <class Function>

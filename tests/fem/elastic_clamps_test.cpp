@@ -40,7 +40,7 @@ Attachments clamped(const mesh::Region& region, double normal, double tangential
 
 Modes modes_of(const Model& model, int count) {
   const Factored factored = factorise(model);
-  return modes(model, factored, {.count = count, .up_to_hz = {}, .verify_count = false});
+  return modes(model, factored, {.count = count, .up_to_hz = {}});
 }
 
 /// Largest relative difference of the last frequencies of both.

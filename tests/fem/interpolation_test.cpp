@@ -47,7 +47,7 @@ TEST(Interpolation, CarriesOverExactlyWhatTheOtherOrderHolds) {
 }
 
 TEST(ModesNear, OfTheNextOrderAreThoseOfABlockLanczosRun) {
-  const ModeOptions options{.count = 6, .up_to_hz = {}, .verify_count = false};
+  const ModeOptions options{.count = 6, .up_to_hz = {}};
   const Model fine = cantilever(4), coarse = cantilever(3);
   const Modes above = modes(fine, factorise(fine), options);
   const Factored factored = factorise(coarse);

@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/gauss_rule.hpp"
 #include "milling/chart/lobe_method.hpp"
 #include "milling/cut/contact_grid.hpp"
 #include "milling/cut/edge.hpp"
-#include "milling/cut/product_rule.hpp"
 #include "milling/cut/step_coefficients.hpp"
 #include "milling/direct/sampled_receptance.hpp"
 #include "milling/direct/stability.hpp"
@@ -148,7 +148,7 @@ Eigen::Matrix3d mean_of(const ContactGrid& grid) {
   for (const Contact& c : grid.contacts) {
     for (const CutElement& e : grid.elements) {
       if (c.node < e.first_node || c.node >= e.first_node + e.nodes) continue;
-      const double weight = gauss_legendre(e.nodes).weight(c.node - e.first_node);
+      const double weight = core::gauss_legendre(e.nodes).weight(c.node - e.first_node);
       sum += weight * (e.to_rad - e.from_rad) / grid.period_rad * c.force * c.chip.transpose();
     }
   }

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/gauss_rule.hpp"
 #include "milling/cut/process.hpp"
-#include "milling/cut/product_rule.hpp"
 #include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling::testing {
@@ -34,7 +34,7 @@ class Marching {
         depth_m_(depth_m),
         steps_(steps_a_turn),
         dt_(60.0 / rpm / steps_a_turn),
-        rule_(gauss_legendre(process.cutter.depends_on_depth() ? 6 : 1)),
+        rule_(core::gauss_legendre(process.cutter.depends_on_depth() ? 6 : 1)),
         profile_(std::move(profile)),
         heights_{0.0} {
     for (int j = 1; j < process.cutter.teeth; ++j) entry_.push_back(entry_.back() + process.cutter.pitch_rad(j));
@@ -197,7 +197,7 @@ class Marching {
   double depth_m_;
   int steps_;
   double dt_;
-  GaussRule rule_;  // over the heights in the cut, between joints
+  core::GaussRule rule_;  // over the heights in the cut, between joints
   Profile profile_;
   std::vector<double> heights_;  // the joints, 0 and the depth
   std::vector<double> entry_{0.0};

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "milling/cut/product_rule.hpp"
+#include "core/gauss_rule.hpp"
 #include "milling/direct/cut_at_speed.hpp"
 
 namespace thinwall::milling::mathieu_test {
@@ -26,7 +26,7 @@ Eigen::VectorXcd mathieu(double damping, double delta, double epsilon, double b)
   d.grid.period_rad = turn;
   d.grid.one_delay = false;
   d.grid.node_rad.resize(elements * nodes);
-  const GaussRule rule = gauss_legendre(nodes);
+  const core::GaussRule rule = core::gauss_legendre(nodes);
   for (int e = 0; e < elements; ++e) {
     d.grid.elements.push_back({e * turn / elements, (e + 1) * turn / elements, e * nodes, nodes});
     for (int i = 0; i < nodes; ++i) {

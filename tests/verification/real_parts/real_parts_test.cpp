@@ -51,7 +51,7 @@ Eigen::VectorXd fine_frequencies(const mesh::TriangleSurface& surface, int count
   options.smallest_shape = 1e-10;  // the trailing edge of the blade
   const auto meshed = mesh::mesh_closed_surface(surface, options);
   const auto model = fem::supported_model(meshed.mesh, 4, aluminium, {});
-  const auto modes = fem::modes(model, fem::factorise(model), {.count = count, .up_to_hz = {}, .verify_count = false});
+  const auto modes = fem::modes(model, fem::factorise(model), {.count = count, .up_to_hz = {}});
   std::printf("  fine: %zu tets, %td degrees of freedom\n", meshed.mesh.tets.size(), model.K.rows());
   return modes.frequency_hz.tail(count);
 }

@@ -42,7 +42,7 @@ struct Solved {
 
 inline Solved solved(fem::Model model, int count) {
   const fem::Factored factored = fem::factorise(model);
-  fem::Modes modes = fem::modes(model, factored, {.count = count, .up_to_hz = {}, .verify_count = false});
+  fem::Modes modes = fem::modes(model, factored, {.count = count, .up_to_hz = {}});
   return {std::move(model), std::move(modes)};
 }
 

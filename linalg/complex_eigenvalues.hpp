@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-namespace thinwall::milling {
+namespace thinwall::linalg {
 
 /// All eigenvalues of A, in no order: Hessenberg's form by elimination, then QR steps with Wilkinson's shift on the
 /// block that has not split yet (Golub & Van Loan 2013, ch. 7.4), each eigenvalue to round-off of ‖A‖. Nothing if A is
@@ -13,4 +13,4 @@ namespace thinwall::milling {
 /// this takes less than half of either's time. Cost O(n³).
 [[nodiscard]] std::optional<Eigen::VectorXcd> complex_eigenvalues(const Eigen::MatrixXcd& A);
 
-}  // namespace thinwall::milling
+}  // namespace thinwall::linalg

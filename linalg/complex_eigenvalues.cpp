@@ -1,11 +1,11 @@
-#include "milling/direct/complex_eigenvalues.hpp"
+#include "linalg/complex_eigenvalues.hpp"
 
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <vector>
 
-namespace thinwall::milling {
+namespace thinwall::linalg {
 
 namespace {
 
@@ -131,4 +131,4 @@ std::optional<Eigen::VectorXcd> complex_eigenvalues(const Eigen::MatrixXcd& A) {
   return Eigen::VectorXcd(H.diagonal());
 }
 
-}  // namespace thinwall::milling
+}  // namespace thinwall::linalg

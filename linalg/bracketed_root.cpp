@@ -1,14 +1,15 @@
-#include "milling/direct/bracketed_root.hpp"
+#include "linalg/bracketed_root.hpp"
 
 #include <cmath>
 #include <sstream>
 
 #include "core/error.hpp"
 
-namespace thinwall::milling {
+namespace thinwall::linalg {
 
-double bracketed_root(const std::function<double(double)>& f, double a, double f_a, double b, double f_b,
-                      double tolerance) {
+double bracketed_root(const std::function<double(double)>& f, Bracket bracket, RootTolerance tolerance,
+                      const std::string& sought) {
+  auto& [a, f_a, b, f_b] = bracket;
   if (f_a == 0.0) return a;
   if (f_b == 0.0) return b;
   int stayed = 0;                  // the end that was kept last: −1 a, 1 b
@@ -22,7 +23,7 @@ double bracketed_root(const std::function<double(double)>& f, double a, double f
     const double x = bisect ? 0.5 * (a + b) : (f_a * b - f_b * a) / (f_a - f_b);
     const double f_x = f(x);
     if (!std::isfinite(f_x)) break;
-    if (f_x == 0.0) return x;
+    if (std::abs(f_x) <= tolerance.value) return x;
     const bool replaces_b = (f_x > 0.0) == (f_b > 0.0);
     if (replaces_b) {
       if (stayed == -1) f_a *= 0.5;
@@ -35,12 +36,11 @@ double bracketed_root(const std::function<double(double)>& f, double a, double f
       f_a = f_x;
       stayed = 1;
     }
-    if (std::abs(b - a) <= tolerance * std::abs(x)) return x;
+    if (std::abs(b - a) <= tolerance.relative * std::abs(x)) return x;
   }
   std::ostringstream text;
-  text << "stability: no crossing was brought to its depth between " << a << " and " << b
-       << ", a root is expected there; take finer steps or more harmonics";
+  text << sought << " was not found between " << a << " and " << b << ", where the sign of its equation changes";
   throw core::NumericalError(text.str());
 }
 
-}  // namespace thinwall::milling
+}  // namespace thinwall::linalg

@@ -1,4 +1,4 @@
-#include "milling/direct/complex_eigenvalues.hpp"
+#include "linalg/complex_eigenvalues.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "core/dense_eigenvalues.hpp"
 
-namespace thinwall::milling::complex_eigenvalues_test {
+namespace thinwall::linalg::complex_eigenvalues_test {
 namespace {
 
 using Eigen::Index;
@@ -75,4 +75,4 @@ TEST(ComplexEigenvalues, AreNothingWhereTheMatrixIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace thinwall::milling::complex_eigenvalues_test
+}  // namespace thinwall::linalg::complex_eigenvalues_test
