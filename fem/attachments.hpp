@@ -21,7 +21,7 @@ struct ElasticClamp {
 
 /// The kind of connection between a point and its patch.
 enum class Connection {
-  averaging,  ///< the point follows the patch in the mean; adds no stiffness of its own (RBE3)
+  averaging,  ///< the point has the mean motion of the patch, which stays as flexible as it is (RBE3)
   rigid,      ///< the patch moves with the point as one rigid body (RBE2)
 };
 
