@@ -25,8 +25,8 @@ struct Support {
 using Shaping = std::function<void(mesh::LagrangeNodes&)>;
 
 /// Builds the constrained model of order 1…6 on a mesh. Supports are looked up on the straight mesh before `shape` (if
-/// it is set) moves its nodes, attachments on the straight mesh too; the normals and lever arms of attachments are those
-/// of the moved nodes. Throws what fixed_rows() and build_model() throw.
+/// it is set) moves its nodes, attachments on the straight mesh too; the normals and lever arms of attachments are
+/// those of the moved nodes. Throws what fixed_rows() and build_model() throw.
 [[nodiscard]] Model supported_model(mesh::TetMesh mesh, int order, const Materials& materials,
                                     const std::vector<Support>& supports, const Shaping& shape = {},
                                     const Attachments& attachments = {});
