@@ -1,5 +1,5 @@
 #pragma once
-// A report on whether a reduced model, our own or imported, can be trusted.
+// A report on whether a reduced model, of this program or imported, can be trusted.
 
 #include <Eigen/Core>
 #include <limits>
