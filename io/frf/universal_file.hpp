@@ -45,8 +45,8 @@ void note(UffNotes& notes, const UffRecords& records, const std::string& what);
 /// The data sets of a file, whose bytes must outlive the result. Every size is bounded by the bytes that exist; lines
 /// are counted by '\n', including those among binary values.
 ///
-/// The bytes of a 58b are taken by count, spacing and type of its record 7 and must end at a closing "    -1". If they do
-/// not, the faults of real analysers are tried and noted: a line end between the last byte and the closing "    -1",
+/// The bytes of a 58b are taken by count, spacing and type of its record 7 and must end at a closing "    -1". If they
+/// do not, the faults of real analysers are tried and noted: a line end between the last byte and the closing "    -1",
 /// another precision, single or double, than stated, and an uneven abscissa in single before values in double
 /// precision. The number of bytes that the first record states is not relied on; if it is wrong (a half, a third), that
 /// is noted.
