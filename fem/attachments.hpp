@@ -50,7 +50,7 @@ struct GroundSpring {
   Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();      ///< from the point to the place where the springs act
 };
 
-/// All that is attached to a part.
+/// The clamps, points, masses and springs of a part.
 struct Attachments {
   std::vector<ElasticClamp> clamps;
   std::vector<ConnectedPoint> points;

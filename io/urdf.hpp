@@ -14,10 +14,10 @@ namespace thinwall::io {
 struct UrdfLink {
   std::string name;                                             ///< name of the first link that moves with it
   std::string joint;                                            ///< name of the joint
-  Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();  ///< of the joint in the frame of the link before, m
+  Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();  ///< joint's frame in that of the link before, m
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();              ///< in the joint's frame
   double mass = 0.0;                                            ///< kg
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();             ///< of mass, in the link's frame, m
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();             ///< centre of mass in the link's frame, m
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();            ///< about the centre, in the link's axes, kg m²
 };
 

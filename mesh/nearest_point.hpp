@@ -14,7 +14,7 @@ namespace thinwall::mesh {
 /// The position of a point relative to a closed surface.
 struct PointToSurface {
   bool inside = false;
-  double distance_m = 0.0;  ///< to the surface, from either side
+  double distance_m = 0.0;  ///< distance from the surface, on either side
 };
 
 /// The position of x (m) relative to a surface. The point lies inside if the winding number Σ Ω / 4π exceeds one half,

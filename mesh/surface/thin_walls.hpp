@@ -11,7 +11,7 @@ namespace thinwall::mesh {
 /// The result of thin_walls().
 struct ThinWalls {
   std::vector<int> triangles;                                   ///< triangles whose wall is thinner than the bound
-  double thinnest_m = std::numeric_limits<double>::infinity();  ///< of all walls; infinite if there is none
+  double thinnest_m = std::numeric_limits<double>::infinity();  ///< thinnest of all walls; infinite if there is none
 };
 
 /// The thin walls of a part. A wall lies between a triangle's centroid and the first triangle beneath it along its
