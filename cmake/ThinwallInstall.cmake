@@ -27,7 +27,7 @@ target_compile_features(thinwall_shared INTERFACE cxx_std_20)
 install(TARGETS thinwall RUNTIME COMPONENT runtime)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 
-# thinwall_prints(<file> <words>...)   below share/, the text that `thinwall <words>` prints, made at installation
+# thinwall_prints(<file> <words>...)   installs below share/ the text that `thinwall <words>` prints at installation
 function(thinwall_prints file)
   set(made ${PROJECT_BINARY_DIR}/printed/${file})
   get_filename_component(folder ${file} DIRECTORY)

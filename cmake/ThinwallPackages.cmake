@@ -4,7 +4,7 @@
 #   libthinwall-dev     headers, find_package(thinwall), pkg-config thinwall
 #   python3-thinwall    the Python module, if it is built
 # The packages are for every machine of an architecture; the version of packages built with THINWALL_NATIVE, which run on
-# this processor only, says so. dpkg-shlibdeps finds their dependencies.
+# this processor only, ends with "+native". dpkg-shlibdeps finds their dependencies.
 set(THINWALL_MAINTAINER "The maintainers of thinwall <maintainers@thinwall.example>" CACHE STRING "Of the packages")
 set(THINWALL_PACKAGE_VERSION ${PROJECT_VERSION})
 if(THINWALL_NATIVE)
@@ -27,7 +27,7 @@ set(CPACK_COMPONENTS_ALL runtime library dev)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
                                                 WORLD_EXECUTE)
 
-# thinwall_package(<component> <name> <section> <summary>, a line of words)   with its copyright and its change log
+# thinwall_package(<component> <name> <section> <summary>, a line of words)   makes a package with copyright and changes
 function(thinwall_package component name section summary)
   string(TOUPPER ${component} key)
   set(CPACK_DEBIAN_${key}_PACKAGE_NAME ${name} PARENT_SCOPE)
@@ -39,7 +39,8 @@ thin-walled parts, alone or backed by a robot." PARENT_SCOPE)
           COMPONENT ${component})
 endfunction()
 
-# The licences of the packages from which the page of results is built, as the text of a field: a blank before each line, " ." for none.
+# The licences of the packages from which the page of results is built, as the text of a control field: each line begins
+# with a blank, and an empty line is " .".
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS web/dist/LICENSES.txt)
 file(READ web/dist/LICENSES.txt THINWALL_PAGE_LICENSES)
 string(STRIP "${THINWALL_PAGE_LICENSES}" THINWALL_PAGE_LICENSES)
@@ -75,7 +76,7 @@ if(TARGET thinwall_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-matplotlib)
 endif()
 
-# The target packs what its dependencies have built; the tests are not among them.
+# The target packs the program and the library, which it builds first, but not the tests.
 add_custom_target(packages COMMAND ${CMAKE_CPACK_COMMAND} DEPENDS thinwall thinwall_shared USES_TERMINAL)
 if(TARGET thinwall_python)
   add_dependencies(packages thinwall_python)

@@ -1,14 +1,14 @@
 # thinwall_library(<folder> LINKS ...)   makes the target thinwall::<folder> from every .cpp of the folder and its sub-folders.
-#     EXCLUDES <pattern>    leaves out those whose path matches: they belong to a target of their own
-#     TEXT                  says that nothing is computed there: JSON is among the precompiled headers
-#     OWN_HEADERS           says that its options are others than those of the shared precompiled headers
-# thinwall_test(<name> LINKS ...)        makes one GoogleTest program from every .cpp of the current folder, a ctest entry a suite
+#     EXCLUDES <pattern>    leaves out sources whose path matches, because they belong to another target
+#     TEXT                  is for folders without computations; JSON is among their precompiled headers
+#     OWN_HEADERS           is for targets whose options differ from those of the shared precompiled headers
+# thinwall_test(<name> LINKS ...)        makes one GoogleTest program from every .cpp of the current folder, with a ctest entry for each suite
 
 add_library(thinwall_flags INTERFACE)
 target_compile_options(thinwall_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wsuggest-override
                                                 -Wzero-as-null-pointer-constant -Werror)
-# Calls within the library are direct and may be inlined: the compiler may assume that no library loaded before it
-# (LD_PRELOAD) replaces one of our functions.
+# Calls within the library may be direct and inlined: the compiler may assume that no library loaded before (LD_PRELOAD)
+# replaces one of its functions.
 target_compile_options(thinwall_flags INTERFACE -fno-semantic-interposition)
 # GCC 12 warns wrongly about "text" + std::string, as overlapping copies, and, where the library's headers are
 # precompiled, as copies beyond the end (GCC bug 105329, fixed in GCC 13).
@@ -28,19 +28,19 @@ if(THINWALL_SANITIZE)
   target_link_options(thinwall_flags INTERFACE -fsanitize=${THINWALL_SANITIZE})
 endif()
 
-# The alignment of Eigen's matrices depends on the vector unit for which a file is compiled; the layout of our structs
-# and the way in which their memory is freed depend on it. It is pinned to that of AVX, so that programs compiled for
+# The alignment of Eigen's matrices depends on the vector unit for which a file is compiled; the layout of structs and
+# the way in which their memory is freed depend on it too. It is pinned to that of AVX, so that programs compiled for
 # any x86-64 processor fit a library compiled for any other. It is part of the library's interface: programs that use
 # the library must be compiled with the same two definitions.
 set(THINWALL_EIGEN_ALIGNMENT EIGEN_MAX_ALIGN_BYTES=32 EIGEN_MAX_STATIC_ALIGN_BYTES=32)
 
-# Headers that nearly every file includes are parsed once for all targets whose options are equal: thinwall_headers holds
-# them for the libraries. A file still includes what it uses, which the build with sanitizers holds it to: it goes without
-# (CMAKE_DISABLE_PRECOMPILE_HEADERS).
+# Headers that nearly every file includes are parsed once for all targets with equal options: thinwall_headers contains
+# them for the libraries. A file must still include all headers that it uses, which the build with sanitizers checks, as it
+# has no precompiled headers (CMAKE_DISABLE_PRECOMPILE_HEADERS).
 set(THINWALL_COMMON_HEADERS <Eigen/Geometry> <Eigen/LU> <Eigen/SparseCore> <algorithm> <cmath> <filesystem> <functional>
                             <map> <memory> <numeric> <optional> <sstream> <string> <vector>)
 
-# thinwall_precompiled(<name> <header>...)   a target that others name in HEADERS
+# thinwall_precompiled(<name> <header>...)   makes a target whose precompiled headers other targets reuse
 function(thinwall_precompiled name)
   file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/${name}.cpp CONTENT "// Only for the headers that are parsed with it.\n")
   add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/${name}.cpp)
@@ -49,12 +49,13 @@ function(thinwall_precompiled name)
   target_precompile_headers(${name} PRIVATE ${ARGN})
 endfunction()
 thinwall_precompiled(thinwall_headers ${THINWALL_COMMON_HEADERS})
-# For folders in which nothing is computed: they write and read JSON. They are optimised like all others, because the
-# linker takes one copy of a template's code for the whole program, from whichever folder comes first.
+# Headers for folders without computations, which write and read JSON. These folders are optimised like all others,
+# because the linker takes one copy of a template's code for the whole program, from the folder that comes first.
 thinwall_precompiled(thinwall_text_headers ${THINWALL_COMMON_HEADERS} <nlohmann/json.hpp>)
 
 # Puts the sources of a target into batches, each compiled at once (THINWALL_BATCHES). Those that include one of the
-# large libraries share batches of their own: its headers are parsed once or twice, and its names meet few of ours.
+# large libraries are put into separate batches, so that its headers are parsed once or twice only and its names cannot
+# collide with those of many other files.
 function(thinwall_batches target)
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
@@ -102,8 +103,8 @@ function(thinwall_library name)
   add_library(thinwall::${name} ALIAS thinwall_${name})
 endfunction()
 
-# A ctest entry is a suite, not a test: 1600 programs that each load a hundred libraries take a minute more. The suites
-# are asked of the program when it was built. Each source has a namespace of its own, named as the file is, so that
+# A ctest entry runs a suite, not a test, because starting a program for each of 1600 tests, with a hundred libraries
+# each, takes a minute more. The suites are listed by the program after it was built. Each source has a namespace of its own, named as the file is, so that
 # sources which are compiled as one may have helpers of the same name.
 function(thinwall_test name)
   cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
@@ -117,7 +118,7 @@ function(thinwall_test name)
   endif()
   if(THINWALL_BATCHES)
     thinwall_batches(test_${name})
-    # A fixture of an anonymous namespace counts as one of another file, as soon as its own is included into a batch.
+    # The compiler takes a fixture of an anonymous namespace for that of another file if its own is included into a batch.
     target_compile_options(test_${name} PRIVATE -Wno-subobject-linkage)
   endif()
   target_compile_definitions(test_${name} PRIVATE THINWALL_SOURCE_DIR="${PROJECT_SOURCE_DIR}"

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Fails, naming the places, if a source is not laid out as .clang-format says.  check_format.sh --fix mends it.
+# Fails, with the places, if the layout of a source differs from .clang-format.  check_format.sh --fix corrects it.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 

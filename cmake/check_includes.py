@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks every #include of the sources: folders look downwards only, and a library stays behind the folder that owns it.
+"""Checks every #include of the sources: folders look downwards only, and a library is included only by the folder that owns it.
 
     check_includes.py [ROOT]     prints one line a violation; exit 1 if there is any
 """
@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-# Which folders a folder may include, besides itself.
+# The folders that a folder may include, besides itself.
 ALLOWED = {
     "core": [],
     "dynamics": ["core"],
@@ -32,7 +32,7 @@ for everything in ("python", "bench", "tests", "fuzz"):
     ALLOWED[everything] = [*LIBRARY_FOLDERS, "app"]
 ALLOWED["bench"] = [*ALLOWED["bench"], "tests"]
 
-# Libraries with one owner: a pattern of their headers, and where it may appear.
+# Libraries that only some places may include: a pattern of their headers, and these places.
 OWNERS = [
     (re.compile(r"^Eigen/(Eigenvalues|Cholesky|Dense|QR|SVD)$"),
      ("core/dense_eigenvalues.hpp", "core/dense_factorisations.hpp")),
@@ -51,7 +51,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
 
 
 def violation(root, source, quote, header):
-    """What is wrong with this include, or None."""
+    """The fault of this include, or None."""
     folder = source.parts[0]
     for pattern, owners in OWNERS:
         if pattern.match(header) and not source.as_posix().startswith(owners):

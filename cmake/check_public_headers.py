@@ -12,7 +12,7 @@ FOLDERS = ("core", "dynamics", "linalg", "mesh", "fem", "reduction", "robot", "c
 
 
 def violations(root, folder):
-    """What is wrong with a folder's public header, as lines of text."""
+    """The faults of a folder's public header, as lines of text."""
     name = f"{folder}/{folder}.hpp"
     text = (root / name).read_text(encoding="utf-8")
     included = set(re.findall(rf'#include "{folder}/(?:\w+/)*(\w+)\.hpp"', text))

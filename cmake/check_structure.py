@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Checks the structure of the sources: no header includes itself over others, at most sixty sources in a folder.
+"""Checks the structure of the sources: no header includes itself through others, at most sixty sources in a folder.
 
-    check_structure.py [ROOT]     prints one line a violation; exit 1 if there is any
+    check_structure.py [ROOT]     prints one line for each violation; exits with 1 if there is any
 
 A folder is counted without its sub-folders.
 """
@@ -23,7 +23,7 @@ def sources(root):
 
 
 def includes(root):
-    """{header: headers of ours that it includes}."""
+    """{header: headers of this repository that it includes}."""
     graph = collections.defaultdict(set)
     for path in sources(root):
         if path.suffix == ".hpp":
@@ -33,7 +33,7 @@ def includes(root):
 
 
 def cycle(graph):
-    """Headers that include each other in a ring, the first one again at the end; none if there is no ring."""
+    """A list of headers that include each other in a ring, with the first one repeated at the end; None without a ring."""
     done, path = set(), []
 
     def visit(name):

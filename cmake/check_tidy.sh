@@ -1,11 +1,11 @@
 #!/bin/bash
 # Runs clang-tidy with .clang-tidy over the program's sources; fails on any finding.
 #   check_tidy.sh               the whole program, without the tests
-#   check_tidy.sh --changed     what changed since the last release, or in the last twenty commits where there is none,
-#                               and a share of the rest, another one each day: at most so much as takes four minutes
+#   check_tidy.sh --changed     files changed since the last release, or in the last twenty commits if there is none, and
+#                               a share of the others that differs from day to day, in four minutes at most
 #   check_tidy.sh PATTERN       files whose paths match, each by itself
-# Most of the time goes to the headers of Eigen and CGAL. So files are read in the batches in which they are compiled
-# (THINWALL_BATCHES, a third of the time), and files of a pattern each by itself. Nothing is built.
+# Most of the time goes to the headers of Eigen and CGAL. Files are therefore analysed in the batches in which they are
+# compiled (THINWALL_BATCHES), which takes a third of the time, and files of a pattern each by itself. Nothing is built.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
@@ -20,7 +20,7 @@ configure() {  # batches or not
   sed -i 's/ -fcx-limited-range//g' "$build/compile_commands.json"  # gcc's, which clang does not know
 }
 
-# The sources are compiled by gcc, which also finds what shadows what, and not across the files of a batch.
+# -Wshadow is left to gcc, with which the sources are compiled: clang would report names across the files of a batch.
 analyse() {  # patterns
   run-clang-tidy -quiet -p "$build" -j "$(nproc)" -extra-arg=-Wno-unknown-warning-option -extra-arg=-Wno-shadow "$@"
 }

@@ -1,9 +1,9 @@
 # cmake -DPROGRAM=... -DLABEL=... -DFILE=... -DSECONDS=... -P list_suites.cmake     the ctest entries of a GoogleTest program
 #
 # An entry runs a suite, with all values of its parameters. Suites that are named in SECONDS, a file of lines "suite
-# seconds", begin in that order, the longest first: an idle core at the end is what a late long one would cost.
+# seconds", begin in that order, the longest first, because a long suite that begins late leaves the other cores idle at the end.
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listed COMMAND_ERROR_IS_FATAL ANY)
-# "Running main() from ..." is a line of the output too, but with blanks.
+# The line "Running main() from ..." of the output is no suite; it contains blanks.
 string(REGEX MATCHALL "(^|\n)[^ \n]+\\." lines "${listed}")
 set(suites "")
 foreach(line IN LISTS lines)

@@ -24,34 +24,34 @@ enum class ExitCode : int {
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
-  /// The exit code of the program if nobody catches the error.
+  /// The exit code of the program if the error is not caught.
   [[nodiscard]] ExitCode code() const { return code_; }
 
  private:
   ExitCode code_;
 };
 
-/// The command line itself is wrong (exit 2).
+/// The error of a wrong command line (exit 2).
 struct UsageError : Error {
   explicit UsageError(const std::string& message) : Error(ExitCode::usage, message) {}
 };
 
-/// The case asks for something impossible or contradictory (exit 3).
+/// The error of a case or an argument that asks for something impossible or contradictory (exit 3).
 struct InputError : Error {
   explicit InputError(const std::string& message) : Error(ExitCode::invalid_case, message) {}
 };
 
-/// A data file cannot be read, or the output cannot be written (exit 4).
+/// The error of a data file that cannot be read, or of output that cannot be written (exit 4).
 struct DataError : Error {
   explicit DataError(const std::string& message) : Error(ExitCode::unreadable_data, message) {}
 };
 
-/// The numbers could not be computed to the accuracy that was asked (exit 5).
+/// The error of a computation that does not reach the accuracy that was asked for (exit 5).
 struct NumericalError : Error {
   explicit NumericalError(const std::string& message) : Error(ExitCode::numerical, message) {}
 };
 
-/// The user stopped the run (exit 130).
+/// The interruption of a run by the user (exit 130).
 struct Interrupted : Error {
   Interrupted() : Error(ExitCode::interrupted, "interrupted") {}
 };

@@ -1,6 +1,6 @@
 #pragma once
-// The members of a plain struct, one after another, without a list of their names: what is kept or compared of a struct
-// then cannot miss a member that is added later.
+// Access to the members of a plain struct one after another without a list of their names, so that code that stores or
+// compares a struct cannot miss a member that is added later.
 
 #include <cstddef>
 #include <tuple>
@@ -11,7 +11,8 @@ namespace thinwall::core {
 
 namespace fields {
 
-/// Converts to any type; never called, only asked whether a struct could be initialised from it.
+/// An object that converts to any type. The conversion is never called; it serves to test if a struct could be
+/// initialised with that many values.
 struct Anything {
   template <class T>
   operator T() const;  // NOLINT(google-explicit-constructor): the conversion has to be implicit
@@ -37,7 +38,7 @@ constexpr std::size_t count() {
 
 }  // namespace fields
 
-/// The number of members of T. To be specialised for a struct that holds a std::optional of an Eigen matrix, whose
+/// The number of members of T. It must be specialised for a struct that holds a std::optional of an Eigen matrix, whose
 /// constructors take anything and so hide the number; a wrong number does not compile.
 template <class T>
 constexpr std::size_t member_count = fields::count<T>();

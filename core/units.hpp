@@ -32,7 +32,7 @@ struct QuantityKind {
   std::string_view name;
   std::string_view unit;     ///< "" for a pure number
   std::string_view example;  ///< shown in messages as the remedy
-  bool bare_number = true;   ///< whether it may be written without a unit; it is then taken in `unit`
+  bool bare_number = true;   ///< true if it may be written without a unit; it is then taken in `unit`
 };
 
 namespace kind {

@@ -17,12 +17,14 @@ using Column = std::vector<Term>;
 
 constexpr double singular_above = 1e14;
 
+/// The response or force tables of all components.
 std::vector<const DofTable*> tables(const Components& components, DofTable ResponseModel::*table) {
   std::vector<const DofTable*> all;
   for (const ResponseModel* component : components) all.push_back(&(component->*table));
   return all;
 }
 
+/// Throws InputError unless there are components, on one axis, complete, and with different points.
 void require_joinable(const Components& components) {
   if (components.empty()) throw core::InputError("a coupling without a component");
   if (components.front()->axis.size() == 0) throw core::InputError("a coupling without a frequency line");
@@ -34,6 +36,7 @@ void require_joinable(const Components& components) {
   require_different_points(tables(components, &ResponseModel::forces));
 }
 
+/// Appends the entries of a column of B at one of its two ends; sign: 1 at point a, −1 at point b.
 void add_terms(const DofTable& dofs, const std::string& point, const JoinedDirection& joined, double sign,
                Column& column) {
   const Eigen::VectorXd row = dynamics::displacement_row(dofs, point, joined.direction, joined.kind);
@@ -42,6 +45,7 @@ void add_terms(const DofTable& dofs, const std::string& point, const JoinedDirec
   }
 }
 
+/// The rows of the DOFs of the points; all rows if no point is named.
 std::vector<int> wanted_rows(const DofTable& dofs, const std::vector<std::string>& points) {
   std::vector<int> rows;
   for (int i = 0; i < static_cast<int>(dofs.size()); ++i) {
@@ -51,6 +55,7 @@ std::vector<int> wanted_rows(const DofTable& dofs, const std::vector<std::string
   return rows;
 }
 
+/// One table with the wanted DOFs of all components.
 DofTable selected(const std::vector<Interface>& components, DofTable ResponseModel::*table,
                   std::vector<int> Interface::*wanted) {
   DofTable all;
@@ -136,6 +141,8 @@ KernelLine CoupledLine::couple(std::size_t line, double omega, Eigen::MatrixXcd&
   return result;
 }
 
+/// Adds one component to S, to Bᵀ Y and Y B over the wanted columns and rows, and its wanted entries to G. The modulus
+/// of its term of S goes into `magnitude`, from which the condition is computed.
 void CoupledLine::add(const Interface& component, const Eigen::MatrixXcd& H, Eigen::MatrixXcd& coupled) {
   const auto rows = static_cast<Eigen::Index>(component.responses.size());
   const auto columns = static_cast<Eigen::Index>(component.forces.size());

@@ -94,6 +94,7 @@ std::vector<std::string> result_points(const ResponseModel& assembly, const Resp
   return points;
 }
 
+/// Removes the prefix from the names of the known component's points.
 void give_names_back(DofTable& dofs) {
   for (Dof& dof : dofs) {
     if (dof.point.starts_with(taken_out)) dof.point.erase(0, taken_out.size());
@@ -107,6 +108,7 @@ CoupledResponse decouple(const ResponseModel& assembly, const ResponseModel& kno
   if (interface.empty()) throw core::InputError("a decoupling without an interface: name the points to be parted");
   CouplingOptions own = options;
   own.points = result_points(assembly, known, options.points);
+  // The negative of the known component is coupled at its interface, so that its forces there cancel (Eq. 13).
   CoupledResponse rest = couple(assembly, negative(known), interface_contacts(assembly, known, interface), own);
   give_names_back(rest.response.responses);
   give_names_back(rest.response.forces);
@@ -139,7 +141,8 @@ CoupledResponse remove_point_mass(const ResponseModel& assembly, const std::stri
     mass.H.emplace_back(unit * (-1.0 / (mass_kg * (omega > 0.0 ? omega * omega : 1.0))));
   }
   CoupledResponse rest = decouple(assembly, mass, {point}, {});
-  if (assembly.axis.hz(0) == 0.0) {  // a free mass has no finite receptance at 0 Hz, and no effect
+  // A free mass has no finite receptance at 0 Hz, but has no effect there either: the value inserted above is replaced.
+  if (assembly.axis.hz(0) == 0.0) {
     rest.response.H.front() = assembly.H.front();
     rest.kernel_condition(0) = 1.0;
   }

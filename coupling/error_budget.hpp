@@ -14,9 +14,9 @@ namespace thinwall::coupling {
 /// The known errors of one component, in the shape of its H, one matrix for each frequency line; empty if it is exact
 /// in that respect.
 struct ComponentError {
-  Deviations noise{};                          ///< independent between entries and lines
-  std::vector<Eigen::MatrixXcd> truncation{};  ///< model less truth, signed: of a reduction at lines where the full
-                                               ///< model is known, or of rotations by differences
+  Deviations noise{};  ///< independent between entries and lines
+  /// Model less truth, signed: of a reduction at lines where the full model is known, or of rotations by differences.
+  std::vector<Eigen::MatrixXcd> truncation{};
 };
 
 /// The errors of a coupled response over its lines and entries, for the bands of a plot.

@@ -131,7 +131,8 @@ double rank_one_noise(const Eigen::Matrix2cd& T, double weight_i, double weight_
                    std::norm(weight_j * N / H * sigma(0, 1)));
 }
 
-/// Coefficients of the truncation error of differences over S.
+/// Coefficients of the truncation error of differences over S, as in the header: those due to a force, to a moment, to
+/// the inertia of the displacement u and to that of the rotation ψ.
 struct Terms {
   double c_F, c_M, c_u, c_psi;
 };
@@ -164,6 +165,7 @@ struct Truncation {
   }
 };
 
+/// The truncation at an angular frequency (rad/s), with the coefficients given in the header.
 Truncation truncation(const DifferencePoints& points, const dynamics::Tube& tube, double omega) {
   const dynamics::BeamSection b = dynamics::section(tube);
   const double EI = b.youngs_modulus_Pa * b.I_y_m4, kGA = b.shear_y * b.shear_modulus_Pa * b.area_m2;
@@ -216,6 +218,7 @@ MatrixXd apply_rank_one(const MatrixXd& Q, RotationRule rule, Line& line) {
 /// (zero if none was asked for).
 MatrixXcd truncate(const Truncation& truncation, const RotationOptions& options, const MatrixXcd& T,
                    RotationErrors& errors) {
+  // The error formulas need the true T. They are first evaluated at T as measured, then at T less this first estimate.
   const MatrixXcd first = truncation(T);
   const MatrixXcd second = truncation(T - first);
   errors.truncation_uncertainty.emplace_back(options.section_uncertainty * truncation.size(T) +

@@ -18,8 +18,8 @@ struct DifferencePoints {
   std::string up;
   double distance_m = 0.0;                          ///< S > 0
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector from the tip to the spindle
-  std::vector<Eigen::Vector3d> directions{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};  ///< at right angles to
-                                                                                                ///< it, one or two
+  /// One or two directions at right angles to the axis.
+  std::vector<Eigen::Vector3d> directions{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
 };
 
 /// The rule by which P, the rotation due to a moment, follows from both points.

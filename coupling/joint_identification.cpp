@@ -96,8 +96,9 @@ struct Source {
   std::vector<std::pair<Eigen::MatrixXcd, Eigen::MatrixXcd>> terms{};
 };
 
-/// The error sources of one line, at the joint's stiffness Z (docs/theory/coupling.md, Eq. 17). A measurement that
-/// enters at several places, as H_PP does if the assembly was measured at P, is one source.
+/// The error sources of one line, at the joint's stiffness Z (docs/theory/coupling.md, Eq. 17). From Z⁻¹ = H_Pb E⁻¹
+/// H_aP − H_PP − H_RR with E = H_ab − G_ab, each matrix contributes its derivative; δ(E⁻¹) = −E⁻¹ δE E⁻¹. A measurement
+/// that enters at several places, as H_PP does if the assembly was measured at P, is one source.
 std::vector<Source> sources(const Measured& data, Eigen::Index index, const Eigen::MatrixXcd& Z,
                             const RelativeNoise& noise) {
   const auto line = static_cast<std::size_t>(index);
@@ -112,6 +113,7 @@ std::vector<Source> sources(const Measured& data, Eigen::Index index, const Eige
                           {data.H_ab[line], part},
                           {data.H_RR[line], at(noise.robot, index), {{-I, I}}},
                           {data.G_ab[line], at(noise.coupled, index), {{left, right}}}};
+  // Places in `all` of H_aP and H_Pb: both are H_PP if the assembly was measured, or excited, at P; likewise H_ab.
   const std::size_t a = data.same_response ? 0 : 2, b = data.same_force ? 0 : 1;
   all[0].terms.emplace_back(-I, I);
   all[b].terms.emplace_back(I, right);

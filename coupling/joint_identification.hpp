@@ -26,8 +26,8 @@ struct IdentificationOptions {
   std::string response_point{};  ///< point where the assembly was measured; empty for point a of the contact
   std::string force_point{};     ///< point where it was excited; empty for point a of the contact
   RelativeNoise noise{};         ///< > 0
-  bool viscous = true;           ///< whether C is sought
-  bool structural = false;       ///< whether D = ηK is sought; with C, the band must be wide enough to separate both
+  bool viscous = true;           ///< true if C is sought
+  bool structural = false;       ///< true if D = ηK is sought; with C, the band must be wide enough to separate both
   double largest_spread = 0.3;  ///< lines where Z's standard deviation is a larger share of |Z| are left out, in (0, 1)
 };
 

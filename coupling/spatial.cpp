@@ -152,6 +152,7 @@ Eigen::MatrixXd opening_coordinates(const Eigen::MatrixXd& B, const Elimination&
                                     const std::vector<Eigen::Index>& kept) {
   const Eigen::Index n = B.rows();
   const auto m = static_cast<Eigen::Index>(elimination.directions.size());
+  // The eliminated directions give d = B_sᵀ y_s + B_uᵀ u, which is solved for y_s.
   const Eigen::MatrixXd B_s = B(elimination.replaced, elimination.directions).transpose();
   const Eigen::MatrixXd B_u = B(kept, elimination.directions).transpose();
   const Eigen::MatrixXd B_s_inverse = B_s.inverse();
@@ -195,6 +196,7 @@ SpatialModel couple(const std::vector<SpatialModel>& components, const std::vect
   const auto first_opening = static_cast<Eigen::Index>(kept.size());
   add_joints(joints, B, elimination, first_opening, T, joined);
 
+  // Rigid directions have d = 0: their rows and columns are left out.
   const auto closed = std::count_if(joints.directions.begin(), joints.directions.end(),
                                     [](const JoinedDirection& joined_rigidly) { return joined_rigidly.rigid; });
   std::vector<Eigen::Index> open;

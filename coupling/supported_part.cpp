@@ -43,6 +43,7 @@ dynamics::ResponseModel direct_response(const SpatialModel& part, const dynamics
                             part.has_structural_damping() ? bordered(part.D, none) : Eigen::MatrixXd(),
                             part.dofs,
                             observed};
+  // The lower right block is −W(ω); it is added line by line, because the robot is known by its response only.
   const auto add_joint_and_robot = [&](Eigen::Index line, Eigen::MatrixXcd& matrix) {
     Eigen::MatrixXcd W = B_response.transpose() * robot.H[static_cast<std::size_t>(line)] * B_force;
     Eigen::MatrixXd unused = Eigen::MatrixXd::Zero(m, m);

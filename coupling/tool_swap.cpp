@@ -37,6 +37,7 @@ struct Measured {
   Eigen::VectorXd scale;  ///< 1 for a translation, `length` for a rotation
 };
 
+/// The places of the measured DOFs in the tool's tables; what is wrong with them is noted.
 Measured measured_dofs(const ResponseModel& measured, const HeldTool& tool, double length, core::Faults& faults) {
   Measured found;
   found.scale.resize(static_cast<Index>(measured.responses.size()));
@@ -73,12 +74,14 @@ MatrixXd root_columns(const DofTable& dofs, const Joints& joints) {
   return B;
 }
 
+/// The scales of the joined directions.
 Eigen::VectorXd scales(const Joints& joints) {
   Eigen::VectorXd scale(joints.size());
   for (Index j = 0; j < scale.size(); ++j) scale(j) = joints.directions[static_cast<std::size_t>(j)].scale;
   return scale;
 }
 
+/// The DOFs of the machine at the joint, along its directions.
 DofTable holder_dofs(const Contact& joint) {
   DofTable dofs;
   for (const ContactSpring& spring : joint.springs) dofs.push_back({joint.point_b, spring.direction, spring.kind});
@@ -114,6 +117,7 @@ double invert_line(const Inverse& of, const MatrixXcd& T_A, const MatrixXcd& T_C
   const MatrixXcd T_12 = to_length * (T_A(of.at_1.rows, Eigen::all) * of.B_force);
   const MatrixXcd T_21 = (of.B_response.transpose() * T_A(Eigen::all, of.at_1.columns)) * to_length;
   Kernel kernel(Regularisation::none, 0.5);
+  // T^A_11 and T^C_11 are the terms whose difference is solved, so that the condition tells what their errors grow to.
   const KernelLine solved = kernel.solve(T_A11 - T_C11, T_A11.cwiseAbs() + T_C11.cwiseAbs(), T_12);
   MatrixXcd compliance = MatrixXcd::Zero(of.joint.size(), of.joint.size());
   MatrixXd unused = MatrixXd::Zero(of.joint.size(), of.joint.size());
@@ -158,6 +162,7 @@ HolderReceptance holder_receptance(const ResponseModel& measured, const HeldTool
 
 namespace {
 
+/// Throws InputError unless both tools are held in the same directions and the second one has an overhang.
 void require_alike(const HeldTool& tool_1, const HeldTool& tool_2) {
   core::Faults faults;
   faults.require(names(holder_dofs(tool_1.joint)) == names(holder_dofs(tool_2.joint)), "the joints of both tools",
@@ -186,6 +191,7 @@ SwappedTool tool_swap(const ResponseModel& measured, const HeldTool& tool_1, con
   swapped.coupled = couple(components, {tool_2.joint}, options);
   const CouplingSensitivity to = coupling_sensitivity(components, {tool_2.joint}, options);
   const auto directions = static_cast<Index>(tool_2.joint.springs.size());
+  // dT^C_2 = P dT^B Q of the second coupling with dT^B = left dT^C_1 right of the first, by the chain rule.
   for (std::size_t line = 0; line < measured.H.size(); ++line) {
     swapped.left.emplace_back(to.P[line].rightCols(directions) * swapped.holder.left[line]);
     swapped.right.emplace_back(swapped.holder.right[line] * to.Q[line].bottomRows(directions));

@@ -11,10 +11,12 @@ namespace thinwall::coupling {
 
 /// A tool outside of the machine, and the joint that holds its root.
 struct HeldTool {
-  dynamics::ResponseModel free;  ///< receptance of the tool that nothing holds: beam, solid, measured; of its root and
-                                 ///< of the points that were measured or are wanted, overhang only
-  Contact joint;                 ///< point_a: the root. Its directions are those in which spindle and tool act on each
-                                 ///< other, usually x, y, rx, ry; rigid where the joint is part of the base
+  /// Receptance of the tool that nothing holds, from a beam, a solid or a measurement: of its root and of the points
+  /// that were measured or are wanted, overhang only.
+  dynamics::ResponseModel free;
+  /// The joint, with the root as point_a. Its directions are those in which spindle and tool act on each other, usually
+  /// x, y, rx, ry; it is rigid if its compliance is counted to the machine.
+  Contact joint;
 };
 
 /// The receptance of a machine without its tool.

@@ -76,7 +76,7 @@ enum class LowFrequencyCause { none, scatter, coherence, growth };
 struct LowFrequencyOptions {
   double scatter = 0.2;    ///< largest standard deviation of a line, √E|noise|², relative to |H|
   double coherence = 0.9;  ///< least coherence; with five averages the random error of |H| is then a tenth
-  bool supported = false;  ///< whether the structure is supported, so that its receptance levels out towards 0 Hz
+  bool supported = false;  ///< true if the structure is supported, so that its receptance levels out towards 0 Hz
 };
 
 /// The frequencies (Hz) from which on a receptance meets each criterion and all of them: the first line if nothing is

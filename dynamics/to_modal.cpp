@@ -128,6 +128,7 @@ void require_complete(const QuadraticModes& modes) {
   throw core::NumericalError(text.str());
 }
 
+/// All modes from the eigenvectors of the state matrix, each pole with its conjugate.
 QuadraticModes general_modes(const Eigen::VectorXd& omega, const Eigen::MatrixXd& D) {
   const Eigen::Index n = omega.size();
   const double mean = omega.maxCoeff() > 0.0 ? omega.mean() : std::max(D.norm(), 1.0);

@@ -73,6 +73,7 @@ class DynamicStiffness {
     if (model.has_structural_damping()) complex_K_.imag() = model.D;
   }
 
+  /// Factorises the dynamic stiffness at one line.
   void factor(double omega, Eigen::Index line, const AddedStiffness& added) {
     matrix_ = complex_K_;
     matrix_.real() -= omega * omega * model_.M;
@@ -86,6 +87,7 @@ class DynamicStiffness {
   /// The smallest pivot; the scaled matrix has entries of order one, so that it can be compared with round-off.
   [[nodiscard]] double smallest_pivot() const { return lu_.matrixLU().diagonal().cwiseAbs().minCoeff(); }
 
+  /// Writes T (…)⁻¹ Tᵀ of the line factorised last to H.
   void response(const Eigen::MatrixXd& T, Eigen::MatrixXcd& H) {
     solution_ = lu_.solve((scale_.asDiagonal() * T.transpose()).cast<Complex>());
     H.noalias() = (T * scale_.asDiagonal()).cast<Complex>() * solution_;

@@ -57,6 +57,7 @@ Geometry geometry(const mesh::LagrangeNodes& nodes, const Eigen::Matrix<double, 
   return g;
 }
 
+/// The geometry of every element, in parallel.
 std::vector<Geometry> geometries(const mesh::LagrangeNodes& nodes) {
   const auto alphas = mesh::lattice(nodes.order);
   Eigen::Matrix<double, Eigen::Dynamic, 4> lattice(static_cast<Eigen::Index>(alphas.size()), 4);

@@ -23,14 +23,16 @@ struct Assembled {
 /// The matrices of a part, summed from those of its elements. The matrices of a straight element, whose nodes lie on
 /// the lattice between its vertices, are
 ///
-///     M_e = ρ V M̂,   S^{ij} = V Σ_kl g_ki g_lj D̂^{kl},   K_e[ai, bj] = λ S^{ij}_ab + μ S^{ji}_ab + μ δ_ij Σ_m
-///     S^{mm}_ab
+///     M_e = ρ V M̂,   S^{ij} = V Σ_kl g_ki g_lj D̂^{kl},
+///     K_e[ai, bj] = λ S^{ij}_ab + μ S^{ji}_ab + μ δ_ij Σ_m S^{mm}_ab
 ///
-/// with g_k = ∇λ_{k+1} constant in the element: exact, without quadrature (docs/theory/elements.md, Eq. 2). Those of a
-/// curved element are curved_element()'s. Each column of K is summed by one thread from the elements around its node,
-/// in their order, so that the result is the same for any number of threads. `fixed`: rows 3·node + axis that are left
-/// out, in any order, duplicates allowed. Throws NumericalError if an element has no positive volume, is turned inside
-/// out somewhere or has a node whose position is not finite, or if K outgrows 32-bit indices; InputError if nothing is
+/// with M̂ and D̂ of reference_element() and g_k = ∇λ_{k+1}, which is constant in the element, so that they are exact
+/// without quadrature (docs/theory/elements.md, Eq. 2). Those of a curved element are curved_element()'s. Each column
+/// of K is summed by one thread from the elements around its node, in their order, so that the result is the same for
+/// any number of threads. `fixed`: rows 3·node + axis that are left out, in any order, duplicates allowed. Throws
+/// NumericalError if an element has no positive volume, is turned inside out somewhere or has a node whose position is
+/// not finite, or if K outgrows 32-bit indices; InputError if nothing is left free or for what validate(materials)
+/// refuses. Cost 162 flops an entry of a straight element.
 /// left free or for what validate(materials) refuses. Cost 162 flops an entry of a straight element.
 [[nodiscard]] Assembled assemble(const mesh::LagrangeNodes& nodes, const Materials& materials,
                                  const std::vector<int>& fixed = {});

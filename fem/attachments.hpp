@@ -21,7 +21,7 @@ struct ElasticClamp {
 
 /// The kind of connection between a point and its patch.
 enum class Connection {
-  averaging,  ///< the point follows the patch in the mean; adds no stiffness of its own (RBE3)
+  averaging,  ///< the point has the mean motion of the patch, which stays as flexible as it is (RBE3)
   rigid,      ///< the patch moves with the point as one rigid body (RBE2)
 };
 
@@ -50,7 +50,7 @@ struct GroundSpring {
   Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();      ///< from the point to the place where the springs act
 };
 
-/// All that is attached to a part.
+/// The clamps, points, masses and springs of a part.
 struct Attachments {
   std::vector<ElasticClamp> clamps;
   std::vector<ConnectedPoint> points;

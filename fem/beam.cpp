@@ -167,10 +167,13 @@ void add(Triplets& entries, const std::vector<std::size_t>& nodes, const Eigen::
   }
 }
 
+/// Entries of the matrices of a frame over the motions of its nodes.
 struct FrameTriplets {
   Triplets M, C, K;
 };
 
+/// Adds springs and dampers. One between two nodes acts on the difference d = [1, −X] [q_node; q_other] of the motions
+/// at the first node, so that its matrix is [1, −X]ᵀ K [1, −X].
 void add_springs(const BeamFrame& frame, FrameTriplets& into) {
   for (const NodeSpring& spring : frame.springs) {
     if (!spring.other) {
@@ -214,6 +217,7 @@ Sparse motions(const BeamFrame& frame) {
     if (frame.nodes[node].clamped || follows[node]) continue;
     for (int i = 0; i < 6; ++i) rows[node].emplace_back(i, n++, 1.0);
   }
+  // The carried node of a hinge has the motion of its carrier and, as its own coordinate, the angle about the axis.
   for (const Hinge& hinge : frame.hinges) {
     rows[hinge.to] = rows[hinge.from];
     for (int i = 0; i < 3; ++i) rows[hinge.to].emplace_back(3 + i, n, hinge.axis(i));

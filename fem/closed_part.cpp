@@ -34,6 +34,7 @@ bool ends_within_a_face(const Support& support) {
   return !std::holds_alternative<mesh::PlaneRegion>(support.region);
 }
 
+/// The options of the mesher at a level, as solid_part() describes them.
 mesh::SurfaceMeshOptions mesh_options(const ClosedPartOptions& options, int level) {
   mesh::SurfaceMeshOptions result;
   for (const Support& support : options.supports)

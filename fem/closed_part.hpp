@@ -32,7 +32,7 @@ struct ClosedPartOptions {
   int levels = 1;                      ///< number of levels, 1 to 4; each has five times as many elements as the last
   std::int64_t largest_dofs = 400000;  ///< no model with more is solved; 0: no bound
   double memory_limit_bytes = 0.0;     ///< limit for a factor; 0: none
-  /// Limits of each attempt of a mesher. TetGen either takes a second or never ends.
+  /// Limits of each attempt of a mesher. The time is short because TetGen either ends within seconds or not at all.
   mesh::ProcessLimits limits{.time_s = 20.0, .memory_bytes = 4e9};
 };
 

@@ -15,7 +15,7 @@ namespace thinwall::fem {
 
 namespace {
 
-/// Number of quadrature points in a direction: at least 2n − 1 ≥ 3p − 3, and one more than p (see curved_reference()).
+/// Number n of quadrature points in a direction: n ≥ p + 1 and 2n − 1 ≥ 3p − 3 (see curved_reference()).
 int points_for(int order) {
   return std::max(order + 1, (3 * order - 1) / 2);
 }
@@ -52,7 +52,9 @@ CurvedElement curved_element(const CurvedReference& reference, const Eigen::Matr
                              const Lame& lame, double density_kg_m3) {
   const Eigen::Index n = nodes.rows();
   const Eigen::Index points = reference.weight.size();
-  std::array<Eigen::MatrixXd, 3> gradient;  // √(w det J / 6) ∂_i N_a at the points
+  // √(w det J / 6) ∂_i N_a at the points: with the weight divided between both factors, S^{ij} is a single product of
+  // two such matrices. A point with det J ≤ 0 gets no weight, and least_jacobian reports it.
+  std::array<Eigen::MatrixXd, 3> gradient;
   for (auto& g : gradient) g.resize(n, points);
   Eigen::VectorXd volume(points);
   CurvedElement element;
@@ -72,6 +74,7 @@ CurvedElement curved_element(const CurvedReference& reference, const Eigen::Matr
               (reference.values * reference.weight.cwiseProduct(volume).asDiagonal() * reference.values.transpose());
   element.K.resize(3 * n, 3 * n);
   Eigen::MatrixXd trace = Eigen::MatrixXd::Zero(n, n);
+  // A view of the entries K[ai, bj] of all a and b.
   const auto block = [&](std::size_t i, std::size_t j) {
     using Stride = Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>;
     return Eigen::Map<Eigen::MatrixXd, 0, Stride>(element.K.data() + i + 3 * static_cast<std::size_t>(n) * j, n, n,

@@ -12,6 +12,7 @@ namespace {
 
 using Entries = std::vector<Eigen::Triplet<double>>;
 
+/// Appends the entries of a clamp's stiffness on one face.
 void add_face(const FacePoints& face, const ElasticClamp& clamp, Entries& entries) {
   const auto n = static_cast<Eigen::Index>(face.nodes.size());
   for (int i = 0; i < 3; ++i) {

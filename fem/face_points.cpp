@@ -58,6 +58,7 @@ FaceReference face_reference(int order, const std::array<int, 3>& corners, int p
   return face;
 }
 
+/// The places of a boundary triangle's corners among the four vertices of its tetrahedron.
 std::array<int, 3> local_corners(const mesh::TetMesh& mesh, const mesh::BoundaryTriangle& triangle) {
   const auto& tet = mesh.tets[static_cast<std::size_t>(triangle.tet)];
   std::array<int, 3> corners{};
@@ -71,6 +72,7 @@ Eigen::Matrix3Xd positions_of(const mesh::LagrangeNodes& nodes, const std::vecto
   return nodes.positions(chosen, Eigen::all).transpose();
 }
 
+/// The quadrature points of a face with the nodes at x (3 × nodes).
 FacePoints at_points(const FaceReference& reference, const Eigen::Matrix3Xd& x, std::vector<int>&& nodes) {
   FacePoints face;
   face.nodes = std::move(nodes);

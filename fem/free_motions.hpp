@@ -41,7 +41,7 @@ struct Holding {
 /// of the other motions whose stiffness is below negligible_N_m. Rotations are scaled by the part's size.
 [[nodiscard]] std::vector<std::string> free_motions(const mesh::LagrangeNodes& nodes, const Holding& holding);
 
-/// For each node, the lowest node of its piece; pieces joined by `ties` count as one.
+/// The piece of each node, given by the lowest node of the piece; pieces joined by `ties` count as one.
 [[nodiscard]] std::vector<int> tied_pieces(const mesh::LagrangeNodes& nodes, const std::vector<std::vector<int>>& ties);
 
 /// The phrases in one line for a message, separated by commas.

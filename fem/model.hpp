@@ -29,7 +29,7 @@ struct Model {
   double spectrum_rad2_s2 = 0.0;  ///< tr K / tr M of the elements: size of the highest λ without attachments
   int rigid_motions = 0;          ///< 0 for a held part, 6 for a free one, 6 for each free piece
   std::vector<std::string> free_motions;  ///< the rigid motions in words (free_motions.hpp)
-  MassProperties mass;                    ///< from the unconstrained mass matrix of the elements
+  MassProperties mass;                    ///< that of the elements, from their unconstrained mass matrix
   int curved_elements = 0;
   double least_jacobian = 1.0;  ///< smallest det J over its mean in an element
 };

@@ -23,10 +23,10 @@ struct Lists {
   [[nodiscard]] const int* end(int list) const { return items.data() + start[static_cast<std::size_t>(list) + 1]; }
 };
 
-/// For each node, its places in the elements, element · nodes-per-element + local node, ascending.
+/// The places of each node in the elements, element · nodes-per-element + local node, ascending.
 [[nodiscard]] Lists incidences(const mesh::LagrangeNodes& nodes);
 
-/// For each node, the nodes with which it shares an element, itself included, ascending. Runs on all threads. Cost
+/// The nodes with which each node shares an element, itself included, ascending. Runs on all threads. Cost
 /// O(tets · nodes²).
 [[nodiscard]] Lists neighbours(const mesh::LagrangeNodes& nodes, const Lists& incidences);
 

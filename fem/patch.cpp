@@ -43,6 +43,7 @@ struct Sums {
   }
 };
 
+/// Adds the samples of a disc to the sums.
 void add_samples(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes, const Disc& disc, const std::string&,
                  Sums& sums) {
   for (const mesh::PatchSample& sample :
@@ -55,6 +56,7 @@ void add_samples(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes, co
   }
 }
 
+/// Adds the quadrature points of all faces of a region to the sums.
 void add_samples(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes, const mesh::Region& region,
                  const std::string& name, Sums& sums) {
   const auto faces = face_points(mesh, nodes, mesh::select(mesh, mesh::boundary(mesh), region, name));

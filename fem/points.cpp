@@ -23,6 +23,7 @@ double add_column(const Model& model, const RowMap& rows, const PatchAverage& av
   const std::size_t before = entries.size();
   for (std::size_t a = 0; a < average.nodes.size(); ++a) {
     Eigen::Vector3d w = motion_of_node(average, static_cast<Eigen::Index>(a), J_inverse).transpose() * d;
+    // A component that is round-off is set to zero, and add_entries() then leaves it out.
     w = (w.array().abs() < 1e-15).select(0.0, w);
     add_entries(rows, model.nodes, model.rigid, average.nodes[a], w, column, entries);
   }

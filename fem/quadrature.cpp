@@ -15,6 +15,8 @@ TetQuadrature tet_quadrature(int points) {
   rule.lambda.resize(4, points * points * points);
   rule.weight.resize(points * points * points);
   Eigen::Index q = 0;
+  // The map (u, v, w) → (u, (1 − u) v, (1 − u)(1 − v) w) takes the cube to the tetrahedron. Its Jacobian (1 − u)² (1 −
+  // v) is contained in the weight functions of the rules for u and v.
   for (int i = 0; i < points; ++i) {
     for (int j = 0; j < points; ++j) {
       for (int k = 0; k < points; ++k, ++q) {

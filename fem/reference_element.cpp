@@ -49,18 +49,21 @@ Real factorial(std::size_t n) {
   return f;
 }
 
-/// The polynomial Σ j! c_j s^j for Σ c_j s^j: the factorials of ∫ λ^γ dV = 6V Π γ_k! / (|γ| + 3)! are applied to each
-/// factor beforehand.
+/// The polynomial Σ j! c_j s^j for Σ c_j s^j. The factorials γ_k! of ∫ λ^γ dV = 6V Π γ_k! / (|γ| + 3)! are so applied
+/// to each factor beforehand; what is left depends on the sum |γ| of the powers alone, so that a product of polynomials
+/// in different coordinates may be multiplied out as if they were one coordinate.
 Polynomial weighted(Polynomial c) {
   for (std::size_t j = 0; j < c.size(); ++j) c[j] *= factorial(j);
   return c;
 }
 
-/// The coordinate by which a shape function is differentiated, as seen from a pair of the four barycentric coordinates.
+/// The coordinate of a pair of barycentric coordinates, (λ₀, λ₁) or (λ₂, λ₃), by which a shape function is
+/// differentiated.
 enum Derivative : std::size_t { by_first, by_second, by_neither };
 
-/// The weighted products of the factors of two shape functions in two of the four coordinates, which are half of each
-/// integrand. There are few different halves, while the integrals are many, so that halves are computed once.
+/// The weighted products of the factors of two shape functions in one pair of the four coordinates. An integrand N_a
+/// N_b is the product of two such halves, one for each pair. There are few different halves and many integrals, so that
+/// halves are computed once.
 class Halves {
  public:
   explicit Halves(int order) : p_(static_cast<std::size_t>(order)), products_(9 * size() * size() * size() * size()) {

@@ -11,11 +11,14 @@ namespace thinwall::fem {
 
 namespace {
 
+/// The nodes on the faces of a region.
 std::vector<int> nodes_in(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes, const mesh::Region& region,
                           const std::string& name) {
   return mesh::nodes_on(nodes, mesh, mesh::select(mesh, mesh::boundary(mesh), region, name));
 }
 
+/// The nodes on the faces under a disc, within its radius and in its plane. They are chosen by their places on the
+/// straight mesh, on which a disc is looked up.
 std::vector<int> nodes_in(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes, const Disc& disc,
                           const std::string& /*name*/) {
   const mesh::DiscFace face = mesh::disc_face(mesh, mesh::boundary(mesh), disc.centre_m, disc.radius_m, disc.off_m);
@@ -151,6 +154,8 @@ linalg::SparseMatrix with_patches(const linalg::SparseMatrix& A, const mesh::Lag
   std::vector<int> new_row(free_rows.size(), -1);
   for (int i = 0; i < kept; ++i)
     new_row[static_cast<std::size_t>(old.row_of[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])])] = i;
+  // u = [1 T] q with q = [kept rows; patches]: the result has the blocks A (kept rows), A T, its transpose, and Tᵀ A T.
+  // It is filled column by column with ascending rows.
   const linalg::SparseMatrix AT = A * T;
   const linalg::SparseMatrix TA = AT.transpose();
   const Eigen::MatrixXd TAT = T.transpose() * AT;

@@ -24,9 +24,9 @@ struct Support {
 /// A function that moves the nodes of the straight mesh, in place, onto the surface of a curved part.
 using Shaping = std::function<void(mesh::LagrangeNodes&)>;
 
-/// Builds the constrained model of order 1…6 on a mesh. Supports and attachments are looked up on the straight mesh,
-/// supports before `shape` (if it is set) moves its nodes; normals and lever arms of attachments are those of the moved
-/// nodes. Throws what fixed_rows() and build_model() throw.
+/// Builds the constrained model of order 1…6 on a mesh. Supports are looked up on the straight mesh before `shape` (if
+/// it is set) moves its nodes, attachments on the straight mesh too; the normals and lever arms of attachments are
+/// those of the moved nodes. Throws what fixed_rows() and build_model() throw.
 [[nodiscard]] Model supported_model(mesh::TetMesh mesh, int order, const Materials& materials,
                                     const std::vector<Support>& supports, const Shaping& shape = {},
                                     const Attachments& attachments = {});

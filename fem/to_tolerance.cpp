@@ -50,6 +50,7 @@ Solution prepared(const SolidPart& part, const mesh::TetMesh& mesh, int order, c
   return {std::move(model), std::move(factored), {}, {}, {}};
 }
 
+/// Fills in the amplitudes and the flexibility of the points, if there are any.
 void find_responses(Solution& s, const ToleranceOptions& options) {
   if (options.points.empty()) return;
   const linalg::SparseMatrix W = point_loads(s.model, options.points);
@@ -57,6 +58,7 @@ void find_responses(Solution& s, const ToleranceOptions& options) {
   s.flexibility = W.transpose() * s.factored.factor.solve(Eigen::MatrixXd(W));
 }
 
+/// The solution of the given order on a mesh, with its modes.
 Solution solve(const SolidPart& part, const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
   Solution s = prepared(part, mesh, order, options);
   s.modes = modes(s.model, s.factored, options.modes);
@@ -86,8 +88,8 @@ double frequency_change(const Modes& a, const Modes& b) {
   return ((fa - fb) / fb).abs().maxCoeff();
 }
 
-/// The receptance H(ω²) = Σ a aᵀ / (λ − ω²) over the known modes; the contribution of all others is taken at the shift,
-/// where the factor gives it exactly.
+/// The receptance between the points over the known modes k and all others, whose contribution is taken at the shift,
+/// where the factor gives it exactly: H(ω²) = Wᵀ(K − σM)⁻¹W + Σ_k a_k a_kᵀ (1/(λ_k − ω²) − 1/(λ_k − σ)).
 Eigen::MatrixXd receptance(const Solution& s, double omega_squared) {
   const Eigen::ArrayXd lambda = s.modes.pairs.lambda.array();
   const Eigen::VectorXd share = (lambda - omega_squared).inverse() - (lambda - s.factored.sigma).inverse();
@@ -108,7 +110,7 @@ double magnitude(const Solution& s, double omega_squared) {
 
 /// Values of ω² at which receptances are compared: the shift, then up to five places midway between frequencies at
 /// least 25 % apart, away from resonances.
-std::vector<double> quiet_places(const Modes& modes, double sigma) {
+std::vector<double> compared_omega_squared(const Modes& modes, double sigma) {
   std::vector<double> places{sigma};
   for (Eigen::Index k = std::max(modes.rigid_motions, 0); k + 1 < modes.frequency_hz.size(); ++k) {
     if (modes.frequency_hz(k) <= 0.0 || modes.frequency_hz(k + 1) < 1.25 * modes.frequency_hz(k)) continue;
@@ -119,9 +121,10 @@ std::vector<double> quiet_places(const Modes& modes, double sigma) {
   return places;
 }
 
+/// The largest change of a receptance between two solutions, relative to the magnitude() of the second one.
 double receptance_change(const Solution& a, const Solution& b) {
   double worst = 0.0;
-  for (const double place : quiet_places(b.modes, b.factored.sigma)) {
+  for (const double place : compared_omega_squared(b.modes, b.factored.sigma)) {
     // Each receptance is taken at the solution's own shift, because σ scales with the matrices, which differ a little
     // between orders.
     const Eigen::MatrixXd Ha = receptance(a, place == b.factored.sigma ? a.factored.sigma : place);
@@ -157,7 +160,7 @@ void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options) {
 /// The ratio r of the error at `order` to the error at the order below it (docs/theory/elements.md): (1 − 1/order)^4λ
 /// beside a re-entrant edge, else 1/2. The law of the edge holds for high orders only; its values below 1/2 are not
 /// trusted.
-double left_by(int order, const ToleranceOptions& options) {
+double error_ratio(int order, const ToleranceOptions& options) {
   constexpr double edge_exponent = 0.544;  // λ of a 270° edge
   return options.reentrant_edges ? std::max(0.5, std::pow((order - 1.0) / order, 4.0 * edge_exponent)) : 0.5;
 }
@@ -191,7 +194,7 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
       RefinementStep step{level, order, now.model.K.rows(), frequency_change(below.modes, now.modes), {}};
       if (!options.points.empty()) step.receptance_change = receptance_change(below, now);
       estimate.steps.push_back(step);
-      const double of_lower = 1.0 / (1.0 - left_by(order, options));
+      const double of_lower = 1.0 / (1.0 - error_ratio(order, options));
       const double of_higher = of_lower - 1.0;
       const double worst = std::max(*step.frequency_change, step.receptance_change.value_or(0.0));
       if (of_lower * worst <= options.tolerance) {
@@ -202,8 +205,8 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
       if (of_higher * worst <= options.tolerance || (last_level && order == options.last_order))
         return finished(std::move(now), std::move(estimate), of_higher);
       // The next level is taken if another order cannot reach the tolerance. Away from re-entrant edges one order
-      // reduces the error by a factor of ten, at most thirty; beside them by the factor of left_by().
-      const double next = options.reentrant_edges ? of_higher * left_by(order + 1, options) : 1.0 / 30.0;
+      // reduces the error by a factor of ten, at most thirty; beside them by the factor of error_ratio().
+      const double next = options.reentrant_edges ? of_higher * error_ratio(order + 1, options) : 1.0 / 30.0;
       if (!last_level && (order == options.last_order || next * worst > options.tolerance)) {
         mesh::TetMesh finer = part.mesh(level + 1);
         if (fits(finer, options.first_order + 1, options)) {

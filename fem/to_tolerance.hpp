@@ -29,11 +29,11 @@ struct ToleranceOptions {
   double tolerance = 1e-3;  ///< relative, on frequencies and receptances; 1e-6 to 0.1
   ModeOptions modes;
   std::vector<NamedPoint> points;  ///< points between which receptances must meet the tolerance
-  bool points_hold = false;        ///< whether the points must determine all rigid motions
+  bool points_hold = false;        ///< true if the points must determine all rigid motions
   int first_order = 4;             ///< first order of a level; 1 to 5
   int last_order = 6;              ///< last order of a level; above first_order, to 6
   int levels = 4;
-  bool reentrant_edges = false;     ///< whether the part has a re-entrant edge, beside which errors fall more slowly
+  bool reentrant_edges = false;     ///< true if the part has a re-entrant edge, beside which errors fall more slowly
   double memory_limit_bytes = 0.0;  ///< limit for a factor; 0: none
   std::int64_t largest_dofs = 0;    ///< no model with more rows than this before supports is solved; 0: no bound
 };
@@ -58,7 +58,7 @@ struct Estimate {
   double receptance = 0.0;  ///< largest error over the sum of the modes' magnitudes at its frequency; 0 without points
   double tolerance = 0.0;
   bool met = false;        ///< false if all levels were used or the next solution would exceed largest_dofs
-  bool held_back = false;  ///< whether largest_dofs ended the refinement
+  bool held_back = false;  ///< true if largest_dofs ended the refinement
   std::vector<RefinementStep> steps;
 };
 

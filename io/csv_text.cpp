@@ -27,7 +27,7 @@ char separator_of(std::string_view line) {
   return ',';
 }
 
-/// Takes one field off the front of `rest`; a quoted field ends at its closing quote. Empty if a quote is left open.
+/// Takes the first field off `rest`; a quoted field ends at its closing quote. Empty if a quote is not closed.
 std::optional<std::string> take_field(std::string_view& rest, char separator) {
   std::string field;
   const auto start = rest.find_first_not_of(" \r");

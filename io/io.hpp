@@ -1,5 +1,5 @@
 #pragma once
-// All that io/ offers to other programs.
+// The headers of io/ that other programs may include.
 // Internal: csv_text, gmsh_element, gmsh_numbers, inp_text, json_file, mat_variables, matrix_entries, nastran_cards,
 // ply_heading, program_id, step_triangles, surface_facets, surface_text, surface_unit, uff_fields, uff_meaning,
 // uff_units, universal_file, vtu_array, vtu_reader.

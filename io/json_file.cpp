@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int deepest_json = 100;  // whoever walks a document calls himself once a level
+constexpr int deepest_json = 100;  // functions that walk a document call themselves once for each level
 
 [[noreturn]] void refuse_kind(const JsonValue& value, const std::string& expected) {
   value.refuse("is " + kind_of(*value.json) + " where " + expected + " is expected");

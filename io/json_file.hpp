@@ -1,5 +1,5 @@
 #pragma once
-// JSON files of ours: read with every value checked, written whatever bytes a name has.
+// JSON files of this program, read with every value checked.
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -8,25 +8,25 @@
 
 namespace thinwall::io {
 
-/// The document of a file. Throws DataError naming the file if it cannot be read, is no JSON, or lists and objects are
-/// more than 100 deep in each other.
+/// The document of a file. Throws DataError, with the file, if it cannot be read, is no JSON, or has lists and objects
+/// nested more than 100 deep.
 [[nodiscard]] nlohmann::json read_json(const std::filesystem::path& file);
 
-/// The document as text, indented, with a line's end behind it. Bytes that are no UTF-8 (a folder's name may have them)
+/// The document as indented text that ends with a line end. Bytes that are no UTF-8 (which a folder's name may contain)
 /// become U+FFFD.
 [[nodiscard]] std::string json_text(const nlohmann::json& document);
 
-/// json_text() to a file; throws as core::write_file_atomically().
+/// Writes json_text() to a file. Throws as core::write_file_atomically() does.
 void write_json(const std::filesystem::path& file, const nlohmann::json& document);
 
-/// A value of a document and where it stands there. Every function throws DataError with file, place, what is there and
-/// what is expected, if the value is of another kind. The document must outlive it.
+/// A value of a document and its place there. If the value is of another kind, every function throws DataError with
+/// file, place, the kind found and the kind expected. The document must outlive it.
 struct JsonValue {
   const nlohmann::json* json;
   std::string file;
   std::string place;  ///< "axes[0].key"; "" is the document
 
-  /// True if the object has this key, with something else than null.
+  /// True if the object has this key with a value other than null.
   [[nodiscard]] bool has(const std::string& key) const;
   /// The value of this key of the object.
   [[nodiscard]] JsonValue at(const std::string& key) const;
@@ -40,13 +40,13 @@ struct JsonValue {
   [[nodiscard]] double number() const;
   /// The entries of a list of numbers.
   [[nodiscard]] std::vector<double> numbers() const;
-  /// Throws: "file": place `what`, and the remedy.
+  /// Throws DataError with file and place, followed by `what`, which contains the remedy.
   [[noreturn]] void refuse(const std::string& what) const;
-  /// The whole number, from `lower` to `upper`.
+  /// The whole number, which must lie within `lower` to `upper`.
   [[nodiscard]] int integer(int lower, int upper) const;
 };
 
-/// The kind of a value in few words: "a number", "a list of 3", "an object with name, value and 4 more".
+/// The kind of a value in few words, such as "a number", "a list of 3", "an object with name, value and 4 more".
 [[nodiscard]] std::string kind_of(const nlohmann::json& value);
 
 }  // namespace thinwall::io

@@ -16,7 +16,7 @@ namespace thinwall::io {
 
 namespace {
 
-/// One running digest. libcrypto fails here only for want of memory or of the algorithm itself.
+/// One running digest. libcrypto fails here only for lack of memory or if the algorithm is not available.
 class Sha256 {
  public:
   Sha256() { require(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1); }

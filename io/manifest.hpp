@@ -1,5 +1,5 @@
 #pragma once
-// The manifest of a result, which lists what it was made from and consists of: files with their SHA-256.
+// The manifest of a result, which lists the files that it consists of and was made from, with their SHA-256.
 
 #include <cstdint>
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace thinwall::io {
 
-/// One file, named relative to its folder with '/' between the parts.
+/// One file, with its name relative to its folder and '/' between the parts.
 struct FileRecord {
   std::string name;
   std::uintmax_t bytes = 0;
@@ -22,8 +22,8 @@ struct FileRecord {
 /// SHA-256 of a file, read in pieces. Throws DataError if it cannot be read.
 [[nodiscard]] std::string sha256_of_file(const std::filesystem::path& path);
 
-/// Every plain file below `folder`, by rising name, without unfinished ones (core::is_partial_name). Throws DataError
-/// if the folder or a file cannot be read. Files are hashed side by side.
+/// Every plain file below `folder`, sorted by name, without unfinished ones (core::is_partial_name()). Files are hashed
+/// in parallel. Throws DataError if the folder or a file cannot be read.
 [[nodiscard]] std::vector<FileRecord> file_records(const std::filesystem::path& folder);
 
 }  // namespace thinwall::io

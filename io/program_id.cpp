@@ -35,7 +35,7 @@ std::string build_id_in(std::string_view notes) {
   return {};
 }
 
-/// dl_iterate_phdr names the program before its libraries.
+/// The build ID of the program, which dl_iterate_phdr lists before its libraries.
 std::string build_id() {
   std::string id;
   dl_iterate_phdr(

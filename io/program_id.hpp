@@ -1,12 +1,12 @@
 #pragma once
-// Which program this is, to the last instruction.
+// An identifier of the running program.
 
 #include <string>
 
 namespace thinwall::io {
 
-/// The linker's build ID of the running program (a hash of what it holds; man ld, --build-id), in hexadecimal digits;
-/// without one the SHA-256 of its file, which takes 30 ms.
+/// The linker's build ID of the running program (a hash of its contents; man ld, --build-id) in hexadecimal digits;
+/// without a build ID the SHA-256 of its file, which takes 30 ms.
 [[nodiscard]] const std::string& program_id();
 
 }  // namespace thinwall::io

@@ -1,6 +1,5 @@
 #pragma once
-// The text formats of surfaces and meshes (STL, OFF, OBJ, PLY, MSH, VTU) below the level of meaning: words, numbers,
-// lines.
+// The text formats of surfaces and meshes (STL, OFF, OBJ, PLY, MSH, VTU) as words, numbers and lines.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,42 +9,42 @@
 
 namespace thinwall::io {
 
-/// Goes through a text word by word; what stands after `comment` to the end of a line is passed over. '.' is the
-/// decimal sign whatever the locale. The bytes must outlive it. Every call costs the bytes that it passes.
+/// A reader of a text word by word; anything from `comment` to the end of a line is skipped. '.' is the decimal sign
+/// whatever the locale. The bytes must outlive it. The cost of a call is proportional to the bytes that it passes.
 class SurfaceText {
  public:
-  /// `comment` '\0': there are none. `name` is what messages call the file.
+  /// A reader of these bytes; `comment` '\0': there are no comments. `name` is the file's name in messages.
   SurfaceText(std::string_view bytes, std::string name, char comment);
 
   /// The next word, on this line or a later one; empty at the end of the text.
   [[nodiscard]] std::string_view word();
   /// The next word of this line; empty at its end.
   [[nodiscard]] std::string_view word_of_line();
-  /// Passes over the rest of this line.
+  /// Skips the rest of this line.
   void skip_line();
-  /// The next `count` bytes, whatever they are; all that is left if there are fewer.
+  /// The next `count` bytes of any kind, or all that are left if there are fewer.
   [[nodiscard]] std::string_view take(std::size_t count);
-  /// True if nothing but blanks and comments is left.
+  /// True if only blanks and comments are left.
   [[nodiscard]] bool at_end();
 
   /// The next word as a finite number; `what` names it in the message. Throws DataError with file and line.
   [[nodiscard]] double number(const char* what);
   /// The next word as a whole number from `least` to `most`. Throws DataError with file and line.
   [[nodiscard]] std::int64_t whole_number(const char* what, std::int64_t least, std::int64_t most);
-  /// Converts a word at hand; otherwise as the function above.
+  /// The given word as a finite number. Throws as number() does.
   [[nodiscard]] double number(std::string_view word, const char* what) const;
-  /// Converts a word at hand; otherwise as the function above.
+  /// The given word as a whole number from `least` to `most`. Throws as whole_number() does.
   [[nodiscard]] std::int64_t whole_number(std::string_view word, const char* what, std::int64_t least,
                                           std::int64_t most) const;
 
-  /// Bytes that are not yet passed: no count in a file is believed beyond them.
+  /// Number of bytes that are left, against which counts in a file are checked.
   [[nodiscard]] std::size_t bytes_left() const { return rest_.size(); }
-  /// The text that is not yet passed.
+  /// The text that is left.
   [[nodiscard]] std::string_view rest() const { return rest_; }
   /// Number of the line, from 1.
   [[nodiscard]] int line() const { return line_; }
 
-  /// Throws DataError "part.off:12: what".
+  /// Throws DataError such as "part.off:12: what".
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
@@ -57,13 +56,13 @@ class SurfaceText {
   int line_ = 1;
 };
 
-/// Counts and numbers of these files are kept as int.
+/// Largest count or number in these files, because they are stored as int.
 inline constexpr std::int64_t largest_int = std::numeric_limits<int>::max();
 
-/// The word in quotes for a message: at most 40 characters, anything that does not print as '?'.
+/// The word in quotes for a message: at most 40 characters, with '?' for those that cannot be printed.
 [[nodiscard]] std::string quoted(std::string_view word);
 
-/// a…z for A…Z: keywords of these formats do not depend on case.
+/// The word with A…Z as a…z, because keywords of these formats do not depend on case.
 [[nodiscard]] std::string lower_case(std::string_view word);
 
 }  // namespace thinwall::io

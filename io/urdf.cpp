@@ -23,7 +23,7 @@ Eigen::Isometry3d frame(const urdf::Pose& pose) {
   return T;
 }
 
-/// Catches the parser's messages, which go into our message, not to the terminal.
+/// A handler that collects the parser's messages, which become part of this program's message.
 class Said : public console_bridge::OutputHandler {
  public:
   Said() { console_bridge::useOutputHandler(this); }
@@ -61,7 +61,7 @@ const urdf::Link& link_named(const urdf::ModelInterface& model, const std::files
   throw DataError(path.string() + ": there is no link \"" + name + "\"" + core::did_you_mean(name, names));
 }
 
-/// The one link at the end of the only chain that leaves `base`.
+/// The link at the end of the only chain that leaves `base`.
 const urdf::Link& only_end(const urdf::Link& base, const std::filesystem::path& path) {
   const urdf::Link* link = &base;
   while (!link->child_links.empty()) {
@@ -139,7 +139,7 @@ void add_body(const urdf::Inertial& body, const Eigen::Isometry3d& at, const std
   link.centre = centre;
 }
 
-/// The body of `from` and of all that is fixed to it, but for what lies beyond `next`.
+/// Adds the body of `from` and of all links that are fixed to it, except those beyond `next`.
 void add_fixed(const urdf::Link& from, const urdf::Link* next, const Eigen::Isometry3d& at,
                const std::filesystem::path& path, UrdfLink& link) {
   if (from.inertial) add_body(*from.inertial, at, from.name, path, link);
@@ -157,7 +157,7 @@ UrdfChain read_urdf(const std::filesystem::path& path, const std::string& base, 
   const urdf::Link& first = base.empty() ? *model->getRoot() : link_named(*model, path, base);
   const auto links = way(first, tip.empty() ? only_end(first, path) : link_named(*model, path, tip), path);
   UrdfChain chain;
-  UrdfLink ground;  // what is fixed to the base does not move
+  UrdfLink ground;  // bodies fixed to the base do not move
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (i > 0) {
       const urdf::Joint& joint = *links[i]->parent_joint;

@@ -9,29 +9,29 @@
 
 namespace thinwall::io {
 
-/// A rigid body and the joint that carries it; whatever fixed joints hold to it is part of it. At angle 0 its frame is
-/// the joint's.
+/// A rigid body and the joint that carries it; bodies that fixed joints connect to it are part of it. At angle 0 its
+/// frame is the joint's.
 struct UrdfLink {
-  std::string name;                                             ///< of the first link that moves with it
-  std::string joint;                                            ///< of the joint
-  Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();  ///< of the joint in the frame of the link before, m
+  std::string name;                                             ///< name of the first link that moves with it
+  std::string joint;                                            ///< name of the joint
+  Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();  ///< joint's frame in that of the link before, m
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();              ///< in the joint's frame
   double mass = 0.0;                                            ///< kg
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();             ///< of mass, in the link's frame, m
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();             ///< centre of mass in the link's frame, m
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();            ///< about the centre, in the link's axes, kg m²
 };
 
-/// The links from `base` to `tip`, whose frame `tip` is in that of the last.
+/// The links from `base` to `tip`. The frame `tip` is relative to that of the last link.
 struct UrdfChain {
   std::vector<UrdfLink> links;
   Eigen::Isometry3d tip = Eigen::Isometry3d::Identity();
 };
 
 /// Reads the chain between two links of the file; an empty `base` is the root, an empty `tip` the one link at the end
-/// of the only chain. Joints on the way are revolute, continuous or fixed; branches off it must be fixed, and add their
-/// mass. A URDF knows neither stiffness nor rotor inertia; its damping and friction, which are those of a controller's
-/// model, are not read. Throws DataError that names the file and what is wrong with it: not XML, a link that is not
-/// there, a joint of another kind (prismatic, planar, floating) or one that mimics another, a mass or inertia that is
+/// of the only chain. Joints along the chain are revolute, continuous or fixed; branches off it must be fixed, and add
+/// their mass. A URDF contains neither stiffness nor rotor inertia; its damping and friction, which belong to a
+/// controller's model, are not read. Throws DataError that names the file and the fault: no XML, a link that does not
+/// exist, a joint of another kind (prismatic, planar, floating) or one that mimics another, a mass or inertia that is
 /// not finite.
 [[nodiscard]] UrdfChain read_urdf(const std::filesystem::path& path, const std::string& base = "",
                                   const std::string& tip = "");

@@ -1,12 +1,12 @@
 #pragma once
-// Text as XML and HTML want it.
+// Text for XML and HTML.
 
 #include <string>
 #include <string_view>
 
 namespace thinwall::io {
 
-/// `text` with &, <, > and " as entities: between two tags and within an attribute in double quotes it is what it was.
+/// The text with &, <, > and " as entities, for use between two tags or in an attribute in double quotes.
 [[nodiscard]] std::string xml_escaped(std::string_view text);
 
 }  // namespace thinwall::io

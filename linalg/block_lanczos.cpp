@@ -99,8 +99,8 @@ struct Krylov {
     take_out_recent(W, H);
     MatrixXd MW = symmetric_product(M, W);
     MatrixXd G = tall_gram(W, MW);
-    // A column of which only 1e-14 of its length is left outside of the basis is round-off of the projection, not a
-    // direction.
+    // A column that keeps only 1e-14 of its length outside of the basis is round-off of the projection and no direction
+    // of its own.
     double shortest = 1e-14 * std::sqrt((G.diagonal().transpose() + H.colwise().squaredNorm()).maxCoeff());
     MatrixXd B = MatrixXd::Identity(W.cols(), W.cols());
     bool clean = false;
@@ -114,6 +114,8 @@ struct Krylov {
       clean = C.size() == 0 || C.cwiseAbs().maxCoeff() < 1e-10;
       MW = symmetric_product(M, W);
       G = tall_gram(W, MW);
+      // From the second pass on the columns come in with length one. A column that loses all but 1e-3 of it consisted
+      // of parts of the basis that round-off had brought back.
       shortest = 1e-3;
     }
     if (W.cols() == 0) return {W, MW, B};
@@ -141,12 +143,14 @@ struct Krylov {
   }
 };
 
+/// The eigenpairs of the projected operator T, which approximate those of the operator.
 struct Ritz {
-  VectorXd theta;  // descending
-  MatrixXd S;
-  VectorXd residual;  // relative, of the inverse
+  VectorXd theta;     // descending, so that λ = σ + 1/θ ascends
+  MatrixXd S;         // the eigenvectors of T as columns
+  VectorXd residual;  // ‖B s_last‖ / |θ|, the inverse residual
 };
 
+/// The Ritz pairs of T (columns × columns, upper triangle) with B of the block that follows the basis.
 Ritz ritz_pairs(const MatrixXd& T, const MatrixXd& B) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(T.selfadjointView<Eigen::Upper>()));
   Ritz ritz{eigen.eigenvalues().reverse(), eigen.eigenvectors().rowwise().reverse(), {}};

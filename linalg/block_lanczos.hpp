@@ -15,9 +15,11 @@ struct BlockLanczosOptions {
 
 /// The eigenpairs of K φ = λ M φ next above σ by block Lanczos with full reorthogonalisation on the operator
 /// (K−σM)⁻¹M in the inner product of M (Golub & Underwood 1977; Grimes, Lewis & Simon 1994):
-///
-///     A = (K−σM)⁻¹M,   A V = V T + Q Bᵀ E_lastᵀ,   VᵀMV = I,   T s = θ s,   φ = V s,   λ = σ + 1/θ,
+///     A = (K−σM)⁻¹M,   A V = V T + Q B E_lastᵀ,   VᵀMV = I,   T s = θ s,   φ = V s,   λ = σ + 1/θ,
 ///     ‖Aφ − θφ‖_M / θ = ‖B s_last‖ / θ    the inverse residual, known without φ
+///
+/// with the basis V, the next block Q, the columns E_last of the unit matrix that belong to the last block of V, and
+/// the entries s_last = E_lastᵀ s.
 ///
 /// One step of inverse iteration on all wanted vectors with a Rayleigh-Ritz projection follows, which removes the
 /// round-off of the high modes from them. Blocks are used instead of single vectors for two reasons: the time of a

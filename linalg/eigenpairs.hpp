@@ -16,10 +16,10 @@ struct ShiftedInverse {
   double sigma = 0.0;
 };
 
-/// Outcome of an eigen-solution: whether it may be used as it is.
+/// Outcome of an eigen-solution.
 enum class EigenStatus {
   converged,
-  not_converged,  ///< the iteration stopped before; only the pairs that had converged are listed
+  not_converged,  ///< fewer pairs than wanted have converged and are listed, or a measured residual exceeds 1e-6
 };
 
 /// Eigenpairs in ascending order of λ; shapes are M-normalised, with the entry of largest magnitude positive.

@@ -58,9 +58,9 @@ std::vector<std::vector<int>> rows_by_pattern(const SparseMatrix& A) {
   return sets;
 }
 
-/// Calls body(node, last_seen) for every node, on all threads. `last_seen` is a scratch array of the thread: for each
-/// node the last one that has marked it, −1 at first, so that duplicates among neighbours are found without clearing
-/// the array.
+/// Calls body(node, last_seen) for every node, in pieces on all threads. `last_seen` is a scratch array of one piece
+/// with an entry for each node, the last node for which it was marked (−1 at first), so that duplicates among
+/// neighbours are found without clearing the array.
 template <class Body>
 void over_nodes(const MatrixGraph& graph, const Body& body) {
   constexpr std::size_t piece = 4096;

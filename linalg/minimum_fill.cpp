@@ -61,6 +61,7 @@ class Elimination {
         body(64 * w + static_cast<std::size_t>(std::countr_zero(bits)));
     }
   }
+  /// Calls body(i) for every neighbour i of v that has not been eliminated.
   template <class Body>
   void each_of(std::size_t v, const Body& body) {
     each_in([a = row(v)](std::size_t w) { return a[w]; }, body);

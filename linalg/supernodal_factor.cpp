@@ -80,14 +80,17 @@ void subtract_product(Block A, Block B, Block C, Place rows, Place columns, Plac
 
 /// The dense algebra of a front on the calling thread alone, for the groups of subtrees, which run side by side.
 struct Alone {
+  /// Calls body(i) for i = 0 … count − 1.
   static void each(Place count, const auto& body) {
     for (Place i = 0; i < count; ++i) body(i);
   }
+  /// Factorises the panel P, F_JJ = L_JJ L_JJᵀ, L_IJ = F_IJ L_JJ⁻ᵀ; returns a column without a positive pivot, or −1.
   static Place factor_panel(Block P, Front f) {
     const Place failed = cholesky(P, f.columns);
     if (failed < 0 && f.below() > 0) divide(P, {P.at(f.columns, 0), P.stride}, f.below(), f.columns);
     return failed;
   }
+  /// U ← −L_IJ L_IJᵀ.
   static void update(Block P, Front f, Block U) {
     subtract_square({P.at(f.columns, 0), P.stride}, U, f.below(), f.columns, 0.0);
   }
@@ -111,7 +114,7 @@ void subtract_tiles(Block B, Block C, Place rows, Place columns, Place inner, do
 }
 
 /// The dense algebra of a front cut into tiles that all threads share, for the top of the tree: its fronts are large
-/// and follow each other, so that only work within one front can be shared.
+/// and follow each other, so that only work within one front can be shared. The functions do what those of Alone do.
 struct Shared {
   static void each(Place count, const auto& body) {
     constexpr Place piece = 32;
@@ -120,6 +123,9 @@ struct Shared {
       for (Place k = first; k < std::min(first + piece, count); ++k) body(k);
     });
   }
+  /// Goes through the panel by block columns of `tile` columns and subtracts each at once from all columns to its right
+  /// (right-looking), because only that large update and the division by the diagonal tile can be shared among threads;
+  /// the small diagonal tile is factorised by the calling thread.
   static Place factor_panel(Block P, Front f) {
     for (Place first = 0; first < f.columns; first += tile) {
       const Place columns = std::min(tile, f.columns - first);
@@ -141,11 +147,11 @@ struct Shared {
   }
 };
 
-/// The elimination tree of the supernodes.
+/// The elimination tree of the supernodes, with one entry for each of them in every list.
 struct Tree {
   std::vector<std::vector<int>> children;
-  std::vector<char> odd;     // whether the depth of each supernode is odd
-  std::vector<char> shared;  // whether each supernode is in the top of the cut
+  std::vector<char> odd;     // 1 if the depth is odd, which chooses the stack of the update matrix
+  std::vector<char> shared;  // 1 if the supernode is in the top of the cut
 
   [[nodiscard]] const std::vector<int>& of(int s) const { return children[static_cast<std::size_t>(s)]; }
   [[nodiscard]] std::size_t parity(int s) const { return static_cast<std::size_t>(odd[static_cast<std::size_t>(s)]); }
@@ -188,6 +194,7 @@ struct StackUse {
   Heights most;
 };
 
+/// The heights that walk() reaches on `supernodes`, by its pushes and pops without the numbers.
 StackUse stack_use(const SymbolicFactor& L, const Tree& tree, const std::vector<int>& supernodes) {
   StackUse use;
   for (const int s : supernodes) {
@@ -201,6 +208,7 @@ StackUse stack_use(const SymbolicFactor& L, const Tree& tree, const std::vector<
   return use;
 }
 
+/// Heights that suffice for the walk over any one group.
 Heights group_heights(const SymbolicFactor& L, const Tree& tree, const TreeCut& cut) {
   Heights most;
   for (const auto& group : cut.groups) most.raise_to(stack_use(L, tree, group).most);
@@ -218,6 +226,8 @@ struct Workspace {
       : stack{LargeArray<double>(heights[0]), LargeArray<double>(heights[1])}, place(rows) {}
 };
 
+/// The factorisation in progress. update[s] of a supernode points into a stack and is valid until its parent is
+/// eliminated.
 struct Multifrontal {
   const SparseMatrix& A;
   const SymbolicFactor& L;
@@ -230,7 +240,7 @@ struct Multifrontal {
   [[nodiscard]] Block update_matrix(int s) const { return {update[static_cast<std::size_t>(s)], front(L, s).below()}; }
 
   /// Finds the place in the front of supernode s of each of its own rows, and then of the rows of its children's update
-  /// matrices, which are a subset of them.
+  /// matrices. These are a subset of its own rows, so that places left over from earlier fronts are never read.
   void locate(int s, Workspace& work) const {
     const int* rows = L.rows_of(s);
     for (int k = 0; k < L.height(s); ++k) work.place[rows[k]] = k;
@@ -301,6 +311,7 @@ struct Multifrontal {
     return -1;
   }
 
+  /// Eliminates the supernodes, which are listed children first; returns the first pivot that is not positive, or −1.
   template <class Threads>
   Place walk(const std::vector<int>& supernodes, Workspace& work) {
     work.used = {};

@@ -136,8 +136,9 @@ void in_pieces(std::ptrdiff_t from, std::ptrdiff_t to, const Body& body) {
   });
 }
 
-/// Forward substitution over some supernodes, children first. add(row, y) receives what is to be added to a row below
-/// the supernode. `shared`: large blocks are divided among all threads.
+/// Forward substitution over some supernodes, children first. A panel works on a dense copy Y of its rows, in which the
+/// rows below start from zero; add(row, y) then receives what is to be added to each of these rows. `shared`: large
+/// blocks are divided among all threads.
 template <int width, class Add>
 void eliminate(const SymbolicFactor& L, const double* values, const std::vector<int>& supernodes, bool shared,
                Rows<width>& X, const Add& add) {
@@ -159,6 +160,8 @@ void eliminate(const SymbolicFactor& L, const double* values, const std::vector<
   }
 }
 
+/// Backward substitution over some supernodes, parents first, because a supernode needs the solution in the rows below
+/// it, which belong to its ancestors.
 template <int width>
 void substitute(const SymbolicFactor& L, const double* values, const std::vector<int>& supernodes, bool shared,
                 Rows<width>& X) {
@@ -181,6 +184,8 @@ void substitute(const SymbolicFactor& L, const double* values, const std::vector
 
 template <int width>
 void supernodal_solve(const SymbolicFactor& L, const TreeCut& cut, const double* values, Rows<width>& X) {
+  // Several groups add to one row of the top, so that each collects its sums in an array of its own; these are added in
+  // the order of the groups, which makes the result independent of the order of the threads.
   const auto* place = cut.place_in_top.data();
   std::vector<Rows<width>> above(cut.groups.size());
   core::parallel_for(cut.groups.size(), [&](std::size_t g) {
@@ -198,6 +203,7 @@ void supernodal_solve(const SymbolicFactor& L, const TreeCut& cut, const double*
     for (const auto& part : above) X.col(static_cast<std::ptrdiff_t>(row)) += part.col(place[row]);
   }
   eliminate<width>(L, values, cut.top, true, X, [&](int row, const auto& y) { X.col(row) += y; });
+  // The way back begins at the root: the groups follow when the rows of the top are solved, which they only read.
   substitute<width>(L, values, cut.top, true, X);
   core::parallel_for(cut.groups.size(), [&](std::size_t g) { substitute<width>(L, values, cut.groups[g], false, X); });
 }

@@ -33,6 +33,7 @@ void over_pieces(Index rows, const Body& body) {
   }
 }
 
+/// A size as BLAS takes it.
 int size(Index n) {
   return static_cast<int>(n);
 }
@@ -74,6 +75,7 @@ void strip_product(const SparseMatrix& A, const Eigen::Ref<const MatrixXd>& X, I
 
 MatrixXd symmetric_product(const SparseMatrix& A, const Eigen::Ref<const MatrixXd>& X) {
   MatrixXd Y(A.rows(), X.cols());
+  // Strips are eight columns wide; the last one has the smallest width that holds the columns that are left.
   Index column = 0;
   for (; column + 12 < X.cols(); column += 8) strip_product<8>(A, X, column, Y);
   for (; column + 8 < X.cols(); column += 12) strip_product<12>(A, X, column, Y);

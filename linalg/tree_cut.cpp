@@ -41,7 +41,8 @@ TreeCut tree_cut(const SymbolicFactor& L) {
     group[static_cast<std::size_t>(open.top().second)] = static_cast<int>(lightest - load.begin());
   }
   cut.place_in_top.assign(L.permutation.size(), -1);
-  for (std::size_t s = count; s-- > 0;) {  // a parent comes after its children
+  // The rest of a subtree joins the group of its root. A parent comes after its children, so that it is visited first.
+  for (std::size_t s = count; s-- > 0;) {
     if (in_top[s] == 0 && group[s] < 0) group[s] = group[static_cast<std::size_t>(parent[s])];
   }
   for (std::size_t s = 0; s < count; ++s) {

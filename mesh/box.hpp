@@ -20,7 +20,7 @@ struct Box {
 /// Volume, m³.
 [[nodiscard]] double volume(const Box& box);
 
-/// "x_min", "x_max", "y_min", "y_max", "z_min", "z_max".
+/// The names of the six faces, "x_min", "x_max", "y_min", "y_max", "z_min", "z_max".
 [[nodiscard]] const std::array<std::string, 6>& face_names();
 
 }  // namespace thinwall::mesh

@@ -36,6 +36,7 @@ double address_space() {
   return pages * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
+/// Limits the processor time and memory of this process, and lets it leave no core file.
 void limit_resources(double time_limit_s, double memory_limit_bytes) {
   const auto seconds = static_cast<rlim_t>(time_limit_s) + 2;
   const rlimit cpu{seconds, seconds};
@@ -47,13 +48,13 @@ void limit_resources(double time_limit_s, double memory_limit_bytes) {
   setrlimit(RLIMIT_CORE, &no_core);
 }
 
-/// The forked process: works, writes, never returns.
+/// The forked process: does the work, writes the bytes to `out` and exits.
 [[noreturn]] void child(const std::function<std::vector<char>()>& work, int out, double time_limit_s,
                         double memory_limit_bytes) {
-  // The parent's handlers and its terminal output are not this process's business.
+  // Signals that the parent handles get their default action, and output of the mesher is discarded.
   for (const int signal_number : {SIGINT, SIGTERM, SIGABRT, SIGSEGV, SIGBUS, SIGFPE})
     std::signal(signal_number, SIG_DFL);
-  std::signal(SIGINT, SIG_IGN);  // the parent decides and kills
+  std::signal(SIGINT, SIG_IGN);  // the parent kills this process if the user interrupts
   const int null = open("/dev/null", O_WRONLY);
   if (null >= 0) {
     dup2(null, STDOUT_FILENO);
@@ -78,12 +79,14 @@ void limit_resources(double time_limit_s, double memory_limit_bytes) {
   _exit(status);
 }
 
+/// The bytes that the child has written, and why reading ended.
 struct Outcome {
   std::vector<char> bytes;
   bool timed_out = false;
   bool interrupted = false;
 };
 
+/// Reads from a pipe until its writer closes it, the time limit passes or the user interrupts.
 Outcome read_until_closed(int in, double time_limit_s) {
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + std::chrono::duration<double>(time_limit_s);
@@ -107,6 +110,7 @@ Outcome read_until_closed(int in, double time_limit_s) {
   }
 }
 
+/// The reason why the child failed, in words.
 std::string cause(int status) {
   if (WIFSIGNALED(status)) {
     const int signal_number = WTERMSIG(status);
@@ -137,7 +141,7 @@ TetMesh deserialise(const std::vector<char>& bytes) {
   std::array<std::size_t, 2> counts{};
   if (bytes.size() < sizeof counts) return mesh;
   std::memcpy(counts.data(), bytes.data(), sizeof counts);
-  if (counts[1] == 0) return mesh;  // an open surface: nothing to copy, and no arrays to copy to
+  if (counts[1] == 0) return mesh;  // TetGen returns no tetrahedra for an open surface
   mesh.vertices.resize(counts[0]);
   mesh.tets.resize(counts[1]);
   const char* points = bytes.data() + sizeof counts;

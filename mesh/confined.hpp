@@ -1,5 +1,5 @@
 #pragma once
-// Foreign meshers in a process of their own, under limits.
+// Meshers of other libraries, each run in a process of its own under limits of time and memory.
 
 #include <functional>
 #include <vector>
@@ -14,13 +14,13 @@ struct ProcessLimits {
   double memory_bytes = 4e9;  ///< address space that it may take beyond what it starts with
 };
 
-/// Runs `work` in a forked process under the limits and returns the bytes that it gave back: meshers abort, throw,
-/// crash or hang on some input. Throws NumericalError if it is killed, crashes, throws or exceeds a limit; Interrupted
-/// if the user stops the run.
+/// The bytes that `work` returned, after it has run in a forked process under the limits. A process is used because
+/// meshers abort, throw, crash or hang on some input. Throws NumericalError if the process is killed, crashes, throws
+/// or exceeds a limit; Interrupted if the user stops the run.
 [[nodiscard]] std::vector<char> run_confined(const std::function<std::vector<char>()>& work, double time_limit_s,
                                              double memory_limit_bytes);
 
-/// Confines work that makes a mesh; otherwise as the function above. Tetrahedra are turned to positive volume and
+/// The mesh that `work` makes, in a process as run_confined() describes. Tetrahedra are turned to positive volume and
 /// order_along_curve() is applied. Throws NumericalError, whose message begins with the mesher's `name`, as
 /// run_confined() and for a mesh without tetrahedra.
 [[nodiscard]] TetMesh mesh_confined(const char* name, const std::function<TetMesh()>& work,

@@ -16,6 +16,7 @@ namespace {
 using SortingKernel = CGAL::Simple_cartesian<double>;
 using Centres = CGAL::Pointer_property_map<SortingKernel::Point_3>::type;
 
+/// Four times the centres of the tetrahedra; the factor does not change their order.
 std::vector<SortingKernel::Point_3> centres(const TetMesh& mesh) {
   std::vector<SortingKernel::Point_3> all;
   all.reserve(mesh.tets.size());
@@ -27,6 +28,7 @@ std::vector<SortingKernel::Point_3> centres(const TetMesh& mesh) {
   return all;
 }
 
+/// Numbers the vertices in the order in which the tetrahedra first use them, and drops the others.
 void number_vertices_by_use(TetMesh& mesh) {
   std::vector<int> number(mesh.vertices.size(), -1);
   std::vector<Eigen::Vector3d> used;

@@ -59,7 +59,7 @@ double volume(const FacetedSurface& surface) {
 }
 
 double volume(const TriangleSurface& surface) {
-  // About the first vertex: far from the origin the terms would cancel.
+  // The sum is taken about the first vertex, because far from the origin its terms would cancel.
   double sum = 0.0;
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t)
     sum += area_vector(surface, t).dot(corner(surface, t, 0) - surface.vertices[0]) / 3.0;

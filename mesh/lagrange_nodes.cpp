@@ -31,6 +31,7 @@ struct KeyHash {
   }
 };
 
+/// The identity of the node at the lattice point alpha of a tetrahedron.
 Key key_of(const std::array<int, 4>& tet, const std::array<int, 4>& alpha) {
   std::array<std::pair<int, int>, 4> parts{};
   for (std::size_t k = 0; k < 4; ++k) {
@@ -49,6 +50,7 @@ void require_order(int order) {
   if (order < 1 || order > 6) throw core::InputError("element order " + std::to_string(order) + " is outside 1 to 6");
 }
 
+/// The number of different items, which are sorted on the way.
 template <class T>
 std::int64_t distinct(std::vector<T>& items) {
   std::sort(items.begin(), items.end());

@@ -10,20 +10,21 @@
 
 namespace thinwall::mesh {
 
-/// Barycentric lattice of order p: all α with α₀ + α₁ + α₂ + α₃ = p, (p+1)(p+2)(p+3)/6 of them; local node a of every
-/// element lies at λ = α_a / p. The four vertices come first, in order.
+/// The barycentric lattice of order p: all (p+1)(p+2)(p+3)/6 quadruples α with α₀ + α₁ + α₂ + α₃ = p. Local node a of
+/// every element lies at λ = α_a / p. The four vertices come first, in order.
 [[nodiscard]] std::vector<std::array<int, 4>> lattice(int order);
 
 /// Nodes shared by the elements: positions (nodes × 3, m) and for each element its (p+1)(p+2)(p+3)/6 node indices, in
-/// the order of lattice(p), one row an element. The mesh's vertices keep their indices as the first nodes.
+/// the order of lattice(p), one row for each element. The mesh's vertices keep their indices as the first nodes.
 struct LagrangeNodes {
   int order = 0;
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> positions;
   Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> elements;
 };
 
-/// Numbers the nodes of order 1…6. Two elements share a node exactly if it is the same weighted set of vertices, so
-/// orientation needs no special case. Throws InputError for another order. Cost O(nodes log nodes).
+/// The nodes of order 1…6 on a mesh, at their places on the straight elements. Two elements share a node exactly if
+/// both describe it by the same weighted set of vertices, so that the orientation of a shared edge or face needs no
+/// special case. Throws InputError for another order. Cost O(nodes log nodes).
 [[nodiscard]] LagrangeNodes lagrange_nodes(const TetMesh& mesh, int order);
 
 /// The number of nodes that lagrange_nodes() would make, without making them: V + (p − 1) E + (p − 1)(p − 2)/2 F

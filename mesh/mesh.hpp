@@ -1,5 +1,5 @@
 #pragma once
-// All that mesh/ offers to other programs.
+// The headers of mesh/ that other programs may include.
 // Internal: border_graph, cell_shape, cell_split, curve_order, edge_layers, edge_uses, facet_repair,
 // hole_filling, joined_sets, labelled_checks, layer_rows, mesh_findings, midside_order, nearest_point,
 // orientation, pieces, planar_mesh, polyline, surface_finding, sweep, tet_jacobian, triangle_tree.

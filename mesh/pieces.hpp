@@ -1,5 +1,5 @@
 #pragma once
-// Which vertices hang together: core/pieces.hpp.
+// The connected pieces of a mesh (core/pieces.hpp).
 
 #include "core/pieces.hpp"
 

@@ -51,11 +51,11 @@ std::optional<Eigen::Vector2d> crossing(const Segment& a, const Segment& b) {
   if (!((b0 < 0.0 && b1 > 0.0) || (b0 > 0.0 && b1 < 0.0))) return std::nullopt;
   if (!((a0 < 0.0 && a1 > 0.0) || (a0 > 0.0 && a1 < 0.0))) return std::nullopt;
   Eigen::Vector2d p = b[0] + b0 / (b0 - b1) * v;
-  for (int axis = 0; axis < 2; ++axis) {  // no round-off across a line along an axis
+  for (int axis = 0; axis < 2; ++axis) {  // on a line along an axis the point gets its coordinate without round-off
     if (u[axis] == 0.0) p[axis] = a[0][axis];
     if (v[axis] == 0.0) p[axis] = b[0][axis];
   }
-  // Of two segments on one line the signs above are round-off: they may be far apart.
+  // For two segments on one line the signs above are round-off, and the segments may be far apart.
   if (distance(a, p) > 1e-9 * (u.norm() + v.norm())) return std::nullopt;
   return p;
 }

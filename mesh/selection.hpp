@@ -1,5 +1,5 @@
 #pragma once
-// Faces chosen by where they lie.
+// Faces chosen by their place.
 
 #include <Eigen/Core>
 #include <string>
@@ -33,12 +33,13 @@ struct SphereRegion {
 /// The region that selects faces of a part.
 using Region = std::variant<PlaneRegion, BoxRegion, SphereRegion>;
 
-/// The plane of a box's face by its name ("y_min"); throws InputError with the nearest name otherwise.
+/// The plane of a box's face by its name ("y_min"). Throws InputError, which proposes the nearest name, for another
+/// name.
 [[nodiscard]] Region face_of(const Box& box, const std::string& name);
 
-/// The boundary triangles with all three corners in the region, within 1e-6 of the part's diagonal. A region that holds
-/// no face, or every face, is an InputError that says where the part lies and how far the nearest face is; `name` is
-/// what the user called the region.
+/// The boundary triangles with all three corners in the region, within 1e-6 of the part's diagonal. Throws InputError
+/// for a region that contains no face, or every face, with the part's extents and the distance of the nearest face;
+/// `name` is the name that the user gave the region.
 [[nodiscard]] std::vector<BoundaryTriangle> select(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary,
                                                    const Region& region, const std::string& name);
 

@@ -7,7 +7,7 @@
 
 namespace thinwall::mesh {
 
-/// Vertices in m, part axes; each tetrahedron by four vertex indices with positive volume (det[v1−v0, v2−v0, v3−v0] >
+/// Vertices in m, part axes, and tetrahedra by four vertex indices, with positive volume (det[v1−v0, v2−v0, v3−v0] >
 /// 0).
 struct TetMesh {
   std::vector<Eigen::Vector3d> vertices;
@@ -23,7 +23,7 @@ struct BoundaryTriangle {
 /// Signed volume of a tetrahedron, m³.
 [[nodiscard]] double volume(const TetMesh& mesh, int tet);
 
-/// Sum of the volumes, m³.
+/// Sum of the volumes of all tetrahedra, m³.
 [[nodiscard]] double volume(const TetMesh& mesh);
 
 /// All boundary triangles, in the order of their tetrahedra. Cost O(n log n).

@@ -14,7 +14,7 @@ namespace thinwall::mesh {
 
 namespace {
 
-/// A cell of a grid of the tolerance's width, or the bits of a point's coordinates.
+/// The indices of a cell of a grid of the tolerance's width, or the bits of a point's coordinates.
 using Key = std::array<std::int64_t, 3>;
 
 struct KeyHash {
@@ -62,7 +62,7 @@ class NearPoints {
   NearPoints(const std::vector<Eigen::Vector3d>& points, double tolerance_m)
       : points_(points), tolerance_(tolerance_m) {}
 
-  /// As EqualPoints::find_or_add.
+  /// The number of the point that x becomes, as in EqualPoints::find_or_add().
   int find_or_add(const Eigen::Vector3d& x, int own) {
     constexpr int no_point = std::numeric_limits<int>::max();
     const Key cell = cell_of(x);
@@ -77,8 +77,9 @@ class NearPoints {
   }
 
  private:
-  /// Cells are as wide as the tolerance. From 2^53 of them on doubles lie further apart than that: only equal ones are
-  /// near, and the bits are the cell, so that no cell ever holds many points.
+  /// The cell of x in a grid as wide as the tolerance. Beyond 2^53 cells from the origin doubles are further apart than
+  /// the tolerance: only equal points are near each other, and the bits identify the cell, so that no cell ever holds
+  /// many points.
   [[nodiscard]] Key cell_of(const Eigen::Vector3d& x) const {
     Key key{};
     for (int k = 0; k < 3; ++k) {
@@ -114,7 +115,7 @@ void require_point(const TriangleSoup& soup, std::size_t triangle, int point) {
   }
 }
 
-/// Goes through the triangles' points in turn; `earlier` looks into result.soup.points.
+/// Replaces the points of all triangles by those that `earlier` finds among result.soup.points.
 template <class Finder>
 void merge(const TriangleSoup& soup, Finder earlier, MergedPoints& result) {
   constexpr int unseen = -1;

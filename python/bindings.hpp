@@ -41,7 +41,7 @@ void bind_milling(py::module_& module);
 void bind_io(py::module_& module);
 void bind_study(py::module_& module);
 
-/// A mesh as Python holds it: tetrahedra, and the nodes given by a file if it has more than the corners.
+/// A mesh as a Python object: tetrahedra, and the nodes of a file if it has more nodes than the corners.
 struct Mesh {
   mesh::TetMesh tets;
   std::optional<mesh::LagrangeNodes> nodes{};  ///< nodes of order 2

@@ -84,15 +84,16 @@ LongCall::~LongCall() {
 
 void bind_core(py::module_& module) {
   errors().error = new_error(module, "Error", "Base of every error of thinwall.", PyExc_Exception);
-  errors().input = new_error(module, "InputError", "What was asked for cannot be; the message says what to change.",
-                             PyExc_ValueError);
+  errors().input = new_error(module, "InputError",
+                             "An argument or a case is impossible; the message contains the remedy.", PyExc_ValueError);
   errors().data = new_error(module, "DataError", "A file cannot be read.", PyExc_OSError);
   errors().numerical = new_error(
-      module, "NumericalError", "The numbers could not be computed as accurately as was asked.", PyExc_ArithmeticError);
+      module, "NumericalError", "A computation does not reach the accuracy that was asked for.", PyExc_ArithmeticError);
   py::register_exception_translator(translate);
   module.attr("__version__") = THINWALL_VERSION;
-  module.def("thread_count", core::thread_count, "Threads that long calls use.");
-  module.def("set_thread_count", set_thread_count, "threads"_a, "Sets the threads that long calls use, 1 or more.");
+  module.def("thread_count", core::thread_count, "The number of threads that long calls use.");
+  module.def("set_thread_count", set_thread_count, "threads"_a,
+             "Sets the number of threads that long calls use, 1 or more.");
 }
 
 }  // namespace thinwall::python

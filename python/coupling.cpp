@@ -37,38 +37,41 @@ std::string status(const CoupledResponse& coupled) {
 }  // namespace
 
 void bind_coupling(py::module_& module) {
-  py::class_<Contact>(module, "Contact", "A point of one component joined to a point of another.")
+  py::class_<Contact>(module, "Contact", "A contact, which joins a point of one component to a point of another.")
       .def(py::init(&contact), "point_a"_a, "point_b"_a, "directions"_a = "xyz",
            "stiffness"_a = std::numeric_limits<double>::infinity(), "damping"_a = 0.0, "loss_factor"_a = 0.0,
            "turns"_a = "",
-           "directions, turns: letters or unit vectors along and about which both move together, by a spring (N/m,\n"
-           "N s/m; N m/rad about) or, of infinite stiffness, as one.")
-      .def_readonly("point_a", &Contact::point_a, "Its point of the one component.")
-      .def_readonly("point_b", &Contact::point_b, "Its point of the other.");
-  py::class_<CoupledResponse>(module, "CoupledResponse", "A coupled response and how well its kernel was solved.")
-      .def_readonly("response", &CoupledResponse::response, "Response between all DOFs of the components.")
-      .def_readonly("kernel_condition", &CoupledResponse::kernel_condition, "Skeel's, one a line; a view.")
-      .def_property_readonly("status", status, "well_conditioned, or ill_conditioned: half of the digits are lost.");
+           "directions, turns: letters or unit vectors, along which and about which a spring joins both points (N/m,\n"
+           "N s/m; N m/rad about them); with infinite stiffness they move as one.")
+      .def_readonly("point_a", &Contact::point_a, "The name of the point of the first component.")
+      .def_readonly("point_b", &Contact::point_b, "The name of the point of the second component.");
+  py::class_<CoupledResponse>(module, "CoupledResponse", "A coupled response with the condition of its solution.")
+      .def_readonly("response", &CoupledResponse::response, "The Response between all DOFs of the components.")
+      .def_readonly("kernel_condition", &CoupledResponse::kernel_condition,
+                    "The Skeel condition of the kernel at each line; a view.")
+      .def_property_readonly("status", status,
+                             "\"well_conditioned\", or \"ill_conditioned\" if half of the digits are lost.");
   module.def(
       "couple",
       [](const std::vector<dynamics::SpatialModel>& components, const std::vector<Contact>& contacts) {
         return coupling::couple(components, contacts);
       },
       "components"_a, "contacts"_a, LongCallGuard(),
-      "One SpatialModel of several: matrices assembled at the contacts.");
+      "The SpatialModel of several, whose matrices are assembled at the contacts.");
   module.def(
       "couple",
       [](const std::vector<dynamics::ResponseModel>& components, const std::vector<Contact>& contacts) {
         return coupling::couple(components, contacts);
       },
       "components"_a, "contacts"_a, LongCallGuard(),
-      "One CoupledResponse of several Responses on equal axes: receptance coupling.");
+      "The CoupledResponse of several Responses on equal axes, by receptance coupling.");
   module.def(
       "route_difference",
       [](const dynamics::ResponseModel& spatial, const dynamics::ResponseModel& receptance) {
         return coupling::route_difference(spatial, receptance).max_relative;
       },
-      "spatial"_a, "receptance"_a, "Largest difference of two Responses, over the largest entry of its line.");
+      "spatial"_a, "receptance"_a,
+      "The largest difference of two Responses, relative to the largest entry of the line.");
 }
 
 }  // namespace thinwall::python

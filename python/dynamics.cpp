@@ -89,50 +89,54 @@ py::object values(const py::object& self) {
 }
 
 void bind_spatial(py::module_& module) {
-  py::class_<SpatialModel>(module, "SpatialModel", "M y'' + C y' + (K + iD) y = Tᵀ f, x = T y, with named DOFs.")
+  py::class_<SpatialModel>(module, "SpatialModel",
+                           "A model M y'' + C y' + (K + iD) y = Tᵀ f, x = T y, with named DOFs.")
       .def(py::init(&spatial_model), "M"_a, "K"_a, "dofs"_a, "C"_a = py::none(),
-           "dofs: \"P.x\", \"P.rz\", \"mode 1\", one a row. SI units.")
-      .def_readonly("M", &SpatialModel::M, "Mass; a view.")
-      .def_readonly("C", &SpatialModel::C, "Viscous damping; a view.")
-      .def_readonly("K", &SpatialModel::K, "Stiffness; a view.")
-      .def_readonly("D", &SpatialModel::D, "Structural damping, (0, 0) if there is none; a view.")
-      .def_readonly("T", &SpatialModel::T, "DOFs from coordinates, (0, 0) if they are the same; a view.")
+           "dofs: the name of each row, such as \"P.x\", \"P.rz\", \"mode 1\". SI units.")
+      .def_readonly("M", &SpatialModel::M, "The mass matrix; a view.")
+      .def_readonly("C", &SpatialModel::C, "The viscous damping matrix; a view.")
+      .def_readonly("K", &SpatialModel::K, "The stiffness matrix; a view.")
+      .def_readonly("D", &SpatialModel::D, "The structural damping matrix, (0, 0) if there is none; a view.")
+      .def_readonly("T", &SpatialModel::T,
+                    "The matrix that gives DOFs from coordinates, (0, 0) if they are equal; a view.")
       .def_property_readonly(
-          "dofs", [](const SpatialModel& model) { return names(model.dofs); }, "Names of the DOFs.");
+          "dofs", [](const SpatialModel& model) { return names(model.dofs); }, "The names of the DOFs.");
 }
 
 void bind_modal(py::module_& module) {
-  py::class_<ModalModel>(module, "ModalModel", "H = R + Σ φ ψᵀ / (a (iω − λ)), every pole listed.")
-      .def_readonly("poles", &ModalModel::poles, "λ, rad/s; a view.")
-      .def_readonly("right", &ModalModel::right, "Response shapes φ, (dofs, poles); a view.")
-      .def_readonly("left", &ModalModel::left, "Force shapes ψ, (dofs, poles); a view.")
-      .def_readonly("scaling", &ModalModel::scaling, "a of each pole; a view.")
-      .def_readonly("residual", &ModalModel::residual, "R, m/N, (0, 0) if there is none; a view.")
+  py::class_<ModalModel>(module, "ModalModel", "A model H = R + Σ φ ψᵀ / (a (iω − λ)) with every pole listed.")
+      .def_readonly("poles", &ModalModel::poles, "The poles λ, rad/s; a view.")
+      .def_readonly("right", &ModalModel::right, "The response shapes φ, (dofs, poles); a view.")
+      .def_readonly("left", &ModalModel::left, "The force shapes ψ, (dofs, poles); a view.")
+      .def_readonly("scaling", &ModalModel::scaling, "The scaling a of each pole; a view.")
+      .def_readonly("residual", &ModalModel::residual, "The residual R, m/N, (0, 0) if there is none; a view.")
       .def_property_readonly(
-          "dofs", [](const ModalModel& model) { return names(model.dofs); }, "Names of the DOFs.")
+          "dofs", [](const ModalModel& model) { return names(model.dofs); }, "The names of the DOFs.")
       .def_property_readonly(
           "frequency_hz", [](const ModalModel& m) { return of_modes(m, &dynamics::ModeSummary::frequency_hz); },
-          "|λ|/2π of each mode that oscillates, ascending.")
+          "The frequency |λ|/2π of each oscillating mode, ascending.")
       .def_property_readonly(
           "damping_ratio", [](const ModalModel& m) { return of_modes(m, &dynamics::ModeSummary::damping_ratio); },
-          "−Re λ/|λ| of the same.");
+          "The damping ratio −Re λ/|λ| of each oscillating mode, by ascending frequency.");
 }
 
 void bind_response(py::module_& module) {
   py::class_<ResponseModel>(module, "Response", py::dynamic_attr(), "Receptances on a frequency axis, m/N, e^{+iωt}.")
       .def(py::init(&response), "frequency_hz"_a, "H"_a, "responses"_a, "forces"_a = py::none(),
-           "H: (lines, responses, forces), or (lines,) of one entry; names as of a SpatialModel.")
+           "H: (lines, responses, forces), or (lines,) for a single entry; DOF names as for a SpatialModel.")
       .def_property_readonly(
           "frequency_hz", [](const ResponseModel& model) -> const Eigen::VectorXd& { return model.axis.hz; },
-          py::return_value_policy::reference_internal, "The lines; a view.")
+          py::return_value_policy::reference_internal, "The frequencies of the lines; a view.")
       .def_property_readonly("H", values,
-                             "(lines, responses, forces): one read-only array, copied from the library at the first\n"
-                             "access and the same at every other.")
+                             "The receptances (lines, responses, forces), a read-only array that is copied from the\n"
+                             "library at the first access and kept.")
       .def_property_readonly(
-          "responses", [](const ResponseModel& model) { return names(model.responses); }, "Names of the rows.")
+          "responses", [](const ResponseModel& model) { return names(model.responses); },
+          "The names of the rows' DOFs.")
       .def_property_readonly(
-          "forces", [](const ResponseModel& model) { return names(model.forces); }, "Names of the columns.")
-      .def("entry", dynamics::entry, "response"_a, "force"_a, "One entry over frequency, by the names of its DOFs.");
+          "forces", [](const ResponseModel& model) { return names(model.forces); }, "The names of the columns' DOFs.")
+      .def("entry", dynamics::entry, "response"_a, "force"_a,
+           "The entry of two DOFs, given by their names, over frequency.");
 }
 
 }  // namespace
@@ -192,17 +196,18 @@ void bind_dynamics(py::module_& module) {
   bind_modal(module);
   bind_response(module);
   module.def("to_modal", modal, "model"_a, LongCallGuard(),
-             "All poles of a damped model. Structural damping becomes viscous with the same loss at each mode.");
+             "The ModalModel with all poles. Structural damping becomes viscous with equal loss at each mode.");
   module.def(
       "receptances",
       [](const SpatialModel& model, const Eigen::VectorXd& hz) {
         return dynamics::direct_response(model, axis_of(hz));
       },
-      "model"_a, "frequency_hz"_a, LongCallGuard(), "Receptances of matrices, one factorisation a line.");
+      "model"_a, "frequency_hz"_a, LongCallGuard(),
+      "The receptances of a SpatialModel, by one factorisation for each line.");
   module.def(
       "receptances",
       [](const ModalModel& model, const Eigen::VectorXd& hz) { return dynamics::to_response(model, axis_of(hz)); },
-      "model"_a, "frequency_hz"_a, LongCallGuard(), "Receptances of poles, as the sum over them.");
+      "model"_a, "frequency_hz"_a, LongCallGuard(), "The receptances of a ModalModel, as the sum over its poles.");
 }
 
 }  // namespace thinwall::python

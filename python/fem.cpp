@@ -71,22 +71,23 @@ Rows3 displacements(const Part& part, const Eigen::VectorXd& values) {
 }
 
 void bind_model(py::module_& module) {
-  py::class_<Part>(module, "Model", "A part's stiffness and mass on the rows that are free to move.")
+  py::class_<Part>(module, "Model", "The stiffness and mass of a part over its free rows.")
       .def_property_readonly(
           "K", [](const py::object& self) { return sparse_view(self.cast<Part&>().model.K, self); },
-          "Stiffness, N/m: scipy.sparse.csc_matrix, a view.")
+          "The stiffness matrix, N/m, as a scipy.sparse.csc_matrix; a view.")
       .def_property_readonly(
           "M", [](const py::object& self) { return sparse_view(self.cast<Part&>().model.M, self); },
-          "Mass, kg: scipy.sparse.csc_matrix, a view.")
-      .def_property_readonly("positions", positions, "Nodes, (n, 3) in m; a view.")
-      .def_property_readonly("free_rows", free_rows, "3 node + axis of each row of K; a view.")
+          "The mass matrix, kg, as a scipy.sparse.csc_matrix; a view.")
+      .def_property_readonly("positions", positions, "The positions of the nodes, (n, 3) in m; a view.")
+      .def_property_readonly("free_rows", free_rows, "The number 3 node + axis of each row of K; a view.")
       .def_property_readonly(
-          "mass_kg", [](const Part& part) { return part.model.mass.mass_kg; }, "From the unconstrained mass matrix.")
+          "mass_kg", [](const Part& part) { return part.model.mass.mass_kg; },
+          "The part's mass, from the unconstrained mass matrix.")
       .def_property_readonly(
           "rigid_motions", [](const Part& part) { return part.model.rigid_motions; },
-          "Ways to move that nothing holds: 0 of a held part, 6 of a free one.")
+          "The number of free rigid motions: 0 for a held part, 6 for a free one.")
       .def("displacements", displacements, "values"_a,
-           "Displacements of all nodes, (n, 3), from values of the free rows; those that are held are zero.");
+           "The displacements of all nodes, (n, 3), from values of the free rows; held ones are zero.");
 }
 
 }  // namespace
@@ -102,26 +103,28 @@ void bind_fem(py::module_& module) {
              return fem::Material{E, nu, rho};
            }),
            "youngs_modulus_Pa"_a, "poisson_ratio"_a, "density_kg_m3"_a)
-      .def_readonly("youngs_modulus_Pa", &fem::Material::youngs_modulus_Pa, "E, Pa.")
-      .def_readonly("poisson_ratio", &fem::Material::poisson_ratio, "ν.")
-      .def_readonly("density_kg_m3", &fem::Material::density_kg_m3, "ρ, kg/m³.");
+      .def_readonly("youngs_modulus_Pa", &fem::Material::youngs_modulus_Pa, "Young's modulus, Pa.")
+      .def_readonly("poisson_ratio", &fem::Material::poisson_ratio, "Poisson's ratio.")
+      .def_readonly("density_kg_m3", &fem::Material::density_kg_m3, "The density, kg/m³.");
   bind_model(module);
-  py::class_<fem::Modes>(module, "Modes", "Natural modes, ascending, those of a rigid body first.")
-      .def_readonly("frequency_hz", &fem::Modes::frequency_hz, "0 of rigid-body modes; a view.")
+  py::class_<fem::Modes>(module, "Modes", "Natural modes in ascending order, rigid-body modes first.")
+      .def_readonly("frequency_hz", &fem::Modes::frequency_hz, "The frequencies, 0 for rigid-body modes; a view.")
       .def_property_readonly(
           "shapes", [](const fem::Modes& modes) -> const Eigen::MatrixXd& { return modes.pairs.Phi; },
-          py::return_value_policy::reference_internal, "One a column over the free rows, mass-normalised; a view.")
-      .def_readonly("residual", &fem::Modes::residual, "‖Kφ − λMφ‖ / (λ ‖Mφ‖) of each; a view.")
-      .def_readonly("rigid_motions", &fem::Modes::rigid_motions, "How many of them are of a rigid body.")
+          py::return_value_policy::reference_internal,
+          "The shapes as columns over the free rows, mass-normalised; a view.")
+      .def_readonly("residual", &fem::Modes::residual,
+                    "The relative residual ‖Kφ − λMφ‖ / (λ ‖Mφ‖) of each mode; a view.")
+      .def_readonly("rigid_motions", &fem::Modes::rigid_motions, "The number of rigid-body modes.")
       .def_readonly("round_off", &fem::Modes::round_off,
-                    "What rounding K's entries may change of the lowest frequency, relative.");
+                    "The relative change of the lowest frequency that round-off in K may cause.");
   module.def(
       "assemble", assemble, "mesh"_a, "material"_a, "fixed"_a = std::vector<py::object>{}, "order"_a = py::none(),
-      "The part's matrices, of Lagrange tetrahedra of order 1 to 6 (4, or 2 of a file that has such nodes).\n\n"
+      "The part's Model with Lagrange tetrahedra of order 1 to 6 (by default 4, or 2 for a file of order 2).\n\n"
       "fixed: regions that cannot move, \"x_min\" … \"z_max\" (the mesh's outermost plane), Plane, Block, Ball,\n"
       "or (region, \"xz\") for some axes only. Raises InputError for a region without a face.");
   module.def("modes", modes, "model"_a, "count"_a = 10, "up_to_hz"_a = py::none(), "verify"_a = false, LongCallGuard(),
-             "The `count` lowest elastic modes, or all up to a frequency.\n\n"
+             "The lowest `count` elastic modes, or all up to a frequency.\n\n"
              "verify: check them by a Sturm count and by a second eigen-solver, and raise NumericalError if either\n"
              "disagrees. The model keeps its factor for what is computed next.");
 }

@@ -19,12 +19,13 @@ dynamics::ResponseModel read_frf(const std::filesystem::path& path, const std::s
 }  // namespace
 
 void bind_io(py::module_& module) {
-  module.def("read_frf", read_frf, "path"_a, "dof"_a, py::kw_only(), "quantity"_a, "unit"_a, "frequency_unit"_a = "Hz",
-             LongCallGuard(),
-             "A measured driving point from CSV (frequency, real, imaginary part) as a Response of one entry.\n\n"
-             "quantity: receptance, mobility or accelerance; unit: of the values, as \"um/N\". Nothing is assumed.");
+  module.def(
+      "read_frf", read_frf, "path"_a, "dof"_a, py::kw_only(), "quantity"_a, "unit"_a, "frequency_unit"_a = "Hz",
+      LongCallGuard(),
+      "A measured driving point from CSV (frequency, real, imaginary part) as a Response of one entry.\n\n"
+      "quantity: receptance, mobility or accelerance; unit: that of the values, such as \"um/N\"; both are required.");
   module.def("read_response", io::read_response, "path"_a, LongCallGuard(),
-             "A receptance matrix as the program writes it, frf/<name>.csv, as a Response.");
+             "A receptance matrix from a file frf/<name>.csv of the program, as a Response.");
 }
 
 }  // namespace thinwall::python

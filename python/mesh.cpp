@@ -63,15 +63,15 @@ void bind_regions(py::module_& module) {
   py::class_<mesh::PlaneRegion>(module, "Plane", "All faces of a mesh in the plane through `point` (m).")
       .def(py::init<Eigen::Vector3d, Eigen::Vector3d>(), "point"_a, "normal"_a)
       .def_readonly("point", &mesh::PlaneRegion::point, "A point of the plane, m.")
-      .def_readonly("normal", &mesh::PlaneRegion::normal, "Its normal.");
+      .def_readonly("normal", &mesh::PlaneRegion::normal, "The normal of the plane.");
   py::class_<mesh::BoxRegion>(module, "Block", "All faces of a mesh inside the block from `min` to `max` (m).")
       .def(py::init<Eigen::Vector3d, Eigen::Vector3d>(), "min"_a, "max"_a)
-      .def_readonly("min", &mesh::BoxRegion::min, "Lowest corner, m.")
-      .def_readonly("max", &mesh::BoxRegion::max, "Highest corner, m.");
+      .def_readonly("min", &mesh::BoxRegion::min, "The lowest corner, m.")
+      .def_readonly("max", &mesh::BoxRegion::max, "The highest corner, m.");
   py::class_<mesh::SphereRegion>(module, "Ball", "All faces of a mesh inside a ball (m).")
       .def(py::init<Eigen::Vector3d, double>(), "centre"_a, "radius"_a)
-      .def_readonly("centre", &mesh::SphereRegion::centre, "Its centre, m.")
-      .def_readonly("radius", &mesh::SphereRegion::radius, "Its radius, m.");
+      .def_readonly("centre", &mesh::SphereRegion::centre, "The centre, m.")
+      .def_readonly("radius", &mesh::SphereRegion::radius, "The radius, m.");
 }
 
 }  // namespace
@@ -87,32 +87,33 @@ mesh::Region region_on(const mesh::TetMesh& mesh, const py::object& region) {
 
 void bind_mesh(py::module_& module) {
   bind_regions(module);
-  py::class_<Mesh>(module, "Mesh", "Tetrahedra of a part.")
-      .def_property_readonly("vertices", vertices, "Corners, (n, 3) in m; a view.")
-      .def_property_readonly("tets", tets, "Four vertices of each tetrahedron, (m, 4); a view.")
+  py::class_<Mesh>(module, "Mesh", "A part as tetrahedra.")
+      .def_property_readonly("vertices", vertices, "The positions of the corners, (n, 3) in m; a view.")
+      .def_property_readonly("tets", tets, "The four vertices of each tetrahedron, (m, 4); a view.")
       .def_property_readonly(
-          "volume_m3", [](const Mesh& mesh) { return mesh::volume(mesh.tets); }, "Sum of the volumes.")
+          "volume_m3", [](const Mesh& mesh) { return mesh::volume(mesh.tets); }, "The sum of the volumes.")
       .def_property_readonly(
           "order", [](const Mesh& mesh) { return mesh.nodes ? mesh.nodes->order : 1; },
-          "1, or 2 of a file with nodes in the middles of edges.")
+          "The order: 1, or 2 for a file with nodes in the middles of edges.")
       .def_property_readonly(
           "aspect_ratio", [](const Mesh& mesh) { return mesh::quality(mesh.tets).aspect_ratio; },
-          "Longest edge over smallest height of the worst tetrahedron.");
-  module.def("box_mesh", box_mesh, "size"_a, "element_size"_a, "layers"_a = 1,
-             "spots"_a = std::vector<std::pair<Eigen::Vector2d, double>>{}, LongCallGuard(),
-             "Meshes the box from the origin to `size` (m), one element through its thinnest side.\n\n"
-             "element_size: wanted edge away from borders, m. layers: graded ones along every border, 0 to 8. spots:\n"
-             "(place, radius) in the plane of the wall where elements are as small as the radius.");
+          "The longest edge over the smallest height of the worst tetrahedron.");
+  module.def(
+      "box_mesh", box_mesh, "size"_a, "element_size"_a, "layers"_a = 1,
+      "spots"_a = std::vector<std::pair<Eigen::Vector2d, double>>{}, LongCallGuard(),
+      "The mesh of a box from the origin to `size` (m), with one element through its thinnest side.\n\n"
+      "element_size: wanted edge away from borders, m. layers: number of graded layers along borders, 0 to 8. spots:\n"
+      "(place, radius) in the plane of the wall, at which elements are as small as the radius.");
   module.def("prism_mesh", prism_mesh, "outline"_a, "top"_a, "element_size"_a, "bottom"_a = 0.0,
              "holes"_a = std::vector<mesh::Polygon>{},
              "zones"_a = std::vector<std::tuple<mesh::Polygon, double, double>>{}, "layers"_a = 1,
              "spots"_a = std::vector<std::pair<Eigen::Vector2d, double>>{}, LongCallGuard(),
-             "Meshes a part with an outline in the x-y plane, from z = bottom to top (m).\n\n"
+             "The mesh of a part with an outline in the x-y plane, from z = bottom to top (m).\n\n"
              "outline, holes: lists of (x, y). zones: (outline, bottom, top), where the part is thinner or thicker;\n"
-             "later ones win. Raises InputError with everything that keeps it from being a part.");
+             "later zones replace earlier ones. Raises InputError with every fault of the part.");
   module.def("read_mesh", read_mesh, "path"_a, "unit"_a, LongCallGuard(),
-             "Reads tetrahedra, hexahedra, wedges and pyramids of Gmsh, Abaqus, CalculiX (.inp) or VTK (.vtu).\n\n"
-             "unit: the file's unit of length, as \"mm\"; no format tells it.");
+             "The mesh of a file of Gmsh, Abaqus, CalculiX (.inp) or VTK (.vtu), with all solids as tetrahedra.\n\n"
+             "unit: the file's unit of length, such as \"mm\", which no format contains.");
 }
 
 }  // namespace thinwall::python

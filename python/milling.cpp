@@ -144,55 +144,63 @@ std::vector<std::string> words(const Lobes& lobes, Member milling::LobeRow::*mem
 
 void bind_lobes(py::module_& module) {
   using milling::LobeRow;
-  py::class_<Lobes>(module, "Lobes", "A stability chart: one value a spindle speed.")
-      .def_readonly("method", &Lobes::method, "How it was computed.")
-      .def_readonly("minimum_depth_m", &Lobes::minimum_depth_m, "Least limiting depth of all speeds.")
-      .def_readonly("at_spindle_speed_rpm", &Lobes::at_spindle_speed_rpm, "Where that is.")
-      .def_readonly("worst_error_estimate", &Lobes::worst_error_estimate, "Largest relative estimate of a depth.")
-      .def_readonly("rows_not_converged", &Lobes::rows_not_converged, "Speeds whose estimate misses the tolerance.")
+  py::class_<Lobes>(module, "Lobes", "A stability chart with one value for each spindle speed.")
+      .def_readonly("method", &Lobes::method, "The method by which it was computed.")
+      .def_readonly("minimum_depth_m", &Lobes::minimum_depth_m, "The least limiting depth of all speeds.")
+      .def_readonly("at_spindle_speed_rpm", &Lobes::at_spindle_speed_rpm, "The speed of the least limiting depth.")
+      .def_readonly("worst_error_estimate", &Lobes::worst_error_estimate,
+                    "The largest estimated relative error of a depth.")
+      .def_readonly("rows_not_converged", &Lobes::rows_not_converged,
+                    "The number of speeds whose error estimate exceeds the tolerance.")
       .def_property_readonly(
-          "spindle_speed_rpm", [](const Lobes& l) { return column(l, &LobeRow::spindle_speed_rpm); }, "The speeds.")
+          "spindle_speed_rpm", [](const Lobes& l) { return column(l, &LobeRow::spindle_speed_rpm); },
+          "The spindle speeds.")
       .def_property_readonly(
           "limiting_depth_m", [](const Lobes& l) { return column(l, &LobeRow::limiting_depth_m); },
-          "Stable below; the depth limit where `at_limit`.")
+          "The depths below which the cut is stable; the depth limit if `at_limit`.")
       .def_property_readonly(
-          "at_limit", [](const Lobes& l) { return column(l, &LobeRow::at_limit); }, "Stable up to the depth limit.")
+          "at_limit", [](const Lobes& l) { return column(l, &LobeRow::at_limit); },
+          "True for each speed at which the cut is stable up to the depth limit.")
       .def_property_readonly(
           "chatter_frequency_hz", [](const Lobes& l) { return column(l, &LobeRow::chatter_frequency_hz); },
-          "Of the motion that grows above the limit.")
+          "The frequency of the motion that grows above the limiting depth.")
       .def_property_readonly(
           "error_estimate", [](const Lobes& l) { return column(l, &LobeRow::error_estimate); },
-          "Relative, of the depth.")
+          "The estimated relative error of each depth.")
       .def_property_readonly(
-          "kind", [](const Lobes& l) { return words(l, &LobeRow::kind); }, "hopf, flip or fold.")
+          "kind", [](const Lobes& l) { return words(l, &LobeRow::kind); },
+          "The kind of the instability: hopf, flip or fold.")
       .def_property_readonly(
-          "status", [](const Lobes& l) { return words(l, &LobeRow::status); }, "converged, or what is wrong.");
+          "status", [](const Lobes& l) { return words(l, &LobeRow::status); },
+          "\"converged\", or the reason why it is not.");
   py::class_<milling::Multiplier>(module, "Multiplier", "The dominant Floquet multiplier of a cut.")
-      .def_readonly("value", &milling::Multiplier::value, "μ, Im μ ≥ 0.")
-      .def_readonly("modulus", &milling::Multiplier::modulus, "|μ|, stable below 1.")
-      .def_readonly("error_estimate", &milling::Multiplier::error_estimate, "Of the modulus, relative.")
-      .def_readonly("chatter_frequency_hz", &milling::Multiplier::chatter_frequency_hz, "Of its motion.");
+      .def_readonly("value", &milling::Multiplier::value, "The multiplier μ, with Im μ ≥ 0.")
+      .def_readonly("modulus", &milling::Multiplier::modulus, "The modulus |μ|; the cut is stable below 1.")
+      .def_readonly("error_estimate", &milling::Multiplier::error_estimate,
+                    "The estimated relative error of the modulus.")
+      .def_readonly("chatter_frequency_hz", &milling::Multiplier::chatter_frequency_hz, "The frequency of the motion.");
 }
 
 }  // namespace
 
 void bind_milling(py::module_& module) {
-  py::class_<MillingProcess>(module, "MillingProcess", "A cut but for its speed, its depth and what it shakes.")
+  py::class_<MillingProcess>(module, "MillingProcess",
+                             "A cut without its speed, its depth and the vibrating structure.")
       .def(py::init(&process), py::kw_only(), "teeth"_a, "diameter_m"_a, "K_t"_a, "K_r"_a, "K_a"_a = 0.0,
            "radial_depth_m"_a = py::none(), "direction"_a = "down", "arc_rad"_a = py::none(),
            "feed"_a = Eigen::Vector3d(1, 0, 0), "axis"_a = Eigen::Vector3d(0, 0, 1),
            "helices_rad"_a = std::vector<double>{}, "pitches_rad"_a = std::vector<double>{},
            "K_t, K_r, K_a: cutting coefficients, N/m². radial_depth_m with direction \"up\" or \"down\", or arc_rad =\n"
            "(entry, exit). feed, axis: unit vectors in the structure's axes, tool against part, tip to spindle.\n"
-           "helices_rad, pitches_rad: one a tooth.");
+           "helices_rad, pitches_rad: one value for each tooth.");
   bind_lobes(module);
   module.def("lobes", lobes, "structure"_a, "process"_a, "spindle_speeds_rpm"_a, py::kw_only(), "at"_a = py::none(),
              "depth_limit_m"_a = 0.02, "error_tolerance"_a = 1e-4, "method"_a = "direct", "progress"_a = py::none(),
-             "The limiting depth at every speed: a stability lobe diagram.\n\n"
-             "structure: SpatialModel, ModalModel, or Response (measured receptances, without a fit). at: its point\n"
-             "where the cut is, if it has several. method: direct (exact, with its error), zeroth_order,\n"
+             "The limiting depth at every speed, which is a stability lobe diagram.\n\n"
+             "structure: SpatialModel, ModalModel, or Response (measured receptances, without a fit). at: the point\n"
+             "of the cut, if the structure has several. method: direct (exact, with its error), zeroth_order,\n"
              "multi_frequency, semi_discretization_0 … 2, full_discretization_1 … 3. progress(done, of): called after\n"
-             "every few speeds; what it raises ends the call.");
+             "every few speeds; an exception that it raises ends the call.");
   module.def("multiplier", multiplier, "structure"_a, "process"_a, "spindle_speed_rpm"_a, "depth_m"_a,
              "at"_a = py::none(), LongCallGuard(), "The dominant Floquet multiplier at one speed and depth.");
 }

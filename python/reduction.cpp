@@ -109,29 +109,33 @@ void bind_damping(py::module_& module) {
   module.def("with_structural_damping", reduction::with_structural_damping, "model"_a, "loss_factor"_a,
              "The model with stiffness K (1 + iη).");
   module.def("identify_modes", identified, "frequency_hz"_a, "H"_a,
-             "Frequency (Hz) and damping ratio of each peak of a measured driving-point receptance.");
+             "The frequency (Hz) and damping ratio of each peak of a measured driving-point receptance.");
 }
 
 }  // namespace
 
 void bind_reduction(py::module_& module) {
-  py::class_<Point>(module, "Point", "A named point of a part: where its motion is wanted, and forces act.")
+  py::class_<Point>(module, "Point", "A named point of a part, at which forces act and motion is wanted.")
       .def(py::init(&point), "name"_a, "position"_a, "directions"_a = "xyz", "radius"_a = 0.0, "turns"_a = "",
            "region"_a = py::none(),
-           "position: m, on the part. directions, turns: letters or unit vectors, along and about which it moves.\n"
-           "radius: of the disc on the surface over which it is averaged, m; region: a face in its place.")
+           "position: m, on the part. directions, turns: letters or unit vectors, along and about which motion is "
+           "wanted.\n"
+           "radius: that of the disc over which the motion is averaged, m; region: a face used instead of the disc.")
       .def_property_readonly(
-          "name", [](const Point& point) { return point.point.name; }, "The name in the DOFs of what it becomes.")
+          "name", [](const Point& point) { return point.point.name; },
+          "The name of the point in the DOFs of the reduced model.")
       .def_property_readonly(
-          "position", [](const Point& point) { return point.point.position_m; }, "Where it is, m.");
-  py::class_<reduction::CraigBampton>(module, "CraigBampton", "A reduced model and the way back, u = T q.")
-      .def_readonly("model", &reduction::CraigBampton::model, "SpatialModel: the points' DOFs first, undamped.")
-      .def_readonly("T", &reduction::CraigBampton::T, "(free rows, coordinates): constraint and fixed modes; a view.")
+          "position", [](const Point& point) { return point.point.position_m; }, "The position, m.");
+  py::class_<reduction::CraigBampton>(module, "CraigBampton",
+                                      "A reduced model and its expansion u = T q to the full one.")
+      .def_readonly("model", &reduction::CraigBampton::model, "The undamped SpatialModel, with the points' DOFs first.")
+      .def_readonly("T", &reduction::CraigBampton::T,
+                    "The constraint and fixed-interface modes, (free rows, coordinates); a view.")
       .def_readonly("fixed_interface_hz", &reduction::CraigBampton::fixed_interface_hz,
-                    "Of the kept modes, with the points held; a view.");
+                    "The frequencies of the kept modes, with the points held; a view.");
   module.def("craig_bampton", craig_bampton, "model"_a, "points"_a, "modes"_a = 30, "up_to_hz"_a = py::none(),
              "Reduces a part to its points and some modes with them held (Craig & Bampton 1968).\n\n"
-             "modes: how many; up_to_hz: all below a frequency instead.");
+             "modes: their number; up_to_hz: all modes below a frequency instead.");
   module.def("reduce", reduce, "model"_a, "points"_a, "method"_a = "craig_bampton", "modes"_a = 30,
              "damping_ratio"_a = 0.0,
              "Reduces a part by any method: guyan, craig_bampton, characteristic_constraint_modes, rubin, macneal,\n"

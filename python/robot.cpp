@@ -20,7 +20,7 @@ dynamics::SpatialModel oscillators(const std::vector<Mode>& table, const std::st
 
 void bind_robot(py::module_& module) {
   module.def("oscillators", oscillators, "modes"_a, "point"_a,
-             "A robot's or a tool's tip as modes side by side, each (frequency_hz, damping_ratio, stiffness_n_per_m,\n"
+             "A robot's or a tool's tip as independent modes, each (frequency_hz, damping_ratio, stiffness_n_per_m,\n"
              "direction) with a letter or a unit vector.");
 }
 

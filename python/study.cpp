@@ -96,34 +96,35 @@ std::map<std::string, dynamics::ResponseModel> responses(const study::Results& r
 }  // namespace
 
 void bind_study(py::module_& module) {
-  py::class_<LoadedCase>(module, "Case", "What a case file says.")
+  py::class_<LoadedCase>(module, "Case", "A case, as read from its file.")
       .def_static("load", load, "path"_a, "overrides"_a = std::vector<std::string>{},
                   "A case from its folder or its file. overrides: \"key=value\" as on the command line. Raises\n"
-                  "InputError with every problem that the case has.")
+                  "InputError with every problem of the case.")
       .def_static("parse", parse, "text"_a, "folder"_a = ".", "overrides"_a = std::vector<std::string>{},
-                  "A case from its text; the files that it names are looked for in `folder`.")
+                  "A case from its text; files that it names are relative to `folder`.")
       .def("with_", with, "key"_a, "value"_a,
-           "The case with one more value in place, a number in SI or a text with its unit: with_(\"part.thickness\",\n"
-           "\"3 mm\"). This case stays as it is.")
+           "A copy of the case with one value changed, a number in SI or a text with its unit: "
+           "with_(\"part.thickness\",\n"
+           "\"3 mm\").")
       .def(
           "value", [](const LoadedCase& c, const std::string& key) { return cases::get_value(c.value, key); }, "key"_a,
-          "The number of that key, in SI (frequencies in Hz, spindle speeds in rpm).")
+          "The number of a key, in SI (frequencies in Hz, spindle speeds in rpm).")
       .def_property_readonly(
-          "name", [](const LoadedCase& c) { return c.value.name; }, "Name of its folder.")
+          "name", [](const LoadedCase& c) { return c.value.name; }, "The name of the case's folder.")
       .def_property_readonly(
-          "title", [](const LoadedCase& c) { return c.value.title; }, "Its title.");
-  py::class_<study::Results>(module, "StudyResults", "Everything that a run has computed, in memory.")
+          "title", [](const LoadedCase& c) { return c.value.title; }, "The title of the case.");
+  py::class_<study::Results>(module, "StudyResults", "All results of a run, in memory.")
       .def_property_readonly(
           "summary", [](const study::Results& r) { return py::module_::import("json").attr("loads")(summary_text(r)); },
           "The figures of summary.json, as a dict.")
-      .def_property_readonly("lobes", charts, "Stability charts by their names: part, supported, tool.")
+      .def_property_readonly("lobes", charts, "The stability charts by their names: part, supported, tool.")
       .def_property_readonly("frf", responses,
-                             "Receptances by their names: part, robot, coupled_receptance, coupled_spatial.");
+                             "The receptances by their names: part, robot, coupled_receptance, coupled_spatial.");
   module.def("check", check, "path"_a, "overrides"_a = std::vector<std::string>{},
-             "Every problem of a case, a line each with its place; empty if there is none. Nothing is computed.");
+             "Every problem of a case, one line each with its place; empty if there is none. Nothing is computed.");
   module.def("run", run, "case"_a, "progress"_a = py::none(),
-             "Computes everything that the case holds, without files. progress(stage): called as each stage begins;\n"
-             "what it raises ends the call.");
+             "Computes all that the case asks for, without files. progress(stage): called when each stage begins;\n"
+             "an exception that it raises ends the call.");
 }
 
 }  // namespace thinwall::python

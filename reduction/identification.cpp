@@ -12,6 +12,7 @@ namespace thinwall::reduction {
 
 namespace {
 
+/// A peak of |H|: its line, and the first and last line around it.
 struct Peak {
   Eigen::Index line = 0;
   Eigen::Index first = 0;
@@ -46,9 +47,11 @@ std::vector<Peak> peaks(const Eigen::VectorXd& magnitude, const PeakOptions& opt
   return found;
 }
 
+/// The mode fitted to one peak; empty if the fit is unstable.
 std::optional<IdentifiedMode> fit(const dynamics::FrequencyAxis& axis, const Eigen::VectorXcd& H, const Peak& peak) {
   const Eigen::Index count = peak.last - peak.first + 1;
-  // The unit of frequency, which keeps the columns of A of similar size.
+  // Frequencies are in units of the peak's and receptances in units of |H| there, so that the columns of A are of
+  // similar size.
   const double unit = axis.omega_rad_s(peak.line);
   const double size = std::abs(H(peak.line));
   Eigen::VectorXcd denominator = Eigen::VectorXcd::Ones(count);
@@ -56,6 +59,8 @@ std::optional<IdentifiedMode> fit(const dynamics::FrequencyAxis& axis, const Eig
   Eigen::MatrixXd A(2 * count, 5);
   Eigen::VectorXd b(2 * count);
   Eigen::VectorXcd fitted(count);
+  // Multiplied by its denominator, the fit is linear in all unknowns, but errors are then weighted with the
+  // denominator; dividing by that of the previous pass removes this weight (Sanathanan & Koerner 1963).
   for (int pass = 0; pass < 6; ++pass) {
     for (Eigen::Index i = 0; i < count; ++i) {
       const std::complex<double> s(0.0, axis.omega_rad_s(peak.first + i) / unit);

@@ -12,8 +12,8 @@ namespace thinwall::robot {
 /// The spatial model of an arm over its joint angles δq and, for each motor that is not locked, the motor's angle δθ
 /// referred to the joint's side (Huynh 2017, Eq. 7-8; Spong 1987; linearised: docs/theory/robots.md):
 ///
-///     M = [ M(q)  0 ; 0  r²J ],   K = [ k + ∂(G + W)/∂q − ∂(J_tipᵀf)/∂q   −k ; −k   k + k_p ],   C = [ d  −d ; −d  d +
-///     k_d ]
+///     M = [ M(q)  0 ; 0  r²J ],   C = [ d  −d ; −d  d + k_d ],
+///     K = [ k + ∂(G + W)/∂q − ∂(J_tipᵀf)/∂q   −k ; −k   k + k_p ]
 ///
 /// with k, d, k_p, k_d, r²J diagonal and W the counterbalances' torque; a locked motor has no row. Of a rotor, only the
 /// kinetic energy of its own spin is counted. The DOFs are the tip's x, y, z, rx, ry, rz in world axes under the name

@@ -20,11 +20,13 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 /// The height of the second joint above the base, followed by the lengths of the three links beyond it, m.
 using Lengths = std::array<double, 4>;
 
+/// True if the frame differs from the one before by a shift along z only.
 bool is_along_z(const Eigen::Isometry3d& frame) {
   return (frame.linear() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= 1e-12 &&
          frame.translation().head<2>().norm() <= 1e-12;
 }
 
+/// The lengths of a four-axis arm. Throws InputError for an arm of another kind.
 Lengths four_axis_lengths(const SerialArm& arm) {
   bool fits = arm.links.size() == 4 && is_along_z(arm.tip);
   for (std::size_t i = 0; fits && i < 4; ++i) {
@@ -40,6 +42,7 @@ Lengths four_axis_lengths(const SerialArm& arm) {
   return {z(0) + z(1), z(2), z(3), arm.tip.translation().z()};
 }
 
+/// The angle in (−π, π].
 double within_a_turn(double angle) {
   const double turned = std::remainder(angle, 2.0 * std::numbers::pi);
   return turned <= -std::numbers::pi ? std::numbers::pi : turned;
@@ -53,6 +56,7 @@ Vector6d error_of(const ArmPose& at, const Eigen::Isometry3d& target, double len
   return e;
 }
 
+/// The Jacobian of the tip with rotations times `length`.
 Eigen::Matrix<double, 6, Eigen::Dynamic> scaled_jacobian(const ArmPose& at, double length) {
   auto J = tip_jacobian(at);
   J.bottomRows<3>() *= length;
@@ -105,7 +109,7 @@ Reached reach(const SerialArm& arm, const Eigen::Isometry3d& target, const Eigen
   // regular posture; far away and near singular postures it bounds the step.
   double mu = 1e-3;
   for (int step = 0; step < options.most_steps && e.norm() > options.tolerance; ++step) {
-    // Singular values instead of J Jᵀ: the square would lose half of the digits near a singular posture.
+    // The step is made from singular values of J, because J Jᵀ would lose half of the digits near a singular posture.
     const Eigen::JacobiSVD<Eigen::MatrixXd> J(scaled_jacobian(at, options.length),
                                               Eigen::ComputeThinU | Eigen::ComputeThinV);
     const Eigen::ArrayXd s = J.singularValues();

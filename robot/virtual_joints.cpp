@@ -113,6 +113,7 @@ MatrixXd root_of(const Matrix6& S) {
   return scale.asDiagonal() * eigen.eigenvectors() * roots.asDiagonal();
 }
 
+/// Fills in a joint's motion, compliance and damping.
 void place(const VirtualJoint& joint, Station& station) {
   const Vector3d axis = station.before.linear() * joint.axis;
   station.motions = Matrix6X::Zero(6, 1);
@@ -128,6 +129,7 @@ void place(const VirtualJoint& joint, Station& station) {
   station.damping = MatrixXd::Constant(1, 1, joint.damping);
 }
 
+/// The elements of a chain in their places, from its base outwards.
 std::vector<Station> placed(const Chain& chain) {
   std::vector<Station> stations;
   stations.reserve(chain.elements.size());
@@ -179,6 +181,8 @@ void append(Matrix6X& columns, const Matrix6X& more) {
   columns.rightCols(more.cols()) = more;
 }
 
+/// The Jacobians of the tip by the coordinates of a chain: motions at a frame are carried to the tip as those of a
+/// rigid body.
 Jacobians jacobians(const std::vector<Station>& stations, const Matrix6& scale) {
   Jacobians J;
   for (const Station& station : stations) {
@@ -220,6 +224,8 @@ struct Statics {
   MatrixXd springs_by_tip;
 };
 
+/// The statics of a chain. With A = Nᵀ J_θ C_θ^½ = U Σ Vᵀ the stiffness N (A Aᵀ)⁺ Nᵀ is N U Σ⁻² UᵀNᵀ; singular values
+/// of A instead of eigenvalues of A Aᵀ keep digits if springs differ by many powers of ten.
 Statics statics(Jacobians J) {
   // The columns of passive joints are normalised, because a short slide frees a motion as completely as a rotation
   // does.
@@ -235,6 +241,8 @@ Statics statics(Jacobians J) {
   const Index rank = rank_of(svd.singularValues());
   const MatrixXd wrenches = product(N, svd.matrixU().leftCols(rank));
   const VectorXd inverse = svd.singularValues().head(rank).cwiseInverse();
+  // A unit of v_i in the springs' coordinates moves the tip by σ_i along N u_i, so that a unit of motion there strains
+  // the springs by v_i / σ_i.
   const MatrixXd stretched = wrenches * inverse.asDiagonal();
   chain.K = product(stretched, stretched.transpose());
   chain.springs_by_tip = product(svd.matrixV().leftCols(rank), stretched.transpose());
@@ -299,6 +307,7 @@ void add_chain(const std::vector<Station>& stations, const std::vector<MatrixXd>
   }
 }
 
+/// Throws InputError unless all chains end at one point.
 void require_one_tip(const std::vector<std::vector<Station>>& chains, double size) {
   for (std::size_t c = 1; c < chains.size(); ++c) {
     const double apart = (tip_of(chains[c]) - tip_of(chains[0])).norm();

@@ -22,16 +22,17 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
-/// Three numbers at the start.
+/// True if the first three words are numbers.
 bool starts_with_numbers(const std::vector<std::string>& words) {
   return words.size() >= 3 && std::all_of(words.begin(), words.begin() + 3, [](const auto& w) { return is_number(w); });
 }
 
-// Every word before the numbers is tried as four units: another kind of file ends here, and soon.
+// Every word before the numbers is tried as four units, so that their number is limited; a file of another kind is then
+// recognised soon.
 constexpr int most_words = 1000;
 constexpr std::size_t longest_unit = 32;
 
-/// Facts that the words of a header tell.
+/// Units and quantity that the words of a header give.
 struct Told {
   std::optional<FrfFormat> frf;  ///< quantity and unit
   std::optional<double> in_hz;

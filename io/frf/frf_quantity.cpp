@@ -36,7 +36,7 @@ const std::vector<NamedFrequency>& named_frequencies() {
   return frequencies;
 }
 
-/// The entry called `word`, or InputError with the nearest name.
+/// The entry called `word`. Throws InputError with the nearest name if there is none.
 template <typename Entry>
 const Entry& find(const std::vector<Entry>& entries, const std::string& word, const std::string& meaning) {
   std::vector<std::string> names;
@@ -49,7 +49,7 @@ const Entry& find(const std::vector<Entry>& entries, const std::string& word, co
   throw core::InputError("the " + meaning + " \"" + word + "\" is none of " + list + core::did_you_mean(word, names));
 }
 
-/// The unit's factor to SI, provided it is a unit of the quantity.
+/// The factor of a unit to SI. Throws InputError if it is no unit of the quantity.
 double unit_in_si(const std::string& unit, const NamedQuantity& quantity) {
   constexpr double standard_gravity = 9.80665;  // an accelerometer's "g", never a gram
   if (unit == "g/N" && quantity.quantity == FrfQuantity::accelerance) return standard_gravity;

@@ -14,7 +14,7 @@ namespace {
 
 using dynamics::ResponseModel;
 
-/// Numbers of lines, responses and forces.
+/// The numbers of lines, responses and forces.
 struct Extent {
   std::size_t lines = 0;
   std::size_t rows = 0;
@@ -25,14 +25,14 @@ Extent extent_of(const ResponseModel& model) {
   return {static_cast<std::size_t>(model.axis.size()), model.responses.size(), model.forces.size()};
 }
 
-/// The distance in an array between two lines, rows, columns.
+/// The distances in an array between neighbouring lines, rows and columns.
 struct Strides {
   std::size_t line = 0;
   std::size_t row = 0;
   std::size_t column = 0;
 };
 
-/// responses × forces × lines, first index fastest.
+/// The strides of the layout that this program writes: responses × forces × lines, first index fastest.
 Strides strides_of_ours(const Extent& extent) {
   return {extent.rows * extent.columns, 1, extent.rows};
 }
@@ -68,14 +68,14 @@ MatVariable coherence_variable(const MeasuredResponse& measured) {
   return variable;
 }
 
-/// Trailing dimensions of one are not written by everyone.
+/// The size with three dimensions, because some programs leave out trailing dimensions of one.
 std::vector<std::size_t> padded(std::vector<std::size_t> size) {
   while (size.size() < 3) size.push_back(1);
   return size;
 }
 
-/// Strides of an array by its size, or DataError. Different readings of one size are refused unless they are the same
-/// array.
+/// The strides of an array that follow from its size. Throws DataError if none do, or if several do that mean different
+/// arrays.
 Strides strides_by_size(const MatVariable& array, const Extent& extent, bool lines_last,
                         const std::filesystem::path& path) {
   const std::size_t entries = extent.rows * extent.columns;
@@ -148,7 +148,7 @@ void take_coherence(const MatVariable& array, const Extent& extent, std::size_t 
   }
 }
 
-/// `lines_last`: the layout is ours, whatever else its size would allow.
+/// The FRFs from the variables. `lines_last`: the layout is that of write_mat_response(), even if others fit the size.
 MeasuredResponse read_arrays(const std::filesystem::path& path, const MatFrfNames& names, const FrfFormat& format,
                              const dynamics::DofTable& responses, const dynamics::DofTable& forces, bool lines_last) {
   std::vector<std::string> wanted{names.frequency, names.frf};

@@ -24,7 +24,7 @@ std::string range_text(double from, double to) {
   return core::number_text(from) + " to " + core::number_text(to) + " Hz";
 }
 
-/// The Lagrange polynomial through all the points (x_i, y_i), at x.
+/// The value at x of the Lagrange polynomial through all the points (x_i, y_i).
 Complex interpolate(std::span<const double> x_i, std::span<const Complex> y_i, double x) {
   Complex sum = 0.0;
   for (std::size_t i = 0; i < x_i.size(); ++i) {
@@ -37,14 +37,14 @@ Complex interpolate(std::span<const double> x_i, std::span<const Complex> y_i, d
   return sum;
 }
 
-/// The key that tells two DOFs apart.
+/// A key that is equal for equal DOFs only.
 using DofKey = std::tuple<std::string, int, std::array<double, 3>>;
 
 DofKey key_of(const Dof& dof) {
   return {dof.point, static_cast<int>(dof.kind), {dof.direction.x(), dof.direction.y(), dof.direction.z()}};
 }
 
-/// A table that grows by the DOFs that are new to it.
+/// A table of DOFs to which new DOFs are appended.
 struct GrowingTable {
   DofTable dofs;
   std::map<DofKey, Eigen::Index> places;
@@ -60,7 +60,7 @@ std::string entry_name(const Dof& response, const Dof& force) {
   return name(response) + "/" + name(force);
 }
 
-/// Collects what is wrong; more than a handful says no more than the first ones.
+/// A list of faults, of which the message contains the first few.
 struct Faults {
   std::string text;
   int count = 0;
@@ -89,7 +89,8 @@ void add_absent(Faults& faults, const GrowingTable& responses, const GrowingTabl
   }
 }
 
-/// The place of every entry, or DataError.
+/// The place of every entry in the matrix. Throws DataError that names all entries without direction, with other
+/// frequencies, that occur twice, or that are absent.
 std::vector<Place> places_of(const std::vector<MeasuredEntry>& entries, GrowingTable& responses, GrowingTable& forces) {
   Faults faults;
   std::vector<Place> places;
@@ -112,7 +113,7 @@ std::vector<Place> places_of(const std::vector<MeasuredEntry>& entries, GrowingT
   return places;
 }
 
-/// By polynomials through `points` neighbours.
+/// The values on another axis, by polynomials through `points` neighbours.
 Eigen::VectorXcd interpolated(const MeasuredFrf& frf, const Eigen::VectorXcd& values,
                               const dynamics::FrequencyAxis& axis, std::size_t points) {
   const std::span<const double> x(frf.axis.hz.data(), static_cast<std::size_t>(frf.axis.size()));

@@ -1,5 +1,5 @@
 #pragma once
-// Measured FRFs, whatever file they came from: one entry, a list of entries with their DOFs, a matrix.
+// Measured FRFs from files of any format: one entry, a list of entries with their DOFs, a matrix.
 
 #include <Eigen/Core>
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace thinwall::io {
 
-/// One receptance H (m/N) on its own axis. `source` names the file in messages. `coherence` γ² (0 to 1, a value a line)
-/// is empty where the file has none.
+/// One receptance H (m/N) on its own axis. `source` names the file in messages. `coherence` γ² (0 to 1, one value for
+/// each line) is empty if the file has none.
 struct MeasuredFrf {
   dynamics::FrequencyAxis axis;
   Eigen::VectorXcd H;
@@ -18,27 +18,27 @@ struct MeasuredFrf {
   Eigen::VectorXd coherence{};
 };
 
-/// An FRF with the DOFs between which it was measured. A direction that the file does not tell is zero.
+/// An FRF with the DOFs between which it was measured. A direction that the file does not contain is zero.
 struct MeasuredEntry {
   dynamics::Dof response;
   dynamics::Dof force;
   MeasuredFrf frf;
 };
 
-/// The FRFs of a file, and what was odd in it ("where: what"): nothing is repaired or left out in silence.
+/// The FRFs of a file, and notes ("place: fact") on everything that was repaired or left out.
 struct MeasuredEntries {
   std::vector<MeasuredEntry> entries;
   std::vector<std::string> notes;
 };
 
-/// Coherence of the entry (row, column) of a response, a value a line.
+/// Coherence of the entry (row, column) of a response, one value for each line.
 struct EntryCoherence {
   Eigen::Index row = 0;
   Eigen::Index column = 0;
   Eigen::VectorXd values;
 };
 
-/// A measured FRF matrix with the coherence of those entries that have one.
+/// A measured FRF matrix, with the coherence of the entries that have one.
 struct MeasuredResponse {
   dynamics::ResponseModel response;
   std::vector<EntryCoherence> coherence;
@@ -48,20 +48,20 @@ struct MeasuredResponse {
 /// The coherence of an entry, empty if there is none.
 [[nodiscard]] Eigen::VectorXd coherence_of(const MeasuredResponse& measured, Eigen::Index row, Eigen::Index column);
 
-/// The entries as a matrix, rows and columns in the order in which their DOFs appear. Throws DataError that names every
-/// entry that is absent or there twice, has no direction or other frequencies than the first (relative 1e-12). Cost
-/// O(n log n) and the values once.
+/// The entries as a matrix, with rows and columns in the order in which their DOFs appear. Throws DataError that names
+/// every entry that is absent or occurs twice, has no direction, or has other frequencies than the first (relative
+/// 1e-12). Cost O(n log n), and one copy of the values.
 [[nodiscard]] MeasuredResponse response_matrix(const MeasuredEntries& measured);
 
-/// H on another axis. Lines of an equal axis pass untouched (relative 1e-12); else each line is taken from the cubic
-/// through the four nearest measured lines, real and imaginary part alike. With spacing h and a resonance of half-width
-/// δ = ζ f the error is at most (9/16) (h/δ)⁴ of the peak, (h/δ)⁴ between the outermost lines, because the divided
-/// difference of 1/(x − iδ) is the product of 1/|x_i − iδ| ≤ 1/δ: 1e-3 needs h ≤ δ/5. Throws DataError, with both
-/// ranges, if the axis goes beyond the measured one: nothing is extrapolated.
+/// H on another axis. Lines of an equal axis are unchanged (relative 1e-12); otherwise each line is interpolated by the
+/// cubic through the four nearest measured lines, real and imaginary part alike. With spacing h and a resonance of
+/// half-width δ = ζ f the error is at most (9/16) (h/δ)⁴ of the peak, (h/δ)⁴ between the outermost lines, because the
+/// divided difference of 1/(x − iδ) is the product of 1/|x_i − iδ| ≤ 1/δ; an error of 1e-3 needs h ≤ δ/5. Throws
+/// DataError, with both ranges, if the axis extends beyond the measured one, because nothing is extrapolated.
 [[nodiscard]] Eigen::VectorXcd resample(const MeasuredFrf& frf, const dynamics::FrequencyAxis& axis);
 
-/// The coherence on another axis, straight between its lines; equal lines pass untouched. Empty if there is none.
-/// Throws DataError as resample().
+/// The coherence on another axis, interpolated linearly; equal lines are unchanged. Empty if there is none. Throws
+/// DataError as resample() does.
 [[nodiscard]] Eigen::VectorXd coherence_on(const MeasuredFrf& frf, const dynamics::FrequencyAxis& axis);
 
 }  // namespace thinwall::io

@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Index;
 
-/// Columns of one DOF: real and imaginary part of its left and its right vector.
+/// The columns of one DOF: real and imaginary part of its left and its right vector.
 struct DofColumns {
   std::string name;  ///< "1X"
   std::size_t left_re, left_im, right_re, right_im;
@@ -34,7 +34,7 @@ struct Columns {
 
 using ColumnIndices = std::map<std::string, std::size_t>;
 
-/// The number of each column; a header of a million names is searched in no time.
+/// The number of each column by its name; a map, so that a header of very many names is searched fast.
 ColumnIndices indices_of(const std::vector<std::string>& header) {
   ColumnIndices indices;
   for (std::size_t i = 0; i < header.size(); ++i) indices.emplace(header[i], i);
@@ -47,7 +47,7 @@ std::optional<std::size_t> column(const ColumnIndices& indices, const std::strin
   return found->second;
 }
 
-/// "a, b, c", the first ten.
+/// The first ten names, as "a, b, c".
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 10;
   std::string list;
@@ -55,7 +55,7 @@ std::string listed(const std::vector<std::string>& names) {
   return list + (names.size() > most ? " and " + std::to_string(names.size() - most) + " more" : "");
 }
 
-/// "1X" of "L_1X_re"; empty if the column is none of a vector.
+/// The DOF of a column, such as "1X" of "L_1X_re"; empty if the column belongs to no vector.
 std::string dof_of(const std::string& column) {
   const bool vector = column.size() > 6 && (column.starts_with("L_") || column.starts_with("R_")) &&
                       (column.ends_with("_re") || column.ends_with("_im"));
@@ -150,7 +150,7 @@ dynamics::ModalTableRow row_of_line(const CsvText& text, const CsvLine& line, co
   return row;
 }
 
-/// Writes the places of the points into the rows; NaN where none is told.
+/// Writes the places of the points into the rows; NaN if no place is given.
 void set_places(dynamics::ModalTable& table, const std::vector<PointPlace>& places, const std::string& file) {
   for (const PointPlace& given : places) {
     const std::vector<int> dofs = dynamics::rows_of_point(table.dofs, given.point);

@@ -31,7 +31,7 @@ std::string kind_word(DofKind kind) {
   throw core::InputError("a degree of freedom is of no known kind");
 }
 
-/// "response translation 1 0 0 P": the point last, because its name may hold blanks.
+/// A line such as "response translation 1 0 0 P". The point comes last, because its name may contain blanks.
 std::string dof_line(const std::string& role, const Dof& dof) {
   std::string line = "# " + role + " " + kind_word(dof.kind);
   for (const double component : dof.direction) line += " " + core::number_text(component);
@@ -75,7 +75,7 @@ std::string line_text(const ResponseModel& model, std::size_t line) {
   return text + "\n";
 }
 
-/// Adds the DOF that a comment line tells, if it tells one.
+/// Adds the DOF that a comment line describes, if it describes one.
 void take_dof(const CsvText& text, const std::string& comment, ResponseModel& model) {
   std::istringstream words(comment);
   words.imbue(std::locale::classic());

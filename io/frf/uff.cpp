@@ -40,7 +40,7 @@ std::string force_unit(DofKind kind) {
   return kind == DofKind::rotation ? "N m" : "N";
 }
 
-/// First frequency and step, if the axis is even in the digits of the format.
+/// First frequency and step of an axis that is even in the digits of the format.
 struct Abscissa {
   bool even = false;
   double first_hz = 0.0;
@@ -56,7 +56,7 @@ double in_six_digits(double value) {
   return rounded;
 }
 
-/// A frequency of an uneven abscissa as the file keeps it.
+/// A frequency of an uneven abscissa with the digits that the file keeps.
 double kept(double hz, const UffForm& form) {
   if (!form.binary) return in_six_digits(hz);
   return form.double_precision ? hz : static_cast<double>(static_cast<float>(hz));
@@ -116,7 +116,7 @@ void require_writable(const FrequencyAxis& axis, const Abscissa& abscissa, const
   }
 }
 
-/// Numbers the points from 1 on.
+/// The numbers of the model's points, from 1 on.
 std::map<std::string, long> nodes_of(const ResponseModel& model) {
   std::map<std::string, long> nodes;
   for (const DofTable* table : {&model.responses, &model.forces}) {
@@ -139,8 +139,8 @@ double writable(double value, const ResponseModel& model, Eigen::Index line, con
   return value;
 }
 
-/// Records 1 to 11, without values. The exponents are left to the data's type, except along directions that the format
-/// does not know.
+/// Records 1 to 11 of an entry, without values. The exponents of the units are left to the data type, except along
+/// directions that the format does not have.
 UffFunction function_of(const ResponseModel& model, const Abscissa& abscissa, const std::map<std::string, long>& nodes,
                         Eigen::Index row, Eigen::Index column) {
   const Dof& response = model.responses[static_cast<std::size_t>(row)];
@@ -199,7 +199,7 @@ std::string coherence_text(const ResponseModel& model, UffFunction function, con
 
 // ---- Reading ----
 
-/// The coherence of a data set 58 of type 6, and whether an FRF took it.
+/// The coherence of a data set 58 of type 6; `taken` becomes true when an FRF has used it.
 struct Coherence {
   UffRecords at;
   std::vector<double> hz;
@@ -207,7 +207,7 @@ struct Coherence {
   bool taken = false;
 };
 
-/// The key that tells the DOFs of two functions apart: points, directions of record 6 and of the ID lines.
+/// A key that is equal for functions between the same DOFs: points, directions of record 6 and of the ID lines.
 using FunctionKey = std::tuple<std::string, int, std::array<double, 3>, std::string, int, std::array<double, 3>>;
 
 FunctionKey key_of(const UffFunction& function, const UffDofs& dofs) {
@@ -216,13 +216,13 @@ FunctionKey key_of(const UffFunction& function, const UffDofs& dofs) {
           dofs.force.point,    function.reference.direction, numbers(dofs.force.direction)};
 }
 
-/// Contents of a file while it is read.
+/// The contents of a file that have been read so far.
 struct Contents {
   std::optional<UffUnits> units;
   std::vector<MeasuredEntry> entries;
   std::vector<FunctionKey> keys;
   std::map<FunctionKey, Coherence> coherence;
-  std::map<int, int> passed_over;  ///< function types and how many of each
+  std::map<int, int> passed_over;  ///< types of the functions that were skipped, with their numbers
 };
 
 /// The frequencies of a function in Hz.
@@ -271,7 +271,7 @@ void add_coherence(const UffFunction& function, const UffRecords& at, const UffR
                    UffNotes& notes) {
   Coherence coherence{at, frequencies(function, reading, at, notes), {}};
   for (const std::complex<double>& value : function.values) {
-    // Values in single precision may lie a rounding above 1.
+    // A value in single precision may exceed 1 by a rounding.
     if (!(value.real() >= 0.0 && value.real() <= 1.0 + 1e-6) || value.imag() != 0.0) {
       refuse(at, "a coherence of " + core::number_text(value.real()) + " where 0 to 1 is expected");
     }

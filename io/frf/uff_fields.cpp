@@ -19,7 +19,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// A number as std::from_chars knows it: no plus sign in front, E before the exponent. Longer texts are no numbers.
+/// A number in the form that std::from_chars reads: no plus sign, E before the exponent. Longer texts are no numbers.
 struct PlainNumber {
   std::array<char, 48> characters{};
   std::size_t size = 0;

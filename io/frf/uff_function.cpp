@@ -10,7 +10,7 @@ namespace thinwall::io {
 
 namespace {
 
-/// Fields of one record of values: E13.5 in single precision, E20.12 in double, an abscissa always E13.5.
+/// Widths of the fields of a record of values: E13.5 in single precision, E20.12 in double, an abscissa always E13.5.
 std::vector<std::size_t> value_widths(bool is_complex, bool even, bool double_precision) {
   if (!double_precision) return std::vector<std::size_t>(6, 13);
   if (even) return std::vector<std::size_t>(4, 20);
@@ -24,12 +24,12 @@ std::string text_record(std::string_view text) {
   return text_field(text, uff_record_width) + "\n";
 }
 
-/// 1X,10A1,I10,I4: entity, node and direction.
+/// Entity, node and direction in the format 1X,10A1,I10,I4.
 std::string dof_fields(const UffDof& dof) {
   return " " + text_field(dof.entity, 10) + integer_field(dof.node, 10) + integer_field(dof.direction, 4);
 }
 
-/// I10,3I5,2(1X,20A1): type, exponents of length, force and temperature, axis and unit label.
+/// Type, exponents of length, force and temperature, axis and unit label in the format I10,3I5,2(1X,20A1).
 std::string axis_record(const UffAxis& axis) {
   std::string text = integer_field(axis.type, 10);
   for (const int exponent : axis.exponents) text += integer_field(exponent, 5);
@@ -101,7 +101,7 @@ void note_blank_ids(const UffFunction& function, const UffDataSet& set, UffNotes
   if (!blank.empty()) note(notes, set.records, "ID lines are blank: " + blank);
 }
 
-/// Numbers of a record 12 one after another, whatever the records that hold them.
+/// The numbers of records 12, one after another across records.
 struct TextNumbers {
   UffRecords records;
   std::vector<std::size_t> widths;
@@ -121,8 +121,7 @@ struct TextNumbers {
   }
 };
 
-/// Requires that nothing of meaning stands behind the last number: nothing, or zeros by which some programs fill the
-/// record up.
+/// Throws DataError if anything but zeros, with which some programs fill the record, follows the last number.
 void require_no_more(TextNumbers& numbers, const UffDataSet& set, UffNotes& notes) {
   bool filled = false;
   while (numbers.place != 0 && !field(numbers.record, numbers.start, uff_record_width).empty()) {
@@ -150,7 +149,7 @@ void take_values(UffFunction& function, std::size_t count, Take take) {
 void read_text_values(UffFunction& function, std::size_t count, bool double_precision, const UffRecords& records,
                       const UffDataSet& set, UffNotes& notes) {
   TextNumbers numbers{records, value_widths(function.is_complex, function.even, double_precision), {}};
-  // Every record but the last is filled up to its last field: a bound on the memory that a count may ask for.
+  // Every record but the last is full, which bounds the memory that a count may ask for by the bytes of the file.
   const std::size_t a_point = 1 + (function.is_complex ? 1 : 0) + (function.even ? 0 : 1);
   std::size_t a_record = 0;
   for (const std::size_t width : numbers.widths) a_record += width;

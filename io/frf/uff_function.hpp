@@ -1,5 +1,5 @@
 #pragma once
-// Data set 58, function at nodal DOF, as a plain struct; 58b is the same with binary values.
+// Data set 58, function at nodal DOF, as a plain struct; 58b differs by its binary values.
 //
 // Layout: "Universal File Datasets Summary" (SDRC, I-DEAS Test; data set 58 as of 23-Apr-1993), whose FORMAT statements
 // give the columns.
@@ -13,7 +13,7 @@
 
 namespace thinwall::io {
 
-/// Numbers that the format gives a meaning.
+/// Codes of the format.
 namespace uff {
 constexpr int frequency_response_function = 4;
 constexpr int coherence = 6;
@@ -34,7 +34,7 @@ struct UffDof {
   int direction = 0;
 };
 
-/// Records 8 to 11: what an axis shows. Exponents of length, force and temperature matter where the type does not tell.
+/// Records 8 to 11: the data of an axis. Exponents of length, force and temperature matter if the type is general.
 struct UffAxis {
   int type = 0;
   std::array<int, 3> exponents{};
@@ -42,7 +42,7 @@ struct UffAxis {
   std::string unit = "NONE";
 };
 
-/// One function. `x` has every abscissa, whether the file has them or first value and increment.
+/// One function. `x` contains every abscissa, even if the file has only the first value and the increment.
 struct UffFunction {
   std::array<std::string, 5> id{"NONE", "NONE", "NONE", "NONE", "NONE"};
   int type = 0;
@@ -51,8 +51,8 @@ struct UffFunction {
   UffDof reference;
   bool is_complex = true;
   bool even = false;
-  double first = 0.0;      ///< abscissa, where it is even
-  double increment = 0.0;  ///< abscissa, where it is even
+  double first = 0.0;      ///< first abscissa, if they are even
+  double increment = 0.0;  ///< step of the abscissa, if it is even
   UffAxis abscissa;
   UffAxis numerator;
   UffAxis denominator;
@@ -61,8 +61,8 @@ struct UffFunction {
   std::vector<std::complex<double>> values;
 };
 
-/// The form in which values are written. Double precision keeps 13 digits as text and every bit as bytes, single
-/// precision six digits and 24 bits; an uneven abscissa keeps six digits as text and the precision of the values as
+/// The form in which values are written. Double precision keeps 13 digits as text and all bits as bytes, single
+/// precision six digits and 24 bits. An uneven abscissa keeps six digits as text and the precision of the values as
 /// bytes.
 struct UffForm {
   bool binary = false;
@@ -71,12 +71,12 @@ struct UffForm {
 };
 
 /// The data set with its delimiters, every text filled with blanks to its width. Binary values are followed by the
-/// closing delimiter without a line end, as the format has it. Cost O(values).
+/// closing delimiter without a line end, as the format prescribes. Cost O(values).
 [[nodiscard]] std::string function_text(const UffFunction& function, const UffForm& form);
 
-/// Reads a data set 58 or 58b. Notes blank ID lines and zeros that fill the last record up. Throws DataError with file
-/// and line for a field that is no number, values that are not finite, fewer or more of them than record 7 states.
-/// Memory and cost are proportional to the bytes of the data set.
+/// Reads a data set 58 or 58b. Blank ID lines, and zeros that fill the last record, are noted. Throws DataError with
+/// file and line for a field that is no number, values that are not finite, and fewer or more values than record 7
+/// states. Memory and cost are proportional to the bytes of the data set.
 [[nodiscard]] UffFunction read_function(const UffDataSet& set, UffNotes& notes);
 
 }  // namespace thinwall::io

@@ -19,17 +19,17 @@ using dynamics::DofKind;
 constexpr std::string_view remedy = "; state the quantity and its unit if you know them";
 constexpr std::string_view correction = "; correct the file";
 
-/// True for a data type that leaves open what the values are.
+/// True for a data type that leaves the quantity open.
 bool is_open(int type) {
   return type == uff::unknown_data || type == uff::general_data;
 }
 
-/// True for a denominator that a statement may take for a force.
+/// True for the type of a denominator that may be a force by the caller's statement.
 bool may_be_force(int type) {
   return is_open(type) || type == uff::excitation_force || type == uff::reaction_force;
 }
 
-/// The text that follows the words, if the text starts with them.
+/// The text behind the words if the text starts with them.
 std::optional<std::string_view> after(std::string_view text, std::string_view words) {
   if (!text.starts_with(words) || text.size() == words.size()) return std::nullopt;
   return text.substr(words.size());
@@ -46,7 +46,7 @@ Eigen::Vector3d vector_of(std::string_view text, const UffRecords& records) {
   return vector;
 }
 
-/// The DOF of record 6 alone.
+/// The DOF that record 6 alone gives.
 Dof plain_dof(const UffDof& dof, const UffRecords& records) {
   const int axis = std::abs(dof.direction);
   if (axis > 6) refuse(records, "direction " + std::to_string(dof.direction) + " where -6 to 6 is expected");
@@ -64,8 +64,8 @@ void take_direction(Dof& dof, std::string_view words, int code, const UffRecords
   }
 }
 
-/// One side of the fraction: what it is called, its direction in record 6, its dimension where it is a translation or a
-/// rotation, its axis.
+/// One side of the fraction: its name, its direction in record 6, its dimension if it is a translation or a rotation,
+/// and its axis.
 struct Side {
   const char* name;
   int direction;
@@ -92,12 +92,12 @@ std::pair<Side, Side> sides_of(const UffFunction& function, FrfQuantity quantity
   return {motion, force};
 }
 
-/// Direction 0 leaves the kind open.
+/// True if a DOF in this direction can be of the kind; direction 0 leaves the kind open.
 bool may_be(DofKind kind, int direction) {
   return direction == 0 || (std::abs(direction) > 3) == (kind == DofKind::rotation);
 }
 
-/// The unit in SI by data set 164, whose factors divide.
+/// The unit in SI by data set 164, in which numbers are divided by the factors.
 double unit_by_164(const core::Dimension& dimension, const UffUnits& units) {
   // A moment is kg m²/s², a force kg m/s²: both have the mass of one force.
   const int forces = dimension.mass;
@@ -160,7 +160,7 @@ std::string format_text(const FrfFormat& format) {
                       ": leave out quantity and unit, or correct the one that is wrong");
 }
 
-/// Refuses a statement that the data types of records 9 and 10 speak against.
+/// Throws DataError if the data types of records 9 and 10 contradict the caller's statement.
 void require_agreeing_types(const UffFunction& function, const FrfFormat& stated, const UffRecords& records) {
   const int motion = function.numerator.type, force = function.denominator.type;
   const bool same_motion = is_open(motion) || quantity_of(motion) == stated.quantity;
@@ -172,7 +172,7 @@ void require_agreeing_types(const UffFunction& function, const FrfFormat& stated
                        " (data set 58, records 9 and 10)" + (told && same_force ? ", " + quantity_word(*told) : ""));
 }
 
-/// The unit of one side in SI; empty where neither a label that is known nor data set 164 does.
+/// The unit of one side in SI; empty if neither a known label nor data set 164 gives it.
 std::optional<double> told_unit(const Side& side, const std::optional<UffUnits>& units, DofKind kind,
                                 const FrfFormat& stated, const UffRecords& records) {
   if (is_label(side.axis.unit)) {
@@ -187,14 +187,14 @@ std::optional<double> told_unit(const Side& side, const std::optional<UffUnits>&
   return unit_by_164(kind == DofKind::rotation ? side.rotation : side.translation, *units);
 }
 
-/// The caller's format, provided that nothing in the file speaks against it; notes what the file leaves open.
+/// The caller's format. Throws DataError if something in the file contradicts it, and notes what the file leaves open.
 FrfFormat agreed(const FrfFormat& stated, const UffFunction& function, const Side& motion, const Side& force,
                  const std::optional<UffUnits>& units, const UffRecords& records, const UffDofs& dofs,
                  UffNotes& notes) {
   require_agreeing_types(function, stated, records);
   const auto motion_unit = told_unit(motion, units, dofs.response.kind, stated, records);
   const auto force_unit = told_unit(force, units, dofs.force.kind, stated, records);
-  // A motion in a unit that is told is over newtons where the force's is not.
+  // If only the unit of the motion is given, that of the force is taken as newtons.
   const double told_in_si = motion_unit.value_or(1.0) / force_unit.value_or(1.0);
   if (motion_unit && std::abs(told_in_si / stated.unit_in_si - 1.0) > 1e-3) {
     const bool labelled = is_label(motion.axis.unit) || is_label(force.axis.unit);
@@ -212,7 +212,7 @@ FrfFormat agreed(const FrfFormat& stated, const UffFunction& function, const Sid
   return stated;
 }
 
-/// The unit of an axis of frequencies in Hz; empty if it is none.
+/// The unit of an axis of frequencies in Hz; empty if it is another axis.
 std::optional<double> frequency_unit(const UffAxis& axis) {
   const bool unnamed = is_open(axis.type);
   if (axis.type != uff::frequency && !unnamed) return std::nullopt;
@@ -277,7 +277,7 @@ double abscissa_in_hz(const UffFunction& function, const std::optional<FrfFormat
   const auto told = frequency_unit(axis);
   const bool of_frequency = axis.type == uff::frequency || is_open(axis.type);
   const bool known = is_label(axis.unit) && unit_of_label(axis.unit, false).has_value();
-  const bool open = of_frequency && !known;  // a statement may fill in
+  const bool open = of_frequency && !known;  // the caller's statement may then supply the unit
   if (stated) {
     if (told && std::abs(*told / stated->unit_in_hz - 1.0) <= 1e-9) return stated->unit_in_hz;
     const std::string file_says =

@@ -16,7 +16,7 @@ constexpr std::size_t longest_line = 250;
 constexpr long largest_label = 999999999;
 constexpr int color = 7;
 
-/// Descriptors whose elements have a record of orientation and cross-sections.
+/// True for elements that have a record of orientation and cross-sections.
 bool is_beam(int descriptor) {
   constexpr std::array beams{11, 21, 22, 23, 24};
   return std::find(beams.begin(), beams.end(), descriptor) != beams.end();
@@ -67,7 +67,7 @@ std::string closed() {
   return std::string(uff_delimiter) + "\n";
 }
 
-/// 8I10.
+/// The labels in the format 8I10.
 std::string labels_text(const std::vector<long>& labels) {
   std::string text;
   for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -77,7 +77,7 @@ std::string labels_text(const std::vector<long>& labels) {
   return text;
 }
 
-/// 4I10 and 3D25.16, with E for the exponent, which every program reads.
+/// The nodes in the formats 4I10 and 3D25.16, with E for the exponent, which every program reads.
 std::string nodes_text(const UffMesh& mesh) {
   std::string text = opened(2411);
   for (const UffNode& node : mesh.nodes) {
@@ -89,7 +89,7 @@ std::string nodes_text(const UffMesh& mesh) {
   return text + closed();
 }
 
-/// 6I10: label, descriptor, physical and material table, colour, number of nodes.
+/// The elements in the format 6I10: label, descriptor, physical and material table, colour, number of nodes.
 std::string elements_text(const UffMesh& mesh) {
   std::string text = opened(2412);
   for (const UffElement& element : mesh.elements) {
@@ -121,7 +121,7 @@ double metres(const std::optional<UffUnits>& units, std::optional<double> unit_i
   return 1.0 / units->length;
 }
 
-/// 2411: two records a node; 15: one, with 3E13.5 behind the labels.
+/// Reads nodes of data set 2411 (two records for each) or 15 (one record, with 3E13.5 behind the labels).
 void take_nodes(const UffDataSet& set, double in_m, UffMesh& mesh) {
   UffRecords records = set.records;
   const bool is_old = set.number == 15;

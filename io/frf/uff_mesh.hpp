@@ -15,7 +15,7 @@
 namespace thinwall::io {
 
 namespace uff {
-/// Descriptors of elements, as far as a drawing needs them.
+/// Descriptors of the elements that a drawing needs.
 constexpr int linear_beam = 21;
 constexpr int linear_triangle = 91;
 constexpr int linear_quadrilateral = 94;
@@ -35,7 +35,7 @@ struct UffElement {
   std::vector<long> nodes;  ///< labels
 };
 
-/// A drawing: a line from node to node; label 0 lifts the pen.
+/// A drawing: lines from node to node; a label 0 begins a new line.
 struct UffTraceLine {
   long label = 0;
   std::string name = "NONE";
@@ -47,23 +47,25 @@ struct UffMesh {
   std::vector<UffNode> nodes;
   std::vector<UffElement> elements;
   std::vector<UffTraceLine> lines;
-  UffNotes notes{};  ///< what was odd where it was read
+  UffNotes notes{};  ///< irregularities found when it was read
 };
 
-/// Writes data sets 151, 164 (SI), 2411 (coordinates with 17 digits), 2412 and one 82 a trace line; beams (descriptors
-/// 11 and 21 to 24) without orientation or cross-sections. Written in one step. Throws InputError if labels are not
-/// positive or above 9 digits, labels of nodes are there twice, an element or a line names a node that is none, a line
-/// has more than 250 nodes, or a position is not finite; DataError if the file cannot be written.
+/// Writes data sets 151, 164 (SI), 2411 (coordinates with 17 digits), 2412 and one data set 82 for each trace line;
+/// beams (descriptors 11 and 21 to 24) have neither orientation nor cross-sections. The file is written in one step.
+/// Throws InputError if labels are not positive or above 9 digits, a node's label occurs twice, an element or a line
+/// refers to an unknown node, a line has more than 250 nodes, or a position is not finite; DataError if the file cannot
+/// be written.
 void write_uff_mesh(const std::filesystem::path& path, const UffMesh& mesh);
 
 /// Reads nodes (2411, and 15, their older form with six digits), elements and trace lines of a file; positions in m by
-/// data set 164, or times `unit_in_m` if that is stated. Elements or lines that name unknown nodes, and trace lines of
-/// another length than is stated, are noted. Throws DataError with file and line: no nodes, no unit, nodes in other
-/// coordinate systems than the global one (0 or 1), fields that are no numbers. Memory and cost O(bytes).
+/// data set 164, or times `unit_in_m` if it is given. Elements or lines that refer to unknown nodes, and trace lines of
+/// another length than stated, are noted. Throws DataError with file and line for a file without nodes or without a
+/// unit, nodes in other coordinate systems than the global one (0 or 1), and fields that are no numbers. Memory and
+/// cost O(bytes).
 [[nodiscard]] UffMesh uff_mesh(std::string_view bytes, const std::string& source,
                                std::optional<double> unit_in_m = std::nullopt);
 
-/// Reads it from a file; otherwise as the function above.
+/// The geometry of a file, as uff_mesh() gives it.
 [[nodiscard]] UffMesh read_uff_mesh(const std::filesystem::path& path, std::optional<double> unit_in_m = std::nullopt);
 
 }  // namespace thinwall::io

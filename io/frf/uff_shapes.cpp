@@ -18,7 +18,7 @@ using dynamics::Dof;
 using dynamics::DofKind;
 using dynamics::ModalModel;
 
-// Numbers that the format gives a meaning.
+// Codes of the format.
 constexpr int normal_mode = 2;
 constexpr int complex_first_order = 3;
 constexpr int complex_second_order = 7;
@@ -30,7 +30,7 @@ constexpr int complex_data = 5;
 
 // ---- A modal model as shapes ----
 
-/// Rows of the shape's matrix: the points in the order of the table.
+/// The points of the table in its order, one row of a shape for each.
 std::vector<std::string> points_of(const ModalModel& model) {
   std::vector<std::string> points;
   for (const Dof& dof : model.dofs) {
@@ -55,7 +55,7 @@ Eigen::MatrixXcd displacements(const ModalModel& model, const std::vector<std::s
   return u;
 }
 
-/// The phase factor c for which c φ is real, if there is one: |Σφ²| = Σ|φ|².
+/// The phase factor c for which c φ is real, if there is one, which is the case for |Σφ²| = Σ|φ|².
 std::optional<Complex> phase_to_real(const Eigen::VectorXcd& phi) {
   const Complex square = (phi.array() * phi.array()).sum();
   const double size = phi.squaredNorm();
@@ -110,7 +110,7 @@ std::string shape_text(const UffShape& shape) {
 
 // ---- Reading ----
 
-/// `count` numbers of 6E13.5.
+/// The next `count` numbers in the format 6E13.5.
 std::vector<double> take_reals(UffRecords& records, std::size_t count) {
   std::vector<double> values;
   std::string_view record;
@@ -139,7 +139,7 @@ void take_scaling(UffRecords& records, UffShape& shape) {
   shape.damping_ratio = size > 0.0 ? -shape.pole.real() / size : 0.0;
 }
 
-/// Empty for what is no mode.
+/// The shape of a data set 55; empty if it is no mode.
 std::optional<UffShape> read_shape(const UffDataSet& set, UffNotes& notes) {
   UffRecords records = set.records;
   for (int k = 0; k < 5; ++k) (void)take_record(records);
@@ -199,7 +199,7 @@ std::vector<UffShape> shapes_of(const ModalModel& model, const std::map<std::str
     shape.nodes = labels;
     const auto phase = phase_to_real(phi);
     const Complex c = phase.value_or(1.0);
-    // (c φ)(c φ)ᵀ/(c² a) = φ φᵀ/a.
+    // The shape is multiplied by c, and a by c², because residues stay: (c φ)(c φ)ᵀ/(c² a) = φ φᵀ/a.
     const Complex mass = c * c * shape.modal_a / Complex(0.0, 2.0 * shape.pole.imag());
     shape.is_complex = !phase || !(mass.real() > 0.0) || std::abs(mass.imag()) > 1e-6 * std::abs(mass);
     if (!shape.is_complex) shape.modal_mass = mass.real();

@@ -1,5 +1,5 @@
 #pragma once
-// Mode shapes as a universal file: data set 55, data at nodes.
+// Mode shapes in universal files: data set 55, data at nodes.
 //
 // Layout: "Universal File Datasets Summary" (SDRC, I-DEAS; data set 55).
 
@@ -16,7 +16,7 @@
 
 namespace thinwall::io {
 
-/// A mode: normal (real shape, analysis type 2) or complex (analysis type 3, or 7 where it was read).
+/// A mode: normal (real shape, analysis type 2) or complex (analysis type 3; type 7 is read too).
 struct UffShape {
   int number = 0;
   bool is_complex = false;
@@ -29,31 +29,32 @@ struct UffShape {
   Eigen::MatrixXcd displacement;  ///< nodes × 3, or × 6 with rotations (rad)
 };
 
-/// The shapes of a file, and what was noted on the way.
+/// The shapes of a file, and notes on irregularities.
 struct UffShapes {
   std::vector<UffShape> shapes;
   UffNotes notes{};
 };
 
 /// The oscillating modes of a model by rising frequency, λ with Im λ > 0. A shape is normal if it is real but for a
-/// phase and a = 2iω_d m with a real positive m (relative 1e-6), else complex. Points take the labels of `nodes`; the
-/// displacement of a point is the sum of its DOFs' amplitudes times their directions, zero along directions that it has
-/// no DOF for. Throws InputError if a point has no label or ψ differs from φ (relative 1e-9): the format has no place
-/// for a left shape.
+/// phase and a = 2iω_d m with a real positive m (relative 1e-6), otherwise complex. Points get the labels of `nodes`;
+/// the displacement of a point is the sum of its DOFs' amplitudes times their directions, zero along directions in
+/// which it has no DOF. Throws InputError if a point has no label or ψ differs from φ (relative 1e-9), because the
+/// format has no place for a left shape.
 [[nodiscard]] std::vector<UffShape> shapes_of(const dynamics::ModalModel& model,
                                               const std::map<std::string, long>& nodes);
 
-/// Writes data sets 151, 164 (SI) and one 55 a shape: displacement (8) in six digits, E13.5; modal B is −λa. Written in
-/// one step. Throws InputError if labels and displacements disagree in number, NumericalError if a value is not finite,
-/// DataError if the file cannot be written.
+/// Writes data sets 151, 164 (SI) and one data set 55 for each shape: displacement (8) in six digits, E13.5; modal B is
+/// −λa. The file is written in one step. Throws InputError if labels and displacements disagree in number,
+/// NumericalError if a value is not finite, DataError if the file cannot be written.
 void write_uff_shapes(const std::filesystem::path& path, const std::vector<UffShape>& shapes);
 
-/// Reads the normal and complex modes of a file, three or six values a node. Other data sets 55 are passed over and
-/// noted; so is a file without data set 164. Throws DataError with file and line: no shapes, fields that are no
-/// numbers, units other than SI (a shape has no unit by which it could be converted). Memory and cost O(bytes).
+/// Reads the normal and complex modes of a file, with three or six values at a node. Other data sets 55 are skipped and
+/// noted; a missing data set 164 is noted. Throws DataError with file and line for a file without shapes, fields that
+/// are no numbers, and units other than SI (a shape has no unit by which it could be converted). Memory and cost
+/// O(bytes).
 [[nodiscard]] UffShapes uff_shapes(std::string_view bytes, const std::string& source);
 
-/// Reads it from a file; otherwise as the function above.
+/// The shapes of a file, as uff_shapes() gives them.
 [[nodiscard]] UffShapes read_uff_shapes(const std::filesystem::path& path);
 
 }  // namespace thinwall::io

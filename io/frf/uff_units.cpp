@@ -17,7 +17,7 @@ constexpr double standard_gravity = 9.80665;
 constexpr double pound_force = pound * standard_gravity;
 constexpr double poundal = pound * foot;
 
-/// The system of a code: metres and newtons of its units of length and force.
+/// The system of units of a code: the metres and newtons of its units of length and force.
 struct System {
   int code;
   double length;
@@ -55,7 +55,7 @@ constexpr std::array special_labels{SpecialLabel{"lbf", pound_force, "N"},
                                     SpecialLabel{"ft/s", foot, "m/s"},
                                     SpecialLabel{"ft/s^2", foot, "m/s^2"}};
 
-/// "m/s2" → "m/s^2": a digit at the end after a letter.
+/// The label with a caret before a digit at the end that follows a letter, such as "m/s^2" for "m/s2".
 std::string with_caret(std::string_view label) {
   std::string text(label);
   const bool bare_power = text.size() >= 2 && std::isdigit(static_cast<unsigned char>(text.back())) != 0 &&

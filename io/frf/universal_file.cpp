@@ -9,12 +9,12 @@ namespace thinwall::io {
 
 namespace {
 
-/// A line of nothing but the delimiter.
+/// True for a line that contains only the delimiter.
 bool is_delimiter(std::string_view record) {
   return record == uff_delimiter;
 }
 
-/// The first record of a data set: its number, and for a binary one what follows the letter b.
+/// The first record of a data set: its number, and for a binary one the text behind the letter b.
 struct Heading {
   int number = 0;
   bool is_binary = false;
@@ -38,7 +38,7 @@ Heading heading_of(const UffRecords& file, std::string_view record) {
   return heading;
 }
 
-/// Text up to the delimiter, which is taken, too.
+/// Takes the text up to the delimiter, and the delimiter too.
 std::string_view take_text(UffRecords& file) {
   const std::string_view start = file.rest;
   while (!file.rest.empty()) {
@@ -48,7 +48,7 @@ std::string_view take_text(UffRecords& file) {
   refuse(file, "the file ends within a data set; write it again");
 }
 
-/// True if `text` starts with a line of nothing but the delimiter.
+/// True if the first line of `text` contains only the delimiter.
 bool starts_with_delimiter(std::string_view text) {
   if (!text.starts_with(uff_delimiter)) return false;
   const std::string_view rest = text.substr(uff_delimiter.size());
@@ -56,7 +56,7 @@ bool starts_with_delimiter(std::string_view text) {
   return end == std::string_view::npos || rest[end] == '\n';
 }
 
-/// The line end between `at` and the closing delimiter, which may be none; empty if the delimiter is not there.
+/// The line end between `at` and the closing delimiter, possibly of no bytes; empty if the delimiter is not there.
 std::optional<std::string_view> line_end_before_delimiter(std::string_view bytes, std::size_t at) {
   for (const std::string_view line_end : {"", "\n", "\r\n", "\r"}) {
     if (bytes.substr(at).starts_with(line_end) && starts_with_delimiter(bytes.substr(at + line_end.size()))) {
@@ -66,22 +66,22 @@ std::optional<std::string_view> line_end_before_delimiter(std::string_view bytes
   return std::nullopt;
 }
 
-/// One way in which the values may be stored.
+/// A way in which the values may be stored.
 struct Storage {
   std::size_t abscissa_bytes;
   std::size_t value_bytes;
   bool as_stated;
 };
 
-/// All ways, the stated one first. Where values are double, an abscissa is double as most programs write it, or single
-/// as its ASCII format E13.5 suggests.
+/// All ways, the stated one first. With double values, most programs write a double abscissa, some a single one, which
+/// its ASCII format E13.5 suggests.
 std::vector<Storage> storages(bool even, bool stated_double) {
   if (even) return {{0, stated_double ? 8U : 4U, true}, {0, stated_double ? 4U : 8U, false}};
   if (stated_double) return {{8, 8, true}, {4, 8, true}, {4, 4, false}};
   return {{4, 4, true}, {8, 8, false}, {4, 8, false}};
 }
 
-/// The form of the values, from record 7.
+/// The form of the values by record 7.
 struct DataForm {
   long type = 0;
   long count = 0;
@@ -100,7 +100,8 @@ DataForm data_form(UffRecords records) {
   return form;
 }
 
-/// Byte order and floating-point format of the heading: I6,I6 after the letter b.
+/// True for the byte order that the heading gives by two numbers I6,I6 behind the letter b; the second is the
+/// floating-point format.
 bool little_endian(const UffRecords& file, const UffRecords& heading_at, std::string_view fields, UffNotes& notes) {
   const long order = integer(file, fields, 0, 6);
   if (order != 1 && order != 2) {
@@ -118,7 +119,7 @@ bool little_endian(const UffRecords& file, const UffRecords& heading_at, std::st
   return order == 1;
 }
 
-/// Notes what is odd about the storage that was found.
+/// Notes deviations of the storage that was found.
 void note_storage(UffNotes& notes, const UffRecords& heading_at, const Storage& storage, bool stated_double,
                   std::string_view line_end, long stated_bytes, std::size_t bytes) {
   if (!line_end.empty()) note(notes, heading_at, "a line end after the binary values is passed over");
@@ -134,7 +135,7 @@ void note_storage(UffNotes& notes, const UffRecords& heading_at, const Storage& 
   }
 }
 
-/// Takes the bytes and the closing delimiter.
+/// Takes the values of a data set and the closing delimiter.
 UffBinary take_binary(UffRecords& file, const UffRecords& heading_at, const DataForm& form, std::string_view fields,
                       UffNotes& notes) {
   UffBinary binary;

@@ -49,7 +49,7 @@ class DmigReader {
     return nastran_integer(field(card, i), what, least, most, name_, card.line);
   }
 
-  /// GRID, ID, CP, X1, X2, X3, CD
+  /// Reads the entry GRID, ID, CP, X1, X2, X3, CD.
   void take_grid(const NastranCard& card) {
     for (const std::size_t system : {std::size_t{1}, std::size_t{5}}) {
       if (field(card, system).empty() || field(card, system) == "0") continue;
@@ -64,7 +64,7 @@ class DmigReader {
     if (!file.positions.emplace(node, x).second) fail(card, "grid point " + std::to_string(node) + " is there twice");
   }
 
-  /// DMIG, NAME, 0, IFO, TIN, TOUT, POLAR, , NCOL
+  /// Reads the heading DMIG, NAME, 0, IFO, TIN, TOUT, POLAR, , NCOL.
   void take_heading(const NastranCard& card) {
     DmigMatrix matrix;
     matrix.labelled.path = name_;
@@ -78,7 +78,7 @@ class DmigReader {
     file.matrices.push_back(std::move(matrix));
   }
 
-  /// DMIG, NAME, GJ, CJ, , G1, C1, A1, B1, G2, C2, A2, B2, ...
+  /// Reads the column DMIG, NAME, GJ, CJ, , G1, C1, A1, B1, G2, C2, A2, B2, ...
   void take_column(const NastranCard& card) {
     DmigMatrix* matrix = find(capitals(field(card, 0)));
     if (matrix == nullptr) {

@@ -25,7 +25,7 @@ constexpr std::array component_words{"mode", "x", "y", "z", "rx", "ry", "rz"};
   throw core::DataError(location(text, line) + ": " + what);
 }
 
-/// The numbers of the columns of these names; −1 for one that is not there.
+/// The numbers of the columns of these names; −1 for a name that does not occur.
 std::vector<int> columns_of(const CsvText& text, const std::vector<std::string>& names, std::size_t needed) {
   std::vector<int> columns(names.size(), -1);
   std::string list;
@@ -83,7 +83,7 @@ void take_position(const CsvText& text, const CsvLine& line, const std::array<in
   if (!is_new && known->second != x) fail(text, line, "node " + std::to_string(node) + " has two positions");
 }
 
-/// Rows from 1 in any order, each once.
+/// The lines in the order of their row numbers. Throws DataError unless these are 1, 2 … in any order, each once.
 std::vector<std::size_t> order_of(const CsvText& text, int column) {
   std::vector<std::size_t> order(text.lines.size(), text.lines.size());
   for (std::size_t i = 0; i < text.lines.size(); ++i) {

@@ -46,7 +46,7 @@ void read_nodes(const MatVariables& variables, const std::filesystem::path& path
   }
 }
 
-/// True if a matrix is in a file of its own; in both it would be left open which one counts.
+/// True if a matrix is in a file of its own. Throws DataError if it is in the stiffness file too.
 bool is_elsewhere(const MatVariables& variables, const std::string& name, const std::filesystem::path& path,
                   const std::filesystem::path& other) {
   if (other.empty() || other == path) return false;

@@ -33,8 +33,8 @@ struct FreeVariable {
 using MatFile = std::unique_ptr<mat_t, CloseMat>;
 using Variable = std::unique_ptr<matvar_t, FreeVariable>;
 
-/// matio writes to a path and does not notice a full disk: it is given a file in memory, whose bytes we write
-/// ourselves.
+/// A file in memory for matio. matio writes to a path and does not notice a full disk, so that this program writes the
+/// bytes to the disk itself.
 class MemoryFile {
  public:
   MemoryFile() : descriptor_(::memfd_create("thinwall", MFD_CLOEXEC)) {
@@ -83,7 +83,7 @@ void require_writable(const MatVariable& variable) {
   }
 }
 
-/// The format counts characters, not bytes: UTF-16 keeps a name with an umlaut readable everywhere.
+/// The text in UTF-16. The format counts characters, not bytes, so that names with umlauts are readable everywhere.
 std::u16string utf16(const std::string& text) {
   if (!utf8::is_valid(text)) throw core::InputError("the name \"" + text + "\" is not UTF-8; rename the point");
   return utf8::utf8to16(text);
@@ -102,7 +102,7 @@ Variable encoded_texts(const MatVariable& variable) {
   return cells;
 }
 
-/// Compressed columns, as the format has them.
+/// The variable with its compressed columns in the layout of the format.
 Variable encoded_sparse(MatVariable variable) {
   variable.sparse.makeCompressed();
   mat_sparse_t parts{};
@@ -138,15 +138,15 @@ Variable encoded(const MatVariable& variable) {
 
 // ---- Reading ----
 
-/// The head of an array that is not compressed: flags, dimensions, whose product its `size` bytes must be able to hold,
-/// and the name. What states more takes matio minutes.
+/// Checks the head of an array that is not compressed: flags, dimensions, whose product must be possible in its `size`
+/// bytes, and the name. With impossible dimensions matio takes minutes.
 void require_head(const std::string& bytes, std::size_t at, std::size_t size, const std::filesystem::path& path) {
   constexpr std::size_t head_size = 24;  // the tag of the flags, the flags, the tag of the dimensions
   std::array<std::uint32_t, 6> head{};
   if (size < head_size || at + size > bytes.size()) return;  // refused as not whole, or empty
   std::memcpy(head.data(), bytes.data() + at, head_size);
   const std::uint32_t kind = head[2] & 0xFFU;
-  if (kind == MAT_C_STRUCT || kind == MAT_C_OBJECT || kind > MAT_C_UINT64) return;  // we read none of these
+  if (kind == MAT_C_STRUCT || kind == MAT_C_OBJECT || kind > MAT_C_UINT64) return;  // none of these is read
   const std::size_t dimensions = head[5] / 4;
   bool whole = head[0] == MAT_T_UINT32 && head[1] == 8 && head[4] == MAT_T_INT32 && head[5] <= size - head_size;
   std::size_t left = size;
@@ -164,9 +164,9 @@ void require_head(const std::string& bytes, std::size_t at, std::size_t size, co
   if (!whole) fail_in(path, "has a variable that states more than its bytes hold; write it again");
 }
 
-/// matio reads a variable whose end is missing as if its last entries were zero; the lengths in the file tell. An
-/// element is a tag (type, bytes), then its data in whole words of 8 bytes unless they are compressed. Returns the
-/// largest number of bytes that a variable can have.
+/// Checks the lengths of all elements of the file, because matio reads a variable whose end is missing as if its last
+/// entries were zero. An element is a tag (type, bytes) and its data, in whole words of 8 bytes unless they are
+/// compressed. Returns the largest number of bytes that a variable can have.
 std::size_t require_whole(const std::filesystem::path& path) {
   constexpr std::size_t header_size = 128;
   constexpr std::size_t tag_size = 8;
@@ -186,8 +186,8 @@ std::size_t require_whole(const std::filesystem::path& path) {
   return bytes.size() * (compressed ? most_by_deflate : 1);
 }
 
-/// Every entry of an array or a list takes a byte at least, every column of a sparse matrix four: what states more is
-/// not given to matio, which would ask for the memory.
+/// Throws DataError if a variable states more entries than its bytes can contain: every entry of an array or a list
+/// takes at least one byte, every column of a sparse matrix four. matio would allocate the memory stated.
 void require_entries_within(const matvar_t& stated, std::size_t bytes, const std::string& name,
                             const std::filesystem::path& path) {
   const bool is_sparse = stated.class_type == MAT_C_SPARSE && stated.rank == 2;
@@ -199,7 +199,7 @@ void require_entries_within(const matvar_t& stated, std::size_t bytes, const std
   if (left == 0) fail_in(path, "the variable " + name + " states more entries than the file holds: write it again");
 }
 
-/// The characters of a cell as UTF-8; MATLAB writes 16-bit characters, other programs bytes.
+/// The characters of a cell as UTF-8, from the 16-bit characters of MATLAB or the bytes of other programs.
 std::string utf8_text(const matvar_t& cell, const std::filesystem::path& path) {
   const std::size_t length = cell.dims[0] * cell.dims[1];
   const auto size = static_cast<std::size_t>(std::max(cell.data_size, 1));
@@ -256,7 +256,7 @@ void take_numbers(const matvar_t& stored, const std::filesystem::path& path, Mat
   variable.im = numbers_of<Number>(parts->Im, count, path, variable.name);
 }
 
-/// The parts of a sparse matrix, each index checked: matio takes them as the file has them.
+/// The sparse matrix with each index checked, because matio takes indices unchecked from the file.
 Eigen::SparseMatrix<double> sparse_numbers(const matvar_t& stored, const std::string& name,
                                            const std::filesystem::path& path) {
   const auto* parts = static_cast<const mat_sparse_t*>(stored.data);

@@ -1,5 +1,5 @@
 #pragma once
-// MAT files of version 5 as plain variables: what MATLAB, Octave, SciPy and measuring programs exchange.
+// MAT files of version 5 as plain variables, which MATLAB, Octave, SciPy and measuring programs exchange.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -15,7 +15,7 @@
 namespace thinwall::io {
 
 /// An array of numbers, first index fastest, a cell array n × 1 of texts, or a real sparse matrix (`re` is then empty).
-/// `im` is empty where the array is real.
+/// `im` is empty if the array is real.
 struct MatVariable {
   std::string name;
   std::vector<std::size_t> size;
@@ -32,7 +32,7 @@ using MatVariables = std::map<std::string, MatVariable>;
 /// Throws DataError "path: cause".
 [[noreturn]] void fail_in(const std::filesystem::path& path, const std::string& cause);
 
-/// The result of `read`. Sizes that a damaged file states and no memory holds are thrown as DataError, with its path.
+/// The result of `read`. Throws DataError, with the path, if a damaged file states sizes that exceed the memory.
 template <typename Read>
 auto in_memory(const std::filesystem::path& path, const Read& read) {
   constexpr const char* cause = "states more than the memory holds: it is damaged, or too large; write it again";
@@ -45,19 +45,19 @@ auto in_memory(const std::filesystem::path& path, const Read& read) {
   }
 }
 
-/// Writes the variables in their order; `title` (100 bytes at most) opens the file behind "MATLAB 5.0 MAT-file, ". The
-/// bytes depend on the arguments only. Written in one step. Throws InputError if a value is not finite, a text is not
-/// UTF-8, or a variable exceeds the 2 GiB of the format; DataError if the file cannot be written.
+/// Writes the variables in their order; the file begins with "MATLAB 5.0 MAT-file, " and `title` (100 bytes at most).
+/// The bytes depend on the arguments only. The file is written in one step. Throws InputError if a value is not finite,
+/// a text is not UTF-8, or a variable exceeds the 2 GiB of the format; DataError if the file cannot be written.
 void write_mat_variables(const std::filesystem::path& path, const std::string& title,
                          const std::vector<MatVariable>& variables);
 
-/// Those of the named variables that the file has: arrays of doubles or singles, real sparse matrices of doubles, cell
-/// arrays of texts. Throws DataError
-/// that names the file, and the variable if it is of another kind, holds NaN or infinity or states more entries than
-/// the file can hold; a file of version 7.3 (HDF5) or one that is cut short is refused.
+/// Those of the named variables that the file contains: arrays of doubles or singles, real sparse matrices of doubles,
+/// cell arrays of texts. Throws DataError that names the file, and the variable if it is of another kind, contains NaN
+/// or infinity or states more entries than the file can contain; and for a file of version 7.3 (HDF5) or a truncated
+/// one.
 [[nodiscard]] MatVariables read_mat_variables(const std::filesystem::path& path, const std::vector<std::string>& names);
 
-/// The variable; throws DataError "path: has no variable name".
+/// The variable of that name. Throws DataError "path: has no variable name" if there is none.
 [[nodiscard]] const MatVariable& variable(const MatVariables& variables, const std::string& name,
                                           const std::filesystem::path& path);
 
@@ -67,10 +67,10 @@ void write_mat_variables(const std::filesystem::path& path, const std::string& t
 /// A variable from a sparse matrix.
 [[nodiscard]] MatVariable mat_sparse(const std::string& name, const Eigen::SparseMatrix<double>& matrix);
 
-/// The variable, sparse or full, as a sparse matrix without zeros; throws DataError if it is of another kind.
+/// The variable, sparse or full, as a sparse matrix without zeros. Throws DataError if it is of another kind.
 [[nodiscard]] Eigen::SparseMatrix<double> sparse_of(const MatVariable& variable, const std::filesystem::path& path);
 
-/// The variable as a real matrix rows × columns (−1: any number); throws DataError if it is of another shape.
+/// The variable as a real matrix rows × columns (−1: any number). Throws DataError if it is of another shape.
 [[nodiscard]] Eigen::MatrixXd matrix_of(const MatVariable& variable, const std::filesystem::path& path,
                                         Eigen::Index rows = -1, Eigen::Index columns = -1);
 
@@ -78,7 +78,7 @@ void write_mat_variables(const std::filesystem::path& path, const std::string& t
 /// "rotation", "modal"), <prefix>_unit, all n × 1, and <prefix>_direction, n × 3.
 [[nodiscard]] std::vector<MatVariable> dof_variables(const std::string& prefix, const dynamics::DofTable& dofs);
 
-/// The names of those variables, for read_mat_variables().
+/// The names of the variables of a table, for read_mat_variables().
 [[nodiscard]] std::vector<std::string> dof_variable_names(const std::string& prefix);
 
 /// The table from its variables. Throws DataError if one is missing or has another number of rows than `count`.

@@ -12,7 +12,7 @@ namespace {
 using dynamics::NodeDof;
 using Entry = MatrixEntry<int>;
 
-/// Mirror images beside each other, the upper triangle's first.
+/// Sorts the entries so that mirror images lie beside each other, that of the upper triangle first.
 void sort_in_pairs(std::vector<Entry>& entries) {
   const auto place = [](const Entry& entry) {
     return std::tuple(std::max(entry.row, entry.column), std::min(entry.row, entry.column), entry.row > entry.column);

@@ -1,5 +1,5 @@
 #pragma once
-// The entries of a matrix as files list them, by row and column or by node and component, before they are a matrix.
+// The entries of a matrix as files list them, by row and column or by node and component.
 
 #include <Eigen/SparseCore>
 #include <cstdint>
@@ -11,10 +11,11 @@
 
 namespace thinwall::io {
 
-/// Rows, columns and nodes beyond it are refused: they are kept as int, and one more than the last is needed.
+/// Largest number of a row, column or node that is accepted: these are stored as int, and one more than the last is
+/// needed.
 inline constexpr std::int64_t largest_label = std::numeric_limits<int>::max() - 1;
 
-/// A number in a file: its row and column, from 0, or two DOFs; and the line that it stands on.
+/// An entry in a file: its row and column, as numbers from 0 or as DOFs, its value and its line.
 template <class Place>
 struct MatrixEntry {
   Place row;
@@ -23,7 +24,7 @@ struct MatrixEntry {
   int line = 0;
 };
 
-/// A square matrix whose rows are numbers.
+/// A square matrix whose rows are given by numbers.
 struct MatrixEntries {
   std::string path;
   int size = 0;
@@ -31,29 +32,29 @@ struct MatrixEntries {
   bool may_be_half = true;  ///< the format allows one triangle of a symmetric matrix
 };
 
-/// A matrix whose rows are DOFs, in any order.
+/// A matrix whose rows are given by DOFs, in any order.
 struct LabelledEntries {
   std::string path;
-  std::string name;  ///< in the file; may be empty
+  std::string name;  ///< name in the file; may be empty
   std::vector<MatrixEntry<dynamics::NodeDof>> entries;
-  bool may_be_half = true;  ///< as of MatrixEntries
+  bool may_be_half = true;  ///< as in MatrixEntries
 };
 
-/// The DOFs of all these matrices, each once, by node and component. Cost O(n log n) of the entries.
+/// The DOFs of all the matrices, each once, sorted by node and component. Cost O(n log n) of the entries.
 [[nodiscard]] std::vector<dynamics::NodeDof> dofs_of(const std::vector<const LabelledEntries*>& matrices);
 
-/// The entries by their places in the table (ascending), which must hold them all.
+/// The entries by their places in the table (ascending), which must contain all their DOFs.
 [[nodiscard]] MatrixEntries in_rows(const LabelledEntries& labelled, const std::vector<dynamics::NodeDof>& dofs);
 
-/// The matrix, zeros left out, and whether the file held one triangle of it: where the format allows that and no entry
-/// has a mirror image, a_ij is a_ji too.
+/// A matrix without zeros. `was_half` is true if the file contained one triangle of it: if the format allows that and
+/// no entry has a mirror image, a_ji is set to a_ij.
 struct WholeMatrix {
   Eigen::SparseMatrix<double> A;
   bool was_half = false;
 };
 
-/// Throws DataError with file and line for an entry that is there twice. Allocates by matrix.size, which the caller has
-/// checked. Cost O(n log n) of the entries.
+/// The matrix of these entries. Throws DataError with file and line for an entry that occurs twice. Memory is allocated
+/// by matrix.size, which the caller has checked. Cost O(n log n) of the entries.
 [[nodiscard]] WholeMatrix whole_matrix(const MatrixEntries& matrix);
 
 }  // namespace thinwall::io

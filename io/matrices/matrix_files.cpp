@@ -64,7 +64,7 @@ Format format_of(std::string_view bytes, const std::string& path) {
       ".mtx (lines of three or five numbers), Nastran DMIG, MAT version 5");
 }
 
-/// The three matrices as the files have them, by row or by label; empty ones have no path.
+/// The three matrices of the files, by row or by label; a matrix that is not given has no path.
 struct Matrices {
   Format format = Format::triplets;
   std::array<MatrixEntries, 3> rows;
@@ -124,7 +124,7 @@ std::optional<DofTableFile> table_of(const std::filesystem::path& path) {
 
 void require_rows(const MatrixEntries& matrix, Format format, std::size_t rows) {
   const auto size = static_cast<std::size_t>(matrix.size);
-  // Rows without an entry at the end do not show in lines of row, column, value.
+  // A file of row, column, value does not show rows without an entry at its end.
   if (size == rows || (format == Format::triplets && size < rows && size + 6 > rows)) return;
   throw core::DataError(matrix.path + ": has " + std::to_string(size) + " rows and the DOF table " +
                         std::to_string(rows) + ": they must come from one export");
@@ -145,7 +145,7 @@ void note_half(const WholeMatrix& whole, const std::string& path, std::vector<st
     notes.push_back(path + " holds one triangle of a symmetric matrix; the other is its mirror image");
 }
 
-/// K, M, C on the rows of the table.
+/// Makes K, M, C of the model on the rows of its table.
 void assemble(Matrices& matrices, SparseModel& model, std::vector<std::string>& notes) {
   const std::array<Eigen::SparseMatrix<double>*, 3> targets{&model.K, &model.M, &model.C};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -189,7 +189,7 @@ void note_rows(const SparseModel& model, std::vector<std::string>& notes) {
                   name(dynamics::named(model, model.dofs[static_cast<std::size_t>(empty.front())])));
 }
 
-/// Only nodes with DOFs keep their positions; what is missing is said.
+/// Keeps the positions of nodes with DOFs, and notes missing ones.
 void settle_positions(SparseModel& model, std::vector<std::string>& notes) {
   std::map<int, Eigen::Vector3d> kept;
   int missing = 0, first = 0;
@@ -205,7 +205,7 @@ void settle_positions(SparseModel& model, std::vector<std::string>& notes) {
                     std::to_string(first));
 }
 
-/// A DOF that the table names twice: the file is at fault, not the matrices.
+/// Throws DataError if the table contains a DOF twice.
 void require_each_once(const std::vector<NodeDof>& dofs, const std::filesystem::path& path) {
   std::map<NodeDof, std::size_t> first;
   for (std::size_t row = 0; row < dofs.size(); ++row) {

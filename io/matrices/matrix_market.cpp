@@ -36,7 +36,7 @@ Heading read_heading(SurfaceText& text) {
   return {format == "coordinate", symmetry == "symmetric"};
 }
 
-/// The next word beyond lines of comment.
+/// The next word that does not belong to a comment.
 std::string_view next_word(SurfaceText& text) {
   std::string_view word = text.word();
   while (word.starts_with('%')) {

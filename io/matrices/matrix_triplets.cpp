@@ -13,7 +13,7 @@ namespace {
 
 using dynamics::NodeDof;
 
-/// Commas as blanks: no field of these lines is empty.
+/// The text with blanks in place of commas, which is unambiguous because no field of these lines is empty.
 std::string without_commas(std::string_view bytes) {
   std::string text(bytes);
   std::replace(text.begin(), text.end(), ',', ' ');
@@ -47,7 +47,7 @@ NodeDof dof(SurfaceText& text, std::string_view node_word) {
 int fields_of_first_line(std::string_view bytes) {
   const auto start = bytes.find_first_not_of(" \t\r\n");
   if (start == std::string_view::npos) return 0;
-  // Enough for the comments of a heading and a line: files of gigabytes are not copied for it.
+  // These bytes suffice for the comments of a heading and one line; a large file is not copied.
   const std::string head = without_commas(bytes.substr(start, 10000));
   SurfaceText text(head, "", '\0');
   int count = first_word(text).empty() ? 0 : 1;

@@ -15,16 +15,17 @@
 
 namespace thinwall::io {
 
-/// Numbers on the first line that holds any: 3, 5, or what stands there.
+/// Number of fields on the first line that is no comment: 3, 5, or any other number.
 [[nodiscard]] int fields_of_first_line(std::string_view bytes);
 
-/// Lines of "row column value"; the size is the largest row or column. Throws DataError with file and line: another
-/// number of fields, an index that is none, a number that is not finite, no entry. Cost O(bytes).
+/// The entries of lines "row column value"; the size is the largest row or column. Throws DataError with file and line
+/// for another number of fields, an invalid index, a number that is not finite, and a file without entries. Cost
+/// O(bytes).
 [[nodiscard]] MatrixEntries triplet_entries(std::string_view bytes, const std::string& name);
 
-/// Lines of "row node, component, column node, component, value"; a line that begins with '*' is a keyword and passed
-/// over. Nodes that Abaqus made itself have negative numbers. Errors as triplet_entries(), and a component other than 0
-/// to 6 (temperatures, pressures). Cost O(bytes).
+/// The entries of lines "row node, component, column node, component, value"; lines that begin with '*' are keywords
+/// and are skipped. Nodes that Abaqus has added itself have negative numbers. Throws as triplet_entries() does, and for
+/// a component other than 0 to 6 (temperatures, pressures). Cost O(bytes).
 [[nodiscard]] LabelledEntries labelled_triplets(std::string_view bytes, const std::string& name);
 
 /// The lines "node.component" of a .dof file, in the order of the rows. Throws DataError with file and line. Cost

@@ -21,7 +21,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// A line as its first field and the others, in their number.
+/// A line as its first field and the others.
 struct Line {
   std::string_view first;
   std::vector<std::string_view> fields;
@@ -52,7 +52,7 @@ Line split(std::string_view text) {
   throw core::DataError(name + ":" + std::to_string(line) + ": " + what);
 }
 
-/// "1.5e+07" as "1.5+7": a mantissa with a point, an exponent with a sign and no letter.
+/// A number such as "1.5e+07" as "1.5+7": a mantissa with a point, an exponent with a sign and without letter.
 std::string compact(std::string_view scientific) {
   const auto e = scientific.find('e');
   std::string text(scientific.substr(0, e));
@@ -63,7 +63,7 @@ std::string compact(std::string_view scientific) {
   return text + std::string(exponent);
 }
 
-/// "-0.25" as "-.25", "3" as "3.".
+/// A number without needless zeros: "-0.25" as "-.25", "3" as "3.".
 std::string without_zero(std::string_view fixed) {
   std::string text(fixed);
   if (text.find('.') == std::string::npos) text += '.';
@@ -72,7 +72,7 @@ std::string without_zero(std::string_view fixed) {
   return text;
 }
 
-/// The number in one of both forms with as many digits as sixteen columns hold; empty if they hold none of it.
+/// The number in one of both forms with as many digits as fit in sixteen columns; empty if none fit.
 std::string sixteen_columns(double value, std::chars_format format) {
   constexpr std::size_t width = 16;
   std::array<char, 400> buffer{};

@@ -17,7 +17,7 @@ namespace thinwall::io {
 namespace {
 
 constexpr std::int64_t any = std::numeric_limits<std::int32_t>::max();
-constexpr std::int64_t most_groups = 64;  ///< of an entity: every element stands once in each
+constexpr std::int64_t most_groups = 64;  ///< of an entity, because every element is stored once in each group
 constexpr std::int64_t many = std::numeric_limits<std::int64_t>::max() / 2;
 using Group = std::pair<std::int64_t, std::int64_t>;  ///< dimension, tag
 
@@ -105,7 +105,7 @@ class GmshReader {
     }
   }
 
-  /// Reads to which groups each entity of the geometry belongs.
+  /// Reads the physical groups of each entity of the geometry.
   void read_entities() {
     std::array<std::int64_t, 4> counts{};
     for (auto& count : counts) count = in_.count("a number of entities", 0, many);
@@ -167,7 +167,7 @@ class GmshReader {
     static_cast<void>(in_.count("the largest number", 0, many));
   }
 
-  /// All numbers of the block, then all places.
+  /// Reads a block of nodes: all numbers, then all positions.
   void read_block(std::int64_t count, std::int64_t parameters) {
     const std::size_t first = mesh_.nodes.size();
     for (std::int64_t i = 0; i < count; ++i)
@@ -216,7 +216,7 @@ class GmshReader {
     }
   }
 
-  /// The first tag is the physical group, 0 without one.
+  /// Reads an element of MSH 2, whose first tag is the physical group, 0 for none.
   void read_element_2(std::int64_t label, const GmshElement& element, std::int64_t tags) {
     std::set<std::int64_t> groups;
     for (std::int64_t t = 0; t < tags; ++t) {

@@ -14,7 +14,7 @@ GmshElement in_order(std::size_t nodes, int dimension, CellShape shape = CellSha
   return element;
 }
 
-/// The corners, then the places of what follows.
+/// A solid with its corners first, then the given places of the nodes behind them.
 GmshElement solid(CellShape shape, const std::vector<std::size_t>& behind_the_corners) {
   const std::size_t corners = mesh::topology(shape).corners;
   GmshElement element = in_order(corners, 3, shape);

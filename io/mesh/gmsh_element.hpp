@@ -11,16 +11,16 @@
 
 namespace thinwall::io {
 
-/// A type of element: points, lines and faces have dimension 0 to 2, of solids alone shape and order mean something.
+/// A type of element. Points, lines and faces have dimension 0 to 2; shape and order are given for solids only.
 struct GmshElement {
-  std::size_t nodes = 0;  ///< 0: not read
+  std::size_t nodes = 0;  ///< 0 for a type that is not read
   int dimension = 0;
   mesh::CellShape shape = mesh::CellShape::tetrahedron;
-  /// For each node in the order of mesh/solid/cell_shape.hpp its place in Gmsh's.
+  /// For each node in the order of mesh/solid/cell_shape.hpp its place in Gmsh's order.
   std::vector<std::size_t> order;
 };
 
-/// Types 1 to 19, which are all of order 1 and 2; others have no nodes here.
+/// The element of a type, which is known for types 1 to 19, all of order 1 or 2; others have no nodes here.
 [[nodiscard]] const GmshElement& gmsh_element(std::int64_t type);
 
 }  // namespace thinwall::io

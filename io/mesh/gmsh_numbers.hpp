@@ -1,5 +1,5 @@
 #pragma once
-// The numbers of an MSH file, whether they are written as text or as bytes.
+// The numbers of an MSH file in text or binary form.
 
 #include <cstdint>
 #include <string>
@@ -9,30 +9,30 @@
 
 namespace thinwall::io {
 
-/// Goes through a file number by number. The bytes must outlive it. Throws DataError with file and line (text), or file
-/// and byte, where the file ends early or holds something else.
+/// A reader of a file number by number. The bytes must outlive it. Throws DataError with file and line (text), or file
+/// and byte, if the file ends early or contains anything else.
 class GmshNumbers {
  public:
   GmshNumbers(std::string_view bytes, std::string name);
 
-  /// Text between numbers: section names and the counts of MSH 2, in binary files, too.
+  /// The text between numbers: section names and the counts of MSH 2, in binary files too.
   [[nodiscard]] SurfaceText& text() { return text_; }
 
-  /// From here on numbers are bytes; they begin with the number 1, which tells their order.
+  /// Changes to binary numbers, which begin with the number 1 that shows their byte order.
   void begin_binary();
-  /// True if numbers are bytes by now.
+  /// True if numbers are read in binary form.
   [[nodiscard]] bool is_binary() const { return is_binary_; }
 
-  /// An integer of four bytes, a count or a number of eight bytes, a real of eight bytes; as text a word each.
+  /// The next integer, of four bytes in binary form, from `least` to `most`; `what` names it in messages.
   [[nodiscard]] std::int64_t integer(const char* what, std::int64_t least, std::int64_t most);
-  /// See integer().
+  /// The next count or label, of eight bytes in binary form, from `least` to `most`.
   [[nodiscard]] std::int64_t count(const char* what, std::int64_t least, std::int64_t most);
-  /// See integer().
+  /// The next real number, of eight bytes in binary form.
   [[nodiscard]] double real(const char* what);
 
-  /// The line, 0 in binary files.
+  /// The number of the line, 0 in binary form.
   [[nodiscard]] std::int64_t line() const { return is_binary_ ? 0 : text_.line(); }
-  /// Throws DataError with the file, its line or byte, and what.
+  /// Throws DataError with the file, its line or byte, and `what`.
   [[noreturn]] void fail(const std::string& what) const;
 
  private:

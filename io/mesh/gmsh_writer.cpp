@@ -32,7 +32,7 @@ void append_node_section(std::string& text, const mesh::LagrangeNodes& nodes) {
   text += "$EndNodes\n";
 }
 
-/// For each of Gmsh's nodes of a tetrahedron its column in LagrangeNodes::elements.
+/// The column in LagrangeNodes::elements of each of Gmsh's nodes of a tetrahedron.
 std::vector<Eigen::Index> gmsh_columns(int order) {
   const GmshElement& element = gmsh_element(order == 1 ? 4 : 11);
   const auto lattice = mesh::lattice(order);

@@ -17,10 +17,10 @@ namespace {
 using Labels = std::vector<std::int64_t>;
 using TextSets = std::map<std::string, InpTextSet>;
 
-// Costs of steps, in units of one label that is looked at: about the time they take.
+// Costs of steps relative to the visit of one label, by their time.
 constexpr std::size_t set_cost = 25, range_cost = 5, member_cost = 5;
 
-/// Turns ranges into labels, and keeps count of the work: text of a few bytes may name every node, or every set.
+/// Expands ranges into labels and limits the work, because a text of a few bytes may refer to every node or every set.
 class Expansion {
  public:
   explicit Expansion(const InpText& text) : text_(text) {
@@ -54,7 +54,7 @@ class Expansion {
     return expanded(ranges, node_labels_);
   }
 
-  /// Elements that are no solids are not among the cells, and left out.
+  /// The cells of the ranges; elements that are no solids are left out.
   Labels cells(const std::vector<InpLabelRange>& ranges) { return expanded(ranges, cell_labels_); }
 
   /// The nodes of the elements that are no solids.
@@ -92,7 +92,7 @@ class Expansion {
     return labels;
   }
 
-  /// Goes by the labels that are there, or by the steps where those are far fewer.
+  /// Adds the labels of a range, by going through the labels that exist, or through the range if that is much shorter.
   void add_range(const InpLabelRange& range, const Labels& known, Labels& labels) {
     const auto begin = std::lower_bound(known.begin(), known.end(), range.first);
     const auto end = std::upper_bound(begin, known.end(), range.last);
@@ -132,9 +132,9 @@ class Expansion {
     return of_nodes ? nodes(ranges) : cells(ranges);
   }
 
-  /// Corners of the face and the nodes of the edges between them.
+  /// Adds the corners of a face and the nodes of the edges between them.
   void add_face(const InpTextFace& face, const mesh::LabelledCell& cell, Labels& nodes) {
-    // For each shape and number of a face in the format its place in mesh::topology.
+    // The place in mesh::topology() of each face, by shape and by the format's number.
     constexpr std::array<std::array<std::size_t, 6>, 4> places{
         {{3, 2, 0, 1, 9, 9}, {0, 1, 2, 3, 4, 5}, {0, 1, 2, 3, 4, 9}, {0, 1, 2, 3, 4, 9}}};
     const mesh::CellTopology& shape = mesh::topology(cell.shape);

@@ -15,8 +15,8 @@
 
 namespace thinwall::io {
 
-/// The material that a *SOLID SECTION gives to a set of elements, in the file's own units; absent where the file does
-/// not say it, or where the material is not isotropic.
+/// The material that a *SOLID SECTION gives to a set of elements, in the file's own units; a value is absent if the
+/// file does not contain it or the material is not isotropic.
 struct InpMaterial {
   std::string element_set;
   std::string name;
@@ -28,38 +28,39 @@ struct InpMaterial {
 /// A mesh and its materials.
 struct InpPart {
   mesh::SolidMesh solid;
-  std::vector<InpMaterial> materials;  ///< a section each
+  std::vector<InpMaterial> materials;  ///< one for each section
 };
 
-/// The file's nodes and elements under its own numbers.
+/// The nodes and elements of a file under its own numbers, and its materials.
 struct InpLabelled {
   mesh::LabelledMesh mesh;
   std::vector<InpMaterial> materials;
 };
 
-/// Reads *NODE, *ELEMENT of TYPE=C3D4, C3D10, C3D8, C3D20, C3D6, C3D15 and C3D5 with whatever letter follows, *NSET and
+/// Reads *NODE, *ELEMENT of TYPE=C3D4, C3D10, C3D8, C3D20, C3D6, C3D15 and C3D5 with any letter behind, *NSET and
 /// *ELSET (also GENERATE, and sets by name), with NSET= of *NODE and ELSET= of *ELEMENT; *SURFACE of element faces or
 /// nodes, whose nodes become a node set; *MATERIAL, *ELASTIC, *DENSITY (first line of each) and *SOLID SECTION.
-/// Elements that are no solids are passed over and counted in a notice, the nodes of a set of them become a node set;
-/// other keywords are passed over with their lines. A file does not tell its unit: `metres_per_unit` does. `name` is
-/// what messages call the file; names of sets are in capitals. Throws DataError with file and line: a keyword that
-/// makes or moves nodes or elements and is not read (*INCLUDE, *SYSTEM, *NGEN, an *INSTANCE that moves ...), another
-/// solid element, text where a number belongs, a value that is not finite, a node that is missing, sets that together
-/// hold over 6 million members and 60 of every node, or are part of each other over two million times. Nodes that a
-/// range of GENERATE passes over may be absent. Cost O(bytes) and of the members of the sets.
+/// Elements that are no solids are skipped and counted in a notice, but the nodes of a set of them become a node set;
+/// other keywords are skipped with their lines. A file does not contain its unit: coordinates times `metres_per_unit`
+/// are m. `name` is the file's name in messages; names of sets are in capitals. Throws DataError with file and line for
+/// a keyword that makes or moves nodes or elements and is not supported (*INCLUDE, *SYSTEM, *NGEN, an *INSTANCE that
+/// moves …), another solid element, text in place of a number, a value that is not finite, a missing node, sets that
+/// together have over 6 million members and 60 times the number of nodes, or that contain each other over two million
+/// times. A range of GENERATE may contain numbers of nodes that do not exist. Cost O(bytes) and of the members of the
+/// sets.
 [[nodiscard]] InpLabelled inp_mesh(std::string_view bytes, const std::string& name, double metres_per_unit);
 
-/// The file as tetrahedra: mesh::solid_mesh of inp_mesh.
+/// The file as tetrahedra, by mesh::solid_mesh() of inp_mesh(), with its materials.
 [[nodiscard]] InpPart read_inp_part(const std::filesystem::path& path, double metres_per_unit);
 
-/// Reads the mesh without its materials; otherwise as the function above.
+/// The file as tetrahedra without its materials.
 [[nodiscard]] mesh::SolidMesh read_inp(const std::filesystem::path& path, double metres_per_unit);
 
-/// "Young's modulus, density": what a section does not say; "" if it says all.
+/// The values that a section lacks, such as "Young's modulus, density"; "" if it is complete.
 [[nodiscard]] std::string what_lacks(const InpMaterial& material);
 
-/// E in Pa and ρ in kg/m³ of a file whose unit of time is the second: E · kg / m, ρ · kg / m³, with the metres in its
-/// unit of length and the kilograms in its unit of mass (mm, t, s: 1e-3 and 1e3).
+/// The material in SI (E in Pa, ρ in kg/m³) of a file whose unit of time is the second: E · kg / m, ρ · kg / m³, with
+/// the metres in its unit of length and the kilograms in its unit of mass (for mm, t, s these are 1e-3 and 1e3).
 [[nodiscard]] InpMaterial in_si(InpMaterial material, double metres_per_unit, double kg_per_mass_unit);
 
 /// A homogeneous part whose natural modes are wanted.
@@ -71,11 +72,11 @@ struct InpFrequencyStep {
   int modes = 10;
 };
 
-/// Writes nodes and elements of order 1 or 2 in SI, numbered from 1 in their order, the sets, and for CalculiX a
-/// material and a *FREQUENCY step. Its fields are twenty characters wide, so that coordinates are written with at least
-/// 14 significant digits (relative 5e-14). Written in one step. Throws InputError for another order, a set with an
-/// empty name or one that the format cannot hold, or an unknown set in `fixed`; NumericalError for a coordinate that is
-/// not finite; DataError if the file cannot be written.
+/// Writes nodes and elements of order 1 or 2 in SI, numbered from 1 in their order, the sets, and, if `step` is given,
+/// a material and a *FREQUENCY step for CalculiX. Its fields are twenty characters wide, so that coordinates are
+/// written with at least 14 significant digits (relative 5e-14). The file is written in one step. Throws InputError for
+/// another order, a set whose name is empty or not possible in the format, or an unknown set in `fixed`; NumericalError
+/// for a coordinate that is not finite; DataError if the file cannot be written.
 void write_inp(const std::filesystem::path& path, const mesh::LagrangeNodes& nodes,
                const std::vector<mesh::NodeSet>& sets, const std::optional<InpFrequencyStep>& step = {});
 

@@ -19,7 +19,7 @@ std::string_view trimmed(std::string_view text) {
 /// The kind of data in the lines after a keyword.
 enum class Section {
   passed_over,
-  counted,  ///< elements that are passed over
+  counted,  ///< elements that are skipped and counted
   nodes,
   elements,
   set,
@@ -36,7 +36,8 @@ struct InpElement {
   std::size_t nodes = 0;  ///< 0: none
 };
 
-/// C3D4, C3D10, ..., with whatever letters follow (R: reduced integration, H: hybrid, I, M, S, T: variants).
+/// The element of a type C3D4, C3D10 …, with any letters behind (R: reduced integration, H: hybrid, I, M, S, T:
+/// variants).
 InpElement element_of_type(std::string_view type) {
   if (!type.starts_with("C3D")) return {};
   std::size_t nodes = 0;
@@ -50,7 +51,7 @@ InpElement element_of_type(std::string_view type) {
   return {};
 }
 
-/// Goes through a file line by line.
+/// A reader of a file line by line.
 class InpReader {
  public:
   InpReader(std::string_view bytes, const std::string& name, double metres_per_unit)
@@ -82,7 +83,7 @@ class InpReader {
  private:
   [[noreturn]] void fail(const std::string& what) const { mesh::fail_at(result_.mesh, line_, what); }
 
-  /// A keyword's line goes on in the next one if it ends with a comma.
+  /// Reads a keyword, whose line continues in the next one if it ends with a comma.
   void read_keyword(std::string_view line) {
     if (!keyword_goes_on_) keyword_.clear();
     keyword_ += line;
@@ -161,7 +162,7 @@ class InpReader {
     set_ = &sets[parameters[kind]];
   }
 
-  /// Surfaces of nodes hold numbers or sets alone, those of elements a face behind them.
+  /// Opens a surface: lines of surfaces of nodes contain a number or a set, those of elements also a face.
   void open_surface(Parameters& parameters) {
     const std::string type = parameters["TYPE"];
     if (parameters["NAME"].empty() || (!type.empty() && type != "ELEMENT" && type != "NODE")) return;
@@ -207,7 +208,7 @@ class InpReader {
     result_.mesh.nodes.push_back(node);
   }
 
-  /// An element may take several lines; it is whole when it has all its nodes.
+  /// Reads a line of an element, which may take several lines until it has all its nodes.
   void read_element(std::string_view rest) {
     mesh::LabelledMesh& mesh = result_.mesh;
     if (nodes_missing_ == 0) {
@@ -225,7 +226,7 @@ class InpReader {
     }
   }
 
-  /// An element that is no solid goes on after a comma; what is no number is of no interest.
+  /// Reads a line of an element that is no solid, which continues after a comma; words that are no numbers are skipped.
   void read_flat(std::string_view rest) {
     const bool goes_on = rest.back() == ',';
     if (!flat_goes_on_) {
@@ -296,7 +297,7 @@ class InpReader {
     surface_->push_back(face);
   }
 
-  /// The first line of *ELASTIC or *DENSITY; later ones are for other temperatures.
+  /// Reads the first line of *ELASTIC or *DENSITY; later lines are for other temperatures.
   void read_constants(std::string_view rest) {
     InpTextMaterial& material = result_.materials.back();
     if (section_ == Section::elastic) {
@@ -308,7 +309,7 @@ class InpReader {
     section_ = Section::passed_over;
   }
 
-  /// The text up to the next comma, which is taken off `rest`.
+  /// Takes the text up to the next comma off `rest`.
   static std::string_view next_field(std::string_view& rest) {
     const auto comma = std::min(rest.find(','), rest.size());
     const std::string_view field = trimmed(rest.substr(0, comma));
@@ -326,7 +327,7 @@ class InpReader {
     return label;
   }
 
-  /// Fortran's "1.5D-3" and "+1.5" as well.
+  /// The next number, also in Fortran's forms "1.5D-3" and "+1.5".
   double next_number(std::string_view& rest) const {
     const std::string_view field = next_field(rest);
     double value = std::nan("");
@@ -351,12 +352,12 @@ class InpReader {
   std::map<std::string, InpTextSet>* sets_ = nullptr;  ///< where its parts are looked up
   std::vector<InpTextFace>* surface_ = nullptr;
   bool surface_of_nodes_ = false;
-  std::map<std::string, int> passed_over_;  ///< elements by type
+  std::map<std::string, int> passed_over_;  ///< number of skipped elements of each type
   int* flat_count_ = nullptr;
   bool flat_goes_on_ = false;
   std::string keyword_;
   bool keyword_goes_on_ = false;
-  std::size_t nodes_missing_ = 0;  ///< of the last element
+  std::size_t nodes_missing_ = 0;  ///< nodes that the last element still lacks
   int line_ = 0;
 };
 

@@ -12,7 +12,7 @@ namespace thinwall::io {
 
 namespace {
 
-/// For each node of the file's element the index of the same node in mesh::lattice(order).
+/// The index in mesh::lattice(order) of each node of the file's element.
 std::vector<Eigen::Index> lattice_index(int order) {
   std::vector<Eigen::Index> index{0, 1, 2, 3};
   if (order == 1) return index;

@@ -15,7 +15,7 @@ namespace thinwall::io {
 
 namespace {
 
-/// Deflate's largest ratio is 1032.
+/// Bound on the expansion by zlib; the largest ratio of its method is 1032.
 constexpr std::uint64_t largest_expansion = 1100;
 
 [[noreturn]] void fail(const VtuEncoding& encoding, const VtuArray& array, const std::string& what) {
@@ -30,12 +30,12 @@ int base64_value(char c) {
   return c == '/' ? 63 : -1;
 }
 
-/// Bytes as they come, or from base64. VTK pads a heading and its data each on its own: '=' ends a group, not the text.
+/// A reader of raw or base64 bytes. VTK pads a heading and its data separately, so that '=' ends a group, not the text.
 class Bytes {
  public:
   Bytes(std::string_view text, bool is_base64) : text_(text), is_base64_(is_base64) {}
 
-  /// At most so many bytes are left.
+  /// An upper bound on the number of bytes that are left.
   [[nodiscard]] std::uint64_t most() const { return group_.size() + text_.size(); }
 
   /// The next bytes; fewer if the text ends or is no base64.
@@ -110,7 +110,8 @@ std::string inflated(const VtuEncoding& encoding, const VtuArray& array, const s
   return data;
 }
 
-/// Heading: number of blocks, size of a block, size of the last one (0: as the others), compressed sizes.
+/// The data of compressed blocks. Their heading contains the number of blocks, the size of a block, the size of the
+/// last one (0: as the others) and the compressed sizes.
 std::string compressed_data(const VtuEncoding& encoding, const VtuArray& array, Bytes& bytes) {
   const std::uint64_t blocks = header_number(encoding, array, bytes);
   const std::uint64_t size = header_number(encoding, array, bytes);

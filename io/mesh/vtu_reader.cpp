@@ -16,12 +16,14 @@ namespace thinwall::io {
 
 namespace {
 
-/// A bomb of zeros expands a thousandfold, a mesh some fivefold.
+/// A bound on the decoded bytes of a file. A mesh expands some fivefold; a file of compressed zeros may expand a
+/// thousandfold.
 std::uint64_t most_decoded_bytes(std::size_t file_size) {
   return (std::uint64_t{1} << 26U) + std::uint64_t{100} * file_size;
 }
 
-/// A solid cell of VTK: for each node in the order of mesh/solid/cell_shape.hpp its place in VTK's; empty: as it comes.
+/// A solid cell of VTK, with the place in VTK's order of each node in the order of mesh/solid/cell_shape.hpp; an empty
+/// list if both orders agree.
 struct VtkSolid {
   mesh::CellShape shape = mesh::CellShape::tetrahedron;
   std::size_t nodes = 0;
@@ -46,7 +48,7 @@ const std::map<std::int64_t, VtkSolid>& solids() {
   return all;
 }
 
-/// Cells of dimension 0 to 2, which a mesh of solids may bring with it.
+/// True for cells of dimension 0 to 2, which a mesh of solids may contain too.
 bool is_no_solid(std::int64_t type) {
   constexpr std::array<int, 19> flat{1, 2, 3, 4, 5, 6, 7, 8, 9, 21, 22, 23, 28, 30, 34, 36, 68, 69, 70};
   return std::find(flat.begin(), flat.end(), type) != flat.end();
@@ -86,7 +88,7 @@ class VtuReader {
  private:
   [[noreturn]] void fail(const std::string& what) const { throw core::DataError(mesh_.path + ": " + what); }
 
-  /// The XML without the appended data, which may be bytes that no XML has.
+  /// The XML without the appended data, whose bytes may be invalid in XML.
   std::string without_appended(std::string_view bytes) {
     const auto tag = bytes.find("<AppendedData");
     if (tag == std::string_view::npos) return std::string(bytes);
@@ -110,7 +112,7 @@ class VtuReader {
     return array;
   }
 
-  /// All arrays together decode to what one of them may.
+  /// The numbers of an array, with a bound on the decoded bytes of all arrays together.
   template <class T>
   std::vector<T> accounted(std::vector<T> values) {
     decoded_bytes_ += values.size() * sizeof(T);

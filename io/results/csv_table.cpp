@@ -38,7 +38,7 @@ std::string field(const Column& column, std::size_t row) {
   return core::number_text(value);
 }
 
-/// Infinity is a result in our tables (no limit), unlike in a measurement.
+/// The value of the text of an infinity, which in tables of results stands for "no limit".
 std::optional<double> infinity(const std::string& text) {
   if (text == "inf") return std::numeric_limits<double>::infinity();
   if (text == "-inf") return -std::numeric_limits<double>::infinity();

@@ -1,5 +1,5 @@
 #pragma once
-// Tables of results as people plot them: one header row, units in the column names ("speed_rpm", "depth_m").
+// Tables of results for plotting: one header row, units in the column names ("speed_rpm", "depth_m").
 
 #include <filesystem>
 #include <string>
@@ -12,29 +12,29 @@ namespace thinwall::io {
 struct Column {
   std::string name;
   std::variant<std::vector<double>, std::vector<std::string>> values;
-  bool gaps = false;  ///< numbers that are not known for every row: NaN, an empty cell of the file
+  bool gaps = false;  ///< true if numbers may be unknown: NaN, an empty cell of the file
 };
 
 /// Columns of equal length, left to right.
 using Table = std::vector<Column>;
 
-/// Writes the table in one step (core::write_file_atomically), `comments` first, each on a line after "# ". Numbers
-/// read back exactly; infinity stands for "no limit" and is written "inf". Throws InputError for columns of unequal
-/// length or no column, NumericalError for NaN in a column without gaps (naming column and row), DataError if the file
-/// cannot be written.
+/// Writes the table in one step (core::write_file_atomically()), with `comments` first, each on a line after "# ".
+/// Numbers are read back exactly; infinity stands for "no limit" and is written "inf". Throws InputError for columns of
+/// unequal length or no column; NumericalError, with column and row, for NaN in a column without gaps; DataError if the
+/// file cannot be written.
 void write_csv(const std::filesystem::path& path, const Table& table, const std::vector<std::string>& comments = {});
 
-/// Reads a table with one header row; a column is of numbers if its first field that is not empty is one ("inf"
-/// included), else of words. Throws DataError with file and line for a missing header, unequal lines, NaN or a word
-/// among numbers.
+/// Reads a table with one header row. A column contains numbers if its first field that is not empty is one ("inf"
+/// included), otherwise words. Throws DataError with file and line for a missing header, unequal lines, and NaN or a
+/// word among numbers.
 [[nodiscard]] Table read_csv(const std::filesystem::path& path);
 
-/// The numbers of the column called `name`; throws DataError, offering the nearest name, if there is none or if it is
-/// of words or has an empty cell. `path` is for the message.
+/// The numbers of the column called `name`. Throws DataError, which proposes the nearest name, if there is none, or if
+/// it contains words or an empty cell. `path` is for the message.
 [[nodiscard]] const std::vector<double>& numbers(const Table& table, const std::string& name,
                                                  const std::filesystem::path& path);
 
-/// The numbers of a column that may have empty cells, which are NaN; all of them NaN where every cell is empty.
+/// The numbers of a column that may have empty cells, which are NaN, even if all cells are empty.
 [[nodiscard]] std::vector<double> numbers_or_gaps(const Table& table, const std::string& name,
                                                   const std::filesystem::path& path);
 

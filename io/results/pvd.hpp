@@ -1,5 +1,5 @@
 #pragma once
-// ParaView's collection file: several VTU files as one series.
+// ParaView's collection files, which combine several VTU files into a series.
 
 #include <filesystem>
 #include <string>

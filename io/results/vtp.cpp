@@ -55,7 +55,7 @@ vtkNew<vtkFloatArray> single_precision(const Rows& values, const UsedNodes& used
   return array;
 }
 
-/// Appended base64 data, UInt64 headers, zlib.
+/// Writes the surface as appended base64 data with UInt64 headers and zlib.
 void write(const std::filesystem::path& path, vtkPolyData& surface) {
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(&surface);

@@ -1,5 +1,5 @@
 #pragma once
-// The surface of a part with its mode shapes, light enough to mail: VTK's XML format for polygons.
+// The surface of a part with its mode shapes as a small file in VTK's XML format for polygons.
 
 #include <array>
 #include <filesystem>
@@ -12,35 +12,36 @@
 
 namespace thinwall::io {
 
-/// A number of every triangle, such as mesh::wall_thickness in m.
+/// One number for each triangle, such as mesh::wall_thickness() in m.
 struct TriangleNumbers {
   std::string name;
   std::vector<double> values;
 };
 
-/// Writes flat triangles between nodes (mesh::surface_triangles) with vectors at the nodes that they use, in single
-/// precision, and numbers on the triangles, compressed; all vectors in one file, so that a viewer switches between
-/// modes without opening another. The whole nodes and vectors are passed (nodes × 3), what the triangles do not use is
-/// left out. Written in one step. Throws as write_vtu(), and InputError for numbers that are not as many as triangles.
+/// Writes flat triangles between nodes (mesh::surface_triangles()) with vectors at the nodes that they use, in single
+/// precision, and numbers on the triangles, compressed. All vectors are in one file, so that a viewer can change
+/// between modes without opening another. nodes and vectors (nodes × 3) are those of the whole mesh; nodes that the
+/// triangles do not use are left out. The file is written in one step. Throws as write_vtu() does, and InputError if
+/// there are not as many numbers as triangles.
 void write_vtp(const std::filesystem::path& path, const mesh::LagrangeNodes& nodes,
                const std::vector<std::array<int, 3>>& triangles, const std::vector<NodeVectors>& vectors,
                const std::vector<TriangleNumbers>& numbers = {});
 
-/// Writes a surface, positions in single precision, with numbers on its triangles in double precision. Written in one
-/// step. Throws InputError if numbers are not as many as triangles, NumericalError if one is not finite, DataError if
-/// the file cannot be written. Cost O(triangles).
+/// Writes a surface, positions in single precision, with numbers on its triangles in double precision. The file is
+/// written in one step. Throws InputError if there are not as many numbers as triangles, NumericalError if one is not
+/// finite, DataError if the file cannot be written. Cost O(triangles).
 void write_vtp(const std::filesystem::path& path, const mesh::TriangleSurface& surface,
                const std::vector<TriangleNumbers>& numbers);
 
-/// A surface with what is known at its vertices (vertices × 3) and on its triangles.
+/// A surface with vectors at its vertices (vertices × 3) and numbers on its triangles.
 struct SurfaceFields {
   mesh::TriangleSurface surface;
   std::vector<NodeVectors> vectors;
   std::vector<TriangleNumbers> numbers;
 };
 
-/// Reads what write_vtp wrote; arrays of other shapes are passed over. Throws DataError, naming the file, for one that
-/// cannot be read, is no surface of triangles or names a vertex that it does not have.
+/// Reads a file of write_vtp(); arrays of other shapes are skipped. Throws DataError, with the file, if it cannot be
+/// read, contains no surface of triangles or refers to a vertex that does not exist.
 [[nodiscard]] SurfaceFields read_vtp(const std::filesystem::path& path);
 
 }  // namespace thinwall::io

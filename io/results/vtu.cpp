@@ -70,7 +70,7 @@ std::string xml_text(vtkUnstructuredGrid& grid) {
   writer->SetHeaderTypeToUInt64();
   writer->SetCompressorTypeToZLib();
   writer->SetCompressionLevel(1);  // speed before size
-  // Through memory, so that the file on disk appears in one step and a full disk is our error with our message.
+  // The text is made in memory, so that the file appears in one step and a full disk is reported by this program.
   writer->WriteToOutputStringOn();
   if (writer->Write() == 0) throw core::DataError("VTK could not encode the mesh");
   return writer->GetOutputString();
@@ -94,7 +94,7 @@ std::vector<int> vtk_node_order(int order) {
   for (std::size_t node = 0; node < lattice.size(); ++node) {
     std::array<vtkIdType, 4> b{};
     vtkHigherOrderTetra::BarycentricIndex(static_cast<vtkIdType>(node), b.data(), order);
-    // VTK counts the coordinate of its first vertex last.
+    // VTK lists the coordinate of its first vertex last.
     const std::array alpha{static_cast<int>(b[3]), static_cast<int>(b[0]), static_cast<int>(b[1]),
                            static_cast<int>(b[2])};
     result.push_back(local.at(alpha));

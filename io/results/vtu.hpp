@@ -20,17 +20,17 @@ struct NodeVectors {
 /// is not finite.
 void require_sound(const NodeVectors& field, Eigen::Index nodes);
 
-/// A number that belongs to the whole file, such as "frequency_hz"; it goes to the field data.
+/// A number that belongs to the whole file, such as "frequency_hz", which is written to the field data.
 struct FieldNumber {
   std::string name;
   double value = 0.0;
 };
 
 /// Writes nodes and elements of any order with vectors at the nodes: VTK_TETRA for order 1, VTK_QUADRATIC_TETRA for 2,
-/// VTK_LAGRANGE_TETRAHEDRON above; appended base64 data (the file stays well-formed XML), UInt64 headers (no limit at
-/// 4 GiB), zlib. Written in one step. Throws InputError if a field has another number of rows than there are nodes,
-/// NumericalError if one of its values is not finite, DataError if the file cannot be written. Cost O(nodes +
-/// elements).
+/// VTK_LAGRANGE_TETRAHEDRON above; appended base64 data (so that the file is well-formed XML), UInt64 headers (for more
+/// than 4 GiB), zlib. The file is written in one step. Throws InputError if a field has another number of rows than
+/// there are nodes, NumericalError if one of its values is not finite, DataError if the file cannot be written. Cost
+/// O(nodes + elements).
 void write_vtu(const std::filesystem::path& path, const mesh::LagrangeNodes& nodes,
                const std::vector<NodeVectors>& vectors = {}, const std::vector<FieldNumber>& numbers = {});
 

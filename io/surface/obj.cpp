@@ -12,7 +12,7 @@ namespace thinwall::io {
 
 namespace {
 
-/// The next word of a statement, which goes on in the next line after '\'.
+/// The next word of a statement, which a '\' continues in the next line.
 std::string_view word_of_statement(SurfaceText& text) {
   std::string_view word = text.word_of_line();
   while (word == "\\") {
@@ -28,7 +28,7 @@ Eigen::Vector3d read_point(SurfaceText& text, double metres_per_unit) {
   return x;
 }
 
-/// From 1, or −1 for the last so far, to an index from 0.
+/// The index from 0 of a corner, which counts from 1, or from −1 for the last point so far.
 int read_corner(const SurfaceText& text, std::string_view word, std::size_t points) {
   const auto last = static_cast<std::int64_t>(points);
   const std::int64_t number =
@@ -49,7 +49,7 @@ void read_facet(SurfaceText& text, FacetList& facets, std::size_t points) {
   facets.places.push_back(line);
 }
 
-/// Passes over a statement that is not read, with the lines on which it goes on.
+/// Skips a statement that is not read, with the lines in which it continues.
 void skip_statement(SurfaceText& text) {
   while (!word_of_statement(text).empty()) {
   }

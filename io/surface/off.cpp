@@ -13,7 +13,8 @@ namespace thinwall::io {
 
 namespace {
 
-/// The number of points. A heading is optional; "4OFF" and "nOFF" have other than three coordinates.
+/// Reads the heading, which is optional, and returns the number of points. "4OFF" and "nOFF", which have other than
+/// three coordinates, are refused.
 std::int64_t read_heading(SurfaceText& text) {
   std::string_view word = text.word();
   if (word.ends_with("OFF")) {
@@ -35,7 +36,7 @@ mesh::TriangleSoup off_surface(std::string_view bytes, const std::string& name, 
   SurfaceText text(bytes, name, '#');
   const std::int64_t points = read_heading(text);
   const std::int64_t count = text.whole_number("the number of facets", 1, largest_int);
-  text.skip_line();  // the number of edges, which nobody counts
+  text.skip_line();  // the number of edges is not needed
   std::vector<Eigen::Vector3d> vertices;
   vertices.reserve(std::min(static_cast<std::size_t>(points), text.bytes_left() / 6));
   for (std::int64_t p = 0; p < points; ++p) {

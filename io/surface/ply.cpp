@@ -19,7 +19,7 @@ namespace thinwall::io {
 
 namespace {
 
-/// The scalar in native byte order as a double, which holds all of them exactly.
+/// The scalar, converted to native byte order, as a double, which represents all these types exactly.
 template <class T>
 double as_double(const char* raw) {
   T value{};
@@ -49,7 +49,7 @@ double as_double(const char* raw, PlyType type) {
   return as_double<double>(raw);
 }
 
-/// The values one after the other, from text or bytes.
+/// A reader of values one after the other, from text or bytes.
 class PlyValues {
  public:
   PlyValues(std::string_view bytes, std::string name)
@@ -93,7 +93,7 @@ class PlyValues {
     if (is_text() ? !text_.at_end() : !rest_.empty()) fail("something follows the last row; export the surface again");
   }
 
-  /// Bytes that are left: no count allocates beyond them.
+  /// Number of bytes that are left, which bounds the memory that counts may ask for.
   [[nodiscard]] std::size_t bytes_left() const { return is_text() ? text_.bytes_left() : rest_.size(); }
 
   [[noreturn]] void fail(const std::string& what) const {

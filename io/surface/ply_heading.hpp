@@ -1,5 +1,5 @@
 #pragma once
-// The heading of a PLY file: which elements follow, how many, of which properties.
+// The heading of a PLY file: the elements that follow, their numbers and properties.
 
 #include <cstdint>
 #include <string>
@@ -12,35 +12,35 @@ namespace thinwall::io {
 /// The form in which the numbers of the body are written.
 enum class PlyFormat { ascii, little_endian, big_endian };
 
-/// Type of a number.
+/// The type of a number.
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-/// Bytes of a value in a binary file.
+/// Number of bytes of a value in a binary file.
 [[nodiscard]] std::size_t size_of(PlyType type);
 
-/// A number, or a list of numbers, of every item of an element.
+/// A property of every item of an element: a number, or a list of numbers.
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::float32;
   bool is_list = false;
-  PlyType count_type = PlyType::uint8;  ///< of a list
+  PlyType count_type = PlyType::uint8;  ///< type of the length of a list
 };
 
-/// So many items ("vertex", "face") with the same properties.
+/// A number of items ("vertex", "face") with the same properties.
 struct PlyElement {
   std::string name;
   std::int64_t count = 0;
   std::vector<PlyProperty> properties;
 };
 
-/// The heading that stands before the body.
+/// The heading of a file.
 struct PlyHeading {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
 };
 
 /// Reads the heading from "ply" to the line end after "end_header"; `text` then stands at the first value. Throws
-/// DataError with file and line for whatever does not belong there. Cost O(bytes of the heading).
+/// DataError with file and line for anything that does not belong there. Cost O(bytes of the heading).
 [[nodiscard]] PlyHeading read_ply_heading(SurfaceText& text);
 
 }  // namespace thinwall::io

@@ -51,7 +51,7 @@ void validate(const StepOptions& options) {
   }
 }
 
-/// Before a foreign library sees it: what is no STEP file, or half of one.
+/// Throws DataError for a file that is no STEP file or is truncated, before Open CASCADE reads it.
 void require_whole(const std::string& bytes, const std::string& name) {
   if (bytes.find("ISO-10303-21;") > longest_heading)  // or nowhere
     throw core::DataError(name + ": line 1: no STEP file: it does not begin with \"ISO-10303-21;\"");
@@ -77,7 +77,7 @@ std::vector<TopoDS_Shape> parts_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum k
   return result;
 }
 
-/// The reason why the shapes of a file are not one solid; empty if nothing does.
+/// The reason why the shapes of a file are not one solid; empty if they are.
 std::string fault_of(const TopoDS_Shape& shape) {
   const auto solids = parts_of(shape, TopAbs_SOLID, TopAbs_SHAPE);
   const auto loose = parts_of(shape, TopAbs_FACE, TopAbs_SOLID);
@@ -92,7 +92,7 @@ std::string fault_of(const TopoDS_Shape& shape) {
   return solids.empty() ? "holds no solid; export the part as one" : "";
 }
 
-/// Works in the process of its own.
+/// Reads and triangulates the file; called in the process of its own.
 Found found_in(const std::string& path, const StepOptions& options) {
   STEPControl_Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
@@ -175,7 +175,7 @@ Found found_confined(const std::string& path, const std::string& name, const Ste
   }
 }
 
-/// Metres in the unit that the file names; Open CASCADE knows more names than people use.
+/// Metres in the unit that the file names, if it is one of the common units.
 std::optional<double> metres_in(const std::string& unit) {
   const std::vector<std::pair<const char*, double>> known{
       {"metre", 1.0},        {"meter", 1.0},       {"m", 1.0},           {"millimetre", 1e-3}, {"millimeter", 1e-3},

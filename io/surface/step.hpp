@@ -15,7 +15,7 @@ struct StepOptions {
   /// 1e-6 to 0.1.
   double linear_deflection = 1e-3;
   double angular_deflection_rad = 0.25;  ///< turning between neighbouring triangles of a curved face, 0.01 to 1.5
-  double metres_per_unit = 0.0;          ///< instead of the unit that the file states; 0: the file's own
+  double metres_per_unit = 0.0;          ///< unit used instead of the file's own; 0: the file's own
   mesh::ProcessLimits limits;
 };
 
@@ -27,10 +27,11 @@ struct StepSurface {
 };
 
 /// Reads a file with one solid and triangulates its faces (Open CASCADE: STEPControl_Reader, BRepMesh_IncrementalMesh),
-/// in a process of its own with limits, because foreign files may crash it or keep it busy. Throws InputError for
-/// options out of range and where the program was built without Open CASCADE; DataError for a file that cannot be
-/// opened, is no STEP file (no ISO-10303-21 at its begin), ends early, states no or several units of length, holds no
-/// solid (shells and faces only) or several, with their places; or whose solid cannot be triangulated. Cost: seconds.
+/// in a process of its own with limits, because some files crash Open CASCADE or occupy it for very long. Throws
+/// InputError for options out of range and if the program was built without Open CASCADE; DataError for a file that
+/// cannot be opened, is no STEP file (no ISO-10303-21 at its begin), ends early, states no or several units of length,
+/// contains no solid (shells and faces only) or several, with their places, or whose solid cannot be triangulated.
+/// Cost: seconds.
 [[nodiscard]] StepSurface read_step(const std::filesystem::path& path, const StepOptions& options = {});
 
 /// True if this program can read STEP.

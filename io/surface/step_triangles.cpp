@@ -18,7 +18,7 @@ namespace thinwall::io {
 
 namespace {
 
-/// Points of faces, and which of them are one.
+/// The points of all faces, and the record of those that are equal.
 struct Joined {
   std::vector<Eigen::Vector3d> points;
   std::vector<int> parent;
@@ -47,7 +47,7 @@ void join_vertex(Joined& joined, const TopTools_IndexedMapOfShape& vertices, con
   if (!is_new) join(joined, known->second, point);
 }
 
-/// The points of one edge of a face with those that the edge has elsewhere.
+/// Joins the points of an edge of a face with those that the edge has in other faces.
 void join_edge(Joined& joined, const TopTools_IndexedMapOfShape& edges, const TopTools_IndexedMapOfShape& vertices,
                const TopoDS_Edge& edge, const std::vector<int>& along) {
   const auto forward = TopoDS::Edge(edge.Oriented(TopAbs_FORWARD));

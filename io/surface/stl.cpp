@@ -16,7 +16,7 @@ namespace thinwall::io {
 
 namespace {
 
-constexpr std::size_t heading_size = 84;  // 80 bytes of anything, then the count
+constexpr std::size_t heading_size = 84;  // 80 arbitrary bytes, then the count
 constexpr std::size_t facet_size = 50;    // normal, three corners, two bytes
 constexpr std::size_t normal_size = 12;
 static_assert(std::endian::native == std::endian::little, "STL is little-endian");
@@ -31,7 +31,7 @@ bool has_binary_size(std::string_view bytes) {
   return bytes.size() >= heading_size && bytes.size() == heading_size + facet_size * stated_facets(bytes);
 }
 
-/// "solid" first, and no byte near the beginning that a text does not have.
+/// True if the file begins with "solid" and its first bytes are all possible in text.
 bool looks_like_text(std::string_view bytes) {
   constexpr std::size_t examined = 1000;
   const auto first = bytes.find_first_not_of(" \t\r\n");
@@ -40,7 +40,7 @@ bool looks_like_text(std::string_view bytes) {
   return std::none_of(beginning.begin(), beginning.end(), [](char c) { return c >= '\0' && c < '\t'; });
 }
 
-/// Three points a facet, before equal ones are merged.
+/// Adds a facet with three points of its own; equal points are merged later.
 void add_facet(mesh::TriangleSoup& soup, const std::array<Eigen::Vector3d, 3>& corners) {
   const int first = static_cast<int>(soup.points.size());
   soup.points.insert(soup.points.end(), corners.begin(), corners.end());
@@ -88,7 +88,7 @@ mesh::TriangleSoup binary_surface(std::string_view bytes, const std::string& nam
                         "; export the surface again");
 }
 
-/// Reads the facets of a text, one solid after the other.
+/// A reader of the facets of a text, which may contain several solids.
 class TextReader {
  public:
   TextReader(std::string_view bytes, const std::string& name, double metres_per_unit)
@@ -97,7 +97,7 @@ class TextReader {
   mesh::TriangleSoup read() {
     while (!text_.at_end()) {
       expect("solid");
-      text_.skip_line();  // its name, whatever that is
+      text_.skip_line();  // the name of the solid
       read_solid();
     }
     return std::move(soup_);

@@ -9,14 +9,15 @@
 
 namespace thinwall::io {
 
-/// The triangles of an STL file in m, equal points made one (mesh::merged_points). The format does not tell its unit:
-/// `metres_per_unit` does. A file is binary if its size is 84 + 50 · (the count at byte 80), whatever it begins with;
-/// else ASCII if it begins with "solid" and is text. The normals in the file are passed over, as are colours.
-/// Throws InputError for a unit that is not positive; DataError with line or byte: a count that disagrees with the
-/// size, a truncated text, a coordinate that is not finite, no facets. Cost O(bytes); memory some four times the file.
+/// The triangles of an STL file in m, with equal points merged (mesh::merged_points()). The format does not contain its
+/// unit, which is `metres_per_unit`. A file is binary if its size is 84 + 50 · (the count at byte 80), whatever its
+/// beginning; otherwise ASCII if it begins with "solid" and is text. Normals and colours in the file are skipped.
+/// Throws InputError for a unit that is not positive; DataError with line or byte for a count that disagrees with the
+/// size, a truncated text, a coordinate that is not finite, and a file without facets. Cost O(bytes), with memory of
+/// some four times the file.
 [[nodiscard]] mesh::TriangleSoup read_stl(const std::filesystem::path& path, double metres_per_unit);
 
-/// Reads the surface from bytes, which messages call `name`; otherwise as the function above.
+/// The triangles of a file given by its bytes; `name` is its name in messages.
 [[nodiscard]] mesh::TriangleSoup stl_surface(std::string_view bytes, const std::string& name, double metres_per_unit);
 
 /// Writes a binary STL in one step. Coordinates are divided by metres_per_unit and rounded to single precision (6e-8 of

@@ -10,11 +10,11 @@ namespace thinwall::io {
 
 namespace {
 
-/// A fan's triangle may be turned over by this share of the facet's area: corners on a straight edge, round-off.
+/// Share of the facet's area by which a triangle of a fan may be turned over, because of corners on a straight edge and
+/// round-off.
 constexpr double allowed_relative_overlap = 1e-9;
 
-/// Fans that are compared for a facet: a file of long facets that any of them fills costs no more than this times its
-/// corners.
+/// Number of fans that are compared for a facet, which limits the cost of a facet to this number times its corners.
 constexpr std::size_t most_tried = 64;
 
 using Points = std::vector<Eigen::Vector3d>;
@@ -44,7 +44,8 @@ double smallest_of_fan(const Points& points, std::span<const int> corners, std::
   return smallest;
 }
 
-/// The corner to fan from, or the number of corners if there is none. A facet without area takes any.
+/// The corner from which the facet is divided into a fan, or the number of corners if there is none. For a facet
+/// without area any corner is taken.
 std::size_t best_apex(const Points& points, std::span<const int> corners) {
   const Eigen::Vector3d normal = newell_normal(points, corners);
   const double area = normal.norm();

@@ -1,5 +1,5 @@
 #pragma once
-// A surface from a file of any format that is read.
+// A surface from a file of any supported format.
 
 #include <filesystem>
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace thinwall::io {
 
-/// Reads .stl, .off, .obj, .ply, .step or .stp (in any case) by io/surface/stl.hpp and its like. `unit` is the file's
-/// unit of length, "mm" or "inch"; formats of surfaces do not tell it. STEP does: there it may be empty, and must agree
-/// with the file if it is not. Result in m; mesh::repaired_surface makes a part of it. Throws InputError for another
-/// extension, a unit that is missing, unknown, no length or not the STEP file's, and for STEP in a program that was
-/// built without Open CASCADE; DataError as the readers.
+/// Reads .stl, .off, .obj, .ply, .step or .stp (upper or lower case). `unit` is the file's unit of length, "mm" or
+/// "inch", which only STEP files contain; for these it may be empty, and must otherwise agree with the file. The result
+/// is in m; mesh::repaired_surface() makes a part of it. Throws InputError for another extension, for a unit that is
+/// missing, unknown, no length or not the STEP file's, and for STEP in a program that was built without Open CASCADE;
+/// DataError as the readers do.
 [[nodiscard]] mesh::TriangleSoup read_surface(const std::filesystem::path& path, const std::string& unit);
 
 }  // namespace thinwall::io

@@ -51,7 +51,7 @@ Eigen::Vector3d bent(const Bend& bend, const Eigen::Vector3d& x) {
   const double half_sine = std::sin(0.5 * angle);
   Eigen::Vector3d result = x;
   result[bend.along] = bend.start_m + (bend.radius_m + w) * std::sin(angle);
-  // w cos φ − R (1 − cos φ), without the cancellation of a large radius.
+  // This is w cos φ − R (1 − cos φ), written so that a large radius causes no cancellation.
   result[bend.through] = bend.middle_m + w * std::cos(angle) - 2.0 * bend.radius_m * half_sine * half_sine;
   return result;
 }
@@ -63,7 +63,7 @@ Eigen::Vector3d unbent(const Bend& bend, const Eigen::Vector3d& x) {
   const double r = std::hypot(u, v + bend.radius_m);
   Eigen::Vector3d result = x;
   result[bend.along] = bend.start_m + bend.radius_m * std::atan2(sign * u, sign * (v + bend.radius_m));
-  // w = ±r − R as (r² − R²) / (±r + R), again without cancellation.
+  // w = ±r − R is computed as (r² − R²) / (±r + R), again to avoid cancellation.
   result[bend.through] = bend.middle_m + (u * u + v * (v + 2.0 * bend.radius_m)) / (sign * r + bend.radius_m);
   return result;
 }

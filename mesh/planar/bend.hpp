@@ -7,11 +7,11 @@
 
 namespace thinwall::mesh {
 
-/// One point a row, m.
+/// Points, one in each row, m.
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /// The bend, in part axes: coordinate `along` (0 x, 1 y, 2 z) becomes the arc length on the mid-surface, `through` the
-/// radial one, the third stays. With s = x_along − start, w = x_through − middle:
+/// radial coordinate, and the third one stays. With s = x_along − start, w = x_through − middle:
 ///
 ///     x_along   = start  + (R + w) sin(s / R)
 ///     x_through = middle + (R + w) cos(s / R) − R
@@ -22,7 +22,7 @@ struct Bend {
   double radius_m = 0.0;  ///< R, of the mid-surface
   int along = 0;
   int through = 2;
-  double start_m = 0.0;   ///< x_along that stays
+  double start_m = 0.0;   ///< x_along of the line that stays where it is
   double middle_m = 0.0;  ///< x_through of the mid-surface
 };
 
@@ -31,17 +31,17 @@ struct Bend {
 /// or more.
 [[nodiscard]] std::vector<std::string> violations(const Bend& bend, const Positions& positions);
 
-/// The bent position of a point of the flat part, and the way back; m, part axes. The way back takes angles within
-/// ±180 degrees.
+/// The position in the bent part of a point x of the flat part; m, part axes.
 [[nodiscard]] Eigen::Vector3d bent(const Bend& bend, const Eigen::Vector3d& x);
-/// See bent().
+/// The position in the flat part of a point x of the bent part, which lies within ±180 degrees of the line s = 0; m,
+/// part axes.
 [[nodiscard]] Eigen::Vector3d unbent(const Bend& bend, const Eigen::Vector3d& x);
 
 /// The rotation at a point of the flat part: column k is the direction that axis k of the flat part has after bending.
 [[nodiscard]] Eigen::Matrix3d rotation_at(const Bend& bend, const Eigen::Vector3d& x);
 
-/// Moves all positions, such as LagrangeNodes::positions of a flat mesh: elements of order p then follow the cylinder
-/// at their nodes. Throws InputError with all violations in one line. Cost O(positions).
+/// Moves all positions, such as LagrangeNodes::positions of a flat mesh, to the bent part. Elements of order p then
+/// follow the cylinder at their nodes. Throws InputError with all violations in one line. Cost O(positions).
 void bend(const Bend& bend, Positions& positions);
 
 }  // namespace thinwall::mesh

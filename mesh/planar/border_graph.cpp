@@ -17,6 +17,7 @@ const Eigen::Vector2d& at(const Points& points, int index) {
   return points[static_cast<std::size_t>(index)];
 }
 
+/// The edges of the outline, of all holes and of all zones.
 std::vector<Segment> all_edges(const Prism& prism) {
   std::vector<Segment> edges;
   const auto take = [&](const Polygon& polygon) {
@@ -28,13 +29,14 @@ std::vector<Segment> all_edges(const Prism& prism) {
   return edges;
 }
 
+/// Adds p unless a point within the tolerance is there already.
 void add_point(Points& points, const Eigen::Vector2d& p, double tolerance) {
   const bool known =
       std::any_of(points.begin(), points.end(), [&](const auto& q) { return (q - p).norm() <= tolerance; });
   if (!known) points.push_back(p);
 }
 
-/// Ends and crossings of all edges.
+/// The ends and crossings of all edges, each once.
 Points graph_points(const std::vector<Segment>& edges, double tolerance) {
   Points points;
   for (const auto& line : edges) {
@@ -48,7 +50,8 @@ Points graph_points(const std::vector<Segment>& edges, double tolerance) {
   return points;
 }
 
-/// The edges cut at every point that lies on them: also where edges run on one line and cross by round-off.
+/// The edges cut at every point that lies on them, each piece once. Points are found by their distance, so that edges
+/// that run on one line, or cross within round-off only, are cut too.
 Pairs split_edges(const std::vector<Segment>& edges, const Points& points, double tolerance) {
   Pairs pairs;
   for (const auto& line : edges) {
@@ -68,7 +71,8 @@ Eigen::Vector2d left_normal(const Eigen::Vector2d& along) {
   return Eigen::Vector2d(-along.y(), along.x()).normalized();
 }
 
-/// The region beside the line from a to b, looked up at its middle, nearer than any other border may be.
+/// The border from a to b. The extents beside it are looked up at its middle, at a distance smaller than that of any
+/// other border.
 Border border_between(const Prism& prism, const Points& points, std::pair<int, int> ends) {
   const Eigen::Vector2d a = at(points, ends.first);
   const Eigen::Vector2d b = at(points, ends.second);
@@ -77,8 +81,8 @@ Border border_between(const Prism& prism, const Points& points, std::pair<int, i
   return {ends.first, ends.second, extent_at(prism, middle + step), extent_at(prism, middle - step)};
 }
 
-/// Removes every point where nothing but one straight run passes. Straight is what round-off cannot tell from straight,
-/// so that the part's volume stays what it is.
+/// Removes every point where only one straight run passes. A run counts as straight if its deviation is round-off, so
+/// that the part's volume does not change.
 void join_straight_runs(Pairs& pairs, const Points& points) {
   std::vector<std::set<int>> neighbours(points.size());
   for (const auto& [a, b] : pairs) {
@@ -103,7 +107,7 @@ void join_straight_runs(Pairs& pairs, const Points& points) {
   }
 }
 
-/// Numbers the points that borders use, in their old order.
+/// The graph of the borders with the points that they use, renumbered in the same order.
 BorderGraph compacted(const Points& points, std::vector<Border> borders) {
   std::vector<int> number(points.size(), -1);
   for (const auto& border : borders) {
@@ -123,6 +127,7 @@ BorderGraph compacted(const Points& points, std::vector<Border> borders) {
   return graph;
 }
 
+/// The y coordinate of a line at x.
 double height_at(const Segment& line, double x) {
   const double t = (x - line[0].x()) / (line[1].x() - line[0].x());
   return (1.0 - t) * line[0].y() + t * line[1].y();

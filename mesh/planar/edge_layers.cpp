@@ -31,8 +31,8 @@ std::vector<std::vector<int>> leaving(const BorderGraph& graph, const std::vecto
   return result;
 }
 
-/// The part of `line` within 0 ≤ s ≤ length in the frame (s, t) of a side, as its least t; infinite if there is none
-/// or it lies on the right.
+/// The distance from a side to the part of `line` that lies across it: the least t of that part within 0 ≤ s ≤ length,
+/// in the frame (s, t) of the side; infinite if there is no such part or it lies on the right.
 double way_across(const Segment& line, const Eigen::Vector2d& origin, const Eigen::Vector2d& along, double length) {
   Eigen::Vector2d a(along.dot(line[0] - origin), cross(along, line[0] - origin));
   Eigen::Vector2d b(along.dot(line[1] - origin), cross(along, line[1] - origin));
@@ -58,12 +58,13 @@ double ray(const BorderGraph& graph, const Eigen::Vector2d& p, const Eigen::Vect
   return first;
 }
 
-/// Thickness of the wall beside a side, or nothing where the way across is the thin one.
+/// The space beside a side.
 struct Room {
-  double across = 0.0;
-  double thickness = 0.0;
+  double across = 0.0;     // distance to the opposite border
+  double thickness = 0.0;  // the smaller of the material's height and its length along the side
 };
 
+/// The space beside a side, from all borders that do not end at it.
 Room room(const BorderGraph& graph, const BorderSide& side) {
   const Eigen::Vector2d along = direction(graph, side);
   const double span = length(graph, side);
@@ -74,7 +75,8 @@ Room room(const BorderGraph& graph, const BorderSide& side) {
     if (!neighbour)
       result.across = std::min(result.across, way_across(segment(graph, border), at(graph, side.from), along, span));
   }
-  // A triangle's side sees neighbours only.
+  // In a triangle, the other borders are all neighbours; the distance across is then measured along a ray from the
+  // middle.
   const Eigen::Vector2d middle = 0.5 * (at(graph, side.from) + at(graph, side.to));
   const Eigen::Vector2d inside = inward(graph, side);
   if (!std::isfinite(result.across)) result.across = ray(graph, middle + 1e-6 * span * inside, inside);
@@ -83,6 +85,7 @@ Room room(const BorderGraph& graph, const BorderSide& side) {
   return result;
 }
 
+/// Width of a side's outermost layer as set_layer_widths() describes it; `reach`: width of all layers over it.
 double wanted_width(const Room& room, const PrismMeshOptions& options, double reach) {
   if (room.across < 0.99 * room.thickness) return 0.0;
   const double wall = std::min(room.thickness, room.across);
@@ -90,8 +93,8 @@ double wanted_width(const Room& room, const PrismMeshOptions& options, double re
   return std::min({wanted, options.size_m, room.across / (3.0 * reach)});
 }
 
-/// Narrows the layers of two sides where the feet of their corner would take more than 0.4 of either; where next to
-/// nothing would be left (a needle, a notch), there are none.
+/// Narrows the layers of two sides if the feet of their corner would take more than 0.4 of either side. If that leaves
+/// less than a fifth (at a needle or a notch), the sides get no layers.
 void fit_corner(std::vector<BorderSide>& sides, const BorderGraph& graph, BorderSide& side, double reach) {
   BorderSide& next = sides[static_cast<std::size_t>(side.next)];
   const double a = reach * side.width;
@@ -149,7 +152,7 @@ std::vector<BorderSide> border_sides(const BorderGraph& graph) {
     const Eigen::Vector2d back = -direction(graph, side);
     side.angle = INFINITY;
     for (const int candidate : from[static_cast<std::size_t>(side.to)]) {
-      // The first side clockwise from the way back is the next of the region on the left.
+      // The first side clockwise from the direction back along this one is the next side of the region on the left.
       const double angle = turn(direction(graph, sides[static_cast<std::size_t>(candidate)]), back);
       if (angle >= side.angle) continue;
       side.angle = angle;
@@ -181,6 +184,7 @@ void fit_corners(std::vector<BorderSide>& sides, const BorderGraph& graph, const
                  double narrowest_m) {
   const auto unit = layer_distances(options.layers, options.layer_factor);
   if (unit.empty()) return;
+  // Narrowing at one corner changes the feet at the next, so that a few passes are needed.
   for (int pass = 0; pass < 3; ++pass) {
     for (auto& side : sides) fit_corner(sides, graph, side, unit.back());
   }

@@ -27,16 +27,16 @@ const Eigen::Vector2d& point(const Layout& layout, int index) {
   return layout.graph.points[static_cast<std::size_t>(index)];
 }
 
-/// A place along a side, measured from its start, where a row may have a point; before the start or past the end at
-/// corners that the rows run past.
+/// A place along a side, measured from its start, where a row may have a point. It may lie before the start or beyond
+/// the end, at corners that the rows run past.
 struct Station {
   double s = 0.0;
-  double width = 0.0;      ///< of the outermost layer here
-  Eigen::Vector2d offset;  ///< to the row at distance one
+  double width = 0.0;      ///< width of the outermost layer here, m
+  Eigen::Vector2d offset;  ///< from the border to a row at distance one
 };
 
-/// Feet of the rows at one end of a side, measured from that end; negative past it. Empty at a smooth end, and where
-/// the other border of the corner has no layers: there the rows end on that border.
+/// Feet of the rows at one end of a side, measured from that end; negative beyond it. Empty at a smooth end, and if the
+/// other border of the corner has no layers, because the rows then end on that border.
 std::vector<double> feet(const Layout& layout, const BorderSide& side, bool at_end) {
   const BorderSide& corner = at_end ? side : side_at(layout, side.previous);
   const BorderSide& other = side_at(layout, at_end ? side.next : side.previous);
@@ -47,12 +47,13 @@ std::vector<double> feet(const Layout& layout, const BorderSide& side, bool at_e
   return result;
 }
 
+/// True if the corner at an end of the side is re-entrant.
 bool reentrant(const Layout& layout, const BorderSide& side, bool at_end) {
   return (at_end ? side : side_at(layout, side.previous)).angle > std::numbers::pi;
 }
 
-/// The places where the border of a side gets points besides its ends: the feet on it, and at re-entrant corners the
-/// same distances again, so that the layers also grade the border towards the corner.
+/// The places where the border of a side gets points besides its ends: the feet on it. At a re-entrant corner, whose
+/// feet lie beyond the end, points at the same distances inside grade the border towards the corner.
 std::vector<double> foot_stations(const Layout& layout, const BorderSide& side) {
   const double span = length(layout.graph, side);
   std::vector<double> result;
@@ -66,8 +67,8 @@ std::vector<double> foot_stations(const Layout& layout, const BorderSide& side) 
   return result;
 }
 
-/// Stations on the border itself, for both its sides, ascending from its `from`; those of the two sides that nearly
-/// coincide are one.
+/// The stations on each border for both its sides, ascending from its `from`. Stations of the two sides that nearly
+/// coincide become one.
 std::vector<std::vector<double>> border_stations(const Layout& layout) {
   std::vector<std::vector<double>> result(layout.graph.borders.size());
   for (const auto& side : layout.sides) {
@@ -86,7 +87,8 @@ std::vector<std::vector<double>> border_stations(const Layout& layout) {
   return result;
 }
 
-/// The station at a smooth end: the rows of both sides go through the bisector, as wide as the narrower.
+/// The station at a smooth end, on the bisector of the two sides, as wide as the narrower of their layers; the offset
+/// has length one in the direction across each of them.
 Station joint(const Layout& layout, const BorderSide& side, bool at_end) {
   const BorderSide& other = side_at(layout, at_end ? side.next : side.previous);
   const Eigen::Vector2d a = inward(layout.graph, side);
@@ -94,7 +96,8 @@ Station joint(const Layout& layout, const BorderSide& side, bool at_end) {
   return {at_end ? length(layout.graph, side) : 0.0, std::min(side.width, other.width), (a + b) / (1.0 + a.dot(b))};
 }
 
-/// Width of the outermost layer at s: the side's own near its corners, falling evenly towards a narrower smooth end.
+/// Width of the outermost layer at s: the side's own width at its corners, decreasing linearly towards a smooth end
+/// whose neighbour has narrower layers.
 double width_at(const Layout& layout, const BorderSide& side, double s) {
   const double span = length(layout.graph, side);
   const auto end_width = [&](bool at_end) {
@@ -110,7 +113,7 @@ double width_at(const Layout& layout, const BorderSide& side, double s) {
   return (1.0 - t) * end_width(false) + t * end_width(true);
 }
 
-/// The station at a corner: straight inwards, or along the other border where that has no layers.
+/// The station at a corner: straight inwards, or along the other border if that has no layers.
 Station corner_station(const Layout& layout, const BorderSide& side, bool at_end) {
   const double angle = (at_end ? side : side_at(layout, side.previous)).angle;
   const BorderSide& other = side_at(layout, at_end ? side.next : side.previous);
@@ -120,6 +123,7 @@ Station corner_station(const Layout& layout, const BorderSide& side, bool at_end
   return station;
 }
 
+/// All stations of a side, ascending: its ends, those on the border, and those beyond re-entrant corners.
 std::vector<Station> row_stations(const Layout& layout, const BorderSide& side, std::vector<double> on_border) {
   const double span = length(layout.graph, side);
   const Eigen::Vector2d inside = inward(layout.graph, side);
@@ -139,7 +143,7 @@ std::vector<Station> row_stations(const Layout& layout, const BorderSide& side, 
   return stations;
 }
 
-/// True if row j of the side exists at s: not beyond the mitres at the side's corners.
+/// True if row j of the side exists at s, which is not the case beyond the mitres at the side's corners.
 bool row_reaches(const Layout& layout, const BorderSide& side, std::size_t row, double s) {
   const double slack = 1e-6 * side.width * layout.unit.front() + layout.tolerance;
   for (const bool at_end : {false, true}) {
@@ -149,8 +153,8 @@ bool row_reaches(const Layout& layout, const BorderSide& side, std::size_t row, 
   return true;
 }
 
-/// True if a row point at distance c from its own border keeps away from all others: at least half of c, or of that
-/// border's own row. `row` counts from 0.
+/// True if a point of row `row` (from 0) at distance c from its own border lies in the same material and keeps away
+/// from all other borders: by at least half of c, or of the distance of that border's own row if that is smaller.
 bool keeps_away(const Layout& layout, const BorderSide& own, const Eigen::Vector2d& p, std::size_t row, double c) {
   const auto extent = extent_at(layout.prism, p);
   if (!extent || !(*extent == own.extent)) return false;
@@ -162,6 +166,7 @@ bool keeps_away(const Layout& layout, const BorderSide& own, const Eigen::Vector
   });
 }
 
+/// The point of the sketch at p within the tolerance, or −1.
 int find_point(const Sketch& sketch, const Eigen::Vector2d& p, double tolerance) {
   for (std::size_t i = 0; i < sketch.points.size(); ++i) {
     if ((sketch.points[i] - p).norm() <= tolerance) return static_cast<int>(i);
@@ -169,7 +174,7 @@ int find_point(const Sketch& sketch, const Eigen::Vector2d& p, double tolerance)
   return -1;
 }
 
-/// True if the segment touches nothing of the sketch but in its own end points.
+/// True if the segment between points a and b touches no other point or segment of the sketch.
 bool free_segment(const Sketch& sketch, int a, int b, double tolerance) {
   const auto at = [&](int i) { return sketch.points[static_cast<std::size_t>(i)]; };
   const Segment line{at(a), at(b)};
@@ -183,11 +188,12 @@ bool free_segment(const Sketch& sketch, int a, int b, double tolerance) {
   });
 }
 
+/// Adds the segment between two points (−1: none) if it is free.
 void add_segment(Sketch& sketch, int a, int b, double tolerance) {
   if (a >= 0 && b >= 0 && a != b && free_segment(sketch, a, b, tolerance)) sketch.segments.push_back({a, b});
 }
 
-/// The borders cut at their stations.
+/// The sketch of the borders, cut at their stations.
 Sketch border_sketch(const Layout& layout, const std::vector<std::vector<double>>& stations) {
   Sketch sketch;
   sketch.points = layout.graph.points;
@@ -208,7 +214,7 @@ Sketch border_sketch(const Layout& layout, const std::vector<std::vector<double>
   return sketch;
 }
 
-/// The sketch's point for row j at a station, new or known; −1 if there is none.
+/// The sketch's point for row j at a station, which is added if need be; −1 if the row has no point there.
 int row_point(const Layout& layout, const BorderSide& side, const Station& station, std::size_t row, Sketch& sketch) {
   const double c = station.width * layout.unit[row];
   if (c <= 0.0 || !row_reaches(layout, side, row, station.s)) return -1;
@@ -223,6 +229,7 @@ int row_point(const Layout& layout, const BorderSide& side, const Station& stati
   return static_cast<int>(sketch.points.size()) - 1;
 }
 
+/// Adds the points of all rows of a side, and the segments between successive points.
 void add_rows(const Layout& layout, const BorderSide& side, const std::vector<double>& on_border, Sketch& sketch) {
   const auto stations = row_stations(layout, side, on_border);
   for (std::size_t row = 0; row < layout.unit.size(); ++row) {
@@ -235,7 +242,8 @@ void add_rows(const Layout& layout, const BorderSide& side, const std::vector<do
   }
 }
 
-/// From each convex corner to its innermost mitre, so that no triangle has both borders of the corner.
+/// Adds a segment from each convex corner to its innermost mitre, so that no triangle contains both borders of a
+/// corner.
 void add_mitres(const Layout& layout, Sketch& sketch) {
   for (const auto& side : layout.sides) {
     const auto own = feet(layout, side, true);

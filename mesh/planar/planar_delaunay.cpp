@@ -24,13 +24,14 @@ using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
                                                CGAL::No_constraint_intersection_tag>;
 
-/// Adds p if it keeps its distance, in shares of the wanted size h, from all points and segments, within the material.
+/// Adds p if it lies in the material and keeps its distance from all points (0.6) and segments (0.4), in units of the
+/// wanted size h.
 void add_if_free(const Prism& prism, const Eigen::Vector2d& p, double h, Sketch& sketch) {
   if (!extent_at(prism, p) || point_distance(sketch, p) < 0.6 * h || segment_distance(sketch, p) < 0.4 * h) return;
   sketch.points.push_back(p);
 }
 
-/// A spot's centre and rings of eight points at radii r, 2r, 4r … until their spacing is the size elsewhere.
+/// Adds a spot's centre and rings of eight points at radii r, 2r, 4r … up to the size of elements elsewhere.
 void add_spots(const Prism& prism, const PrismMeshOptions& options, Sketch& sketch) {
   constexpr int around = 8;
   for (const auto& spot : options.spots) {
@@ -45,7 +46,7 @@ void add_spots(const Prism& prism, const PrismMeshOptions& options, Sketch& sket
   }
 }
 
-/// A square lattice along the longest border, evenly spaced within the part's extent.
+/// Adds a square lattice along the longest border, evenly spaced over the part's extent.
 void add_lattice(const Prism& prism, const BorderGraph& graph, const PrismMeshOptions& options, Sketch& sketch) {
   Eigen::Vector2d along = Eigen::Vector2d::Zero();
   for (const auto& border : graph.borders) {
@@ -71,6 +72,7 @@ void add_lattice(const Prism& prism, const BorderGraph& graph, const PrismMeshOp
   }
 }
 
+/// The constrained Delaunay triangulation; a vertex's info is the number of its point.
 Triangulation triangulate(const Sketch& sketch) {
   Triangulation result;
   std::vector<Triangulation::Vertex_handle> handles;
@@ -92,7 +94,7 @@ double area(FaceHandle face) {
   return 0.5 * ((b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()));
 }
 
-/// All faces that can be reached from `first` without crossing a border; marks them.
+/// All faces that can be reached from `first` without crossing a border, which are marked by their info.
 std::vector<FaceHandle> region(const Triangulation& triangulation, const std::set<std::pair<int, int>>& borders,
                                FaceHandle first) {
   std::vector<FaceHandle> faces{first};
@@ -111,8 +113,9 @@ std::vector<FaceHandle> region(const Triangulation& triangulation, const std::se
   return faces;
 }
 
-/// The triangles with material. A region between borders is looked up in the middle of its largest triangle; one of
-/// nothing but slivers is what round-off leaves outside a straight outline that was cut into pieces.
+/// The triangles with material. The extent of a region between borders is looked up in the middle of its largest
+/// triangle. A region of slivers only is left out: round-off makes such regions outside of a straight outline that was
+/// cut into pieces.
 PlanarMesh with_material(const Prism& prism, const Triangulation& triangulation, const Sketch& sketch) {
   std::set<std::pair<int, int>> borders;
   for (std::size_t i = 0; i < sketch.borders; ++i)

@@ -20,14 +20,14 @@ struct PlanarMesh {
 /// True if every border runs along x or y.
 [[nodiscard]] bool rectilinear(const BorderGraph& graph);
 
-/// Grid lines through all borders, graded layers beside them on either side where there is material, lines around the
-/// spots, and even cells between; two triangles a cell. No corner of the part is cut off by a diagonal, so that no
-/// element has all its vertices on two faces that meet there. For a rectilinear graph.
+/// The mesh of a rectilinear graph: grid lines through all borders, graded layers beside them on either side that has
+/// material, lines around the spots, and equal cells between; each cell is divided into two triangles. No corner of the
+/// part is cut off by a diagonal, because an element there would have all its vertices on two faces that meet.
 [[nodiscard]] PlanarMesh tensor_grid(const Prism& prism, const BorderGraph& graph, const PrismMeshOptions& options);
 
-/// Constrained Delaunay triangulation (CGAL) of the borders, cut into pieces of the wanted size; of rows of points that
-/// follow the borders at the distances of their layers, mitred at the corners; of rings around the spots; and of a
-/// lattice of points between. Nothing is refined afterwards, so a narrow strip gets long triangles.
+/// The mesh of any graph: a constrained Delaunay triangulation (CGAL) of the borders and rows of layer_rows(), of rings
+/// of points around the spots, and of a lattice of points between. The triangulation is not refined afterwards, so that
+/// a narrow strip gets long triangles.
 [[nodiscard]] PlanarMesh planar_delaunay(const Prism& prism, const BorderGraph& graph, const PrismMeshOptions& options);
 
 }  // namespace thinwall::mesh

@@ -35,8 +35,8 @@ bool finite(const Polygon& polygon) {
   return std::all_of(polygon.begin(), polygon.end(), [](const auto& p) { return p.allFinite(); });
 }
 
-/// True if edges i and j of one polygon meet though they should not: neighbours share their corner and nothing
-/// else.
+/// True if edges i and j of one polygon meet where they should not. Neighbours share their corner and nothing else;
+/// other edges share nothing.
 bool meet(const Polygon& polygon, std::size_t i, std::size_t j, double gap) {
   const std::size_t n = polygon.size();
   const Segment a = edge(polygon, i);
@@ -55,7 +55,7 @@ bool on_one_line(const Polygon& polygon, double gap) {
                      [&](const auto& p) { return std::abs(cross(along, p - polygon[0])) <= gap; });
 }
 
-/// The first fault of one polygon on its own, or "".
+/// The first fault of a polygon by itself, or "".
 std::string polygon_fault(const Polygon& polygon, const std::string& name, double gap) {
   if (polygon.size() < 3)
     return name + " has " + std::to_string(polygon.size()) + " points; a polygon needs at least 3";
@@ -148,8 +148,8 @@ void check_zones(const Prism& prism, double tolerance, Findings& found) {
   }
 }
 
-/// Borders of different polygons may share a line or be apart, but not nearly touch: the elements between would be
-/// flatter than the arithmetic can bear.
+/// Notes borders that nearly touch. Borders of different polygons may share a line or be apart, but elements in a very
+/// narrow gap between them would be flatter than double precision allows.
 void check_gaps(const BorderGraph& graph, double gap, Findings& found) {
   for (const auto& border : graph.borders) {
     for (std::size_t i = 0; i < graph.points.size(); ++i) {
@@ -173,7 +173,7 @@ double overlap(double a_low, double a_high, double b_low, double b_high) {
   return std::min(a_high, b_high) - std::max(a_low, b_low);
 }
 
-/// True if the slabs above two cells share a face: a piece of border and a piece of height.
+/// True if the slabs above two cells share a face, that is a piece of border and a piece of height.
 bool joined(const Trapezoid& a, const Trapezoid& b, double gap) {
   if (overlap(a.extent.bottom, a.extent.top, b.extent.bottom, b.extent.top) <= gap) return false;
   if (a.x[1] == b.x[0]) return overlap(a.low[1], a.high[1], b.low[0], b.high[0]) > gap;
@@ -203,7 +203,7 @@ void check_pieces(const Prism& prism, const BorderGraph& graph, double gap, Find
   }
 }
 
-/// Sets every coordinate to the least of those that lie within the tolerance below it.
+/// Sets every coordinate to the least one of those from which it differs by no more than the tolerance.
 void merge_close(std::vector<double*> values, double tolerance) {
   std::sort(values.begin(), values.end(), [](const double* a, const double* b) { return *a < *b; });
   double representative = -INFINITY;

@@ -10,7 +10,7 @@
 
 namespace thinwall::mesh {
 
-/// From bottom to top along z, m.
+/// The heights between which there is material, along z, m.
 struct Extent {
   double bottom = 0.0;
   double top = 0.0;
@@ -24,7 +24,7 @@ struct Zone {
   double top = 0.0;
 };
 
-/// A part of piecewise constant height, in m. Later zones win over earlier ones, holes over all.
+/// A part of piecewise constant height, in m. If zones overlap, the later one counts; holes go before all zones.
 struct Prism {
   Polygon outline;
   std::vector<Polygon> holes;
@@ -39,8 +39,8 @@ struct Prism {
 /// The part's extent above the point p, or nothing where there is no material.
 [[nodiscard]] std::optional<Extent> extent_at(const Prism& prism, const Eigen::Vector2d& p);
 
-/// The part with coordinates that differ by less than 1e-9 of the diagonal made equal, axis by axis: "0.1 + 0.2"
-/// and "0.3" name one line.
+/// The prism with coordinates that differ by less than 1e-9 of the diagonal made equal, axis by axis, so that the
+/// numbers 0.1 + 0.2 and 0.3, for instance, give the same line.
 [[nodiscard]] Prism cleaned(const Prism& prism);
 
 /// Everything that keeps the prism from being a part, one line each, in the order of outline, holes, zones: too few or
@@ -53,11 +53,13 @@ struct Prism {
 void validate(const Prism& prism);
 
 /// True if an edge of the part turns inwards: a step between heights, or a corner of the outline or of a hole whose
-/// angle inside the material exceeds 210°. Stresses there are singular, and unless the elements are graded towards the
-/// edge from all sides the error falls with the order as p^−4λ, λ = 0.544 at 270°, 0.5 at 360° (Williams 1952).
+/// angle inside the material exceeds 210°. Stresses at such an edge are singular, and unless the elements are graded
+/// towards the edge from all sides the error falls with the order p as p^−4λ, λ = 0.544 at 270°, 0.5 at 360° (Williams
+/// 1952).
 [[nodiscard]] bool has_reentrant_edge(const Prism& prism);
 
-/// ∫ (top − bottom) dA, m³, over the trapezoids between the borders: exact but for round-off. For a valid prism.
+/// The volume ∫ (top − bottom) dA of a valid prism, m³, over the trapezoids between its borders; exact but for
+/// round-off.
 [[nodiscard]] double volume(const Prism& prism);
 
 }  // namespace thinwall::mesh

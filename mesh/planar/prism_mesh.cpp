@@ -14,7 +14,7 @@ namespace thinwall::mesh {
 
 namespace {
 
-/// More elements than any computer here could use: a size in the wrong unit.
+/// Largest number of cells; a size that would give more is most likely in the wrong unit.
 constexpr double most_cells = 1e6;
 
 void check_size(const PrismMeshOptions& options, const Prism& prism, std::vector<std::string>& found) {

@@ -12,11 +12,12 @@ namespace thinwall::mesh {
 
 namespace {
 
+/// True if the material reaches from `bottom` to `top`.
 bool fills(const Extent& extent, double bottom, double top) {
   return extent.bottom <= bottom && extent.top >= top;
 }
 
-/// 2 area / perimeter of what fills the slab: the thickness of a long strip, whatever its course; m.
+/// 2 area / perimeter of the material that fills the slab, m, which is the thickness of a long strip, straight or not.
 double foot_thickness(const PlanarMesh& mesh, double bottom, double top) {
   double area = 0.0;
   std::set<std::pair<int, int>> border;
@@ -69,7 +70,10 @@ std::vector<double> inner_levels(double bottom, double top, double thickness, co
   return inner;
 }
 
-/// Three tetrahedra of the prism over the triangle; vertex(i, upper) gives the prism's vertices.
+/// Appends the three tetrahedra of the prism over the triangle; vertex(i, upper) gives the prism's vertices. With the
+/// corners in ascending order i < j < k, each side face is cut along the diagonal from its lower vertex of smaller
+/// number to its upper vertex of larger number, which is the same seen from both sides. An odd permutation would turn
+/// the tetrahedra inside out, so that two of their vertices are exchanged.
 template <typename Vertex>
 void cut_prism(std::array<int, 3> triangle, const Vertex& vertex, std::vector<std::array<int, 4>>& tets) {
   bool even = true;

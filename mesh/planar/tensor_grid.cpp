@@ -15,7 +15,8 @@ struct LineLayers {
   double above = 0.0;
 };
 
-/// The grid lines across an axis, by coordinate: one for each border along the other axis.
+/// The grid lines across an axis, by coordinate, one for each border along the other axis. A line that several borders
+/// share gets the narrowest of their layers.
 std::map<double, LineLayers> border_lines(const BorderGraph& graph, const std::vector<BorderSide>& sides, int axis) {
   std::map<double, LineLayers> lines;
   const auto least = [](double a, double b) { return a == 0.0 ? b : (b == 0.0 ? a : std::min(a, b)); };
@@ -29,8 +30,8 @@ std::map<double, LineLayers> border_lines(const BorderGraph& graph, const std::v
   return lines;
 }
 
-/// The lines of the layers in the gap between two border lines. A gap narrower than a layer is one itself; in a wider
-/// one all layers of either side take at most a third.
+/// Adds the lines of the layers in the gap between two border lines. A gap narrower than a layer gets none, because it
+/// is itself a layer; in a wider one all layers of either side take at most a third.
 void add_layers(double from, double to, double above, double below, const std::vector<double>& unit,
                 std::vector<double>& lines) {
   if (unit.empty()) return;
@@ -44,7 +45,7 @@ void add_layers(double from, double to, double above, double below, const std::v
   }
 }
 
-/// Lines at both ends of a spot, where no other line is near.
+/// Adds lines at both ends of a spot, unless another line is near.
 void add_spots(const std::vector<Spot>& spots, int axis, std::vector<double>& lines) {
   const auto [low, high] = std::minmax_element(lines.begin(), lines.end());
   const double least = *low;
@@ -58,6 +59,7 @@ void add_spots(const std::vector<Spot>& spots, int axis, std::vector<double>& li
   }
 }
 
+/// The wanted size of a cell at a coordinate along one axis; the other coordinate is taken to be that of the spots.
 double wanted_size_across(const PrismMeshOptions& options, int axis, double coordinate) {
   double size = options.size_m;
   for (const auto& spot : options.spots)
@@ -65,6 +67,7 @@ double wanted_size_across(const PrismMeshOptions& options, int axis, double coor
   return size;
 }
 
+/// All grid lines across an axis, ascending: those of borders, layers and spots, and the divisions between them.
 std::vector<double> grid_lines(const BorderGraph& graph, const std::vector<BorderSide>& sides,
                                const PrismMeshOptions& options, int axis) {
   const auto borders = border_lines(graph, sides, axis);
@@ -89,7 +92,7 @@ std::vector<double> grid_lines(const BorderGraph& graph, const std::vector<Borde
   return all;
 }
 
-/// The cells of a grid and what stands on them.
+/// The cells of a grid and the extents of the material in them.
 struct Grid {
   std::vector<double> x;
   std::vector<double> y;
@@ -113,8 +116,8 @@ Grid grid(const Prism& prism, std::vector<double> x, std::vector<double> y) {
   return result;
 }
 
-/// True if the cell's diagonal should rise from its lower left corner: the one that cuts off fewer corners where two
-/// borders meet; alternating where neither does.
+/// True if the cell's diagonal should rise from its lower left corner. The diagonal is taken that cuts off fewer
+/// corners at which two borders meet; the directions alternate if both cut off equally many.
 bool rising_diagonal(const Grid& grid, std::size_t i, std::size_t j) {
   const auto& own = grid.cell(i, j);
   const bool left = i == 0 || grid.cell(i - 1, j) != own;

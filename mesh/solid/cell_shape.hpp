@@ -23,11 +23,12 @@ struct CellTopology {
   std::vector<std::vector<std::size_t>> faces;
 };
 
-/// Of 4, 8, 6 and 5 corners. The tetrahedron's edges are 01 12 20 03 13 23.
+/// The topology of a shape, with 4 (tetrahedron), 8, 6 or 5 corners. The tetrahedron's edges are 01 12 20 03 13 23.
 [[nodiscard]] const CellTopology& topology(CellShape shape);
 
-/// 1 for a node at each corner; 2 with one in each edge, or in each four-sided face (and the middle of a hexahedron) as
-/// well; 0 for any other number of nodes: 4, 10; 8, 20, 27; 6, 15, 18; 5, 13, 14 are known.
+/// The order of a cell with that many nodes: 1 with a node at each corner; 2 with one in each edge too, and possibly in
+/// each four-sided face (and in the middle of a hexahedron); 0 for a number that is not known. Known are 4, 10; 8, 20,
+/// 27; 6, 15, 18; 5, 13, 14.
 [[nodiscard]] int cell_order(CellShape shape, std::size_t nodes);
 
 }  // namespace thinwall::mesh

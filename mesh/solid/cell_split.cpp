@@ -14,17 +14,19 @@ namespace {
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using Local = std::vector<std::array<std::size_t, 4>>;  ///< tetrahedra by local corners
 
+/// A key of the edge between two nodes, the same in both directions.
 std::uint64_t edge_key(int a, int b) {
   const auto [low, high] = std::minmax(a, b);
   return (static_cast<std::uint64_t>(low) << 32U) | static_cast<std::uint64_t>(static_cast<std::uint32_t>(high));
 }
 
-/// The local corner of a face at which its lowest node is.
+/// The local corner of a face whose node has the lowest number.
 std::size_t lowest_corner(const std::vector<std::size_t>& face, const int* nodes) {
   const auto lower = [nodes](std::size_t a, std::size_t b) { return nodes[a] < nodes[b]; };
   return static_cast<std::size_t>(std::min_element(face.begin(), face.end(), lower) - face.begin());
 }
 
+/// True if the tetrahedron's corners are four different nodes.
 bool are_different(const std::array<std::size_t, 4>& tet, const int* nodes) {
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = i + 1; j < 4; ++j)
@@ -32,7 +34,8 @@ bool are_different(const std::array<std::size_t, 4>& tet, const int* nodes) {
   return true;
 }
 
-/// The cone from the lowest corner over the faces without it, each face a fan from its own lowest corner.
+/// The tetrahedra of a cell: cones from its lowest corner over the faces without it, each face divided into a fan from
+/// its own lowest corner.
 Local local_tets(const CellTopology& cell, const int* nodes) {
   Local tets;
   if (cell.corners == 4) {
@@ -52,6 +55,7 @@ Local local_tets(const CellTopology& cell, const int* nodes) {
   return tets;
 }
 
+/// The division of all cells of a mesh, with the middles of edges and diagonals that neighbours share.
 class Splitter {
  public:
   Splitter(const LabelledMesh& labelled, const std::vector<int>& nodes, const Positions& positions)
@@ -71,6 +75,7 @@ class Splitter {
  private:
   const int* nodes_of(const LabelledCell& cell) const { return nodes_.data() + cell.first; }
 
+  /// Notes the middles of the cell's edges; throws DataError if another cell has a different node there.
   void note_edges(const LabelledCell& cell) {
     const CellTopology& shape = topology(cell.shape);
     const int* nodes = nodes_of(cell);
@@ -106,6 +111,7 @@ class Splitter {
     }
   }
 
+  /// Appends the middles of a tetrahedron's edges, which are edges or diagonals of the cell.
   void add_middles(const LabelledCell& cell, const std::array<std::size_t, 4>& tet) {
     const auto& edges = topology(CellShape::tetrahedron).edges;
     auto& middles = result_.middles.emplace_back();
@@ -119,7 +125,8 @@ class Splitter {
     }
   }
 
-  /// The file's node in the middle of a diagonal, or a new one.
+  /// The middle of the diagonal between the corners a and b, in a face or inside the cell: the file's node if there is
+  /// one, or a new node.
   int diagonal_middle(const LabelledCell& cell, std::size_t a, std::size_t b) {
     const CellTopology& shape = topology(cell.shape);
     const bool has_face_nodes = cell.nodes > shape.corners + shape.edges.size();
@@ -137,7 +144,7 @@ class Splitter {
     return made_node(cell, all, 0.25);
   }
 
-  /// x = −¼ Σ corners + weight Σ middles of the edges between them.
+  /// A new node at x = −¼ Σ corners + weight Σ middles of the edges between them.
   int made_node(const LabelledCell& cell, const std::vector<std::size_t>& corners, double weight) {
     const CellTopology& shape = topology(cell.shape);
     const int* nodes = nodes_of(cell);
@@ -172,7 +179,8 @@ Triangle sorted_triangle(int a, int b, int c) {
   return triangle;
 }
 
-/// A four-sided face and a tetrahedron's face on its other diagonal, both on the boundary, lie on one another.
+/// Throws DataError if a four-sided face coincides with faces of tetrahedra that are divided along its other diagonal;
+/// both then lie on the boundary of the divided mesh.
 void require_fitting_faces(const LabelledMesh& labelled, const std::vector<int>& nodes, const SplitCells& split) {
   std::set<Triangle> outside;
   for (const BoundaryTriangle& triangle : boundary(TetMesh{{}, split.tets}))

@@ -1,9 +1,10 @@
 #pragma once
-// Hexahedra, wedges and pyramids cut into tetrahedra so that neighbours agree.
+// The division of hexahedra, wedges and pyramids into tetrahedra, so that neighbours agree.
 //
-// Every four-sided face is cut along the diagonal through its lowest corner (Dompierre, Labbé, Vallet & Camarero 1999),
-// which both neighbours see alike. A cell is the cone from its lowest corner over the faces that do not have it
-// (pulling, De Loera, Rambau & Santos 2010): six tetrahedra for a hexahedron, three for a wedge, two for a pyramid.
+// Every four-sided face is divided along the diagonal through its corner with the lowest number (Dompierre, Labbé,
+// Vallet & Camarero 1999), so that both neighbours divide it alike. A cell is divided into the cones from its lowest
+// corner over the triangles of the faces that do not contain this corner (pulling, De Loera, Rambau & Santos 2010): six
+// tetrahedra for a hexahedron, three for a wedge, two for a pyramid.
 
 #include <Eigen/Core>
 #include <array>
@@ -13,14 +14,14 @@
 
 namespace thinwall::mesh {
 
-/// The node in the middle of a diagonal that no file has: its place, and the corners of the face or cell around it (−1
-/// behind the last).
+/// A node in the middle of a diagonal that the file does not have: its position, m, and the corners of the face or cell
+/// around it (−1 behind the last).
 struct MadeNode {
   Eigen::Vector3d x = Eigen::Vector3d::Zero();
   std::array<int, 8> corners{-1, -1, -1, -1, -1, -1, -1, -1};
 };
 
-/// Tetrahedra and what they came from.
+/// Tetrahedra and the cells that they come from.
 struct SplitCells {
   std::vector<std::array<int, 4>> tets;
   std::vector<std::array<int, 6>> middles;  ///< of edges 01 12 20 03 13 23; empty for order 1
@@ -28,12 +29,13 @@ struct SplitCells {
   std::vector<MadeNode> made;  ///< their indices follow those of the nodes given
 };
 
-/// `nodes`: for each of labelled.cell_nodes the index of a row of `positions` (m), corners ordered as their labels are.
-/// Order 2: the middle of a face's diagonal is the file's node there (27, 18, 14 nodes), or
-/// x = −¼ Σ corners + ½ Σ middles of the face's quadratic serendipity functions, that of a hexahedron's diagonal
-/// x = −¼ Σ corners + ¼ Σ middles; so faces keep their curvature. Corners may coincide (a hexahedron that is a wedge):
-/// tetrahedra without volume by that are dropped. Throws DataError for an edge with two middles, for a cell of which
-/// nothing is left, and where the tetrahedra beside a split face are cut along its other diagonal. Cost O(cells).
+/// The tetrahedra of all cells. `nodes`: for each of labelled.cell_nodes the index of a row of `positions` (m); corners
+/// are in the order of their labels. For order 2, the middle of a face's diagonal is the file's node there (27, 18, 14
+/// nodes), or the point x = −¼ Σ corners + ½ Σ middles of the face's quadratic serendipity functions; the middle of a
+/// hexahedron's diagonal is x = −¼ Σ corners + ¼ Σ middles. Faces thus keep their curvature. Corners may coincide (a
+/// hexahedron that is a wedge), and tetrahedra without volume that follow from that are dropped. Throws DataError for
+/// an edge with two middles, for a cell of which nothing is left, and for a divided face beside tetrahedra that are
+/// divided along its other diagonal. Cost O(cells).
 [[nodiscard]] SplitCells split_cells(const LabelledMesh& labelled, const std::vector<int>& nodes,
                                      const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>& positions);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Nodes that join a set because all corners around them are in it.
+// Completion of node sets by the nodes between corners that are all in the set.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace thinwall::mesh {
 
-/// Nodes that belong to corners: of a face, of an element.
+/// The corners of a face or an element, and the nodes within it that belong to them.
 struct NodesWithin {
   std::vector<int> corners;
   std::vector<int> nodes;

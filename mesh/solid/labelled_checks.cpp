@@ -11,7 +11,7 @@ namespace thinwall::mesh {
 
 namespace {
 
-/// Numbers of nodes name degrees of freedom, of which other formats hold an int.
+/// Largest number of a node. Degrees of freedom are named by it, and other formats store it as a 32-bit integer.
 constexpr std::int64_t most_label = std::numeric_limits<std::int32_t>::max();
 
 std::string in_line(std::int64_t line) {
@@ -44,7 +44,7 @@ void require_one_order(const LabelledMesh& labelled) {
   }
 }
 
-/// The cell's rows in rising order: what it is, whatever its sense.
+/// The rows of a cell's corners in ascending order, which identify the cell whatever its orientation.
 std::vector<int> sorted_rows(const LabelledCell& cell, const std::vector<int>& rows) {
   const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(cell.first);
   std::vector<int> sorted(begin, begin + static_cast<std::ptrdiff_t>(topology(cell.shape).corners));
@@ -52,7 +52,7 @@ std::vector<int> sorted_rows(const LabelledCell& cell, const std::vector<int>& r
   return sorted;
 }
 
-/// Pairs of cells on the same corners: the one to keep, the one that repeats it.
+/// Pairs of cells on the same corners: the one that is kept, and the one that repeats it.
 std::vector<std::pair<std::size_t, std::size_t>> repeated_cells(const LabelledMesh& labelled,
                                                                 const std::vector<int>& rows) {
   struct Mixed {
@@ -82,7 +82,7 @@ std::vector<std::pair<std::size_t, std::size_t>> repeated_cells(const LabelledMe
   return pairs;
 }
 
-/// Drops the repeated cells; the sets that hold them get those that are kept.
+/// Drops the repeated cells. In the sets, the cell that is kept takes their place.
 void merge_repeated_cells(LabelledMesh& labelled, const std::vector<int>& rows, std::vector<std::string>& notices) {
   const auto pairs = repeated_cells(labelled, rows);
   if (pairs.empty()) return;
@@ -110,7 +110,7 @@ void merge_repeated_cells(LabelledMesh& labelled, const std::vector<int>& rows, 
                     " elements that the file repeats, for several groups, are taken once");
 }
 
-/// Wedges whose first triangle looks outwards get it to look inwards, as here.
+/// Turns wedges whose first triangle is oriented outwards, by exchanging nodes, into the orientation of cell_shape.hpp.
 void turn_wedges(const LabelledMesh& labelled, std::vector<int>& rows, std::vector<std::string>& notices) {
   constexpr std::array<std::array<std::size_t, 2>, 7> exchanges{
       {{1, 2}, {4, 5}, {6, 8}, {9, 11}, {13, 14}, {15, 17}, {0, 0}}};

@@ -1,5 +1,5 @@
 #pragma once
-// A mesh as a file holds it: nodes and elements by the numbers that the file gives them.
+// A mesh as a file has it, with the numbers that the file gives to nodes and elements.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -11,29 +11,29 @@
 
 namespace thinwall::mesh {
 
-/// A node: its number in the file, the line that says so (0: the file has no lines), its place in m.
+/// A node: its number in the file, its line (0 if the file has no lines), and its position, m.
 struct LabelledNode {
   std::int64_t label = 0;
   std::int64_t line = 0;
   Eigen::Vector3d x = Eigen::Vector3d::Zero();
 };
 
-/// An element: its number, its line, its shape, and where its nodes stand in LabelledMesh::cell_nodes.
+/// An element: its number, its line, its shape, and the place of its nodes in LabelledMesh::cell_nodes.
 struct LabelledCell {
   std::int64_t label = 0;
   std::int64_t line = 0;
   CellShape shape = CellShape::tetrahedron;
   std::size_t first = 0;
-  std::size_t nodes = 0;  ///< cell_order() knows the number
+  std::size_t nodes = 0;  ///< a number that cell_order() knows
 };
 
-/// Nodes or elements under a name, in any order, also repeated.
+/// Nodes or elements under a name, in any order; a label may occur more than once.
 struct LabelledSet {
   std::string name;
   std::vector<std::int64_t> labels;
 };
 
-/// Nothing is promised of numbers and places; mesh::solid_mesh looks at all of it.
+/// A mesh as read. Its numbers and positions may be faulty; mesh::solid_mesh() checks all of them.
 struct LabelledMesh {
   std::string path;  ///< for messages
   std::vector<LabelledNode> nodes;
@@ -43,10 +43,10 @@ struct LabelledMesh {
   std::vector<LabelledSet> cell_sets;
   bool wedges_may_be_turned = false;    ///< the format's wedges come in both senses (VTK)
   bool repeated_cells_are_one = false;  ///< the format repeats an element for each of its groups (MSH 2)
-  std::vector<std::string> notices;     ///< what the reader passed over
+  std::vector<std::string> notices;     ///< notes of the reader about what it left out
 };
 
-/// Throws DataError "part.inp:12: what", without the line where it is 0.
+/// Throws DataError with a message such as "part.inp:12: what", without the line if it is 0.
 [[noreturn]] void fail_at(const LabelledMesh& mesh, std::int64_t line, const std::string& what);
 
 }  // namespace thinwall::mesh

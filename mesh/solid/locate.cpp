@@ -47,7 +47,7 @@ double diagonal(const TetMesh& mesh) {
   return (high - low).norm();
 }
 
-/// Of these boundary triangles the one nearest to x, and its point.
+/// The boundary triangle nearest to a point, and its point nearest to it.
 struct OnBoundary {
   const BoundaryTriangle* triangle = nullptr;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
@@ -63,7 +63,7 @@ OnBoundary nearest(const TetMesh& mesh, const std::vector<BoundaryTriangle>& bou
   return best;
 }
 
-/// The place in its tetrahedron of a point of the boundary.
+/// The location of a point of the boundary in its tetrahedron.
 Location location_of(const TetMesh& mesh, const OnBoundary& at) {
   const Eigen::Vector4d lambda = barycentric(mesh, at.triangle->tet, at.point).cwiseMax(0.0);
   return {at.triangle->tet, lambda / lambda.sum()};
@@ -140,8 +140,8 @@ std::vector<PatchSample> patch_samples(const TetMesh& mesh, const std::vector<Bo
   for (int ring = 0; ring < rings; ++ring) {
     const double r = radius_m * std::sqrt((ring + 0.5) / rings);
     for (int sector = 0; sector < sectors; ++sector) {
-      // A quarter of a sector on, so that no ray lies on an edge of the part along e1, where half a sector would count
-      // whole.
+      // The angles are offset by a quarter of a sector. Without offset, or with half a sector, some samples would lie
+      // exactly on an edge of the part along e1 and count as a whole on one side of it.
       const double angle = 2.0 * std::numbers::pi * (sector + 0.25 + 0.5 * (ring % 2)) / sectors;
       const Eigen::Vector3d wanted = face.centre_m + r * (std::cos(angle) * e1 + std::sin(angle) * e2);
       const OnBoundary found = nearest(mesh, face.triangles, wanted);

@@ -16,7 +16,7 @@ std::string centre_text(const SolidMesh& solid, std::size_t tet) {
   return place_text(centre);
 }
 
-/// For each piece its first tetrahedron and how many it has.
+/// The first tetrahedron of each piece and its number of tetrahedra.
 using Pieces = std::map<int, std::pair<std::size_t, int>>;
 
 Pieces counted(const std::vector<int>& piece_of_tet) {
@@ -67,7 +67,7 @@ std::string pieces_text(const SolidMesh& solid, const Pieces& all) {
   return text;
 }
 
-/// Corners of the boundary that lie on one another.
+/// The boundary corners with those at one position merged.
 MergedPoints coincident(const SolidMesh& solid) {
   TriangleSoup outside{solid.mesh.vertices, {}};
   for (const BoundaryTriangle& triangle : boundary(solid.mesh)) outside.triangles.push_back(triangle.vertices);

@@ -1,5 +1,5 @@
 #pragma once
-// Doubtful places of a mesh of tetrahedra that can be computed with all the same: pieces, cracks, hinges.
+// Doubtful places of a mesh of tetrahedra that can be computed with nevertheless: pieces, cracks, hinges.
 
 #include <string>
 #include <vector>
@@ -8,16 +8,16 @@
 
 namespace thinwall::mesh {
 
-/// Counts and lines for people.
+/// Counts of doubtful places, and notes about them.
 struct MeshFindings {
-  int pieces = 1;            ///< that share no node
-  int coincident_nodes = 0;  ///< corners on the boundary within 1e-9 of the diagonal of another one
+  int pieces = 1;            ///< number of pieces that share no node
+  int coincident_nodes = 0;  ///< boundary corners within 1e-9 of the diagonal of another one
   std::vector<std::string> notices;
 };
 
-/// Pieces, each with its number of tetrahedra and the place of one; nodes at one place that are not shared, as two
-/// parts meshed side by side have them, or a crack; tetrahedra that share no face with the rest of their piece and so
-/// hang on it by an edge or a node. Cost O(n log n).
+/// The findings on a mesh: its pieces, each with its number of tetrahedra and a position; nodes at one position that
+/// are not shared, as at a crack or between two parts that were meshed separately; and tetrahedra that share no face
+/// with the rest of their piece and so are joined to it by an edge or a node only. Cost O(n log n).
 [[nodiscard]] MeshFindings mesh_findings(const SolidMesh& solid);
 
 }  // namespace thinwall::mesh

@@ -9,7 +9,7 @@ namespace {
 constexpr std::pair<std::size_t, std::size_t> right_order{0, 0};
 constexpr std::pair<std::size_t, std::size_t> last_two{4, 5};
 
-/// The first two edges whose middles are exchanged, the same twice if none are.
+/// The first two edges of a cell whose middles are exchanged, or {0, 0} if none are.
 std::pair<std::size_t, std::size_t> exchanged(const LabelledMesh& labelled, const LabelledCell& cell,
                                               const std::vector<int>& nodes) {
   const CellTopology& shape = topology(cell.shape);

@@ -1,5 +1,5 @@
 #pragma once
-// A test whether mid-edge nodes stand in the order that their edges have, told from where they lie.
+// A test of the order of mid-edge nodes, by their positions.
 
 #include <vector>
 
@@ -7,14 +7,15 @@
 
 namespace thinwall::mesh {
 
-/// Looks at the cells of order 2. The middles m_i of edges with straight middles e_i are taken for exchanged where
+/// Checks the order of the mid-edge nodes of cells of order 2. The middles m_i and m_j of edges with straight middles
+/// e_i and e_j are taken for exchanged if
 ///
 ///     (m_i − m_j) · (e_i − e_j) < 0,
 ///
-/// which is where the exchange would bring both nearer to their edges in the sum of squares, and which no common shift
-/// of all middles (a bent element) changes. If every tetrahedron of the mesh has its last two exchanged and nothing
-/// else, as Gmsh's order is in a file of another format (meshio issue 765), they are put right in `nodes`; returns true
-/// if so. `nodes`: for each of labelled.cell_nodes its row in labelled.nodes. Throws DataError with the first element
+/// which holds if the exchange reduces the sum of squared distances to the edges, and does not depend on a common shift
+/// of all middles (a bent element). If every tetrahedron of the mesh has its last two middles exchanged and no others,
+/// which is Gmsh's order in a file of another format (meshio issue 765), they are exchanged in `nodes`, and the result
+/// is true. `nodes`: for each of labelled.cell_nodes its row in labelled.nodes. Throws DataError with the first element
 /// whose order is another. Cost O(cells).
 [[nodiscard]] bool put_middles_right(const LabelledMesh& labelled, std::vector<int>& nodes);
 

@@ -37,7 +37,7 @@ std::vector<double> sides_of(const TetMesh& mesh, const PlaneRegion& plane) {
   return side;
 }
 
-/// The first of the tetrahedron's edges, by the numbers of its vertices, whose ends lie on different sides.
+/// The tetrahedron's first edge, in the order of its vertices' numbers, whose ends lie on different sides.
 std::optional<CutEdge> first_crossing(const std::array<int, 4>& tet, const std::vector<double>& side) {
   std::optional<CutEdge> first;
   for (const auto& [i, j] : ends_of_edges) {
@@ -57,6 +57,8 @@ TetMesh cut_along(const TetMesh& mesh, const PlaneRegion& plane) {
   std::map<CutEdge, int> middle_of;
   std::vector<std::array<int, 4>> open = mesh.tets;
   std::reverse(open.begin(), open.end());
+  // Each step bisects one tetrahedron at its first crossing edge. Both parts go back on the stack until none of their
+  // edges crosses; the new vertex lies on the plane, so that the number of crossing edges falls with each step.
   while (!open.empty()) {
     const std::array<int, 4> tet = open.back();
     open.pop_back();

@@ -21,7 +21,7 @@ namespace thinwall::mesh {
 
 namespace {
 
-/// Below it an element is as good as turned inside out.
+/// Least det J over its mean that is accepted in an element.
 constexpr double jacobian_bound = 1e-3;
 
 /// For each edge of the tetrahedron in the order of cell_shape.hpp the node of mesh::lattice(2) in its middle.
@@ -99,7 +99,7 @@ void require_sound_jacobians(const LabelledMesh& labelled, const SplitCells& spl
   }
 }
 
-/// Sets of one name as one, where the first of them stands.
+/// The sets, with those of equal name joined at the place of the first.
 std::vector<LabelledSet> joined_by_name(std::vector<LabelledSet> sets) {
   std::vector<LabelledSet> joined;
   std::map<std::string, std::size_t> place;
@@ -174,7 +174,7 @@ double midside_offset(const LagrangeNodes& nodes) {
   return std::sqrt(worst);
 }
 
-/// "20 hexahedra and 4 wedges of order 2 are 132 tetrahedra here".
+/// A line such as "20 hexahedra and 4 wedges of order 2 are 132 tetrahedra here".
 std::string kinds_text(const LabelledMesh& labelled, const SolidMesh& solid) {
   std::array<int, 4> count{};
   for (const LabelledCell& cell : labelled.cells) ++count[static_cast<std::size_t>(cell.shape)];

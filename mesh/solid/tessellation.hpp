@@ -9,9 +9,9 @@
 
 namespace thinwall::mesh {
 
-/// Triangles between neighbouring nodes of the boundary faces, p² a face, seen from outside counter-clockwise; indices
-/// of nodes. They use every node of the surface, so that what
-/// a field of order p does between the vertices is seen. Cost O(faces p²).
+/// Triangles between neighbouring nodes of the boundary faces, p² for each face, counter-clockwise seen from outside,
+/// by indices of nodes. They use every node of the surface, so that a picture shows the variation of a field of order p
+/// between the vertices. Cost O(faces p²).
 [[nodiscard]] std::vector<std::array<int, 3>> surface_triangles(const LagrangeNodes& nodes,
                                                                 const std::vector<BoundaryTriangle>& boundary);
 

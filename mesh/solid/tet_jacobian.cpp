@@ -27,7 +27,8 @@ Eigen::Matrix<double, 4, 20> cubic_points() {
   return points;
 }
 
-/// Bernstein coefficients from the values at the twenty points: the inverse of B_α(λ) = 3!/α! λ^α there.
+/// The matrix from values at the twenty points to Bernstein coefficients, which is the inverse of the matrix of the
+/// values B_α(λ) = 3!/α! λ^α at these points.
 Eigen::Matrix<double, 20, 20> bernstein_from_values() {
   const auto alphas = lattice(3);
   const auto points = cubic_points();
@@ -53,6 +54,7 @@ struct Quadratic {
   std::array<std::array<Eigen::Vector3d, 4>, 4> middles;
 };
 
+/// The positions of an element's nodes.
 Quadratic quadratic(const LagrangeNodes& nodes, Eigen::Index element) {
   static const auto alphas = lattice(2);
   Quadratic q;
@@ -69,7 +71,8 @@ Quadratic quadratic(const LagrangeNodes& nodes, Eigen::Index element) {
   return q;
 }
 
-/// ∂x/∂λ_k = (4 λ_k − 1) x_k + 4 Σ_{j≠k} λ_j x_kj, the columns of J their differences from the first.
+/// det J at λ. The columns of J are the differences of ∂x/∂λ_k = (4 λ_k − 1) x_k + 4 Σ_{j≠k} λ_j x_kj, k = 1…3, from
+/// that for k = 0.
 double determinant(const Quadratic& q, const Eigen::Vector4d& lambda) {
   Eigen::Matrix<double, 3, 4> slope;
   for (Eigen::Index k = 0; k < 4; ++k) {
@@ -81,6 +84,7 @@ double determinant(const Quadratic& q, const Eigen::Vector4d& lambda) {
   return J.determinant();
 }
 
+/// The position x(λ), m.
 Eigen::Vector3d position(const Quadratic& q, const Eigen::Vector4d& lambda) {
   Eigen::Vector3d x = Eigen::Vector3d::Zero();
   for (Eigen::Index k = 0; k < 4; ++k) {
@@ -91,7 +95,7 @@ Eigen::Vector3d position(const Quadratic& q, const Eigen::Vector4d& lambda) {
   return x;
 }
 
-/// The eight parts of a tetrahedron cut at the middles of its edges (Bey 1995).
+/// The eight parts of a tetrahedron divided at the middles of its edges (Bey 1995); `c`: its corners.
 std::array<Corners, 8> parts(const Corners& c) {
   const auto mid = [&c](Eigen::Index i, Eigen::Index j) -> Eigen::Vector4d { return 0.5 * (c.col(i) + c.col(j)); };
   const std::array<Eigen::Vector4d, 10> p{c.col(0),  c.col(1),  c.col(2),  c.col(3),  mid(0, 1),
@@ -104,13 +108,14 @@ std::array<Corners, 8> parts(const Corners& c) {
   return result;
 }
 
+/// The search for the least det J of an element.
 struct Search {
   const Quadratic& element;
-  double floor;
-  double least = std::numeric_limits<double>::infinity();
-  Eigen::Vector4d at = Eigen::Vector4d::Constant(0.25);
-  double mean = 0.0;  ///< of the last part looked at
+  double floor;                                            ///< value that det J has to exceed
+  double least = std::numeric_limits<double>::infinity();  ///< least value at the points so far
+  Eigen::Vector4d at = Eigen::Vector4d::Constant(0.25);    ///< place of the least
 
+  /// The Bernstein coefficients of det J on a part of the element, whose values at the twenty points update `least`.
   Values look_at(const Corners& part) {
     static const Eigen::Matrix<double, 4, 20> points = cubic_points();
     static const Eigen::Matrix<double, 20, 20> to_bernstein = bernstein_from_values();
@@ -126,7 +131,9 @@ struct Search {
     return to_bernstein * values;
   }
 
-  /// False where det J does not exceed the floor at a point, or is not shown to within the depth.
+  /// True if det J exceeds the floor on the whole part. A value at a point disproves it; Bernstein coefficients above
+  /// the floor prove it, because det J is a mean of them with positive weights; otherwise the part is divided, up to
+  /// `depth` times, and counts as unsound if that does not decide.
   bool is_above_floor(const Corners& part, int depth) {
     const Values coefficients = look_at(part);
     if (!(least > floor)) return false;
@@ -170,6 +177,7 @@ LeastJacobian least_jacobian(const LagrangeNodes& nodes, Eigen::Index element, d
   const Quadratic q = quadratic(nodes, element);
   Search search{q, 0.0};
   const Corners whole = Corners::Identity();
+  // The mean of a cubic over the element is the mean of its Bernstein coefficients.
   const double mean = search.look_at(whole).mean();
   if (!has_volume(mean, q.corners)) return without_volume(mean, q.corners);
   search.floor = bound * mean;

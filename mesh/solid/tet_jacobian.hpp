@@ -1,5 +1,5 @@
 #pragma once
-// The Jacobian of tetrahedra of order 1 and 2, bounded everywhere, not only at points.
+// A lower bound of the Jacobian of tetrahedra of order 1 and 2 over the whole element, not only at points.
 
 #include <Eigen/Core>
 
@@ -7,19 +7,20 @@
 
 namespace thinwall::mesh {
 
-/// det J, J = ∂x/∂ξ, over its mean in the element, and where it is least.
+/// The least det J, J = ∂x/∂ξ, over its mean in an element, and its place.
 struct LeastJacobian {
-  double ratio = 1.0;                            ///< det J / mean there; without volume the mean over l³
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< m; without volume the centre
-  bool is_sound = true;                          ///< above the bound everywhere
-  bool has_volume = true;                        ///< the mean is positive
+  double ratio = 1.0;                            ///< least det J / mean; without volume the mean over l³
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< place of the least, m; without volume the centre
+  bool is_sound = true;                          ///< true if det J exceeds the bound everywhere
+  bool has_volume = true;                        ///< true if the mean is positive, beyond round-off
 };
 
-/// x(ξ) = Σ N_a x_a makes det J a cubic for order 2. Its Bernstein coefficients bound it from below on the whole
-/// element (Johnen, Remacle & Geuzaine 2013), and with it at every quadrature point and node; where they do not
-/// suffice the element is cut in eight, four times at most. Sound: det J > bound · mean everywhere, and the mean above
-/// 1e-10 l³ with l the longest straight edge (below, the corners lie in one plane to round-off). Order 1: the mean
-/// alone. Throws InputError for another order. Cost: some 2 µs an element of order 2.
+/// A bound on det J in an element of order 1 or 2. With x(ξ) = Σ N_a x_a of order 2, det J is a cubic polynomial. Its
+/// Bernstein coefficients bound it from below on the whole element (Johnen, Remacle & Geuzaine 2013), and so at every
+/// quadrature point and node; if they do not suffice, the element is divided into eight, at most four times. An element
+/// is sound if det J > bound · mean everywhere, and the mean is above 1e-10 l³ with l the longest straight edge (below
+/// that, the corners lie in one plane to round-off). For order 1 the mean is all that is checked. Throws InputError for
+/// another order. Cost: some 2 µs for an element of order 2.
 [[nodiscard]] LeastJacobian least_jacobian(const LagrangeNodes& nodes, Eigen::Index element, double bound);
 
 }  // namespace thinwall::mesh

@@ -20,9 +20,9 @@ namespace thinwall::mesh {
 
 namespace {
 
-/// A surface thinner than this of its diagonal cubed encloses nothing that can be meshed.
+/// Least volume of a surface that can be meshed, over its diagonal cubed.
 constexpr double smallest_relative_volume = 1e-9;
-/// A triangle with less than this of its longest edge squared as area has no direction.
+/// Least area of a triangle with a defined normal, over its longest edge squared.
 constexpr double smallest_relative_area = 1e-12;
 
 std::string millimetres(const Eigen::Vector3d& x) {
@@ -49,7 +49,7 @@ void require_triangles(const TriangleSurface& surface) {
   }
 }
 
-/// Each directed edge once, its opposite once.
+/// Throws InputError unless each directed edge occurs once and its opposite once.
 void require_edges_paired(const TriangleSurface& surface) {
   for_each_edge(sorted_edges(surface.triangles), [&](std::span<const EdgeUse> uses) {
     const auto& ends = uses[0].ends;

@@ -1,5 +1,5 @@
 #pragma once
-// Which triangles use an edge, and in which direction.
+// The triangles at each edge of a surface, and the directions in which they use it.
 
 #include <array>
 #include <cstddef>
@@ -8,14 +8,15 @@
 
 namespace thinwall::mesh {
 
-/// A triangle runs along an edge.
+/// The use of an edge by a triangle.
 struct EdgeUse {
   std::array<int, 2> ends{};  ///< the lower vertex first
   int triangle = 0;
   bool is_forward = false;  ///< from the lower to the higher vertex
 };
 
-/// Three uses a triangle, sorted by vertices, then by triangle. Cost O(n log n), 16 bytes a use.
+/// The uses of all edges, three for each triangle, sorted by vertices, then by triangle. Cost O(n log n), 16 bytes a
+/// use.
 [[nodiscard]] std::vector<EdgeUse> sorted_edges(const std::vector<std::array<int, 3>>& triangles);
 
 /// Calls work(all uses of an edge) for every edge in turn; `uses` as sorted_edges() gives them.

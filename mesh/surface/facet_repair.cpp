@@ -21,6 +21,7 @@ Eigen::Vector3d middle(const TriangleSoup& soup, const Triangle& t) {
   return (point(soup, t[0]) + point(soup, t[1]) + point(soup, t[2])) / 3.0;
 }
 
+/// Removes the dropped triangles.
 void keep_only(TriangleSoup& soup, const std::vector<bool>& dropped) {
   std::size_t kept = 0;
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
@@ -33,7 +34,7 @@ Triangle ascending(Triangle t) {
   return t;
 }
 
-/// True if the corners in ascending order run the same way round.
+/// True if the corners in ascending order have the same orientation as the triangle.
 bool is_even(const Triangle& t) {
   return (t[0] < t[1]) + (t[1] < t[2]) + (t[2] < t[0]) == 2;
 }
@@ -47,7 +48,7 @@ std::vector<bool> flat_triangles(const TriangleSoup& soup) {
   return flat;
 }
 
-/// The corner opposite to the longest edge.
+/// The corner opposite to the longest edge, which in a flat triangle lies between the two others.
 std::size_t corner_between(const TriangleSoup& soup, const Triangle& t) {
   const auto length = [&](std::size_t k) {
     return (point(soup, t[(k + 1) % 3]) - point(soup, t[(k + 2) % 3])).squaredNorm();
@@ -58,6 +59,7 @@ std::size_t corner_between(const TriangleSoup& soup, const Triangle& t) {
   return best;
 }
 
+/// The uses of the edge between a and b.
 std::span<const EdgeUse> uses_of(const std::vector<EdgeUse>& edges, int a, int b) {
   const std::array<int, 2> ends{std::min(a, b), std::max(a, b)};
   const auto first = std::lower_bound(edges.begin(), edges.end(), ends,
@@ -67,7 +69,7 @@ std::span<const EdgeUse> uses_of(const std::vector<EdgeUse>& edges, int a, int b
   return {first, last};
 }
 
-/// One pass over the flat triangles; each triangle is changed at most once, because the edges are those before.
+/// One pass over the flat triangles. Each triangle is changed at most once, because the list of edges is made before.
 class FlatPass {
  public:
   FlatPass(TriangleSoup& soup, const std::vector<bool>& flat)
@@ -80,6 +82,7 @@ class FlatPass {
   [[nodiscard]] bool changed_any() const { return changed_any_; }
 
  private:
+  /// Splits the neighbour beyond the longest edge of a flat triangle, or drops the triangle if it has none there.
   void resolve(std::size_t t) {
     const Triangle flat = soup_.triangles[t];
     const std::size_t k = corner_between(soup_, flat);

@@ -1,5 +1,5 @@
 #pragma once
-// Facets of a soup that are no surface: collapsed, double, without area.
+// Removal of facets that belong to no surface: collapsed facets, repeated ones, those without area.
 
 #include <vector>
 
@@ -8,28 +8,29 @@
 
 namespace thinwall::mesh {
 
-/// Drops triangles that name a point twice: what merging points leaves of a sliver. Cost O(n).
+/// Drops triangles that use a point twice, which slivers do after their points were merged. Cost O(n).
 [[nodiscard]] SurfaceFinding drop_collapsed(TriangleSoup& soup);
 
-/// Of triangles with the same three points the first stays.
+/// The result of drop_duplicates().
 struct DroppedDuplicates {
   SurfaceFinding dropped;
-  /// Triangles that stayed and whose double ran the other way round: both sides of a wall without thickness, unless
-  /// one of them was merely turned. Numbers in the soup as it is then.
+  /// Triangles that were kept and whose duplicate ran the other way round: both sides of a wall without thickness,
+  /// unless one of them was merely turned. Numbers are those in the soup afterwards.
   std::vector<int> opposite;
 };
-/// Cost O(n log n).
+/// Drops all but the first of triangles with the same three points. Cost O(n log n).
 [[nodiscard]] DroppedDuplicates drop_duplicates(TriangleSoup& soup);
 
-/// Removes triangles whose three different points lie on a line (mesh::has_area): the neighbour beyond the longest edge
-/// is split at the third point, which lies on that edge, so that the surface stays where it is and as closed as it was.
-/// What remains, because points almost coincide or more than two triangles meet there, is `left`. Cost O(n log n) a
-/// pass, one pass for each flat triangle that lies against another, at most 32.
+/// The result of split_flat(): the triangles removed, and those left because points almost coincide or more than two
+/// triangles meet there.
 struct SplitFlat {
   SurfaceFinding removed;
   SurfaceFinding left;
 };
-/// Removes them from the soup.
+/// Removes triangles whose three different points lie on a line (mesh::has_area()). The neighbour beyond the longest
+/// edge is split at the third point, which lies on that edge, so that the surface keeps its place and stays as closed
+/// as before. Cost O(n log n) for each pass, with one pass for each flat triangle that lies against another, at most
+/// 32.
 [[nodiscard]] SplitFlat split_flat(TriangleSoup& soup);
 
 }  // namespace thinwall::mesh

@@ -20,7 +20,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Loop = std::vector<int>;
 
-/// For each point on a border the points beside it on that border.
+/// For each point on a border the neighbouring points on that border.
 std::map<int, std::vector<int>> border_neighbours(const TriangleSoup& soup) {
   std::map<int, std::vector<int>> beside;
   for_each_edge(sorted_edges(soup.triangles), [&](std::span<const EdgeUse> uses) {
@@ -31,7 +31,7 @@ std::map<int, std::vector<int>> border_neighbours(const TriangleSoup& soup) {
   return beside;
 }
 
-/// Closed lines of the border without a point where lines meet.
+/// The closed lines of the border that contain no point at which lines meet.
 std::vector<Loop> border_loops(const TriangleSoup& soup) {
   auto beside = border_neighbours(soup);
   std::vector<Loop> loops;

@@ -1,5 +1,5 @@
 #pragma once
-// Small holes of a surface, closed.
+// Filling of small holes of a surface.
 
 #include "mesh/confined.hpp"
 #include "mesh/surface/surface_finding.hpp"
@@ -8,9 +8,10 @@
 namespace thinwall::mesh {
 
 /// Fills every hole whose border is one closed line of at most `largest_edges` edges with triangles between its points,
-/// by CGAL triangulate_hole_polyline (Liepa 2003) in a process of its own. New triangles run either way round. Wider
-/// holes, and borders that touch each other, stay. Returns how many were filled and the middle of the first border.
-/// Throws NumericalError if CGAL does not come back within the limits. Cost O(n log n) + O(edges³) a hole.
+/// by CGAL's triangulate_hole_polyline (Liepa 2003) in a process of its own. The new triangles may have either
+/// orientation. Wider holes, and borders that touch each other, are left. Returns the number of holes filled and the
+/// middle of the first border. Throws NumericalError if CGAL does not end within the limits. Cost O(n log n) +
+/// O(edges³) for each hole.
 [[nodiscard]] SurfaceFinding fill_holes(TriangleSoup& soup, int largest_edges, const ProcessLimits& limits);
 
 /// Edges that belong to one triangle only: the borders of holes.

@@ -19,14 +19,15 @@ const Eigen::Vector3d& corner(const TriangleSoup& soup, std::size_t triangle, st
   return soup.points[static_cast<std::size_t>(soup.triangles[triangle][k])];
 }
 
-/// Triangles that hang together, each turned or not against the first of its set.
+/// Sets of connected triangles (union-find), each of which is turned or not against the first of its set. turned_[t] is
+/// relative to parent_[t].
 class TurnedSets {
  public:
   explicit TurnedSets(std::size_t count) : parent_(count), turned_(count) {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
 
-  /// The first of the set, and whether t is turned against it. Shortens the way for later searches.
+  /// The first of the set, and true if t is turned against it. The path to the first is shortened for later searches.
   std::pair<int, bool> find(int t) {
     int root = t;
     bool parity = false;
@@ -46,7 +47,7 @@ class TurnedSets {
     return {root, parity};
   }
 
-  /// States that a and b are turned against each other, or not. False if that contradicts what is known.
+  /// Records that a and b are turned against each other, or not. False if that contradicts what was recorded before.
   bool join(int a, int b, bool turned) {
     auto [root_a, parity_a] = find(a);
     auto [root_b, parity_b] = find(b);
@@ -64,7 +65,7 @@ class TurnedSets {
   std::vector<bool> turned_;
 };
 
-/// Shells numbered in the order of their first triangles; triangles turned to agree with the first.
+/// Numbers the shells in the order of their first triangles, and turns all triangles to agree with the first.
 void number_shells(TriangleSoup& soup, TurnedSets& sets, std::vector<bool>& is_turned, Orientation& result) {
   std::vector<int> number(soup.triangles.size(), -1);
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
@@ -80,7 +81,8 @@ void number_shells(TriangleSoup& soup, TurnedSets& sets, std::vector<bool>& is_t
   }
 }
 
-/// Volumes by the divergence theorem, each about the first corner of its shell.
+/// Adds up the volumes of the shells by the divergence theorem, each about the first corner of its shell, so that a
+/// shell far from the origin loses no digits.
 void measure_shells(const TriangleSoup& soup, Orientation& result) {
   std::vector<const Eigen::Vector3d*> origin(result.volumes_m3.size(), nullptr);
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
@@ -110,6 +112,7 @@ Orientation orient(TriangleSoup& soup) {
   std::vector<bool> is_turned(soup.triangles.size());
   number_shells(soup, sets, is_turned, result);
   measure_shells(soup, result);
+  // A shell of negative volume is turned inwards as a whole.
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
     if (result.volumes_m3[static_cast<std::size_t>(result.shell_of_triangle[t])] < 0.0) {
       std::swap(soup.triangles[t][1], soup.triangles[t][2]);
@@ -127,6 +130,8 @@ SurfaceFinding touching_vertices(const TriangleSoup& soup) {
     const auto& t = soup.triangles[static_cast<std::size_t>(triangle)];
     return 3 * triangle + static_cast<int>(std::find(t.begin(), t.end(), p) - t.begin());
   };
+  // Corners of triangles that share an edge at a point belong to one fan; a point with corners of two fans is one in
+  // which parts touch.
   std::vector<std::array<int, 2>> together;
   for_each_edge(sorted_edges(soup.triangles), [&](std::span<const EdgeUse> uses) {
     if (uses.size() != 2) return;

@@ -1,5 +1,6 @@
 #pragma once
-// Facets turned so that neighbours run along their common edge in opposite directions, and each shell outwards.
+// Orientation of facets, so that neighbours use their common edge in opposite directions and each shell is turned
+// outwards.
 
 #include <vector>
 
@@ -8,7 +9,7 @@
 
 namespace thinwall::mesh {
 
-/// The result of orient(), and the shells: sets of triangles that hang together by edges.
+/// The result of orient(). A shell is a set of triangles that are connected by edges.
 struct Orientation {
   SurfaceFinding turned;
   SurfaceFinding one_sided;  ///< edges across which no orientation fits: the surface is one-sided
@@ -16,16 +17,18 @@ struct Orientation {
   std::vector<double> volumes_m3;  ///< of each shell, positive
 };
 
-/// Turns triangles over. Every edge must have exactly two triangles. Own code because CGAL's orient_polygon_soup splits
-/// points without a word where a surface is no manifold, and takes a set of triangles for every edge. Union-find with
-/// parity over the edges (Tarjan 1975). Cost nearly O(n log n).
+/// Turns triangles over, so that all shells are oriented outwards. Every edge must have exactly two triangles. CGAL's
+/// orient_polygon_soup is not used because it splits points silently if a surface is not a manifold, and stores a set
+/// of triangles for every edge. The method is union-find with parity over the edges (Tarjan 1975): each triangle knows
+/// whether it is turned against the first of its set. Cost nearly O(n log n).
 [[nodiscard]] Orientation orient(TriangleSoup& soup);
 
-/// Vertices around which the triangles form more than one fan: parts of the surface that touch in a point. Every edge
+/// Vertices around which the triangles form more than one fan, so that parts of the surface touch in a point. Every
+/// edge
 /// must have at most two triangles. Cost O(n log n).
 [[nodiscard]] SurfaceFinding touching_vertices(const TriangleSoup& soup);
 
-/// Solid angle of the oriented triangles of one shell seen from x, over 4π: 1 within, 0 outside (van Oosterom &
+/// Solid angle of the oriented triangles of one shell seen from x, over 4π: 1 inside, 0 outside (van Oosterom &
 /// Strackee 1983, Eq. 8). Cost O(n).
 [[nodiscard]] double winding_number(const TriangleSoup& soup, const std::vector<int>& shell_of_triangle, int shell,
                                     const Eigen::Vector3d& x_m);

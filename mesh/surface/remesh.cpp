@@ -28,7 +28,7 @@ constexpr double too_short = 0.7;
 constexpr int rounds = 8;
 constexpr double smallest_shape = 1e-4;    // area / (longest edge)² of a triangle that still has a direction
 constexpr double cosine_of_turn = 0.7071;  // new triangles stay within 45° of the surface
-constexpr double better = 1e-3;            // what a flip or a move must gain in quality
+constexpr double better = 1e-3;            // least gain in quality of a flip or a move
 
 /// A vertex as a point of one of its patches.
 struct Place {
@@ -38,7 +38,7 @@ struct Place {
   Eigen::VectorXd wanted;  // coordinates in the space of wanted edges
 };
 
-/// The surface as it changes.
+/// The surface during remeshing, with its patches and lines.
 struct Work {
   const SizeSpace& space;
   Mesh mesh;
@@ -56,13 +56,14 @@ struct Work {
         places(mesh.add_property_map<Vertex, std::vector<Place>>("v:places").first) {}
 };
 
+/// The place of x on a patch.
 Place make_place(const SizeSpace& space, int patch, const Eigen::Vector3d& x) {
   Place place{patch, x, space.normal(patch, x), {}};
   place.wanted = space.at(patch, x, place.normal);
   return place;
 }
 
-/// Remembered for every patch of the vertex until it moves.
+/// The place of a vertex on a patch, which is kept until the vertex moves.
 Place place_of(Work& work, Vertex v, int patch) {
   auto& known = work.places[v];
   for (const Place& place : known)
@@ -71,18 +72,20 @@ Place place_of(Work& work, Vertex v, int patch) {
   return known.back();
 }
 
-/// Number of wanted edges between two places: over the middle, because a line may run from border to border.
+/// Number of wanted edges between two places. It is measured in two halves, because the middle of an edge from border
+/// to border lies outside the layers, while its ends have equal coordinates in them.
 double length(const SizeSpace& space, const Place& a, const Place& b) {
   const Eigen::VectorXd middle = space.at(a.patch, 0.5 * (a.x + b.x), 0.5 * (a.normal + b.normal));
   return (middle - a.wanted).norm() + (b.wanted - middle).norm();
 }
 
+/// The patches on the two sides of an edge.
 std::array<int, 2> patches_along(const Work& work, Edge e) {
   const Half h = work.mesh.halfedge(e);
   return {work.patch[work.mesh.face(h)], work.patch[work.mesh.face(work.mesh.opposite(h))]};
 }
 
-/// The patch of the two in which the edge is longer, and its length there.
+/// The length of an edge in that of its two patches in which it is longer, and this patch.
 std::pair<double, int> longest(Work& work, Edge e) {
   const Vertex a = work.mesh.vertex(e, 0);
   const Vertex b = work.mesh.vertex(e, 1);
@@ -94,7 +97,8 @@ std::pair<double, int> longest(Work& work, Edge e) {
   return result;
 }
 
-/// 1 for three equal wanted edges, 0 for a triangle without area (4√3 A / Σ l²; A by Heron's formula).
+/// The quality of a triangle in wanted edges: 1 if all three are equal, 0 for a triangle without area (4√3 A / Σ l²; A
+/// by Heron's formula).
 double quality(const SizeSpace& space, const Place& a, const Place& b, const Place& c) {
   const double x = length(space, b, c);
   const double y = length(space, c, a);
@@ -103,6 +107,7 @@ double quality(const SizeSpace& space, const Place& a, const Place& b, const Pla
   return std::sqrt(3.0 * std::max(0.0, squares)) / (x * x + y * y + z * z);
 }
 
+/// True if the triangle has an area and turns no more than 45° from the surface's normals at its corners.
 bool faces_outwards(const Place& a, const Place& b, const Place& c) {
   const Eigen::Vector3d area = 0.5 * (b.x - a.x).cross(c.x - a.x);
   const double squared = std::max({(b.x - a.x).squaredNorm(), (c.x - b.x).squaredNorm(), (a.x - c.x).squaredNorm()});
@@ -110,11 +115,13 @@ bool faces_outwards(const Place& a, const Place& b, const Place& c) {
   return area.dot(a.normal + b.normal + c.normal) > cosine_of_turn * area.norm() * 3.0;
 }
 
+/// True if x lies within the allowed deviation of the patch.
 bool lies_on(const SizeSpace& space, int patch, const Eigen::Vector3d& x) {
   return space.is_planar(patch) || (space.on_patch(patch, x) - x).norm() <= space.allowed_deviation_m(patch);
 }
 
-/// True if the triangle may stand for its piece of the patch.
+/// True if the triangle represents its piece of the patch: its orientation fits, and its centre and the middles of its
+/// edges lie near the patch.
 bool is_faithful(const SizeSpace& space, const Place& a, const Place& b, const Place& c) {
   return faces_outwards(a, b, c) && lies_on(space, a.patch, (a.x + b.x + c.x) / 3.0) &&
          lies_on(space, a.patch, 0.5 * (a.x + b.x)) && lies_on(space, a.patch, 0.5 * (b.x + c.x)) &&
@@ -129,6 +136,7 @@ std::vector<Half> sharp_halfedges(const Work& work, Vertex v) {
   return result;
 }
 
+/// All edges with their lengths, ascending.
 std::vector<std::pair<double, Edge>> measured_edges(Work& work) {
   std::vector<std::pair<double, Edge>> result;
   for (const Edge e : work.mesh.edges()) result.emplace_back(longest(work, e).first, e);
@@ -136,7 +144,8 @@ std::vector<std::pair<double, Edge>> measured_edges(Work& work) {
   return result;
 }
 
-/// The point that halves the edge's wanted length, on the line or the patch.
+/// The point that halves the edge's wanted length, projected onto the line or the patch. It is not the middle of an
+/// edge along which the wanted size changes.
 Eigen::Vector3d halving_point(Work& work, Edge e, int patch) {
   constexpr int samples = 64;
   const Place a = place_of(work, work.mesh.vertex(e, 0), patch);
@@ -159,6 +168,7 @@ Eigen::Vector3d halving_point(Work& work, Edge e, int patch) {
   return work.space.is_planar(patch) ? x : work.space.on_patch(patch, x);
 }
 
+/// Splits an edge and the two triangles beside it at a new vertex at x.
 void split(Work& work, Edge e, const Eigen::Vector3d& x) {
   Mesh& mesh = work.mesh;
   const Half h = mesh.halfedge(e);
@@ -181,12 +191,13 @@ void split(Work& work, Edge e, const Eigen::Vector3d& x) {
       "larger elements");
 }
 
+/// Splits edges that are too long, the longest first; returns their number.
 int split_long_edges(Work& work) {
   int splits = 0;
   auto edges = measured_edges(work);
   for (auto it = edges.rbegin(); it != edges.rend() && it->first > too_long; ++it) {
     const auto [now, patch] = longest(work, it->second);
-    if (!(now > too_long)) continue;  // its other half, after a split of this sweep
+    if (!(now > too_long)) continue;  // an edge that a split of this sweep has shortened
     core::check_interrupt();
     if (work.mesh.number_of_vertices() > work.most_vertices) refuse_so_fine(work, it->second);
     split(work, it->second, halving_point(work, it->second, patch));
@@ -195,7 +206,8 @@ int split_long_edges(Work& work) {
   return splits;
 }
 
-/// True if moving source(h) into target(h) keeps lines, corners, sizes and the surface's shape.
+/// True if moving source(h) into target(h) keeps the lines, the corners, the topology (link condition), edges that are
+/// not too long, and the surface's shape.
 bool may_collapse(Work& work, Half h) {
   Mesh& mesh = work.mesh;
   const Vertex gone = mesh.source(h);
@@ -221,13 +233,15 @@ bool may_collapse(Work& work, Half h) {
   return true;
 }
 
+/// Moves source(h) into target(h).
 void collapse(Work& work, Half h) {
   Mesh& mesh = work.mesh;
   const Vertex kept = mesh.target(h);
   const Eigen::Vector3d x = mesh.point(kept);
   const bool corner = work.is_corner[kept];
   auto places = work.places[kept];
-  // The edge of the kept vertex may be sharp, of the two that become one at each apex.
+  // At each apex two edges become one. The one of the kept vertex may be sharp (may_collapse() excludes the other), and
+  // CGAL decides which of the two remains, so that its line is set again.
   std::array<std::pair<Vertex, int>, 2> apexes;
   std::size_t k = 0;
   for (const Half side : {h, mesh.opposite(h)}) {
@@ -241,6 +255,7 @@ void collapse(Work& work, Half h) {
   for (const auto& [apex, line] : apexes) work.line[mesh.edge(mesh.halfedge(left, apex))] = line;
 }
 
+/// Collapses edges that are too short, the shortest first; returns their number.
 int collapse_short_edges(Work& work) {
   int collapses = 0;
   for (const auto& [measured, e] : measured_edges(work)) {
@@ -257,6 +272,7 @@ int collapse_short_edges(Work& work) {
   return collapses;
 }
 
+/// Flips an edge that is not sharp if that improves the worse of its two triangles.
 bool flip_if_better(Work& work, Edge e) {
   Mesh& mesh = work.mesh;
   if (work.line[e] >= 0) return false;
@@ -276,6 +292,7 @@ bool flip_if_better(Work& work, Edge e) {
   return true;
 }
 
+/// Flips edges in several sweeps, because a flip can make another one worthwhile.
 void flip_edges(Work& work) {
   constexpr int sweeps = 10;
   bool changed = true;
@@ -288,7 +305,7 @@ void flip_edges(Work& work) {
   }
 }
 
-/// Quality of the worst triangle around v if v were at x; nothing if that does not exceed `to_beat` or a triangle would
+/// Quality of the worst triangle around v if v were at x; empty if it does not exceed `to_beat` or if a triangle would
 /// not be faithful.
 std::optional<double> worst_around(Work& work, Vertex v, const Eigen::Vector3d& x, double to_beat) {
   Mesh& mesh = work.mesh;
@@ -310,7 +327,8 @@ std::optional<double> worst_around(Work& work, Vertex v, const Eigen::Vector3d& 
   return worst;
 }
 
-/// Places to which a vertex may go: towards its neighbours, along its line if it lies on one.
+/// Places to which a vertex may go: a step towards each of its neighbours, or along its line if it lies on one, and the
+/// mean of its neighbours.
 std::vector<Eigen::Vector3d> candidates(const Work& work, Vertex v) {
   constexpr double step = 0.2;
   const Mesh& mesh = work.mesh;
@@ -335,6 +353,7 @@ std::vector<Eigen::Vector3d> candidates(const Work& work, Vertex v) {
   return result;
 }
 
+/// Moves each vertex that is no corner to the candidate with the best quality, if that is an improvement.
 void move_vertices(Work& work) {
   for (const Vertex v : work.mesh.vertices()) {
     if (work.is_corner[v]) continue;
@@ -353,7 +372,8 @@ void move_vertices(Work& work) {
   }
 }
 
-/// A long edge needs several halvings, and its neighbours have to follow.
+/// Splits long edges in sweeps, because a long edge needs several halvings and its neighbours have to follow; returns
+/// the number of splits.
 int split_down(Work& work) {
   constexpr int halvings = 20;
   int splits = 0;
@@ -366,6 +386,7 @@ int split_down(Work& work) {
   return splits;
 }
 
+/// Fills the mesh with the input surface and its features.
 void load(Work& work, const TriangleSurface& surface, const SurfaceFeatures& features) {
   for (std::size_t v = 0; v < surface.vertices.size(); ++v)
     work.is_corner[work.mesh.add_vertex(surface.vertices[v])] = features.is_corner[v];
@@ -383,6 +404,7 @@ void load(Work& work, const TriangleSurface& surface, const SurfaceFeatures& fea
   }
 }
 
+/// The remeshed surface.
 Remeshed unload(Work& work) {
   Remeshed result;
   for (const Edge e : work.mesh.edges()) result.longest_edge = std::max(result.longest_edge, longest(work, e).first);

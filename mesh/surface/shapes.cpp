@@ -14,8 +14,9 @@ int cells(double length, double edge) {
   return std::max(1, static_cast<int>(std::lround(length / edge)));
 }
 
-/// A cell face is seen from outside counter-clockwise: its corners in the grid, for each axis and side.
+/// Indices of a corner of the grid.
 using Corner = std::array<int, 3>;
+/// The corners of a cell's face, given by its axis and side, counter-clockwise seen from outside.
 std::array<Corner, 4> face_corners(const Corner& cell, int axis, int side) {
   const auto u = static_cast<std::size_t>((axis + 1) % 3);
   const auto v = static_cast<std::size_t>((axis + 2) % 3);
@@ -30,7 +31,7 @@ std::array<Corner, 4> face_corners(const Corner& cell, int axis, int side) {
   return corners;
 }
 
-/// Moves every vertex by a map of the grid's coordinates; orientation preserving.
+/// The surface with every vertex moved by a map of the grid's coordinates that keeps its orientation.
 template <class Map>
 TriangleSurface mapped(TriangleSurface surface, const Map& map) {
   for (auto& x : surface.vertices) x = map(x);

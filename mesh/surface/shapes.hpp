@@ -1,5 +1,5 @@
 #pragma once
-// Thin-walled parts made by formula: closed triangulated surfaces for tests and timings.
+// Thin-walled parts given by formulas, as closed triangulated surfaces for tests and timings.
 
 #include <functional>
 #include <vector>
@@ -13,14 +13,15 @@ struct GridLines {
   std::vector<double> x, y, z;
 };
 
-/// The surface of all cells (i, j, k) of a grid for which `filled` holds: two triangles a cell face, outwards. Cells
-/// that touch in an edge or a corner only would give a surface that is not manifold; the shapes below have none.
+/// The outward surface of all cells (i, j, k) of a grid for which `filled` holds, with two triangles for each cell
+/// face. The surface is not a manifold if cells touch in an edge or a corner only, which the shapes below avoid.
 [[nodiscard]] TriangleSurface grid_surface(const GridLines& lines, const std::function<bool(int, int, int)>& filled);
 
-/// n cells of equal width from a to b.
+/// The n + 1 ends of n equal cells from a to b.
 [[nodiscard]] std::vector<double> divided(double a, double b, int n);
 
-/// The block [0, lx] × [0, ly] × [0, lz] with triangles of about `edge_m`, one cell through anything thinner.
+/// The surface of the block [0, lx] × [0, ly] × [0, lz] with triangles of about `edge_m`, one cell through anything
+/// thinner.
 [[nodiscard]] TriangleSurface block_surface(const Eigen::Vector3d& size_m, double edge_m);
 
 /// A wall bent over an angle about the z axis: inner_radius ≤ r ≤ inner_radius + thickness, 0 ≤ φ ≤ angle (below 2π),
@@ -32,9 +33,9 @@ struct CylinderSector {
   double angle_rad = 1.5707963267948966;
   double height_m = 0.08;
 };
-/// Its surface, with edges of about `edge_m`.
+/// The surface of a cylinder sector, with edges of about `edge_m`.
 [[nodiscard]] TriangleSurface surface(const CylinderSector& sector, double edge_m);
-/// Its volume in closed form, m³.
+/// The volume of a cylinder sector in closed form, m³.
 [[nodiscard]] double volume(const CylinderSector& sector);
 
 /// A wall that stands on z = 0 with a rectangular section chord × thickness(z), thickness linear in z, turned about the
@@ -46,13 +47,13 @@ struct Blade {
   double tip_thickness_m = 0.003;
   double twist_rad = 0.5235987755982988;
 };
-/// Its surface, with edges of about `edge_m`.
+/// The surface of a blade, with edges of about `edge_m`.
 [[nodiscard]] TriangleSurface surface(const Blade& blade, double edge_m);
-/// Its volume, m³.
+/// The volume of a blade, m³.
 [[nodiscard]] double volume(const Blade& blade);
 
 /// A corner of a pocket: a floor 0 ≤ z ≤ floor and two walls, x ≤ wall and y ≤ wall, on 0 ≤ x ≤ length, 0 ≤ y ≤ width,
-/// 0 ≤ z ≤ height. Planar faces, so the triangulated surface is exact.
+/// 0 ≤ z ≤ height. Its faces are planar, so that the triangulated surface is exact.
 struct LPocket {
   double length_m = 0.12;
   double width_m = 0.1;
@@ -60,9 +61,9 @@ struct LPocket {
   double wall_m = 0.003;
   double floor_m = 0.004;
 };
-/// Its surface, with edges of about `edge_m`.
+/// The surface of a pocket, with edges of about `edge_m`.
 [[nodiscard]] TriangleSurface surface(const LPocket& pocket, double edge_m);
-/// Its volume in closed form, m³.
+/// The volume of a pocket in closed form, m³.
 [[nodiscard]] double volume(const LPocket& pocket);
 
 }  // namespace thinwall::mesh

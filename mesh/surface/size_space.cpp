@@ -19,20 +19,20 @@ constexpr double smallest_sizes_per_diagonal = 8.0;
 constexpr double deviation_per_thickness = 0.05;
 constexpr double planar_rad = 1e-6;
 
-/// ∫ (1 − s²)^½ / s ds.
+/// The integral ∫ (1 − s²)^½ / s ds, up to a constant.
 double stretch_integral(double s) {
   const double c = std::sqrt(std::max(0.0, 1.0 - s * s));
   return c + std::log(s / (1.0 + c));
 }
 
-/// φ(d): the number of wanted edges across the layers from 0 to d, beyond what d/H counts.
+/// φ(d) = ∫₀^d (1/h² − 1/H²)^½ dd with h = h₀ + g d, by the substitution s = h/H. `first`: h₀; growth: g; size: H.
 double stretched(double d, double first, double growth, double size) {
   if (first >= size) return 0.0;
   const double s = std::min(1.0, (first + growth * d) / size);
   return (stretch_integral(s) - stretch_integral(first / size)) / growth;
 }
 
-/// Signed distance to a region's border, negative inside.
+/// Signed distance to a region's border, m, negative inside.
 double signed_distance(const Region& region, const Eigen::Vector3d& x) {
   if (const auto* ball = std::get_if<SphereRegion>(&region)) return (x - ball->centre).norm() - ball->radius;
   const auto& box = std::get<BoxRegion>(region);
@@ -40,8 +40,8 @@ double signed_distance(const Region& region, const Eigen::Vector3d& x) {
   return q.cwiseMax(0.0).norm() + std::min(0.0, q.maxCoeff());
 }
 
-/// Normals at each triangle's corners: the mean over the triangles of the same patch around the vertex, weighted by
-/// area. (Across a sharp line the normal jumps, so that a vertex there has one for each patch.)
+/// Normals at each triangle's corners, each the area-weighted mean over the triangles of the same patch around the
+/// vertex. The normal jumps across a sharp line, so that a vertex there has one normal for each patch.
 std::vector<std::array<Eigen::Vector3d, 3>> corner_normals(const TriangleSurface& surface,
                                                            const SurfaceFeatures& features) {
   std::map<std::array<int, 2>, Eigen::Vector3d> sums;
@@ -64,7 +64,7 @@ Polyline positions(const TriangleSurface& surface, const FeatureLine& line) {
   return result;
 }
 
-/// Radius of about the largest circle in the patch: the largest distance of a triangle's centroid from its lines.
+/// Radius of about the largest circle in the patch, m: the largest distance of a triangle's centroid from the lines.
 double inradius(const TriangleSurface& surface, const std::vector<int>& triangles, const std::vector<int>& lines,
                 const std::vector<Polyline>& positions_of) {
   double largest = 0.0;
@@ -104,7 +104,7 @@ SizeSpace::SizeSpace(const TriangleSurface& surface, const SurfaceFeatures& feat
                      const std::vector<double>& thickness, const SurfaceSize& size)
     : surface_(surface), normals_(corner_normals(surface, features)), refined_(size.refined), turn_(size.turn_rad) {
   validate(size);
-  // The distance to a line may err by a thousandth of the layers' width.
+  // Lines are simplified so far that the distance to a line errs by a thousandth of the layers' width.
   const double thinnest = *std::min_element(thickness.begin(), thickness.end());
   const double tolerance = 1e-3 * (size.layer_width_m > 0.0 ? size.layer_width_m : thinnest);
   for (const auto& line : features.lines) {
@@ -136,10 +136,12 @@ SizeSpace::Patch SizeSpace::make_patch(int patch, const SurfaceFeatures& feature
       std::min(thicknesses_per_size * result.thickness, diagonal(surface_) / smallest_sizes_per_diagonal);
   result.size = size.scale * (size.size_m > 0.0 ? size.size_m : automatic);
   const double width = size.layer_width_m > 0.0 ? size.layer_width_m : result.thickness;
+  // h₀ follows from ∫₀^w dd/(h₀ + g d) = layers.
   result.growth = -std::log(size.layer_ratio);
   result.first = size.layers == 0 ? std::numeric_limits<double>::infinity()
                                   : result.growth * width / (std::pow(size.layer_ratio, -size.layers) - 1.0);
   const double radius = inradius(surface_, triangles, result.lines, straight_lines_);
+  // A patch that is no wider than its layers or its wall, such as a rim, gets no layers.
   if (radius < std::max(width, 0.5 * result.thickness)) result.lines.clear();
   return result;
 }
@@ -150,7 +152,8 @@ Eigen::VectorXd SizeSpace::at(int patch, const Eigen::Vector3d& x, const Eigen::
   Eigen::VectorXd result(6 + lines + static_cast<Eigen::Index>(refined_.size()));
   result.head<3>() = x / p.size;
   result.segment<3>(3) = normal / turn_;
-  const double reach = std::max(0.0, (p.size - p.first) / p.growth);  // the layers have grown to H
+  // Beyond `reach` the layers have grown to H and φ is constant, so that the distance to a far line is not needed.
+  const double reach = std::max(0.0, (p.size - p.first) / p.growth);
   for (Eigen::Index k = 0; k < lines; ++k) {
     const auto line = static_cast<std::size_t>(p.lines[static_cast<std::size_t>(k)]);
     const bool far = line_blocks_[line].exteriorDistance(x) >= reach;

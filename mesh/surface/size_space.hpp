@@ -11,10 +11,10 @@
 
 namespace thinwall::mesh {
 
-/// Wanted edges of a surface mesh. Away from features an edge is `size_m` long. Across the first `layer_width_m` from
-/// a sharp line or from the border of a refined region there are `layers` layers, each `layer_ratio` times as wide as
-/// the next one inwards, and beyond them the width grows by 1/layer_ratio until it reaches size_m; along the line the
-/// edges stay long (the error of a thin wall sits in boundary layers as wide as the wall is thick).
+/// Wanted edges of a surface mesh. Away from features an edge is `size_m` long. Across the first `layer_width_m` from a
+/// sharp line or from the border of a refined region there are `layers` layers, each `layer_ratio` times as wide as the
+/// next one inwards; beyond them the width grows by 1/layer_ratio until it reaches size_m. Along the line the edges
+/// stay long, because the error of a thin wall is concentrated in boundary layers as wide as the wall is thick.
 struct SurfaceSize {
   double size_m = 0.0;         ///< m, > 0; 0: 9 wall thicknesses of the patch, at most an eighth of the part's diagonal
   double scale = 1.0;          ///< factor on the wanted edge, 0.05 to 20
@@ -26,18 +26,22 @@ struct SurfaceSize {
   std::vector<Region> refined;  ///< spheres and boxes (clamps, contact patches) with layers on their borders
 };
 
-/// Throws InputError that lists every field out of its range; a plane is no region to refine at.
+/// Throws InputError that lists every field out of its range, and for a plane among the refined regions.
 void validate(const SurfaceSize& size);
 
-/// Coordinates of a point x of patch P:   ( x/H,  n/θ,  φ(d₁), φ(d₂) … )
+/// A space whose coordinates of a point x of patch P are
+///
+///     ( x/H,  n/θ,  φ(d₁), φ(d₂) … )
+///
 /// with the wanted size H, the surface's normal n, the turning θ, and the distances d_k to the sharp lines of the patch
-/// and the borders of refined regions, stretched by φ' = (1/h² − 1/H²)^½ where h(d) = h₀ + g d < H, else 0; g = −ln
-/// layer_ratio and h₀ such that ∫₀^w dd/h = layers. The Euclidean length of an edge is then its number of wanted edges:
-/// an anisotropic size by embedding (Lévy & Bonneel 2012, "Variational anisotropic surface meshing"; there 6-D with
-/// normals). A patch that is nowhere wider than it is thick (the rim of a wall) has no d_k.
+/// and the borders of refined regions. These are stretched by φ' = (1/h² − 1/H²)^½ if h(d) = h₀ + g d < H, otherwise 0,
+/// with g = −ln layer_ratio and h₀ such that ∫₀^w dd/h = layers: across the layers, the coordinates x/H and φ together
+/// then count 1/h wanted edges per length. The Euclidean length of an edge is thus its number of wanted edges, which
+/// gives an anisotropic size by embedding (Lévy & Bonneel 2012, "Variational anisotropic surface meshing"; there in six
+/// dimensions, with normals). A patch that is nowhere wider than it is thick (the rim of a wall) has no d_k.
 class SizeSpace {
  public:
-  /// `thickness` of every triangle (mesh::wall_thickness).
+  /// The space of a surface. `thickness`: that of every triangle (mesh::wall_thickness()).
   SizeSpace(const TriangleSurface& surface, const SurfaceFeatures& features, const std::vector<double>& thickness,
             const SurfaceSize& size);
 
@@ -45,12 +49,12 @@ class SizeSpace {
   [[nodiscard]] Eigen::VectorXd at(int patch, const Eigen::Vector3d& x, const Eigen::Vector3d& normal) const;
   /// Unit normal of the input surface, interpolated between the patch's own vertex normals, at the point nearest to x.
   [[nodiscard]] Eigen::Vector3d normal(int patch, const Eigen::Vector3d& x) const;
-  /// Nearest point of the patch of the input surface, m; of one of its sharp lines.
+  /// The point of a patch of the input surface nearest to x, m.
   [[nodiscard]] Eigen::Vector3d on_patch(int patch, const Eigen::Vector3d& x) const;
-  /// See on_patch().
+  /// The point of a sharp line of the input surface nearest to x, m.
   [[nodiscard]] Eigen::Vector3d on_line(int line, const Eigen::Vector3d& x) const;
-  /// The distance by which a face of the new mesh may lie off the patch, m: 5 % of the wall; 0 for a planar patch needs
-  /// no look.
+  /// The distance by which a face of the new mesh may lie off the patch, m: 5 % of the wall. It is 0 for a planar
+  /// patch, whose faces need no check.
   [[nodiscard]] double allowed_deviation_m(int patch) const;
   /// True if the patch is planar.
   [[nodiscard]] bool is_planar(int patch) const;

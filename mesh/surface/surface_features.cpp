@@ -11,7 +11,7 @@ namespace {
 
 using Edge = std::array<int, 2>;
 
-/// For each directed edge its triangle.
+/// The triangle of each directed edge.
 std::map<Edge, int> triangles_along(const TriangleSurface& surface) {
   std::map<Edge, int> result;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -25,7 +25,7 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Sharp edges, each once, with the triangles on both sides.
+/// The sharp edges, each once, with the triangles on both sides.
 std::map<Edge, Edge> sharp_edges(const TriangleSurface& surface, const std::map<Edge, int>& along, double angle) {
   std::map<Edge, Edge> result;
   for (const auto& [edge, left] : along) {
@@ -77,7 +77,7 @@ std::vector<bool> corners(const TriangleSurface& surface, const std::vector<std:
   return is_corner;
 }
 
-/// Walks from `from` over `to` until a corner, or back to the start.
+/// The vertices of the line that begins with `from` and `to`, up to a corner or back to the start.
 std::vector<int> walk(int from, int to, const std::vector<std::vector<int>>& neighbours,
                       const std::vector<bool>& is_corner) {
   std::vector<int> line{from, to};
@@ -112,7 +112,7 @@ SurfaceFeatures surface_features(const TriangleSurface& surface, double sharp_an
     for (std::size_t k = 0; k < 2; ++k) line.patches[k] = result.patch_of_triangle[static_cast<std::size_t>(sides[k])];
     result.lines.push_back(std::move(line));
   };
-  // From the corners first; what is left are closed lines without a corner.
+  // Lines that begin at corners are walked first; the sharp edges that are left form closed lines without a corner.
   for (const bool from_corners : {true, false}) {
     for (std::size_t v = 0; v < neighbours.size(); ++v) {
       if (from_corners && !result.is_corner[v]) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// Something found on a surface: what, how often, where first.
+// Findings on a surface: their kind, number and first place.
 
 #include <Eigen/Core>
 #include <string>
@@ -8,20 +8,20 @@
 
 namespace thinwall::mesh {
 
-/// A kind of fault, how often it was found and where first.
+/// A kind of fault or repair, the number of its occurrences, and the place of the first.
 struct SurfaceFinding {
-  std::string what;                                   ///< follows the count: "facets that stand twice"
+  std::string what;                                   ///< words that follow the count: "facets that stand twice"
   int count = 0;                                      ///< 0: nothing found
-  Eigen::Vector3d first_m = Eigen::Vector3d::Zero();  ///< where the first of them is, in the frame of the file
-  std::string remedy{};                               ///< of a fault; empty for what was mended
+  Eigen::Vector3d first_m = Eigen::Vector3d::Zero();  ///< place of the first, in the frame of the file
+  std::string remedy{};                               ///< remedy of a fault; empty for a repair
 
-  /// Counts one more at this place.
+  /// Counts one more occurrence, at this place.
   void add(const Eigen::Vector3d& x_m) {
     if (count++ == 0) first_m = x_m;
   }
 };
 
-/// "3 facets that stand twice, the first at (1, 0, 20) mm", and the remedy.
+/// A line such as "3 facets that stand twice, the first at (1, 0, 20) mm", with the remedy behind it in brackets.
 [[nodiscard]] inline std::string text(const SurfaceFinding& finding) {
   return std::to_string(finding.count) + " " + finding.what + ", the first at " + place_text(finding.first_m) +
          (finding.remedy.empty() ? "" : " (" + finding.remedy + ")");

@@ -20,9 +20,10 @@ namespace thinwall::mesh {
 
 namespace {
 
-/// Beyond, a double resolves less than 2e-8 of the diagonal.
+/// Largest distance of a part from the origin in its diagonals. Beyond it double precision is coarser than 2e-8 of the
+/// diagonal.
 constexpr double farthest_diagonals = 1e8;
-/// Crossings that are looked for; one is enough to refuse, more tell where to look.
+/// Number of crossings that are searched for. One is enough to refuse the surface, more show where to look.
 constexpr int most_crossings = 1000;
 
 void require_within(double value, double least, double most, const char* name) {
@@ -40,7 +41,7 @@ void validate(const SurfaceRepairOptions& options) {
   require_within(options.far_diagonals, 1.0, farthest_diagonals, "far_diagonals");
 }
 
-/// Throws one line with every fault that was found; places go back to the frame of the file.
+/// Throws InputError, in one line with every fault that was found, at its place in the frame of the file.
 void refuse_if_any(std::vector<SurfaceFinding> faults, const Eigen::Vector3d& moved_by) {
   std::string all;
   for (SurfaceFinding& fault : faults) {
@@ -51,11 +52,12 @@ void refuse_if_any(std::vector<SurfaceFinding> faults, const Eigen::Vector3d& mo
   if (!all.empty()) throw core::InputError("the surface cannot be repaired: " + all);
 }
 
-/// The surface under repair and what was done to it.
-struct Bench {
+/// The surface under repair and the repairs so far.
+struct Repair {
   TriangleSoup soup;
   SurfaceRepair result;
 
+  /// Records a repair, at its place in the frame of the file.
   void note(SurfaceFinding finding) {
     if (finding.count == 0) return;
     finding.first_m -= result.moved_by;
@@ -63,14 +65,15 @@ struct Bench {
   }
 };
 
-void merge(Bench& bench, const TriangleSoup& soup, const SurfaceRepairOptions& options) {
+/// Merges points; throws InputError if that moves a point too far.
+void merge(Repair& repair, const TriangleSoup& soup, const SurfaceRepairOptions& options) {
   MergedPoints merged = merged_points(soup, options.merge_tolerance_m);
-  bench.soup = std::move(merged.soup);
-  if (bench.soup.triangles.empty()) throw core::InputError("the surface has no triangles; give a closed surface");
-  bench.result.largest_movement_m = merged.largest_way;
-  bench.note({"points that lay on another", merged.merged, merged.first_merged, ""});
-  bench.note({"points that no facet uses", merged.unused, merged.first_unused, ""});
-  const SoupBounds block = bounds(bench.soup);
+  repair.soup = std::move(merged.soup);
+  if (repair.soup.triangles.empty()) throw core::InputError("the surface has no triangles; give a closed surface");
+  repair.result.largest_movement_m = merged.largest_way;
+  repair.note({"points that lay on another", merged.merged, merged.first_merged, ""});
+  repair.note({"points that no facet uses", merged.unused, merged.first_unused, ""});
+  const SoupBounds block = bounds(repair.soup);
   const double bound = options.largest_movement * (block.largest - block.least).norm();
   if (merged.largest_way > bound) {
     throw core::InputError("merging points moves the surface by " + core::number_text(1e3 * merged.largest_way, 3) +
@@ -81,9 +84,10 @@ void merge(Bench& bench, const TriangleSoup& soup, const SurfaceRepairOptions& o
   }
 }
 
-/// Far from the origin the digits go into the offset: differences are exact once it is taken off.
-void move_to_centre_if_far(Bench& bench, const SurfaceRepairOptions& options) {
-  const SoupBounds block = bounds(bench.soup);
+/// Moves a part that is far from the origin to its centre. Differences of its coordinates, which would lose digits to
+/// the offset, are exact once the offset is subtracted.
+void move_to_centre_if_far(Repair& repair, const SurfaceRepairOptions& options) {
+  const SoupBounds block = bounds(repair.soup);
   const Eigen::Vector3d centre = 0.5 * (block.least + block.largest);
   const double diagonal = (block.largest - block.least).norm();
   const double ratio = centre.norm() / diagonal;
@@ -93,16 +97,16 @@ void move_to_centre_if_far(Bench& bench, const SurfaceRepairOptions& options) {
   if (ratio > farthest_diagonals) {
     throw core::InputError(where + ", too far to resolve the surface; export it near the origin");
   }
-  bench.result.moved_by = -centre;
-  for (auto& x : bench.soup.points) x -= centre;
+  repair.result.moved_by = -centre;
+  for (auto& x : repair.soup.points) x -= centre;
   const double single = std::numeric_limits<float>::epsilon() / 2 * ratio;
   SurfaceFinding finding{.what = "surface moved to its centre: " + where + "; a file in single precision resolves " +
                                  core::number_text(single, 3) + " of its diagonal there"};
   finding.add(block.least - centre);
-  bench.note(finding);
+  repair.note(finding);
 }
 
-/// Facets that stood twice, once from each side, and are no part of a closed surface.
+/// The facets that coincided with an opposite one and are not part of a closed surface.
 SurfaceFinding coincident_walls(const TriangleSoup& soup, const std::vector<int>& opposite) {
   SurfaceFinding finding{.what = "facets that coincide with another that looks the other way: a wall without thickness",
                          .remedy = "give it a thickness or remove it"};
@@ -119,6 +123,7 @@ SurfaceFinding coincident_walls(const TriangleSoup& soup, const std::vector<int>
   return finding;
 }
 
+/// The edges in which more than two triangles meet.
 SurfaceFinding crowded_edges(const TriangleSoup& soup) {
   SurfaceFinding finding{.what = "edges in which more than two triangles meet", .remedy = "separate or join the parts"};
   for_each_edge(sorted_edges(soup.triangles), [&](std::span<const EdgeUse> uses) {
@@ -129,22 +134,22 @@ SurfaceFinding crowded_edges(const TriangleSoup& soup) {
   return finding;
 }
 
-/// Facets to a soup in which every edge has two triangles, or the faults.
-void mend_facets(Bench& bench, const SurfaceRepairOptions& options) {
-  bench.note(drop_collapsed(bench.soup));
-  auto [doubled, opposite] = drop_duplicates(bench.soup);
-  const SurfaceFinding walls = coincident_walls(bench.soup, opposite);
-  bench.note(doubled);
-  const auto [removed, left] = split_flat(bench.soup);
-  bench.note(removed);
-  bench.note(drop_duplicates(bench.soup).dropped);
-  if (options.largest_hole_edges > 0) bench.note(fill_holes(bench.soup, options.largest_hole_edges, options.limits));
-  if (bench.soup.triangles.empty())
+/// Repairs the facets, so that every edge has two triangles; throws InputError with the faults if that fails.
+void mend_facets(Repair& repair, const SurfaceRepairOptions& options) {
+  repair.note(drop_collapsed(repair.soup));
+  auto [doubled, opposite] = drop_duplicates(repair.soup);
+  const SurfaceFinding walls = coincident_walls(repair.soup, opposite);
+  repair.note(doubled);
+  const auto [removed, left] = split_flat(repair.soup);
+  repair.note(removed);
+  repair.note(drop_duplicates(repair.soup).dropped);
+  if (options.largest_hole_edges > 0) repair.note(fill_holes(repair.soup, options.largest_hole_edges, options.limits));
+  if (repair.soup.triangles.empty())
     throw core::InputError("all facets of the surface lie on lines; give a closed surface");
-  refuse_if_any({walls, crowded_edges(bench.soup), open_edges(bench.soup), left}, bench.result.moved_by);
+  refuse_if_any({walls, crowded_edges(repair.soup), open_edges(repair.soup), left}, repair.result.moved_by);
 }
 
-/// Shells beside the largest, told apart by whether their first point lies within it.
+/// The shells other than the largest: cavities if their first point lies within it, other bodies if not.
 std::vector<SurfaceFinding> other_shells(const TriangleSoup& soup, const Orientation& orientation) {
   constexpr int most_looked_at = 20;
   SurfaceFinding bodies{.what = "bodies beside the largest", .remedy = "give one body, or join them"};
@@ -164,7 +169,8 @@ std::vector<SurfaceFinding> other_shells(const TriangleSoup& soup, const Orienta
   return {bodies, cavities};
 }
 
-/// CGAL takes quadratic time where everything overlaps: in a process of its own.
+/// The pairs of triangles that cross. The search runs in a process of its own, because CGAL takes quadratic time where
+/// everything overlaps.
 SurfaceFinding crossings(const TriangleSurface& surface, const ProcessLimits& limits) {
   SurfaceFinding finding{.what = "pairs of triangles that cross or cover each other", .remedy = "separate them"};
   std::vector<char> bytes;
@@ -188,16 +194,17 @@ SurfaceFinding crossings(const TriangleSurface& surface, const ProcessLimits& li
   return finding;
 }
 
-void turn_outwards(Bench& bench, const SurfaceRepairOptions& options) {
-  refuse_if_any({touching_vertices(bench.soup)}, bench.result.moved_by);
-  const Orientation orientation = orient(bench.soup);
-  refuse_if_any({orientation.one_sided}, bench.result.moved_by);
-  bench.note(orientation.turned);
-  auto faults = other_shells(bench.soup, orientation);
-  const MergedPoints compact = merged_points(bench.soup);  // without points that facets no longer use
-  bench.result.surface = {compact.soup.points, compact.soup.triangles};
-  faults.push_back(crossings(bench.result.surface, options.limits));
-  refuse_if_any(faults, bench.result.moved_by);
+/// Turns all triangles outwards and checks that one closed body without crossings is left.
+void turn_outwards(Repair& repair, const SurfaceRepairOptions& options) {
+  refuse_if_any({touching_vertices(repair.soup)}, repair.result.moved_by);
+  const Orientation orientation = orient(repair.soup);
+  refuse_if_any({orientation.one_sided}, repair.result.moved_by);
+  repair.note(orientation.turned);
+  auto faults = other_shells(repair.soup, orientation);
+  const MergedPoints compact = merged_points(repair.soup);  // without points that facets no longer use
+  repair.result.surface = {compact.soup.points, compact.soup.triangles};
+  faults.push_back(crossings(repair.result.surface, options.limits));
+  refuse_if_any(faults, repair.result.moved_by);
 }
 
 void require_thick_enough(SurfaceRepair& result, double thinnest_m) {
@@ -214,15 +221,15 @@ void require_thick_enough(SurfaceRepair& result, double thinnest_m) {
 
 SurfaceRepair repaired_surface(const TriangleSoup& soup, const SurfaceRepairOptions& options) {
   validate(options);
-  Bench bench;
-  merge(bench, soup, options);
-  move_to_centre_if_far(bench, options);
-  mend_facets(bench, options);
-  turn_outwards(bench, options);
-  require_closed_shell(bench.result.surface);
-  bench.result.volume_m3 = volume(bench.result.surface);
-  if (options.thinnest_wall_m > 0.0) require_thick_enough(bench.result, options.thinnest_wall_m);
-  return std::move(bench.result);
+  Repair repair;
+  merge(repair, soup, options);
+  move_to_centre_if_far(repair, options);
+  mend_facets(repair, options);
+  turn_outwards(repair, options);
+  require_closed_shell(repair.result.surface);
+  repair.result.volume_m3 = volume(repair.result.surface);
+  if (options.thinnest_wall_m > 0.0) require_thick_enough(repair.result, options.thinnest_wall_m);
+  return std::move(repair.result);
 }
 
 std::string text(const SurfaceRepair& repair) {

@@ -1,5 +1,5 @@
 #pragma once
-// Places where a part is thinner than it may be.
+// Places at which a part is thinner than it may be.
 
 #include <limits>
 #include <vector>
@@ -10,14 +10,15 @@ namespace thinwall::mesh {
 
 /// The result of thin_walls().
 struct ThinWalls {
-  std::vector<int> triangles;  ///< with a wall beneath them that is thinner than the bound
-  double thinnest_m = std::numeric_limits<double>::infinity();  ///< of all walls; infinite if there is none
+  std::vector<int> triangles;                                   ///< triangles whose wall is thinner than the bound
+  double thinnest_m = std::numeric_limits<double>::infinity();  ///< thinnest of all walls; infinite if there is none
 };
 
-/// A wall is what lies between a triangle's centroid and the first triangle beneath it along its inward normal, if that
-/// one looks the other way within 30°: where faces meet in an edge there is no wall, however near they are. (The median
-/// of mesh::wall_thickness is no measure here: in a corner most of its rays run into the neighbouring faces.)
-/// The surface must be closed (mesh::require_closed). Cost O(n log n).
+/// The thin walls of a part. A wall lies between a triangle's centroid and the first triangle beneath it along its
+/// inward normal, if that triangle looks the other way within 30°: near an edge in which two faces meet there is no
+/// wall, however small their distance. The median of mesh::wall_thickness() cannot be used here, because in a corner
+/// most of its rays end on the neighbouring faces. The surface must be closed (mesh::require_closed()). Cost O(n log
+/// n).
 [[nodiscard]] ThinWalls thin_walls(const TriangleSurface& surface, double bound_m);
 
 }  // namespace thinwall::mesh

@@ -1,5 +1,5 @@
 #pragma once
-// Nearest point on a triangulated surface, and the first hit of a ray.
+// Nearest points on a triangulated surface, and first intersections of rays with it.
 
 #include <Eigen/Core>
 #include <memory>
@@ -10,13 +10,13 @@
 
 namespace thinwall::mesh {
 
-/// An axis-aligned bounding-box tree (CGAL AABB_tree) over triangles, or over some of them. It owns its copy; queries
-/// are const and cost O(log triangles).
+/// An axis-aligned bounding-box tree (CGAL AABB_tree) over all or some triangles of a surface, of which it has a copy.
+/// Queries are const and cost O(log triangles).
 class TriangleTree {
  public:
-  /// All triangles of the surface. Throws InputError for a surface without triangles.
+  /// A tree over all triangles of the surface. Throws InputError for a surface without triangles.
   explicit TriangleTree(const TriangleSurface& surface);
-  /// The named triangles only; results carry their indices in the surface.
+  /// A tree over the listed triangles only; results have their indices in the surface.
   TriangleTree(const TriangleSurface& surface, std::vector<int> triangles);
   ~TriangleTree();
   TriangleTree(TriangleTree&&) noexcept;
@@ -24,7 +24,7 @@ class TriangleTree {
   TriangleTree(const TriangleTree&) = delete;
   TriangleTree& operator=(const TriangleTree&) = delete;
 
-  /// A point of the surface, and how far it is.
+  /// A point of the surface, its triangle, and its distance from the point asked for.
   struct Nearest {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< m
     int triangle = -1;
@@ -33,8 +33,8 @@ class TriangleTree {
   /// The point of the surface nearest to x, m.
   [[nodiscard]] Nearest nearest(const Eigen::Vector3d& x) const;
 
-  /// Distance (m) along a unit direction to the first triangle hit, `skipped` left out (−1: none); empty if none is
-  /// hit.
+  /// Distance (m) along a unit direction to the first triangle that the ray meets, other than `skipped` (−1: none is
+  /// skipped); empty if it meets none.
   [[nodiscard]] std::optional<double> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                                 int skipped) const;
 

@@ -1,5 +1,5 @@
 #pragma once
-// Tetrahedra from a closed surface by Delaunay refinement (CGAL Mesh_3), in a process of its own.
+// Tetrahedra inside a closed surface by Delaunay refinement (CGAL Mesh_3), in a process of its own.
 
 #include "mesh/confined.hpp"
 #include "mesh/faceted_surface.hpp"
@@ -15,10 +15,10 @@ struct DelaunayVolumeOptions {
   ProcessLimits limits;
 };
 
-/// A mesh whose boundary approximates the surface (Rineau, Yvinec 2007; sharp lines by Cheng, Dey, Shewchuk's
-/// protecting balls), with CGAL's exudation against slivers. It does without TetGen and copes with surfaces that TetGen
-/// fails on. The surface must be closed (mesh::require_closed). Throws InputError for a size out of range,
-/// NumericalError if the process fails in any way.
+/// A mesh whose boundary approximates the surface (Rineau & Yvinec 2007; sharp lines by the protecting balls of Cheng,
+/// Dey & Shewchuk), with CGAL's exudation against slivers. Unlike TetGen, it can mesh surfaces on which TetGen fails.
+/// The surface must be closed (mesh::require_closed()). Throws InputError for a size out of range, NumericalError if
+/// the process fails in any way.
 [[nodiscard]] TetMesh delaunay_volume(const TriangleSurface& surface, const DelaunayVolumeOptions& options);
 
 }  // namespace thinwall::mesh

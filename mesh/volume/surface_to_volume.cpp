@@ -44,6 +44,7 @@ struct Analysed {
   double median = 0.0;  // wall thickness beneath half of the surface, m
 };
 
+/// The features and wall thicknesses of a surface.
 Analysed analysed(const TriangleSurface& surface, const SurfaceSize& size) {
   Analysed result;
   result.features = surface_features(surface, size.sharp_angle_rad);
@@ -54,9 +55,9 @@ Analysed analysed(const TriangleSurface& surface, const SurfaceSize& size) {
   return result;
 }
 
-/// Remeshes with smaller turns until the volume is kept. On a bent wall its error is turn²/6, both sides moving
-/// together. On a twisted one each side errs by itself, up or down with every diagonal: the sum falls with the turn on
-/// average only, so that the steps are small.
+/// The surface remeshed with smaller and smaller turns until the volume is kept. On a bent wall the error of the volume
+/// is turn²/6, because both sides move together. On a twisted wall each side errs separately, up or down with the
+/// direction of every diagonal; the sum then decreases with the turn on average only, so that the steps are small.
 Remeshed remesh_to_volume(const TriangleSurface& surface, const Analysed& part, SurfaceSize size, double tolerance) {
   constexpr int repetitions = 5;
   const double wanted = volume(surface);
@@ -69,6 +70,7 @@ Remeshed remesh_to_volume(const TriangleSurface& surface, const Analysed& part, 
   }
 }
 
+/// The surface remeshed and filled by TetGen; throws NumericalError if the remeshed surface crosses itself.
 TetMesh fill_remeshed(const TriangleSurface& surface, const Analysed& part, const SurfaceSize& size,
                       const SurfaceMeshOptions& options) {
   const Remeshed remeshed = remesh_to_volume(surface, part, size, options.volume_tolerance);
@@ -81,7 +83,7 @@ TetMesh fill_remeshed(const TriangleSurface& surface, const Analysed& part, cons
   return tetrahedralise_as_given(faceted(remeshed.surface), options.limits);
 }
 
-/// The mesh with its measures, or NumericalError if it is not what was asked for.
+/// The mesh with its measures; throws NumericalError if it does not keep the volume or has a degenerate tetrahedron.
 SurfaceMeshed judged(TetMesh mesh, const TriangleSurface& surface, const SurfaceMeshOptions& options) {
   SurfaceMeshed result;
   result.volume_error_relative = volume(mesh) / volume(surface) - 1.0;
@@ -98,6 +100,7 @@ SurfaceMeshed judged(TetMesh mesh, const TriangleSurface& surface, const Surface
   return result;
 }
 
+/// The mesh by the first mesher that succeeds, with the messages of those before it.
 SurfaceMeshed first_that_works(const TriangleSurface& surface, const SurfaceMeshOptions& options,
                                const std::vector<VolumeMesher>& meshers) {
   std::vector<std::string> failures;

@@ -43,7 +43,7 @@ Eigen::Vector3d centroid(const tetgenio& mesh, int tet) {
   return sum / 4.0;
 }
 
-/// Refines a mesh where size_at() is smaller than the tetrahedra are; a few passes reach a graded size.
+/// Refines a mesh once, where size_at() is smaller than its tetrahedra.
 void refine(tetgenio& mesh, tetgenio& refined, const TetgenOptions& options, std::string switches) {
   mesh.tetrahedronvolumelist = new REAL[static_cast<std::size_t>(mesh.numberoftetrahedra)];
   for (int tet = 0; tet < mesh.numberoftetrahedra; ++tet) {
@@ -86,7 +86,8 @@ TetMesh run_tetgen(const FacetedSurface& surface, const TetgenOptions& options) 
   return tet_mesh(*mesh);
 }
 
-/// TetGen in its own process, and its volume beside the surface's. `remedy` follows what went wrong.
+/// The mesh that `work` makes in a process of its own, if its volume agrees with the surface's. `remedy` ends the
+/// message of an error.
 TetMesh checked(const FacetedSurface& surface, const std::function<TetMesh()>& work, const ProcessLimits& limits,
                 const std::string& remedy) {
   TetMesh mesh;

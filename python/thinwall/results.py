@@ -1,4 +1,4 @@
-"""What a run of the program left in its folder, as arrays."""
+"""The files in the result folder of a run of the program, as arrays."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from ._core import DataError, Response, read_response
 
 Table = dict[str, np.ndarray]
 WORDS = {"bifurcation", "kind", "reason", "status"}
-"""Columns of words, also where no row has one."""
+"""Columns that contain words, even if all of their cells are empty."""
 
 
 @contextlib.contextmanager
 def _reading(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Whatever is wrong with a file while it is read, as a DataError that names it."""
+    """Turns every error that occurs while a file is read into a DataError that names the file."""
     try:
         yield
     except DataError:
@@ -37,8 +37,8 @@ def _reading(path: str | os.PathLike[str]) -> Iterator[None]:
 
 
 def read_table(path: str | os.PathLike[str]) -> Table:
-    """The columns of a CSV table of the program by their names: numbers, or text where a value is none and in the
-    columns of words (`bifurcation`, `status` …). Raises DataError for what is no such table."""
+    """The columns of a CSV table of the program by their names: numbers, or text if a value is no number and in the
+    columns of words (`bifurcation`, `status` …). Raises DataError for a file that is no such table."""
     with _reading(path), open(path, encoding="utf-8", newline="") as file:
         rows = list(csv.reader(line for line in file if not line.startswith("#")))
     if not rows:
@@ -59,8 +59,8 @@ def _column(name: str, texts: list[str]) -> np.ndarray:
 
 
 def _values(array: ElementTree.Element, appended: str) -> np.ndarray:
-    """The numbers of a DataArray that lies in the file's appended, compressed section: a count of blocks, their size and
-    that of the last, then the compressed size of each, in one piece of base64; the blocks in another."""
+    """The numbers of a DataArray in the file's appended, compressed section. It consists of two pieces of base64: the
+    number of blocks, their size, that of the last one and the compressed size of each; then the blocks."""
     kind = np.dtype(array.attrib["type"].lower())
     start = int(array.attrib["offset"])
 
@@ -78,8 +78,8 @@ def _values(array: ElementTree.Element, appended: str) -> np.ndarray:
 
 
 def read_vtu(path: str | os.PathLike[str]) -> dict[str, np.ndarray]:
-    """Every array of a VTU or VTP file of the program by its name: ``Points``, ``connectivity``, ``displacement`` …
-    Raises DataError for what is no such file."""
+    """All arrays of a VTU or VTP file of the program by their names: ``Points``, ``connectivity``, ``displacement`` …
+    Raises DataError for a file of another kind."""
     with _reading(path):
         root = ElementTree.parse(path).getroot()
         section = root.find("AppendedData")
@@ -97,13 +97,13 @@ class Shape:
     frequency_hz: float
     damping_ratio: float
     points: np.ndarray
-    """Nodes, (n, 3) in m."""
+    """Positions of the nodes, (n, 3) in m."""
     displacement: np.ndarray
-    """(n, 3): of the part mass-normalised, kg^-1/2; of the assembly with its largest entry 1."""
+    """Displacements of the nodes, (n, 3): mass-normalised for the part, kg^-1/2; with largest entry 1 for the assembly."""
 
 
 class _Files(Mapping[str, Any]):
-    """Files by their names without ending, each read when it is asked for, once."""
+    """A mapping from names of files without ending to their contents; each file is read once, at the first access."""
 
     def __init__(self, paths: list[pathlib.Path], read: Callable[[pathlib.Path], Any]) -> None:
         self._paths = {path.stem: path for path in sorted(paths)}
@@ -126,7 +126,7 @@ class _Files(Mapping[str, Any]):
 
 
 class Results:
-    """A result folder. ``summary`` and ``manifest`` are dicts; the others map names to what is read when asked for.
+    """A result folder. ``summary`` and ``manifest`` are dicts; the others map names to files, read at the first access.
 
     ``frf["part"]``, ``frf["robot"]``, ``frf["coupled_receptance"]``: Response. ``lobes["part"]``,
     ``lobes["supported_crossings"]``, ``modes["modes"]``, ``robot["postures"]``: tables, a dict of columns.
@@ -168,5 +168,5 @@ def _shape(path: pathlib.Path) -> Shape:
 
 
 def read_results(folder: str | os.PathLike[str]) -> Results:
-    """Reads the folder of a run, ``results/<case>``. Raises DataError if it is none."""
+    """Reads the folder of a run, ``results/<case>``. Raises DataError for another folder."""
     return Results(folder)

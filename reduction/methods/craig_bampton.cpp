@@ -13,18 +13,21 @@ namespace thinwall::reduction {
 
 namespace {
 
-/// The constraint modes Ψ, and S_0 in the form S_0 b = S b − Ψ (Wᵀ S b), which needs no second factorisation.
+/// The constraint modes Ψ, and the action S₀ b = S b − Ψ (Wᵀ S b), which needs no second factorisation.
 struct ConstraintModes {
   Eigen::MatrixXd Psi;
   linalg::ShiftedInverse inner_inverse;
 };
 
+/// The names of the interface DOFs, for messages.
 std::string interface_names(const Interface& interface) {
   std::string names;
   for (const auto& dof : interface.dofs) names += (names.empty() ? "" : ", ") + dynamics::name(dof);
   return names;
 }
 
+/// The constraint modes of an interface. Throws InputError if its flexibility WᵀSW is singular to 1e-12, because no
+/// displacements can then be prescribed independently. The result refers to both arguments.
 ConstraintModes constraint_modes(const linalg::ShiftedInverse& inverse, const Interface& interface) {
   const Eigen::MatrixXd W = interface.W;
   const Eigen::MatrixXd SW = inverse.apply(W);
@@ -36,7 +39,7 @@ ConstraintModes constraint_modes(const linalg::ShiftedInverse& inverse, const In
   }
   ConstraintModes result;
   result.Psi = flexibility.llt().solve(SW.transpose()).transpose();
-  // One Newton step for Wᵀ Ψ = I removes the error that the condition of the flexibility matrix has caused.
+  // One Newton step Ψ ← Ψ (2 I − WᵀΨ) for WᵀΨ = I removes the error due to the condition of the flexibility matrix.
   const Eigen::MatrixXd seen = interface.W.transpose() * result.Psi;
   const auto nb = seen.rows();
   result.Psi = linalg::tall_product(result.Psi, 2.0 * Eigen::MatrixXd::Identity(nb, nb) - seen);
@@ -49,6 +52,7 @@ ConstraintModes constraint_modes(const linalg::ShiftedInverse& inverse, const In
   return result;
 }
 
+/// The lowest modes of K φ = λ M φ with Wᵀφ = 0, as many or up to the frequency that the options say.
 linalg::Eigenpairs fixed_interface_modes(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M,
                                          const Interface& interface, const linalg::ShiftedInverse& inner_inverse,
                                          const CraigBamptonOptions& options) {
@@ -59,7 +63,7 @@ linalg::Eigenpairs fixed_interface_modes(const linalg::SparseMatrix& K, const li
   }
   if (!options.up_to_hz && options.modes == 0) return {};
   const double omega_max = 2.0 * std::numbers::pi * options.up_to_hz.value_or(0.0);
-  // Small models may ask for most of their modes, for which the iteration is not made; dense algebra finds all of them.
+  // A small model may be asked for most of its modes, which Lanczos would find slowly; dense algebra finds all of them.
   if (K.rows() <= 600) {
     linalg::Eigenpairs all = linalg::dense_eigenpairs(K, M, interface.W);
     const Eigen::Index kept =

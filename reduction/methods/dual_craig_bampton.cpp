@@ -9,7 +9,8 @@ using Eigen::MatrixXd;
 
 dynamics::SpatialModel dual_craig_bampton(const FreeInterface& part) {
   const Index nb = part.F.rows(), nm = part.lambda.size(), n = 2 * nb + nm;
-  const double least = 1e-14 * part.flexibility.diagonal().maxCoeff();  // for a DOF that moves as a rigid body only
+  // A DOF that only moves with the rigid body has no flexibility; it gets the least unit instead of an infinite one.
+  const double least = 1e-14 * part.flexibility.diagonal().maxCoeff();
   const Eigen::VectorXd unit = part.flexibility.diagonal().cwiseMax(least).cwiseInverse();
   const auto scale = unit.asDiagonal();
   dynamics::SpatialModel model{MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), {}, part.dofs};

@@ -6,11 +6,11 @@
 
 namespace thinwall::reduction {
 
-/// Rixen's dual Craig-Bampton model (2004; docs/theory/reductions.md, Eq. 11). The forces g at the interface
-/// are multipliers of x = Wᵀu; with the interface's displacements x kept as coordinates, y = (x, η, g):
+/// Rixen's dual Craig-Bampton model (2004; docs/theory/reductions.md, Eq. 11). The forces g at the interface are
+/// multipliers of x = Wᵀu; with the interface's displacements x kept as coordinates, y = (x, η, g):
 ///
-///     K = [ 0  0  I ; 0  Λ  −p ; I  −pᵀ  −F ],     M = [ 0  0  0 ; 0  I  ΦᵀMA ; 0  …  J ],     H = Σ p pᵀ/(λ−z) + F +
-///     zJ
+///     K = [ 0  0  I ; 0  Λ  −p ; I  −pᵀ  −F ],     M = [ 0  0  0 ; 0  I  ΦᵀMA ; 0  …  J ],
+///     H = Σ p pᵀ/(λ−z) + F + zJ
 ///
 /// Each g is in units of the static stiffness of its interface DOF. When two parts are joined, the displacements x of
 /// one part and one set of forces are redundant, and an assembly may eliminate them. The matrices are as sparse as

@@ -56,11 +56,13 @@ MatrixXd residual_directions(const FreeInterface& part) {
   return spectrum.scale.asDiagonal() * spectrum.vectors.rightCols(kept) * unit.asDiagonal();
 }
 
+/// Appends modal DOFs with the names "kind 1", "kind 2" ….
 void name_coordinates(dynamics::DofTable& dofs, const std::string& kind, Index count) {
   for (Index k = 0; k < count; ++k)
     dofs.push_back({kind + " " + std::to_string(k + 1), Eigen::Vector3d::Zero(), dynamics::DofKind::modal});
 }
 
+/// The matrices of an eigenproblem.
 struct Pencil {
   MatrixXd K, M;
 };
@@ -138,6 +140,8 @@ FreeInterface free_interface(const PartModes& modes, const linalg::SparseMatrix&
   part.flexibility = symmetric_part(interface.W.transpose() * A);
   const Index rigid = (modes.lambda.array() == 0.0).count();
   require_independent(part.flexibility, part.p.topRows(rigid), interface);
+  // A = G W is exact for all modes; subtracting the static part of the modes kept leaves the residual attachment modes,
+  // so that these modes are not counted twice.
   linalg::tall_subtract(A, modes.Phi, modal_flexibility(modes.lambda).asDiagonal() * part.p);
   part.F = symmetric_part(interface.W.transpose() * A);
   const MatrixXd MA = linalg::symmetric_product(M, A);

@@ -59,6 +59,7 @@ linalg::SparseMatrix statically_held(const linalg::SparseMatrix& K, const Matrix
   return held;
 }
 
+/// The lowest `count` eigenpairs of K φ = λ M φ with the shift −alpha, densely for models of up to 600 rows.
 linalg::Eigenpairs lowest(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M,
                           const std::vector<int>& node_of_row, int count, double alpha) {
   if (K.rows() <= 600) {
@@ -94,6 +95,8 @@ StaticFlexibility::StaticFlexibility(const FullModel& full) : R_(full.K.rows(), 
 linalg::ShiftedInverse StaticFlexibility::action() const {
   return {[this](const Eigen::Ref<const MatrixXd>& B) -> MatrixXd {
             if (R_.cols() == 0) return factor_->solve(B);
+            // P brings the load into equilibrium; Pᵀ takes out of the result the rigid motion that the place of the
+            // restraints has determined.
             MatrixXd load = B;
             linalg::tall_subtract(load, MR_, linalg::tall_gram(R_, B));
             MatrixXd X = factor_->solve(load);

@@ -26,6 +26,7 @@ Index interface_size(const CraigBampton& reduced) {
   return reduced.model.size() - reduced.fixed_interface_hz.size();
 }
 
+/// The undamped frequencies of a model in (0.001 … 1) of the band's end, Hz.
 VectorXd natural_hz(const dynamics::SpatialModel& model, const Band& band) {
   const VectorXd hz = dynamics::undamped_modes(model).omega_rad_s / (2.0 * std::numbers::pi);
   std::vector<double> inside;
@@ -61,7 +62,7 @@ class CountedReceptance {
   VectorXd lambda_;
 };
 
-/// The reduction cut to its first modes.
+/// The reduction with its first modes only.
 CraigBampton cut(const CraigBampton& reduced, Index modes) {
   const Index n = interface_size(reduced) + modes;
   CraigBampton result = reduced;
@@ -72,7 +73,8 @@ CraigBampton cut(const CraigBampton& reduced, Index modes) {
   return result;
 }
 
-/// The truncation of the cut reduction: that of the whole one, plus the contribution of the dropped modes.
+/// The truncation of a reduction with its first modes only: that of the whole reduction, plus the contribution L Lᵀ/λ
+/// and L Lᵀ/λ² of the modes dropped.
 Truncation cut(const Truncation& truncation, const CraigBampton& reduced, Index modes) {
   const Index nb = interface_size(reduced), dropped = reduced.fixed_interface_hz.size() - modes;
   const MatrixXd L = reduced.model.M.topRightCorner(nb, dropped);
@@ -81,10 +83,10 @@ Truncation cut(const Truncation& truncation, const CraigBampton& reduced, Index 
           truncation.B + L * flexibility.cwiseAbs2().asDiagonal() * L.transpose()};
 }
 
-/// Undamped frequencies at which an error of the reference is most visible: the upper flanks of the highest resonances,
-/// where a wrong frequency has as much effect as in the damped receptance, and the middles of the widest gaps. None
-/// lies within half a flank of another resonance.
-std::vector<double> telling_frequencies(const VectorXd& natural, const Band& band, int count) {
+/// Undamped frequencies at which an error of the reference is most visible. They are a little above the highest
+/// resonances, at the half-power point of the damped receptance, where a wrong frequency has as much effect as in that
+/// receptance; and in the middles of the widest gaps. Frequencies near to another resonance are left out.
+std::vector<double> verification_frequencies(const VectorXd& natural, const Band& band, int count) {
   const double flank = 0.5 * band.loss_factor;
   const double from = std::max(band.from_hz, 1e-2 * band.to_hz);
   std::vector<double> lines;
@@ -98,6 +100,7 @@ std::vector<double> telling_frequencies(const VectorXd& natural, const Band& ban
   return lines;
 }
 
+/// The largest error of the reference over the lines of a truth.
 double against_truth(const CountedReceptance& reference, const BandTruth& truth) {
   double worst = 0.0;
   for (std::size_t k = 0; k < truth.z.size(); ++k) {
@@ -119,17 +122,21 @@ double against_direct_solves(const CountedReceptance& reference, const FullModel
   return worst;
 }
 
+/// The errors by number of modes, and the data by which they were measured.
 struct Estimates {
   std::vector<double> errors;
   VectorXd units, natural_hz;
 };
 
+/// The errors of the reduction with 0, 1, 2 … of its modes against the model `better`, the largest over the band. A
+/// line's stiffness is updated mode by mode, so that all numbers of modes cost one pass.
 Estimates estimates(const CraigBampton& reduced, const dynamics::SpatialModel& better, const Band& band) {
   const Index nb = interface_size(reduced);
   const CountedReceptance counted(reduced.model, nb), reference(better, nb);
   Estimates result;
   result.natural_hz = natural_hz(better, band);
-  // Natural frequencies, and antiresonances of one interface DOF.
+  // The lines follow the natural frequencies, and the fixed-interface frequencies, which are antiresonances of the
+  // receptance of an interface with a single DOF.
   VectorXd peaks(result.natural_hz.size() + reduced.fixed_interface_hz.size());
   peaks << result.natural_hz, reduced.fixed_interface_hz;
   const std::vector<Complex> z = squares(band, peaks);
@@ -163,7 +170,7 @@ ChosenModes chosen_from(const CraigBampton& all, const Truncation& left_out, con
       truth != nullptr
           ? against_truth(reference, *truth)
           : against_direct_solves(reference, full, interface,
-                                  telling_frequencies(estimate.natural_hz, options.band, options.verified_lines),
+                                  verification_frequencies(estimate.natural_hz, options.band, options.verified_lines),
                                   estimate.units);
   const auto first = std::find_if(estimate.errors.begin(), estimate.errors.end(),
                                   [&](double error) { return error <= options.tolerance; });

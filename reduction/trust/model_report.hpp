@@ -1,5 +1,5 @@
 #pragma once
-// A report on whether a reduced model, our own or imported, can be trusted.
+// A report on whether a reduced model, of this program or imported, can be trusted.
 
 #include <Eigen/Core>
 #include <limits>
@@ -36,7 +36,7 @@ struct MatrixState {
   double least = 0.0;      ///< least eigenvalue of the symmetric part, as scaled
   int negative = 0;        ///< eigenvalues below −bound
   int zero = 0;            ///< eigenvalues within ±bound: for K, rigid motions and massless mechanisms
-  bool told = true;        ///< whether the eigenvalues could be counted (for sparse models, not at vanishing pivots)
+  bool told = true;        ///< true if the eigenvalues could be counted (for sparse models, not at vanishing pivots)
   std::string place{};     ///< DOF, or pair of DOFs, at fault; "" if none is
 };
 

@@ -76,6 +76,7 @@ linalg::Eigenpairs rest_of_the_model(const linalg::SparseMatrix& K, const linalg
   basis.V.resize(Phi.rows(), Phi.cols() + steps * W.cols());
   basis.MV.resizeLike(basis.V);
   basis.append(Phi, linalg::symmetric_product(M, Phi));
+  // Each step applies K⁻¹ to M times the columns that the last step has added. The space is complete if it added none.
   Eigen::Index last = 0;
   for (int step = 0; step < steps && (step == 0 || last < basis.columns); ++step) {
     const MatrixXd load = step == 0 ? W : MatrixXd(basis.MV.middleCols(last, basis.columns - last));
@@ -83,6 +84,7 @@ linalg::Eigenpairs rest_of_the_model(const linalg::SparseMatrix& K, const linalg
     extend(basis, M, inverse.apply(load));
   }
   const auto V = basis.V.middleCols(Phi.cols(), basis.columns - Phi.cols());
+  // On the M-orthonormal V the Ritz pairs are eigenpairs of VᵀKV; those of Phi are not repeated.
   const MatrixXd Kr = linalg::tall_gram(V, linalg::symmetric_product(K, V));
   const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(MatrixXd(0.5 * (Kr + Kr.transpose())));
   linalg::Eigenpairs rest;

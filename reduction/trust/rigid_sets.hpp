@@ -34,9 +34,10 @@ using Positions = std::map<std::string, Eigen::Vector3d>;
 [[nodiscard]] ModesWithoutEnergy modes_without_energy(const dynamics::SpatialModel& model);
 
 /// Three sets of six motions, each as coordinates y (n × 6), after the checks of Craig-Bampton models at NASA and in
-/// pyYeti's cbcheck (docs/theory/reductions.md, Eq. 17). `geometry` moves every DOF as the positions say; `stiffness`
-/// moves six DOFs so, and K determines the others; `eigen` combines the six modes of lowest energy so that the same six
-/// DOFs move so.
+/// pyYeti's cbcheck (docs/theory/reductions.md, Eq. 17). In the set `geometry` every DOF moves as its position
+/// determines. In `stiffness` only six DOFs are moved according to their positions, and K determines the others. The
+/// set `eigen` contains the combinations of the six modes of lowest energy in which the same six DOFs have these
+/// motions. In a sound model of a free part the three agree.
 struct RigidSets {
   int seen = 0;            ///< number of independent motions that the DOFs show; unless 6, the sets are empty
   int without_energy = 0;  ///< number of modes with λ below 1e-6 of the next, at most twelve
