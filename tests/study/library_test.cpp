@@ -45,7 +45,7 @@ TEST(Library, GivesTheFiguresOfTheCommandLineToTheLastDigit) {
 
 TEST(Library, TellsItsStagesAndMessagesToWhoeverListensAndWritesNothing) {
   const cases::Case source = cases::read_case(fs::path(THINWALL_SOURCE_DIR) / "cases" / "barrios-2019",
-                                             {"lobes.count=24", "part.mesh.element_size=30 mm"});
+                                              {"lobes.count=24", "part.mesh.element_size=30 mm"});
   std::vector<std::string> stages, messages;
   const auto before =
       core::set_message_listener([&](core::MessageLevel, const std::string& text) { messages.push_back(text); });
