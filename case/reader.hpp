@@ -14,9 +14,10 @@ namespace thinwall::cases {
 /// The case file of a folder, or the file itself. Throws InputError if there is none.
 [[nodiscard]] std::filesystem::path case_file(const std::filesystem::path& folder_or_file);
 
-/// Reads and validates a case. `overrides` are "key=value" as on the command line, put over the file before validation;
-/// quotes around quantities may be left out, and tables in the middle of a key where that is unambiguous. Throws
-/// CaseError with every problem found.
+/// Reads and validates a case, and reads every file that it names; nothing is read of these files later. `overrides`
+/// are "key=value" as on the command line, put over the file before validation; quotes around quantities may be left
+/// out, and tables in the middle of a key where that is unambiguous. Throws CaseError with every problem found, and
+/// what setup::read_data_files() throws for files that cannot be read.
 [[nodiscard]] Case read_case(const std::filesystem::path& folder_or_file,
                              const std::vector<std::string>& overrides = {});
 

@@ -49,8 +49,8 @@ struct ImportedPart {
 [[nodiscard]] const std::filesystem::path& main_file(const Part& part);
 
 /// Reads the part's file. Throws DataError for one that cannot be read, InputError, with the file's name, for a unit
-/// that is none, for what mesh::repaired_surface refuses and for matrices that cannot be (require_plausible). Cost:
-/// that of reading and repair.
+/// that is none and for what mesh::repaired_surface refuses. Matrices that no part has throw DataError with the file of
+/// the one at fault (setup/matrix_faults.hpp). Cost: that of reading and repair.
 [[nodiscard]] std::shared_ptr<const ImportedPart> read_part_file(const Part& part);
 
 }  // namespace thinwall::setup

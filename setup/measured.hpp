@@ -2,6 +2,7 @@
 // Measured FRFs of a case, read and put on the axis of the run.
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,13 +19,22 @@ enum class FrfFileKind { csv, cutpro, universal, mat };
 /// The kind of a file of FRFs by its ending.
 [[nodiscard]] FrfFileKind frf_file_kind(const std::filesystem::path& file);
 
-/// One FRF of a file as receptance on its own axis. Errors as those of its format in io/, and InputError for a file of
-/// several FRFs of which the case does not say which (they are listed), or that does not say what it holds.
-[[nodiscard]] io::MeasuredFrf read_measured(const MeasuredFrf& measured);
+/// The FRFs of files that were read, by the file and by what is stated of it.
+using FrfFiles = std::map<std::string, io::MeasuredEntries>;
+
+/// Reads one FRF of a file as receptance on its own axis. The file is taken from `files` where it was read before, and
+/// is put there. Errors as those of its format in io/, and InputError for a file of several FRFs of which the case does
+/// not say which (they are listed), or that does not say what it holds.
+[[nodiscard]] FrfContent read_measured(const MeasuredFrf& measured, FrfFiles& files);
+/// Reads one FRF of a file by itself.
+[[nodiscard]] FrfContent read_measured(const MeasuredFrf& measured);
+
+/// The receptance that was read of the file. Throws InputError where it was not read (setup/data_files.hpp).
+[[nodiscard]] const io::MeasuredFrf& receptance_of(const MeasuredFrf& measured);
 
 /// The files of one component as an FRF matrix on `axis`: rows and columns are the DOFs that the files name; an entry
 /// that only its transpose gives is taken from there (reciprocity). Throws InputError for files that make no matrix
-/// (setup/measured_layout.hpp), DataError as read_measured() and io::resample.
+/// (setup/measured_layout.hpp) or were not read, DataError as io::resample.
 [[nodiscard]] dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files,
                                                         const dynamics::FrequencyAxis& axis);
 

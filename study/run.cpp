@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/messages.hpp"
+#include "setup/data_files.hpp"
 #include "setup/measured.hpp"
 #include "setup/milling_process.hpp"
 #include "study/error_budget.hpp"
@@ -228,6 +229,7 @@ void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoi
 
 Results run(const setup::Setup& setup, const setup::Variation& variation, Kept& kept, const RunOptions& options) {
   require_chart_of(setup, options.points);
+  setup::tell_of_data_files(setup);
   Stages stages(options.on_stage);
   Results results;
   setup::VariedSetup work{setup, {}};

@@ -36,7 +36,7 @@ milling::SampledReceptance measured_tip(const std::vector<setup::MeasuredFrf>& f
   milling::SampledReceptance tip{axis.hz, {}};
   tip.H.assign(static_cast<std::size_t>(axis.size()), Eigen::Matrix3cd::Zero());
   for (const setup::MeasuredFrf& file : files) {
-    const Eigen::VectorXcd H = io::resample(setup::read_measured(file), axis);
+    const Eigen::VectorXcd H = io::resample(setup::receptance_of(file), axis);
     const int i = direction_of_dof(file.response);
     const int j = direction_of_dof(file.force);
     const bool reverse_given = gives_reverse(files, file);
@@ -131,7 +131,7 @@ CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFra
   if (source.tool->swap) return milling::SampledStructure{in_tool_axes(swapped(source), frame), modal};
   if (!source.tool->measured.empty()) {
     milling::SampledReceptance tip =
-        measured_tip(source.tool->measured, setup::read_measured(source.tool->measured.front()).axis);
+        measured_tip(source.tool->measured, setup::receptance_of(source.tool->measured.front()).axis);
     warn_of_doubts(tip, "the tool's");
     return milling::SampledStructure{in_tool_axes(std::move(tip), frame), modal};
   }

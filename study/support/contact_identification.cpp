@@ -130,7 +130,7 @@ dynamics::ResponseModel assembly_response(const std::vector<setup::MeasuredFrf>&
     return setup::point_of(file.response) == setup::point_of(file.force);
   });
   for (const setup::MeasuredFrf& file : files) {
-    frfs.push_back(setup::read_measured(file));
+    frfs.push_back(setup::receptance_of(file));
     add_name(responses, file.response);
     add_name(one_point ? responses : forces, file.force);
   }
