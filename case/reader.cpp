@@ -25,8 +25,8 @@ std::filesystem::path case_file(const std::filesystem::path& folder_or_file) {
 }
 
 Case parse_case(const std::string& text, const std::filesystem::path& folder, const std::string& name,
-                const std::vector<std::string>& overrides) {
-  ReadValues read = read_values(text, name, case_schema(), overrides);
+                const std::vector<std::string>& overrides, const CaseValues& added) {
+  ReadValues read = read_values(text, name, case_schema(), overrides, added);
   Case result = bind_case(std::move(read.values), folder);
   result.source = text;
   Findings findings{result.values, std::move(read.problems)};

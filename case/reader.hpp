@@ -21,9 +21,12 @@ namespace thinwall::cases {
 [[nodiscard]] Case read_case(const std::filesystem::path& folder_or_file,
                              const std::vector<std::string>& overrides = {});
 
-/// Reads a case from text; data files are looked for in `folder`. `name` is shown in messages.
+/// Reads a case from text; data files are looked for in `folder`. `name` is shown in messages. `added` are values of
+/// tables that are put behind those of the text, "tool.modes[0].stiffness" in the first that is added; problems of them
+/// stand at line 0.
 [[nodiscard]] Case parse_case(const std::string& text, const std::filesystem::path& folder,
-                              const std::string& name = "case.toml", const std::vector<std::string>& overrides = {});
+                              const std::string& name = "case.toml", const std::vector<std::string>& overrides = {},
+                              const CaseValues& added = {});
 
 /// The expectations that lie beside the case (expected.toml); none if there is no such file. Throws CaseError.
 [[nodiscard]] std::vector<Expectation> read_expectations(const std::filesystem::path& case_file);
