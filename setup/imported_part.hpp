@@ -20,7 +20,7 @@ struct ImportedPart {
   std::optional<io::MeshFile> mesh;               ///< of shape mesh
   std::optional<dynamics::SparseModel> matrices;  ///< of shape matrices
   Eigen::AlignedBox3d box;
-  std::string said;                ///< what was read and mended, for people
+  std::string summary;             ///< what was read and mended, for people
   std::vector<std::string> notes;  ///< what a reader noticed, a line each
 };
 

@@ -157,7 +157,7 @@ dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files,
   return model;
 }
 
-void warn_of_doubts(const dynamics::ResponseModel& measured, const std::string& whose) {
+void warn_if_implausible(const dynamics::ResponseModel& measured, const std::string& whose) {
   for (const dynamics::DrivingPointSign& sign : dynamics::driving_point_signs(measured)) {
     if (sign.verdict == dynamics::SignVerdict::passive) continue;
     const char* cause = sign.verdict == dynamics::SignVerdict::turned

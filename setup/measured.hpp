@@ -40,7 +40,7 @@ using FrfFiles = std::map<std::string, io::MeasuredEntries>;
 
 /// Warns of what speaks against a measured matrix: signs, reciprocity, passivity, scatter at low frequencies
 /// (dynamics/frf_checks.hpp). `whose`: "the robot's".
-void warn_of_doubts(const dynamics::ResponseModel& measured, const std::string& whose);
+void warn_if_implausible(const dynamics::ResponseModel& measured, const std::string& whose);
 
 /// Damping ratios of the reduced model's elastic modes, by rising frequency: each identified one at the mode nearest to
 /// it, `rest` at the others. Throws InputError where none is within 10 %.

@@ -147,9 +147,9 @@ void run_responses(Checkpoint& kept, const setup::Setup& work, Results& results,
     results.survey = survey(survey_input(work), tip_report(*results.robot_posture, *results.robot));
     if (results.survey->tips.empty()) core::warn("the robot reaches no place of its workspace");
   }
-  if (!work.measured_part.empty()) setup::warn_of_doubts(results.part->response, "the part's");
+  if (!work.measured_part.empty()) setup::warn_if_implausible(results.part->response, "the part's");
   if (work.robot && work.robot->model == setup::RobotModel::measured)
-    setup::warn_of_doubts(results.robot->response, "the robot's");
+    setup::warn_if_implausible(results.robot->response, "the robot's");
   if (part && work.robot && !work.contacts.empty()) run_coupling(kept, work, results, stages);
   stages.begin("error budget");
   try {
