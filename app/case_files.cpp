@@ -25,8 +25,8 @@ nlohmann::json manifest_of(const cases::Case& source, const nlohmann::json& summ
   manifest["threads"] = core::thread_count();
   manifest["started_utc"] = started_utc;
   manifest["inputs"] = nlohmann::json::array();
-  for (const auto& input : cases::input_files(source))
-    manifest["inputs"].push_back({{"name", input.string()}, {"sha256", io::sha256_of_file(input)}});
+  for (const cases::DataFile& input : source.data_files)
+    manifest["inputs"].push_back({{"name", input.path.string()}, {"sha256", input.sha256}});
   manifest["inputs"].push_back({{"name", source.file.string()}, {"sha256", io::sha256(source.source)}});
   const fs::path expected = source.file.parent_path() / "expected.toml";
   if (fs::exists(expected)) {

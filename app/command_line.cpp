@@ -123,7 +123,7 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
   out << source.file.string() << ": no errors\n";
   if (!source.title.empty()) out << "  " << source.title << '\n';
   if (source.part && source.part->imported) {
-    out << "  part      " << source.part->imported->said << '\n';
+    out << "  part      " << source.part->imported->summary << '\n';
     for (const auto& note : source.part->imported->notes) out << "            " << note << '\n';
   }
   if (source.part) {

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <string_view>
+#include <utility>
 
+#include "case/problem.hpp"
 #include "case/reader.hpp"
+#include "case/writer.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -40,13 +45,15 @@ Source source_of(const std::string& word) {
   return {word[0], word[equals - 1], word.substr(equals + 1), true};
 }
 
-/// A TOML string; JSON escapes are among TOML's.
-std::string quoted(const std::string& text) {
+/// The absolute name of a file, which has to be in UTF-8 as all names in a case.
+std::string name_in_case(const fs::path& file) {
+  std::string name = fs::absolute(file).lexically_normal().string();
   try {
-    return nlohmann::json(text).dump();
+    (void)nlohmann::json(name).dump();
   } catch (const nlohmann::json::exception&) {
-    throw core::InputError("\"" + text + "\" is not in UTF-8, as names in a case have to be; rename it");
+    throw core::InputError("\"" + name + "\" is not in UTF-8, as names in a case have to be; rename it");
   }
+  return name;
 }
 
 std::optional<std::size_t> column(const io::CsvText& text, const std::string& name) {
@@ -66,6 +73,15 @@ std::size_t required_column(const io::CsvText& text, const std::string& name) {
       "\"; a table of modes has frequency_hz, damping_ratio, stiffness (N/m) or mass (kg), direction");
 }
 
+/// The unit vector that the line names; x where the table has no such column.
+Eigen::Vector3d axis_of(const io::CsvText& text, const io::CsvLine& line, const std::optional<std::size_t>& direction) {
+  try {
+    return dynamics::axis(direction ? line.fields[*direction] : "x");
+  } catch (const core::InputError& error) {
+    throw core::DataError(io::location(text, line) + ": " + error.what());
+  }
+}
+
 double checked(const io::CsvText& text, const io::CsvLine& line, std::size_t at, double lower, double upper) {
   const double value = io::number(text, line, at);
   if (value > lower && value < upper) return value;
@@ -75,8 +91,8 @@ double checked(const io::CsvText& text, const io::CsvLine& line, std::size_t at,
                         "; correct the table of modes");
 }
 
-/// [[tool.modes]] for every line.
-std::string modes_text(const io::CsvText& text) {
+/// The values of [[tool.modes]] for every line.
+cases::CaseValues modes_values(const io::CsvText& text) {
   const std::size_t frequency = required_column(text, "frequency_hz");
   const std::size_t damping = required_column(text, "damping_ratio");
   const auto mass = column(text, "mass");
@@ -85,51 +101,78 @@ std::string modes_text(const io::CsvText& text) {
     throw core::DataError(text.path.string() + ": has stiffness and mass; keep one of the two columns");
   const auto direction = column(text, "direction");
   io::require_columns(text, text.header.size(), "a table of modes");
-  std::string toml;
-  for (const io::CsvLine& line : text.lines) {
+  cases::CaseValues values;
+  for (std::size_t i = 0; i < text.lines.size(); ++i) {
+    const io::CsvLine& line = text.lines[i];
+    const std::string mode = "tool.modes[" + std::to_string(i) + "].";
     const double hz = checked(text, line, frequency, 0.0, INFINITY);
     const double omega = 2.0 * std::numbers::pi * hz;
     const double given = checked(text, line, stiffness_or_mass, 0.0, INFINITY);
-    const std::string along = direction ? line.fields[*direction] : "x";
-    try {
-      (void)dynamics::axis(along);
-    } catch (const core::InputError& error) {
-      throw core::DataError(io::location(text, line) + ": " + error.what());
-    }
-    toml += "\n[[tool.modes]]\nfrequency = " + quoted(core::number_text(hz) + " Hz") +
-            "\ndamping_ratio = " + quoted(core::number_text(checked(text, line, damping, 0.0, 1.0))) +
-            "\nstiffness = " + quoted(core::number_text(mass ? given * omega * omega : given) + " N/m") +
-            "\ndirection = " + quoted(along) + "\n";
+    values.push_back({mode + "frequency", hz});
+    values.push_back({mode + "damping_ratio", checked(text, line, damping, 0.0, 1.0)});
+    values.push_back({mode + "stiffness", mass ? given * omega * omega : given});
+    values.push_back({mode + "direction", std::vector{axis_of(text, line, direction)}});
   }
-  return toml;
+  return values;
 }
 
-std::string measured_text(const Source& source, const LobesInput& input) {
+/// The values of the [[tool.measured]] of that number.
+cases::CaseValues measured_values(const Source& source, std::size_t number, const LobesInput& input) {
   if (input.quantity.empty() || input.unit.empty()) {
     throw UsageError("\"" + source.file.string() +
                      "\": say what the FRF is, for example --quantity accelerance --unit m/s^2/N (receptance m/N, "
                      "mobility m/s/N)");
   }
-  return "\n[[tool.measured]]\nresponse = " + quoted(std::string(1, source.response)) +
-         "\nforce = " + quoted(std::string(1, source.force)) +
-         "\nfile = " + quoted(fs::absolute(source.file).lexically_normal().string()) +
-         "\nquantity = " + quoted(input.quantity) + "\nunit = " + quoted(input.unit) +
-         "\nfrequency_unit = " + quoted(input.frequency_unit.empty() ? "Hz" : input.frequency_unit) + "\n";
+  const std::string frf = "tool.measured[" + std::to_string(number) + "].";
+  return {{frf + "response", std::string(1, source.response)},
+          {frf + "force", std::string(1, source.force)},
+          {frf + "file", name_in_case(source.file)},
+          {frf + "quantity", input.quantity},
+          {frf + "unit", input.unit},
+          {frf + "frequency_unit", input.frequency_unit.empty() ? "Hz" : input.frequency_unit}};
 }
 
-std::string structure_text(const LobesInput& input) {
-  std::string toml;
-  for (const std::string& word : input.sources) {
-    const Source source = source_of(word);
+/// What moves: the modes of a table, or an FRF of each file.
+cases::CaseValues structure_values(const LobesInput& input) {
+  cases::CaseValues values;
+  for (std::size_t i = 0; i < input.sources.size(); ++i) {
+    const Source source = source_of(input.sources[i]);
     const io::CsvText text = io::read_csv_text(source.file);
     const bool modes = is_table_of_modes(text);
     if (modes && (input.sources.size() > 1 || source.entry_given || !input.quantity.empty() || !input.unit.empty())) {
       throw UsageError("\"" + source.file.string() +
                        "\" is a table of modes: give it alone, without ENTRY=, --quantity and --unit");
     }
-    toml += modes ? modes_text(text) : measured_text(source, input);
+    std::ranges::move(modes ? modes_values(text) : measured_values(source, i, input), std::back_inserter(values));
   }
-  return toml;
+  return values;
+}
+
+/// A problem of a value that stands in no file, by the option that gave it.
+cases::Problem by_option(cases::Problem problem) {
+  if (problem.line != 0 || !problem.text.starts_with("tool.measured[")) return problem;
+  for (const auto& [key, option] :
+       {std::pair{"].quantity: ", "--quantity"}, {"].unit: ", "--unit"}, {"].frequency_unit: ", "--frequency-unit"}}) {
+    if (const auto at = problem.text.find(key); at != std::string::npos && at < problem.text.find(' '))
+      problem.text = std::string(option) + problem.text.substr(at + std::string_view(key).size() - 2);
+  }
+  return problem;
+}
+
+/// The case of the tool's file with what moves put to it. FRFs of one option share its problems, which are told once.
+cases::Case parsed(const std::string& tool, const fs::path& file, const cases::CaseValues& structure,
+                   const std::vector<std::string>& overrides) {
+  try {
+    return cases::parse_case(tool, file.parent_path(), file.string(), overrides, structure);
+  } catch (cases::CaseError& error) {
+    std::vector<cases::Problem> problems;
+    for (const cases::Problem& found : error.problems) {
+      const cases::Problem problem = by_option(found);
+      if (std::ranges::find(problems, problem.text, &cases::Problem::text) == problems.end())
+        problems.push_back(problem);
+    }
+    throw cases::CaseError(error.source, problems);
+  }
 }
 
 cases::Case from_case(const LobesInput& input) {
@@ -154,8 +197,10 @@ cases::Case from_files(const LobesInput& input) {
   if (!fs::is_regular_file(input.tool))
     throw core::DataError("--tool: there is no file \"" + input.tool + "\"; write one with [tool], [cutting], [lobes]");
   const fs::path file = input.tool;
-  const std::string text = core::read_file(file) + structure_text(input);
-  cases::Case result = cases::parse_case(text, file.parent_path(), file.string(), input.overrides);
+  const std::string text = core::read_file(file);
+  const cases::CaseValues structure = structure_values(input);
+  cases::Case result = parsed(text, file, structure, input.overrides);
+  result.source = text + cases::values_text(structure, result.folder);  // can be run by itself
   result.file = file;
   result.name = source_of(input.sources.front()).file.stem().string();
   if (!result.lobes || !result.cutting) {

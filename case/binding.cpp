@@ -425,6 +425,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   if (root.table("machine").exists()) bound.machine = bind_machine(root.table("machine"));
   if (root.table("path").exists()) bound.path = bind_path(root.table("path"));
   bound.values = std::move(values);
+  bound.data_files = named_files(bound);
   return bound;
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <variant>
 #include <vector>
 
@@ -13,8 +12,6 @@
 namespace thinwall::cases {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// One value in a form that tells every bit of it.
 struct Exactly {
@@ -45,7 +42,8 @@ std::string key_of(const Case& source, const std::vector<std::string>& without) 
   }
   for (const std::string& point : source.reduction.interface) text += point + "\n";
   // Their names are among the values, as the case gives them.
-  for (const fs::path& file : input_files(source, without)) text += io::sha256_of_file(file) + "\n";
+  for (const DataFile& file : source.data_files)
+    if (std::ranges::find(without, file.section) == without.end()) text += file.sha256 + "\n";
   return io::sha256(text);
 }
 

@@ -9,8 +9,7 @@
 namespace thinwall::cases {
 
 /// Hash of the program, of the case's values but those under the given keys or sections ("lobes.count", "cutting"), and
-/// of the bytes of the files that the other sections name. Throws DataError for a file that cannot be read. Cost: the
-/// hash of these files.
+/// of the checksums of the files that the other sections name.
 [[nodiscard]] std::string key_of(const Case& source, const std::vector<std::string>& without);
 
 }  // namespace thinwall::cases

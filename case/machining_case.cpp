@@ -1,22 +1,14 @@
 #include "case/machining_case.hpp"
 
-#include <algorithm>
-
-#include "core/error.hpp"
 #include "setup/imported_part.hpp"
 
 namespace thinwall::cases {
 
-std::vector<std::filesystem::path> input_files(const Case& source) {
-  return input_files(source, {});
-}
-
-std::vector<std::filesystem::path> input_files(const Case& source, const std::vector<std::string>& without_sections) {
-  std::vector<std::filesystem::path> files;
+std::vector<DataFile> named_files(const setup::Setup& source) {
+  std::vector<DataFile> files;
   std::string section;
   const auto add = [&](const std::filesystem::path& file) {
-    const bool wanted = std::ranges::find(without_sections, section) == without_sections.end();
-    if (wanted && !file.empty()) files.push_back(file);
+    if (!file.empty()) files.push_back({file, section, {}});
   };
   const auto add_measured = [&](const std::vector<setup::MeasuredFrf>& all) {
     for (const setup::MeasuredFrf& frf : all) add(frf.file);
@@ -45,6 +37,13 @@ std::vector<std::filesystem::path> input_files(const Case& source, const std::ve
   section = "damping";
   if (source.damping.from_frf) add(source.damping.from_frf->file);
   return files;
+}
+
+std::vector<std::filesystem::path> input_files(const Case& source) {
+  std::vector<std::filesystem::path> paths;
+  paths.reserve(source.data_files.size());
+  for (const DataFile& file : source.data_files) paths.push_back(file.path);
+  return paths;
 }
 
 }  // namespace thinwall::cases

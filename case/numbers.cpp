@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "case/binding.hpp"
+#include "case/data_files.hpp"
 #include "case/schema/schema.hpp"
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
@@ -73,7 +74,7 @@ void set_value(Case& target, const std::string& key, double value) {
   }
   *number = value;
   Case bound = bind_case(std::move(values), target.folder);
-  if (bound.part && target.part) bound.part->imported = target.part->imported;
+  share_data_files(bound, target);
   bound.name = target.name;
   bound.file = target.file;
   bound.source = target.source;

@@ -13,8 +13,9 @@ namespace thinwall::cases {
 /// InputError with the nearest key if the case has no such number.
 [[nodiscard]] double get_value(const Case& source, const std::string& key);
 
-/// Sets it and binds the case anew, so that everything that follows from the key follows. Throws InputError if the
-/// value is not finite or outside the schema's bounds. Cost: microseconds; for model updating and sweeps.
+/// Sets it and binds the case anew, so that everything that follows from the key follows; no file is opened. Throws
+/// InputError if the value is not finite or outside the schema's bounds. Cost: microseconds; for model updating and
+/// sweeps.
 void set_value(Case& target, const std::string& key, double value);
 
 /// Access to the case's numbers for fits: set-ups with other values. The case is copied.

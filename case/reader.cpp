@@ -6,28 +6,13 @@
 
 #include "case/binding.hpp"
 #include "case/checks/checks.hpp"
+#include "case/checks/findings.hpp"
+#include "case/data_files.hpp"
 #include "case/schema/schema.hpp"
 #include "case/toml_values.hpp"
 #include "core/atomic_file.hpp"
-#include "setup/file_stamps.hpp"
-#include "setup/imported_part.hpp"
-#include "setup/matrix_faults.hpp"
 
 namespace thinwall::cases {
-
-namespace {
-
-/// The part's file; of matrices that are refused the one at fault is named.
-std::shared_ptr<const setup::ImportedPart> read_imported(const setup::Part& part) {
-  try {
-    return setup::read_part_file(part);
-  } catch (const core::InputError&) {
-    if (part.shape == setup::PartShape::matrices) setup::require_plausible_files(part.file.matrices);
-    throw;
-  }
-}
-
-}  // namespace
 
 std::filesystem::path case_file(const std::filesystem::path& folder_or_file) {
   std::error_code ignored;
@@ -40,17 +25,18 @@ std::filesystem::path case_file(const std::filesystem::path& folder_or_file) {
 }
 
 Case parse_case(const std::string& text, const std::filesystem::path& folder, const std::string& name,
-                const std::vector<std::string>& overrides) {
-  ReadValues read = read_values(text, name, case_schema(), overrides);
+                const std::vector<std::string>& overrides, const CaseValues& added) {
+  ReadValues read = read_values(text, name, case_schema(), overrides, added);
   Case result = bind_case(std::move(read.values), folder);
   result.source = text;
-  auto problems = std::move(read.problems);
+  Findings findings{result.values, std::move(read.problems)};
+  read_described_files(result, findings);
+  auto problems = std::move(findings.problems);
   std::ranges::move(check_case(result), std::back_inserter(problems));
   if (!problems.empty()) throw CaseError({name, text, overrides}, std::move(problems));
-  setup::stamp_files(result);
-  if (!result.part || !setup::from_file(*result.part)) return result;
-  result.part->imported = read_imported(*result.part);
-  problems = check_case(result);  // what could not be told before its size was known
+  if (result.data_files.empty()) return result;
+  read_data_files(result);
+  problems = check_case(result);  // what could not be told before the files were read
   if (!problems.empty()) throw CaseError({name, text, overrides}, std::move(problems));
   return result;
 }

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "case/joint_binding.hpp"
-#include "case/urdf_arm.hpp"
 #include "core/error.hpp"
 
 namespace thinwall::cases {
@@ -71,15 +70,9 @@ void bind_surroundings(const Table& table, robot::SerialArm& arm) {
   arm.gravity = table.has("gravity") ? table.vector("gravity") : Eigen::Vector3d(-9.81 * arm.base.linear().col(2));
 }
 
-robot::SerialArm bind_arm(const Table& table, const std::filesystem::path& folder) {
-  if (table.has("urdf")) {
-    try {
-      return bind_urdf(table, folder);
-    } catch (const core::Error&) {
-      return {};
-    }
-  }
+robot::SerialArm bind_arm(const Table& table) {
   robot::SerialArm arm;
+  if (table.has("urdf")) return arm;  // its links are read later (case/data_files.hpp)
   for (const Table& link : table.tables("links")) arm.links.push_back(bind_link(link));
   bind_surroundings(table, arm);
   return arm;
@@ -136,16 +129,14 @@ std::vector<Eigen::Vector3d> bind_workspace(const Table& table) {
 
 }  // namespace
 
-robot::SerialArm bind_urdf(const Table& robot, const std::filesystem::path& folder) {
-  robot::SerialArm arm = urdf_arm(folder / robot.text("urdf"), robot.text("urdf_base"), robot.text("urdf_tip"),
-                                  folder / robot.text("joints"));
+robot::SerialArm arm_in_place(const Table& robot, robot::SerialArm arm) {
   bind_surroundings(robot, arm);
   return arm;
 }
 
 std::vector<robot::Chain> bind_chains(const Table& robot) {
   std::vector<robot::Chain> chains;
-  const Eigen::Isometry3d base = bind_arm(robot, {}).base;
+  const Eigen::Isometry3d base = bind_arm(robot).base;
   for (const Table& element : robot.tables("elements")) {
     const auto number = static_cast<std::size_t>(std::max(element.integer("chain"), 1));
     while (chains.size() < number) chains.push_back({base, {}});
@@ -187,7 +178,7 @@ setup::Robot bind_robot(const Table& table, std::vector<setup::MeasuredFrf> meas
           table.optional("damping"),
           bind_modes(table.tables("modes")),
           std::move(measured),
-          bind_arm(table, folder),
+          bind_arm(table),
           chains(),
           file("table"),
           table.text("table_point"),

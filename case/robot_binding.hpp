@@ -9,15 +9,16 @@
 namespace thinwall::cases {
 
 /// `measured`: its FRF files, bound as those of the part and the tool; data files are in `folder`. An arm's world is
-/// the part's axes; one whose URDF cannot be read has no links (check_robot() says why).
+/// the part's axes; one of a URDF has no links until that is read (case/data_files.hpp).
 [[nodiscard]] setup::Robot bind_robot(const Table& table, std::vector<setup::MeasuredFrf> measured,
                                       const std::filesystem::path& folder);
 
 /// The chains of [[robot.elements]]. Throws InputError for a section that no beam has.
 [[nodiscard]] std::vector<robot::Chain> bind_chains(const Table& robot);
 
-/// The arm of robot.urdf where the case stands it. Errors as urdf_arm().
-[[nodiscard]] robot::SerialArm bind_urdf(const Table& robot, const std::filesystem::path& folder);
+/// An arm with what the case says of it beside its links: counterbalances, base, tip and gravity. `arm` stands upright
+/// at the origin.
+[[nodiscard]] robot::SerialArm arm_in_place(const Table& robot, robot::SerialArm arm);
 
 /// [[robot.modes]] or [[tool.modes]].
 [[nodiscard]] std::vector<setup::TipMode> bind_modes(const std::vector<Table>& tables);

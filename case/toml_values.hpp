@@ -16,9 +16,10 @@ struct ReadValues {
   std::vector<Problem> problems;
 };
 
-/// `overrides` are "key=value", put over the file before it is read. Throws CaseError, which shows `name`, if the text
-/// is not TOML; UsageError or InputError for an override that fits no key.
+/// `added` are keys of tables, "tool.modes[0].stiffness", which are put behind those that their array has in the file,
+/// from its number 0 on. `overrides` are "key=value", put over both before they are read. Throws CaseError, which shows
+/// `name`, if the text is not TOML; UsageError or InputError for an override that fits no key.
 [[nodiscard]] ReadValues read_values(const std::string& text, const std::string& name, const Schema& schema,
-                                     const std::vector<std::string>& overrides = {});
+                                     const std::vector<std::string>& overrides = {}, const CaseValues& added = {});
 
 }  // namespace thinwall::cases

@@ -119,18 +119,22 @@ std::vector<std::string> tables_in_order(const CaseValues& values) {
 
 }  // namespace
 
-std::string resolved_text(const Case& source) {
+std::string values_text(const CaseValues& values, const std::filesystem::path& folder) {
   std::string text;
-  for (const auto& table : tables_in_order(source.values)) {
+  for (const auto& table : tables_in_order(values)) {
     if (!table.empty()) text += "\n" + header(table) + "\n";
-    for (const auto& value : source.values) {
+    for (const auto& value : values) {
       if (table_of(value.key) != table) continue;
       const Key& key = *find_key(case_schema(), pattern_of(case_schema(), value.key));
       const auto name = table.empty() ? value.key : value.key.substr(table.size() + 1);
-      text += name + " = " + std::visit(ValueText{key, source.folder}, value.value) + "\n";
+      text += name + " = " + std::visit(ValueText{key, folder}, value.value) + "\n";
     }
   }
   return text;
+}
+
+std::string resolved_text(const Case& source) {
+  return values_text(source.values, source.folder);
 }
 
 }  // namespace thinwall::cases

@@ -24,12 +24,12 @@ Eigen::Isometry3d frame(const urdf::Pose& pose) {
 }
 
 /// A handler that collects the parser's messages, which become part of this program's message.
-class Said : public console_bridge::OutputHandler {
+class ParserErrors : public console_bridge::OutputHandler {
  public:
-  Said() { console_bridge::useOutputHandler(this); }
-  ~Said() override { console_bridge::restorePreviousOutputHandler(); }
-  Said(const Said&) = delete;
-  Said& operator=(const Said&) = delete;
+  ParserErrors() { console_bridge::useOutputHandler(this); }
+  ~ParserErrors() override { console_bridge::restorePreviousOutputHandler(); }
+  ParserErrors(const ParserErrors&) = delete;
+  ParserErrors& operator=(const ParserErrors&) = delete;
   void log(const std::string& text, console_bridge::LogLevel level, const char* /*file*/, int /*line*/) override {
     if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && first.empty()) first = text;
   }
@@ -38,16 +38,16 @@ class Said : public console_bridge::OutputHandler {
 
 urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& path) {
   const std::string text = core::read_file(path);
-  Said said;
+  ParserErrors errors;
   urdf::ModelInterfaceSharedPtr model;
   try {
     model = urdf::parseURDF(text);
   } catch (const std::exception& error) {
-    said.first = error.what();
+    errors.first = error.what();
   }
-  if (!model || !said.first.empty()) {
-    std::ranges::replace(said.first, '\n', ' ');
-    throw DataError(path.string() + ": no robot in URDF" + (said.first.empty() ? "" : ": " + said.first));
+  if (!model || !errors.first.empty()) {
+    std::ranges::replace(errors.first, '\n', ' ');
+    throw DataError(path.string() + ": no robot in URDF" + (errors.first.empty() ? "" : ": " + errors.first));
   }
   return model;
 }

@@ -11,6 +11,7 @@
 
 #include "core/words.hpp"
 #include "coupling/contact.hpp"
+#include "coupling/contact_table.hpp"
 #include "coupling/hertz_contact.hpp"
 #include "coupling/kernel.hpp"
 #include "setup/measured_frf.hpp"
@@ -44,9 +45,9 @@ struct Contact {
   std::vector<double> damping;              ///< N s/m, one per direction
   double loss_factor = 0.0;
   ContactModel model = ContactModel::springs;
-  std::optional<double> preload{};  ///< N; none: from robot.preload
-  std::filesystem::path table{};    ///< of model table
-  std::string table_sha256 = {};    ///< checksum of the table (setup/file_stamps.hpp); empty: not known
+  std::optional<double> preload{};                          ///< N; none: from robot.preload
+  std::filesystem::path table{};                            ///< of model table
+  std::shared_ptr<const coupling::ContactTable> rows = {};  ///< of the table, once it is read
   std::optional<ContactBall> ball{};
   std::optional<coupling::Elastic> surface{};  ///< that the ball touches; none: part.material
   std::vector<MeasuredFrf> measured{};         ///< of the assembly, from which the joint is found

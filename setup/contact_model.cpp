@@ -77,8 +77,8 @@ JoinedContact joined_contact(const PartSetup& part, const SupportSetup& support,
   }
   if (contact.model != ContactModel::springs) result.preload_n = required_preload(support, contact);
   if (contact.model == ContactModel::table) {
-    result.contact.springs.push_back(
-        coupling::spring_at(read_contact_table(contact.table), *result.preload_n, contact.directions.front()));
+    if (!contact.rows) throw core::InputError("its table was not read; call setup::read_data_files()");
+    result.contact.springs.push_back(coupling::spring_at(*contact.rows, *result.preload_n, contact.directions.front()));
     result.contact.springs.back().loss_factor = contact.loss_factor;
     return result;
   }

@@ -32,8 +32,7 @@ struct JoinedContact {
 /// The contact with its stiffness (coupling/contact_table.hpp, coupling/hertz_contact.hpp): of a ball k_n along the
 /// first direction and k_t along the others, which are at right angles to it. The `identified` joint that was found
 /// from FRFs stands as matrices in place of springs. Throws InputError for a preload that is missing or outside the
-/// table, a ball or material that is none; DataError as read_contact_table(). Cost: microseconds, and one reading of
-/// the table.
+/// table, a table that was not read, a ball or material that is none. Cost: microseconds.
 [[nodiscard]] JoinedContact joined_contact(const PartSetup& part, const SupportSetup& support, const Contact& contact,
                                            const std::optional<coupling::JointMatrices>& identified = {});
 

@@ -9,6 +9,7 @@
 #include "core/units.hpp"
 #include "io/matrices/matrix_files.hpp"
 #include "io/surface/surface_file.hpp"
+#include "setup/matrix_faults.hpp"
 
 namespace thinwall::setup {
 
@@ -41,8 +42,8 @@ ImportedPart read_surface_part(const PartFile& file) {
                            as_origin(file.origin - part.surface->moved_by));
   }
   for (const auto& x : part.surface->surface.vertices) part.box.extend(x);
-  part.said = mesh::size_text(soup) + ", " + std::to_string(part.surface->surface.triangles.size()) +
-              " triangles; mended: " + mesh::text(*part.surface);
+  part.summary = mesh::size_text(soup) + ", " + std::to_string(part.surface->surface.triangles.size()) +
+                 " triangles; mended: " + mesh::text(*part.surface);
   return part;
 }
 
@@ -53,9 +54,9 @@ ImportedPart read_mesh_part(const PartFile& file) {
   for (auto& x : solid.mesh.vertices) part.box.extend(x -= file.origin);
   solid.nodes.positions.rowwise() -= file.origin.transpose();
   const Eigen::Vector3d size = 1e3 * part.box.sizes();
-  part.said = fmt::format("{:.4g} x {:.4g} x {:.4g} mm, {} tetrahedra of order {}", size.x(), size.y(), size.z(),
-                          solid.mesh.tets.size(), solid.nodes.order);
-  if (solid.pieces > 1) part.said += fmt::format(", {} pieces that share no node", solid.pieces);
+  part.summary = fmt::format("{:.4g} x {:.4g} x {:.4g} mm, {} tetrahedra of order {}", size.x(), size.y(), size.z(),
+                             solid.mesh.tets.size(), solid.nodes.order);
+  if (solid.pieces > 1) part.summary += fmt::format(", {} pieces that share no node", solid.pieces);
   part.notes = solid.notices;
   for (const io::InpMaterial& m : part.mesh->materials) {
     if (const std::string lacking = io::what_lacks(m); !lacking.empty())
@@ -68,10 +69,15 @@ ImportedPart read_mesh_part(const PartFile& file) {
 ImportedPart read_matrix_part(const PartFile& file) {
   io::ImportedMatrices imported = io::read_matrices(file.matrices);
   dynamics::require_consistent(imported.model);
-  dynamics::require_plausible(imported.model);
+  try {
+    dynamics::require_plausible(imported.model);
+  } catch (const core::InputError&) {
+    require_plausible_files(file.matrices, imported.model);  // tells which file
+    throw;
+  }
   ImportedPart part;
   for (auto& [node, x] : imported.model.positions) part.box.extend(x -= file.origin);
-  part.said = imported.format + ", " + std::to_string(imported.model.size()) + " rows";
+  part.summary = imported.format + ", " + std::to_string(imported.model.size()) + " rows";
   part.notes = std::move(imported.notes);
   part.matrices = std::move(imported.model);
   return part;

@@ -20,7 +20,7 @@ struct ImportedPart {
   std::optional<io::MeshFile> mesh;               ///< of shape mesh
   std::optional<dynamics::SparseModel> matrices;  ///< of shape matrices
   Eigen::AlignedBox3d box;
-  std::string said;                ///< what was read and mended, for people
+  std::string summary;             ///< what was read and mended, for people
   std::vector<std::string> notes;  ///< what a reader noticed, a line each
 };
 
@@ -49,8 +49,8 @@ struct ImportedPart {
 [[nodiscard]] const std::filesystem::path& main_file(const Part& part);
 
 /// Reads the part's file. Throws DataError for one that cannot be read, InputError, with the file's name, for a unit
-/// that is none, for what mesh::repaired_surface refuses and for matrices that cannot be (require_plausible). Cost:
-/// that of reading and repair.
+/// that is none and for what mesh::repaired_surface refuses. Matrices that no part has throw DataError with the file of
+/// the one at fault (setup/matrix_faults.hpp). Cost: that of reading and repair.
 [[nodiscard]] std::shared_ptr<const ImportedPart> read_part_file(const Part& part);
 
 }  // namespace thinwall::setup

@@ -34,16 +34,10 @@ const char* matrix_word(const std::string& letter) {
 
 }  // namespace
 
-void require_plausible_files(const io::MatrixFiles& files) {
-  dynamics::SparseModel model;
-  try {
-    model = io::read_matrices(files).model;
-  } catch (const core::InputError&) {
-    return;  // it is not the entries that are at fault
-  }
+void require_plausible_files(const io::MatrixFiles& files, const dynamics::SparseModel& matrices) {
   for (const char letter : {'K', 'M', 'C'}) {
     try {
-      dynamics::require_plausible(matrix_alone(model, letter));
+      dynamics::require_plausible(matrix_alone(matrices, letter));
     } catch (const core::InputError& error) {
       throw core::DataError(matrix_file(files, letter).string() + ": " + error.what());
     }

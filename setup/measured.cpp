@@ -23,6 +23,10 @@ namespace thinwall::setup {
 
 namespace {
 
+bool holds_one_frf(FrfFileKind kind) {
+  return kind == FrfFileKind::csv || kind == FrfFileKind::cutpro;
+}
+
 std::optional<io::FrfFormat> stated_format(const MeasuredFrf& measured) {
   if (measured.quantity.empty() && measured.unit.empty()) return std::nullopt;
   return io::frf_format(measured.quantity, measured.unit, measured.frequency_unit);
@@ -46,35 +50,33 @@ io::MeasuredEntries entries_of(const io::MeasuredResponse& measured, const Measu
   return list;
 }
 
-/// The FRF with its signs: a sensor or hammer along −x turns it. One along another axis than the case names is warned
-/// of, for the axes of a test need not be the part's.
-io::MeasuredFrf along_named_axes(const io::MeasuredEntry& entry, const MeasuredFrf& measured) {
-  io::MeasuredFrf frf = entry.frf;
+/// Turns the sign of an FRF for a sensor or hammer along −x. One along another axis than the case names is doubted, for
+/// the axes of a test need not be the part's.
+void turn_to_named_axes(const io::MeasuredEntry& entry, const MeasuredFrf& measured, FrfContent& content) {
   for (const auto& [dof, name] : {std::pair{&entry.response, &measured.response}, {&entry.force, &measured.force}}) {
     if (dof->kind == dynamics::DofKind::rotation) {
       throw core::InputError("\"" + measured.file.string() + "\" says " + dynamics::name(*dof) +
                              ", a turn, where the case says " + *name + ": choose another record");
     }
+    if (!(dof->direction.cwiseAbs().maxCoeff() > 0.999)) continue;  // zero or slanted: the case knows better
     const double along = dof->direction.dot(dof_of(*name).direction);
-    const bool axis = dof->direction.cwiseAbs().maxCoeff() > 0.999;  // zero or slanted: the case knows better
-    if (axis && along < -0.999) {
-      frf.H = -frf.H;
-      core::inform(fmt::format("{}: {} points against {}: the FRF is turned", measured.file.string(),
-                               dynamics::name(*dof), *name));
-    } else if (axis && along < 0.999) {
-      core::warn(fmt::format("{}: the file says {}, the case {}; check record and axes", measured.file.string(),
-                             dynamics::name(*dof), *name));
+    if (along < -0.999) {
+      content.frf.H = -content.frf.H;
+      content.notes.push_back(fmt::format("{}: {} points against {}: the FRF is turned", measured.file.string(),
+                                          dynamics::name(*dof), *name));
+    } else if (along < 0.999) {
+      content.warnings.push_back(fmt::format("{}: the file says {}, the case {}; check record and axes",
+                                             measured.file.string(), dynamics::name(*dof), *name));
     }
   }
-  return frf;
 }
 
-/// The FRF that the case names; what was odd in the file, or filled in by the case, is logged.
-io::MeasuredFrf record_of(const io::MeasuredEntries& file, const MeasuredFrf& measured) {
-  for (const std::string& note : file.notes) core::inform(fmt::format("{}: {}", measured.file.string(), note));
+/// The FRF of a file that the case names.
+const io::MeasuredEntry& record_of(const io::MeasuredEntries& file, const MeasuredFrf& measured) {
+  if (holds_one_frf(frf_file_kind(measured.file))) return file.entries.front();
   const std::size_t count = file.entries.size();
   const auto wanted = static_cast<std::size_t>(measured.record.value_or(1));
-  if (wanted <= count && (measured.record || count == 1)) return along_named_axes(file.entries[wanted - 1], measured);
+  if (wanted <= count && (measured.record || count == 1)) return file.entries[wanted - 1];
   std::string list;
   constexpr std::size_t most = 12;
   for (std::size_t i = 0; i < std::min(count, most); ++i) {
@@ -87,6 +89,22 @@ io::MeasuredFrf record_of(const io::MeasuredEntries& file, const MeasuredFrf& me
                          "): say which one by record");
 }
 
+/// All FRFs of the file; of a file that tells no DOFs, one without directions.
+io::MeasuredEntries read_file(const MeasuredFrf& measured) {
+  const std::optional<io::FrfFormat> stated = stated_format(measured);
+  const FrfFileKind kind = frf_file_kind(measured.file);
+  const dynamics::Dof untold{"", Eigen::Vector3d::Zero(), dynamics::DofKind::translation};
+  if (kind == FrfFileKind::cutpro) return {{{untold, untold, io::read_cutpro_frf(measured.file, stated)}}, {}};
+  if (kind == FrfFileKind::universal) return io::read_uff_entries(measured.file, {stated});
+  if (kind == FrfFileKind::mat && stated &&
+      (stated->quantity != io::FrfQuantity::receptance || stated->unit_in_si != 1.0))
+    throw core::InputError("\"" + measured.file.string() + "\" holds receptances in m/N: leave out quantity and unit");
+  if (kind == FrfFileKind::mat) return entries_of(io::read_mat_response(measured.file), measured);
+  if (!stated)
+    throw core::InputError("\"" + measured.file.string() + "\" does not say what it holds: give quantity and unit");
+  return {{{untold, untold, io::read_frf(measured.file, *stated)}}, {}};
+}
+
 }  // namespace
 
 FrfFileKind frf_file_kind(const std::filesystem::path& file) {
@@ -97,18 +115,27 @@ FrfFileKind frf_file_kind(const std::filesystem::path& file) {
   return extension == ".mat" ? FrfFileKind::mat : FrfFileKind::csv;
 }
 
-io::MeasuredFrf read_measured(const MeasuredFrf& measured) {
-  const std::optional<io::FrfFormat> stated = stated_format(measured);
-  const FrfFileKind kind = frf_file_kind(measured.file);
-  if (kind == FrfFileKind::cutpro) return io::read_cutpro_frf(measured.file, stated);
-  if (kind == FrfFileKind::universal) return record_of(io::read_uff_entries(measured.file, {stated}), measured);
-  if (kind == FrfFileKind::mat && stated &&
-      (stated->quantity != io::FrfQuantity::receptance || stated->unit_in_si != 1.0))
-    throw core::InputError("\"" + measured.file.string() + "\" holds receptances in m/N: leave out quantity and unit");
-  if (kind == FrfFileKind::mat) return record_of(entries_of(io::read_mat_response(measured.file), measured), measured);
-  if (!stated)
-    throw core::InputError("\"" + measured.file.string() + "\" does not say what it holds: give quantity and unit");
-  return io::read_frf(measured.file, *stated);
+FrfContent read_measured(const MeasuredFrf& measured, FrfFiles& files) {
+  const std::string key =
+      measured.file.string() + '\n' + measured.quantity + '\n' + measured.unit + '\n' + measured.frequency_unit;
+  auto file = files.find(key);
+  if (file == files.end()) file = files.emplace(key, read_file(measured)).first;
+  const io::MeasuredEntry& entry = record_of(file->second, measured);
+  FrfContent content{entry.frf, {}, {}};
+  for (const std::string& note : file->second.notes)
+    content.notes.push_back(fmt::format("{}: {}", measured.file.string(), note));
+  turn_to_named_axes(entry, measured, content);
+  return content;
+}
+
+FrfContent read_measured(const MeasuredFrf& measured) {
+  FrfFiles files;
+  return read_measured(measured, files);
+}
+
+const io::MeasuredFrf& receptance_of(const MeasuredFrf& measured) {
+  if (measured.content) return measured.content->frf;
+  throw core::InputError("\"" + measured.file.string() + "\" was not read; call setup::read_data_files()");
 }
 
 dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files, const dynamics::FrequencyAxis& axis) {
@@ -116,7 +143,7 @@ dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files,
   const MeasuredLayout layout = measured_layout(files);
   std::vector<Eigen::VectorXcd> values;
   values.reserve(files.size());
-  for (const MeasuredFrf& file : files) values.push_back(io::resample(read_measured(file), axis));
+  for (const MeasuredFrf& file : files) values.push_back(io::resample(receptance_of(file), axis));
   dynamics::ResponseModel model;
   model.axis = axis;
   for (const auto& name : layout.dofs) model.responses.push_back(dof_of(name));
@@ -130,7 +157,7 @@ dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files,
   return model;
 }
 
-void warn_of_doubts(const dynamics::ResponseModel& measured, const std::string& whose) {
+void warn_if_implausible(const dynamics::ResponseModel& measured, const std::string& whose) {
   for (const dynamics::DrivingPointSign& sign : dynamics::driving_point_signs(measured)) {
     if (sign.verdict == dynamics::SignVerdict::passive) continue;
     const char* cause = sign.verdict == dynamics::SignVerdict::turned

@@ -2,6 +2,7 @@
 // Measured FRFs of a case, read and put on the axis of the run.
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,19 +19,28 @@ enum class FrfFileKind { csv, cutpro, universal, mat };
 /// The kind of a file of FRFs by its ending.
 [[nodiscard]] FrfFileKind frf_file_kind(const std::filesystem::path& file);
 
-/// One FRF of a file as receptance on its own axis. Errors as those of its format in io/, and InputError for a file of
-/// several FRFs of which the case does not say which (they are listed), or that does not say what it holds.
-[[nodiscard]] io::MeasuredFrf read_measured(const MeasuredFrf& measured);
+/// The FRFs of files that were read, by the file and by what is stated of it.
+using FrfFiles = std::map<std::string, io::MeasuredEntries>;
+
+/// Reads one FRF of a file as receptance on its own axis. The file is taken from `files` where it was read before, and
+/// is put there. Errors as those of its format in io/, and InputError for a file of several FRFs of which the case does
+/// not say which (they are listed), or that does not say what it holds.
+[[nodiscard]] FrfContent read_measured(const MeasuredFrf& measured, FrfFiles& files);
+/// Reads one FRF of a file by itself.
+[[nodiscard]] FrfContent read_measured(const MeasuredFrf& measured);
+
+/// The receptance that was read of the file. Throws InputError where it was not read (setup/data_files.hpp).
+[[nodiscard]] const io::MeasuredFrf& receptance_of(const MeasuredFrf& measured);
 
 /// The files of one component as an FRF matrix on `axis`: rows and columns are the DOFs that the files name; an entry
 /// that only its transpose gives is taken from there (reciprocity). Throws InputError for files that make no matrix
-/// (setup/measured_layout.hpp), DataError as read_measured() and io::resample.
+/// (setup/measured_layout.hpp) or were not read, DataError as io::resample.
 [[nodiscard]] dynamics::ResponseModel measured_response(const std::vector<MeasuredFrf>& files,
                                                         const dynamics::FrequencyAxis& axis);
 
 /// Warns of what speaks against a measured matrix: signs, reciprocity, passivity, scatter at low frequencies
 /// (dynamics/frf_checks.hpp). `whose`: "the robot's".
-void warn_of_doubts(const dynamics::ResponseModel& measured, const std::string& whose);
+void warn_if_implausible(const dynamics::ResponseModel& measured, const std::string& whose);
 
 /// Damping ratios of the reduced model's elastic modes, by rising frequency: each identified one at the mode nearest to
 /// it, `rest` at the others. Throws InputError where none is within 10 %.

@@ -9,7 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "io/frf/measured_response.hpp"
+
 namespace thinwall::setup {
+
+/// The FRF that a file gives where a set-up names it, with the signs of the DOFs that the set-up says.
+struct FrfContent {
+  io::MeasuredFrf frf;                ///< receptance on its own axis
+  std::vector<std::string> notes;     ///< what was odd in the file, was filled in, or turned
+  std::vector<std::string> warnings;  ///< where file and set-up disagree
+};
 
 /// One measured FRF in a file, converted by io/ to receptance.
 struct MeasuredFrf {
@@ -22,7 +31,7 @@ struct MeasuredFrf {
   std::optional<int> record;      ///< number of the FRF in the file, from 1; none: its only one
   std::optional<double> noise{};  ///< standard deviation of real and imaginary part alike, relative to |H|
   std::optional<int> averages{};  ///< that the file's coherence belongs to, in place of `noise`
-  std::string sha256 = {};        ///< checksum of the file (setup/file_stamps.hpp); empty: not known
+  std::shared_ptr<const FrfContent> content = {};  ///< what the file holds, once it is read (setup/data_files.hpp)
 };
 
 /// An accelerometer that sat on a component while its FRFs were measured.

@@ -13,7 +13,7 @@ namespace {
 
 /// The file's coherence on `axis`; throws unless there is one that a noise follows from.
 Eigen::VectorXd coherence_of(const MeasuredFrf& file, const dynamics::FrequencyAxis& axis) {
-  Eigen::VectorXd coherence = io::coherence_on(read_measured(file), axis);
+  Eigen::VectorXd coherence = io::coherence_on(receptance_of(file), axis);
   if (coherence.size() == 0) {
     throw core::InputError("\"" + file.file.string() +
                            "\" has no coherence: give noise in place of averages, or a file with coherence");
@@ -81,7 +81,7 @@ bool any_noise(const std::vector<MeasuredFrf>& files) {
 
 std::string fault_of_coherence(const MeasuredFrf& file) {
   try {
-    const io::MeasuredFrf frf = read_measured(file);
+    const io::MeasuredFrf& frf = receptance_of(file);
     const Eigen::VectorXd coherence = coherence_of(file, frf.axis);
     Eigen::Index line = 0;
     if (coherence.minCoeff(&line) > 0.0 && coherence.maxCoeff() <= 1.0) return "";

@@ -11,8 +11,8 @@
 namespace thinwall::setup {
 
 /// Standard deviation of one file's FRF `H` (its values on `axis`): `noise` times |H|, or by the file's coherence and
-/// `averages`; none where the case gives neither. Throws InputError for averages of a file without coherence, DataError
-/// as read_measured() and io::coherence_on().
+/// `averages`; none where the case gives neither. Throws InputError for averages of a file without coherence or a file
+/// that was not read, DataError as io::coherence_on().
 [[nodiscard]] std::optional<Eigen::VectorXd> deviation_of(const MeasuredFrf& file, const dynamics::FrequencyAxis& axis,
                                                           const Eigen::VectorXcd& H);
 
@@ -24,7 +24,8 @@ namespace thinwall::setup {
 /// True if the case states the noise of one of them.
 [[nodiscard]] bool any_noise(const std::vector<MeasuredFrf>& files);
 
-/// Why `averages` of this file tell no noise: no coherence, or one of 0 at some line; empty if they do. Reads the file.
+/// The reason why `averages` of this file, which was read, tell no noise: no coherence, or one of 0 at some line; empty
+/// if they do.
 [[nodiscard]] std::string fault_of_coherence(const MeasuredFrf& file);
 
 }  // namespace thinwall::setup

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/words.hpp"
+#include "dynamics/modal_table.hpp"
 #include "robot/serial_arm.hpp"
 #include "robot/virtual_joints.hpp"
 #include "setup/measured_frf.hpp"
@@ -60,10 +61,10 @@ struct Robot {
   bool cross_terms = true;
   std::filesystem::path urdf, joints;  ///< that the arm was read from; empty: from the case
   PostureWish posture;
-  Eigen::Vector3d preload = Eigen::Vector3d::Zero();  ///< N, on the tip
-  std::vector<Eigen::Vector3d> workspace;             ///< places of the tip, m
-  std::vector<Sensor> sensors = {};                   ///< during all of `measured`
-  std::string table_sha256 = {};                      ///< checksum of the table (setup/file_stamps.hpp)
+  Eigen::Vector3d preload = Eigen::Vector3d::Zero();             ///< N, on the tip
+  std::vector<Eigen::Vector3d> workspace;                        ///< places of the tip, m
+  std::vector<Sensor> sensors = {};                              ///< during all of `measured`
+  std::shared_ptr<const dynamics::ModalTable> table_modes = {};  ///< of the table, once it is read
 };
 
 }  // namespace thinwall::setup

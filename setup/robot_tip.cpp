@@ -43,17 +43,16 @@ dynamics::ResponseModel measured_tip(const Robot& robot, const dynamics::Frequen
   dynamics::ResponseModel tip =
       robot.measured.size() > 1
           ? measured_response(robot.measured, axis)
-          : robot::measured_receptance(axis, io::resample(read_measured(robot.measured.front()), axis), robot.point,
+          : robot::measured_receptance(axis, io::resample(receptance_of(robot.measured.front()), axis), robot.point,
                                        robot.direction);
   return without_sensors(std::move(tip), robot.sensors, "the robot's");
 }
 
 /// The tip's part of the table, its axes turned into the part's.
 dynamics::ModalModel tabled_tip(const Robot& robot) {
-  const io::ModalTableFormat format{
-      io::modal_unit(robot.left_unit), io::modal_unit(robot.right_unit), {{robot.table_point, {0.0}}}};
-  dynamics::ModalModel tip =
-      robot::modal_model(robot::at_point(io::read_modal_table(robot.table, format), robot.table_point));
+  if (!robot.table_modes)
+    throw core::InputError("\"" + robot.table.string() + "\" was not read; call setup::read_data_files()");
+  dynamics::ModalModel tip = robot::modal_model(robot::at_point(*robot.table_modes, robot.table_point));
   if (!robot.cross_terms) tip = robot::without_cross_terms(tip);
   for (dynamics::Dof& dof : tip.dofs) {
     dof.point = robot.point;
@@ -142,6 +141,12 @@ std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list) {
   for (const TipMode& m : list)
     modes.push_back(robot::one_mode(m.frequency_hz, m.damping_ratio, m.stiffness, m.direction));
   return modes;
+}
+
+dynamics::ModalTable read_table_of_modes(const Robot& robot) {
+  const io::ModalTableFormat format{
+      io::modal_unit(robot.left_unit), io::modal_unit(robot.right_unit), {{robot.table_point, {0.0}}}};
+  return io::read_modal_table(robot.table, format);
 }
 
 robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis) {

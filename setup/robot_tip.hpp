@@ -23,7 +23,11 @@ struct RobotPosture {
 /// The modes of a robot's tip or a tool's, as the case lists them. Errors as robot::one_mode().
 [[nodiscard]] std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list);
 
-/// The tip at any posture, by the model that the case names. Measured receptances are put on `axis`.
+/// The modes of the file that robot.table names. Errors as io::modal_unit() and io::read_modal_table().
+[[nodiscard]] dynamics::ModalTable read_table_of_modes(const Robot& robot);
+
+/// The tip at any posture, by the model that the case names. Measured receptances are put on `axis`. Throws InputError
+/// for a table of modes or an FRF that was not read.
 [[nodiscard]] robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis);
 
 /// The posture of the set-up's robot: its joints by the case's word, or by inverse kinematics for the place of its tip,

@@ -7,7 +7,7 @@
 #include "setup/contact.hpp"
 #include "setup/contact_model.hpp"
 #include "setup/cutting.hpp"
-#include "setup/file_stamps.hpp"
+#include "setup/data_files.hpp"
 #include "setup/fit.hpp"
 #include "setup/graded_mesh.hpp"
 #include "setup/imported_part.hpp"

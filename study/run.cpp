@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/messages.hpp"
+#include "setup/data_files.hpp"
 #include "setup/measured.hpp"
 #include "setup/milling_process.hpp"
 #include "study/error_budget.hpp"
@@ -146,9 +147,9 @@ void run_responses(Checkpoint& kept, const setup::Setup& work, Results& results,
     results.survey = survey(survey_input(work), tip_report(*results.robot_posture, *results.robot));
     if (results.survey->tips.empty()) core::warn("the robot reaches no place of its workspace");
   }
-  if (!work.measured_part.empty()) setup::warn_of_doubts(results.part->response, "the part's");
+  if (!work.measured_part.empty()) setup::warn_if_implausible(results.part->response, "the part's");
   if (work.robot && work.robot->model == setup::RobotModel::measured)
-    setup::warn_of_doubts(results.robot->response, "the robot's");
+    setup::warn_if_implausible(results.robot->response, "the robot's");
   if (part && work.robot && !work.contacts.empty()) run_coupling(kept, work, results, stages);
   stages.begin("error budget");
   try {
@@ -228,6 +229,7 @@ void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoi
 
 Results run(const setup::Setup& setup, const setup::Variation& variation, Kept& kept, const RunOptions& options) {
   require_chart_of(setup, options.points);
+  setup::tell_of_data_files(setup);
   Stages stages(options.on_stage);
   Results results;
   setup::VariedSetup work{setup, {}};

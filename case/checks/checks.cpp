@@ -118,7 +118,7 @@ void check_measured(const std::string& key, const setup::MeasuredFrf& frf, Findi
   std::error_code ignored;
   if (!frf.file.empty() && !std::filesystem::is_regular_file(frf.file, ignored)) {
     findings.report(key + ".file", "there is no file \"" + frf.file.string() + "\"");
-  } else if (frf.averages) {
+  } else if (frf.averages && frf.content) {
     if (const std::string fault = setup::fault_of_coherence(frf); !fault.empty())
       findings.report(key + ".averages", fault);
   }

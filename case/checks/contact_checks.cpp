@@ -98,6 +98,7 @@ void try_contact(const Case& source, const std::string& key, const setup::Contac
                                                           : "there is no file \"" + contact.table.string() + "\"");
     return;
   }
+  if (contact.model == setup::ContactModel::table && !contact.rows) return;  // a fault of the file was reported
   std::vector<double> numbers{setup::preload_of(source, contact).value_or(0.0), contact.loss_factor};
   const coupling::Elastic surface =
       contact.surface ? *contact.surface

@@ -58,6 +58,10 @@ void check_parameter(const Case& source, setup::FitOf on, const std::string& key
   }
   require_effect(on, key, parameter, findings);
   if (unread_stiffness(source, key, parameter, findings)) return;
+  if (parameter.key.ends_with(".record")) {
+    findings.report(key + ".key", "says how a file is read, which happens once, before a fit; fit another number");
+    return;
+  }
   const Key* described = find_key(case_schema(), pattern_of(case_schema(), parameter.key));
   for (const auto* bound : {".lower", ".upper"}) {
     const CaseValue* written = find(source.values, key + bound);

@@ -80,7 +80,7 @@ double mean_stiffness(const ContactGrid& grid) {
   for (const CutElement& e : grid.elements)
     weight.segment(e.first_node, e.nodes) = core::gauss_legendre(e.nodes).weight * (e.to_rad - e.from_rad);
   Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
-  for (const Contact& c : grid.contacts) mean += weight(c.node) / grid.period_rad * c.force * c.chip.transpose();
+  for (const EdgeContact& c : grid.contacts) mean += weight(c.node) / grid.period_rad * c.force * c.chip.transpose();
   return mean.norm();
 }
 

@@ -165,7 +165,7 @@ std::vector<Eigen::Matrix3cd> directional_harmonics(const MillingProcess& proces
   const int elements = static_cast<int>(std::ceil(longest_stretch_rad(process) * fastest / 8.0));
   const ContactGrid grid = contact_grid(process, Eigen::Matrix3d::Identity(), {elements, 16});
   std::vector<Eigen::Matrix3cd> harmonics(static_cast<std::size_t>(highest) + 1, Eigen::Matrix3cd::Zero());
-  for (const Contact& c : grid.contacts) {
+  for (const EdgeContact& c : grid.contacts) {
     const auto e = std::find_if(grid.elements.begin(), grid.elements.end(),
                                 [&](const CutElement& x) { return c.node < x.first_node + x.nodes; });
     const double share =

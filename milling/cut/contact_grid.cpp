@@ -72,7 +72,7 @@ struct Regeneration {
 };
 
 /// Adds as many contacts as D has rank, for each of them is a row and a column of the loop's gain.
-void add_by_rank(const Regeneration& one, int node, std::vector<Contact>& contacts) {
+void add_by_rank(const Regeneration& one, int node, std::vector<EdgeContact>& contacts) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(one.D, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d& size = svd.singularValues();
   for (int k = 0; k < 3 && size(k) > 1e-13 * size(0); ++k) {
@@ -84,7 +84,7 @@ void add_by_rank(const Regeneration& one, int node, std::vector<Contact>& contac
 
 /// A contact for each direction, whatever the number of delays.
 void add_by_direction(const std::vector<Regeneration>& all, const Eigen::Matrix3Xd& directions, int node,
-                      std::vector<Contact>& contacts) {
+                      std::vector<EdgeContact>& contacts) {
   Eigen::Matrix3d now = Eigen::Matrix3d::Zero();
   std::map<std::pair<int, bool>, Eigen::Matrix3d> before;
   double size = 0.0;  // so that what a contact sees is a displacement

@@ -30,7 +30,7 @@ struct Past {
 ///     f(t_node) = −w Σ force · c,      c = chipᵀ q(t_node) − Σ chip_pastᵀ q(past)      over the node's contacts
 ///
 /// The matrices are means over the depth if the heights of an edge differ, by helix or envelope.
-struct Contact {
+struct EdgeContact {
   int node = 0;
   Eigen::Vector3d force;  ///< N/m²
   Eigen::Vector3d chip;   ///< of unit size where the node has one delay, below it where it has several
@@ -42,7 +42,7 @@ struct ContactGrid {
   double period_rad = 0.0;  ///< after which the cut repeats itself
   std::vector<CutElement> elements;
   Eigen::VectorXd node_rad;
-  std::vector<Contact> contacts;
+  std::vector<EdgeContact> contacts;
   bool one_delay = true;  ///< every past is the same node, one period ago
 };
 

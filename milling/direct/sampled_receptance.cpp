@@ -152,7 +152,7 @@ class Harmonics {
       const double omega = (theta + 2.0 * pi * k) / period;
       const Eigen::VectorXcd moments = share_of(omega, highest_) * node_moments(grid_, rules_, seconds_per_rad_, omega);
       for (Index j = 0; j < contacts; ++j) {
-        const Contact& c = grid_.contacts[static_cast<std::size_t>(j)];
+        const EdgeContact& c = grid_.contacts[static_cast<std::size_t>(j)];
         force.col(j) = moments(c.node) * c.force;
         seen.row(j) = std::polar(1.0, omega * grid_.node_rad(c.node) * seconds_per_rad_) * c.chip.transpose();
       }

@@ -45,7 +45,7 @@ Eigen::MatrixXd static_force(const FedCut& given, const ContactGrid& grid) {
 Eigen::VectorXd seen(const ContactGrid& grid, const Eigen::Matrix3Xd& q) {
   Eigen::VectorXd c(static_cast<Index>(grid.contacts.size()));
   for (Index k = 0; k < c.size(); ++k) {
-    const Contact& contact = grid.contacts[static_cast<std::size_t>(k)];
+    const EdgeContact& contact = grid.contacts[static_cast<std::size_t>(k)];
     c(k) = contact.chip.dot(q.col(contact.node));
     for (const Past& past : contact.past) c(k) -= past.chip.dot(q.col(past.node));
   }
@@ -66,7 +66,7 @@ void add_regeneration(const FedCut& given, const ContactGrid& grid, Eigen::Matri
     throw core::NumericalError("forced vibration: the modulation of the chips at " + std::to_string(rpm) +
                                " rpm was not found, the cut is on a fold; move the operating point");
   for (Index k = 0; k < c.size(); ++k) {
-    const Contact& contact = grid.contacts[static_cast<std::size_t>(k)];
+    const EdgeContact& contact = grid.contacts[static_cast<std::size_t>(k)];
     force.col(contact.node) -= given.depth_m * c(k) * contact.force;
   }
 }

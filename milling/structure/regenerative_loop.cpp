@@ -98,20 +98,20 @@ class ModeHistory {
   std::vector<std::shared_ptr<const ModeMoments>> moments_;  ///< of each element
 };
 
-/// The displacement of a node that a contact sees: chipᵀ q.
-struct Seen {
+/// The share of a node's displacement q in the chip of a contact: chipᵀ q.
+struct ChipTerm {
   Index row;
   Eigen::Vector3d chip;
 };
 
-/// Which contacts see a node in this period (their own, less the past within it), and in the next one.
-struct Sight {
-  std::vector<std::vector<Seen>> now, before;  ///< of each node
+/// The contacts in whose chips a node counts: of this period (its own, less the past within it), and of the next one.
+struct ChipTerms {
+  std::vector<std::vector<ChipTerm>> now, before;  ///< of each node
 };
 
-Sight sight(const ContactGrid& grid) {
+ChipTerms chip_terms(const ContactGrid& grid) {
   const auto nodes = static_cast<std::size_t>(grid.node_rad.size());
-  Sight result{std::vector<std::vector<Seen>>(nodes), std::vector<std::vector<Seen>>(nodes)};
+  ChipTerms result{std::vector<std::vector<ChipTerm>>(nodes), std::vector<std::vector<ChipTerm>>(nodes)};
   for (std::size_t k = 0; k < grid.contacts.size(); ++k) {
     const auto row = static_cast<Index>(k);
     result.now[static_cast<std::size_t>(grid.contacts[k].node)].push_back({row, grid.contacts[k].chip});
@@ -126,29 +126,29 @@ Sight sight(const ContactGrid& grid) {
   return result;
 }
 
-/// The motion of the modes at a node as the contacts there see it: `flow` e^{λt}, and `forced`, the motion by unit
-/// forces at all contacts, poles × contacts.
-void add_motion(const RelativeStructure& structure, const std::vector<Seen>& seen, const Eigen::VectorXcd& flow,
+/// The motion of the modes at a node in the chips of the contacts there: `flow` e^{λt}, and `forced`, the motion by
+/// unit forces at all contacts, poles × contacts.
+void add_motion(const RelativeStructure& structure, const std::vector<ChipTerm>& terms, const Eigen::VectorXcd& flow,
                 const Eigen::MatrixXcd& forced, const Eigen::VectorXd& share, Eigen::MatrixXd& E, Eigen::MatrixXd& K) {
   const Index poles = flow.size();
-  for (const Seen& s : seen) {
-    const Eigen::RowVectorXcd shape = s.chip.transpose() * structure.phi;
+  for (const ChipTerm& term : terms) {
+    const Eigen::RowVectorXcd shape = term.chip.transpose() * structure.phi;
     const Eigen::RowVectorXcd free = shape.cwiseProduct(flow.transpose());
-    E.row(s.row).head(poles) += free.real();
-    E.row(s.row).tail(poles) += free.imag();
+    E.row(term.row).head(poles) += free.real();
+    E.row(term.row).tail(poles) += free.imag();
     // A mode and its conjugate together move by twice the real part; a real pole has half a share.
-    K.row(s.row) += 2.0 * (shape.cwiseProduct(share.transpose()) * forced).real();
+    K.row(term.row) += 2.0 * (shape.cwiseProduct(share.transpose()) * forced).real();
   }
 }
 
 /// Adds the static residual R: a contact's force moves its own node at once, and no other.
 void add_residual(const RelativeStructure& structure, const ContactGrid& grid,
-                  const std::vector<std::vector<Seen>>& seen, Eigen::MatrixXd& K) {
+                  const std::vector<std::vector<ChipTerm>>& terms, Eigen::MatrixXd& K) {
   if (structure.R.isZero(0.0)) return;
   for (Index l = 0; l < K.cols(); ++l) {
-    const Contact& from = grid.contacts[static_cast<std::size_t>(l)];
+    const EdgeContact& from = grid.contacts[static_cast<std::size_t>(l)];
     const Eigen::Vector3d motion = structure.R * from.force;
-    for (const Seen& s : seen[static_cast<std::size_t>(from.node)]) K(s.row, l) += s.chip.dot(motion);
+    for (const ChipTerm& term : terms[static_cast<std::size_t>(from.node)]) K(term.row, l) += term.chip.dot(motion);
   }
 }
 
@@ -219,20 +219,20 @@ RegenerativeLoop regenerative_loop(const RelativeStructure& structure, const Con
     return forced;
   };
   // Node by node, since the motion of all modes at a node serves all contacts that look at it.
-  const Sight seen = sight(grid);
+  const ChipTerms terms = chip_terms(grid);
   for (int node = 0; node < static_cast<int>(grid.node_rad.size()); ++node) {
     const Eigen::VectorXcd flow = history.flow(grid.node_rad(node));
     const Eigen::MatrixXcd forced = forced_by_contacts(history.at_node(node));
     const auto i = static_cast<std::size_t>(node);
-    add_motion(structure, seen.now[i], flow, forced, loop.share, loop.E, loop.K);
+    add_motion(structure, terms.now[i], flow, forced, loop.share, loop.E, loop.K);
     if (!grid.one_delay)
-      add_motion(structure, seen.before[i], flow, forced, loop.share, loop.E_previous, loop.K_previous);
+      add_motion(structure, terms.before[i], flow, forced, loop.share, loop.E_previous, loop.K_previous);
   }
   const Eigen::MatrixXcd L = forced_by_contacts(history.at_end());
   loop.L.resize(2 * poles, contacts);
   loop.L << L.real(), L.imag();
-  add_residual(structure, grid, seen.now, loop.K);
-  if (!grid.one_delay) add_residual(structure, grid, seen.before, loop.K_previous);
+  add_residual(structure, grid, terms.now, loop.K);
+  if (!grid.one_delay) add_residual(structure, grid, terms.before, loop.K_previous);
   return loop;
 }
 

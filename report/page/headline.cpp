@@ -212,7 +212,7 @@ std::vector<std::string> sentences(const json& summary) {
     list.push_back(sentence(subject(*charts.front().chart, summary), charts));
   }
   for (const json& point : summary.value("operating_points", json::array())) list.push_back(point_sentence(point));
-  for (const json& said : summary.value("sentences", json::array())) list.push_back(said.get<std::string>());
+  for (const json& sentence : summary.value("sentences", json::array())) list.push_back(sentence.get<std::string>());
   if (const std::string routes = routes_sentence(summary); !routes.empty()) list.push_back(routes);
   return list;
 }

@@ -36,7 +36,7 @@ milling::SampledReceptance measured_tip(const std::vector<setup::MeasuredFrf>& f
   milling::SampledReceptance tip{axis.hz, {}};
   tip.H.assign(static_cast<std::size_t>(axis.size()), Eigen::Matrix3cd::Zero());
   for (const setup::MeasuredFrf& file : files) {
-    const Eigen::VectorXcd H = io::resample(setup::read_measured(file), axis);
+    const Eigen::VectorXcd H = io::resample(setup::receptance_of(file), axis);
     const int i = direction_of_dof(file.response);
     const int j = direction_of_dof(file.force);
     const bool reverse_given = gives_reverse(files, file);
@@ -49,7 +49,7 @@ milling::SampledReceptance measured_tip(const std::vector<setup::MeasuredFrf>& f
   return tip;
 }
 
-void warn_of_doubts(const milling::SampledReceptance& tip, const std::string& whose) {
+void warn_if_implausible(const milling::SampledReceptance& tip, const std::string& whose) {
   if (const auto doubt = milling::energy_given(tip)) {
     core::warn(fmt::format(
         "{3} FRF along {0}{0} gives energy at {1:.1f} Hz (its imaginary part is {2:.2f} of its size and positive, a "
@@ -77,7 +77,7 @@ milling::SampledReceptance swapped(const setup::CutSetup& source) {
     core::warn(fmt::format(
         "the tool swap lost more than half of its digits (condition {:.1e} at {:.1f} Hz): expect errors there",
         result.worst_condition, result.at_frequency_hz));
-  warn_of_doubts(result.tip, "the swapped tool's");
+  warn_if_implausible(result.tip, "the swapped tool's");
   return std::move(result.tip);
 }
 
@@ -113,7 +113,7 @@ milling::SampledStructure sampled_structure(const setup::CutSetup& source, const
   milling::SampledReceptance felt{coupled.axis.hz, {}};
   felt.H.reserve(at_cut.H.size());
   for (const Eigen::MatrixXcd& H : at_cut.H) felt.H.emplace_back(D * H * D.transpose());
-  warn_of_doubts(felt, "the supported part's");
+  warn_if_implausible(felt, "the supported part's");
   if (source.tool->swap) throw core::InputError("a swapped tool has lines of its own; give the tool by modes");
   std::optional<milling::RelativeStructure> tool;
   if (!source.tool->measured.empty()) {
@@ -131,8 +131,8 @@ CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFra
   if (source.tool->swap) return milling::SampledStructure{in_tool_axes(swapped(source), frame), modal};
   if (!source.tool->measured.empty()) {
     milling::SampledReceptance tip =
-        measured_tip(source.tool->measured, setup::read_measured(source.tool->measured.front()).axis);
-    warn_of_doubts(tip, "the tool's");
+        measured_tip(source.tool->measured, setup::receptance_of(source.tool->measured.front()).axis);
+    warn_if_implausible(tip, "the tool's");
     return milling::SampledStructure{in_tool_axes(std::move(tip), frame), modal};
   }
   if (!modal) throw core::InputError("lobes need something that moves: a part, tool.modes or tool.measured");

@@ -33,7 +33,7 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::SampledSt
 /// Part and tool together; `frame` is the cut's, `part` must hold the point that is cut, null: a rigid part. Samples
 /// lie on the lines of the first measured file; what speaks against them is logged as a warning: a driving point that
 /// gives energy, the highest resonance with fewer than two lines in half its width. Throws InputError if nothing moves,
-/// DataError as io::read_frf and io::resample.
+/// DataError as io::resample.
 [[nodiscard]] CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                          const dynamics::ModalModel* part);
 

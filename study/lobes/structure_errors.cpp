@@ -34,7 +34,7 @@ milling::SampleCovariance tip_covariance(const std::vector<setup::MeasuredFrf>& 
   milling::SampleCovariance covariance;
   for (const setup::MeasuredFrf& file : files) {
     if (!file.noise && !file.averages) continue;
-    const Eigen::VectorXd sigma = *setup::deviation_of(file, axis, io::resample(setup::read_measured(file), axis));
+    const Eigen::VectorXd sigma = *setup::deviation_of(file, axis, io::resample(setup::receptance_of(file), axis));
     const Index i = direction_of_dof(file.response), j = direction_of_dof(file.force);
     Eigen::Vector<double, 9> felt = Eigen::Vector<double, 9>::Unit(i + 3 * j);
     if (!gives_reverse(files, file)) felt(j + 3 * i) = 1.0;

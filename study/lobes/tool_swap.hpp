@@ -17,7 +17,7 @@ struct SwappedTip {
 
 /// Both tools as free beams (fem/beam.hpp), held alike: only tools differ. On the lines of the first file. Throws
 /// InputError for a second point beyond the overhang, FRFs that are missing (named), and as coupling::tool_swap();
-/// DataError as read_measured() and io::resample(); NumericalError where the holder is not known at some line.
+/// DataError as io::resample(); NumericalError where the holder is not known at some line.
 [[nodiscard]] SwappedTip swapped_tip(const setup::CutSetup& source);
 
 }  // namespace thinwall::study

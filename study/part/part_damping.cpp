@@ -37,7 +37,7 @@ dynamics::SpatialModel damped(const setup::Damping& damping, const dynamics::Spa
   if (damping.model == setup::DampingModel::structural)
     return reduction::with_structural_damping(reduced, damping.loss_factor);
   if (!damping.from_frf) return reduction::with_modal_damping(reduced, damping.ratios, damping.ratio);
-  const io::MeasuredFrf frf = setup::read_measured(*damping.from_frf);
+  const io::MeasuredFrf& frf = setup::receptance_of(*damping.from_frf);
   identified = reduction::identify_modes(frf.axis, frf.H);
   return reduction::with_modal_damping(reduced, setup::matched_ratios(reduced, identified, damping.ratio),
                                        damping.ratio);

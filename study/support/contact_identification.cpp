@@ -130,7 +130,7 @@ dynamics::ResponseModel assembly_response(const std::vector<setup::MeasuredFrf>&
     return setup::point_of(file.response) == setup::point_of(file.force);
   });
   for (const setup::MeasuredFrf& file : files) {
-    frfs.push_back(setup::read_measured(file));
+    frfs.push_back(setup::receptance_of(file));
     add_name(responses, file.response);
     add_name(one_point ? responses : forces, file.force);
   }
@@ -154,7 +154,7 @@ dynamics::ResponseModel assembly_response(const std::vector<setup::MeasuredFrf>&
 
 ContactIdentification identify_contact(const setup::Contact& contact, const Component& part, const Component& robot) {
   const dynamics::ResponseModel assembly = assembly_response(contact.measured, part.response.axis);
-  setup::warn_of_doubts(assembly, "the assembly's");
+  setup::warn_if_implausible(assembly, "the assembly's");
   const Eigen::VectorXd& hz = assembly.axis.hz;
   const auto lines = lines_within(part.response.axis, hz(0), hz(hz.size() - 1));
   coupling::Contact joined{contact.part_point, contact.robot_point, {}, {}};

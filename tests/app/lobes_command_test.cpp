@@ -123,6 +123,7 @@ TEST_F(LobesCommand, TheResolvedCaseOfAnFrfCanBeRunAgain) {
   const Case again = read_case(temporary.path / "results" / "case.resolved.toml");
   ASSERT_EQ(again.tool->measured.size(), 1U);
   EXPECT_EQ(again.lobes->count, 2);
+  EXPECT_EQ(read_case(temporary.path / "results" / "case.toml").tool->measured[0].file, temporary.path / "tip.csv");
   ASSERT_EQ(lobes({path("results") + "/case.resolved.toml"}).code, 0);
   EXPECT_EQ(summary()["lobes"][0]["minimum_depth_m"].get<double>(), depth);
 }
@@ -136,6 +137,27 @@ TEST_F(LobesCommand, EntriesOfTheFrfMatrixAreNamedBeforeTheFile) {
   EXPECT_EQ(source.tool->measured[1].response, "tool.y");
   EXPECT_EQ(source.tool->measured[1].force, "tool.x");
   EXPECT_EQ(source.name, "tip");
+}
+
+TEST_F(LobesCommand, WhatMovesIsPutBehindTheToolsOwnAndTakesSet) {
+  write("own.toml", tool_toml +
+                        "[[tool.modes]]\nfrequency = \"400 Hz\"\ndamping_ratio = 0.02\nstiffness = \"2e6 N/m\"\n"
+                        "direction = \"y\"\n");
+  write("modes.csv", "frequency_hz,damping_ratio,stiffness,direction\n922.1,0.011,1.3e6,-x\n1300,0.012,2.1e6,y\n");
+  const Case source =
+      lobes_case({{path("modes.csv")}, path("own.toml"), {"tool.modes[2].stiffness=3e6 N/m"}, "", "", ""});
+  const auto& modes = source.tool->modes;
+  ASSERT_EQ(modes.size(), 3U);
+  EXPECT_EQ(modes[0].frequency_hz, 400.0);
+  EXPECT_EQ(modes[1].frequency_hz, 922.1) << "to the last bit";
+  EXPECT_EQ(modes[1].damping_ratio, 0.011);
+  EXPECT_EQ(modes[1].stiffness, 1.3e6);
+  EXPECT_EQ(modes[1].direction, -Eigen::Vector3d::UnitX());
+  EXPECT_EQ(modes[2].stiffness, 3e6);
+  write("whole.toml", source.source);
+  const Case again = read_case(temporary.path / "whole.toml");
+  ASSERT_EQ(again.tool->modes.size(), 3U);
+  EXPECT_EQ(again.tool->modes[2].stiffness, 2.1e6) << "the text is without --set";
 }
 
 TEST_F(LobesCommand, OperatingPointsAreAnsweredFromPolesWithTheMultiplier) {
@@ -232,8 +254,11 @@ TEST_F(LobesCommand, FilesThatAreMissingOrWrongAreRefused) {
   expect_refused(lobes({path("modes.csv"), "--tool", path("absent.toml")}), 4, "absent.toml");
   expect_refused(lobes({path("absent.toml")}), 3, "no case");
   expect_refused(lobes({path("tool.toml")}), 3, "a case holds a part");
-  expect_refused(frf(path("tip.csv"), {}, "mobility", "m/N"), 3, "is no unit of a mobility");
-  expect_refused(frf(path("tip.csv"), {}, "flexibility", "m/N"), 3, "none of");
+  expect_refused(frf(path("tip.csv"), {}, "mobility", "m/N"), 3, "tool.toml: --unit: \"m/N\" is no unit of a mobility");
+  expect_refused(frf(path("tip.csv"), {}, "flexibility", "m/N"), 3,
+                 "tool.toml: --quantity: \"flexibility\" is none of");
+  expect_refused(frf(path("tip.csv"), {"y=" + path("tip.csv")}, "flexibility", "m/N"), 3, "--quantity: ");
+  expect_refused(frf(path("tip.csv"), {"--frequency-unit", "rpm"}), 3, "--frequency-unit: \"rpm\" is none of");
   expect_refused(frf(path("tip.csv"), {"x=" + path("tip.csv")}), 3, "the same entry");
   write_frf("narrow.csv", 0, 1.0, 1200.0);
   expect_refused(frf(path("narrow.csv")), 3, "the harmonic at");

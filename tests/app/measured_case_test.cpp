@@ -277,8 +277,8 @@ TEST(MeasuredCase, AFileIsNotReadAsSomethingElseThanItSays) {
   const auto stated = [&](const std::string& quantity, const std::string& unit, const std::string& frequency) {
     return MeasuredFrf{"R.x", "R.x", folder.path / "tip.uff", quantity, unit, frequency, 1};
   };
-  const Eigen::VectorXcd H = read_measured(stated("", "", "Hz")).H;
-  EXPECT_EQ(read_measured(stated("receptance", "m/N", "Hz")).H, H);
+  const Eigen::VectorXcd H = read_measured(stated("", "", "Hz")).frf.H;
+  EXPECT_EQ(read_measured(stated("receptance", "m/N", "Hz")).frf.H, H);
   const auto expect_refused = [&](const MeasuredFrf& frf, const std::string& part) {
     try {
       (void)read_measured(frf);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "case/numbers.hpp"
@@ -14,6 +15,7 @@
 #include "core/error.hpp"
 #include "coupling/hertz_contact.hpp"
 #include "setup/contact_model.hpp"
+#include "setup/measured.hpp"
 #include "setup/path.hpp"
 #include "study/support/contact_identification.hpp"
 #include "study/support/support_stage.hpp"
@@ -238,7 +240,9 @@ TEST(ContactCase, AnAssemblyIsReadWhereAllItsFilesReach) {
   core::write_file_atomically(folder.path / "low.csv", "10,1,0\n20,2,0\n30,3,0\n40,4,0\n");
   core::write_file_atomically(folder.path / "high.csv", "20,5,0\n30,6,0\n40,7,0\n50,8,0\n");
   const auto file = [&](const char* response, const char* force, const char* name) {
-    return MeasuredFrf{response, force, folder.path / name, "receptance", "m/N", "Hz", {}};
+    MeasuredFrf frf{response, force, folder.path / name, "receptance", "m/N", "Hz", {}};
+    frf.content = std::make_shared<const FrfContent>(read_measured(frf));
+    return frf;
   };
   const dynamics::FrequencyAxis axis = dynamics::linear_axis(10.0, 60.0, 6);
   const auto G = assembly_response(

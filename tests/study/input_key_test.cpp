@@ -8,7 +8,7 @@
 #include <limits>
 #include <set>
 
-#include "setup/file_stamps.hpp"
+#include "setup/data_files.hpp"
 #include "setup/imported_part.hpp"
 #include "study/kept/stage_keys.hpp"
 #include "tests/io/scratch_folder.hpp"
@@ -204,53 +204,41 @@ setup::Setup full_setup() {
   return source;
 }
 
-/// Calls `found` with every path below a value. Shared values are those of parts, which are held and not read again.
-template <class T>
-void each_path(T& value, const std::function<void(std::filesystem::path&)>& found) {
-  if constexpr (std::is_same_v<T, std::filesystem::path>) {
-    found(value);
-  } else if constexpr (is_number<T> || std::is_enum_v<T> || std::is_same_v<T, std::monostate> ||
-                       std::is_same_v<T, std::string> || is_a<T, std::complex> || is_a<T, std::shared_ptr> ||
-                       std::is_same_v<T, std::vector<bool>> || is_a<T, std::pair> || DenseMatrix<T> || is_sparse<T> ||
-                       is_frame<T> || is_box<T>) {
-  } else if constexpr (is_a<T, std::optional>) {
-    if (value) each_path(*value, found);
-  } else if constexpr (is_a<T, std::vector> || requires { value.fill(value.front()); }) {
-    for (auto& item : value) each_path(item, found);
-  } else if constexpr (is_a<T, std::map>) {
-    for (auto& [name, item] : value) each_path(item, found);
-  } else if constexpr (is_a<T, std::variant>) {
-    std::visit([&](auto& held) { each_path(held, found); }, value);
-  } else {
-    std::apply([&](auto&... member) { (each_path(member, found), ...); }, core::fields_of(value));
-  }
-}
-
 /// What a file holds stands in the keys, and not only its name.
 TEST_F(InputKeyOfFiles, AChangedFileChangesTheKeyWhereverItIsNamed) {
   setup::Setup source = full_setup();
-  source.robot->urdf.clear();  // the set-up holds what these said
-  source.robot->joints.clear();
-  std::vector<std::filesystem::path> files;
-  const auto name_one = [&](std::filesystem::path& path) {
-    if (path.empty()) return;
-    path = write("file_" + std::to_string(files.size()) + ".csv", "1");
-    files.push_back(path);
+  source.contacts.front().model = setup::ContactModel::table;
+  source.robot->model = setup::RobotModel::modal_table;
+  source.robot->left_unit = source.robot->right_unit = "sqrt(s/kg)";
+  source.robot->table_point = "1";
+  std::vector<std::pair<std::filesystem::path, std::string>> files;  // with "1e-6" in each, which is then changed
+  const auto name_one = [&](std::filesystem::path& path, const std::string& text) {
+    path = write("file_" + std::to_string(files.size()) + ".csv", text);
+    files.emplace_back(path, text);
   };
-  each_path(source.damping, name_one);
-  each_path(base<setup::MeasuredPart>(source), name_one);
-  each_path(base<setup::SupportSetup>(source), name_one);
-  each_path(base<setup::CutSetup>(source), name_one);
-  EXPECT_GE(files.size(), 8U) << "FRFs of part, damping, contact, robot and tool, two tables";
+  for (setup::MeasuredFrf* frf : setup::measured_frfs(source)) {
+    name_one(frf->file, "1,1e-6,0\n2,2e-6,0\n");
+    frf->quantity = "receptance";
+    frf->unit = "m/N";
+    frf->frequency_unit = "Hz";
+  }
+  name_one(source.contacts.front().table, "preload_n,stiffness_n_per_m,damping_n_s_per_m\n1,1e-6,0\n2,2e-6,0\n");
+  name_one(source.robot->table, "frequency_hz,damping_ratio,R_1X_re,R_1X_im,L_1X_re,L_1X_im\n50,0.01,1e-6,1,1,1\n");
+  EXPECT_EQ(files.size(), 8U) << "FRFs of part, damping, contact, robot, tool and its swap, two tables";
   const auto keys = [&] {
-    setup::stamp_files(source);
+    for (setup::MeasuredFrf* frf : setup::measured_frfs(source)) frf->content.reset();
+    source.contacts.front().rows.reset();
+    source.robot->table_modes.reset();
+    setup::read_data_files(source);
     return study::structure_key(source) + study::charts_key(source);
   };
   const std::string first = keys();
-  for (const auto& file : files) {
-    write(file.filename(), "2");
+  for (const auto& [file, text] : files) {
+    std::string other = text;
+    other.replace(other.find("1e-6"), 4, "3e-7");
+    write(file.filename(), other);
     EXPECT_NE(keys(), first) << file.filename();
-    write(file.filename(), "1");
+    write(file.filename(), text);
     EXPECT_EQ(keys(), first) << file.filename();
   }
 }

@@ -1,0 +1,84 @@
+#include "case/data_files.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "case/robot_binding.hpp"
+#include "case/urdf_arm.hpp"
+#include "core/error.hpp"
+#include "io/manifest.hpp"
+#include "setup/contact_model.hpp"
+#include "setup/data_files.hpp"
+#include "setup/robot_tip.hpp"
+
+namespace thinwall::cases {
+
+namespace {
+
+/// Reads a file by `read`; what is wrong with it is reported, in one line, at the key.
+void read_or_report(const std::string& key, Findings& findings, const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const core::Error& error) {
+    std::string text = error.what();
+    for (auto end = text.find('\n'); end != std::string::npos; end = text.find('\n', end)) text.replace(end, 1, "; ");
+    findings.report(key, text);
+  }
+}
+
+bool is_file(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(file, ignored);
+}
+
+/// The arm of a URDF, unless keys speak against it, which the checks report.
+void read_arm(Case& source, Findings& findings) {
+  setup::Robot& robot = *source.robot;
+  if (robot.urdf.empty() || robot.joints.empty() || array_size(source.values, "robot.links") > 0) return;
+  const Table table{source.values, "robot"};
+  read_or_report("robot.urdf", findings, [&] {
+    source.urdf_arm = std::make_shared<const robot::SerialArm>(
+        urdf_arm(robot.urdf, table.text("urdf_base"), table.text("urdf_tip"), robot.joints));
+    robot.arm = arm_in_place(table, *source.urdf_arm);
+  });
+}
+
+}  // namespace
+
+void read_described_files(Case& source, Findings& findings) {
+  if (source.robot && source.robot->model == setup::RobotModel::flexible_joints) read_arm(source, findings);
+  if (source.robot && source.robot->model == setup::RobotModel::modal_table && !source.robot->table.empty()) {
+    read_or_report("robot.table", findings, [&] {
+      source.robot->table_modes =
+          std::make_shared<const dynamics::ModalTable>(setup::read_table_of_modes(*source.robot));
+    });
+  }
+  for (std::size_t i = 0; i < source.contacts.size(); ++i) {
+    setup::Contact& contact = source.contacts[i];
+    if (contact.model != setup::ContactModel::table || !is_file(contact.table)) continue;
+    read_or_report(indexed("contacts", i) + ".table", findings, [&] {
+      contact.rows = std::make_shared<const coupling::ContactTable>(setup::read_contact_table(contact.table));
+    });
+  }
+}
+
+void read_data_files(Case& source) {
+  setup::read_data_files(source);
+  std::map<std::filesystem::path, std::string> checksums;  // a file may be named more than once
+  for (DataFile& file : source.data_files) {
+    const auto [place, is_new] = checksums.try_emplace(file.path);
+    if (is_new) place->second = io::sha256_of_file(file.path);
+    file.sha256 = place->second;
+  }
+}
+
+void share_data_files(Case& varied, const Case& read) {
+  setup::share_data_files(varied, read);
+  varied.data_files = read.data_files;
+  varied.urdf_arm = read.urdf_arm;
+  if (varied.robot && varied.urdf_arm) varied.robot->arm = arm_in_place({varied.values, "robot"}, *varied.urdf_arm);
+}
+
+}  // namespace thinwall::cases

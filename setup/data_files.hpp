@@ -1,0 +1,28 @@
+#pragma once
+// The files that a set-up names: each is read once, and the set-up holds what it says from then on.
+
+#include <vector>
+
+#include "setup/machining_setup.hpp"
+
+namespace thinwall::setup {
+
+/// The measured FRFs that the set-up names: of the part, its damping, the contacts, the robot and the tool.
+[[nodiscard]] std::vector<MeasuredFrf*> measured_frfs(Setup& source);
+/// The measured FRFs of a set-up that stays as it is, in the same order.
+[[nodiscard]] std::vector<const MeasuredFrf*> measured_frfs(const Setup& source);
+
+/// Reads the files that the set-up names and does not hold yet: measured FRFs, tables of contacts, the robot's table of
+/// modes, the part. A file of which several FRFs are taken is read once. No stage of study/ opens a file, so a set-up
+/// that was not read is refused there. Throws DataError, with file and line, for a file that cannot be read, and
+/// InputError as read_measured() and read_part_file(). Cost: that of reading all files.
+void read_data_files(Setup& source);
+
+/// Puts what the files of `read` hold into `varied`, the same set-up with other numbers. No file is opened.
+void share_data_files(Setup& varied, const Setup& read);
+
+/// Sends what was odd in the files of measured FRFs as messages (core/messages.hpp): what was filled in, a sensor that
+/// points the other way, axes that differ from the set-up's.
+void tell_of_data_files(const Setup& source);
+
+}  // namespace thinwall::setup
