@@ -136,9 +136,9 @@ bool softly_held(const Model& model, double bound) {
   if (free_motions(model.nodes, rows_held(model)).empty()) return false;
   Eigen::MatrixXd R = rigid_body_motions(model);
   R.rightCols<3>() += R.leftCols<3>() * cross_matrix(model.mass.centre_m);
-  const Eigen::Matrix<double, 6, 6> K = R.transpose() * (model.K * R);
-  const Eigen::Matrix<double, 6, 6> M = R.transpose() * (model.M * R);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> quotients(K, M, Eigen::EigenvaluesOnly);
+  const Eigen::MatrixXd K = R.transpose() * (model.K * R);
+  const Eigen::MatrixXd M = R.transpose() * (model.M * R);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> quotients(K, M, Eigen::EigenvaluesOnly);
   return quotients.eigenvalues().minCoeff() < bound;
 }
 
