@@ -1,10 +1,10 @@
 """Vibration and chatter of thin-walled parts in milling, with a robot that holds them.
 
-A part goes through ``box_mesh`` (or ``prism_mesh``, ``read_mesh``), ``assemble``, ``modes`` and ``craig_bampton``; it is
-joined to a robot by ``couple``, and ``lobes`` computes the stability of a cut. ``Case.load`` reads a case and ``run``
-computes it; ``read_results`` reads the result folder of a run of the program. All units are SI. Arrays are read-only,
-and views of the library's memory if their description says so. Long calls release the interpreter's lock and end with
-Ctrl-C.
+A part goes through ``box_mesh`` (or ``prism_mesh``, ``read_mesh``), ``assemble``, ``modes`` and ``craig_bampton``; it
+is joined to a robot by ``couple``, and ``lobes`` computes the stability of a cut. ``Case.load`` reads a case and
+``run`` computes it; ``read_results`` reads the result folder of a run of the program. All units are SI. Arrays are
+read-only, and views of the library's memory if their description says so. Long calls release the interpreter's lock
+and end with Ctrl-C.
 """
 
 from ._core import (

@@ -99,7 +99,8 @@ class Shape:
     points: np.ndarray
     """Positions of the nodes, (n, 3) in m."""
     displacement: np.ndarray
-    """Displacements of the nodes, (n, 3): mass-normalised for the part, kg^-1/2; with largest entry 1 for the assembly."""
+    """Displacements of the nodes, (n, 3). Those of the part are mass-normalised, kg^-1/2; those of the assembly have the
+    largest entry 1."""
 
 
 class _Files(Mapping[str, Any]):
