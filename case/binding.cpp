@@ -1,7 +1,6 @@
 #include "case/binding.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -18,15 +17,6 @@ namespace thinwall::cases {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// Any of these makes a modelled part.
-constexpr std::array geometry_keys{"part.matrices.stiffness",
-                                   "part.length",
-                                   "part.height",
-                                   "part.thickness",
-                                   "part.outline",
-                                   "part.file",
-                                   "part.shape"};
 
 int axis_index(const std::string& letter) {
   return letter == "x" ? 0 : letter == "y" ? 1 : letter == "z" ? 2 : -1;
@@ -122,11 +112,7 @@ void bind_attachments(const Table& table, setup::Part& part) {
 setup::Part bind_part(const Table& table, const std::filesystem::path& folder) {
   setup::Part part;
   part.file = bind_part_file(table, folder);
-  using setup::PartShape;
-  part.shape = table.has("shape")                ? table.choice<PartShape>("shape")
-               : table.has("matrices.stiffness") ? PartShape::matrices
-               : table.has("file")               ? setup::shape_of_file(part.file.path).value_or(PartShape::surface)
-                                                 : PartShape::box;
+  part.shape = table.choice<setup::PartShape>("shape");
   if (part.shape == setup::PartShape::prism) part.prism = bind_prism(table);
   if (const Table bend = table.table("bend"); bend.exists()) {
     part.bend = setup::Bend{bend.number("radius"), {}};
@@ -135,9 +121,11 @@ setup::Part bind_part(const Table& table, const std::filesystem::path& folder) {
   part.length = table.number("length");
   part.height = table.number("height");
   part.thickness = table.number("thickness");
-  part.length_axis = axis_index(table.text("axes.length"));
-  part.height_axis = axis_index(table.text("axes.height"));
-  part.thickness_axis = axis_index(table.text("axes.thickness"));
+  if (part.shape == setup::PartShape::box) {
+    part.length_axis = axis_index(table.text("axes.length"));
+    part.height_axis = axis_index(table.text("axes.height"));
+    part.thickness_axis = axis_index(table.text("axes.thickness"));
+  }
   const Table material = table.table("material"), mesh = table.table("mesh");
   part.material = bind_material(material);
   bind_attachments(table, part);
@@ -211,11 +199,11 @@ setup::Damping bind_damping(const Table& table, const std::filesystem::path& fol
   setup::Damping damping;
   if (!table.exists()) return damping;
   damping.model = table.choice<setup::DampingModel>("model");
-  damping.ratio = table.number("ratio");
+  damping.ratio = table.optional("ratio").value_or(0.01);
   damping.ratios = table.numbers("ratios");
-  damping.alpha = table.number("alpha");
-  damping.beta = table.number("beta");
-  damping.loss_factor = table.number("loss_factor");
+  damping.alpha = table.optional("alpha").value_or(0.0);
+  damping.beta = table.optional("beta").value_or(0.0);
+  damping.loss_factor = table.optional("loss_factor").value_or(0.0);
   if (const Table frf = table.table("from_frf"); frf.exists()) damping.from_frf = bind_measured(frf, folder);
   return damping;
 }
@@ -394,8 +382,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   Case bound;
   bound.folder = folder;
   bound.title = root.text("title");
-  const auto has = [&](const char* key) { return root.has(key); };
-  if (std::ranges::any_of(geometry_keys, has)) bound.part = bind_part(root.table("part"), folder);
+  if (root.has("part.shape")) bound.part = bind_part(root.table("part"), folder);
   bound.measured_part = bind_all_measured(root.tables("part.measured"), folder);
   bound.part_sensors = bind_sensors(root.tables("part.sensors"));
   bound.selections = bind_selections(root.table("selections"));
@@ -415,7 +402,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   bound.contacts = bind_contacts(root.tables("contacts"), folder);
   if (root.table("coupling").exists())
     bound.coupling = {root.choice<coupling::Regularisation>("coupling.regularisation"),
-                      root.number("coupling.threshold")};
+                      root.table("coupling").optional("threshold").value_or(setup::CouplingChoice{}.threshold)};
   bound.response = bind_response(root.table("response"));
   if (bound.response.points.empty()) bound.response.points = bound.reduction.interface;
   bound.updating = bind_updating(root.tables("updating"));

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "case/alternatives.hpp"
 #include "case/checks/contact_checks.hpp"
 #include "case/checks/cutting_checks.hpp"
 #include "case/checks/findings.hpp"
@@ -56,17 +57,6 @@ void check_ranges(const Case& source, Findings& findings) {
 
 void check_damping(const Case& source, Findings& findings) {
   const setup::Damping& damping = source.damping;
-  const auto belongs_to = [&](const char* key, const char* model, bool used) {
-    if (!used || damping.model == core::from_word<setup::DampingModel>(model) || findings.unreadable("damping.model"))
-      return;
-    findings.report(key, "belongs to damping.model = \"" + std::string(model) + "\", but the model is \"" +
-                             core::word_of(damping.model) + "\"");
-  };
-  belongs_to("damping.ratios", "modal", !damping.ratios.empty());
-  belongs_to("damping.from_frf.file", "modal", damping.from_frf.has_value());
-  belongs_to("damping.alpha", "rayleigh", damping.alpha != 0.0);
-  belongs_to("damping.beta", "rayleigh", damping.beta != 0.0);
-  belongs_to("damping.loss_factor", "structural", damping.loss_factor != 0.0);
   if (!damping.ratios.empty() && damping.from_frf)
     findings.report("damping.ratios", "give either damping.ratios or damping.from_frf, not both");
   if (damping.model == setup::DampingModel::rayleigh && damping.alpha == 0.0 && damping.beta == 0.0) {
@@ -280,6 +270,7 @@ void check_lobes(const Case& source, Findings& findings) {
 
 std::vector<Problem> check_case(const Case& source) {
   Findings findings{source.values, {}};
+  for (const auto& [key, text] : faults_of_alternatives(case_schema(), source.values)) findings.report(key, text);
   check_something_to_do(source, findings);
   check_part(source, findings);
   check_ranges(source, findings);

@@ -28,27 +28,6 @@ bool gives_damping(const setup::Contact& contact) {
   return std::ranges::any_of(contact.damping, [](double c) { return c > 0.0; });
 }
 
-/// Keys that another model reads than the contact's.
-void check_belongings(const std::string& key, const setup::Contact& contact, Findings& findings) {
-  const auto belongs = [&](const std::string& name, bool there, bool fits, const std::string& to) {
-    if (there && !fits)
-      findings.report(key + name, "belongs to contacts.model = " + to + ", but the model is \"" +
-                                      core::word_of(contact.model) + "\"");
-  };
-  const bool springs = contact.model == setup::ContactModel::springs,
-             table = contact.model == setup::ContactModel::table;
-  belongs(".stiffness", gives_stiffness(contact), springs, "\"springs\"");
-  belongs(".damping", gives_damping(contact), !table, "\"springs\", \"hertz\" or \"caster\"");
-  belongs(".table", !contact.table.empty(), table, "\"table\"");
-  belongs(".preload", contact.preload.has_value(), !springs, "\"table\", \"hertz\" or \"caster\"");
-  belongs(".ball", contact.ball.has_value(), rolls(contact), "\"hertz\" or \"caster\"");
-  belongs(".surface", contact.surface.has_value(), rolls(contact), "\"hertz\" or \"caster\"");
-  if (contact.model != setup::ContactModel::hertz || !contact.ball) return;
-  belongs(".ball.supports", contact.ball->supports.has_value(), false, "\"caster\"");
-  belongs(".ball.support_radius", contact.ball->support_radius.has_value(), false, "\"caster\"");
-  belongs(".ball.support_angle", contact.ball->support_angle.has_value(), false, "\"caster\"");
-}
-
 void check_directions(const std::string& key, const setup::Contact& contact, Findings& findings) {
   const auto& directions = contact.directions;
   if (contact.model == setup::ContactModel::hertz) {
@@ -66,17 +45,7 @@ void check_directions(const std::string& key, const setup::Contact& contact, Fin
   }
 }
 
-void check_ball(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
-  if (!contact.ball) {
-    findings.report(key + ".ball", "missing; give [contacts.ball] with its radius");
-  } else if (contact.model == setup::ContactModel::caster) {
-    const auto need = [&](const char* name, bool there) {
-      if (!there) findings.report(key + name, "missing; a caster needs the balls that carry its main ball");
-    };
-    need(".ball.supports", contact.ball->supports.has_value());
-    need(".ball.support_radius", contact.ball->support_radius.has_value());
-    need(".ball.support_angle", contact.ball->support_angle.has_value());
-  }
+void check_surface(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
   if (!source.part && !contact.surface)
     findings.report(key + ".surface", "missing; a measured part does not tell what the ball touches");
 }
@@ -89,13 +58,21 @@ void check_preload(const Case& source, const std::string& key, const setup::Cont
                                                      : ", and robot.preload has none along the first direction"));
 }
 
+/// True if the contact has what its model needs; the table of alternatives has told what is missing.
+bool complete(const setup::Contact& contact) {
+  if (contact.model == setup::ContactModel::table) return !contact.table.empty();
+  if (!rolls(contact)) return true;
+  const bool caster = contact.model == setup::ContactModel::caster;
+  return contact.ball &&
+         (!caster || (contact.ball->supports && contact.ball->support_radius && contact.ball->support_angle));
+}
+
 /// Reports what the model itself refuses of a contact that has all it needs. Numbers that could not be read were
 /// reported before.
 void try_contact(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
   std::error_code ignored;
   if (contact.model == setup::ContactModel::table && !std::filesystem::is_regular_file(contact.table, ignored)) {
-    findings.report(key + ".table", contact.table.empty() ? "missing; name the CSV"
-                                                          : "there is no file \"" + contact.table.string() + "\"");
+    findings.report(key + ".table", "there is no file \"" + contact.table.string() + "\"");
     return;
   }
   std::vector<double> numbers{setup::preload_of(source, contact).value_or(0.0), contact.loss_factor};
@@ -124,8 +101,8 @@ void check_preloaded(const Case& source, const std::string& key, const setup::Co
   const std::size_t before = findings.problems.size();
   check_directions(key, contact, findings);
   check_preload(source, key, contact, findings);
-  if (rolls(contact)) check_ball(source, key, contact, findings);
-  if (findings.problems.size() == before) try_contact(source, key, contact, findings);
+  if (rolls(contact)) check_surface(source, key, contact, findings);
+  if (findings.problems.size() == before && complete(contact)) try_contact(source, key, contact, findings);
 }
 
 /// The points where the assembly moves (`response`), or where it is excited: one, that the part's model knows in the
@@ -173,9 +150,6 @@ void check_identification(const Case& source, const std::string& key, const setu
                           Findings& findings) {
   if (source.contacts.size() > 1)
     findings.report(key + ".measured", "a joint is found where the robot has one contact; remove the other contacts");
-  if (contact.model != setup::ContactModel::springs)
-    findings.report(key + ".measured", "finds stiffness and damping, which model = \"" + core::word_of(contact.model) +
-                                           "\" tells too; remove one of them");
   if (contact.model == setup::ContactModel::springs &&
       (gives_stiffness(contact) || gives_damping(contact) || contact.loss_factor > 0.0))
     findings.report(key + ".measured",
@@ -195,7 +169,6 @@ void check_contact_models(const Case& source, Findings& findings) {
     const std::string key = "contacts[" + std::to_string(i) + "]";
     const setup::Contact& contact = source.contacts[i];
     if (findings.unreadable(key + ".model")) continue;  // it could not be read
-    check_belongings(key, contact, findings);
     if (!contact.noise.empty() && contact.noise.size() != 3)
       findings.report(key + ".noise", "give one value, or three: of the assembly, of the part, of the robot");
     if (!contact.measured.empty()) {
@@ -214,8 +187,6 @@ void check_contact_models(const Case& source, Findings& findings) {
 
 void check_coupling(const Case& source, Findings& findings) {
   const setup::CouplingChoice& choice = source.coupling;
-  if (choice.regularisation == coupling::Regularisation::none && choice.threshold != setup::CouplingChoice{}.threshold)
-    findings.report("coupling.threshold", "there is nothing to regularise; give coupling.regularisation, or remove it");
   if (choice.regularisation != coupling::Regularisation::none && source.contacts.empty())
     findings.report("coupling.regularisation", "nothing is coupled; add [[contacts]], or remove it");
   if (choice.regularisation == coupling::Regularisation::none) return;

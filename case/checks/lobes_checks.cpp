@@ -76,9 +76,6 @@ void check_compared(const Case& source, Findings& findings) {
 
 void check_robust(const setup::LobesOptions& lobes, Findings& findings) {
   const milling::Uncertainty& u = lobes.robust->uncertainty;
-  if (lobes.method != milling::Method::direct)
-    findings.report("lobes.uncertainty", "sensitivities are those of lobes.method = \"direct\", but it is \"" +
-                                             milling::name(lobes.method) + "\"; set lobes.method, or remove the table");
   if (u.frequency == 0.0 && u.damping_ratio == 0.0 && u.mass == 0.0 && u.coefficients == 0.0)
     findings.report("lobes.uncertainty",
                     "nothing is uncertain; give frequency, damping_ratio, receptance or "

@@ -1,8 +1,6 @@
 #include "case/checks/robot_checks.hpp"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "case/checks/measured_checks.hpp"
 #include "case/checks/part_checks.hpp"
@@ -15,53 +13,7 @@ namespace thinwall::cases {
 
 namespace {
 
-/// Keys that some models alone read, by their names.
-struct Belongs {
-  std::string_view key;
-  std::string_view models;
-};
-constexpr std::array belongings{
-    Belongs{"robot.frequency", "one_mode"},
-    Belongs{"robot.mass", "one_mode"},
-    Belongs{"robot.stiffness", "one_mode"},
-    Belongs{"robot.damping", "one_mode"},
-    Belongs{"robot.damping_ratio", "one_mode"},
-    Belongs{"robot.modes", "modes"},
-    Belongs{"robot.measured", "measured"},
-    Belongs{"robot.sensors", "measured"},
-    Belongs{"robot.links", "flexible_joints"},
-    Belongs{"robot.base", "flexible_joints, virtual_joints or modal_table"},
-    Belongs{"robot.tip", "flexible_joints"},
-    Belongs{"robot.gravity", "flexible_joints"},
-    Belongs{"robot.counterbalances", "flexible_joints"},
-    Belongs{"robot.elements", "virtual_joints"},
-    Belongs{"robot.table", "modal_table"},
-    Belongs{"robot.urdf", "flexible_joints"},
-    Belongs{"robot.joints", "flexible_joints"},
-    Belongs{"robot.posture", "flexible_joints"},
-    Belongs{"robot.workspace", "flexible_joints"},
-};
-
-/// True if the list of models has this one, as a whole word.
-bool names(std::string_view models, std::string_view model) {
-  const auto at = models.find(model);
-  if (at == std::string_view::npos) return false;
-  const auto end = at + model.size();
-  return (at == 0 || models[at - 1] == ' ') && (end == models.size() || models[end] == ',' || models[end] == ' ');
-}
-
-void check_belongings(const Case& source, Findings& findings) {
-  for (const Belongs& b : belongings) {
-    const std::string key(b.key);
-    const bool there = findings.given(key) || has_table(source.values, key) || array_size(source.values, key) > 0;
-    if (!there || names(b.models, core::word_of(source.robot->model))) continue;
-    findings.report(key, "belongs to robot.model = \"" + std::string(b.models) + "\", but the model is \"" +
-                             core::word_of(source.robot->model) + "\"");
-  }
-}
-
 void check_one_mode(const setup::Robot& robot, Findings& findings) {
-  if (!robot.stiffness) findings.report("robot.stiffness", "missing; one mode needs its stiffness at the tip");
   if (robot.mass.has_value() == robot.frequency_hz.has_value()) {
     findings.report("robot.frequency", "give either frequency or mass beside the stiffness");
   }
@@ -72,10 +24,7 @@ void check_one_mode(const setup::Robot& robot, Findings& findings) {
 
 /// One file is a driving point along robot.direction; several name the tip's axes.
 void check_measured_robot(const setup::Robot& robot, Findings& findings) {
-  if (robot.measured.empty()) {
-    findings.report("robot.model", "measured needs [[robot.measured]] with a file");
-    return;
-  }
+  if (robot.measured.empty()) return;
   check_sensors("robot.sensors", robot.sensors, {robot.point}, findings);
   if (robot.measured.size() > 1) {
     check_layout("robot.measured", robot.measured, findings);
@@ -197,10 +146,7 @@ void check_arm(const Case& source, Findings& findings) {
 }
 
 void check_table(const Case& source, Findings& findings) {
-  if (source.robot->table.empty()) {
-    findings.report("robot.model", "modal_table needs robot.table, a CSV of modes");
-    return;
-  }
+  if (source.robot->table.empty()) return;
   try {
     (void)setup::tip_model(*source.robot, {});
   } catch (const core::Error& error) {
@@ -208,25 +154,10 @@ void check_table(const Case& source, Findings& findings) {
   }
 }
 
-/// Keys that an element must have beside its kind.
-void check_element(const Case& source, std::size_t i, Findings& findings) {
-  const std::string key = "robot.elements[" + std::to_string(i) + "]";
-  const CaseValue* found = find(source.values, key + ".kind");
-  const std::string kind = found == nullptr ? "" : std::get<std::string>(found->value);
-  const auto needs = [&](const char* name) {
-    if (!findings.given(key + name)) findings.report(key + name, "missing; a " + kind + " has one");
-  };
-  if (kind == "beam") needs(".length");
-  if (kind == "beam") needs(".outer_diameter");
-  if (kind == "body") needs(".mass");
-}
-
 void check_elements(const Case& source, Findings& findings) {
-  const auto count = static_cast<std::size_t>(array_size(source.values, "robot.elements"));
-  if (count == 0) findings.report("robot.model", "virtual_joints needs [[robot.elements]], from the base to the tip");
-  const std::size_t before = findings.problems.size();
-  for (std::size_t i = 0; i < count; ++i) check_element(source, i, findings);
-  if (count == 0 || findings.problems.size() > before) return;
+  const int count = array_size(source.values, "robot.elements");
+  const auto of_elements = [](const Problem& problem) { return problem.text.starts_with("robot.elements"); };
+  if (count == 0 || std::ranges::any_of(findings.problems, of_elements)) return;
   try {
     const auto chains = bind_chains({source.values, "robot"});
     (void)robot::spatial_model(robot::reduced_tip(chains), source.robot->point);
@@ -287,14 +218,11 @@ std::string fault_of_posture(const setup::PartSetup& part, const setup::SupportS
 void check_robot(const Case& source, Findings& findings) {
   const setup::Robot& robot = *source.robot;
   if (findings.unreadable("robot.model")) return;
-  check_belongings(source, findings);
   if (std::abs(robot.arm.base.linear().col(0).dot(robot.arm.base.linear().col(2))) > 1e-9) {
     findings.report("robot.base.x", "is not at a right angle to robot.base.z; a frame's axes are");
     return;
   }
   if (robot.model == setup::RobotModel::one_mode) check_one_mode(robot, findings);
-  if (robot.model == setup::RobotModel::modes && robot.modes.empty())
-    findings.report("robot.model", "modes needs [[robot.modes]], at least one");
   if (robot.model == setup::RobotModel::measured) check_measured_robot(robot, findings);
   if (robot.model == setup::RobotModel::flexible_joints) check_arm(source, findings);
   if (robot.model == setup::RobotModel::modal_table) check_table(source, findings);

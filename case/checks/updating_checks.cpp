@@ -33,20 +33,6 @@ void require_effect(setup::FitOf on, const std::string& key, const setup::Updati
   }
 }
 
-/// Reports a stiffness that the contact does not read because it follows from the preload.
-bool unread_stiffness(const Case& source, const std::string& key, const setup::UpdatingParameter& parameter,
-                      Findings& findings) {
-  for (std::size_t i = 0; i < source.contacts.size(); ++i) {
-    const setup::ContactModel model = source.contacts[i].model;
-    if (model == setup::ContactModel::springs || !parameter.key.starts_with(indexed("contacts", i) + ".stiffness"))
-      continue;
-    findings.report(key + ".key", parameter.key + " is not read with model = \"" + core::word_of(model) +
-                                      "\"; fit the contact's preload or ball, or take \"springs\"");
-    return true;
-  }
-  return false;
-}
-
 void check_parameter(const Case& source, setup::FitOf on, const std::string& key,
                      const setup::UpdatingParameter& parameter, Findings& findings) {
   double start = 0.0;
@@ -57,7 +43,6 @@ void check_parameter(const Case& source, setup::FitOf on, const std::string& key
     return;
   }
   require_effect(on, key, parameter, findings);
-  if (unread_stiffness(source, key, parameter, findings)) return;
   const Key* described = find_key(case_schema(), pattern_of(case_schema(), parameter.key));
   for (const auto* bound : {".lower", ".upper"}) {
     const CaseValue* written = find(source.values, key + bound);

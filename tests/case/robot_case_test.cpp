@@ -138,9 +138,11 @@ TEST(RobotCase, SeveralModesHoldInTheirDirectionsOnly) {
   const auto matrices = matrices_of(parse_case(robot, "."));
   EXPECT_EQ(matrices.dofs.size(), 2U);
   EXPECT_EQ(matrices.size(), 2);
-  expect_problem("[robot]\nmodel = \"modes\"\n", "robot.model", "modes needs [[robot.modes]]");
-  expect_problem(robot + "[robot.posture]\njoints = [0]\n", "robot.posture",
-                 "belongs to robot.model = \"flexible_joints\"");
+  expect_problem("[robot]\nmodel = \"modes\"\n", "robot.modes",
+                 "missing; robot.model = \"modes\" needs it: Modes of the tip.");
+  expect_problem(
+      robot + "[robot.posture]\njoints = [0]\n", "robot.posture",
+      "belongs to robot.model = \"flexible_joints\", but it is \"modes\"; set robot.model, or remove posture");
 }
 
 // A hammer along −x turns the sign of the receptance, which the file tells and the case need not.
