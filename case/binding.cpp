@@ -5,7 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "case/contact_binding.hpp"
 #include "case/lobes_binding.hpp"
+#include "case/measured_binding.hpp"
 #include "case/robot_binding.hpp"
 #include "case/schema/schema.hpp"
 #include "case/table.hpp"
@@ -20,31 +22,6 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 int axis_index(const std::string& letter) {
   return letter == "x" ? 0 : letter == "y" ? 1 : letter == "z" ? 2 : -1;
-}
-
-setup::MeasuredFrf bind_measured(const Table& table, const std::filesystem::path& folder) {
-  const std::string file = table.text("file");
-  const auto integer = [&](const char* key) {
-    return table.has(key) ? std::optional(table.integer(key)) : std::nullopt;
-  };
-  return {table.text("response"), table.text("force"),     file.empty() ? std::filesystem::path() : folder / file,
-          table.text("quantity"), table.text("unit"),      table.text("frequency_unit"),
-          integer("record"),      table.optional("noise"), integer("averages")};
-}
-
-std::vector<setup::MeasuredFrf> bind_all_measured(const std::vector<Table>& tables,
-                                                  const std::filesystem::path& folder) {
-  std::vector<setup::MeasuredFrf> list;
-  list.reserve(tables.size());
-  for (const auto& table : tables) list.push_back(bind_measured(table, folder));
-  return list;
-}
-
-std::vector<setup::Sensor> bind_sensors(const std::vector<Table>& tables) {
-  std::vector<setup::Sensor> sensors;
-  sensors.reserve(tables.size());
-  for (const Table& table : tables) sensors.push_back({table.text("at"), table.number("mass")});
-  return sensors;
 }
 
 mesh::Polygon bind_polygon(const Table& table) {
@@ -196,56 +173,20 @@ setup::ModeRange bind_range(const Table& table, std::string_view count, int othe
 }
 
 setup::Damping bind_damping(const Table& table, const std::filesystem::path& folder) {
-  setup::Damping damping;
-  if (!table.exists()) return damping;
-  damping.model = table.choice<setup::DampingModel>("model");
-  damping.ratio = table.optional("ratio").value_or(0.01);
-  damping.ratios = table.numbers("ratios");
-  damping.alpha = table.optional("alpha").value_or(0.0);
-  damping.beta = table.optional("beta").value_or(0.0);
-  damping.loss_factor = table.optional("loss_factor").value_or(0.0);
-  if (const Table frf = table.table("from_frf"); frf.exists()) damping.from_frf = bind_measured(frf, folder);
-  return damping;
-}
-
-/// One value for every direction, where one was given for all.
-std::vector<double> spread(std::vector<double> list, std::size_t count) {
-  return list.size() == 1 ? std::vector<double>(count, list.front()) : list;
-}
-
-setup::ContactBall bind_ball(const Table& table) {
-  return {table.number("radius"),
-          {table.number("youngs_modulus"), table.number("poisson_ratio")},
-          table.has("supports") ? std::optional(table.integer("supports")) : std::nullopt,
-          table.optional("support_radius"),
-          table.optional("support_angle")};
-}
-
-setup::Contact bind_contact(const Table& table, const std::filesystem::path& folder) {
-  setup::Contact contact;
-  contact.part_point = table.text("part");
-  contact.robot_point = table.text("robot");
-  contact.directions = table.directions("directions");
-  contact.stiffness = spread(table.numbers("stiffness"), contact.directions.size());
-  contact.damping = spread(table.numbers("damping"), contact.directions.size());
-  contact.loss_factor = table.number("loss_factor");
-  contact.model = table.choice<setup::ContactModel>("model");
-  contact.preload = table.optional("preload");
-  if (const std::string file = table.text("table"); !file.empty()) contact.table = folder / file;
-  if (const Table ball = table.table("ball"); ball.exists()) contact.ball = bind_ball(ball);
-  if (const Table surface = table.table("surface"); surface.exists())
-    contact.surface = {surface.number("youngs_modulus"), surface.number("poisson_ratio")};
-  contact.measured = bind_all_measured(table.tables("measured"), folder);
-  contact.damping_sought = table.choice<setup::DampingSought>("damping_model");
-  contact.noise = spread(table.numbers("noise"), 3);
-  return contact;
-}
-
-std::vector<setup::Contact> bind_contacts(const std::vector<Table>& tables, const std::filesystem::path& folder) {
-  std::vector<setup::Contact> list;
-  list.reserve(tables.size());
-  for (const auto& table : tables) list.push_back(bind_contact(table, folder));
-  return list;
+  if (!table.exists()) return {};
+  switch (table.choice<setup::DampingKind>("model")) {
+    case setup::DampingKind::modal:
+      break;
+    case setup::DampingKind::rayleigh:
+      return setup::RayleighDamping{table.number("alpha"), table.number("beta")};
+    case setup::DampingKind::structural:
+      return setup::StructuralDamping{table.number("loss_factor")};
+    case setup::DampingKind::matrices:
+      return setup::MatrixDamping{};
+  }
+  setup::ModalDamping modal{table.number("ratio"), table.numbers("ratios"), {}};
+  if (const Table frf = table.table("from_frf"); frf.exists()) modal.from_frf = bind_measured(frf, folder);
+  return modal;
 }
 
 setup::ResponseOptions bind_response(const Table& table) {
@@ -355,7 +296,7 @@ setup::Cutting bind_cutting(const Table& table) {
   cutting.Kre = table.number("Kre");
   cutting.Kae = table.number("Kae");
   cutting.law = table.choice<setup::ForceLawKind>("law");
-  cutting.exponents = spread(table.numbers("exponents"), 3);
+  cutting.exponents = table.numbers("exponents", 3);
   cutting.chip_scale = table.optional("chip_scale");
   cutting.stiffness_ratio = table.optional("stiffness_ratio");
   cutting.orthogonal = {table.optional("shear_stress"), table.optional("shear_angle"), table.optional("friction_angle"),
@@ -395,10 +336,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   if (root.has("reduction.check_frequencies"))
     bound.reduction.check_frequencies = root.integer("reduction.check_frequencies");
   bound.damping = bind_damping(root.table("damping"), folder);
-  if (root.table("robot").exists()) {
-    bound.robot = bind_robot(root.table("robot"), bind_all_measured(root.tables("robot.measured"), folder), folder);
-    bound.robot->sensors = bind_sensors(root.tables("robot.sensors"));
-  }
+  if (root.table("robot").exists()) bound.robot = bind_robot(root.table("robot"), folder);
   bound.contacts = bind_contacts(root.tables("contacts"), folder);
   if (root.table("coupling").exists())
     bound.coupling = {root.choice<coupling::Regularisation>("coupling.regularisation"),

@@ -24,14 +24,15 @@ void stamp(std::vector<MeasuredFrf>& files) {
 
 void stamp_files(Setup& source) {
   stamp(source.measured_part);
-  if (source.damping.from_frf) source.damping.from_frf->sha256 = checksum(source.damping.from_frf->file);
+  if (auto* modal = std::get_if<ModalDamping>(&source.damping); modal != nullptr && modal->from_frf)
+    modal->from_frf->sha256 = checksum(modal->from_frf->file);
   for (Contact& contact : source.contacts) {
-    stamp(contact.measured);
-    contact.table_sha256 = checksum(contact.table);
+    if (auto* springs = std::get_if<SpringContact>(&contact.model)) stamp(springs->measured);
+    if (auto* tabled = std::get_if<TabledContact>(&contact.model)) tabled->table_sha256 = checksum(tabled->table);
   }
   if (source.robot) {
-    stamp(source.robot->measured);
-    source.robot->table_sha256 = checksum(source.robot->table);
+    if (auto* robot = std::get_if<MeasuredRobot>(&source.robot->model)) stamp(robot->measured);
+    if (auto* robot = std::get_if<TabledRobot>(&source.robot->model)) robot->table_sha256 = checksum(robot->table);
   }
   if (!source.tool) return;
   stamp(source.tool->measured);

@@ -106,8 +106,7 @@ void check_target(const Case& source, setup::FitOf on, const std::string& key, c
 void check_coupled_fit(const Case& source, const std::string& key, Findings& findings) {
   if (!source.robot || source.contacts.empty() || source.points.empty())
     findings.report(key + ".on", "\"coupled\" needs [robot], [[contacts]] and [points]");
-  if (source.robot &&
-      (source.robot->model == setup::RobotModel::measured || source.robot->model == setup::RobotModel::modal_table))
+  if (source.robot && setup::is_measured(*source.robot))
     findings.report(key + ".on", "\"coupled\" needs a robot that is modelled, not a measured one; set robot.model");
   if (!setup::may_be_held(*source.part))
     findings.report(key + ".on", "\"coupled\" needs a part that is held; add [[part.supports]]");

@@ -95,6 +95,8 @@ inline constexpr Belonging case_belongings[] = {
     {"contacts[].stiffness", "contacts[].model", "springs"},
     {"contacts[].damping", "contacts[].model", "springs|hertz|caster"},
     {"contacts[].measured[]", "contacts[].model", "springs"},
+    {"contacts[].damping_model", "contacts[].model", "springs"},
+    {"contacts[].noise", "contacts[].model", "springs"},
     {"contacts[].preload", "contacts[].model", "table|hertz|caster"},
     {"contacts[].table", "contacts[].model", "table", belongings::needed},
     {"contacts[].ball", "contacts[].model", belongings::balls, belongings::needed},

@@ -215,7 +215,7 @@ TEST(ContactCase, AJointToBeFoundNeedsItsFrfsAndNothingThatTellsIt) {
     return "[[contacts.measured]]\nresponse = \"" + response + "\"\nforce = \"" + force + "\"\n" + frf;
   };
   const Case source = parse_case(with_contact("noise = [0.02, 0.01, 0.03]\n" + measured("P2.x", "P.x")), folder.path);
-  EXPECT_EQ(source.contacts[0].noise, (std::vector<double>{0.02, 0.01, 0.03}));
+  EXPECT_EQ(std::get<SpringContact>(source.contacts[0].model).noise, (std::vector<double>{0.02, 0.01, 0.03}));
   EXPECT_EQ(input_files(source).front(), folder.path / "held.csv");
   const auto refuse = [&](const std::string& lines, const std::string& key, const std::string& part) {
     expect_problem(with_contact(lines), key, part, folder.path);

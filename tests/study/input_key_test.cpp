@@ -31,7 +31,11 @@ constexpr bool is_frame = std::is_same_v<T, Eigen::Isometry3d>;
 template <class T>
 constexpr bool is_box = std::is_same_v<T, Eigen::AlignedBox3d>;
 
-using InputKeyOfFiles = io::test::ScratchFolder;
+class InputKeyOfFiles : public io::test::ScratchFolder {
+ protected:
+  /// Writes a file for each path below a set-up, changes one after another, and expects other keys meanwhile.
+  void expect_contents_in_keys(setup::Setup& source, std::size_t fewest);
+};
 
 /// Gives a value to everything below `value`: lists have one item, what may be absent is there.
 template <class T>
@@ -226,11 +230,24 @@ void each_path(T& value, const std::function<void(std::filesystem::path&)>& foun
   }
 }
 
-/// What a file holds stands in the keys, and not only its name.
-TEST_F(InputKeyOfFiles, AChangedFileChangesTheKeyWhereverItIsNamed) {
-  setup::Setup source = full_setup();
-  source.robot->urdf.clear();  // the set-up holds what these said
-  source.robot->joints.clear();
+/// Puts each alternative of a variant into `value`, filled, and calls `there` meanwhile.
+template <class... Alternatives>
+void with_each(std::variant<Alternatives...>& value, const std::function<void()>& there) {
+  const std::variant<Alternatives...> before = value;
+  const auto one = [&](auto alternative) {
+    fill(alternative);
+    value = alternative;
+    there();
+  };
+  (one(Alternatives{}), ...);
+  value = before;
+}
+
+void InputKeyOfFiles::expect_contents_in_keys(setup::Setup& source, std::size_t fewest) {
+  if (auto* arm = std::get_if<setup::JointedRobot>(&source.robot->model)) {
+    arm->urdf.clear();  // the set-up holds what these said
+    arm->joints.clear();
+  }
   std::vector<std::filesystem::path> files;
   const auto name_one = [&](std::filesystem::path& path) {
     if (path.empty()) return;
@@ -241,7 +258,7 @@ TEST_F(InputKeyOfFiles, AChangedFileChangesTheKeyWhereverItIsNamed) {
   each_path(base<setup::MeasuredPart>(source), name_one);
   each_path(base<setup::SupportSetup>(source), name_one);
   each_path(base<setup::CutSetup>(source), name_one);
-  EXPECT_GE(files.size(), 8U) << "FRFs of part, damping, contact, robot and tool, two tables";
+  EXPECT_GE(files.size(), fewest);
   const auto keys = [&] {
     setup::stamp_files(source);
     return study::structure_key(source) + study::charts_key(source);
@@ -253,6 +270,20 @@ TEST_F(InputKeyOfFiles, AChangedFileChangesTheKeyWhereverItIsNamed) {
     write(file.filename(), "1");
     EXPECT_EQ(keys(), first) << file.filename();
   }
+}
+
+/// What a file holds stands in the keys, and not only its name.
+TEST_F(InputKeyOfFiles, AChangedFileChangesTheKeyWhereverItIsNamed) {
+  setup::Setup source = full_setup();
+  // FRFs of part and damping, of the tool in two ways: four, whatever the robot and the contact.
+  with_each(source.robot->model, [&] { expect_contents_in_keys(source, 4); });
+  with_each(source.contacts[0].model, [&] { expect_contents_in_keys(source, 4); });
+  source.robot->model = setup::MeasuredRobot{};
+  fill(source.robot->model);
+  expect_contents_in_keys(source, 6);
+  source.robot->model = setup::TabledRobot{};
+  fill(source.robot->model);
+  expect_contents_in_keys(source, 6);
 }
 
 TEST(InputKey, ARobotThatFollowsThePathHasAnotherKeyThanOneThatStays) {
