@@ -149,7 +149,8 @@ ReducedPart reduced_part(const cases::Case& source, const ReduceRequest& request
   options.modes = modes.value_or(options.modes);
   options.characteristic =
       std::min(request.characteristic.value_or(options.characteristic), static_cast<int>(interface.W.cols()));
-  options.damping_ratio = source.damping.ratio;
+  const auto* modal = std::get_if<setup::ModalDamping>(&source.damping);
+  options.damping_ratio = modal != nullptr ? modal->ratio : 0.01;
   return {reduction::reduce(method, full, interface, options), ""};
 }
 
@@ -185,7 +186,7 @@ std::string written(const cases::Case& source, const ReduceRequest& request, con
                     const study::Solution& part) {
   report::PlacedModel model{std::get<dynamics::SpatialModel>(reduced.reduction.model),
                             positions_of(source, part.model)};
-  if (source.damping.model == setup::DampingModel::matrices) {
+  if (std::holds_alternative<setup::MatrixDamping>(source.damping)) {
     spdlog::warn("the part's damping matrix is not carried into the reduced model; \"thinwall run\" does that");
   } else if (takes_damping(reduced.reduction.method)) {
     std::vector<reduction::IdentifiedMode> identified;

@@ -1,12 +1,13 @@
 #include "case/binding.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "case/contact_binding.hpp"
 #include "case/lobes_binding.hpp"
+#include "case/measured_binding.hpp"
 #include "case/robot_binding.hpp"
 #include "case/schema/schema.hpp"
 #include "case/table.hpp"
@@ -19,42 +20,8 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Any of these makes a modelled part.
-constexpr std::array geometry_keys{"part.matrices.stiffness",
-                                   "part.length",
-                                   "part.height",
-                                   "part.thickness",
-                                   "part.outline",
-                                   "part.file",
-                                   "part.shape"};
-
 int axis_index(const std::string& letter) {
   return letter == "x" ? 0 : letter == "y" ? 1 : letter == "z" ? 2 : -1;
-}
-
-setup::MeasuredFrf bind_measured(const Table& table, const std::filesystem::path& folder) {
-  const std::string file = table.text("file");
-  const auto integer = [&](const char* key) {
-    return table.has(key) ? std::optional(table.integer(key)) : std::nullopt;
-  };
-  return {table.text("response"), table.text("force"),     file.empty() ? std::filesystem::path() : folder / file,
-          table.text("quantity"), table.text("unit"),      table.text("frequency_unit"),
-          integer("record"),      table.optional("noise"), integer("averages")};
-}
-
-std::vector<setup::MeasuredFrf> bind_all_measured(const std::vector<Table>& tables,
-                                                  const std::filesystem::path& folder) {
-  std::vector<setup::MeasuredFrf> list;
-  list.reserve(tables.size());
-  for (const auto& table : tables) list.push_back(bind_measured(table, folder));
-  return list;
-}
-
-std::vector<setup::Sensor> bind_sensors(const std::vector<Table>& tables) {
-  std::vector<setup::Sensor> sensors;
-  sensors.reserve(tables.size());
-  for (const Table& table : tables) sensors.push_back({table.text("at"), table.number("mass")});
-  return sensors;
 }
 
 mesh::Polygon bind_polygon(const Table& table) {
@@ -122,11 +89,7 @@ void bind_attachments(const Table& table, setup::Part& part) {
 setup::Part bind_part(const Table& table, const std::filesystem::path& folder) {
   setup::Part part;
   part.file = bind_part_file(table, folder);
-  using setup::PartShape;
-  part.shape = table.has("shape")                ? table.choice<PartShape>("shape")
-               : table.has("matrices.stiffness") ? PartShape::matrices
-               : table.has("file")               ? setup::shape_of_file(part.file.path).value_or(PartShape::surface)
-                                                 : PartShape::box;
+  part.shape = table.choice<setup::PartShape>("shape");
   if (part.shape == setup::PartShape::prism) part.prism = bind_prism(table);
   if (const Table bend = table.table("bend"); bend.exists()) {
     part.bend = setup::Bend{bend.number("radius"), {}};
@@ -135,9 +98,11 @@ setup::Part bind_part(const Table& table, const std::filesystem::path& folder) {
   part.length = table.number("length");
   part.height = table.number("height");
   part.thickness = table.number("thickness");
-  part.length_axis = axis_index(table.text("axes.length"));
-  part.height_axis = axis_index(table.text("axes.height"));
-  part.thickness_axis = axis_index(table.text("axes.thickness"));
+  if (part.shape == setup::PartShape::box) {
+    part.length_axis = axis_index(table.text("axes.length"));
+    part.height_axis = axis_index(table.text("axes.height"));
+    part.thickness_axis = axis_index(table.text("axes.thickness"));
+  }
   const Table material = table.table("material"), mesh = table.table("mesh");
   part.material = bind_material(material);
   bind_attachments(table, part);
@@ -208,56 +173,20 @@ setup::ModeRange bind_range(const Table& table, std::string_view count, int othe
 }
 
 setup::Damping bind_damping(const Table& table, const std::filesystem::path& folder) {
-  setup::Damping damping;
-  if (!table.exists()) return damping;
-  damping.model = table.choice<setup::DampingModel>("model");
-  damping.ratio = table.number("ratio");
-  damping.ratios = table.numbers("ratios");
-  damping.alpha = table.number("alpha");
-  damping.beta = table.number("beta");
-  damping.loss_factor = table.number("loss_factor");
-  if (const Table frf = table.table("from_frf"); frf.exists()) damping.from_frf = bind_measured(frf, folder);
-  return damping;
-}
-
-/// One value for every direction, where one was given for all.
-std::vector<double> spread(std::vector<double> list, std::size_t count) {
-  return list.size() == 1 ? std::vector<double>(count, list.front()) : list;
-}
-
-setup::ContactBall bind_ball(const Table& table) {
-  return {table.number("radius"),
-          {table.number("youngs_modulus"), table.number("poisson_ratio")},
-          table.has("supports") ? std::optional(table.integer("supports")) : std::nullopt,
-          table.optional("support_radius"),
-          table.optional("support_angle")};
-}
-
-setup::Contact bind_contact(const Table& table, const std::filesystem::path& folder) {
-  setup::Contact contact;
-  contact.part_point = table.text("part");
-  contact.robot_point = table.text("robot");
-  contact.directions = table.directions("directions");
-  contact.stiffness = spread(table.numbers("stiffness"), contact.directions.size());
-  contact.damping = spread(table.numbers("damping"), contact.directions.size());
-  contact.loss_factor = table.number("loss_factor");
-  contact.model = table.choice<setup::ContactModel>("model");
-  contact.preload = table.optional("preload");
-  if (const std::string file = table.text("table"); !file.empty()) contact.table = folder / file;
-  if (const Table ball = table.table("ball"); ball.exists()) contact.ball = bind_ball(ball);
-  if (const Table surface = table.table("surface"); surface.exists())
-    contact.surface = {surface.number("youngs_modulus"), surface.number("poisson_ratio")};
-  contact.measured = bind_all_measured(table.tables("measured"), folder);
-  contact.damping_sought = table.choice<setup::DampingSought>("damping_model");
-  contact.noise = spread(table.numbers("noise"), 3);
-  return contact;
-}
-
-std::vector<setup::Contact> bind_contacts(const std::vector<Table>& tables, const std::filesystem::path& folder) {
-  std::vector<setup::Contact> list;
-  list.reserve(tables.size());
-  for (const auto& table : tables) list.push_back(bind_contact(table, folder));
-  return list;
+  if (!table.exists()) return {};
+  switch (table.choice<setup::DampingKind>("model")) {
+    case setup::DampingKind::modal:
+      break;
+    case setup::DampingKind::rayleigh:
+      return setup::RayleighDamping{table.number("alpha"), table.number("beta")};
+    case setup::DampingKind::structural:
+      return setup::StructuralDamping{table.number("loss_factor")};
+    case setup::DampingKind::matrices:
+      return setup::MatrixDamping{};
+  }
+  setup::ModalDamping modal{table.number("ratio"), table.numbers("ratios"), {}};
+  if (const Table frf = table.table("from_frf"); frf.exists()) modal.from_frf = bind_measured(frf, folder);
+  return modal;
 }
 
 setup::ResponseOptions bind_response(const Table& table) {
@@ -367,7 +296,7 @@ setup::Cutting bind_cutting(const Table& table) {
   cutting.Kre = table.number("Kre");
   cutting.Kae = table.number("Kae");
   cutting.law = table.choice<setup::ForceLawKind>("law");
-  cutting.exponents = spread(table.numbers("exponents"), 3);
+  cutting.exponents = table.numbers("exponents", 3);
   cutting.chip_scale = table.optional("chip_scale");
   cutting.stiffness_ratio = table.optional("stiffness_ratio");
   cutting.orthogonal = {table.optional("shear_stress"), table.optional("shear_angle"), table.optional("friction_angle"),
@@ -394,8 +323,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   Case bound;
   bound.folder = folder;
   bound.title = root.text("title");
-  const auto has = [&](const char* key) { return root.has(key); };
-  if (std::ranges::any_of(geometry_keys, has)) bound.part = bind_part(root.table("part"), folder);
+  if (root.has("part.shape")) bound.part = bind_part(root.table("part"), folder);
   bound.measured_part = bind_all_measured(root.tables("part.measured"), folder);
   bound.part_sensors = bind_sensors(root.tables("part.sensors"));
   bound.selections = bind_selections(root.table("selections"));
@@ -408,14 +336,11 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   if (root.has("reduction.check_frequencies"))
     bound.reduction.check_frequencies = root.integer("reduction.check_frequencies");
   bound.damping = bind_damping(root.table("damping"), folder);
-  if (root.table("robot").exists()) {
-    bound.robot = bind_robot(root.table("robot"), bind_all_measured(root.tables("robot.measured"), folder), folder);
-    bound.robot->sensors = bind_sensors(root.tables("robot.sensors"));
-  }
+  if (root.table("robot").exists()) bound.robot = bind_robot(root.table("robot"), folder);
   bound.contacts = bind_contacts(root.tables("contacts"), folder);
   if (root.table("coupling").exists())
     bound.coupling = {root.choice<coupling::Regularisation>("coupling.regularisation"),
-                      root.number("coupling.threshold")};
+                      root.table("coupling").optional("threshold").value_or(setup::CouplingChoice{}.threshold)};
   bound.response = bind_response(root.table("response"));
   if (bound.response.points.empty()) bound.response.points = bound.reduction.interface;
   bound.updating = bind_updating(root.tables("updating"));

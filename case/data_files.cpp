@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <variant>
 
 #include "case/robot_binding.hpp"
 #include "case/urdf_arm.hpp"
@@ -33,9 +34,14 @@ bool is_file(const std::filesystem::path& file) {
   return std::filesystem::is_regular_file(file, ignored);
 }
 
+/// The model of the robot, where it is of that kind; null otherwise.
+template <class Model>
+Model* model_of(Case& source) {
+  return source.robot ? std::get_if<Model>(&source.robot->model) : nullptr;
+}
+
 /// The arm of a URDF, unless keys speak against it, which the checks report.
-void read_arm(Case& source, Findings& findings) {
-  setup::Robot& robot = *source.robot;
+void read_arm(Case& source, setup::JointedRobot& robot, Findings& findings) {
   if (robot.urdf.empty() || robot.joints.empty() || array_size(source.values, "robot.links") > 0) return;
   const Table table{source.values, "robot"};
   read_or_report("robot.urdf", findings, [&] {
@@ -48,18 +54,17 @@ void read_arm(Case& source, Findings& findings) {
 }  // namespace
 
 void read_described_files(Case& source, Findings& findings) {
-  if (source.robot && source.robot->model == setup::RobotModel::flexible_joints) read_arm(source, findings);
-  if (source.robot && source.robot->model == setup::RobotModel::modal_table && !source.robot->table.empty()) {
+  if (auto* robot = model_of<setup::JointedRobot>(source)) read_arm(source, *robot, findings);
+  if (auto* robot = model_of<setup::TabledRobot>(source); robot != nullptr && !robot->table.empty()) {
     read_or_report("robot.table", findings, [&] {
-      source.robot->table_modes =
-          std::make_shared<const dynamics::ModalTable>(setup::read_table_of_modes(*source.robot));
+      robot->table_modes = std::make_shared<const dynamics::ModalTable>(setup::read_table_of_modes(*robot));
     });
   }
   for (std::size_t i = 0; i < source.contacts.size(); ++i) {
-    setup::Contact& contact = source.contacts[i];
-    if (contact.model != setup::ContactModel::table || !is_file(contact.table)) continue;
+    auto* tabled = std::get_if<setup::TabledContact>(&source.contacts[i].model);
+    if (tabled == nullptr || !is_file(tabled->table)) continue;
     read_or_report(indexed("contacts", i) + ".table", findings, [&] {
-      contact.rows = std::make_shared<const coupling::ContactTable>(setup::read_contact_table(contact.table));
+      tabled->rows = std::make_shared<const coupling::ContactTable>(setup::read_contact_table(tabled->table));
     });
   }
 }
@@ -78,7 +83,8 @@ void share_data_files(Case& varied, const Case& read) {
   setup::share_data_files(varied, read);
   varied.data_files = read.data_files;
   varied.urdf_arm = read.urdf_arm;
-  if (varied.robot && varied.urdf_arm) varied.robot->arm = arm_in_place({varied.values, "robot"}, *varied.urdf_arm);
+  auto* robot = model_of<setup::JointedRobot>(varied);
+  if (robot != nullptr && varied.urdf_arm) robot->arm = arm_in_place({varied.values, "robot"}, *varied.urdf_arm);
 }
 
 }  // namespace thinwall::cases

@@ -23,19 +23,24 @@ std::vector<DataFile> named_files(const setup::Setup& source) {
   add_measured(source.measured_part);
   section = "robot";
   if (source.robot) {
-    add_measured(source.robot->measured);
-    for (const auto& file : {source.robot->table, source.robot->urdf, source.robot->joints}) add(file);
+    if (const auto* robot = std::get_if<setup::MeasuredRobot>(&source.robot->model)) add_measured(robot->measured);
+    if (const auto* robot = std::get_if<setup::TabledRobot>(&source.robot->model)) add(robot->table);
+    if (const auto* robot = std::get_if<setup::JointedRobot>(&source.robot->model)) {
+      add(robot->urdf);
+      add(robot->joints);
+    }
   }
   section = "contacts";
   for (const setup::Contact& contact : source.contacts) {
-    add(contact.table);
-    add_measured(contact.measured);
+    if (const auto* tabled = std::get_if<setup::TabledContact>(&contact.model)) add(tabled->table);
+    add_measured(setup::measured_assembly(contact));
   }
   section = "tool";
   if (source.tool) add_measured(source.tool->measured);
   if (source.tool && source.tool->swap) add_measured(source.tool->swap->measured);
   section = "damping";
-  if (source.damping.from_frf) add(source.damping.from_frf->file);
+  if (const auto* modal = std::get_if<setup::ModalDamping>(&source.damping); modal != nullptr && modal->from_frf)
+    add(modal->from_frf->file);
   return files;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "case/joint_binding.hpp"
+#include "case/measured_binding.hpp"
 #include "core/error.hpp"
 
 namespace thinwall::cases {
@@ -54,6 +55,17 @@ int link_number(const std::string& name, const std::vector<robot::Link>& links) 
   return static_cast<int>(std::ranges::find(links, name, &robot::Link::name) - links.begin());
 }
 
+/// Where the robot stands, in the part's axes.
+Eigen::Isometry3d bind_base(const Table& robot) {
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  const Table base = robot.table("base");
+  if (!base.exists()) return frame;
+  const Eigen::Vector3d x = base.direction("x"), z = base.direction("z");
+  frame.linear() << x, z.cross(x), z;
+  frame.translation() = base.vector("position");
+  return frame;
+}
+
 /// Counterbalances, base and gravity: what the case tells of an arm wherever its links come from.
 void bind_surroundings(const Table& table, robot::SerialArm& arm) {
   for (const Table& spring : table.tables("counterbalances")) {
@@ -61,11 +73,7 @@ void bind_surroundings(const Table& table, robot::SerialArm& arm) {
                                    link_number(spring.text("to"), arm.links), spring.vector("to_point"),
                                    spring.number("force"), spring.number("length"), spring.number("stiffness")});
   }
-  if (const Table base = table.table("base"); base.exists()) {
-    const Eigen::Vector3d x = base.direction("x"), z = base.direction("z");
-    arm.base.linear() << x, z.cross(x), z;
-    arm.base.translation() = base.vector("position");
-  }
+  arm.base = bind_base(table);
   if (const Table tip = table.table("tip"); tip.exists()) arm.tip = arm.tip * bind_frame(tip);
   arm.gravity = table.has("gravity") ? table.vector("gravity") : Eigen::Vector3d(-9.81 * arm.base.linear().col(2));
 }
@@ -136,7 +144,7 @@ robot::SerialArm arm_in_place(const Table& robot, robot::SerialArm arm) {
 
 std::vector<robot::Chain> bind_chains(const Table& robot) {
   std::vector<robot::Chain> chains;
-  const Eigen::Isometry3d base = bind_arm(robot).base;
+  const Eigen::Isometry3d base = bind_base(robot);
   for (const Table& element : robot.tables("elements")) {
     const auto number = static_cast<std::size_t>(std::max(element.integer("chain"), 1));
     while (chains.size() < number) chains.push_back({base, {}});
@@ -155,41 +163,52 @@ std::vector<setup::TipMode> bind_modes(const std::vector<Table>& tables) {
   return modes;
 }
 
-setup::Robot bind_robot(const Table& table, std::vector<setup::MeasuredFrf> measured,
-                        const std::filesystem::path& folder) {
-  // A section that no beam has is told by the checks, which bind the chains once more.
-  const auto chains = [&]() -> std::vector<robot::Chain> {
-    try {
-      return bind_chains(table);
-    } catch (const core::InputError&) {
-      return {};
-    }
-  };
-  const auto file = [&](const char* key) {
-    return table.has(key) ? folder / table.text(key) : std::filesystem::path();
-  };
-  return {table.choice<setup::RobotModel>("model"),
-          table.text("point"),
-          table.direction("direction"),
-          table.optional("frequency"),
-          table.optional("damping_ratio"),
-          table.optional("mass"),
-          table.optional("stiffness"),
-          table.optional("damping"),
-          bind_modes(table.tables("modes")),
-          std::move(measured),
-          bind_arm(table),
-          chains(),
-          file("table"),
-          table.text("table_point"),
-          table.text("left_unit"),
-          table.text("right_unit"),
-          table.flag("cross_terms"),
-          file("urdf"),
-          file("joints"),
-          bind_posture(table.table("posture")),
-          table.vector("preload"),
-          bind_workspace(table.table("workspace"))};
+namespace {
+
+std::filesystem::path file_of(const Table& table, const char* key, const std::filesystem::path& folder) {
+  return table.has(key) ? folder / table.text(key) : std::filesystem::path();
+}
+
+/// The chains; none where a beam has no section, which the checks tell: they bind the chains once more.
+std::vector<robot::Chain> chains_or_none(const Table& table) {
+  try {
+    return bind_chains(table);
+  } catch (const core::InputError&) {
+    return {};
+  }
+}
+
+setup::RobotModel bind_model(const Table& table, const std::filesystem::path& folder) {
+  switch (table.choice<setup::RobotKind>("model")) {
+    case setup::RobotKind::one_mode:
+      break;
+    case setup::RobotKind::modes:
+      return setup::ModalRobot{bind_modes(table.tables("modes"))};
+    case setup::RobotKind::measured:
+      return setup::MeasuredRobot{table.direction("direction"), bind_all_measured(table.tables("measured"), folder),
+                                  bind_sensors(table.tables("sensors"))};
+    case setup::RobotKind::modal_table:
+      return setup::TabledRobot{file_of(table, "table", folder),
+                                table.text("table_point"),
+                                table.text("left_unit"),
+                                table.text("right_unit"),
+                                table.flag("cross_terms"),
+                                bind_base(table),
+                                {}};
+    case setup::RobotKind::flexible_joints:
+      return setup::JointedRobot{bind_arm(table), file_of(table, "urdf", folder), file_of(table, "joints", folder),
+                                 bind_posture(table.table("posture")), bind_workspace(table.table("workspace"))};
+    case setup::RobotKind::virtual_joints:
+      return setup::ChainedRobot{chains_or_none(table)};
+  }
+  return setup::OneModeRobot{table.direction("direction"), table.optional("frequency"), table.optional("damping_ratio"),
+                             table.optional("mass"),       table.optional("stiffness"), table.optional("damping")};
+}
+
+}  // namespace
+
+setup::Robot bind_robot(const Table& table, const std::filesystem::path& folder) {
+  return {table.text("point"), table.vector("preload"), bind_model(table, folder)};
 }
 
 }  // namespace thinwall::cases

@@ -8,10 +8,9 @@
 
 namespace thinwall::cases {
 
-/// `measured`: its FRF files, bound as those of the part and the tool; data files are in `folder`. An arm's world is
-/// the part's axes; one of a URDF has no links until that is read (case/data_files.hpp).
-[[nodiscard]] setup::Robot bind_robot(const Table& table, std::vector<setup::MeasuredFrf> measured,
-                                      const std::filesystem::path& folder);
+/// The robot of [robot] with the model that is chosen. Data files are in `folder`. An arm's world is the part's axes;
+/// one of a URDF has no links until that is read (case/data_files.hpp).
+[[nodiscard]] setup::Robot bind_robot(const Table& table, const std::filesystem::path& folder);
 
 /// The chains of [[robot.elements]]. Throws InputError for a section that no beam has.
 [[nodiscard]] std::vector<robot::Chain> bind_chains(const Table& robot);

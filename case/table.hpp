@@ -62,6 +62,11 @@ struct Table {
   [[nodiscard]] std::vector<double> numbers(std::string_view name) const {
     return value<std::vector<double>>(name, {});
   }
+  /// The list of numbers of that name, where a single one stands for `count` of them.
+  [[nodiscard]] std::vector<double> numbers(std::string_view name, std::size_t count) const {
+    const std::vector<double> list = numbers(name);
+    return list.size() == 1 ? std::vector<double>(count, list.front()) : list;
+  }
   /// The list of names of that name; empty if it is absent.
   [[nodiscard]] std::vector<std::string> names(std::string_view name) const {
     return value<std::vector<std::string>>(name, {});

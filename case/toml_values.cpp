@@ -4,6 +4,7 @@
 #include <cctype>
 #include <map>
 
+#include "case/alternatives.hpp"
 #include "case/toml_node.hpp"
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
@@ -147,7 +148,9 @@ class Walk {
       problems.push_back(place_of(place, path));
       problems.back().text = join(path, name) + ": missing; " + std::string(key.meaning);
       values.push_back({join(path, name), unread_value(key)});
-    } else if (!key.fallback.empty()) {
+    } else if (const std::string word = told_word(schema_, values, key.path); !word.empty()) {
+      values.push_back({join(path, name), word});
+    } else if (!key.fallback.empty() && fits_alternative(schema_, values, join(path, name))) {
       const auto document = toml::parse("value = " + std::string(key.fallback));
       values.push_back({join(path, name), read_value(*document.get("value"), key)});
     }
@@ -161,6 +164,7 @@ class Walk {
     if (section.implied_by.empty() || parent != pattern || table.contains(name)) return;
     const auto there = [&](const std::string& key) { return find(values, key) != nullptr || has_table(values, key); };
     if (std::ranges::none_of(implying_keys(section), there)) return;
+    if (!fits_alternative(schema_, values, join(path, name))) return;
     table_place_ = table.source().begin;
     this->table(toml::table{}, join(path, name), join(pattern, name));
   }

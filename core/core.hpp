@@ -8,6 +8,7 @@
 #include "core/interrupt.hpp"
 #include "core/memory.hpp"
 #include "core/messages.hpp"
+#include "core/overloaded.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 #include "core/units.hpp"

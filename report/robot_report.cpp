@@ -167,8 +167,8 @@ void write_survey(const std::filesystem::path& folder, const setup::Setup& sourc
   if (survey.tips.empty()) return;
   const io::Table table = columns(survey);
   io::write_csv(below / "postures.csv", table, {"tip of the robot, part axes; stiffness: static, 1/H_nn(0)"});
-  if (source.robot->model == setup::RobotModel::flexible_joints)
-    write_arms(below / "postures.vtu", source.robot->arm, survey, table);
+  if (const auto* robot = std::get_if<setup::JointedRobot>(&source.robot->model))
+    write_arms(below / "postures.vtu", robot->arm, survey, table);
 }
 
 }  // namespace thinwall::report

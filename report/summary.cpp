@@ -118,7 +118,7 @@ json mode_list(const dynamics::ModalModel& model) {
 
 /// The tip as it stands; what the model does not tell is absent.
 json robot_of(const setup::Setup& source, const study::Component& robot, const setup::RobotPosture& posture) {
-  json result = {{"model", core::word_of(source.robot->model)},
+  json result = {{"model", core::word_of(setup::kind(*source.robot))},
                  {"modes", robot.modal ? mode_list(*robot.modal) : json::array()}};
   result.update(posture_summary(posture));
   const study::TipReport report = study::tip_report(posture, robot);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/overloaded.hpp"
 #include "io/results/csv_table.hpp"
 
 namespace thinwall::setup {
@@ -16,35 +17,35 @@ double required_preload(const SupportSetup& source, const Contact& contact) {
       std::string(source.contacts.size() == 1 ? ", or robot.preload along its first direction" : ""));
 }
 
-coupling::Elastic surface_of(const PartSetup& source, const Contact& contact) {
-  if (contact.surface) return *contact.surface;
+coupling::Elastic surface_of(const PartSetup& source, const std::optional<coupling::Elastic>& given) {
+  if (given) return *given;
   if (source.part && source.part->shape != PartShape::matrices)
     return {source.part->material.youngs_modulus, source.part->material.poisson_ratio};
   throw core::InputError("what the ball touches is not known: give [contacts.surface]");
 }
 
-coupling::BallCaster caster_of(const ContactBall& ball) {
-  return {ball.radius, ball.support_radius.value_or(0.0), ball.supports.value_or(0), ball.support_angle.value_or(0.0),
-          ball.steel};
+/// Between the ball and the surface under the preload.
+coupling::HertzState touch(const ContactBall& ball, const coupling::Elastic& surface, double preload_n) {
+  return coupling::hertz({coupling::relative_radius(ball.radius), ball.steel, surface}, preload_n);
 }
 
-/// Stiffness of a ball along each direction, N/m.
-std::vector<double> ball_stiffness(const PartSetup& source, const Contact& contact, JoinedContact& result) {
-  if (!contact.ball) throw core::InputError("its ball is not known: give [contacts.ball]");
-  const coupling::Elastic surface = surface_of(source, contact);
-  const coupling::HertzContact touch{coupling::relative_radius(contact.ball->radius), contact.ball->steel, surface};
-  result.hertz = coupling::hertz(touch, *result.preload_n);
-  if (contact.model == ContactModel::caster)
-    return {coupling::caster_stiffness(caster_of(*contact.ball), surface, *result.preload_n)};
-  std::vector<double> stiffness(contact.directions.size(), result.hertz->tangential);
-  stiffness.front() = result.hertz->normal;
-  return stiffness;
+/// Adds a spring along each direction of the contact.
+void add_springs(const Contact& contact, const std::vector<double>& stiffness, const std::vector<double>& damping,
+                 JoinedContact& result) {
+  for (std::size_t i = 0; i < stiffness.size(); ++i)
+    result.contact.springs.push_back({contact.directions[i], stiffness[i], damping[i], contact.loss_factor});
 }
 
 }  // namespace
 
+std::optional<double> own_preload(const Contact& contact) {
+  return std::visit(core::overloaded{[](const SpringContact&) { return std::optional<double>(); },
+                                     [](const auto& pressed) { return pressed.preload; }},
+                    contact.model);
+}
+
 std::optional<double> preload_of(const SupportSetup& source, const Contact& contact) {
-  if (contact.preload) return contact.preload;
+  if (const auto preload = own_preload(contact)) return preload;
   if (!source.robot || source.contacts.size() != 1 || contact.directions.empty()) return std::nullopt;
   const Eigen::Vector3d& force = source.robot->preload;
   const double pressing = std::abs(force.dot(contact.directions.front()));
@@ -68,24 +69,38 @@ coupling::ContactTable read_contact_table(const std::filesystem::path& path) {
 
 JoinedContact joined_contact(const PartSetup& part, const SupportSetup& support, const Contact& contact,
                              const std::optional<coupling::JointMatrices>& identified) {
-  JoinedContact result{core::word_of(contact.model), {contact.part_point, contact.robot_point, {}, {}}, {}, {}};
+  JoinedContact result{core::word_of(kind(contact)), {contact.part_point, contact.robot_point, {}, {}}, {}, {}};
   if (identified) {
     result.model = "identified";
     result.contact.matrices = *identified;
     for (const auto& direction : contact.directions) result.contact.springs.push_back({direction});
     return result;
   }
-  if (contact.model != ContactModel::springs) result.preload_n = required_preload(support, contact);
-  if (contact.model == ContactModel::table) {
-    if (!contact.rows) throw core::InputError("its table was not read; call setup::read_data_files()");
-    result.contact.springs.push_back(coupling::spring_at(*contact.rows, *result.preload_n, contact.directions.front()));
-    result.contact.springs.back().loss_factor = contact.loss_factor;
-    return result;
-  }
-  const std::vector<double> stiffness =
-      contact.model == ContactModel::springs ? contact.stiffness : ball_stiffness(part, contact, result);
-  for (std::size_t i = 0; i < stiffness.size(); ++i)
-    result.contact.springs.push_back({contact.directions[i], stiffness[i], contact.damping[i], contact.loss_factor});
+  if (kind(contact) != ContactKind::springs) result.preload_n = required_preload(support, contact);
+  std::visit(
+      core::overloaded{
+          [&](const SpringContact& springs) { add_springs(contact, springs.stiffness, springs.damping, result); },
+          [&](const TabledContact& tabled) {
+            if (!tabled.rows) throw core::InputError("its table was not read; call setup::read_data_files()");
+            result.contact.springs.push_back(
+                coupling::spring_at(*tabled.rows, *result.preload_n, contact.directions.front()));
+            result.contact.springs.back().loss_factor = contact.loss_factor;
+          },
+          [&](const BallContact& pressed) {
+            result.hertz = touch(pressed.ball, surface_of(part, pressed.surface), *result.preload_n);
+            std::vector<double> stiffness(contact.directions.size(), result.hertz->tangential);
+            stiffness.front() = result.hertz->normal;
+            add_springs(contact, stiffness, pressed.damping, result);
+          },
+          [&](const CasterContact& caster) {
+            const coupling::Elastic surface = surface_of(part, caster.surface);
+            result.hertz = touch(caster.ball, surface, *result.preload_n);
+            const coupling::BallCaster balls{caster.ball.radius, caster.support_radius, caster.supports,
+                                             caster.support_angle, caster.ball.steel};
+            add_springs(contact, {coupling::caster_stiffness(balls, surface, *result.preload_n)}, caster.damping,
+                        result);
+          }},
+      contact.model);
   return result;
 }
 

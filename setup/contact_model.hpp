@@ -20,6 +20,9 @@ struct JoinedContact {
   std::optional<coupling::HertzState> hertz;  ///< where a ball touches the part
 };
 
+/// The preload (N) that the contact itself is given; none of given springs.
+[[nodiscard]] std::optional<double> own_preload(const Contact& contact);
+
 /// The force (N) that presses the contact together: its own, else |n·F| with its normal n (the first direction) and F
 /// of robot.preload. A part only pushes, so the sign of n·F tells on which side the tip is, no more. None where that is
 /// zero, or where several contacts share F.

@@ -4,6 +4,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <variant>
 
 #include "core/messages.hpp"
 #include "setup/contact_model.hpp"
@@ -23,12 +24,23 @@ std::vector<Frf*> all_frfs(Source& source) {
     for (auto& file : files) all.push_back(&file);
   };
   add(source.measured_part);
-  if (source.damping.from_frf) all.push_back(&*source.damping.from_frf);
-  for (auto& contact : source.contacts) add(contact.measured);
-  if (source.robot) add(source.robot->measured);
+  if (auto* modal = std::get_if<ModalDamping>(&source.damping); modal != nullptr && modal->from_frf)
+    all.push_back(&*modal->from_frf);
+  for (auto& contact : source.contacts) {
+    if (auto* springs = std::get_if<SpringContact>(&contact.model)) add(springs->measured);
+  }
+  if (source.robot) {
+    if (auto* robot = std::get_if<MeasuredRobot>(&source.robot->model)) add(robot->measured);
+  }
   if (source.tool) add(source.tool->measured);
   if (source.tool && source.tool->swap) add(source.tool->swap->measured);
   return all;
+}
+
+/// The robot that a table of modes describes; null for another one, and where there is none.
+template <class Source>
+auto* tabled_robot(Source& source) {
+  return source.robot ? std::get_if<TabledRobot>(&source.robot->model) : nullptr;
 }
 
 }  // namespace
@@ -47,11 +59,11 @@ void read_data_files(Setup& source) {
     if (!frf->content) frf->content = std::make_shared<const FrfContent>(read_measured(*frf, files));
   }
   for (Contact& contact : source.contacts) {
-    if (contact.model == ContactModel::table && !contact.rows)
-      contact.rows = std::make_shared<const coupling::ContactTable>(read_contact_table(contact.table));
+    if (auto* tabled = std::get_if<TabledContact>(&contact.model); tabled != nullptr && !tabled->rows)
+      tabled->rows = std::make_shared<const coupling::ContactTable>(read_contact_table(tabled->table));
   }
-  if (source.robot && source.robot->model == RobotModel::modal_table && !source.robot->table_modes)
-    source.robot->table_modes = std::make_shared<const dynamics::ModalTable>(read_table_of_modes(*source.robot));
+  if (auto* robot = tabled_robot(source); robot != nullptr && !robot->table_modes)
+    robot->table_modes = std::make_shared<const dynamics::ModalTable>(read_table_of_modes(*robot));
   if (source.part && from_file(*source.part) && !source.part->imported)
     source.part->imported = read_part_file(*source.part);
 }
@@ -60,9 +72,14 @@ void share_data_files(Setup& varied, const Setup& read) {
   const std::vector<MeasuredFrf*> to = measured_frfs(varied);
   const std::vector<const MeasuredFrf*> from = measured_frfs(read);
   for (std::size_t i = 0; i < std::min(to.size(), from.size()); ++i) to[i]->content = from[i]->content;
-  for (std::size_t i = 0; i < std::min(varied.contacts.size(), read.contacts.size()); ++i)
-    varied.contacts[i].rows = read.contacts[i].rows;
-  if (varied.robot && read.robot) varied.robot->table_modes = read.robot->table_modes;
+  for (std::size_t i = 0; i < std::min(varied.contacts.size(), read.contacts.size()); ++i) {
+    auto* tabled = std::get_if<TabledContact>(&varied.contacts[i].model);
+    const auto* with_rows = std::get_if<TabledContact>(&read.contacts[i].model);
+    if (tabled != nullptr && with_rows != nullptr) tabled->rows = with_rows->rows;
+  }
+  auto* robot = tabled_robot(varied);
+  const auto* with_modes = tabled_robot(read);
+  if (robot != nullptr && with_modes != nullptr) robot->table_modes = with_modes->table_modes;
   if (varied.part && read.part) varied.part->imported = read.part->imported;
 }
 

@@ -7,20 +7,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/words.hpp"
 #include "setup/measured_frf.hpp"
 
 namespace thinwall::setup {
-
-/// Models of the part's damping.
-enum class DampingModel {
-  modal,       ///< a ratio of each mode
-  rayleigh,    ///< C = αM + βK
-  structural,  ///< a loss factor
-  matrices,    ///< the damping matrix of the part's file
-};
 
 /// Modes wanted, by count or by frequency.
 struct ModeRange {
@@ -42,16 +35,32 @@ struct Reduction {
   int check_frequencies = 5;
 };
 
-/// Damping of the part: one of the models, with its numbers.
-struct Damping {
-  DampingModel model = DampingModel::modal;
+/// A damping ratio of each mode, given or from a measured driving point.
+struct ModalDamping {
   double ratio = 0.0;          ///< of every mode that `ratios` does not name
   std::vector<double> ratios;  ///< of the first modes
   std::optional<MeasuredFrf> from_frf;
+};
+
+/// C = αM + βK.
+struct RayleighDamping {
   double alpha = 0.0;  ///< 1/s
   double beta = 0.0;   ///< s
+};
+
+/// K (1 + iη).
+struct StructuralDamping {
   double loss_factor = 0.0;
 };
+
+/// The damping matrix of the part's file.
+struct MatrixDamping {};
+
+/// Damping of the part: one of the models, with its numbers.
+using Damping = std::variant<ModalDamping, RayleighDamping, StructuralDamping, MatrixDamping>;
+
+/// The models of the part's damping, in the order of Damping.
+enum class DampingKind { modal, rayleigh, structural, matrices };
 
 /// The frequencies at which receptances are computed, and the points between which.
 struct ResponseOptions {
@@ -66,7 +75,7 @@ struct ResponseOptions {
 namespace thinwall::core {
 
 template <>
-inline constexpr std::array<std::string_view, 4> words<setup::DampingModel>{"modal", "rayleigh", "structural",
-                                                                            "matrices"};
+inline constexpr std::array<std::string_view, 4> words<setup::DampingKind>{"modal", "rayleigh", "structural",
+                                                                           "matrices"};
 
 }  // namespace thinwall::core

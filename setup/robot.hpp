@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/words.hpp"
@@ -16,16 +17,6 @@
 #include "setup/measured_frf.hpp"
 
 namespace thinwall::setup {
-
-/// Models of a robot's tip.
-enum class RobotModel {
-  one_mode,
-  modes,
-  measured,         ///< FRFs
-  modal_table,      ///< a table of modes over postures
-  flexible_joints,  ///< an arm with elastic joints
-  virtual_joints,   ///< chains of links and elastic joints
-};
 
 /// A mode of a tip along a direction.
 struct TipMode {
@@ -45,34 +36,76 @@ struct PostureWish {
   std::vector<double> start;                ///< rad; empty: zeros
 };
 
-/// The model of the robot's tip. `one_mode`: stiffness with frequency and damping ratio, or mass with stiffness and
-/// damping (or damping ratio); what was not given is empty.
-struct Robot {
-  RobotModel model = RobotModel::one_mode;
-  std::string point = "R";
+/// A tip of one mode: stiffness with frequency and damping ratio, or mass with stiffness and damping (or damping
+/// ratio); what was not given is empty.
+struct OneModeRobot {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
   std::optional<double> frequency_hz, damping_ratio, mass, stiffness, damping;
+};
+
+/// A tip that is the sum of modes, each along its own direction.
+struct ModalRobot {
   std::vector<TipMode> modes;
+};
+
+/// A tip that is known by its FRFs.
+struct MeasuredRobot {
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< of a single FRF
   std::vector<MeasuredFrf> measured;
-  robot::SerialArm arm;              ///< world: the part's axes
-  std::vector<robot::Chain> chains;  ///< of virtual_joints, world: the part's axes
-  std::filesystem::path table;       ///< of modal_table
+  std::vector<Sensor> sensors;  ///< during all of `measured`
+};
+
+/// A tip that is known by a table of its modes over postures.
+struct TabledRobot {
+  std::filesystem::path table;
   std::string table_point, left_unit, right_unit;
   bool cross_terms = true;
-  std::filesystem::path urdf, joints;  ///< that the arm was read from; empty: from the case
-  PostureWish posture;
-  Eigen::Vector3d preload = Eigen::Vector3d::Zero();             ///< N, on the tip
-  std::vector<Eigen::Vector3d> workspace;                        ///< places of the tip, m
-  std::vector<Sensor> sensors = {};                              ///< during all of `measured`
+  Eigen::Isometry3d base = Eigen::Isometry3d::Identity();  ///< whose axes are those of the table; world: the part's
   std::shared_ptr<const dynamics::ModalTable> table_modes = {};  ///< of the table, once it is read
 };
+
+/// An arm of rigid links with flexible joints, and the way in which it stands.
+struct JointedRobot {
+  robot::SerialArm arm;                ///< world: the part's axes
+  std::filesystem::path urdf, joints;  ///< that the arm was read from; empty: from the case
+  PostureWish posture;
+  std::vector<Eigen::Vector3d> workspace;  ///< places of the tip, m
+};
+
+/// Chains of links and elastic joints that hold one tip.
+struct ChainedRobot {
+  std::vector<robot::Chain> chains;  ///< world: the part's axes
+};
+
+/// A model of a robot's tip.
+using RobotModel = std::variant<OneModeRobot, ModalRobot, MeasuredRobot, TabledRobot, JointedRobot, ChainedRobot>;
+
+/// The models of a robot's tip, in the order of RobotModel.
+enum class RobotKind { one_mode, modes, measured, modal_table, flexible_joints, virtual_joints };
+
+/// The robot: its tip's name, what presses it, and the model of it.
+struct Robot {
+  std::string point = "R";
+  Eigen::Vector3d preload = Eigen::Vector3d::Zero();  ///< N, on the tip
+  RobotModel model;
+};
+
+/// The kind of a robot's model.
+[[nodiscard]] inline RobotKind kind(const Robot& robot) {
+  return static_cast<RobotKind>(robot.model.index());
+}
+
+/// True if the robot is known by measurements alone: FRFs, or a table of modes. Such a robot has no matrices.
+[[nodiscard]] inline bool is_measured(const Robot& robot) {
+  return std::holds_alternative<MeasuredRobot>(robot.model) || std::holds_alternative<TabledRobot>(robot.model);
+}
 
 }  // namespace thinwall::setup
 
 namespace thinwall::core {
 
 template <>
-inline constexpr std::array<std::string_view, 6> words<setup::RobotModel>{
+inline constexpr std::array<std::string_view, 6> words<setup::RobotKind>{
     "one_mode", "modes", "measured", "modal_table", "flexible_joints", "virtual_joints"};
 
 }  // namespace thinwall::core

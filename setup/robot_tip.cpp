@@ -8,6 +8,7 @@
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/overloaded.hpp"
 #include "dynamics/conversion.hpp"
 #include "io/frf/modal_table_csv.hpp"
 #include "robot/arm_kinematics.hpp"
@@ -26,7 +27,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-robot::OneMode single_mode(const Robot& robot) {
+robot::OneMode single_mode(const OneModeRobot& robot) {
   const double k = *robot.stiffness;
   if (!robot.mass) {
     robot::OneMode mode = robot::one_mode(*robot.frequency_hz, robot.damping_ratio.value_or(0.0), k, robot.direction);
@@ -39,37 +40,38 @@ robot::OneMode single_mode(const Robot& robot) {
 }
 
 /// One file is along robot.direction, several are between the tip's axes; less the sensors.
-dynamics::ResponseModel measured_tip(const Robot& robot, const dynamics::FrequencyAxis& axis) {
+dynamics::ResponseModel measured_tip(const MeasuredRobot& robot, const std::string& point,
+                                     const dynamics::FrequencyAxis& axis) {
   dynamics::ResponseModel tip =
       robot.measured.size() > 1
           ? measured_response(robot.measured, axis)
-          : robot::measured_receptance(axis, io::resample(receptance_of(robot.measured.front()), axis), robot.point,
+          : robot::measured_receptance(axis, io::resample(receptance_of(robot.measured.front()), axis), point,
                                        robot.direction);
   return without_sensors(std::move(tip), robot.sensors, "the robot's");
 }
 
 /// The tip's part of the table, its axes turned into the part's.
-dynamics::ModalModel tabled_tip(const Robot& robot) {
+dynamics::ModalModel tabled_tip(const TabledRobot& robot, const std::string& point) {
   if (!robot.table_modes)
     throw core::InputError("\"" + robot.table.string() + "\" was not read; call setup::read_data_files()");
   dynamics::ModalModel tip = robot::modal_model(robot::at_point(*robot.table_modes, robot.table_point));
   if (!robot.cross_terms) tip = robot::without_cross_terms(tip);
   for (dynamics::Dof& dof : tip.dofs) {
-    dof.point = robot.point;
-    dof.direction = robot.arm.base.linear() * dof.direction;
+    dof.point = point;
+    dof.direction = robot.base.linear() * dof.direction;
   }
   return tip;
 }
 
 /// The place in space where the tip is to be.
-Vector3d wanted_place(const PartSetup& part, const SupportSetup& support) {
-  if (support.robot->posture.tip) return *support.robot->posture.tip;
+Vector3d wanted_place(const PartSetup& part, const SupportSetup& support, const PostureWish& wish) {
+  if (wish.tip) return *wish.tip;
   if (const auto place = contact_place(part, support)) return *place;
   throw core::InputError("the place of the robot's tip is not known; give robot.posture.tip or a contact");
 }
 
 /// The closed form's posture on the wanted side and with the wanted elbow.
-Eigen::VectorXd four_axis_posture(const Robot& robot, const Vector3d& place) {
+Eigen::VectorXd four_axis_posture(const JointedRobot& robot, const Vector3d& place) {
   const PostureWish& wish = robot.posture;
   const Vector3d p = robot.arm.base.inverse() * place;
   const double towards = std::atan2(p.y(), p.x());
@@ -82,7 +84,7 @@ Eigen::VectorXd four_axis_posture(const Robot& robot, const Vector3d& place) {
 }
 
 /// z along the approach; x in the plane of it and the base's z, towards z, then turned by the angle.
-Eigen::Isometry3d tip_frame(const Robot& robot, const Vector3d& place) {
+Eigen::Isometry3d tip_frame(const JointedRobot& robot, const Vector3d& place) {
   const Vector3d z = *robot.posture.approach;
   const Eigen::Matrix3d base = robot.arm.base.linear();
   Vector3d x = base.col(2) - base.col(2).dot(z) * z;
@@ -95,7 +97,7 @@ Eigen::Isometry3d tip_frame(const Robot& robot, const Vector3d& place) {
   return frame;
 }
 
-Eigen::VectorXd searched_posture(const Robot& robot, const Vector3d& place, const Eigen::VectorXd& start) {
+Eigen::VectorXd searched_posture(const JointedRobot& robot, const Vector3d& place, const Eigen::VectorXd& start) {
   const robot::Reached found = robot::reach(robot.arm, tip_frame(robot, place), start);
   if (found.status != robot::ReachStatus::not_reached) return found.q;
   throw core::InputError(fmt::format(
@@ -105,19 +107,18 @@ Eigen::VectorXd searched_posture(const Robot& robot, const Vector3d& place, cons
       place.x(), place.y(), place.z(), found.position_error, found.rotation_error * 180.0 / std::numbers::pi));
 }
 
-Eigen::VectorXd joints_of(const PartSetup& part, const SupportSetup& support,
+Eigen::VectorXd joints_of(const PartSetup& part, const SupportSetup& support, const JointedRobot& robot,
                           const std::optional<Eigen::VectorXd>& near) {
-  const Robot& robot = *support.robot;
   const PostureWish& wish = robot.posture;
   const auto as_vector = [](const std::vector<double>& list) -> Eigen::VectorXd {
     return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
   };
   if (!wish.joints.empty()) return as_vector(wish.joints);
-  if (wish.pitch) return four_axis_posture(robot, wanted_place(part, support));
+  if (wish.pitch) return four_axis_posture(robot, wanted_place(part, support, wish));
   if (!wish.approach)
     throw core::InputError("how the robot stands is not known; give robot.posture by joints, pitch or approach");
   const Eigen::VectorXd start = wish.start.empty() ? Eigen::VectorXd::Zero(robot.arm.joints()) : as_vector(wish.start);
-  return searched_posture(robot, wanted_place(part, support), near.value_or(start));
+  return searched_posture(robot, wanted_place(part, support, wish), near.value_or(start));
 }
 
 /// The ratio of the smallest to the largest singular value of the tip's Jacobian with 1 m a radian.
@@ -143,30 +144,38 @@ std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list) {
   return modes;
 }
 
-dynamics::ModalTable read_table_of_modes(const Robot& robot) {
+dynamics::ModalTable read_table_of_modes(const TabledRobot& robot) {
   const io::ModalTableFormat format{
       io::modal_unit(robot.left_unit), io::modal_unit(robot.right_unit), {{robot.table_point, {0.0}}}};
   return io::read_modal_table(robot.table, format);
 }
 
 robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis) {
-  if (robot.model == RobotModel::flexible_joints) return robot::flexible_joints(robot.arm, robot.point);
-  if (robot.model == RobotModel::measured) return robot::in_one_posture(measured_tip(robot, axis));
-  if (robot.model == RobotModel::modal_table) return robot::in_one_posture(tabled_tip(robot));
-  if (robot.model == RobotModel::virtual_joints)
-    return robot::in_one_posture(robot::spatial_model(robot::reduced_tip(robot.chains), robot.point));
-  const auto modes = robot.model == RobotModel::modes ? one_modes(robot.modes) : std::vector{single_mode(robot)};
-  return robot::in_one_posture(robot::spatial_model(modes, robot.point));
+  const std::string& point = robot.point;
+  const auto of_modes = [&](const std::vector<robot::OneMode>& modes) {
+    return robot::in_one_posture(robot::spatial_model(modes, point));
+  };
+  return std::visit(
+      core::overloaded{
+          [&](const OneModeRobot& model) { return of_modes({single_mode(model)}); },
+          [&](const ModalRobot& model) { return of_modes(one_modes(model.modes)); },
+          [&](const MeasuredRobot& model) { return robot::in_one_posture(measured_tip(model, point, axis)); },
+          [&](const TabledRobot& model) { return robot::in_one_posture(tabled_tip(model, point)); },
+          [&](const JointedRobot& model) { return robot::flexible_joints(model.arm, point); },
+          [&](const ChainedRobot& model) {
+            return robot::in_one_posture(robot::spatial_model(robot::reduced_tip(model.chains), point));
+          }},
+      robot.model);
 }
 
 RobotPosture robot_posture(const PartSetup& part, const SupportSetup& support,
                            const std::optional<Eigen::VectorXd>& near) {
-  const Robot& robot = *support.robot;
   RobotPosture result;
-  result.posture.preload = robot.preload;
-  if (robot.model != RobotModel::flexible_joints) return result;
-  result.posture.q = joints_of(part, support, near);
-  const robot::ArmPose at = robot::pose(robot.arm, result.posture.q);
+  result.posture.preload = support.robot->preload;
+  const auto* robot = std::get_if<JointedRobot>(&support.robot->model);
+  if (robot == nullptr) return result;
+  result.posture.q = joints_of(part, support, *robot, near);
+  const robot::ArmPose at = robot::pose(robot->arm, result.posture.q);
   result.tip = at.tip.translation();
   result.smallest_singular = smallest_singular(at);
   for (const auto& origin : at.origins.colwise()) result.arm.emplace_back(origin);
@@ -175,11 +184,11 @@ RobotPosture robot_posture(const PartSetup& part, const SupportSetup& support,
 }
 
 dynamics::SpatialModel robot_matrices(const Robot& robot, const robot::Posture& posture) {
-  if (robot.model != RobotModel::measured && robot.model != RobotModel::modal_table) {
+  if (!is_measured(robot)) {
     robot::Tip tip = tip_model(robot, {})(posture);
     if (auto* spatial = std::get_if<dynamics::SpatialModel>(&tip)) return std::move(*spatial);
   }
-  throw core::InputError("robot.model = \"" + core::word_of(robot.model) + "\" has no matrices; take a modelled robot");
+  throw core::InputError("robot.model = \"" + core::word_of(kind(robot)) + "\" has no matrices; take a modelled robot");
 }
 
 dynamics::SpatialModel robot_matrices(const PartSetup& part, const SupportSetup& support) {

@@ -24,7 +24,7 @@ struct RobotPosture {
 [[nodiscard]] std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list);
 
 /// The modes of the file that robot.table names. Errors as io::modal_unit() and io::read_modal_table().
-[[nodiscard]] dynamics::ModalTable read_table_of_modes(const Robot& robot);
+[[nodiscard]] dynamics::ModalTable read_table_of_modes(const TabledRobot& robot);
 
 /// The tip at any posture, by the model that the case names. Measured receptances are put on `axis`. Throws InputError
 /// for a table of modes or an FRF that was not read.

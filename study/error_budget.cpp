@@ -70,8 +70,8 @@ ErrorBudget error_budget(const BudgetInput& input, const Results& results) {
     if (budget.richer_part) budget.part.truncation = difference(results.part->response, budget.richer_part->response);
     budget.part.noise = noise_of("part", input.measured_part, input.part_sensors, results.part->response);
   }
-  if (results.robot)
-    budget.robot.noise = noise_of("robot", input.robot->measured, input.robot->sensors, results.robot->response);
+  if (const auto* robot = input.robot ? std::get_if<setup::MeasuredRobot>(&input.robot->model) : nullptr)
+    budget.robot.noise = noise_of("robot", robot->measured, robot->sensors, results.robot->response);
   const bool exact = !budget.richer_part && budget.part.noise.empty() && budget.robot.noise.empty();
   if (!results.coupled || exact) return budget;
   const coupling::CouplingOptions options = coupling_options(input.coupling);

@@ -91,7 +91,7 @@ void warn_of_distance(const setup::PartSetup& part, const setup::SupportSetup& s
 
 /// Finds the joint of the first contact where FRFs of the assembly are given.
 void find_contact(const setup::Setup& work, Results& results, Stages& stages) {
-  if (work.contacts.front().measured.empty()) return;
+  if (setup::measured_assembly(work.contacts.front()).empty()) return;
   if (!work.part_sensors.empty()) {
     core::warn(
         "the part's FRFs were freed of a sensor's mass, those of the assembly were not: if the sensor sat there, too, "
@@ -148,7 +148,7 @@ void run_responses(Checkpoint& kept, const setup::Setup& work, Results& results,
     if (results.survey->tips.empty()) core::warn("the robot reaches no place of its workspace");
   }
   if (!work.measured_part.empty()) setup::warn_if_implausible(results.part->response, "the part's");
-  if (work.robot && work.robot->model == setup::RobotModel::measured)
+  if (work.robot && std::holds_alternative<setup::MeasuredRobot>(work.robot->model))
     setup::warn_if_implausible(results.robot->response, "the robot's");
   if (part && work.robot && !work.contacts.empty()) run_coupling(kept, work, results, stages);
   stages.begin("error budget");
@@ -218,7 +218,7 @@ void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoi
     add_sampled_chart(work, frame, points, kept, results);
   }
   const bool pressed = results.coupled && (work.robot->preload != Eigen::Vector3d::Zero() ||
-                                           (work.contacts.size() == 1 && work.contacts.front().preload));
+                                           (work.contacts.size() == 1 && setup::own_preload(work.contacts.front())));
   if (pressed) flag_contacts(work, results);
   if (!work.path) return;
   stages.begin("lobes along the path");

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "case/alternatives.hpp"
 #include "case/checks/contact_checks.hpp"
 #include "case/checks/cutting_checks.hpp"
 #include "case/checks/findings.hpp"
@@ -21,6 +22,7 @@
 #include "case/checks/updating_checks.hpp"
 #include "case/numbers.hpp"
 #include "case/schema/schema.hpp"
+#include "core/overloaded.hpp"
 #include "core/units.hpp"
 #include "io/frf/frf_quantity.hpp"
 #include "setup/measured.hpp"
@@ -55,23 +57,12 @@ void check_ranges(const Case& source, Findings& findings) {
 }
 
 void check_damping(const Case& source, Findings& findings) {
-  const setup::Damping& damping = source.damping;
-  const auto belongs_to = [&](const char* key, const char* model, bool used) {
-    if (!used || damping.model == core::from_word<setup::DampingModel>(model) || findings.unreadable("damping.model"))
-      return;
-    findings.report(key, "belongs to damping.model = \"" + std::string(model) + "\", but the model is \"" +
-                             core::word_of(damping.model) + "\"");
-  };
-  belongs_to("damping.ratios", "modal", !damping.ratios.empty());
-  belongs_to("damping.from_frf.file", "modal", damping.from_frf.has_value());
-  belongs_to("damping.alpha", "rayleigh", damping.alpha != 0.0);
-  belongs_to("damping.beta", "rayleigh", damping.beta != 0.0);
-  belongs_to("damping.loss_factor", "structural", damping.loss_factor != 0.0);
-  if (!damping.ratios.empty() && damping.from_frf)
+  const auto* modal = std::get_if<setup::ModalDamping>(&source.damping);
+  if (modal != nullptr && !modal->ratios.empty() && modal->from_frf)
     findings.report("damping.ratios", "give either damping.ratios or damping.from_frf, not both");
-  if (damping.model == setup::DampingModel::rayleigh && damping.alpha == 0.0 && damping.beta == 0.0) {
+  const auto* rayleigh = std::get_if<setup::RayleighDamping>(&source.damping);
+  if (rayleigh != nullptr && rayleigh->alpha == 0.0 && rayleigh->beta == 0.0)
     findings.report("damping.model", "rayleigh needs alpha or beta");
-  }
 }
 
 /// True for every unit that the readers take, "g/N" among them.
@@ -84,7 +75,12 @@ bool is_frf_unit(const std::string& quantity, const std::string& unit) {
   }
 }
 
-/// Dimension of an FRF per newton: m/N has s²/kg, a mobility s/kg, an accelerance 1/kg.
+/// The power of time in the dimension of an FRF: a receptance in m/N has s²/kg, a mobility s/kg, an accelerance 1/kg.
+int power_of_time(const std::string& quantity) {
+  if (quantity == io::quantity_word(io::FrfQuantity::receptance)) return 2;
+  return quantity == io::quantity_word(io::FrfQuantity::mobility) ? 1 : 0;
+}
+
 void check_measured(const std::string& key, const setup::MeasuredFrf& frf, Findings& findings) {
   const bool tells_itself = setup::frf_file_kind(frf.file) != setup::FrfFileKind::csv;
   if (frf.quantity.empty() && !findings.given(key + ".quantity") && !tells_itself)
@@ -97,7 +93,7 @@ void check_measured(const std::string& key, const setup::MeasuredFrf& frf, Findi
   if (tells_itself && frf.quantity.empty() && frf.unit.empty() && frf.frequency_unit != "Hz" &&
       !frf.frequency_unit.empty())
     findings.report(key + ".frequency_unit", "counts beside quantity and unit only; give these too, or remove it");
-  const int time = frf.quantity == "receptance" ? 2 : frf.quantity == "mobility" ? 1 : 0;
+  const int time = power_of_time(frf.quantity);
   if (!frf.unit.empty() && !frf.quantity.empty() && !is_frf_unit(frf.quantity, frf.unit)) {
     try {
       if (core::parse_unit(frf.unit).dimension != core::Dimension{0, -1, time, 0, 0}) {
@@ -135,13 +131,14 @@ void check_all_measured(const Case& source, Findings& findings) {
     check_measured(indexed("part.measured", i), source.measured_part[i], findings);
   }
   check_measured_part(source, findings);
-  if (const auto& frf = source.damping.from_frf) {
+  if (const auto* modal = std::get_if<setup::ModalDamping>(&source.damping); modal != nullptr && modal->from_frf) {
+    const auto& frf = modal->from_frf;
     check_measured("damping.from_frf", *frf, findings);
     findings.require_known("damping.from_frf.response", setup::point_of(frf->response), part_points(source), "point");
     require_driving_point("damping.from_frf", *frf, findings);
   }
   for (std::size_t i = 0; i < source.contacts.size(); ++i) {
-    const auto& measured = source.contacts[i].measured;
+    const auto measured = setup::measured_assembly(source.contacts[i]);
     for (std::size_t j = 0; j < measured.size(); ++j)
       check_measured(indexed(indexed("contacts", i) + ".measured", j), measured[j], findings);
   }
@@ -153,12 +150,13 @@ void check_all_measured(const Case& source, Findings& findings) {
         check_measured(indexed("tool.swap.measured", i), source.tool->swap->measured[i], findings);
     }
   }
-  if (!source.robot) return;
-  for (std::size_t i = 0; i < source.robot->measured.size(); ++i) {
+  const auto* robot = source.robot ? std::get_if<setup::MeasuredRobot>(&source.robot->model) : nullptr;
+  if (robot == nullptr) return;
+  for (std::size_t i = 0; i < robot->measured.size(); ++i) {
     const std::string key = indexed("robot.measured", i);
-    check_measured(key, source.robot->measured[i], findings);
-    findings.require_known(key + ".response", setup::point_of(source.robot->measured[i].response),
-                           {source.robot->point}, "point of the robot");
+    check_measured(key, robot->measured[i], findings);
+    findings.require_known(key + ".response", setup::point_of(robot->measured[i].response), {source.robot->point},
+                           "point of the robot");
   }
 }
 
@@ -184,6 +182,23 @@ void check_contact_directions(const Case& source, const std::string& key, const 
   }
 }
 
+/// Lists of a contact have a value for each of its directions.
+void check_one_a_direction(const std::string& key, const setup::Contact& contact, Findings& findings) {
+  const auto check = [&](const char* name, const std::vector<double>& list) {
+    if (list.empty() || contact.directions.empty() || list.size() == contact.directions.size()) return;
+    findings.report(key + name, std::to_string(list.size()) + " values for " +
+                                    std::to_string(contact.directions.size()) +
+                                    " directions; give one, or one for each");
+  };
+  std::visit(core::overloaded{[&](const setup::SpringContact& springs) {
+                                check(".stiffness", springs.stiffness);
+                                check(".damping", springs.damping);
+                              },
+                              [](const setup::TabledContact&) {},
+                              [&](const auto& pressed) { check(".damping", pressed.damping); }},
+             contact.model);
+}
+
 void check_contact(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
   require_kept(source, key + ".part", contact.part_point, findings);
   check_contact_directions(source, key, contact, findings);
@@ -196,13 +211,7 @@ void check_contact(const Case& source, const std::string& key, const setup::Cont
   if (directions != nullptr && !independent(contact.directions)) {
     findings.report(key + ".directions", "the directions must be independent, three at most");
   }
-  for (const auto& [name, list] :
-       {std::pair{".stiffness", &contact.stiffness}, std::pair{".damping", &contact.damping}}) {
-    if (list->empty() || contact.directions.empty() || list->size() == contact.directions.size()) continue;
-    findings.report(key + name, std::to_string(list->size()) + " values for " +
-                                    std::to_string(contact.directions.size()) +
-                                    " directions; give one, or one for each");
-  }
+  check_one_a_direction(key, contact, findings);
   for (const auto& direction : contact.directions) {
     const std::string support = clamped_by(source, contact.part_point, direction);
     if (support.empty()) continue;
@@ -280,6 +289,7 @@ void check_lobes(const Case& source, Findings& findings) {
 
 std::vector<Problem> check_case(const Case& source) {
   Findings findings{source.values, {}};
+  for (const auto& [key, text] : faults_of_alternatives(case_schema(), source.values)) findings.report(key, text);
   check_something_to_do(source, findings);
   check_part(source, findings);
   check_ranges(source, findings);

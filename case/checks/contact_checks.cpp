@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "case/checks/part_checks.hpp"
 #include "core/error.hpp"
+#include "core/overloaded.hpp"
 #include "setup/contact_model.hpp"
 #include "setup/measured_layout.hpp"
 
@@ -15,43 +17,18 @@ namespace thinwall::cases {
 
 namespace {
 
-bool rolls(const setup::Contact& contact) {
-  return contact.model == setup::ContactModel::hertz || contact.model == setup::ContactModel::caster;
-}
-
 // A resolved case writes defaults out: only another value shows that the user meant it.
-bool gives_stiffness(const setup::Contact& contact) {
-  return std::ranges::any_of(contact.stiffness, [](double k) { return std::isfinite(k); });
+bool gives_stiffness(const setup::SpringContact& springs) {
+  return std::ranges::any_of(springs.stiffness, [](double k) { return std::isfinite(k); });
 }
 
-bool gives_damping(const setup::Contact& contact) {
-  return std::ranges::any_of(contact.damping, [](double c) { return c > 0.0; });
-}
-
-/// Keys that another model reads than the contact's.
-void check_belongings(const std::string& key, const setup::Contact& contact, Findings& findings) {
-  const auto belongs = [&](const std::string& name, bool there, bool fits, const std::string& to) {
-    if (there && !fits)
-      findings.report(key + name, "belongs to contacts.model = " + to + ", but the model is \"" +
-                                      core::word_of(contact.model) + "\"");
-  };
-  const bool springs = contact.model == setup::ContactModel::springs,
-             table = contact.model == setup::ContactModel::table;
-  belongs(".stiffness", gives_stiffness(contact), springs, "\"springs\"");
-  belongs(".damping", gives_damping(contact), !table, "\"springs\", \"hertz\" or \"caster\"");
-  belongs(".table", !contact.table.empty(), table, "\"table\"");
-  belongs(".preload", contact.preload.has_value(), !springs, "\"table\", \"hertz\" or \"caster\"");
-  belongs(".ball", contact.ball.has_value(), rolls(contact), "\"hertz\" or \"caster\"");
-  belongs(".surface", contact.surface.has_value(), rolls(contact), "\"hertz\" or \"caster\"");
-  if (contact.model != setup::ContactModel::hertz || !contact.ball) return;
-  belongs(".ball.supports", contact.ball->supports.has_value(), false, "\"caster\"");
-  belongs(".ball.support_radius", contact.ball->support_radius.has_value(), false, "\"caster\"");
-  belongs(".ball.support_angle", contact.ball->support_angle.has_value(), false, "\"caster\"");
+bool gives_damping(const setup::SpringContact& springs) {
+  return std::ranges::any_of(springs.damping, [](double c) { return c > 0.0; });
 }
 
 void check_directions(const std::string& key, const setup::Contact& contact, Findings& findings) {
   const auto& directions = contact.directions;
-  if (contact.model == setup::ContactModel::hertz) {
+  if (std::holds_alternative<setup::BallContact>(contact.model)) {
     const bool across = std::all_of(directions.begin() + 1, directions.end(), [&](const Eigen::Vector3d& d) {
       return std::abs(d.dot(directions.front())) <= 1e-6;
     });
@@ -60,25 +37,10 @@ void check_directions(const std::string& key, const setup::Contact& contact, Fin
           key + ".directions",
           "a ball resists along its normal, the first direction, and at right angles to it; turn the others");
   } else if (directions.size() > 1) {
-    findings.report(key + ".directions", "\"" + core::word_of(contact.model) +
+    findings.report(key + ".directions", "\"" + core::word_of(kind(contact)) +
                                              "\" is known along one direction; join the others by a [[contacts]] of "
                                              "their own");
   }
-}
-
-void check_ball(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
-  if (!contact.ball) {
-    findings.report(key + ".ball", "missing; give [contacts.ball] with its radius");
-  } else if (contact.model == setup::ContactModel::caster) {
-    const auto need = [&](const char* name, bool there) {
-      if (!there) findings.report(key + name, "missing; a caster needs the balls that carry its main ball");
-    };
-    need(".ball.supports", contact.ball->supports.has_value());
-    need(".ball.support_radius", contact.ball->support_radius.has_value());
-    need(".ball.support_angle", contact.ball->support_angle.has_value());
-  }
-  if (!source.part && !contact.surface)
-    findings.report(key + ".surface", "missing; a measured part does not tell what the ball touches");
 }
 
 void check_preload(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
@@ -89,35 +51,55 @@ void check_preload(const Case& source, const std::string& key, const setup::Cont
                                                      : ", and robot.preload has none along the first direction"));
 }
 
-/// Reports what the model itself refuses of a contact that has all it needs. Numbers that could not be read were
-/// reported before.
+/// Numbers of the ball, of what it touches and of its damping; NaN among them where one could not be read.
+std::vector<double> numbers_of(const Case& source, const setup::Contact& contact, const auto& pressed) {
+  std::vector<double> numbers{pressed.ball.radius, pressed.ball.steel.E, pressed.ball.steel.nu};
+  if (pressed.surface) {
+    numbers.insert(numbers.end(), {pressed.surface->E, pressed.surface->nu});
+  } else if (source.part && source.part->shape != setup::PartShape::matrices) {
+    const setup::Material& material = source.part->material;
+    numbers.insert(numbers.end(), {material.youngs_modulus, material.poisson_ratio});
+  }
+  if (pressed.damping.size() != contact.directions.size()) numbers.push_back(std::numeric_limits<double>::quiet_NaN());
+  return numbers;
+}
+
+/// Reports what the model itself refuses of a contact that has all it needs. Numbers that could not be read, or are not
+/// there, were reported before.
 void try_contact(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
+  const auto* tabled = std::get_if<setup::TabledContact>(&contact.model);
   std::error_code ignored;
-  if (contact.model == setup::ContactModel::table && !std::filesystem::is_regular_file(contact.table, ignored)) {
-    findings.report(key + ".table", contact.table.empty() ? "missing; name the CSV"
-                                                          : "there is no file \"" + contact.table.string() + "\"");
+  if (tabled != nullptr && !std::filesystem::is_regular_file(tabled->table, ignored)) {
+    if (!tabled->table.empty()) findings.report(key + ".table", "there is no file \"" + tabled->table.string() + "\"");
     return;
   }
-  if (contact.model == setup::ContactModel::table && !contact.rows) return;  // a fault of the file was reported
-  std::vector<double> numbers{setup::preload_of(source, contact).value_or(0.0), contact.loss_factor};
-  const coupling::Elastic surface =
-      contact.surface ? *contact.surface
-      : source.part && source.part->shape != setup::PartShape::matrices
-          ? coupling::Elastic{source.part->material.youngs_modulus, source.part->material.poisson_ratio}
-          : coupling::Elastic{};
-  if (rolls(contact)) {
-    const setup::ContactBall& ball = *contact.ball;
-    for (const double number : {ball.radius, ball.steel.E, ball.steel.nu, ball.support_radius.value_or(0.0),
-                                ball.support_angle.value_or(0.0), surface.E, surface.nu})
-      numbers.push_back(number);
-    if (contact.damping.size() != contact.directions.size()) return;
-  }
+  if (tabled != nullptr && !tabled->rows) return;  // a fault of the file was reported
+  std::vector<double> numbers =
+      std::visit(core::overloaded{[](const setup::SpringContact&) { return std::vector<double>(); },
+                                  [](const setup::TabledContact&) { return std::vector<double>(); },
+                                  [&](const setup::BallContact& ball) { return numbers_of(source, contact, ball); },
+                                  [&](const setup::CasterContact& caster) {
+                                    auto list = numbers_of(source, contact, caster);
+                                    list.insert(list.end(), {caster.support_radius, caster.support_angle});
+                                    if (caster.supports < 0) list.push_back(std::numeric_limits<double>::quiet_NaN());
+                                    return list;
+                                  }},
+                 contact.model);
+  numbers.insert(numbers.end(), {setup::preload_of(source, contact).value_or(0.0), contact.loss_factor});
   if (!std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); })) return;
   try {
     (void)setup::joined_contact(source, source, contact);
   } catch (const core::Error& error) {
-    findings.report(key + (contact.model == setup::ContactModel::table ? ".table" : ".model"), error.what());
+    findings.report(key + (tabled != nullptr ? ".table" : ".model"), error.what());
   }
+}
+
+/// A measured part does not tell what a ball touches.
+bool lacks_surface(const Case& source, const setup::Contact& contact) {
+  const auto lacks = [&](const auto& pressed) { return !source.part && !pressed.surface; };
+  return std::visit(core::overloaded{lacks, [](const setup::SpringContact&) { return false; },
+                                     [](const setup::TabledContact&) { return false; }},
+                    contact.model);
 }
 
 void check_preloaded(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
@@ -125,7 +107,8 @@ void check_preloaded(const Case& source, const std::string& key, const setup::Co
   const std::size_t before = findings.problems.size();
   check_directions(key, contact, findings);
   check_preload(source, key, contact, findings);
-  if (rolls(contact)) check_ball(source, key, contact, findings);
+  if (lacks_surface(source, contact))
+    findings.report(key + ".surface", "missing; a measured part does not tell what the ball touches");
   if (findings.problems.size() == before) try_contact(source, key, contact, findings);
 }
 
@@ -134,11 +117,12 @@ void check_preloaded(const Case& source, const std::string& key, const setup::Co
 void check_measured_end(const Case& source, const std::string& key, const setup::Contact& contact, bool response,
                         Findings& findings) {
   const auto end = [&](const setup::MeasuredFrf& frf) { return response ? frf.response : frf.force; };
-  const std::string point = setup::point_of(end(contact.measured.front()));
+  const auto measured = setup::measured_assembly(contact);
+  const std::string point = setup::point_of(end(measured.front()));
   const auto points = part_points(source);
   std::vector<Eigen::Vector3d> seen;
-  for (std::size_t i = 0; i < contact.measured.size(); ++i) {
-    const std::string dof = end(contact.measured[i]);
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const std::string dof = end(measured[i]);
     const std::string item = fmt::format("{}.measured[{}].{}", key, i, response ? "response" : "force");
     if (const auto direction = direction_of(dof)) seen.push_back(*direction);
     findings.require_known(item, setup::point_of(dof), points, "point");
@@ -162,23 +146,20 @@ void check_measured_end(const Case& source, const std::string& key, const setup:
 void check_measured_points(const Case& source, const std::string& key, const setup::Contact& contact,
                            Findings& findings) {
   const auto unnamed = [](const setup::MeasuredFrf& frf) { return frf.response.empty() || frf.force.empty(); };
-  if (std::ranges::any_of(contact.measured, unnamed)) return;
+  const auto measured = setup::measured_assembly(contact);
+  if (std::ranges::any_of(measured, unnamed)) return;
   const std::size_t before = findings.problems.size();
   check_measured_end(source, key, contact, true, findings);
-  const setup::MeasuredFrf& first = contact.measured.front();
+  const setup::MeasuredFrf& first = measured.front();
   const bool same = setup::point_of(first.response) == setup::point_of(first.force);
   if (!same || findings.problems.size() == before) check_measured_end(source, key, contact, false, findings);
 }
 
 void check_identification(const Case& source, const std::string& key, const setup::Contact& contact,
-                          Findings& findings) {
+                          const setup::SpringContact& springs, Findings& findings) {
   if (source.contacts.size() > 1)
     findings.report(key + ".measured", "a joint is found where the robot has one contact; remove the other contacts");
-  if (contact.model != setup::ContactModel::springs)
-    findings.report(key + ".measured", "finds stiffness and damping, which model = \"" + core::word_of(contact.model) +
-                                           "\" tells too; remove one of them");
-  if (contact.model == setup::ContactModel::springs &&
-      (gives_stiffness(contact) || gives_damping(contact) || contact.loss_factor > 0.0))
+  if (gives_stiffness(springs) || gives_damping(springs) || contact.loss_factor > 0.0)
     findings.report(key + ".measured",
                     "finds stiffness and damping; remove stiffness, damping and loss_factor, or the FRFs");
   check_measured_points(source, key, contact, findings);
@@ -189,34 +170,36 @@ void check_identification(const Case& source, const std::string& key, const setu
         "the contact is found after fits, so none with on = \"coupled\" may need it; remove one of the two");
 }
 
+void check_springs(const Case& source, const std::string& key, const setup::Contact& contact,
+                   const setup::SpringContact& springs, Findings& findings) {
+  if (!springs.noise.empty() && springs.noise.size() != 3)
+    findings.report(key + ".noise", "give one value, or three: of the assembly, of the part, of the robot");
+  if (!springs.measured.empty()) return check_identification(source, key, contact, springs, findings);
+  const std::vector<double> usual(3, 0.01);
+  if (springs.noise.size() == 3 && springs.noise != usual)
+    findings.report(key + ".noise", "is that of [[contacts.measured]], which are not there; remove it, or add them");
+  if (springs.damping_sought != setup::DampingSought::viscous)
+    findings.report(key + ".damping_model",
+                    "is what [[contacts.measured]] are searched for, which are not there; remove it, or add them");
+}
+
 }  // namespace
 
 void check_contact_models(const Case& source, Findings& findings) {
   for (std::size_t i = 0; i < source.contacts.size(); ++i) {
-    const std::string key = "contacts[" + std::to_string(i) + "]";
+    const std::string key = indexed("contacts", i);
     const setup::Contact& contact = source.contacts[i];
     if (findings.unreadable(key + ".model")) continue;  // it could not be read
-    check_belongings(key, contact, findings);
-    if (!contact.noise.empty() && contact.noise.size() != 3)
-      findings.report(key + ".noise", "give one value, or three: of the assembly, of the part, of the robot");
-    if (!contact.measured.empty()) {
-      check_identification(source, key, contact, findings);
-      continue;
+    if (const auto* springs = std::get_if<setup::SpringContact>(&contact.model)) {
+      check_springs(source, key, contact, *springs, findings);
+    } else {
+      check_preloaded(source, key, contact, findings);
     }
-    const std::vector<double> usual(3, 0.01);
-    if (contact.noise.size() == 3 && contact.noise != usual)
-      findings.report(key + ".noise", "is that of [[contacts.measured]], which are not there; remove it, or add them");
-    if (contact.damping_sought != setup::DampingSought::viscous)
-      findings.report(key + ".damping_model",
-                      "is what [[contacts.measured]] are searched for, which are not there; remove it, or add them");
-    if (contact.model != setup::ContactModel::springs) check_preloaded(source, key, contact, findings);
   }
 }
 
 void check_coupling(const Case& source, Findings& findings) {
   const setup::CouplingChoice& choice = source.coupling;
-  if (choice.regularisation == coupling::Regularisation::none && choice.threshold != setup::CouplingChoice{}.threshold)
-    findings.report("coupling.threshold", "there is nothing to regularise; give coupling.regularisation, or remove it");
   if (choice.regularisation != coupling::Regularisation::none && source.contacts.empty())
     findings.report("coupling.regularisation", "nothing is coupled; add [[contacts]], or remove it");
   if (choice.regularisation == coupling::Regularisation::none) return;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <initializer_list>
 #include <numbers>
 #include <numeric>
 
@@ -16,25 +15,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-/// Keys that belong to one choice of another key.
-struct Belongings {
-  std::string choice_key;
-  std::string chosen;
-
-  void allow(const std::string& key, std::initializer_list<const char*> choices, Findings& findings) const {
-    if (findings.unreadable(choice_key) || !findings.given(key)) return;
-    for (const char* choice : choices) {
-      if (chosen == choice) return;
-    }
-    findings.report(key, "belongs to " + choice_key + " = \"" + *choices.begin() + "\", but it is \"" + chosen + "\"");
-  }
-};
-
 void check_end(const setup::Tool& tool, Findings& findings) {
-  const Belongings end{"tool.end", core::word_of(tool.end)};
-  end.allow("tool.corner_radius", {"bull_nose", "general"}, findings);
-  for (const char* key : {"tool.corner_radial", "tool.corner_axial", "tool.tip_angle", "tool.taper"})
-    end.allow(key, {"general"}, findings);
   if (tool.end == setup::ToolEnd::bull_nose && tool.corner_radius == 0.0)
     findings.report("tool.end", "a bull nose needs tool.corner_radius above 0");
   if (tool.end == setup::ToolEnd::bull_nose && tool.corner_radius > 0.5 * tool.diameter) {
@@ -75,27 +56,6 @@ void require_feed(const Case& source, const std::string& key, const std::string&
   findings.report(key, why +
                            " depends on the feed; give cutting.feed_per_tooth, or cutting.feed_rate and "
                            "cutting.spindle_speed");
-}
-
-void check_law_keys(const setup::Cutting& c, Findings& findings) {
-  const Belongings law{"cutting.law", core::word_of(c.law)};
-  law.allow("cutting.exponents", {"power"}, findings);
-  law.allow("cutting.chip_scale", {"fractional"}, findings);
-  law.allow("cutting.stiffness_ratio", {"fractional"}, findings);
-  for (const char* key :
-       {"cutting.shear_stress", "cutting.shear_angle", "cutting.friction_angle", "cutting.rake_angle"})
-    law.allow(key, {"oblique"}, findings);
-  if (c.law == setup::ForceLawKind::oblique && findings.given("cutting.Kt"))
-    findings.report("cutting.Kt", "follows from the orthogonal data; leave it out, or set cutting.law = \"linear\"");
-  if (c.law != setup::ForceLawKind::oblique && !findings.given("cutting.Kt"))
-    findings.report("cutting.Kt", "missing; for example \"1800 N/mm^2\"");
-  const bool unreadable = findings.given("cutting.exponents") && c.exponents.empty();  // reported
-  if (c.law == setup::ForceLawKind::power && c.exponents.size() != 3 && !unreadable)
-    findings.report("cutting.exponents", "the power law needs one exponent, or three for Kt, Kr, Ka");
-  if (c.law == setup::ForceLawKind::fractional && !(c.chip_scale && c.stiffness_ratio))
-    findings.report("cutting.law", "fractional needs cutting.chip_scale and cutting.stiffness_ratio");
-  if (c.law == setup::ForceLawKind::oblique && !(c.orthogonal.shear_stress && c.orthogonal.friction_angle))
-    findings.report("cutting.law", "oblique needs cutting.shear_stress and cutting.friction_angle");
 }
 
 }  // namespace
@@ -146,7 +106,9 @@ void check_engagement(const Case& source, Findings& findings) {
 void check_force_law(const Case& source, Findings& findings) {
   const setup::Cutting& c = *source.cutting;
   const bool curved = c.law == setup::ForceLawKind::power || c.law == setup::ForceLawKind::fractional;
-  check_law_keys(c, findings);
+  const bool unreadable = c.exponents.empty();  // reported
+  if (c.law == setup::ForceLawKind::power && c.exponents.size() != 3 && !unreadable)
+    findings.report("cutting.exponents", "the power law needs one exponent, or three for Kt, Kr, Ka");
   if (curved) require_feed(source, "cutting.law", "a law that is not linear", findings);
   if (!source.tool) return;
   if (!source.tool->runout.empty()) require_feed(source, "tool.runout", "what runout does", findings);

@@ -20,6 +20,11 @@ void Findings::report(const std::string& key, const std::string& text) {
   problems.push_back({place == nullptr ? 0 : place->line, place == nullptr ? 0 : place->column, key + ": " + text});
 }
 
+bool Findings::written(const std::string& key) const {
+  const CaseValue* value = find(values, key);
+  return value != nullptr && value->from_file;
+}
+
 bool Findings::unreadable(const std::string& key) const {
   const CaseValue* value = find(values, key);
   const auto* text = value == nullptr ? nullptr : std::get_if<std::string>(&value->value);

@@ -20,6 +20,9 @@ struct Findings {
   /// True if the case gives a value to this key, or a default fills it.
   [[nodiscard]] bool given(const std::string& key) const { return find(values, key) != nullptr; }
 
+  /// True if the case's text gives a value to this key: no default, nothing told by other keys.
+  [[nodiscard]] bool written(const std::string& key) const;
+
   /// True if the key was given a text that stands for nothing it takes, which is reported already.
   [[nodiscard]] bool unreadable(const std::string& key) const;
 

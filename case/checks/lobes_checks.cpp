@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <initializer_list>
-#include <string_view>
 
 #include "milling/chart/lobe_method.hpp"
 #include "milling/chart/robust_lobes.hpp"
@@ -15,23 +14,26 @@ namespace thinwall::cases {
 
 namespace {
 
-/// True if the chart or one beside it is of a method whose name begins so.
-bool uses(const setup::LobesOptions& lobes, std::string_view beginning) {
-  const auto begins = [&](milling::Method method) { return milling::name(method).starts_with(beginning); };
-  return begins(lobes.method) || std::ranges::any_of(lobes.compare, begins);
+/// Reports a key that none of the methods reads by which the charts are computed.
+void check_method_key(const setup::LobesOptions& lobes, const std::string& key,
+                      std::initializer_list<milling::Method> readers, const char* which, Findings& findings) {
+  const auto used = [&](milling::Method method) {
+    return method == lobes.method || std::ranges::count(lobes.compare, method) > 0;
+  };
+  if (!findings.given(key) || findings.unreadable("lobes.method") || std::ranges::any_of(readers, used)) return;
+  findings.report(key, fmt::format("belongs to {}, but lobes.method is \"{}\"; remove it, or set lobes.method or "
+                                   "lobes.compare",
+                                   which, milling::name(lobes.method)));
 }
 
 void check_method_keys(const setup::LobesOptions& lobes, Findings& findings) {
-  const auto belongs = [&](const char* key, std::initializer_list<const char*> methods, const char* which) {
-    const auto used = [&](const char* beginning) { return uses(lobes, beginning); };
-    if (!findings.given(key) || findings.unreadable("lobes.method") || std::ranges::any_of(methods, used)) return;
-    findings.report(key, fmt::format("belongs to {}, but lobes.method is \"{}\"; remove it, or set lobes.method or "
-                                     "lobes.compare",
-                                     which, milling::name(lobes.method)));
-  };
-  belongs("lobes.steps_per_period", {"semi_discretization", "full_discretization"},
-          "semi_discretization and full_discretization");
-  belongs("lobes.harmonics", {"multi_frequency", "zeroth_order"}, "multi_frequency and zeroth_order");
+  using enum milling::Method;
+  check_method_key(lobes, "lobes.steps_per_period",
+                   {semi_discretization_0, semi_discretization_1, semi_discretization_2, full_discretization_1,
+                    full_discretization_2, full_discretization_3},
+                   "semi_discretization and full_discretization", findings);
+  check_method_key(lobes, "lobes.harmonics", {multi_frequency, zeroth_order}, "multi_frequency and zeroth_order",
+                   findings);
 }
 
 /// The cut as far as it matters for what a method can take.
@@ -76,9 +78,6 @@ void check_compared(const Case& source, Findings& findings) {
 
 void check_robust(const setup::LobesOptions& lobes, Findings& findings) {
   const milling::Uncertainty& u = lobes.robust->uncertainty;
-  if (lobes.method != milling::Method::direct)
-    findings.report("lobes.uncertainty", "sensitivities are those of lobes.method = \"direct\", but it is \"" +
-                                             milling::name(lobes.method) + "\"; set lobes.method, or remove the table");
   if (u.frequency == 0.0 && u.damping_ratio == 0.0 && u.mass == 0.0 && u.coefficients == 0.0)
     findings.report("lobes.uncertainty",
                     "nothing is uncertain; give frequency, damping_ratio, receptance or "
@@ -96,8 +95,9 @@ void check_robust(const setup::LobesOptions& lobes, Findings& findings) {
 void check_noise_samples(const Case& source, Findings& findings) {
   if (source.cutting && !source.cutting->spindle_speed_rpm)
     findings.report("lobes.noise_samples", "draws are made at the case's own speed; give cutting.spindle_speed");
+  const auto* robot = source.robot ? std::get_if<setup::MeasuredRobot>(&source.robot->model) : nullptr;
   const bool noisy = (source.tool && any_noise(source.tool->measured)) || setup::any_noise(source.measured_part) ||
-                     (source.robot && any_noise(source.robot->measured));
+                     (robot != nullptr && any_noise(robot->measured));
   if (!noisy)
     findings.report("lobes.noise_samples",
                     "nothing is noisy; give noise or averages of measured FRFs of tool, part or robot, or remove it");

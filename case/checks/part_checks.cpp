@@ -55,45 +55,7 @@ bool on_face(const setup::Part& part, const std::string& face, const Eigen::Vect
   return std::abs(p[axis] - coordinate) <= tolerance(part);
 }
 
-/// Keys of other shapes than the part's.
-void check_belonging(const setup::Part& part, Findings& findings) {
-  struct Belonging {
-    const char* key;
-    std::vector<setup::PartShape> shapes;
-  };
-  using enum setup::PartShape;
-  const std::vector<Belonging> all{{"part.length", {box}},
-                                   {"part.height", {box}},
-                                   {"part.thickness", {box, prism}},
-                                   {"part.outline", {prism}},
-                                   {"part.holes[0].outline", {prism}},
-                                   {"part.zones[0].outline", {prism}},
-                                   {"part.bend.radius", {box, prism}},
-                                   {"part.file", {surface, mesh}},
-                                   {"part.unit", {surface, mesh, matrices}},
-                                   {"part.mass_unit", {mesh, matrices}},
-                                   {"part.matrices.stiffness", {matrices}},
-                                   {"part.origin", {surface, mesh, matrices}},
-                                   {"part.supports[0].on", {box, prism, surface, mesh}},
-                                   {"part.clamps[0].on", {box, prism, surface, mesh}},
-                                   {"part.masses[0].at", {box, prism, surface, mesh}},
-                                   {"part.springs[0].at", {box, prism, surface, mesh}},
-                                   {"part.materials[0].on", {box, prism, surface, mesh}},
-                                   {"part.material.density", {box, prism, surface, mesh}},
-                                   {"part.mesh.tolerance", {box, prism, surface, mesh}},
-                                   {"part.repair.merge_tolerance", {surface}}};
-  for (const auto& [key, shapes] : all) {
-    if (!findings.given(key) || std::ranges::find(shapes, part.shape) != shapes.end()) continue;
-    std::string list;
-    for (const auto shape : shapes) list += (list.empty() ? "\"" : " or \"") + core::word_of(shape) + "\"";
-    findings.report(key, "belongs to a part of shape " + list + ", this one is a \"" + core::word_of(part.shape) +
-                             "\"; set part.shape, or remove it");
-  }
-}
-
 void check_matrices(const setup::Part& part, Findings& findings) {
-  if (!findings.given("part.matrices.stiffness"))
-    return findings.report("part.matrices.stiffness", "missing; the file of K");
   try {
     (void)dynamics::unit_system(part.file.unit, part.file.matrices.mass_unit);
   } catch (const core::InputError& error) {
@@ -103,13 +65,12 @@ void check_matrices(const setup::Part& part, Findings& findings) {
 
 void check_part_file(const setup::Part& part, Findings& findings) {
   if (part.shape == setup::PartShape::matrices) return check_matrices(part, findings);
-  if (!findings.given("part.shape") && findings.given("part.file") && !setup::shape_of_file(part.file.path)) {
+  if (!findings.written("part.shape") && !part.file.path.empty() && !setup::shape_of_file(part.file.path)) {
     findings.report("part.file", "\"" + part.file.path.filename().string() +
                                      "\" has an ending that is not read; take a .stl, .off, .obj, .ply or .step, or a "
                                      "mesh as .msh, .inp or .vtu");
     return;
   }
-  if (!findings.given("part.file")) findings.report("part.file", "missing; the surface or the mesh of the part");
   if (setup::tells_its_unit(part.file.path) && !findings.given("part.unit")) return;
   if (!findings.given("part.unit")) {
     findings.report("part.unit", "missing; the file does not tell its unit of length: \"mm\", \"m\", \"inch\"");
@@ -123,9 +84,6 @@ void check_part_file(const setup::Part& part, Findings& findings) {
 }
 
 void check_prism(const setup::Part& part, Findings& findings) {
-  for (const auto* key : {"part.outline", "part.thickness"}) {
-    if (!findings.given(key)) findings.report(key, "missing; a prism has an outline and a thickness along z");
-  }
   if (!findings.given("part.outline") || !std::isfinite(part.prism.top)) return;
   bool unread = part.prism.outline.empty();  // and reported as such
   for (const auto& hole : part.prism.holes) unread = unread || hole.empty();
@@ -154,12 +112,8 @@ void check_shape(const Case& source, Findings& findings) {
     findings.report("part.measured", "a part is either modelled (part.length …) or measured; remove one of the two");
   }
   if (findings.unreadable("part.shape")) return;
-  check_belonging(part, findings);
   if (setup::from_file(part)) return check_part_file(part, findings);
   if (part.shape == setup::PartShape::prism) return check_prism(part, findings);
-  for (const auto* extent : {"part.length", "part.height", "part.thickness"}) {
-    if (!findings.given(extent)) findings.report(extent, "missing; a box has a length, a height and a thickness");
-  }
   if (findings.given("part.axes.length") && !axes_differ(part)) {
     findings.report("part.axes.length", "length, height and thickness must run along three different axes");
   }

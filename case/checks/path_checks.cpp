@@ -38,8 +38,8 @@ bool check_needs(const Case& source, Findings& findings) {
     findings.report("path", "a path needs [tool], [cutting] and [lobes]; add what is missing, or remove [path]");
   if (source.path->robot_follows && (!source.robot || source.contacts.empty()))
     findings.report("path.support", "there is no robot to follow the cut; add [robot] and [[contacts]]");
-  if (source.path->robot_follows && source.robot &&
-      (!source.robot->posture.joints.empty() || source.robot->posture.tip))
+  const auto* robot = source.robot ? std::get_if<setup::JointedRobot>(&source.robot->model) : nullptr;
+  if (source.path->robot_follows && robot != nullptr && (!robot->posture.joints.empty() || robot->posture.tip))
     findings.report("path.support",
                     "the robot cannot follow with robot.posture.joints or tip, which hold it in one "
                     "place; give its posture by pitch or approach");

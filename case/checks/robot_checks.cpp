@@ -1,12 +1,11 @@
 #include "case/checks/robot_checks.hpp"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "case/checks/measured_checks.hpp"
 #include "case/checks/part_checks.hpp"
 #include "case/robot_binding.hpp"
+#include "core/overloaded.hpp"
 #include "robot/flexible_joints.hpp"
 #include "setup/measured_layout.hpp"
 #include "setup/robot_tip.hpp"
@@ -15,53 +14,7 @@ namespace thinwall::cases {
 
 namespace {
 
-/// Keys that some models alone read, by their names.
-struct Belongs {
-  std::string_view key;
-  std::string_view models;
-};
-constexpr std::array belongings{
-    Belongs{"robot.frequency", "one_mode"},
-    Belongs{"robot.mass", "one_mode"},
-    Belongs{"robot.stiffness", "one_mode"},
-    Belongs{"robot.damping", "one_mode"},
-    Belongs{"robot.damping_ratio", "one_mode"},
-    Belongs{"robot.modes", "modes"},
-    Belongs{"robot.measured", "measured"},
-    Belongs{"robot.sensors", "measured"},
-    Belongs{"robot.links", "flexible_joints"},
-    Belongs{"robot.base", "flexible_joints, virtual_joints or modal_table"},
-    Belongs{"robot.tip", "flexible_joints"},
-    Belongs{"robot.gravity", "flexible_joints"},
-    Belongs{"robot.counterbalances", "flexible_joints"},
-    Belongs{"robot.elements", "virtual_joints"},
-    Belongs{"robot.table", "modal_table"},
-    Belongs{"robot.urdf", "flexible_joints"},
-    Belongs{"robot.joints", "flexible_joints"},
-    Belongs{"robot.posture", "flexible_joints"},
-    Belongs{"robot.workspace", "flexible_joints"},
-};
-
-/// True if the list of models has this one, as a whole word.
-bool names(std::string_view models, std::string_view model) {
-  const auto at = models.find(model);
-  if (at == std::string_view::npos) return false;
-  const auto end = at + model.size();
-  return (at == 0 || models[at - 1] == ' ') && (end == models.size() || models[end] == ',' || models[end] == ' ');
-}
-
-void check_belongings(const Case& source, Findings& findings) {
-  for (const Belongs& b : belongings) {
-    const std::string key(b.key);
-    const bool there = findings.given(key) || has_table(source.values, key) || array_size(source.values, key) > 0;
-    if (!there || names(b.models, core::word_of(source.robot->model))) continue;
-    findings.report(key, "belongs to robot.model = \"" + std::string(b.models) + "\", but the model is \"" +
-                             core::word_of(source.robot->model) + "\"");
-  }
-}
-
-void check_one_mode(const setup::Robot& robot, Findings& findings) {
-  if (!robot.stiffness) findings.report("robot.stiffness", "missing; one mode needs its stiffness at the tip");
+void check_one_mode(const setup::OneModeRobot& robot, Findings& findings) {
   if (robot.mass.has_value() == robot.frequency_hz.has_value()) {
     findings.report("robot.frequency", "give either frequency or mass beside the stiffness");
   }
@@ -71,12 +24,9 @@ void check_one_mode(const setup::Robot& robot, Findings& findings) {
 }
 
 /// One file is a driving point along robot.direction; several name the tip's axes.
-void check_measured_robot(const setup::Robot& robot, Findings& findings) {
-  if (robot.measured.empty()) {
-    findings.report("robot.model", "measured needs [[robot.measured]] with a file");
-    return;
-  }
-  check_sensors("robot.sensors", robot.sensors, {robot.point}, findings);
+void check_measured_robot(const setup::MeasuredRobot& robot, const std::string& point, Findings& findings) {
+  if (robot.measured.empty()) return;
+  check_sensors("robot.sensors", robot.sensors, {point}, findings);
   if (robot.measured.size() > 1) {
     check_layout("robot.measured", robot.measured, findings);
     return;
@@ -88,12 +38,12 @@ void check_measured_robot(const setup::Robot& robot, Findings& findings) {
                         frf.response + "\"");
   }
   const auto measured_along = direction_of(frf.response);
-  if (!measured_along || setup::point_of(frf.response) != robot.point) return;
+  if (!measured_along || setup::point_of(frf.response) != point) return;
   for (const auto* letter : {"x", "y", "z"}) {
-    const Eigen::Vector3d axis = *direction_of(robot.point + "." + letter);
+    const Eigen::Vector3d axis = *direction_of(point + "." + letter);
     if ((robot.direction - axis).norm() < 1e-9 && *measured_along != axis)
-      findings.report("robot.measured[0].response", "\"" + frf.response + "\" is not along robot.direction; give \"" +
-                                                        robot.point + "." + letter + "\"");
+      findings.report("robot.measured[0].response",
+                      "\"" + frf.response + "\" is not along robot.direction; give \"" + point + "." + letter + "\"");
   }
 }
 
@@ -108,22 +58,22 @@ bool all_read(const robot::SerialArm& arm) {
          });
 }
 
-void check_counterbalances(const Case& source, Findings& findings) {
+void check_counterbalances(const robot::SerialArm& arm, Findings& findings) {
   std::vector<std::string> known{"base"};
-  for (const robot::Link& link : source.robot->arm.links) {
+  for (const robot::Link& link : arm.links) {
     if (!link.name.empty()) known.push_back(link.name);
   }
-  for (std::size_t i = 0; i < source.robot->arm.counterbalances.size(); ++i) {
+  for (std::size_t i = 0; i < arm.counterbalances.size(); ++i) {
     const std::string table = "robot.counterbalances[" + std::to_string(i) + "]";
     for (const char* end : {".from", ".to"}) {
-      const CaseValue* name = find(source.values, table + end);
+      const CaseValue* name = find(findings.values, table + end);
       if (name != nullptr) findings.require_known(table + end, std::get<std::string>(name->value), known, "link");
     }
   }
 }
 
 /// Checks the posture that is asked of the arm.
-void check_posture_keys(const setup::Robot& robot, Findings& findings) {
+void check_posture_keys(const setup::JointedRobot& robot, Findings& findings) {
   const setup::PostureWish& wish = robot.posture;
   const int ways = (findings.given("robot.posture.joints") ? 1 : 0) + (wish.pitch ? 1 : 0) + (wish.approach ? 1 : 0);
   if (ways != 1) {
@@ -144,28 +94,27 @@ void check_posture_keys(const setup::Robot& robot, Findings& findings) {
 }
 
 /// True if the arm was read; a fault of its files was reported when they were.
-bool check_urdf(const Case& source, Findings& findings) {
+bool check_urdf(const Case& source, const setup::JointedRobot& robot, Findings& findings) {
   if (array_size(source.values, "robot.links") > 0) {
     findings.report("robot.urdf", "an arm's links are in the case or in a URDF, not in both; remove one");
     return false;
   }
-  if (source.robot->joints.empty()) {
+  if (robot.joints.empty()) {
     findings.report("robot.urdf", "needs robot.joints: a file with the stiffness of each joint, which no URDF tells");
     return false;
   }
   return source.urdf_arm != nullptr;
 }
 
-void check_arm(const Case& source, Findings& findings) {
-  const setup::Robot& robot = *source.robot;
+void check_arm(const Case& source, const setup::JointedRobot& robot, Findings& findings) {
   if (!robot.urdf.empty()) {
-    if (!check_urdf(source, findings)) return;
+    if (!check_urdf(source, robot, findings)) return;
   } else if (robot.arm.links.empty()) {
     findings.report("robot.model", "flexible_joints needs [[robot.links]], from the base to the tip, or robot.urdf");
     return;
   }
   const std::size_t before = findings.problems.size();
-  check_counterbalances(source, findings);
+  check_counterbalances(robot.arm, findings);
   for (std::size_t i = 0; i < robot.arm.links.size(); ++i) {
     const std::string key = "robot.links[" + std::to_string(i) + "].inertia";
     const CaseValue* inertia = find(source.values, key);
@@ -188,38 +137,19 @@ void check_arm(const Case& source, Findings& findings) {
     findings.report("robot.posture", fault);
 }
 
-void check_table(const Case& source, Findings& findings) {
-  if (source.robot->table.empty()) {
-    findings.report("robot.model", "modal_table needs robot.table, a CSV of modes");
-    return;
-  }
-  if (!source.robot->table_modes) return;  // a fault of the file was reported when it was read
+void check_table(const setup::Robot& robot, const setup::TabledRobot& tabled, Findings& findings) {
+  if (!tabled.table_modes) return;  // a fault of the file was reported when it was read
   try {
-    (void)setup::tip_model(*source.robot, {});
+    (void)setup::tip_model(robot, {});
   } catch (const core::Error& error) {
     findings.report("robot.table", error.what());
   }
 }
 
-/// Keys that an element must have beside its kind.
-void check_element(const Case& source, std::size_t i, Findings& findings) {
-  const std::string key = "robot.elements[" + std::to_string(i) + "]";
-  const CaseValue* found = find(source.values, key + ".kind");
-  const std::string kind = found == nullptr ? "" : std::get<std::string>(found->value);
-  const auto needs = [&](const char* name) {
-    if (!findings.given(key + name)) findings.report(key + name, "missing; a " + kind + " has one");
-  };
-  if (kind == "beam") needs(".length");
-  if (kind == "beam") needs(".outer_diameter");
-  if (kind == "body") needs(".mass");
-}
-
 void check_elements(const Case& source, Findings& findings) {
-  const auto count = static_cast<std::size_t>(array_size(source.values, "robot.elements"));
-  if (count == 0) findings.report("robot.model", "virtual_joints needs [[robot.elements]], from the base to the tip");
-  const std::size_t before = findings.problems.size();
-  for (std::size_t i = 0; i < count; ++i) check_element(source, i, findings);
-  if (count == 0 || findings.problems.size() > before) return;
+  const int count = array_size(source.values, "robot.elements");
+  const auto of_elements = [](const Problem& problem) { return problem.text.starts_with("robot.elements"); };
+  if (count == 0 || std::ranges::any_of(findings.problems, of_elements)) return;
   try {
     const auto chains = bind_chains({source.values, "robot"});
     (void)robot::spatial_model(robot::reduced_tip(chains), source.robot->point);
@@ -247,29 +177,38 @@ std::vector<Eigen::Vector3d> modelled_directions(const setup::Robot& robot) {
 }  // namespace
 
 std::vector<Eigen::Vector3d> tip_directions(const setup::Robot& robot) {
-  if (robot.model == setup::RobotModel::flexible_joints)
-    return {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
-  if (robot.model == setup::RobotModel::modal_table || robot.model == setup::RobotModel::virtual_joints)
-    return modelled_directions(robot);
-  std::vector<Eigen::Vector3d> directions;
-  if (robot.model == setup::RobotModel::modes) {
-    for (const setup::TipMode& mode : robot.modes) directions.push_back(mode.direction);
-  } else if (robot.model == setup::RobotModel::measured && robot.measured.size() > 1) {
-    for (const setup::MeasuredFrf& frf : robot.measured) {
-      if (const auto d = direction_of(frf.response)) directions.push_back(*d);
-    }
-  } else {
-    directions.push_back(robot.direction);
-  }
-  return directions;
+  using Directions = std::vector<Eigen::Vector3d>;
+  const auto modelled = [&](const auto& /*read by the tip's model*/) { return modelled_directions(robot); };
+  return std::visit(
+      core::overloaded{
+          [](const setup::OneModeRobot& model) { return Directions{model.direction}; },
+          [](const setup::ModalRobot& model) {
+            Directions directions;
+            for (const setup::TipMode& mode : model.modes) directions.push_back(mode.direction);
+            return directions;
+          },
+          [](const setup::MeasuredRobot& model) {
+            if (model.measured.size() <= 1) return Directions{model.direction};
+            Directions directions;
+            for (const setup::MeasuredFrf& frf : model.measured) {
+              if (const auto d = direction_of(frf.response)) directions.push_back(*d);
+            }
+            return directions;
+          },
+          [](const setup::JointedRobot&) {
+            return Directions{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+          },
+          modelled},
+      robot.model);
 }
 
 std::string fault_of_posture(const setup::PartSetup& part, const setup::SupportSetup& support,
                              std::optional<Eigen::VectorXd>& near) {
-  if (support.robot->model != setup::RobotModel::flexible_joints) return "";
+  const auto* robot = std::get_if<setup::JointedRobot>(&support.robot->model);
+  if (robot == nullptr) return "";
   try {
     const setup::RobotPosture stands = setup::robot_posture(part, support, near);
-    (void)robot::linearised(support.robot->arm, stands.posture, support.robot->point);
+    (void)robot::linearised(robot->arm, stands.posture, support.robot->point);
     near = stands.posture.q;
   } catch (const core::InputError& error) {
     return error.what();
@@ -280,18 +219,18 @@ std::string fault_of_posture(const setup::PartSetup& part, const setup::SupportS
 void check_robot(const Case& source, Findings& findings) {
   const setup::Robot& robot = *source.robot;
   if (findings.unreadable("robot.model")) return;
-  check_belongings(source, findings);
-  if (std::abs(robot.arm.base.linear().col(0).dot(robot.arm.base.linear().col(2))) > 1e-9) {
-    findings.report("robot.base.x", "is not at a right angle to robot.base.z; a frame's axes are");
-    return;
+  if (const Table base{source.values, "robot.base"}; base.exists()) {
+    if (std::abs(base.direction("x").dot(base.direction("z"))) > 1e-9)
+      return findings.report("robot.base.x", "is not at a right angle to robot.base.z; a frame's axes are");
   }
-  if (robot.model == setup::RobotModel::one_mode) check_one_mode(robot, findings);
-  if (robot.model == setup::RobotModel::modes && robot.modes.empty())
-    findings.report("robot.model", "modes needs [[robot.modes]], at least one");
-  if (robot.model == setup::RobotModel::measured) check_measured_robot(robot, findings);
-  if (robot.model == setup::RobotModel::flexible_joints) check_arm(source, findings);
-  if (robot.model == setup::RobotModel::modal_table) check_table(source, findings);
-  if (robot.model == setup::RobotModel::virtual_joints) check_elements(source, findings);
+  std::visit(
+      core::overloaded{[&](const setup::OneModeRobot& model) { check_one_mode(model, findings); },
+                       [](const setup::ModalRobot&) {},
+                       [&](const setup::MeasuredRobot& model) { check_measured_robot(model, robot.point, findings); },
+                       [&](const setup::TabledRobot& model) { check_table(robot, model, findings); },
+                       [&](const setup::JointedRobot& model) { check_arm(source, model, findings); },
+                       [&](const setup::ChainedRobot&) { check_elements(source, findings); }},
+      robot.model);
 }
 
 }  // namespace thinwall::cases

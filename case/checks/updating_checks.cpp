@@ -33,20 +33,6 @@ void require_effect(setup::FitOf on, const std::string& key, const setup::Updati
   }
 }
 
-/// Reports a stiffness that the contact does not read because it follows from the preload.
-bool unread_stiffness(const Case& source, const std::string& key, const setup::UpdatingParameter& parameter,
-                      Findings& findings) {
-  for (std::size_t i = 0; i < source.contacts.size(); ++i) {
-    const setup::ContactModel model = source.contacts[i].model;
-    if (model == setup::ContactModel::springs || !parameter.key.starts_with(indexed("contacts", i) + ".stiffness"))
-      continue;
-    findings.report(key + ".key", parameter.key + " is not read with model = \"" + core::word_of(model) +
-                                      "\"; fit the contact's preload or ball, or take \"springs\"");
-    return true;
-  }
-  return false;
-}
-
 void check_parameter(const Case& source, setup::FitOf on, const std::string& key,
                      const setup::UpdatingParameter& parameter, Findings& findings) {
   double start = 0.0;
@@ -57,7 +43,6 @@ void check_parameter(const Case& source, setup::FitOf on, const std::string& key
     return;
   }
   require_effect(on, key, parameter, findings);
-  if (unread_stiffness(source, key, parameter, findings)) return;
   if (parameter.key.ends_with(".record")) {
     findings.report(key + ".key", "says how a file is read, which happens once, before a fit; fit another number");
     return;
@@ -125,8 +110,7 @@ void check_target(const Case& source, setup::FitOf on, const std::string& key, c
 void check_coupled_fit(const Case& source, const std::string& key, Findings& findings) {
   if (!source.robot || source.contacts.empty() || source.points.empty())
     findings.report(key + ".on", "\"coupled\" needs [robot], [[contacts]] and [points]");
-  if (source.robot &&
-      (source.robot->model == setup::RobotModel::measured || source.robot->model == setup::RobotModel::modal_table))
+  if (source.robot && setup::is_measured(*source.robot))
     findings.report(key + ".on", "\"coupled\" needs a robot that is modelled, not a measured one; set robot.model");
   if (!setup::may_be_held(*source.part))
     findings.report(key + ".on", "\"coupled\" needs a part that is held; add [[part.supports]]");

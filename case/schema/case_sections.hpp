@@ -43,20 +43,20 @@ inline constexpr Section case_sections[] = {
     Section{"damping", "Damping of the part.", "part.thickness|part.file|part.matrices.stiffness"},
     Section{"damping.from_frf", "Damping ratios from a measured driving point, by a fit of each peak.", ""},
     Section{"robot", "The robot's tip.", ""},
-    Section{"robot.modes[]", "Modes of the tip (`model = \"modes\"`).", ""},
+    Section{"robot.modes[]", "Modes of the tip.", ""},
     Section{"robot.measured[]",
-            "FRFs of a measured robot (`model = \"measured\"`): one along `direction`, or several between the tip's x, "
+            "FRFs of a measured robot: one along `direction`, or several between the tip's x, "
             "y, z.",
             ""},
     Section{"robot.sensors[]", "Accelerometers on the measured robot, likewise.", ""},
     Section{"robot.links[]",
-            "An arm's links from the base to the tip, each with the joint that carries it (`model = "
-            "\"flexible_joints\"`). At angle 0 a link's frame is its joint's.",
+            "An arm's links from the base to the tip, each with the joint that carries it. At angle 0 a link's frame "
+            "is its joint's.",
             ""},
     Section{"robot.counterbalances[]", "Springs or gas cylinders between two points of the arm.", ""},
     Section{"robot.elements[]",
-            "What follows each other from base to tip (`model = \"virtual_joints\"`): joints, beams, bodies, rigid "
-            "offsets; each in the frame that the one before leaves.",
+            "What follows each other from base to tip: joints, beams, bodies, rigid offsets; each in the frame that "
+            "the one before leaves.",
             ""},
     Section{"robot.base", "Where the arm stands, in the part's axes; of a modal table, its axes.", ""},
     Section{"robot.tip", "The arm's tip in the frame of the last link.", ""},
@@ -67,9 +67,7 @@ inline constexpr Section case_sections[] = {
     Section{"robot.workspace", "Places of the tip over which `thinwall robot` tells modes and stiffness: a grid.", ""},
     Section{"contacts[]", "Where the robot touches the part. The first direction is the contact's normal.", ""},
     Section{"contacts[].ball",
-            "The ball by which the robot touches a flat surface (`model = \"hertz\"`, `\"caster\"`; "
-            "docs/theory/coupling.md, Eq. 18-20).",
-            ""},
+            "The ball by which the robot touches a flat surface (docs/theory/coupling.md, Eq. 18-20).", ""},
     Section{"contacts[].surface", "What the ball touches, where it is not `part.material`.", ""},
     Section{"contacts[].measured[]",
             "FRFs of the part while the robot holds it: stiffness and damping of the only contact are found from them "

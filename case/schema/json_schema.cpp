@@ -1,5 +1,7 @@
 #include "case/schema/json_schema.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace thinwall::cases {
@@ -116,6 +118,110 @@ Json& table_at(Json& root, std::string_view path) {
   return *table;
 }
 
+/// The table at a path below a branch of alternatives, made where it is not there; nullptr where the branch forbids it.
+Json* table_in_branch(Json& branch, std::string_view path) {
+  Json* table = &branch;
+  while (!path.empty()) {
+    const auto dot = path.find('.');
+    std::string name(path.substr(0, dot));
+    path = dot == std::string_view::npos ? std::string_view() : path.substr(dot + 1);
+    const bool array = name.ends_with("[]");
+    if (array) name.resize(name.size() - 2);
+    Json& entry = (*table)["properties"][name];
+    if (entry.is_boolean()) return nullptr;
+    table = array ? &entry["items"] : &entry;
+  }
+  return table;
+}
+
+std::string bare(std::string_view name) {
+  return std::string(name.substr(0, name.find('[')));
+}
+
+/// A pattern that files with these endings match, in capitals or not: ".msh|.inp" as "\\.([mM][sS][hH]|[iI][nN][pP])$".
+std::string file_pattern(std::string_view endings) {
+  std::string pattern;
+  for (const std::string& ending : words_of(endings)) {
+    pattern += pattern.empty() ? "\\.(" : "|";
+    for (const char letter : ending.substr(1))
+      pattern += {'[', letter, static_cast<char>(std::toupper(static_cast<unsigned char>(letter))), ']'};
+  }
+  return pattern + ")$";
+}
+
+/// Any of the keys of a telling; with the ending that it asks for, and none that an earlier one does.
+Json told(const Schema& schema, const Telling& telling) {
+  Json keys = Json::array(), result;
+  for (const std::string& by : words_of(telling.by))
+    keys.push_back({{"required", Json::array({std::string(last_name(by))})}});
+  result["anyOf"] = keys;
+  const std::string name(last_name(telling.by));
+  if (!telling.endings.empty()) result["properties"][name] = {{"pattern", file_pattern(telling.endings)}};
+  for (const Telling& earlier : schema.tellings) {
+    if (&earlier == &telling) break;
+    if (earlier.by == telling.by && !earlier.endings.empty())
+      result["properties"][name] = {{"not", {{"pattern", file_pattern(earlier.endings)}}}};
+  }
+  return result;
+}
+
+/// What a table may hold with one word of its chooser: that word, the keys that it needs, and none of other words.
+Json branch(const Schema& schema, const Key& chooser, const std::string& word) {
+  const std::string name(last_name(chooser.path));
+  Json result = {{"properties", {{name, {{"const", word}}}}}};
+  for (const Belonging& belonging : schema.belongings) {
+    if (belonging.chooser != chooser.path) continue;
+    const auto words = words_of(belonging.words);
+    const bool foreign = std::ranges::find(words, word) == words.end();
+    if (!foreign && !belonging.needed) continue;
+    const std::string_view rest = belonging.path.substr(table_of(chooser.path).size() + 1);
+    Json* table = table_in_branch(result, table_of(rest));
+    if (table == nullptr) continue;
+    if (foreign) {
+      (*table)["properties"][bare(last_name(rest))] = false;
+    } else {
+      (*table)["required"].push_back(bare(last_name(rest)));
+    }
+  }
+  if (chooser.fallback == "\"" + word + "\"") return result;
+  const Json chosen = {{"required", Json::array({name})}};
+  const auto tells = [&](const Telling& t) { return t.chooser == chooser.path && t.word == word; };
+  const auto telling = std::ranges::find_if(schema.tellings, tells);
+  if (telling == schema.tellings.end()) {
+    result["required"].push_back(name);
+    return result;
+  }
+  Json silent = told(schema, *telling);
+  silent["not"] = chosen;
+  result["anyOf"] = Json::array({chosen, silent});
+  return result;
+}
+
+/// A table in which nothing is chosen: neither the chooser nor what tells its word.
+Json nothing_chosen(const Schema& schema, const Key& chooser) {
+  Json keys = Json::array();
+  keys.push_back({{"required", Json::array({std::string(last_name(chooser.path))})}});
+  for (const Telling& telling : schema.tellings) {
+    if (telling.chooser != chooser.path) continue;
+    for (const std::string& by : words_of(telling.by))
+      keys.push_back({{"required", Json::array({std::string(last_name(by))})}});
+  }
+  return {{"not", {{"anyOf", keys}}}};
+}
+
+/// The alternatives of each chooser's table.
+void add_alternatives(Json& root, const Schema& schema) {
+  for (const Key& chooser : schema.keys) {
+    const bool chooses = std::ranges::any_of(
+        schema.belongings, [&](const Belonging& belonging) { return belonging.chooser == chooser.path; });
+    if (!chooses) continue;
+    Json branches = Json::array();
+    for (const std::string& word : choices(chooser)) branches.push_back(branch(schema, chooser, word));
+    if (chooser.fallback.empty() && !chooser.required) branches.push_back(nothing_chosen(schema, chooser));
+    table_at(root, table_of(chooser.path))["oneOf"] = std::move(branches);
+  }
+}
+
 }  // namespace
 
 Json json_schema(const Schema& schema, const std::string& title) {
@@ -125,16 +231,15 @@ Json json_schema(const Schema& schema, const std::string& title) {
     if (!section.path.empty()) table_at(root, section.path)["description"] = section.meaning;
   }
   for (const Key& key : schema.keys) {
-    const auto dot = key.path.rfind('.');
-    const bool top = dot == std::string_view::npos;
-    Json& table = table_at(root, top ? std::string_view() : key.path.substr(0, dot));
-    const std::string name(top ? key.path : key.path.substr(dot + 1));
+    Json& table = table_at(root, table_of(key.path));
+    const std::string name(last_name(key.path));
     Json value = value_schema(key);
     value["description"] = description(key);
     if (!key.fallback.empty()) value["default"] = Json::parse(key.fallback);
     table["properties"][name] = std::move(value);
     if (key.required) table["required"].push_back(name);
   }
+  add_alternatives(root, schema);
   return root;
 }
 

@@ -65,10 +65,28 @@ struct Section {
   std::string_view implied_by;
 };
 
-/// The tables and keys that one kind of file may have.
+/// A key or table of an alternative: it may stand only where another key, the chooser, has one of certain words.
+struct Belonging {
+  std::string_view path;     ///< of the key or table, "contacts[].ball"; a table goes before what it holds
+  std::string_view chooser;  ///< a key of the same table or of one around it, "contacts[].model"
+  std::string_view words;    ///< the chooser's words, separated by '|'
+  bool needed = false;       ///< must be given with each of these words
+};
+
+/// The word of a chooser that is not given, told by another key that is. The first that applies counts.
+struct Telling {
+  std::string_view chooser;
+  std::string_view word;
+  std::string_view by;            ///< keys or tables, separated by '|', of which one is enough
+  std::string_view endings = {};  ///< of the file that the key names, separated by '|'; any if empty
+};
+
+/// The tables and keys that one kind of file may have, and which of them belong to which alternative.
 struct Schema {
   std::span<const Section> sections;
   std::span<const Key> keys;
+  std::span<const Belonging> belongings = {};
+  std::span<const Telling> tellings = {};
 };
 
 /// Schema of case.toml.
@@ -100,6 +118,14 @@ struct Schema {
 [[nodiscard]] std::vector<std::string> choices(const Key& key);
 /// The keys whose presence brings a section in, as separate words.
 [[nodiscard]] std::vector<std::string> implying_keys(const Section& section);
+
+/// The words of a list that is separated by '|'.
+[[nodiscard]] std::vector<std::string> words_of(std::string_view list);
+
+/// The part of a path before its last dot: "contacts[].ball" of "contacts[].ball.radius"; "" of a name alone.
+[[nodiscard]] std::string_view table_of(std::string_view path);
+/// The part of a path after its last dot.
+[[nodiscard]] std::string_view last_name(std::string_view path);
 
 /// "0 < ν < 0.5" as text: "above 0, below 0.5"; "" if unbounded.
 [[nodiscard]] std::string bounds_text(const Key& key);

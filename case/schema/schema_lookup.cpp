@@ -16,19 +16,6 @@ std::pair<std::string_view, std::string_view> split(std::string_view path) {
   return {path.substr(0, dot), path.substr(dot + 1)};
 }
 
-std::string_view last_name(std::string_view path) {
-  const auto dot = path.rfind('.');
-  return dot == std::string_view::npos ? path : path.substr(dot + 1);
-}
-
-/// The words between '|'.
-std::vector<std::string> words(std::string_view list) {
-  std::vector<std::string> words;
-  std::istringstream text{std::string(list)};
-  for (std::string word; std::getline(text, word, '|');) words.push_back(word);
-  return words;
-}
-
 std::string_view without_index(std::string_view name) {
   return name.substr(0, name.find('['));
 }
@@ -110,7 +97,57 @@ std::string title_text(const Section& section) {
   return section.path.ends_with("[]") ? "`[[" + name + "]]`" : "`[" + name + "]`";
 }
 
+/// The row that says which alternative a key or table belongs to; nullptr of one that belongs to all.
+const Belonging* belonging_of(const Schema& schema, std::string_view pattern) {
+  const auto found = std::ranges::find(schema.belongings, pattern, &Belonging::path);
+  return found == schema.belongings.end() ? nullptr : &*found;
+}
+
+/// "`model`: `hertz`, `caster`", by the chooser's whole name where it is of another table.
+std::string alternative_text(const Belonging& belonging, std::string_view table) {
+  std::string name(table_of(belonging.chooser) == table ? last_name(belonging.chooser) : belonging.chooser);
+  std::erase_if(name, [](char c) { return c == '[' || c == ']'; });
+  std::string text = "`" + name + "`:";
+  for (const std::string& word : words_of(belonging.words)) text += (text.back() == ':' ? " `" : ", `") + word + "`";
+  return text;
+}
+
+/// The default of a key on the page.
+std::string default_cell(const Key& key, const Belonging* belonging) {
+  if (key.required || (belonging != nullptr && belonging->needed)) return "required";
+  return key.fallback.empty() ? "–" : "`" + std::string(key.fallback) + "`";
+}
+
+/// The text above a section's keys.
+std::string section_text(const Schema& schema, const Section& section) {
+  std::string text(section.meaning);
+  if (const Belonging* belonging = belonging_of(schema, section.path))
+    text += std::string(belonging->needed ? " Required by " : " Only with ") +
+            alternative_text(*belonging, "of another table") + ".";
+  const auto implying = implying_keys(section);
+  for (std::size_t i = 0; i < implying.size(); ++i)
+    text += (i == 0 ? " Filled with its defaults where `" : "` or `") + implying[i];
+  return text + (implying.empty() ? "" : "` is given.");
+}
+
 }  // namespace
+
+std::vector<std::string> words_of(std::string_view list) {
+  std::vector<std::string> words;
+  std::istringstream text{std::string(list)};
+  for (std::string word; std::getline(text, word, '|');) words.push_back(word);
+  return words;
+}
+
+std::string_view table_of(std::string_view path) {
+  const auto dot = path.rfind('.');
+  return dot == std::string_view::npos ? std::string_view() : path.substr(0, dot);
+}
+
+std::string_view last_name(std::string_view path) {
+  const auto dot = path.rfind('.');
+  return dot == std::string_view::npos ? path : path.substr(dot + 1);
+}
 
 const Key* find_key(const Schema& schema, std::string_view pattern) {
   const auto found = std::ranges::find(schema.keys, pattern, &Key::path);
@@ -166,11 +203,11 @@ std::string full_path(const Schema& schema, const std::string& path) {
 }
 
 std::vector<std::string> choices(const Key& key) {
-  return words(key.choices);
+  return words_of(key.choices);
 }
 
 std::vector<std::string> implying_keys(const Section& section) {
-  return words(section.implied_by);
+  return words_of(section.implied_by);
 }
 
 std::string bounds_text(const Key& key) {
@@ -199,19 +236,20 @@ void require_within_bounds(const Key& key, double value) {
 std::string schema_markdown(const Schema& schema) {
   std::ostringstream text;
   for (const auto& section : schema.sections) {
-    text << "### " << title_text(section) << "\n\n" << section.meaning;
-    const auto implying = implying_keys(section);
-    for (std::size_t i = 0; i < implying.size(); ++i)
-      text << (i == 0 ? " Filled with its defaults where `" : "` or `") << implying[i];
-    text << (implying.empty() ? "" : "` is given.");
-    text << "\n\n| key | what it takes | default | bounds | meaning |\n|---|---|---|---|---|\n";
+    const auto here = [&](const auto& row) { return table_of(row.path) == section.path; };
+    const bool alternatives = std::ranges::any_of(schema.belongings, [&](const Belonging& belonging) {
+      return here(belonging) && find_key(schema, belonging.path) != nullptr;
+    });
+    text << "### " << title_text(section) << "\n\n"
+         << section_text(schema, section) << "\n\n| key | " << (alternatives ? "only with | " : "")
+         << "what it takes | default | bounds | meaning |\n|---|" << (alternatives ? "---|" : "")
+         << "---|---|---|---|\n";
     for (const auto& key : schema.keys) {
-      const std::string_view name = last_name(key.path);
-      if (key.path != join(section.path, name)) continue;
-      const std::string fallback = key.required           ? "required"
-                                   : key.fallback.empty() ? "–"
-                                                          : "`" + std::string(key.fallback) + "`";
-      text << "| `" << name << "` | " << type_cell(key) << " | " << fallback << " | " << range_cell(key) << " | "
+      if (!here(key)) continue;
+      const Belonging* belonging = belonging_of(schema, key.path);
+      text << "| `" << last_name(key.path) << "` | ";
+      if (alternatives) text << (belonging == nullptr ? "" : alternative_text(*belonging, section.path)) << " | ";
+      text << type_cell(key) << " | " << default_cell(key, belonging) << " | " << range_cell(key) << " | "
            << key.meaning << " |\n";
     }
     text << "\n";

@@ -4,21 +4,23 @@
 #include <limits>
 #include <numbers>
 
+#include "core/overloaded.hpp"
 #include "reduction/damping.hpp"
 #include "reduction/identification.hpp"
 #include "setup/measured.hpp"
 
 namespace thinwall::study {
 
-double least_loss_factor(const setup::Damping& damping, const fem::Modes& modes, double from_hz, double to_hz) {
-  if (damping.model == setup::DampingModel::structural) return damping.loss_factor;
-  if (damping.model == setup::DampingModel::modal) {
-    double least = 2.0 * damping.ratio;
-    for (const double ratio : damping.ratios)
-      if (ratio > 0.0) least = least > 0.0 ? std::min(least, 2.0 * ratio) : 2.0 * ratio;
-    return least;
-  }
-  if (damping.model != setup::DampingModel::rayleigh) return 0.0;
+namespace {
+
+double least_of(const setup::ModalDamping& damping) {
+  double least = 2.0 * damping.ratio;
+  for (const double ratio : damping.ratios)
+    if (ratio > 0.0) least = least > 0.0 ? std::min(least, 2.0 * ratio) : 2.0 * ratio;
+  return least;
+}
+
+double least_of(const setup::RayleighDamping& damping, const fem::Modes& modes, double from_hz, double to_hz) {
   double least = 0.0;
   for (const double hz : modes.frequency_hz.tail(modes.frequency_hz.size() - modes.rigid_motions)) {
     if (hz < from_hz || hz > to_hz) continue;
@@ -29,18 +31,39 @@ double least_loss_factor(const setup::Damping& damping, const fem::Modes& modes,
   return least;
 }
 
-dynamics::SpatialModel damped(const setup::Damping& damping, const dynamics::SpatialModel& reduced,
-                              std::vector<reduction::IdentifiedMode>& identified) {
-  if (damping.model == setup::DampingModel::matrices) return reduced;
-  if (damping.model == setup::DampingModel::rayleigh)
-    return reduction::with_rayleigh_damping(reduced, damping.alpha, damping.beta);
-  if (damping.model == setup::DampingModel::structural)
-    return reduction::with_structural_damping(reduced, damping.loss_factor);
+dynamics::SpatialModel damped_by_mode(const setup::ModalDamping& damping, const dynamics::SpatialModel& reduced,
+                                      std::vector<reduction::IdentifiedMode>& identified) {
   if (!damping.from_frf) return reduction::with_modal_damping(reduced, damping.ratios, damping.ratio);
   const io::MeasuredFrf& frf = setup::receptance_of(*damping.from_frf);
   identified = reduction::identify_modes(frf.axis, frf.H);
   return reduction::with_modal_damping(reduced, setup::matched_ratios(reduced, identified, damping.ratio),
                                        damping.ratio);
+}
+
+}  // namespace
+
+double least_loss_factor(const setup::Damping& damping, const fem::Modes& modes, double from_hz, double to_hz) {
+  return std::visit(core::overloaded{[](const setup::ModalDamping& modal) { return least_of(modal); },
+                                     [&](const setup::RayleighDamping& rayleigh) {
+                                       return least_of(rayleigh, modes, from_hz, to_hz);
+                                     },
+                                     [](const setup::StructuralDamping& structural) { return structural.loss_factor; },
+                                     [](const setup::MatrixDamping&) { return 0.0; }},
+                    damping);
+}
+
+dynamics::SpatialModel damped(const setup::Damping& damping, const dynamics::SpatialModel& reduced,
+                              std::vector<reduction::IdentifiedMode>& identified) {
+  return std::visit(
+      core::overloaded{[&](const setup::ModalDamping& modal) { return damped_by_mode(modal, reduced, identified); },
+                       [&](const setup::RayleighDamping& rayleigh) {
+                         return reduction::with_rayleigh_damping(reduced, rayleigh.alpha, rayleigh.beta);
+                       },
+                       [&](const setup::StructuralDamping& structural) {
+                         return reduction::with_structural_damping(reduced, structural.loss_factor);
+                       },
+                       [&](const setup::MatrixDamping&) { return reduced; }},
+      damping);
 }
 
 std::vector<double> part_damping_ratios(const Results& results) {

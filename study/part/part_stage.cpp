@@ -131,7 +131,7 @@ namespace {
 /// C of the part's file on the reduced coordinates, TᵀCT.
 void take_damping_of_file(const setup::PartSetup& source, PartResult& part) {
   if (source.part->shape != setup::PartShape::matrices || !source.part->imported->matrices->has_damping()) return;
-  if (source.damping.model == setup::DampingModel::matrices) {
+  if (std::holds_alternative<setup::MatrixDamping>(source.damping)) {
     const Eigen::MatrixXd C_T = source.part->imported->matrices->C * part.reduced->T;
     part.reduced->model.C = part.reduced->T.transpose() * C_T;
   } else {

@@ -89,17 +89,17 @@ Eigen::MatrixXd without_negative_part(const Eigen::MatrixXd& matrix) {
   return 0.5 * (raised + raised.transpose());
 }
 
-coupling::IdentificationOptions options_of(const setup::Contact& contact) {
+coupling::IdentificationOptions options_of(const setup::SpringContact& sought) {
   coupling::IdentificationOptions options;
-  options.response_point = setup::point_of(contact.measured.front().response);
-  options.force_point = setup::point_of(contact.measured.front().force);
+  options.response_point = setup::point_of(sought.measured.front().response);
+  options.force_point = setup::point_of(sought.measured.front().force);
   // The case states the deviation of real and imaginary part, the library takes that of both together.
   const auto level = [&](std::size_t which) {
-    return Eigen::VectorXd::Constant(1, std::numbers::sqrt2 * contact.noise[which]);
+    return Eigen::VectorXd::Constant(1, std::numbers::sqrt2 * sought.noise[which]);
   };
   options.noise = {level(1), level(2), level(0)};
-  options.viscous = contact.damping_sought != setup::DampingSought::structural;
-  options.structural = contact.damping_sought != setup::DampingSought::viscous;
+  options.viscous = sought.damping_sought != setup::DampingSought::structural;
+  options.structural = sought.damping_sought != setup::DampingSought::viscous;
   return options;
 }
 
@@ -153,14 +153,15 @@ dynamics::ResponseModel assembly_response(const std::vector<setup::MeasuredFrf>&
 }
 
 ContactIdentification identify_contact(const setup::Contact& contact, const Component& part, const Component& robot) {
-  const dynamics::ResponseModel assembly = assembly_response(contact.measured, part.response.axis);
+  const auto& sought = std::get<setup::SpringContact>(contact.model);
+  const dynamics::ResponseModel assembly = assembly_response(sought.measured, part.response.axis);
   setup::warn_if_implausible(assembly, "the assembly's");
   const Eigen::VectorXd& hz = assembly.axis.hz;
   const auto lines = lines_within(part.response.axis, hz(0), hz(hz.size() - 1));
   coupling::Contact joined{contact.part_point, contact.robot_point, {}, {}};
   for (const auto& direction : contact.directions) joined.springs.push_back({direction});
   ContactIdentification result{coupling::identify_joint(at_lines(part.response, lines), at_lines(robot.response, lines),
-                                                        assembly, joined, options_of(contact)),
+                                                        assembly, joined, options_of(sought)),
                                {},
                                hz.size(),
                                hz(0),

@@ -43,7 +43,7 @@ double stiffness_of(double compliance, double largest) {
 TipReport report_at(const setup::PartSetup& part, const setup::SupportSetup& support,
                     const std::optional<Eigen::VectorXd>& near) {
   const setup::RobotPosture robot = setup::robot_posture(part, support, near);
-  const bool measured = support.robot->model == setup::RobotModel::measured;
+  const bool measured = std::holds_alternative<setup::MeasuredRobot>(support.robot->model);
   const dynamics::FrequencyAxis one_line{Eigen::VectorXd::Ones(1)};  // modes and stiffness need no more
   return tip_report(
       robot, robot_component(*support.robot, measured ? frequency_axis(part.response) : one_line, robot.posture));
@@ -92,19 +92,19 @@ SurveyInput survey_input(const setup::Setup& source) {
 
 RobotSurvey survey(const SurveyInput& input, const std::optional<TipReport>& as_it_stands) {
   if (!input.support.robot) throw core::InputError("the case has no robot; add [robot]");
-  const setup::Robot& robot = *input.support.robot;
+  const auto* robot = std::get_if<setup::JointedRobot>(&input.support.robot->model);
   const auto own_tip = [&] { return as_it_stands ? *as_it_stands : report_at(input.part, input.support, {}); };
   RobotSurvey survey;
-  if (!robot.workspace.empty()) {
+  if (robot != nullptr && !robot->workspace.empty()) {
     survey.over = SurveyPlaces::workspace;
     setup::SupportSetup there = input.support;
-    for (const Eigen::Vector3d& place : robot.workspace) {
-      there.robot->posture.tip = place;
+    for (const Eigen::Vector3d& place : robot->workspace) {
+      std::get<setup::JointedRobot>(there.robot->model).posture.tip = place;
       add(input.part, there, place, survey);
     }
   } else if (!input.followed.empty()) {
     survey.over = SurveyPlaces::path;
-    if (robot.model != setup::RobotModel::flexible_joints) {
+    if (robot == nullptr) {
       survey.tips.assign(input.followed.size(), own_tip());
       return survey;
     }

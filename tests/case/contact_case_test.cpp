@@ -161,7 +161,8 @@ TEST(ContactCase, ATableGivesItsRowsAndNothingBeyondThem) {
   EXPECT_LT(between, 4e6);
   expect_problem(with(text, "40 N", "90 N"), "contacts[0].table", "measured from 10 to 80 N", folder.path);
   expect_problem(with(text, "pad.csv", "pat.csv"), "contacts[0].table", "there is no file", folder.path);
-  expect_problem(with(text, "table = \"pad.csv\"\n", ""), "contacts[0].table", "missing; name the CSV", folder.path);
+  expect_problem(with(text, "table = \"pad.csv\"\n", ""), "contacts[0].table",
+                 "missing; contacts[0].model = \"table\" needs it", folder.path);
   core::write_file_atomically(folder.path / "bad.csv",
                               "preload_n,stiffness_n_per_mm,damping_n_s_per_m\n1,1,0\n2,2,0\n");
   expect_problem(with(text, "pad.csv", "bad.csv"), "contacts[0].table", "did you mean \"stiffness_n_per_mm\"",
@@ -172,13 +173,13 @@ TEST(ContactCase, ATableGivesItsRowsAndNothingBeyondThem) {
 }
 
 TEST(ContactCase, KeysOfAnotherModelAndWhatIsMissingAreSaid) {
-  expect_problem(with_contact("preload = \"10 N\"\n"), "contacts[0].preload", "the model is \"springs\"");
-  expect_problem(with_contact(ball), "contacts[0].ball", "belongs to contacts.model");
+  expect_problem(with_contact("preload = \"10 N\"\n"), "contacts[0].preload", "but it is \"springs\"");
+  expect_problem(with_contact(ball), "contacts[0].ball", "belongs to contacts[0].model = \"hertz\" or \"caster\"");
   expect_problem(with_contact("model = \"hertz\"\npreload = \"10 N\"\n"), "contacts[0].ball", "missing");
   expect_problem(with_contact("model = \"hertz\"\npreload = \"10 N\"\nstiffness = \"1e6 N/m\"\n" + ball),
-                 "contacts[0].stiffness", "belongs to contacts.model = \"springs\"");
+                 "contacts[0].stiffness", "belongs to contacts[0].model = \"springs\"");
   expect_problem(with_contact("model = \"hertz\"\npreload = \"10 N\"\n" + ball + "supports = 5\n"),
-                 "contacts[0].ball.supports", "belongs to contacts.model = \"caster\"");
+                 "contacts[0].ball.supports", "belongs to contacts[0].model = \"caster\"");
   expect_problem(with_contact("model = \"caster\"\npreload = \"10 N\"\n" + ball +
                               "supports = 5\n"
                               "support_radius = \"1 mm\"\n"),
@@ -205,7 +206,7 @@ TEST(ContactCase, KeysOfAnotherModelAndWhatIsMissingAreSaid) {
   expect_problem(with(with(fitted, "\"part_frequency\"", "\"coupled_frequency\""),
                       "part.length\", lower = \"380 mm\", upper = \"410 mm\"",
                       "contacts[0].stiffness\", lower = \"1e5 N/m\", upper = \"1e7 N/m\""),
-                 "updating[0].parameters[0].key", "is not read with model = \"hertz\"");
+                 "updating[0].parameters[0].key", "the case has no number \"contacts[0].stiffness\"");
 }
 
 TEST(ContactCase, AJointToBeFoundNeedsItsFrfsAndNothingThatTellsIt) {
@@ -216,14 +217,15 @@ TEST(ContactCase, AJointToBeFoundNeedsItsFrfsAndNothingThatTellsIt) {
     return "[[contacts.measured]]\nresponse = \"" + response + "\"\nforce = \"" + force + "\"\n" + frf;
   };
   const Case source = parse_case(with_contact("noise = [0.02, 0.01, 0.03]\n" + measured("P2.x", "P.x")), folder.path);
-  EXPECT_EQ(source.contacts[0].noise, (std::vector<double>{0.02, 0.01, 0.03}));
+  EXPECT_EQ(std::get<SpringContact>(source.contacts[0].model).noise, (std::vector<double>{0.02, 0.01, 0.03}));
   EXPECT_EQ(input_files(source).front(), folder.path / "held.csv");
   const auto refuse = [&](const std::string& lines, const std::string& key, const std::string& part) {
     expect_problem(with_contact(lines), key, part, folder.path);
   };
   refuse("stiffness = \"1e6 N/m\"\n" + measured("P.x", "P.x"), "contacts[0].measured", "remove stiffness");
   refuse("damping = \"1 N s/m\"\n" + measured("P.x", "P.x"), "contacts[0].measured", "remove stiffness");
-  refuse("model = \"hertz\"\npreload = \"9 N\"\n" + ball + measured("P.x", "P.x"), "contacts[0].measured", "tells too");
+  refuse("model = \"hertz\"\npreload = \"9 N\"\n" + ball + measured("P.x", "P.x"), "contacts[0].measured",
+         "belongs to contacts[0].model = \"springs\"");
   refuse(measured("P.y", "P.y"), "contacts[0].measured", "do not tell all directions");
   refuse(measured("Q.x", "Q.x"), "contacts[0].measured[0].response", "there is no point \"Q\"");
   refuse(measured("P.x", "P.x") + measured("P2.x", "P.x"), "contacts[0].measured[1].response", "of another point");
@@ -280,7 +282,8 @@ TEST(ContactCase, TheResolvedCaseIsTheSame) {
 
 TEST(ContactCase, ARegularisationIsAskedForInFull) {
   EXPECT_EQ(coupling_options(parse_case(plate_case(), ".").coupling).regularisation, coupling::Regularisation::none);
-  expect_problem(plate_case() + "[coupling]\nthreshold = 1e-6\n", "coupling.threshold", "nothing to regularise");
+  expect_problem(plate_case() + "[coupling]\nthreshold = 1e-6\n", "coupling.threshold",
+                 "belongs to coupling.regularisation = \"truncated\" or \"tikhonov\"");
   expect_problem(plate_case() + "[coupling]\nregularisation = \"truncated\"\nthreshold = 1\n", "coupling.threshold",
                  "below 1");
   expect_problem(plate_case() + "[coupling]\nregularisation = \"svd\"\n", "coupling.regularisation", "truncated");

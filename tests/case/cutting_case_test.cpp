@@ -121,7 +121,7 @@ TEST(CuttingCase, WrongToolsAreRefused) {
   expect_problem(cut_case("end = \"bull_nose\"\n", arcs_of_two_walls), "needs tool.corner_radius");
   expect_problem(cut_case("end = \"bull_nose\"\ncorner_radius = \"9 mm\"\n", arcs_of_two_walls),
                  "more than half the tool's diameter of 16 mm");
-  expect_problem(cut_case("corner_radius = \"2 mm\"\n", depth), "belongs to tool.end = \"bull_nose\"");
+  expect_problem(cut_case("corner_radius = \"2 mm\"\n", depth), "belongs to tool.end = \"bull_nose\" or \"general\"");
   expect_problem(
       cut_case("end = \"general\"\ncorner_radius = \"2 mm\"\ncorner_radial = \"12 mm\"\n", arcs_of_two_walls),
       "the arc leaves the tip cone");
@@ -144,13 +144,16 @@ TEST(CuttingCase, WrongLawsAreRefused) {
   const std::string no_feed = with(with(plate_case(), "feed_rate = \"1800 mm/min\"\n", ""), depth, "");
   const std::string power = depth + "law = \"power\"\nexponents = 0.25\n";
   expect_problem(with(no_feed, "at = \"P\"\n", "at = \"P\"\n" + power), "depends on the feed");
-  expect_problem(cut_case("", depth + "law = \"power\"\n"), "needs one exponent");
+  expect_problem(cut_case("", depth + "law = \"power\"\n"), "cutting.exponents: missing");
+  expect_problem(cut_case("", depth + "law = \"power\"\nexponents = [0.2, 0.3]\n"), "needs one exponent, or three");
   expect_problem(cut_case("", depth + "law = \"power\"\nexponents = 1.0\n"), "below 1");
   expect_problem(cut_case("", depth + "exponents = 0.2\n"), "belongs to cutting.law = \"power\"");
-  expect_problem(cut_case("", depth + "law = \"fractional\"\n"), "needs cutting.chip_scale");
+  expect_problem(cut_case("", depth + "law = \"fractional\"\nstiffness_ratio = 0.5\n"),
+                 "cutting.chip_scale: missing; cutting.law = \"fractional\" needs it");
   expect_problem(with(plate_case(), "Kt = \"1800 N/mm^2\"\n", ""), "cutting.Kt: missing");
-  expect_problem(cut_case("", depth + "law = \"oblique\"\nshear_stress = \"600 MPa\"\nfriction_angle = \"25 deg\"\n"),
-                 "cutting.Kt: follows from the orthogonal data");
+  expect_problem(
+      cut_case("", depth + "law = \"oblique\"\nshear_stress = \"600 MPa\"\nfriction_angle = \"25 deg\"\n"),
+      "cutting.Kt: belongs to cutting.law = \"linear\" or \"power\" or \"fractional\", but it is \"oblique\"");
   expect_problem(cut_case("end = \"ball\"\n", arcs_of_two_walls + "law = \"power\"\nexponents = 0.25\n"),
                  "only the linear law");
   expect_problem(cut_case("end = \"ball\"\n", arcs_of_two_walls + "process_damping = \"1e4 N/m\"\n"), "flat ends only");

@@ -55,8 +55,9 @@ TEST(DataFiles, AFileIsOpenedOnceToBeReadAndOnceForItsChecksumHoweverOftenItIsNa
   const Case source = parse_case(text, folder.path);
   EXPECT_EQ(opened.count("tip.uff"), 2);
   EXPECT_EQ(opened.count("part.csv"), 2);
-  EXPECT_EQ(setup::receptance_of(source.robot->measured[8]).H(0), std::complex(1e-6, -1e-7));
-  EXPECT_EQ(setup::receptance_of(source.robot->measured[7]).H(0), 0.0);
+  const auto& measured = std::get<setup::MeasuredRobot>(source.robot->model).measured;
+  EXPECT_EQ(setup::receptance_of(measured[8]).H(0), std::complex(1e-6, -1e-7));
+  EXPECT_EQ(setup::receptance_of(measured[7]).H(0), 0.0);
 }
 
 TEST(DataFiles, AFaultIsToldWhenTheCaseIsLoadedWithItsFileAndLine) {
@@ -96,11 +97,12 @@ TEST(DataFiles, ACaseWithAnotherNumberHoldsWhatTheFilesSaidWithoutThem) {
   for (const auto& file : input_files(source)) std::filesystem::remove(file);
   set_value(source, "robot.base.position[0]", 4.0);
   set_value(source, "part.measured[0].noise", 0.02);
-  EXPECT_EQ(source.robot->arm.base.translation(), Eigen::Vector3d(4.0, 2.0, 3.0));
-  ASSERT_EQ(source.robot->arm.links.size(), 1U);
-  EXPECT_EQ(source.robot->arm.links[0].mass, 30.0);
-  EXPECT_EQ(source.robot->arm.links[0].joint.stiffness, 2e6);
-  EXPECT_EQ(source.robot->arm.gravity, before.robot->arm.gravity);
+  const robot::SerialArm& arm = std::get<setup::JointedRobot>(source.robot->model).arm;
+  EXPECT_EQ(arm.base.translation(), Eigen::Vector3d(4.0, 2.0, 3.0));
+  ASSERT_EQ(arm.links.size(), 1U);
+  EXPECT_EQ(arm.links[0].mass, 30.0);
+  EXPECT_EQ(arm.links[0].joint.stiffness, 2e6);
+  EXPECT_EQ(arm.gravity, std::get<setup::JointedRobot>(before.robot->model).arm.gravity);
   EXPECT_EQ(source.measured_part[0].noise, 0.02);
   EXPECT_EQ(setup::receptance_of(source.measured_part[0]).H, setup::receptance_of(before.measured_part[0]).H);
   ASSERT_EQ(source.data_files.size(), 3U);

@@ -3,13 +3,11 @@
 #include "case/schema/json_schema.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-
-#include <cstdio>
 
 #include "case/templates.hpp"
 #include "core/atomic_file.hpp"
 #include "tests/case/case_text.hpp"
+#include "tests/case/validator.hpp"
 #include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::json_schema_test {
@@ -75,31 +73,21 @@ std::vector<std::string> wrong_cases() {
 
 TEST(JsonSchema, AValidatorTakesEveryCaseOfOursAndRefusesWrongOnes) {
   const TemporaryFolder temporary;
-  const fs::path schema = temporary.path / "schema.json";
-  core::write_file_atomically(schema, schema_of_cases().dump(1));
-  std::string command =
-      "python3 '" + std::string(THINWALL_SOURCE_DIR) + "/tests/case/validate_cases.py' '" + schema.string() + "'";
+  std::vector<fs::path> good, bad;
   for (const auto& entry : fs::directory_iterator(fs::path(THINWALL_SOURCE_DIR) / "cases"))
-    command += " '" + (entry.path() / "case.toml").string() + "'";
-  for (const auto& name : template_names())
-    command += " '" + write_template(name, temporary.path / name).string() + "'";
-  core::write_file_atomically(temporary.path / "plate.toml", plate_case());
-  command += " '" + (temporary.path / "plate.toml").string() + "' --bad";
+    good.push_back(entry.path() / "case.toml");
+  for (const auto& name : template_names()) good.push_back(write_template(name, temporary.path / name));
+  good.push_back(temporary.path / "plate.toml");
+  core::write_file_atomically(good.back(), plate_case());
   int number = 0;
   for (const auto& text : wrong_cases()) {
     ASSERT_FALSE(text.empty()) << "the replacement did not match: " << number;
-    const fs::path file = temporary.path / ("wrong_" + std::to_string(number++) + ".toml");
-    core::write_file_atomically(file, text);
-    command += " '" + file.string() + "'";
+    bad.push_back(temporary.path / ("wrong_" + std::to_string(number++) + ".toml"));
+    core::write_file_atomically(bad.back(), text);
   }
-  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-  ASSERT_NE(pipe, nullptr);
-  std::string said;
-  char buffer[512];
-  while (std::fgets(buffer, sizeof buffer, pipe) != nullptr) said += buffer;
-  const int status = ::pclose(pipe);
-  if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) GTEST_SKIP() << "no validator: " << said;
-  EXPECT_EQ(WEXITSTATUS(status), 0) << said;
+  const Validation validation = validate(temporary.path, good, bad);
+  if (validation.status == 77 || validation.status == 127) GTEST_SKIP() << "no validator: " << validation.said;
+  EXPECT_EQ(validation.status, 0) << validation.said;
 }
 
 }  // namespace

@@ -94,12 +94,13 @@ TEST(PartFile, KeysThatDoNotBelongAreRefused) {
   expect_problem("file = \"plate.stl\"\nunit = \"kg\"", folder.path, "part.unit: ");
   expect_problem("file = \"plate.stp2\"\nunit = \"mm\"", folder.path, "has an ending that is not read");
   expect_problem("shape = \"surface\"\nunit = \"mm\"\nthickness = \"4 mm\"\nfile = \"plate.stl\"", folder.path,
-                 "part.thickness: belongs to a part of shape \"box\" or \"prism\"");
+                 "part.thickness: belongs to part.shape = \"box\" or \"prism\", but it is \"surface\"");
   expect_problem("shape = \"surface\"\nunit = \"mm\"\n", folder.path, "part.file: missing");
-  expect_problem(good + "length = \"100 mm\"", folder.path, "part.length: belongs to a part of shape \"box\"");
+  expect_problem(good + "length = \"100 mm\"", folder.path, "part.length: belongs to part.shape = \"box\"");
   expect_problem("file = \"plate.stl\"\nshape = \"prism\"\noutline = [[0, 0], [1, 0], [0, 1]]\nthickness = 0.1",
-                 folder.path, "part.file: belongs to a part of shape \"surface\" or \"mesh\"");
-  expect_problem(good + "[part.bend]\nradius = \"1 m\"", folder.path, "part.bend.radius: belongs to");
+                 folder.path, "part.file: belongs to part.shape = \"surface\" or \"mesh\"");
+  expect_problem(good + "[part.bend]\nradius = \"1 m\"", folder.path,
+                 "part.bend: belongs to part.shape = \"box\" or \"prism\"");
   expect_problem(good + "[points.P]\nposition = [\"200 mm\", 0, 0]", folder.path, "lies outside the part");
   expect_problem(good + "[part.repair]\nlargest_hole = 200", folder.path, "part.repair.largest_hole");
 }
@@ -306,7 +307,7 @@ TEST(PartFile, WhatMatricesDoNotTellIsRefused) {
   expect(two_masses + "[points.C]\ndirections = \"x\"\n", "no point of this name; give its node");
   expect(two_masses + "[points.C]\nnode = 4\ndirections = \"x\"\n", "points.C.node: the part's file has no node 4");
   expect(two_masses + "[points.C]\nat = [0, 0, 0]\n", "give the node = its number, and neither at nor position");
-  expect(two_masses + "[[part.supports]]\non = \"x_min\"\n", "part.supports[0].on: belongs to");
+  expect(two_masses + "[[part.supports]]\non = \"x_min\"\n", "part.supports: belongs to part.shape = ");
   expect("unit = \"mm\"\n[part.matrices]\nstiffness = \"k.mtx\"\nmass = \"m.mtx\"\n",
          "set part.unit and part.mass_unit");
   expect("unit = \"mm\"\nmass_unit = \"s\"\n[part.matrices]\nstiffness = \"k.mtx\"\nmass = \"m.mtx\"\n",

@@ -66,7 +66,8 @@ TEST(RobotCase, ThePostureBringsTheTipWhereItIsAskedToBe) {
   const Case by_pitch = parse_case(arm + reaching, ".");
   const RobotPosture stands = robot_posture(by_pitch, by_pitch);
   EXPECT_LT((*stands.tip - Eigen::Vector3d(1.2, 0.5, 0.9)).norm(), 1e-12);
-  const Eigen::Vector3d along = robot::pose(by_pitch.robot->arm, stands.posture.q).tip.linear().col(2);
+  const Eigen::Vector3d along =
+      robot::pose(std::get<JointedRobot>(by_pitch.robot->model).arm, stands.posture.q).tip.linear().col(2);
   EXPECT_NEAR(along.z(), 0.0, 1e-12) << "a pitch of 90 degrees is level";
   EXPECT_GT(stands.posture.q(2), 0.0) << "elbow up";
   const RobotPosture down = posture_of(parse_case(arm + reaching + "elbow = \"down\"\n", "."));
@@ -78,8 +79,8 @@ TEST(RobotCase, TheBaseStandsWhereItIsPutAndGravityPullsAgainstItsZ) {
   const Case hung = parse_case(
       arm + "[robot.base]\nposition = [1, 2, 3]\nx = \"x\"\nz = \"-z\"\n[robot.posture]\njoints = [0, 0, 0, 0]\n", ".");
   EXPECT_LT((*robot_posture(hung, hung).tip - Eigen::Vector3d(1, 2, 3 - 2.6)).norm(), 1e-12);
-  EXPECT_EQ(hung.robot->arm.gravity, Eigen::Vector3d(0, 0, 9.81));
-  EXPECT_GT(hung.robot->arm.base.linear().determinant(), 0.0);
+  EXPECT_EQ(std::get<JointedRobot>(hung.robot->model).arm.gravity, Eigen::Vector3d(0, 0, 9.81));
+  EXPECT_GT(std::get<JointedRobot>(hung.robot->model).arm.base.linear().determinant(), 0.0);
 }
 
 // Six axes, wrist in the middle: the tip's z looks along the approach, and the angle turns it about that.
@@ -90,7 +91,7 @@ TEST(RobotCase, AnArmOfSixJointsIsSearchedWithTheRedundancyAngle) {
                           "approach = \"x\"\nangle = \"30 deg\"\nstart = [0.2, 0.4, 1.0, 0.1, 0.5, 0.2]\n";
   const Case source = parse_case(six, ".");
   const RobotPosture stands = robot_posture(source, source);
-  const robot::ArmPose at = robot::pose(source.robot->arm, stands.posture.q);
+  const robot::ArmPose at = robot::pose(std::get<JointedRobot>(source.robot->model).arm, stands.posture.q);
   EXPECT_LT((*stands.tip - Eigen::Vector3d(1.1, 0.3, 0.9)).norm(), 1e-9);
   EXPECT_LT((at.tip.linear().col(2) - Eigen::Vector3d::UnitX()).norm(), 1e-9);
   const double c = std::cos(std::numbers::pi / 6), s = std::sin(std::numbers::pi / 6);
@@ -138,9 +139,11 @@ TEST(RobotCase, SeveralModesHoldInTheirDirectionsOnly) {
   const auto matrices = matrices_of(parse_case(robot, "."));
   EXPECT_EQ(matrices.dofs.size(), 2U);
   EXPECT_EQ(matrices.size(), 2);
-  expect_problem("[robot]\nmodel = \"modes\"\n", "robot.model", "modes needs [[robot.modes]]");
-  expect_problem(robot + "[robot.posture]\njoints = [0]\n", "robot.posture",
-                 "belongs to robot.model = \"flexible_joints\"");
+  expect_problem("[robot]\nmodel = \"modes\"\n", "robot.modes",
+                 "missing; robot.model = \"modes\" needs it: Modes of the tip.");
+  expect_problem(
+      robot + "[robot.posture]\njoints = [0]\n", "robot.posture",
+      "belongs to robot.model = \"flexible_joints\", but it is \"modes\"; set robot.model, or remove posture");
 }
 
 // A hammer along −x turns the sign of the receptance, which the file tells and the case need not.
@@ -193,7 +196,8 @@ TEST(RobotCase, AnArmFromAUrdfIsTheOneWrittenOutLinkByLink) {
   EXPECT_LT((a.M - b.M).norm(), 1e-12 * b.M.norm());
   EXPECT_LT((a.K - b.K).norm(), 1e-12 * b.K.norm());
   EXPECT_LT((a.T - b.T).norm(), 1e-12 * b.T.norm());
-  EXPECT_DOUBLE_EQ(parse_case(by_urdf, folder.path).robot->arm.links[1].joint.gear_ratio, 120.0);
+  const Case source = parse_case(by_urdf, folder.path);
+  EXPECT_DOUBLE_EQ(std::get<JointedRobot>(source.robot->model).arm.links[1].joint.gear_ratio, 120.0);
 }
 
 TEST(RobotCase, UrdfAndItsJointsAreCheckedAgainstEachOther) {

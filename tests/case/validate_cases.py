@@ -1,6 +1,6 @@
 """Checks case files by a JSON Schema: validate_cases.py SCHEMA GOOD ... --bad BAD ...
 
-Every GOOD must be valid and every BAD must not. Exit 1 if not, 77 if a module is missing (named on the output).
+Every GOOD must be valid and every BAD must not; a .json file holds a list of cases. Exit 1 if not, 77 if a module is missing (named on the output).
 """
 import json
 import sys
@@ -20,12 +20,24 @@ with open(sys.argv[1], encoding="utf-8") as file:
 Draft202012Validator.check_schema(schema)
 validator = Draft202012Validator(schema)
 failures = 0
-for name in good + bad:
+
+
+
+def cases_of(name):
+    """The cases of a file, each with a name for messages."""
     with open(name, "rb") as file:
-        errors = list(validator.iter_errors(tomllib.load(file)))
-    if bool(errors) != (name in bad):
+        if name.endswith(".json"):
+            return [(f"{name}: {json.dumps(case)}", case) for case in json.load(file)]
+        return [(name, tomllib.load(file))]
+
+
+cases = [(title, case, wrong) for wrong, names in ((False, good), (True, bad)) for name in names
+         for title, case in cases_of(name)]
+for title, case, wrong in cases:
+    errors = list(validator.iter_errors(case))
+    if bool(errors) != wrong:
         failures += 1
-        print(name, "is wrongly", "accepted" if name in bad else "refused")
+        print(title, "is wrongly", "accepted" if wrong else "refused")
         for error in errors:
             print("  ", error.json_path, error.message[:200])
 sys.exit(1 if failures else 0)

@@ -20,8 +20,9 @@ SyntheticMeasurement synthetic_measurement(const Setup& source, const PartResult
   const fem::Factored factored = fem::factorise(part.model);
   SyntheticMeasurement result;
   result.axis = frequency_axis(source.response);
+  const auto& damping = std::get<ModalDamping>(source.damping);
   const auto full = reduction::full_response(part.model.K, part.model.M, fem::inverse_of(factored), part.modes.pairs,
-                                             source.damping.ratios, source.damping.ratio, part.interface, result.axis);
+                                             damping.ratios, damping.ratio, part.interface, result.axis);
   result.part = dynamics::entry(full.response, point + ".x", point + ".x");
   result.relative_residual = full.max_relative_residual;
   const std::string tip = source.robot->point + ".x";

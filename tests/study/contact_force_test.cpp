@@ -35,7 +35,7 @@ setup::Setup touching(double preload_n) {
   setup::Setup source;
   source.robot = Robot{};
   source.robot->preload = {-preload_n, 0.0, 0.0};
-  source.contacts = {{"P", "R", {Eigen::Vector3d::UnitX()}, {kc}, {0.0}, 0.0}};
+  source.contacts = {{"P", "R", {Eigen::Vector3d::UnitX()}, 0.0, SpringContact{{kc}, {0.0}}}};
   source.tool = Tool{};
   source.tool->teeth = 2;
   source.tool->diameter = 0.01;

@@ -31,7 +31,11 @@ constexpr bool is_frame = std::is_same_v<T, Eigen::Isometry3d>;
 template <class T>
 constexpr bool is_box = std::is_same_v<T, Eigen::AlignedBox3d>;
 
-using InputKeyOfFiles = io::test::ScratchFolder;
+class InputKeyOfFiles : public io::test::ScratchFolder {
+ protected:
+  /// Writes the `count` files that a set-up reads, changes one after another, and expects other keys meanwhile.
+  void expect_contents_in_keys(setup::Setup& source, std::size_t count);
+};
 
 /// Gives a value to everything below `value`: lists have one item, what may be absent is there.
 template <class T>
@@ -204,13 +208,36 @@ setup::Setup full_setup() {
   return source;
 }
 
-/// What a file holds stands in the keys, and not only its name.
-TEST_F(InputKeyOfFiles, AChangedFileChangesTheKeyWhereverItIsNamed) {
-  setup::Setup source = full_setup();
-  source.contacts.front().model = setup::ContactModel::table;
-  source.robot->model = setup::RobotModel::modal_table;
-  source.robot->left_unit = source.robot->right_unit = "sqrt(s/kg)";
-  source.robot->table_point = "1";
+/// Puts each alternative of a variant into `value`, filled, and calls `there` meanwhile.
+template <class... Alternatives>
+void with_each(std::variant<Alternatives...>& value, const std::function<void()>& there) {
+  const std::variant<Alternatives...> before = value;
+  const auto one = [&](auto alternative) {
+    fill(alternative);
+    value = alternative;
+    there();
+  };
+  (one(Alternatives{}), ...);
+  value = before;
+}
+
+setup::TabledContact* tabled_contact(setup::Setup& source) {
+  return std::get_if<setup::TabledContact>(&source.contacts.front().model);
+}
+
+setup::TabledRobot* tabled_robot(setup::Setup& source) {
+  return std::get_if<setup::TabledRobot>(&source.robot->model);
+}
+
+/// Reads all files of a set-up, whether it holds what they say or not.
+void read_anew(setup::Setup& source) {
+  for (setup::MeasuredFrf* frf : setup::measured_frfs(source)) frf->content.reset();
+  if (auto* contact = tabled_contact(source)) contact->rows.reset();
+  if (auto* robot = tabled_robot(source)) robot->table_modes.reset();
+  setup::read_data_files(source);
+}
+
+void InputKeyOfFiles::expect_contents_in_keys(setup::Setup& source, std::size_t count) {
   std::vector<std::pair<std::filesystem::path, std::string>> files;  // with "1e-6" in each, which is then changed
   const auto name_one = [&](std::filesystem::path& path, const std::string& text) {
     path = write("file_" + std::to_string(files.size()) + ".csv", text);
@@ -222,14 +249,16 @@ TEST_F(InputKeyOfFiles, AChangedFileChangesTheKeyWhereverItIsNamed) {
     frf->unit = "m/N";
     frf->frequency_unit = "Hz";
   }
-  name_one(source.contacts.front().table, "preload_n,stiffness_n_per_m,damping_n_s_per_m\n1,1e-6,0\n2,2e-6,0\n");
-  name_one(source.robot->table, "frequency_hz,damping_ratio,R_1X_re,R_1X_im,L_1X_re,L_1X_im\n50,0.01,1e-6,1,1,1\n");
-  EXPECT_EQ(files.size(), 8U) << "FRFs of part, damping, contact, robot, tool and its swap, two tables";
+  if (auto* contact = tabled_contact(source))
+    name_one(contact->table, "preload_n,stiffness_n_per_m,damping_n_s_per_m\n1,1e-6,0\n2,2e-6,0\n");
+  if (auto* robot = tabled_robot(source)) {
+    robot->left_unit = robot->right_unit = "sqrt(s/kg)";
+    robot->table_point = "1";
+    name_one(robot->table, "frequency_hz,damping_ratio,R_1X_re,R_1X_im,L_1X_re,L_1X_im\n50,0.01,1e-6,1,1,1\n");
+  }
+  EXPECT_EQ(files.size(), count);
   const auto keys = [&] {
-    for (setup::MeasuredFrf* frf : setup::measured_frfs(source)) frf->content.reset();
-    source.contacts.front().rows.reset();
-    source.robot->table_modes.reset();
-    setup::read_data_files(source);
+    read_anew(source);
     return study::structure_key(source) + study::charts_key(source);
   };
   const std::string first = keys();
@@ -241,6 +270,24 @@ TEST_F(InputKeyOfFiles, AChangedFileChangesTheKeyWhereverItIsNamed) {
     write(file.filename(), text);
     EXPECT_EQ(keys(), first) << file.filename();
   }
+}
+
+/// What a file holds stands in the keys, and not only its name.
+TEST_F(InputKeyOfFiles, AChangedFileChangesTheKeyWhereverItIsNamed) {
+  setup::Setup source = full_setup();
+  // FRFs of the part, of its damping and two of the tool; a robot and a contact have one file, or none.
+  const auto files = [&]() -> std::size_t {
+    const setup::ContactKind contact = setup::kind(source.contacts[0]);
+    const bool read = contact == setup::ContactKind::springs || contact == setup::ContactKind::table;
+    return 4U + (read ? 1U : 0U) + (setup::is_measured(*source.robot) ? 1U : 0U);
+  };
+  with_each(source.robot->model, [&] { expect_contents_in_keys(source, files()); });
+  with_each(source.contacts[0].model, [&] { expect_contents_in_keys(source, files()); });
+  source.contacts[0].model = setup::TabledContact{};
+  source.robot->model = setup::TabledRobot{};
+  fill(source.contacts[0].model);
+  fill(source.robot->model);
+  expect_contents_in_keys(source, 6);
 }
 
 TEST(InputKey, ARobotThatFollowsThePathHasAnotherKeyThanOneThatStays) {
