@@ -18,12 +18,13 @@ void write_cases(const fs::path& folder, const cases::Case& source, const cases:
   if (!source.updating.empty()) core::write_file_atomically(folder / "case.fitted.toml", cases::resolved_text(fitted));
 }
 
-nlohmann::json manifest_of(const cases::Case& source, const nlohmann::json& summary, const std::string& started_utc) {
+nlohmann::json manifest_of(const cases::Case& source, const report::Summary& summary, const std::string& started_utc) {
   nlohmann::json manifest;
   manifest["program"] = {{"name", "thinwall"}, {"version", program_version()}, {"built_with", doctor_report()}};
   if (!program_commit().empty()) manifest["program"]["commit"] = program_commit();
   manifest["threads"] = core::thread_count();
   manifest["started_utc"] = started_utc;
+  manifest["timings_s"] = summary.timings_s;
   manifest["inputs"] = nlohmann::json::array();
   for (const cases::DataFile& input : source.data_files)
     manifest["inputs"].push_back({{"name", input.path.string()}, {"sha256", input.sha256}});
@@ -33,11 +34,11 @@ nlohmann::json manifest_of(const cases::Case& source, const nlohmann::json& summ
     manifest["inputs"].push_back({{"name", expected.string()}, {"sha256", io::sha256_of_file(expected)}});
   }
   manifest["seeds"] = nlohmann::json::array();
-  const auto drawn = [](const nlohmann::json& chart) {
-    return chart.contains("at_case_speed") && chart["at_case_speed"].contains("error_budget") &&
-           chart["at_case_speed"]["error_budget"].contains("sampled");
+  const auto drawn = [](const report::LobesSummary& chart) {
+    const auto& row = chart.at_case_speed;
+    return row && row->error_budget && row->error_budget->sampled;
   };
-  if (std::ranges::any_of(summary["lobes"], drawn)) manifest["seeds"].push_back(source.lobes->seed);
+  if (std::ranges::any_of(summary.lobes, drawn)) manifest["seeds"].push_back(source.lobes->seed);
   return manifest;
 }
 

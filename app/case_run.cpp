@@ -53,9 +53,11 @@ cases::Case fitted_case(const cases::Case& source, const study::Results& results
 }
 
 /// The page is a picture of results that are there; a run does not fail for it.
-void write_report(const std::filesystem::path& results, const report::KeptSections& kept) {
+void write_report(const std::filesystem::path& results, const report::RunAtHand& run,
+                  const report::KeptSections& kept) {
   try {
-    report::write_page(results / "report.html", {{results}, app::program_name(), kept});
+    report::write_page(results / "report.html",
+                       {.folders = {results}, .program = app::program_name(), .kept = kept, .at_hand = run});
   } catch (const core::Interrupted&) {
     throw;
   } catch (const core::Error& error) {
@@ -63,10 +65,10 @@ void write_report(const std::filesystem::path& results, const report::KeptSectio
   }
 }
 
-nlohmann::json summary_of(const cases::Case& source, const study::Results& results) {
-  nlohmann::json summary = report::summary_of(results.setup, results);
-  summary["case"] = source.name;
-  summary["title"] = source.title;
+report::Summary summary_of(const cases::Case& source, const study::Results& results) {
+  report::Summary summary = report::summary_of(results.setup, results);
+  summary.case_name = source.name;
+  summary.title = source.title;
   return summary;
 }
 
@@ -95,17 +97,15 @@ RunResult run_case(const cases::Case& source, const RunOptions& options) {
   stages.begin("report");
   RunResult run{summary_of(source, results), true};
   run.expectations_hold = add_checks(run.summary, expectations);
-  if (!run.expectations_hold) run.summary["status"] = "expectation_not_met";
-  nlohmann::json manifest = manifest_of(source, run.summary, started);
-  report::write_summary(staging, run.summary, manifest);
-  write_report(staging, report::kept_sections(kept.structure));
+  if (!run.expectations_hold) run.summary.status = "expectation_not_met";
+  const nlohmann::json manifest = manifest_of(source, run.summary, started);
+  write_report(staging, {run.summary, manifest}, report::kept_sections(kept.structure));
   stages.end();
   double total = 0.0;
   for (const auto& [stage, seconds] : results.timings_s) total = stage == "total" ? seconds : total;
   for (const auto& [stage, seconds] : stages.timings_s())
-    run.summary["timings_s"][stage] = stage == "total" ? total + seconds : seconds;
+    run.summary.timings_s[stage] = stage == "total" ? total + seconds : seconds;
   report::write_summary(staging, run.summary, manifest);
-  report::record_outputs(staging, manifest);
   report::publish(staging, options.out);
   return run;
 }

@@ -3,11 +3,11 @@
 
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "case/machining_case.hpp"
 #include "milling/chart/operating_point.hpp"
+#include "report/summary/summary.hpp"
 
 namespace thinwall::app {
 
@@ -22,7 +22,7 @@ struct RunOptions {
 };
 
 struct RunResult {
-  nlohmann::json summary;         ///< summary.json (design.md section 7)
+  report::Summary summary;
   bool expectations_hold = true;  ///< false: exit 6
 };
 

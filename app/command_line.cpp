@@ -32,6 +32,7 @@
 #include "report/page/phases.hpp"
 #include "report/result_folder.hpp"
 #include "report/robot_report.hpp"
+#include "report/summary/summary_schema.hpp"
 #include "report/terminal_report.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/part_geometry.hpp"
@@ -164,8 +165,12 @@ ExitCode compare(const Arguments& arguments, std::ostream& out) {
 }
 
 ExitCode print_schema(const std::string& file, std::ostream& out) {
+  if (file == "summary") {
+    out << report::summary_schema().dump(2) << '\n';
+    return ExitCode::done;
+  }
   if (file != "case" && file != "expected" && file != "joints")
-    throw core::UsageError("there is no schema of \"" + file + "\"; there are case, expected, joints");
+    throw core::UsageError("there is no schema of \"" + file + "\"; there are case, expected, joints, summary");
   const cases::Schema& schema = file == "case"       ? cases::case_schema()
                                 : file == "expected" ? cases::expectation_schema()
                                                      : cases::joints_schema();

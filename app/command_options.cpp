@@ -119,8 +119,16 @@ void describe_for_the_shell(CLI::App& app, Arguments& arguments) {
       ->type_name(alternatives(completed_shells()))
       ->required();
   app.add_subcommand("man", "print the manual page: thinwall man | man -l -");
-  auto* schema = app.add_subcommand("schema", "print the JSON Schema of a case, for editors that check TOML by one");
-  schema->add_option("FILE", arguments.schema, "of which file (default: case)")->type_name("case|expected|joints");
+  auto* schema = app.add_subcommand("schema",
+                                    "print the JSON Schema of a case, for editors that check TOML by one, or of "
+                                    "summary.json, for scripts that read it");
+  auto* file = schema->add_option("FILE", arguments.schema, "of which file (default: case)")
+                   ->type_name("case|expected|joints|summary");
+  schema
+      ->add_flag_callback(
+          "--summary", [&arguments] { arguments.schema = "summary"; },
+          "of summary.json: every key with its type, meaning, kind and unit; as FILE summary")
+      ->excludes(file);
 }
 
 }  // namespace

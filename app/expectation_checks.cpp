@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "report/summary/summary_json.hpp"
+
 namespace thinwall::app {
 
 using nlohmann::json;
@@ -53,20 +55,23 @@ ExpectationResult compare(const cases::Expectation& expected, const nlohmann::js
   return result;
 }
 
-bool add_checks(json& summary, const std::vector<cases::Expectation>& expectations) {
+bool add_checks(report::Summary& summary, const std::vector<cases::Expectation>& expectations) {
+  const json figures = report::summary_json(summary);
   bool all = true;
   for (const cases::Expectation& wanted : expectations) {
-    const ExpectationResult result = compare(wanted, summary);
+    const ExpectationResult result = compare(wanted, figures);
     const cases::Expectation& expected = result.expected;
-    json check = {
-        {"name", expected.name}, {"quantity", expected.quantity}, {"origin", expected.origin}, {"ok", result.ok}};
-    check["value"] = result.actual ? json(*result.actual) : json(nullptr);
-    check["expected"] = expected.value ? json(*expected.value) : json(nullptr);
-    if (expected.tolerance) check["tolerance"] = *expected.tolerance;
-    if (expected.relative && expected.value) check["tolerance"] = *expected.relative * std::abs(*expected.value);
-    if (expected.at_least) check["at_least"] = *expected.at_least;
-    if (expected.at_most) check["at_most"] = *expected.at_most;
-    summary["checks"].push_back(check);
+    report::CheckSummary check{.name = expected.name,
+                               .quantity = expected.quantity,
+                               .origin = expected.origin,
+                               .ok = result.ok,
+                               .value = result.actual,
+                               .expected = expected.value,
+                               .tolerance = expected.tolerance,
+                               .at_least = expected.at_least,
+                               .at_most = expected.at_most};
+    if (expected.relative && expected.value) check.tolerance = *expected.relative * std::abs(*expected.value);
+    summary.checks.push_back(check);
     all = all && result.ok;
   }
   return all;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "case/expectation.hpp"
+#include "report/summary/summary.hpp"
 
 namespace thinwall::app {
 
@@ -26,6 +27,6 @@ struct ExpectationResult {
 [[nodiscard]] ExpectationResult compare(const cases::Expectation& expected, const nlohmann::json& summary);
 
 /// Adds the checks and returns whether all hold.
-bool add_checks(nlohmann::json& summary, const std::vector<cases::Expectation>& expectations);
+bool add_checks(report::Summary& summary, const std::vector<cases::Expectation>& expectations);
 
 }  // namespace thinwall::app

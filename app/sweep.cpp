@@ -125,9 +125,9 @@ void run_point(const fs::path& folder, const SweepRequest& request, const cases:
   RunOptions options{folder, request.fresh, request.verbosity, display == ProgressDisplay::line, {}};
   options.parts = shared_parts(folder.parent_path());
   const RunResult found = run_case(source, options);
-  row.status = found.summary.value("status", "ok");
+  row.status = found.summary.status;
   row.exit_code = static_cast<int>(found.expectations_hold ? ExitCode::done : ExitCode::expectation);
-  row.figures = sweep_figures({&found.summary, "summary.json", ""});
+  row.figures = sweep_figures(found.summary);
 }
 
 void compute_point(const fs::path& folder, const SweepRequest& request, const SweepPlan& plan, const RunCase& run_case,

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "io/json_file.hpp"
 #include "io/manifest.hpp"
+#include "report/summary/summary_json.hpp"
 
 namespace thinwall::app {
 
@@ -43,7 +44,7 @@ SweepFigures figures_of(const fs::path& folder, const std::string& sha256) {
   const json summary = io::read_json(file);
   if (io::sha256_of_file(file) != sha256)
     throw core::DataError("\"" + file.string() + "\" is not the one that the sweep left there; call the sweep again");
-  return sweep_figures({&summary, file.string(), ""});
+  return sweep_figures(report::summary_from(summary, file));
 }
 
 }  // namespace

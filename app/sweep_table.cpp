@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/units.hpp"
@@ -11,34 +10,42 @@ namespace thinwall::app {
 
 namespace {
 
-using io::JsonValue;
-
-/// The number under `key`; null, which stands for what is not known, gives none.
-void add_figure(SweepFigures& figures, const std::string& column, const JsonValue& object, const std::string& key,
-                double scale = 1.0) {
-  const JsonValue value = object.at(key);
-  if (!object.has(key)) return;
-  if (const double number = value.number(); std::isfinite(number)) figures.emplace_back(column, number * scale);
+/// A figure that is known.
+void add_figure(SweepFigures& figures, const std::string& column, double value) {
+  if (std::isfinite(value)) figures.emplace_back(column, value);
 }
 
-void add_modes(SweepFigures& figures, const std::string& name, const JsonValue& modes) {
-  int number = 0;
-  for (const JsonValue& mode : modes.items()) {
-    if (mode.has("rigid_body")) continue;
-    add_figure(figures, name + "_mode_" + std::to_string(++number) + "_hz", mode, "frequency_hz");
-    if (number == 3) return;
-  }
+/// The first three modes.
+void add_modes(SweepFigures& figures, const std::string& name, const std::vector<double>& frequencies_hz) {
+  constexpr std::size_t most = 3;
+  for (std::size_t i = 0; i < std::min(most, frequencies_hz.size()); ++i)
+    add_figure(figures, name + "_mode_" + std::to_string(i + 1) + "_hz", frequencies_hz[i]);
 }
 
-void add_chart(SweepFigures& figures, const JsonValue& chart) {
-  const std::string name = chart.at("name").text();
-  if (chart.has("at_case_speed")) {
-    const JsonValue row = chart.at("at_case_speed");
-    add_figure(figures, name + "_depth_at_speed_mm", row, "limiting_depth_m", 1e3);
-    figures.emplace_back(name + "_depth_at_limit", *row.at("at_depth_limit").json == true ? 1.0 : 0.0);
+std::vector<double> elastic_hz(const report::PartSummary& part) {
+  std::vector<double> frequencies;
+  for (const report::PartModeSummary& mode : part.modes) {
+    if (!mode.rigid_body) frequencies.push_back(mode.frequency_hz);
   }
-  add_figure(figures, name + "_least_depth_mm", chart, "minimum_depth_m", 1e3);
-  add_figure(figures, name + "_least_depth_at_rpm", chart, "at_spindle_speed_rpm");
+  return frequencies;
+}
+
+/// Of all modes of part and robot, or of the main ones where these are all that is known.
+std::vector<double> supported_hz(const report::CouplingSummary& coupling) {
+  std::vector<double> frequencies;
+  for (const report::ModeSummary& mode : coupling.modes) frequencies.push_back(mode.frequency_hz);
+  if (!frequencies.empty()) return frequencies;
+  for (const report::MainModeSummary& mode : coupling.main_modes) frequencies.push_back(mode.frequency_hz);
+  return frequencies;
+}
+
+void add_chart(SweepFigures& figures, const report::LobesSummary& chart) {
+  if (const auto& row = chart.at_case_speed) {
+    add_figure(figures, chart.name + "_depth_at_speed_mm", row->limiting_depth_m * 1e3);
+    figures.emplace_back(chart.name + "_depth_at_limit", row->at_depth_limit ? 1.0 : 0.0);
+  }
+  add_figure(figures, chart.name + "_least_depth_mm", chart.minimum_depth_m * 1e3);
+  add_figure(figures, chart.name + "_least_depth_at_rpm", chart.at_spindle_speed_rpm);
 }
 
 std::optional<double> figure(const SweepRow& row, const std::string& column) {
@@ -77,18 +84,15 @@ bool for_the_terminal(const std::string& column) {
 
 }  // namespace
 
-SweepFigures sweep_figures(const JsonValue& summary) {
+SweepFigures sweep_figures(const report::Summary& summary) {
   SweepFigures figures;
-  if (summary.has("part")) add_modes(figures, "part", summary.at("part").at("modes"));
-  if (summary.has("coupling")) {
-    const JsonValue coupling = summary.at("coupling");
-    const JsonValue modes = coupling.at("modes");
-    add_modes(figures, "supported", modes.items().empty() ? coupling.at("main_modes") : modes);
-    const std::vector<JsonValue> reductions = coupling.at("reductions").items();
-    if (!reductions.empty()) add_figure(figures, "vibration_falls_percent", reductions.front(), "reduction", 100.0);
+  if (summary.part) add_modes(figures, "part", elastic_hz(*summary.part));
+  if (summary.coupling) {
+    add_modes(figures, "supported", supported_hz(*summary.coupling));
+    if (!summary.coupling->reductions.empty())
+      add_figure(figures, "vibration_falls_percent", summary.coupling->reductions.front().reduction * 100.0);
   }
-  if (!summary.has("lobes")) return figures;
-  for (const JsonValue& chart : summary.at("lobes").items()) add_chart(figures, chart);
+  for (const report::LobesSummary& chart : summary.lobes) add_chart(figures, chart);
   return figures;
 }
 

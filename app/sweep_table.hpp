@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/sweep_grid.hpp"
-#include "io/json_file.hpp"
+#include "report/summary/summary.hpp"
 
 namespace thinwall::app {
 
@@ -15,9 +15,9 @@ namespace thinwall::app {
 /// (`part_mode_1_hz`, `supported_mode_1_hz`), the largest fall of the vibration at the contact
 /// (`vibration_falls_percent`), and of each chart the stable depth at the case's speed (`part_depth_at_speed_mm`, and
 /// `part_depth_at_limit`: 1 where the chart ends there), the least depth and its speed. What the run did not compute is
-/// left out. Throws DataError where the summary is not as `run` writes it.
+/// left out.
 using SweepFigures = std::vector<std::pair<std::string, double>>;
-[[nodiscard]] SweepFigures sweep_figures(const io::JsonValue& summary);
+[[nodiscard]] SweepFigures sweep_figures(const report::Summary& summary);
 
 /// One point of a sweep: what it was and what became of it.
 struct SweepRow {

@@ -9,6 +9,7 @@
 #include "case/reader.hpp"
 #include "python/bindings.hpp"
 #include "report/summary.hpp"
+#include "report/summary/summary_json.hpp"
 #include "study/run.hpp"
 
 namespace thinwall::python {
@@ -74,7 +75,7 @@ study::Results run(const LoadedCase& loaded, const std::function<void(const std:
 }
 
 std::string summary_text(const study::Results& results) {
-  return report::summary_of(results.setup, results).dump();
+  return report::summary_json(report::summary_of(results.setup, results)).dump();
 }
 
 std::map<std::string, milling::Lobes> charts(const study::Results& results) {

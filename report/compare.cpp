@@ -1,7 +1,6 @@
 #include "report/compare.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -12,34 +11,11 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "io/json_file.hpp"
+#include "report/summary/summary_schema.hpp"
 
 namespace thinwall::report {
 
 namespace {
-
-/// The key that a path ends with, without indices: "error_m" of "lobes[0].forced.error_m[2]".
-std::string last_key(const std::string& path) {
-  const std::string key = path.substr(path.find_last_of(". ") + 1);
-  return key.substr(0, key.find('['));
-}
-
-/// True if a name ends in a unit, as the names of all quantities with a dimension do.
-bool has_unit(const std::string& key) {
-  static constexpr std::array units{"_m", "_mm", "_hz", "_n", "_nm", "_w", "_s", "_kg", "_pa", "_rad", "_deg", "_rpm"};
-  return key.find("_per_") != std::string::npos ||
-         std::ranges::any_of(units, [&key](const char* unit) { return key.ends_with(unit); });
-}
-
-/// True if a number of that name is a residual or a relative error: a number without a dimension whose size is that of
-/// round-off or of an estimate, so that only its staying small counts, and a relative comparison would tell nothing. An
-/// error with a unit, as surface_location_error_m, is a quantity like any other.
-bool is_relative_error(const std::string& path) {
-  const std::string key = last_key(path);
-  if (has_unit(key)) return false;
-  const auto says = [&key](const char* word) { return key.find(word) != std::string::npos; };
-  return says("residual") || says("difference") || says("error") || key == "max_relative" ||
-         key.ends_with("_change_relative");
-}
 
 using nlohmann::json;
 using Row = std::vector<std::string>;
@@ -52,6 +28,13 @@ std::string shown_value(const json& value) {
   if (text.size() > longest) text.replace(longest, std::string::npos, " …");
   return text;
 }
+
+/// True of what differs from run to run, and of words for numbers that are compared as such.
+bool not_compared(Kind kind) {
+  return kind == Kind::run_time || kind == Kind::sentence;
+}
+
+constexpr auto in_summary = "summary.json: ";
 
 struct Comparer {
   double tolerance;
@@ -73,32 +56,34 @@ struct Comparer {
     if (a != b) result.differences.push_back({where, a, b});
   }
 
-  void node(const std::string& where, const json& a, const json& b) {
+  /// `path` is that in the summary; `quantity` names the number that values of an entry about another number are of.
+  void node(const std::string& path, const std::string& quantity, const json& a, const json& b) {
     if (a.is_number() && b.is_number()) {
-      return number(where, a.get<double>(), b.get<double>(), is_relative_error(where) ? 1.0 : 0.0);
+      const Kind own = kind_at(path);
+      const Kind kind = own == Kind::of_quantity ? kind_at(quantity) : own;
+      return number(in_summary + path, a.get<double>(), b.get<double>(), stays_small(kind) ? 1.0 : 0.0);
     }
-    if (a.is_object() && b.is_object()) return object(where, a, b);
+    if (a.is_object() && b.is_object()) return object(path, a, b);
     if (a.is_array() && b.is_array() && a.size() == b.size()) {
-      for (std::size_t i = 0; i < a.size(); ++i) node(where + "[" + std::to_string(i) + "]", a[i], b[i]);
+      for (std::size_t i = 0; i < a.size(); ++i) node(path + "[" + std::to_string(i) + "]", quantity, a[i], b[i]);
       return;
     }
-    text(where, shown_value(a), shown_value(b));
+    text(in_summary + path, shown_value(a), shown_value(b));
   }
 
-  void object(const std::string& where, const json& a, const json& b) {
+  void object(const std::string& path, const json& a, const json& b) {
     std::set<std::string> names;
     for (const auto& [name, value] : a.items()) names.insert(name);
     for (const auto& [name, value] : b.items()) names.insert(name);
-    names.erase("timings_s");
-    names.erase("sentences");  // numbers that are compared as such
+    const auto of = a.find("quantity");
+    const std::string quantity = of != a.end() && of->is_string() ? of->get<std::string>() : "";
     for (const auto& name : names) {
-      std::string place = where;
-      if (!where.ends_with(": ")) place += '.';
-      place += name;
+      const std::string place = path.empty() ? name : path + "." + name;
+      if (not_compared(kind_at(place))) continue;
       if (a.contains(name) && b.contains(name)) {
-        node(place, a[name], b[name]);
+        node(place, quantity, a[name], b[name]);
       } else {
-        text(place, a.contains(name) ? shown_value(a[name]) : "absent",
+        text(in_summary + place, a.contains(name) ? shown_value(a[name]) : "absent",
              b.contains(name) ? shown_value(b[name]) : "absent");
       }
     }
@@ -132,10 +117,11 @@ std::optional<double> as_number(const std::string& cell) {
   return error == std::errc() && end == cell.data() + cell.size() ? std::optional(value) : std::nullopt;
 }
 
-/// Largest finite magnitude of each column; 1 for a column of relative errors.
+/// Largest finite magnitude of each column; at least 1 for one of residuals or error estimates.
 std::vector<double> column_scales(const std::vector<Row>& rows) {
   std::vector<double> scales;
-  for (const auto& name : rows.empty() ? Row{} : rows.front()) scales.push_back(is_relative_error(name) ? 1.0 : 0.0);
+  for (const auto& name : rows.empty() ? Row{} : rows.front())
+    scales.push_back(stays_small(kind_of_column(name)) ? 1.0 : 0.0);
   for (const auto& row : rows) {
     if (scales.size() < row.size()) scales.resize(row.size(), 0.0);
     for (std::size_t j = 0; j < row.size(); ++j) {
@@ -198,7 +184,7 @@ Comparison compare_results(const std::filesystem::path& left, const std::filesys
   if (!(tolerance >= 0.0) || std::isinf(tolerance))
     throw core::UsageError("the tolerance is a relative one, a number from 0 on, as 1e-6");
   Comparer comparer{tolerance, {}};
-  comparer.node("summary.json: ", read_summary(left), read_summary(right));
+  comparer.object("", read_summary(left), read_summary(right));
   const auto ours = csv_files(left), theirs = csv_files(right);
   std::set<std::string> names = ours;
   names.insert(theirs.begin(), theirs.end());

@@ -22,9 +22,11 @@ void require_results(const std::filesystem::path& folder);
 
 /// Compares summary.json (without times) and every CSV file of two result folders. Two numbers are equal if
 /// |a − b| ≤ tolerance · max(|a|, |b|, s), where s is the largest magnitude of the column for a CSV, so that
-/// round-off beside zero does not count, and 0 for the summary; s = 1 for what is named residual, difference or error.
-/// Sections that only one has are told by what they hold. Throws DataError if a folder has no summary.json or a damaged
-/// one, UsageError for a tolerance below zero or none.
+/// round-off beside zero does not count, and 0 for the summary; s is at least 1 for residuals and error estimates,
+/// which only have to stay small. The kind of a number of the summary is that of its schema (summary_schema.hpp), of a
+/// column kind_of_column(); a number that the schema does not know is compared relatively. Run times and sentences are
+/// not. Sections that only one has are told by what they hold. Throws DataError if a folder has no summary.json or a
+/// damaged one, UsageError for a tolerance below zero or none.
 [[nodiscard]] Comparison compare_results(const std::filesystem::path& left, const std::filesystem::path& right,
                                          double tolerance);
 

@@ -10,7 +10,6 @@ namespace thinwall::report {
 namespace {
 
 using Eigen::Index;
-using nlohmann::json;
 
 /// |a| of the largest entry.
 template <typename Matrix>
@@ -20,7 +19,7 @@ double largest_entry(const Matrix& A) {
 
 /// The largest entry of `errors` relative to the largest of the response on its line.
 template <typename Matrix>
-json largest(const dynamics::ResponseModel& response, const std::vector<Matrix>& errors) {
+LargestErrorSummary largest(const dynamics::ResponseModel& response, const std::vector<Matrix>& errors) {
   double relative = 0.0, at_hz = response.axis.hz(0);
   for (std::size_t line = 0; line < errors.size(); ++line) {
     const double here = largest_entry(errors[line]) / largest_entry(response.H[line]);
@@ -28,18 +27,17 @@ json largest(const dynamics::ResponseModel& response, const std::vector<Matrix>&
     relative = here;
     at_hz = response.axis.hz(static_cast<Index>(line));
   }
-  return {{"largest_relative", relative}, {"at_frequency_hz", at_hz}};
+  return {relative, at_hz};
 }
 
-json response_errors(const dynamics::ResponseModel& response, const study::ResponseErrors& errors) {
-  json result = json::object();
-  if (!errors.truncation.empty()) result["truncation"] = largest(response, errors.truncation);
-  if (!errors.noise.empty()) result["noise"] = largest(response, errors.noise);
+/// The errors of a response; none where nothing is known to be wrong.
+std::optional<ResponseErrorsSummary> response_errors(const dynamics::ResponseModel& response,
+                                                     const study::ResponseErrors& errors) {
+  if (errors.truncation.empty() && errors.noise.empty()) return std::nullopt;
+  ResponseErrorsSummary result;
+  if (!errors.truncation.empty()) result.truncation = largest(response, errors.truncation);
+  if (!errors.noise.empty()) result.noise = largest(response, errors.noise);
   return result;
-}
-
-json known(const std::optional<double>& value) {
-  return value ? json(*value) : json(nullptr);
 }
 
 /// Rows of the response between the points; all if there is none of them.
@@ -70,19 +68,16 @@ void add_columns(io::Table& table, const std::string& what, const dynamics::Resp
 
 }  // namespace
 
-json error_budget_summary(const study::Results& results) {
-  json budget = json::object();
-  const auto add = [&](const char* name, const dynamics::ResponseModel& response, const study::ResponseErrors& errors) {
-    if (json entry = response_errors(response, errors); !entry.empty()) budget[name] = std::move(entry);
-  };
-  if (results.part) add("part", results.part->response, results.errors.part);
-  if (results.robot) add("robot", results.robot->response, results.errors.robot);
-  if (results.coupled) add("coupled", results.coupled->receptance.response, results.errors.coupled);
+ErrorBudgetSummary error_budget_summary(const study::Results& results) {
+  ErrorBudgetSummary budget;
+  if (results.part) budget.part = response_errors(results.part->response, results.errors.part);
+  if (results.robot) budget.robot = response_errors(results.robot->response, results.errors.robot);
+  if (results.coupled) budget.coupled = response_errors(results.coupled->receptance.response, results.errors.coupled);
   return budget;
 }
 
-json chart_errors_summary(const study::NamedLobes& named) {
-  if (named.errors.empty()) return nullptr;
+std::optional<ChartErrorsSummary> chart_errors_summary(const study::NamedLobes& named) {
+  if (named.errors.empty()) return std::nullopt;
   std::optional<double> truncation, noise;
   const study::DepthError* least = nullptr;
   for (std::size_t i = 0; i < named.errors.size(); ++i) {
@@ -92,20 +87,22 @@ json chart_errors_summary(const study::NamedLobes& named) {
     if (error.truncation_m) truncation = std::max(truncation.value_or(0.0), std::abs(*error.truncation_m) / depth);
     if (error.noise_m) noise = std::max(noise.value_or(0.0), *error.noise_m / depth);
   }
-  json result = {{"largest_truncation_relative", known(truncation)}, {"largest_noise_relative", known(noise)}};
-  if (least != nullptr) result["at_minimum"] = row_errors_summary(*least, std::nullopt, 0);
+  ChartErrorsSummary result{truncation, noise, {}};
+  if (least != nullptr) result.at_minimum = row_errors_summary(*least, std::nullopt, 0);
   return result;
 }
 
-json row_errors_summary(const study::DepthError& error, const std::optional<milling::DepthScatter>& scatter, int seed) {
-  json result = {{"truncation_m", known(error.truncation_m)}, {"noise_deviation_m", known(error.noise_m)}};
+DepthErrorsSummary row_errors_summary(const study::DepthError& error,
+                                      const std::optional<milling::DepthScatter>& scatter, int seed) {
+  DepthErrorsSummary result{error.truncation_m, error.noise_m, {}};
   if (!scatter) return result;
-  const int with_limit = static_cast<int>(scatter->depth_m.size()) - scatter->without_limit;
-  result["sampled"] = {{"draws", scatter->depth_m.size()},
-                       {"seed", seed},
-                       {"mean_m", with_limit > 0 ? json(scatter->mean_m) : json(nullptr)},
-                       {"deviation_m", with_limit > 1 ? json(scatter->deviation_m) : json(nullptr)},
-                       {"without_limit", scatter->without_limit}};
+  const auto with_limit = std::ssize(scatter->depth_m) - scatter->without_limit;
+  SampledDepthSummary& sampled = result.sampled.emplace();
+  sampled.draws = std::ssize(scatter->depth_m);
+  sampled.seed = seed;
+  if (with_limit > 0) sampled.mean_m = scatter->mean_m;
+  if (with_limit > 1) sampled.deviation_m = scatter->deviation_m;
+  sampled.without_limit = scatter->without_limit;
   return result;
 }
 

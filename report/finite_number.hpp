@@ -2,13 +2,13 @@
 // Numbers in summaries.
 
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <optional>
 
 namespace thinwall::report {
 
-/// The number; JSON has no infinity, so what is not finite becomes null, and a script that needs the number notices.
-[[nodiscard]] inline nlohmann::json finite(double value) {
-  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+/// The number, none where it is not finite: JSON has no infinity, and a script that needs the number notices.
+[[nodiscard]] inline std::optional<double> finite(double value) {
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace thinwall::report

@@ -1,34 +1,29 @@
 #include "report/geometry_summary.hpp"
 
-#include <nlohmann/json.hpp>
-
 namespace thinwall::report {
 
 namespace {
 
-nlohmann::json vector_json(const Eigen::Vector3d& x) {
-  return {x.x(), x.y(), x.z()};
-}
-
-void add_surface(nlohmann::json& result, const mesh::SurfaceRepair& surface) {
-  result["triangles"] = surface.surface.triangles.size();
-  result["volume_m3"] = surface.volume_m3;
-  result["largest_movement_m"] = surface.largest_movement_m;
-  result["mended"] = nlohmann::json::array();
-  for (const auto& found : surface.mended)
-    result["mended"].push_back({{"what", found.what}, {"count", found.count}, {"first_m", vector_json(found.first_m)}});
+void add_surface(GeometrySummary& result, const mesh::SurfaceRepair& surface) {
+  result.triangles = std::ssize(surface.surface.triangles);
+  result.volume_m3 = surface.volume_m3;
+  result.largest_movement_m = surface.largest_movement_m;
+  result.mended.emplace();
+  for (const auto& found : surface.mended) result.mended->push_back({found.what, found.count, found.first_m});
 }
 
 }  // namespace
 
-nlohmann::json geometry_summary(const setup::Part& part) {
+GeometrySummary geometry_summary(const setup::Part& part) {
   const setup::ImportedPart& imported = *part.imported;
-  nlohmann::json result = {
-      {"file", setup::main_file(part).filename().string()}, {"unit", part.file.unit}, {"read", imported.summary}};
-  result["size_m"] = imported.box.isEmpty() ? nlohmann::json(nullptr) : vector_json(imported.box.sizes());
-  result["notes"] = imported.notes;
+  GeometrySummary result;
+  result.file = setup::main_file(part).filename().string();
+  result.unit = part.file.unit;
+  result.read = imported.summary;
+  if (!imported.box.isEmpty()) result.size_m = imported.box.sizes();
+  result.notes = imported.notes;
   if (imported.surface) add_surface(result, *imported.surface);
-  if (imported.mesh) result["least_jacobian"] = imported.mesh->solid.least_jacobian;
+  if (imported.mesh) result.least_jacobian = imported.mesh->solid.least_jacobian;
   return result;
 }
 

@@ -1,10 +1,8 @@
 #include "report/lobes_summary.hpp"
 
-#include <cmath>
+#include "report/finite_number.hpp"
 
 namespace thinwall::report {
-
-using nlohmann::json;
 
 namespace {
 
@@ -18,76 +16,66 @@ std::string limit_name(const setup::Setup& source, milling::PocketLimit limit) {
   return limit == milling::PocketLimit::depth_limit ? depth_limit_name(source) : milling::name(limit);
 }
 
-json compared_summary(const study::ComparedLobes& other) {
-  const double error = other.lobes.worst_error_estimate;
-  return {{"name", other.method},
-          {"method", other.lobes.method},
-          {"minimum_depth_m", other.lobes.minimum_depth_m},
-          {"minimum_at_spindle_speed_rpm", other.lobes.at_spindle_speed_rpm},
-          {"error_estimate_relative", std::isfinite(error) ? json(error) : json(nullptr)},
-          {"speeds_not_converged", other.lobes.rows_not_converged},
-          {"largest_relative_difference", other.largest_difference},
-          {"at_spindle_speed_rpm", other.at_spindle_speed_rpm}};
+ComparedSummary compared_summary(const study::ComparedLobes& other) {
+  return {.name = other.method,
+          .method = other.lobes.method,
+          .minimum_depth_m = other.lobes.minimum_depth_m,
+          .minimum_at_spindle_speed_rpm = other.lobes.at_spindle_speed_rpm,
+          .error_estimate_relative = finite(other.lobes.worst_error_estimate),
+          .speeds_not_converged = other.lobes.rows_not_converged,
+          .largest_relative_difference = other.largest_difference,
+          .at_spindle_speed_rpm = other.at_spindle_speed_rpm};
 }
 
-json map_summary(const milling::StabilityMap& map) {
-  const double error = map.worst_error_estimate;
-  return {{"speeds", map.spindle_speeds_rpm.size()},
-          {"depths", map.depths_m.size()},
-          {"largest_depth_m", map.depths_m.back()},
-          {"largest_modulus", map.modulus.maxCoeff()},
-          {"error_estimate", std::isfinite(error) ? json(error) : json(nullptr)},
-          {"speeds_not_converged", map.speeds_not_converged}};
+MapSummary map_summary(const milling::StabilityMap& map) {
+  return {.speeds = std::ssize(map.spindle_speeds_rpm),
+          .depths = std::ssize(map.depths_m),
+          .largest_depth_m = map.depths_m.back(),
+          .largest_modulus = map.modulus.maxCoeff(),
+          .error_estimate = finite(map.worst_error_estimate),
+          .speeds_not_converged = map.speeds_not_converged};
 }
 
 }  // namespace
 
-json cutting_summary(const setup::Setup& source) {
-  json cutting = {{"teeth", source.tool->teeth},
-                  {"depth_limit_m", source.lobes->depth_limit},
-                  {"depth_limit_is", depth_limit_name(source)}};
-  if (source.part || !source.measured_part.empty()) cutting["at"] = source.cutting->at;
-  if (source.cutting->spindle_speed_rpm) cutting["spindle_speed_rpm"] = *source.cutting->spindle_speed_rpm;
+CuttingSummary cutting_summary(const setup::Setup& source) {
+  CuttingSummary cutting;
+  cutting.teeth = source.tool->teeth;
+  cutting.depth_limit_m = source.lobes->depth_limit;
+  cutting.depth_limit_is = depth_limit_name(source);
+  if (source.part || !source.measured_part.empty()) cutting.at = source.cutting->at;
+  if (source.cutting->spindle_speed_rpm) cutting.spindle_speed_rpm = *source.cutting->spindle_speed_rpm;
   if (!source.machine) return cutting;
-  const double highest = source.machine->max_spindle_speed_rpm;
-  cutting["spindle_range_rpm"] = {source.machine->min_spindle_speed_rpm,
-                                  std::isfinite(highest) ? json(highest) : json(nullptr)};
+  cutting.spindle_range_rpm = {source.machine->min_spindle_speed_rpm, finite(source.machine->max_spindle_speed_rpm)};
   return cutting;
 }
 
-json pockets_summary(const setup::Setup& source, const std::vector<milling::Pocket>& pockets) {
-  json list = json::array();
+std::vector<PocketSummary> pockets_summary(const setup::Setup& source, const std::vector<milling::Pocket>& pockets) {
+  std::vector<PocketSummary> list;
   for (const auto& pocket : pockets) {
-    const auto& rate = pocket.removal_rate_m3_s;
-    list.push_back({{"spindle_speed_rpm", pocket.spindle_speed_rpm},
-                    {"depth_m", pocket.depth_m},
-                    {"at_depth_limit", pocket.at_limit},
-                    {"limited_by", limit_name(source, pocket.limited_by)},
-                    {"removal_rate_cm3_per_min", rate ? json(*rate * 60e6) : json(nullptr)}});
+    list.push_back(
+        {pocket.spindle_speed_rpm, pocket.depth_m, pocket.at_limit, limit_name(source, pocket.limited_by), {}});
+    if (const auto& rate = pocket.removal_rate_m3_s) list.back().removal_rate_cm3_per_min = *rate * 60e6;
   }
   return list;
 }
 
-json sensitivities_summary(const std::vector<study::ParameterSensitivity>& list) {
-  json entries = json::array();
-  for (const auto& entry : list) {
-    entries.push_back({{"parameter", entry.parameter},
-                       {"mode_frequency_hz", entry.mode_frequency_hz ? json(*entry.mode_frequency_hz) : json(nullptr)},
-                       {"sensitivity", entry.value}});
-  }
+std::vector<SensitivitySummary> sensitivities_summary(const std::vector<study::ParameterSensitivity>& list) {
+  std::vector<SensitivitySummary> entries;
+  for (const auto& entry : list) entries.push_back({entry.parameter, entry.mode_frequency_hz, entry.value});
   return entries;
 }
 
-void add_what_was_asked(json& chart, const setup::Setup& source, const study::NamedLobes& named) {
-  for (const study::ComparedLobes& other : named.compared) chart["compared"].push_back(compared_summary(other));
-  if (named.map) chart["map"] = map_summary(*named.map);
+void add_what_was_asked(LobesSummary& chart, const setup::Setup& source, const study::NamedLobes& named) {
+  for (const study::ComparedLobes& other : named.compared) chart.compared.push_back(compared_summary(other));
+  if (named.map) chart.map = map_summary(*named.map);
   if (!named.robust) return;
-  chart["robust"] = {{"confidence", source.lobes->robust->confidence},
-                     {"minimum_depth_m", named.robust->minimum_depth_m},
-                     {"at_spindle_speed_rpm", named.robust->at_spindle_speed_rpm},
-                     {"speeds_not_robust", named.robust->rows_not_robust},
-                     {"speeds_not_converged", named.robust->rows_not_converged},
-                     {"best_pockets", pockets_summary(source, named.robust_pockets)}};
+  chart.robust = {.confidence = source.lobes->robust->confidence,
+                  .minimum_depth_m = named.robust->minimum_depth_m,
+                  .at_spindle_speed_rpm = named.robust->at_spindle_speed_rpm,
+                  .speeds_not_robust = named.robust->rows_not_robust,
+                  .speeds_not_converged = named.robust->rows_not_converged,
+                  .best_pockets = pockets_summary(source, named.robust_pockets)};
 }
 
 }  // namespace thinwall::report

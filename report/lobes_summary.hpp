@@ -1,9 +1,9 @@
 #pragma once
 // Entries of summary.json on a chart beyond its limits: pockets, sensitivities, and what the case asked for besides.
 
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "report/summary/lobes.hpp"
 #include "setup/machining_setup.hpp"
 #include "study/results.hpp"
 
@@ -12,15 +12,17 @@ namespace thinwall::report {
 /// The cut of the set-up, as pages and scripts ask for it beside the charts: teeth, the point that is cut (absent
 /// of a tool alone), the depth limit and whether it is the tool's length ("tool_length", "depth_limit"), the case's own
 /// speed and the machine's range of speeds (null where unbounded), each if it is given. Needs tool, cutting and lobes.
-[[nodiscard]] nlohmann::json cutting_summary(const setup::Setup& source);
+[[nodiscard]] CuttingSummary cutting_summary(const setup::Setup& source);
 
 /// Best first, each with speed, depth, removal rate (null without a feed) and what it is limited by.
-[[nodiscard]] nlohmann::json pockets_summary(const setup::Setup& source, const std::vector<milling::Pocket>& pockets);
+[[nodiscard]] std::vector<PocketSummary> pockets_summary(const setup::Setup& source,
+                                                         const std::vector<milling::Pocket>& pockets);
 
 /// Largest first: parameter, the mode's own frequency (null of a coefficient), d ln w / d ln p.
-[[nodiscard]] nlohmann::json sensitivities_summary(const std::vector<study::ParameterSensitivity>& list);
+[[nodiscard]] std::vector<SensitivitySummary> sensitivities_summary(
+    const std::vector<study::ParameterSensitivity>& list);
 
 /// Puts `compared`, `map` and `robust` beside the chart, those that there are.
-void add_what_was_asked(nlohmann::json& chart, const setup::Setup& source, const study::NamedLobes& named);
+void add_what_was_asked(LobesSummary& chart, const setup::Setup& source, const study::NamedLobes& named);
 
 }  // namespace thinwall::report

@@ -12,4 +12,9 @@ std::string chart_title(const std::string& chart) {
   return chart == "part" ? "part alone" : chart == "tool" ? "tool" : "with the robot";
 }
 
+double total_seconds(const Summary& summary) {
+  const auto total = summary.timings_s.find("total");
+  return total == summary.timings_s.end() ? 0.0 : total->second;
+}
+
 }  // namespace thinwall::report

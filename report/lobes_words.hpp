@@ -1,7 +1,9 @@
 #pragma once
-// Words in which reports name charts and depths.
+// Words in which reports name charts and depths, and the time of a run.
 
 #include <string>
+
+#include "report/summary/summary.hpp"
 
 namespace thinwall::report {
 
@@ -10,5 +12,8 @@ namespace thinwall::report {
 
 /// "part alone", "with the robot", "tool".
 [[nodiscard]] std::string chart_title(const std::string& chart);
+
+/// The time of the whole run, s; 0 where it was not taken.
+[[nodiscard]] double total_seconds(const Summary& summary);
 
 }  // namespace thinwall::report

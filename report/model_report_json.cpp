@@ -1,6 +1,6 @@
 #include "report/model_report_json.hpp"
 
-#include "report/finite_number.hpp"
+#include <cmath>
 
 namespace thinwall::report {
 
@@ -8,9 +8,13 @@ namespace {
 
 using nlohmann::json;
 
+json number_or_null(double value) {
+  return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
 json list(const Eigen::Ref<const Eigen::VectorXd>& values) {
   json result = json::array();
-  for (const double value : values) result.push_back(finite(value));
+  for (const double value : values) result.push_back(number_or_null(value));
   return result;
 }
 
@@ -18,13 +22,13 @@ json effective_mass_json(const reduction::EffectiveMass& effective) {
   if (!effective.available) return nullptr;
   json modes = json::array();
   for (Eigen::Index k = 0; k < effective.mass.rows(); ++k) {
-    modes.push_back({{"frequency_hz", finite(effective.frequency_hz(k))},
+    modes.push_back({{"frequency_hz", number_or_null(effective.frequency_hz(k))},
                      {"kg_and_kg_m2", list(effective.mass.row(k).transpose())}});
   }
   return {{"modes_with_interface_held", modes},
           {"interface_own", list(effective.interface_own)},
           {"rigid_body", list(effective.total)},
-          {"closure_relative", finite(effective.closure)}};
+          {"closure_relative", number_or_null(effective.closure)}};
 }
 
 json rigid_json(const reduction::RigidBodyState& rigid) {
@@ -34,16 +38,16 @@ json rigid_json(const reduction::RigidBodyState& rigid) {
   if (rigid.sets.seen != 6) return known;
   json inertia = json::array();
   for (int i = 0; i < 3; ++i) inertia.push_back(list(rigid.body.inertia_kg_m2.row(i).transpose()));
-  json result = {{"mass_kg", finite(rigid.body.mass_kg)},
+  json result = {{"mass_kg", number_or_null(rigid.body.mass_kg)},
                  {"centre_m", list(rigid.body.centre_m)},
                  {"inertia_about_centre_kg_m2", inertia},
                  {"reference_m", list(rigid.reference)},
                  {"grounding_n_per_m_and_n_m_per_rad", list(rigid.grounding_stiffness)},
                  {"grounding_hz", list(rigid.grounding_hz)},
-                 {"geometry_misfit", finite(rigid.sets.geometry_misfit)},
-                 {"stiffness_disagreement", finite(rigid.sets.stiffness_disagreement)},
-                 {"eigen_disagreement", finite(rigid.sets.eigen_disagreement)},
-                 {"mass_disagreement", finite(rigid.mass_disagreement)},
+                 {"geometry_misfit", number_or_null(rigid.sets.geometry_misfit)},
+                 {"stiffness_disagreement", number_or_null(rigid.sets.stiffness_disagreement)},
+                 {"eigen_disagreement", number_or_null(rigid.sets.eigen_disagreement)},
+                 {"mass_disagreement", number_or_null(rigid.mass_disagreement)},
                  {"effective_mass", effective_mass_json(rigid.effective)}};
   result.update(known);
   return result;
@@ -57,28 +61,28 @@ json report_json(const reduction::ReducedModelReport& report) {
                  {"translations", report.translations},
                  {"rotations", report.rotations},
                  {"amplitudes", report.amplitudes},
-                 {"reciprocity_relative", finite(report.reciprocity)},
-                 {"least_power_relative", finite(report.least_power)}};
+                 {"reciprocity_relative", number_or_null(report.reciprocity)},
+                 {"least_power_relative", number_or_null(report.least_power)}};
   result["findings"] = json::array();
   for (const auto& found : report.findings) {
     result["findings"].push_back({{"name", found.name},
-                                  {"value", finite(found.value)},
-                                  {"bound", finite(found.bound)},
+                                  {"value", number_or_null(found.value)},
+                                  {"bound", number_or_null(found.bound)},
                                   {"ok", found.ok},
                                   {"advice", found.ok ? json(nullptr) : json(found.advice)}});
   }
   result["matrices"] = json::array();
   for (const auto& matrix : report.matrices) {
     result["matrices"].push_back({{"name", matrix.name},
-                                  {"asymmetry", finite(matrix.asymmetry)},
-                                  {"least_eigenvalue_scaled", finite(matrix.least)},
+                                  {"asymmetry", number_or_null(matrix.asymmetry)},
+                                  {"least_eigenvalue_scaled", number_or_null(matrix.least)},
                                   {"negative_eigenvalues", matrix.negative},
                                   {"zero_eigenvalues", matrix.zero}});
   }
   result["frequencies_hz"] = json::array();
-  for (const double hz : report.frequencies_hz) result["frequencies_hz"].push_back(finite(hz));
+  for (const double hz : report.frequencies_hz) result["frequencies_hz"].push_back(number_or_null(hz));
   result["modes_without_energy"] = {{"count", report.without_energy.count},
-                                    {"highest_hz", finite(report.without_energy.highest_hz)}};
+                                    {"highest_hz", number_or_null(report.without_energy.highest_hz)}};
   result["rigid_body"] = report.rigid ? rigid_json(*report.rigid) : json(nullptr);
   return result;
 }

@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "report/finite_number.hpp"
 #include "report/lobes_words.hpp"
@@ -14,19 +13,17 @@ namespace thinwall::report {
 
 namespace {
 
-using nlohmann::json;
-
-json position_summary(const setup::Setup& source, const study::PathLobes& path, std::size_t i) {
+PositionSummary position_summary(const setup::Setup& source, const study::PathLobes& path, std::size_t i) {
   const milling::Lobes& lobes = path.lobes[i];
-  const Eigen::Vector3d& at = source.path->positions[i];
-  json result = {{"position", i + 1},
-                 {"at_m", {at.x(), at.y(), at.z()}},
-                 {"minimum_depth_m", lobes.minimum_depth_m},
-                 {"at_spindle_speed_rpm", lobes.at_spindle_speed_rpm},
-                 {"speeds_stable_to_depth_limit", lobes.rows_at_limit},
-                 {"speeds_not_converged", lobes.rows_not_converged},
-                 {"error_estimate_relative", finite(lobes.worst_error_estimate)}};
-  if (!path.robot.empty()) result["robot"] = posture_summary(path.robot[i]);
+  PositionSummary result;
+  result.position = static_cast<int>(i) + 1;
+  result.at_m = source.path->positions[i];
+  result.minimum_depth_m = lobes.minimum_depth_m;
+  result.at_spindle_speed_rpm = lobes.at_spindle_speed_rpm;
+  result.speeds_stable_to_depth_limit = lobes.rows_at_limit;
+  result.speeds_not_converged = lobes.rows_not_converged;
+  result.error_estimate_relative = finite(lobes.worst_error_estimate);
+  if (!path.robot.empty()) result.robot = posture_summary(path.robot[i]);
   return result;
 }
 
@@ -38,7 +35,7 @@ std::size_t weakest_at(const study::PathLobes& path, std::size_t i) {
 }
 
 /// The speed at which the least depth of all positions is greatest.
-json deepest_everywhere(const study::PathLobes& path) {
+EverywhereSummary deepest_everywhere(const study::PathLobes& path) {
   const milling::LobeRow* best = nullptr;
   std::size_t position = 0;
   for (std::size_t i = 0; i < path.lobes.front().rows.size(); ++i) {
@@ -48,90 +45,78 @@ json deepest_everywhere(const study::PathLobes& path) {
     best = &row;
     position = weakest;
   }
-  return {{"spindle_speed_rpm", best->spindle_speed_rpm},
-          {"depth_m", best->limiting_depth_m},
-          {"at_depth_limit", best->at_limit},
-          {"limited_at_position", position + 1}};
+  return {best->spindle_speed_rpm, best->limiting_depth_m, best->at_limit, static_cast<int>(position) + 1};
 }
 
 /// The least depth of all positions at the case's own speed.
-json at_case_speed(const std::vector<milling::LobeRow>& rows) {
+PathCaseSpeedSummary at_case_speed(const std::vector<milling::LobeRow>& rows) {
   const auto weakest = std::ranges::min_element(rows, {}, &milling::LobeRow::limiting_depth_m);
   const auto open = std::ranges::count_if(rows, [](const milling::LobeRow& row) {
     return row.status != milling::StabilityStatus::converged &&
            row.status != milling::StabilityStatus::stable_to_depth_limit;
   });
-  return {{"spindle_speed_rpm", weakest->spindle_speed_rpm},
-          {"limiting_depth_m", weakest->limiting_depth_m},
-          {"at_depth_limit", weakest->at_limit},
-          {"limited_at_position", weakest - rows.begin() + 1},
-          {"error_estimate_relative", finite(weakest->error_estimate)},
-          {"status", milling::name(weakest->status)},
-          {"positions_not_converged", open}};
+  return {.spindle_speed_rpm = weakest->spindle_speed_rpm,
+          .limiting_depth_m = weakest->limiting_depth_m,
+          .at_depth_limit = weakest->at_limit,
+          .limited_at_position = static_cast<int>(weakest - rows.begin()) + 1,
+          .error_estimate_relative = finite(weakest->error_estimate),
+          .status = milling::name(weakest->status),
+          .positions_not_converged = static_cast<int>(open)};
 }
 
-std::string place_text(const json& at_m) {
-  const auto mm = [&](std::size_t i) { return at_m[i].get<double>() * 1e3; };
-  return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", mm(0), mm(1), mm(2));
+std::string place_text(const Eigen::Vector3d& at_m) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", at_m.x() * 1e3, at_m.y() * 1e3, at_m.z() * 1e3);
 }
 
-std::string text_of_chart(const json& path) {
-  const json& weakest = path["weakest"];
-  const json& deepest = path["deepest_everywhere"];
-  const json& error = path["error_estimate_relative"];
-  const bool unlimited = weakest["speeds_stable_to_depth_limit"] == path["speeds"];
-  std::string text = fmt::format("  along the path, {}: ", chart_title(path["name"].get<std::string>()));
-  text += unlimited ? fmt::format("{} at every position and speed\n", depth_text(weakest["minimum_depth_m"], true))
+std::string text_of_chart(const PathSummary& path) {
+  const PositionSummary& weakest = path.weakest;
+  const EverywhereSummary& deepest = path.deepest_everywhere;
+  const auto& error = path.error_estimate_relative;
+  const bool unlimited = weakest.speeds_stable_to_depth_limit == path.speeds;
+  std::string text = fmt::format("  along the path, {}: ", chart_title(path.name));
+  text += unlimited ? fmt::format("{} at every position and speed\n", depth_text(weakest.minimum_depth_m, true))
                     : fmt::format("weakest at position {} of {}, {}\n    {} at {:.0f} rpm; error {} (estimate)\n",
-                                  weakest["position"].get<int>(), path["positions"].size(), place_text(weakest["at_m"]),
-                                  depth_text(weakest["minimum_depth_m"], false),
-                                  weakest["at_spindle_speed_rpm"].get<double>(),
-                                  error.is_null() ? "unknown" : fmt::format("{:.2g} %", error.get<double>() * 100.0));
+                                  weakest.position, path.positions.size(), place_text(weakest.at_m),
+                                  depth_text(weakest.minimum_depth_m, false), weakest.at_spindle_speed_rpm,
+                                  error ? fmt::format("{:.2g} %", *error * 100.0) : "unknown");
   if (!unlimited)
     text += fmt::format("    the whole path up to {} at {:.0f} rpm, limited at position {}\n",
-                        depth_text(deepest["depth_m"], deepest["at_depth_limit"]),
-                        deepest["spindle_speed_rpm"].get<double>(), deepest["limited_at_position"].get<int>());
-  if (path.contains("at_case_speed")) {
-    const json& row = path["at_case_speed"];
-    text +=
-        fmt::format("    at {:.0f} rpm {}, limited at position {}\n", row["spindle_speed_rpm"].get<double>(),
-                    depth_text(row["limiting_depth_m"], row["at_depth_limit"]), row["limited_at_position"].get<int>());
-  }
-  if (const int missed = path["rows_not_converged"].get<int>(); missed > 0)
-    text += fmt::format("    {} rows did not reach the tolerance: see the status column of lobes/{}_path.csv\n", missed,
-                        path["name"].get<std::string>());
+                        depth_text(deepest.depth_m, deepest.at_depth_limit), deepest.spindle_speed_rpm,
+                        deepest.limited_at_position);
+  if (const auto& row = path.at_case_speed)
+    text += fmt::format("    at {:.0f} rpm {}, limited at position {}\n", row->spindle_speed_rpm,
+                        depth_text(row->limiting_depth_m, row->at_depth_limit), row->limited_at_position);
+  if (path.rows_not_converged > 0)
+    text += fmt::format("    {} rows did not reach the tolerance: see the status column of lobes/{}_path.csv\n",
+                        path.rows_not_converged, path.name);
   return text;
 }
 
 }  // namespace
 
-json path_summary(const setup::Setup& source, const study::PathLobes& path) {
-  json positions = json::array();
-  int not_converged = 0;
+PathSummary path_summary(const setup::Setup& source, const study::PathLobes& path) {
+  PathSummary result;
+  result.name = path.name;
+  result.method = path.lobes.front().method;
+  result.support = source.path->robot_follows ? "follows" : "held";
+  result.speeds = std::ssize(path.lobes.front().rows);
   double error = 0.0;
   for (std::size_t i = 0; i < path.lobes.size(); ++i) {
-    positions.push_back(position_summary(source, path, i));
-    not_converged += path.lobes[i].rows_not_converged;
+    result.positions.push_back(position_summary(source, path, i));
+    result.rows_not_converged += path.lobes[i].rows_not_converged;
     error = std::max(error, path.lobes[i].worst_error_estimate);
   }
+  result.error_estimate_relative = finite(error);
   const auto weakest = std::ranges::min_element(path.lobes, {}, &milling::Lobes::minimum_depth_m);
-  json result = {{"name", path.name},
-                 {"method", path.lobes.front().method},
-                 {"support", source.path->robot_follows ? "follows" : "held"},
-                 {"speeds", path.lobes.front().rows.size()},
-                 {"weakest", positions[static_cast<std::size_t>(weakest - path.lobes.begin())]},
-                 {"deepest_everywhere", deepest_everywhere(path)},
-                 {"error_estimate_relative", finite(error)},
-                 {"rows_not_converged", not_converged},
-                 {"positions", positions}};
-  if (!path.at_spindle_speed.empty()) result["at_case_speed"] = at_case_speed(path.at_spindle_speed);
+  result.weakest = result.positions[static_cast<std::size_t>(weakest - path.lobes.begin())];
+  result.deepest_everywhere = deepest_everywhere(path);
+  if (!path.at_spindle_speed.empty()) result.at_case_speed = at_case_speed(path.at_spindle_speed);
   return result;
 }
 
-std::string path_text(const json& summary) {
+std::string path_text(const Summary& summary) {
   std::string text;
-  if (!summary.contains("path")) return text;
-  for (const json& path : summary["path"]) text += text_of_chart(path);
+  for (const PathSummary& path : summary.path) text += text_of_chart(path);
   return text;
 }
 

@@ -23,6 +23,7 @@
 #include "report/result_folder.hpp"
 #include "report/robot_report.hpp"
 #include "report/shape_files.hpp"
+#include "report/summary/summary_json.hpp"
 #include "setup/imported_part.hpp"
 #include "study/support/robot_survey.hpp"
 
@@ -145,15 +146,11 @@ void publish(const fs::path& staging, const fs::path& folder) {
   }
 }
 
-void write_summary(const fs::path& folder, const nlohmann::json& summary, nlohmann::json& manifest) {
-  io::write_json(folder / "summary.json", summary);
-  manifest["timings_s"] = summary["timings_s"];
-  io::write_json(folder / "manifest.json", manifest);
-}
-
-void record_outputs(const fs::path& folder, nlohmann::json& manifest) {
+void write_summary(const fs::path& folder, const Summary& summary, nlohmann::json manifest) {
+  io::write_json(folder / "summary.json", summary_json(summary));
   auto files = io::file_records(folder);
   std::erase_if(files, [](const auto& file) { return file.name == "manifest.json" || file.name == "run.log"; });
+  manifest["timings_s"] = summary.timings_s;
   manifest["outputs"] = records(files);
   io::write_json(folder / "manifest.json", manifest);
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "report/summary/summary.hpp"
 #include "setup/machining_setup.hpp"
 #include "study/results.hpp"
 
@@ -20,11 +21,9 @@ void write_cuts(const std::filesystem::path& folder, const setup::Setup& source,
 /// manifest last: until then an interrupted run changes nothing there.
 void publish(const std::filesystem::path& staging, const std::filesystem::path& folder);
 
-/// summary.json, and manifest.json with the summary's times, which are put into `manifest`.
-void write_summary(const std::filesystem::path& folder, const nlohmann::json& summary, nlohmann::json& manifest);
-
-/// Puts the SHA-256 of every file of the folder into `manifest` and writes manifest.json anew; the page, which holds
-/// the manifest, must be there already. Cost: of hashing the files.
-void record_outputs(const std::filesystem::path& folder, nlohmann::json& manifest);
+/// Writes summary.json and manifest.json, the last files of a result folder: `manifest` with the summary's times and
+/// the SHA-256 of every file, of which the page must be there already. Cost: of hashing the files. Throws DataError as
+/// above.
+void write_summary(const std::filesystem::path& folder, const Summary& summary, nlohmann::json manifest);
 
 }  // namespace thinwall::report

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "io/results/csv_table.hpp"
@@ -113,15 +112,14 @@ void write_out_of_reach(const std::filesystem::path& below, const study::RobotSu
 
 }  // namespace
 
-nlohmann::json posture_summary(const setup::RobotPosture& robot) {
-  nlohmann::json result = nlohmann::json::object();
-  if (robot.posture.preload != Eigen::Vector3d::Zero()) result["preload_n"] = robot.posture.preload;
+PostureSummary posture_summary(const setup::RobotPosture& robot) {
+  PostureSummary result;
+  if (robot.posture.preload != Eigen::Vector3d::Zero()) result.preload_n = robot.posture.preload;
   if (!robot.tip) return result;
-  result["joints_rad"] = robot.posture.q;
-  result["tip_m"] = *robot.tip;
-  result["smallest_singular_value"] = *robot.smallest_singular;
-  result["arm_m"] = nlohmann::json::array();
-  for (const Eigen::Vector3d& joint : robot.arm) result["arm_m"].push_back(joint);
+  result.joints_rad.emplace(robot.posture.q.begin(), robot.posture.q.end());
+  result.tip_m = robot.tip;
+  result.smallest_singular_value = *robot.smallest_singular;
+  result.arm_m = robot.arm;
   return result;
 }
 

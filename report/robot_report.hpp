@@ -2,16 +2,16 @@
 // The survey of a robot for people and other programs: a table for the terminal, files, an entry of the summary.
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "report/summary/robot.hpp"
 #include "setup/machining_setup.hpp"
 #include "study/support/robot_survey.hpp"
 
 namespace thinwall::report {
 
 /// joints_rad, tip_m, smallest_singular_value of an arm, and preload_n where there is one, for summary.json.
-[[nodiscard]] nlohmann::json posture_summary(const setup::RobotPosture& robot);
+[[nodiscard]] PostureSummary posture_summary(const setup::RobotPosture& robot);
 
 /// A table for the terminal: place, joints, first modes, stiffness.
 [[nodiscard]] std::string survey_text(const study::RobotSurvey& survey);

@@ -1,15 +1,13 @@
 #pragma once
-// summary.json: everything that a person or a script wants first (names carry units).
+// The summary of what a run has computed.
 
-#include <nlohmann/json.hpp>
-#include <vector>
-
+#include "report/summary/summary.hpp"
 #include "setup/machining_setup.hpp"
 #include "study/results.hpp"
 
 namespace thinwall::report {
 
 /// The summary of a run without its checks; the name and the title of its case are left empty for the caller.
-[[nodiscard]] nlohmann::json summary_of(const setup::Setup& source, const study::Results& results);
+[[nodiscard]] Summary summary_of(const setup::Setup& source, const study::Results& results);
 
 }  // namespace thinwall::report

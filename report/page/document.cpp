@@ -14,6 +14,7 @@
 #include "report/page/headline.hpp"
 #include "report/page/lobes_data.hpp"
 #include "report/page/shapes_data.hpp"
+#include "report/summary/summary_json.hpp"
 
 namespace thinwall::report {
 
@@ -36,19 +37,12 @@ auto as_written(const fs::path& file, const Use& use) {
   }
 }
 
-json summary_in(const fs::path& folder) {
+Summary summary_in(const fs::path& folder) {
   const fs::path file = folder / "summary.json";
   if (!fs::exists(file))
     throw core::DataError("\"" + folder.string() +
                           "\" holds no summary.json: it is no result folder of a finished run");
-  json summary = io::read_json(file);
-  as_written(file, [&] {
-    for (const char* key : {"case", "title"}) {
-      if (summary.contains(key)) (void)summary.at(key).get<std::string>();
-    }
-    return 0;
-  });
-  return summary;
+  return summary_from(io::read_json(file), file);
 }
 
 /// Without the list of outputs, of which the page is one.
@@ -64,13 +58,10 @@ json manifest_in(const fs::path& folder) {
 }
 
 /// The points that are cut and touched, whose receptances matter most.
-std::vector<std::string> chief_points(const json& summary) {
+std::vector<std::string> chief_points(const Summary& summary) {
   std::vector<std::string> points;
-  const json cutting = summary.value("cutting", json::object());
-  if (cutting.contains("at")) points.push_back(cutting.at("at").get<std::string>());
-  for (const json& contact : summary.value("contacts", json::array())) {
-    for (const char* end : {"part", "robot"}) points.push_back(contact.at(end).get<std::string>());
-  }
+  if (summary.cutting && summary.cutting->at) points.push_back(*summary.cutting->at);
+  for (const ContactSummary& contact : summary.contacts) points.insert(points.end(), {contact.part, contact.robot});
   return points;
 }
 
@@ -82,25 +73,28 @@ json section(const KeptSections& kept, const std::string& name, const std::funct
   return data;
 }
 
-json run_of(const fs::path& folder, const KeptSections& kept, std::size_t share) {
-  json run = {{"summary", summary_in(folder)}, {"manifest", manifest_in(folder)}};
-  const json& summary = run["summary"];
+/// The summary as its file has it: bytes that are no UTF-8 are replaced there.
+json document_of(const Summary& summary) {
+  return json::parse(io::json_text(summary_json(summary)));
+}
+
+json run_of(const fs::path& folder, const RunAtHand& at_hand, const KeptSections& kept, std::size_t share) {
+  const Summary& summary = at_hand.summary;
+  json run = {{"summary", document_of(summary)}, {"manifest", at_hand.manifest}};
   run["case"] = text_in(folder / "case.toml");
-  return as_written(folder / "summary.json", [&] {
-    const FrfChoice choice{.points_first = chief_points(summary), .most_bytes = 4000000 / share};
-    std::string frf = "frf";
-    for (const std::string& point : choice.points_first) frf += " " + point;
-    const std::array<std::function<json()>, 3> sections{
-        [&] { return section(kept, frf, [&] { return frf_data(folder, choice); }); },
-        [&] { return section(kept, "shapes", [&] { return shapes_data(folder, summary, 500000 / share); }); },
-        [&] { return lobes_data(folder, summary); }};
-    std::array<json, 3> data;
-    core::parallel_for(sections.size(), [&](std::size_t i) { data[i] = sections[i](); });
-    for (const json& part : data) run.update(part);
-    run["headline"] = headline(summary);
-    run["sentences"] = sentences(summary);
-    return run;
-  });
+  const FrfChoice choice{.points_first = chief_points(summary), .most_bytes = 4000000 / share};
+  std::string frf = "frf";
+  for (const std::string& point : choice.points_first) frf += " " + point;
+  const std::array<std::function<json()>, 3> sections{
+      [&] { return section(kept, frf, [&] { return frf_data(folder, choice); }); },
+      [&] { return section(kept, "shapes", [&] { return shapes_data(folder, summary, 500000 / share); }); },
+      [&] { return lobes_data(folder, summary); }};
+  std::array<json, 3> data;
+  core::parallel_for(sections.size(), [&](std::size_t i) { data[i] = sections[i](); });
+  for (const json& part : data) run.update(part);
+  run["headline"] = headline(summary);
+  run["sentences"] = report::sentences(summary);
+  return run;
 }
 
 /// Names of the cases; where two are equal, of the folders, and where these are, whole paths.
@@ -128,7 +122,7 @@ std::size_t text_bytes(const json& value) {
 }
 
 /// Lines of receptances are left out where the document is too large for all.
-void make_light(json& document, const DocumentRequest& request) {
+void make_light(json& document, const DocumentRequest& request, const std::vector<RunAtHand>& runs) {
   const std::size_t size = text_bytes(document);
   if (size <= request.most_bytes) return;
   std::size_t of_frf = 0;
@@ -138,7 +132,7 @@ void make_light(json& document, const DocumentRequest& request) {
   for (std::size_t i = 0; i < request.folders.size(); ++i) {
     json& run = document["runs"][i];
     run.update(frf_data(request.folders[i],
-                        {.points_first = chief_points(run["summary"]), .most_bytes = left / request.folders.size()}));
+                        {.points_first = chief_points(runs[i].summary), .most_bytes = left / request.folders.size()}));
   }
 }
 
@@ -148,8 +142,11 @@ json document(const DocumentRequest& request) {
   const std::size_t count = request.folders.size();
   json result = {{"schema", 1}, {"program", request.program}, {"headline", json::array()}, {"runs", json::array()}};
   std::vector<std::string> cases;
+  std::vector<RunAtHand> runs;
   for (const fs::path& folder : request.folders) {
-    result["runs"].push_back(run_of(folder, count == 1 ? request.kept : KeptSections{}, count));
+    runs.push_back(count == 1 && request.at_hand ? *request.at_hand
+                                                 : RunAtHand{summary_in(folder), manifest_in(folder)});
+    result["runs"].push_back(run_of(folder, runs.back(), count == 1 ? request.kept : KeptSections{}, count));
     cases.push_back(text_in(folder / "case.resolved.toml"));
   }
   const auto labels = labels_of(request.folders, result["runs"]);
@@ -162,7 +159,7 @@ json document(const DocumentRequest& request) {
   }
   const bool all_there = std::ranges::none_of(cases, &std::string::empty);
   if (count > 1 && all_there) result["differences"] = case_differences(cases);
-  make_light(result, request);
+  make_light(result, request, runs);
   return result;
 }
 

@@ -4,8 +4,11 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "report/summary/summary.hpp"
 
 namespace thinwall::report {
 
@@ -16,12 +19,19 @@ struct KeptSections {
   std::function<void(const std::string& name, const std::string& text)> keep;
 };
 
+/// The summary and the manifest of a run whose files are not written yet.
+struct RunAtHand {
+  Summary summary;
+  nlohmann::json manifest;
+};
+
 /// Of what a document is made.
 struct DocumentRequest {
   std::vector<std::filesystem::path> folders;  ///< results of one run, or of several side by side
   std::string program;                         ///< that makes the page: "thinwall 0.1.0"
   KeptSections kept{};                         ///< taken instead of read from the files, for one run only
   std::size_t most_bytes = 7500000;            ///< as JSON text; lines of receptances are left out to stay below
+  std::optional<RunAtHand> at_hand{};          ///< taken instead of summary.json and manifest.json, for one run only
 };
 
 /// The document of web/document.md. Throws DataError, naming folder or file, for one without a readable summary.json,

@@ -5,37 +5,76 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/json_number.hpp"
 #include "report/page/limit_text.hpp"
 
 namespace thinwall::report {
 
 namespace {
 
-using nlohmann::json;
-
-/// A chart or a path with its limit; the first of a run is the one that answers.
+/// A chart or a path by its limit; the first of a run is the one that answers.
 struct Answer {
-  const json* chart;
+  std::size_t number = 0;  ///< in the summary
   Limit limit;
+  double error = 0.0, error_of_least = 0.0;  ///< relative, of that limit and of the least depth anywhere
 };
 
+/// How far a depth may be off, relative: the estimate of the computation, what the part's reduction left out, and twice
+/// the standard deviation by the noise of measured FRFs, as the chart's band has them. Where the row does not tell, the
+/// chart's largest. 0: nothing is known.
+double depth_error(double depth_m, const std::optional<double>& estimate, const DepthErrorsSummary* of_row,
+                   const std::optional<ChartErrorsSummary>& of_chart) {
+  const auto share = [&](const std::optional<double>& here, const std::optional<double>& largest) {
+    return here && depth_m > 0.0 ? std::abs(*here) / depth_m : largest.value_or(0.0);
+  };
+  const DepthErrorsSummary row = of_row != nullptr ? *of_row : DepthErrorsSummary{};
+  const ChartErrorsSummary chart = of_chart.value_or(ChartErrorsSummary{});
+  return estimate.value_or(0.0) + share(row.truncation_m, chart.largest_truncation_relative) +
+         2.0 * share(row.noise_deviation_m, chart.largest_noise_relative);
+}
+
+double error_of_least(const LobesSummary& chart) {
+  const bool known = chart.error_budget && chart.error_budget->at_minimum;
+  return depth_error(chart.minimum_depth_m, chart.error_estimate_relative,
+                     known ? &*chart.error_budget->at_minimum : nullptr, chart.error_budget);
+}
+
+double error_at_speed(const LobesSummary& chart) {
+  const auto& row = chart.at_case_speed;
+  if (!row) return error_of_least(chart);
+  return depth_error(row->limiting_depth_m, row->error_estimate_relative,
+                     row->error_budget ? &*row->error_budget : nullptr, chart.error_budget);
+}
+
 /// The supported part before the bare one.
-std::vector<Answer> answers(const json& charts, const json& cutting, Limit (*limit_of)(const json&, const json&)) {
+void add(std::vector<Answer>& list, const std::string& name, Answer answer) {
+  list.insert(name == "supported" ? list.begin() : list.end(), std::move(answer));
+}
+
+std::vector<Answer> chart_answers(const Summary& summary) {
   std::vector<Answer> list;
-  for (const json& chart : charts) {
-    const bool first = chart.at("name") == "supported";
-    list.insert(first ? list.begin() : list.end(), {&chart, limit_of(chart, cutting)});
+  for (std::size_t i = 0; i < summary.lobes.size(); ++i) {
+    const LobesSummary& chart = summary.lobes[i];
+    add(list, chart.name, {i, limit_of_chart(chart, summary.cutting), error_at_speed(chart), error_of_least(chart)});
+  }
+  return list;
+}
+
+std::vector<Answer> path_answers(const Summary& summary) {
+  std::vector<Answer> list;
+  for (std::size_t i = 0; i < summary.path.size(); ++i) {
+    const PathSummary& path = summary.path[i];
+    const double least = path.error_estimate_relative.value_or(0.0);
+    const double error = path.at_case_speed ? path.at_case_speed->error_estimate_relative.value_or(0.0) : least;
+    add(list, path.name, {i, limit_of_path(path, summary.cutting), error, least});
   }
   return list;
 }
 
 /// "P", "B and C": the points of the part that contacts hold.
-std::string held_points(const json& summary) {
+std::string held_points(const Summary& summary) {
   std::vector<std::string> names;
-  for (const json& contact : summary.value("contacts", json::array())) {
-    const auto name = contact.at("part").get<std::string>();
-    if (std::ranges::count(names, name) == 0) names.push_back(name);
+  for (const ContactSummary& contact : summary.contacts) {
+    if (std::ranges::count(names, contact.part) == 0) names.push_back(contact.part);
   }
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -44,18 +83,17 @@ std::string held_points(const json& summary) {
 }
 
 /// "with the robot at P", "with the robot at B, cut at P", "part alone, cut at P", "this tool".
-std::string subject(const json& chart, const json& summary) {
-  const auto name = chart.at("name").get<std::string>();
-  if (name == "tool") return "this tool";
-  const std::string at = summary.value("cutting", json::object()).value("at", "");
+std::string subject(const LobesSummary& chart, const Summary& summary) {
+  if (chart.name == "tool") return "this tool";
+  const std::string at = summary.cutting ? summary.cutting->at.value_or("") : "";
   const std::string cut = at.empty() ? "" : ", cut at " + at;
-  if (name != "supported") return "part alone" + cut;
+  if (chart.name != "supported") return "part alone" + cut;
   const std::string held = held_points(summary);
   return "with the robot" + (held.empty() ? "" : " at " + held) + (held == at ? "" : cut);
 }
 
-std::string path_subject(const json& path) {
-  return path.at("name") == "supported" ? "along the path with the robot" : "along the path, part alone";
+std::string path_subject(const PathSummary& path) {
+  return path.name == "supported" ? "along the path with the robot" : "along the path, part alone";
 }
 
 /// Both limits in one sentence.
@@ -65,52 +103,43 @@ std::string sentence(const std::string& subject, const std::vector<Answer>& list
   return capital(text) + ".";
 }
 
-std::string pocket_text(const json& chart) {
-  const json pockets = chart.value("best_pockets", json::array());
-  if (pockets.empty()) return "";
-  const json& pocket = pockets.front();
-  std::string text = fmt::format("best pocket {} at {:.0f} rpm", millimetres(pocket.at("depth_m").get<double>()),
-                                 pocket.at("spindle_speed_rpm").get<double>());
-  if (pocket.contains("limited_by") && pocket.at("limited_by").is_string())
-    text += " (" + in_words(pocket.at("limited_by").get<std::string>()) + ")";
-  if (const auto rate = number(pocket, "removal_rate_cm3_per_min")) text += fmt::format(", {:.3g} cm³/min", *rate);
+std::string pocket_text(const LobesSummary& chart) {
+  if (chart.best_pockets.empty()) return "";
+  const PocketSummary& pocket = chart.best_pockets.front();
+  std::string text = fmt::format("best pocket {} at {:.0f} rpm", millimetres(pocket.depth_m), pocket.spindle_speed_rpm);
+  if (!pocket.limited_by.empty()) text += " (" + in_words(pocket.limited_by) + ")";
+  if (pocket.removal_rate_cm3_per_min) text += fmt::format(", {:.3g} cm³/min", *pocket.removal_rate_cm3_per_min);
   return text;
 }
 
 /// The speed at which the whole path allows the most.
-std::string best_speed_text(const json& path, const json& cutting) {
-  const json& best = path.at("deepest_everywhere");
-  const bool limit = best.at("at_depth_limit").get<bool>();
-  return fmt::format("best for the whole path {} at {:.0f} rpm ({})", millimetres(best.at("depth_m").get<double>()),
-                     best.at("spindle_speed_rpm").get<double>(),
-                     limit ? in_words(cutting.value("depth_limit_is", "depth_limit"))
-                           : fmt::format("limited at position {}", best.at("limited_at_position").get<int>()));
+std::string best_speed_text(const PathSummary& path, const std::optional<CuttingSummary>& cutting) {
+  const EverywhereSummary& best = path.deepest_everywhere;
+  return fmt::format("best for the whole path {} at {:.0f} rpm ({})", millimetres(best.depth_m), best.spindle_speed_rpm,
+                     best.at_depth_limit ? in_words(cutting ? cutting->depth_limit_is : "depth_limit")
+                                         : fmt::format("limited at position {}", best.limited_at_position));
 }
 
 /// "1900 rpm and 2 mm".
-std::string place_text(const json& point) {
-  return fmt::format("{:.0f} rpm and {}", point.at("spindle_speed_rpm").get<double>(),
-                     millimetres(point.at("depth_m").get<double>()));
+std::string place_text(const OperatingPointSummary& point) {
+  return fmt::format("{:.0f} rpm and {}", point.spindle_speed_rpm, millimetres(point.depth_m));
 }
 
 /// "at least 18 mm"; of an unstable point how much less would be stable.
-std::string margin_text(const json& point) {
-  const double margin = point.at("depth_margin_m").get<double>();
-  const bool stable = point.at("stable").get<bool>();
-  const bool at_limit = stable && point.at("depth_margin_at_limit").get<bool>();
-  return (at_limit ? "at least " : "") + millimetres(stable ? margin : std::abs(margin)) + (stable ? "" : " too deep");
+std::string margin_text(const OperatingPointSummary& point) {
+  const double margin = point.depth_margin_m;
+  if (!point.stable) return millimetres(std::abs(margin)) + " too deep";
+  return (point.depth_margin_at_limit ? "at least " : "") + millimetres(margin);
 }
 
 /// The first operating point of the chart that answers.
-std::string margin_of(const json& summary, const json& chart) {
-  for (const json& point : summary.value("operating_points", json::array())) {
-    if (point.at("chart") != chart.at("name")) continue;
-    return "margin at " + place_text(point) + ": " +
-           (!is_sound(point)                  ? "not converged"
-            : number(point, "depth_margin_m") ? margin_text(point)
-                                              : "not known");
-  }
-  return "";
+std::string margin_of(const Summary& summary, const LobesSummary& chart) {
+  const auto point = std::ranges::find(summary.operating_points, chart.name, &OperatingPointSummary::chart);
+  if (point == summary.operating_points.end()) return "";
+  return "margin at " + place_text(*point) + ": " +
+         (!is_sound(point->status)               ? "not converged"
+          : std::isfinite(point->depth_margin_m) ? margin_text(*point)
+                                                 : "not known");
 }
 
 /// One figure for all depths of the sentence: the largest that is known of them.
@@ -120,99 +149,92 @@ std::string error_text(const std::vector<Answer>& list) {
   for (const Answer& answer : list) {
     if (!answer.limit.of_depth_limit.empty()) continue;
     limited = true;
-    worst = std::max(worst, depth_error(answer.chart->value("at_case_speed", *answer.chart), *answer.chart));
+    worst = std::max(worst, answer.error);
   }
-  if (!limited) worst = depth_error(*list.front().chart, *list.front().chart);
+  if (!limited) worst = list.front().error_of_least;
   if (worst <= 0.0) return "";
   return worst < 1e-4 ? "estimated error below 0.01 %" : fmt::format("estimated error {:.2g} %", 100.0 * worst);
 }
 
+/// "First natural frequencies of the part: 212.9, 562.8 Hz."; empty if there are none.
+std::string frequencies_sentence(const char* name, std::vector<double> elastic_hz) {
+  constexpr std::size_t most = 4;
+  elastic_hz.resize(std::min(most, elastic_hz.size()));
+  if (elastic_hz.empty()) return "";
+  std::string frequencies;
+  for (const double hz : elastic_hz) frequencies += fmt::format("{}{:.4g}", frequencies.empty() ? "" : ", ", hz);
+  return fmt::format("First natural frequencies of the {}: {} Hz.", name, frequencies);
+}
+
 /// Of a run without lobes: what the support does, or the modes.
-std::vector<std::string> dynamics(const json& summary) {
+std::vector<std::string> dynamics(const Summary& summary) {
   std::vector<std::string> list;
-  for (const json& r : summary.value("coupling", json::object()).value("reductions", json::array())) {
-    list.push_back(fmt::format("Vibration at {} falls by {:.4g} % at {:.4g} Hz with the robot.",
-                               r.at("dof").get<std::string>(), 100.0 * r.at("reduction").get<double>(),
-                               r.at("frequency_hz").get<double>()));
+  if (summary.coupling) {
+    for (const AmplitudeReductionSummary& r : summary.coupling->reductions)
+      list.push_back(fmt::format("Vibration at {} falls by {:.4g} % at {:.4g} Hz with the robot.", r.dof,
+                                 100.0 * r.reduction, r.frequency_hz));
   }
-  for (const char* name : {"part", "robot"}) {
-    if (!list.empty() || !summary.contains(name) || !summary[name].contains("modes")) continue;
-    std::string frequencies;
-    int shown = 0;
-    for (const json& mode : summary[name].at("modes")) {
-      if (mode.contains("rigid_body") || shown == 4) continue;
-      frequencies += fmt::format("{}{:.4g}", shown++ == 0 ? "" : ", ", mode.at("frequency_hz").get<double>());
+  if (!list.empty()) return list;
+  std::vector<double> part_hz, robot_hz;
+  if (summary.part) {
+    for (const PartModeSummary& mode : summary.part->modes) {
+      if (!mode.rigid_body) part_hz.push_back(mode.frequency_hz);
     }
-    if (shown > 0) list.push_back(fmt::format("First natural frequencies of the {}: {} Hz.", name, frequencies));
   }
+  if (summary.robot) {
+    for (const ModeSummary& mode : summary.robot->modes) robot_hz.push_back(mode.frequency_hz);
+  }
+  const std::string of_part = frequencies_sentence("part", part_hz);
+  const std::string text = of_part.empty() ? frequencies_sentence("robot", robot_hz) : of_part;
+  if (!text.empty()) list.push_back(text);
   return list;
 }
 
-std::string point_sentence(const json& point) {
-  const auto chart = point.at("chart").get<std::string>();
-  std::string text = (chart == "supported" ? "With the robot, "
-                      : chart == "part"    ? "Part alone, "
-                                           : "This tool, ") +
+std::string point_sentence(const OperatingPointSummary& point) {
+  std::string text = (point.chart == "supported" ? "With the robot, "
+                      : point.chart == "part"    ? "Part alone, "
+                                                 : "This tool, ") +
                      place_text(point) + ": ";
-  if (!is_sound(point)) text += "not converged: ";
-  text += point.at("stable").get<bool>() ? "stable" : "chatter";
-  if (number(point, "depth_margin_m"))
-    text += point.at("stable").get<bool>() ? ", margin in depth " + margin_text(point) : ", " + margin_text(point);
-  if (point.contains("contact") && point.at("contact").at("lost").get<bool>())
-    text += "; the cut pulls the contact open";
+  if (!is_sound(point.status)) text += "not converged: ";
+  text += point.stable ? "stable" : "chatter";
+  if (std::isfinite(point.depth_margin_m)) text += (point.stable ? ", margin in depth " : ", ") + margin_text(point);
+  if (point.contact && point.contact->lost) text += "; the cut pulls the contact open";
   return text + ".";
 }
 
-std::string routes_sentence(const json& summary) {
-  const json routes = summary.value("coupling", json::object()).value("route_difference", json(nullptr));
-  const auto difference = routes.is_object() ? number(routes, "max_relative") : std::nullopt;
-  return !difference ? "" : fmt::format("The two routes to the coupled receptance differ by {:.1e}.", *difference);
+std::string routes_sentence(const Summary& summary) {
+  if (!summary.coupling || !summary.coupling->route_difference) return "";
+  return fmt::format("The two routes to the coupled receptance differ by {:.1e}.",
+                     summary.coupling->route_difference->max_relative);
 }
 
 }  // namespace
 
-double depth_error(const json& row, const json& chart) {
-  const bool at_speed = row.contains("limiting_depth_m");
-  const double depth = row.value(at_speed ? "limiting_depth_m" : "minimum_depth_m", 0.0);
-  const json of_chart = chart.value("error_budget", json(nullptr));
-  const json of_row = at_speed ? row.value("error_budget", json(nullptr))
-                      : of_chart.is_object() && of_chart.contains("at_minimum") ? of_chart.at("at_minimum")
-                                                                                : json(nullptr);
-  const auto share = [&](const char* key, const char* largest) {
-    const auto here = of_row.is_object() ? number(of_row, key) : std::nullopt;
-    if (here && depth > 0.0) return std::abs(*here) / depth;
-    return of_chart.is_object() ? number(of_chart, largest).value_or(0.0) : 0.0;
-  };
-  return number(row, "error_estimate_relative").value_or(0.0) + share("truncation_m", "largest_truncation_relative") +
-         2.0 * share("noise_deviation_m", "largest_noise_relative");
-}
-
-std::vector<std::string> headline(const json& summary) {
-  if (summary.at("lobes").empty()) return dynamics(summary);
-  const json cutting = summary.value("cutting", json::object());
-  const bool path = summary.contains("path") && !summary.at("path").empty();
-  const auto list = path ? answers(summary.at("path"), cutting, limit_of_path)
-                         : answers(summary.at("lobes"), cutting, limit_of_chart);
-  const json& chart = *list.front().chart;
+std::vector<std::string> headline(const Summary& summary) {
+  if (summary.lobes.empty()) return dynamics(summary);
+  const bool path = !summary.path.empty();
+  const std::vector<Answer> list = path ? path_answers(summary) : chart_answers(summary);
+  const std::size_t first = list.front().number;
   std::string second;
-  for (const std::string& text : {path ? best_speed_text(chart, cutting) : pocket_text(chart),
-                                  path ? "" : margin_of(summary, chart), error_text(list)}) {
+  for (const std::string& text :
+       {path ? best_speed_text(summary.path[first], summary.cutting) : pocket_text(summary.lobes[first]),
+        path ? "" : margin_of(summary, summary.lobes[first]), error_text(list)}) {
     if (!text.empty()) second += (second.empty() ? "" : "; ") + text;
   }
-  std::vector<std::string> sentences{sentence(path ? path_subject(chart) : subject(chart, summary), list)};
+  std::vector<std::string> sentences{
+      sentence(path ? path_subject(summary.path[first]) : subject(summary.lobes[first], summary), list)};
   if (!second.empty()) sentences.push_back(capital(second) + ".");
   return sentences;
 }
 
-std::vector<std::string> sentences(const json& summary) {
+std::vector<std::string> sentences(const Summary& summary) {
   std::vector<std::string> list;
-  if (summary.contains("path") && !summary.at("path").empty() && !summary.at("lobes").empty()) {
-    const json cutting = summary.value("cutting", json::object());
-    const auto charts = answers(summary.at("lobes"), cutting, limit_of_chart);
-    list.push_back(sentence(subject(*charts.front().chart, summary), charts));
+  if (!summary.path.empty() && !summary.lobes.empty()) {
+    const std::vector<Answer> charts = chart_answers(summary);
+    list.push_back(sentence(subject(summary.lobes[charts.front().number], summary), charts));
   }
-  for (const json& point : summary.value("operating_points", json::array())) list.push_back(point_sentence(point));
-  for (const json& sentence : summary.value("sentences", json::array())) list.push_back(sentence.get<std::string>());
+  for (const OperatingPointSummary& point : summary.operating_points) list.push_back(point_sentence(point));
+  list.insert(list.end(), summary.sentences.begin(), summary.sentences.end());
   if (const std::string routes = routes_sentence(summary); !routes.empty()) list.push_back(routes);
   return list;
 }

@@ -8,16 +8,15 @@ namespace thinwall::report {
 
 namespace {
 
-using nlohmann::json;
-
-std::string depth_limit_in_words(const json& cutting) {
-  return in_words(cutting.value("depth_limit_is", "depth_limit"));
+std::string depth_limit_in_words(const std::optional<CuttingSummary>& cutting) {
+  return in_words(cutting ? cutting->depth_limit_is : "depth_limit");
 }
 
-Limit at_speed(const json& row, const json& cutting) {
-  Limit limit{row.at("limiting_depth_m").get<double>(),
-              fmt::format(" at {:.0f} rpm", row.at("spindle_speed_rpm").get<double>()), is_sound(row), "", ""};
-  if (row.at("at_depth_limit").get<bool>()) limit.of_depth_limit = depth_limit_in_words(cutting);
+/// Of a row at the case's speed, of a chart or of a path.
+template <class Row>
+Limit at_speed(const Row& row, const std::optional<CuttingSummary>& cutting) {
+  Limit limit{row.limiting_depth_m, fmt::format(" at {:.0f} rpm", row.spindle_speed_rpm), is_sound(row.status), "", ""};
+  if (row.at_depth_limit) limit.of_depth_limit = depth_limit_in_words(cutting);
   return limit;
 }
 
@@ -44,8 +43,7 @@ std::string capital(std::string text) {
   return text;
 }
 
-bool is_sound(const json& row) {
-  const std::string status = row.value("status", "converged");
+bool is_sound(const std::string& status) {
   return status == "converged" || status == "stable_to_depth_limit";
 }
 
@@ -58,35 +56,30 @@ std::string short_text_of(const Limit& limit) {
   return (limit.converged ? "" : "not converged, ") + millimetres(limit.depth_m) + remarks(limit);
 }
 
-Limit limit_of_chart(const json& chart, const json& cutting) {
-  if (chart.contains("at_case_speed")) return at_speed(chart.at("at_case_speed"), cutting);
-  Limit limit{chart.at("minimum_depth_m").get<double>(), " at every speed", true, "", ""};
-  limit.converged = chart.value("speeds_not_converged", 0) == 0;
-  if (chart.at("speeds_stable_to_depth_limit") == chart.at("speeds"))
-    limit.of_depth_limit = depth_limit_in_words(cutting);
+Limit limit_of_chart(const LobesSummary& chart, const std::optional<CuttingSummary>& cutting) {
+  if (chart.at_case_speed) return at_speed(*chart.at_case_speed, cutting);
+  Limit limit{chart.minimum_depth_m, " at every speed", chart.speeds_not_converged == 0, "", ""};
+  if (chart.speeds_stable_to_depth_limit == chart.speeds) limit.of_depth_limit = depth_limit_in_words(cutting);
   if (!limit.converged)
-    limit.more = fmt::format("{} of {} speeds did not reach the tolerance", chart.at("speeds_not_converged").get<int>(),
-                             chart.at("speeds").get<int>());
+    limit.more = fmt::format("{} of {} speeds did not reach the tolerance", chart.speeds_not_converged, chart.speeds);
   return limit;
 }
 
-Limit limit_of_path(const json& path, const json& cutting) {
-  const std::size_t positions = path.at("positions").size();
-  const auto weakest = [&](int position) { return fmt::format("weakest at position {} of {}", position, positions); };
-  if (path.contains("at_case_speed")) {
-    const json& row = path.at("at_case_speed");
-    Limit limit = at_speed(row, cutting);
-    if (limit.of_depth_limit.empty()) limit.more = weakest(row.at("limited_at_position").get<int>());
-    limit.converged = row.at("positions_not_converged").get<int>() == 0;
+Limit limit_of_path(const PathSummary& path, const std::optional<CuttingSummary>& cutting) {
+  const auto weakest = [&](int position) {
+    return fmt::format("weakest at position {} of {}", position, path.positions.size());
+  };
+  if (const auto& row = path.at_case_speed) {
+    Limit limit = at_speed(*row, cutting);
+    if (limit.of_depth_limit.empty()) limit.more = weakest(row->limited_at_position);
+    limit.converged = row->positions_not_converged == 0;
     return limit;
   }
-  const json& least = path.at("weakest");
-  Limit limit{least.at("minimum_depth_m").get<double>(), " at every speed", true, "", ""};
-  limit.converged = path.at("rows_not_converged").get<int>() == 0;
-  if (least.at("speeds_stable_to_depth_limit") == path.at("speeds")) {
+  Limit limit{path.weakest.minimum_depth_m, " at every speed", path.rows_not_converged == 0, "", ""};
+  if (path.weakest.speeds_stable_to_depth_limit == path.speeds) {
     limit.of_depth_limit = depth_limit_in_words(cutting);
   } else {
-    limit.more = weakest(least.at("position").get<int>());
+    limit.more = weakest(path.weakest.position);
   }
   return limit;
 }

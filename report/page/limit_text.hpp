@@ -1,8 +1,10 @@
 #pragma once
 // Depths and limits in words.
 
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+
+#include "report/summary/summary.hpp"
 
 namespace thinwall::report {
 
@@ -15,8 +17,8 @@ namespace thinwall::report {
 /// The text with a capital letter.
 [[nodiscard]] std::string capital(std::string text);
 
-/// True if a row or a point of summary.json is right by its `status`: converged, or stable to the depth limit.
-[[nodiscard]] bool is_sound(const nlohmann::json& row);
+/// True if a row or a point of this `status` is right: converged, or stable to the depth limit.
+[[nodiscard]] bool is_sound(const std::string& status);
 
 /// A limiting depth with all that is to be said of it.
 struct Limit {
@@ -34,9 +36,9 @@ struct Limit {
 [[nodiscard]] std::string short_text_of(const Limit& limit);
 
 /// Of a chart of summary.json: at the case's speed, else its least depth. `cutting` says what the depth limit is.
-[[nodiscard]] Limit limit_of_chart(const nlohmann::json& chart, const nlohmann::json& cutting);
+[[nodiscard]] Limit limit_of_chart(const LobesSummary& chart, const std::optional<CuttingSummary>& cutting);
 
 /// Of a path of summary.json, over all positions.
-[[nodiscard]] Limit limit_of_path(const nlohmann::json& path, const nlohmann::json& cutting);
+[[nodiscard]] Limit limit_of_path(const PathSummary& path, const std::optional<CuttingSummary>& cutting);
 
 }  // namespace thinwall::report

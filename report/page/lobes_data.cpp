@@ -10,8 +10,8 @@
 
 #include "core/error.hpp"
 #include "io/results/csv_table.hpp"
-#include "report/json_number.hpp"
 #include "report/page/arrays.hpp"
+#include "report/summary/write_json.hpp"
 
 namespace thinwall::report {
 
@@ -53,14 +53,13 @@ struct Source {
 };
 
 /// Limits of other methods, where the case asks for them.
-json compared_of(const fs::path& folder, const std::string& name, const json& summary) {
+json compared_of(const fs::path& folder, const LobesSummary& of) {
   json list = json::array();
-  for (const json& other : summary.value("compared", json::array())) {
-    const auto method = other.at("name").get<std::string>();
-    const fs::path file = folder / fmt::format("{}_{}.csv", name, method);
+  for (const ComparedSummary& other : of.compared) {
+    const fs::path file = folder / fmt::format("{}_{}.csv", of.name, other.name);
     if (!fs::exists(file)) continue;
     const Source chart(file);
-    list.push_back({{"name", method},
+    list.push_back({{"name", other.name},
                     {"rpm", chart.exact("spindle_speed_rpm")},
                     {"depth_m", chart.rough("limiting_depth_m")},
                     {"status", chart.statuses()}});
@@ -113,12 +112,12 @@ json path_of(const fs::path& file, const std::string& name) {
 }
 
 /// The axis over which the lobes are drawn; the removal rate's factor follows from a pocket, if there is one.
-json cutting_of(const json& summary) {
-  json cutting = summary.value("cutting", json::object());
-  for (const json& chart : summary.at("lobes")) {
-    for (const json& pocket : chart.value("best_pockets", json::array())) {
-      const double rate = number(pocket, "removal_rate_cm3_per_min").value_or(0.0);
-      const double per = number(pocket, "depth_m").value_or(0.0) * number(pocket, "spindle_speed_rpm").value_or(0.0);
+json cutting_of(const Summary& summary) {
+  json cutting = summary.cutting ? json_of(*summary.cutting) : json::object();
+  for (const LobesSummary& chart : summary.lobes) {
+    for (const PocketSummary& pocket : chart.best_pockets) {
+      const double rate = pocket.removal_rate_cm3_per_min.value_or(0.0);
+      const double per = pocket.depth_m * pocket.spindle_speed_rpm;
       if (rate > 0.0 && per > 0.0) cutting["removal_cm3_per_min_per_m_rpm"] = rate / per;
     }
   }
@@ -127,18 +126,17 @@ json cutting_of(const json& summary) {
 
 }  // namespace
 
-json lobes_data(const fs::path& results, const json& summary) {
+json lobes_data(const fs::path& results, const Summary& summary) {
   json run = {{"lobes", json::array()}, {"paths", json::array()}};
   const fs::path folder = results / "lobes";
-  if (!summary.contains("lobes") || summary.at("lobes").empty()) return run;
-  for (const json& chart : summary.at("lobes")) {
-    const std::string name = chart.at("name").get<std::string>();
-    if (!fs::exists(folder / (name + ".csv"))) continue;
-    run["lobes"].push_back(chart_of(folder, name));
-    if (json others = compared_of(folder, name, chart); !others.empty())
-      run["lobes"].back()["compared"] = std::move(others);
-    if (chart.contains("main_modes_hz")) run["lobes"].back()["tooth_passing_hz"] = chart.at("main_modes_hz");
-    if (fs::exists(folder / (name + "_path.csv"))) run["paths"].push_back(path_of(folder / (name + "_path.csv"), name));
+  if (summary.lobes.empty()) return run;
+  for (const LobesSummary& chart : summary.lobes) {
+    if (!fs::exists(folder / (chart.name + ".csv"))) continue;
+    run["lobes"].push_back(chart_of(folder, chart.name));
+    if (json others = compared_of(folder, chart); !others.empty()) run["lobes"].back()["compared"] = std::move(others);
+    run["lobes"].back()["tooth_passing_hz"] = chart.main_modes_hz;
+    if (const fs::path path = folder / (chart.name + "_path.csv"); fs::exists(path))
+      run["paths"].push_back(path_of(path, chart.name));
   }
   run["cutting"] = cutting_of(summary);
   return run;

@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "report/summary/summary.hpp"
+
 namespace thinwall::report {
 
 /// "lobes", "paths" and "cutting" of a run (web/document.md) from lobes/*.csv and the run's summary. Throws DataError
 /// for a file that cannot be read.
-[[nodiscard]] nlohmann::json lobes_data(const std::filesystem::path& results, const nlohmann::json& summary);
+[[nodiscard]] nlohmann::json lobes_data(const std::filesystem::path& results, const Summary& summary);
 
 }  // namespace thinwall::report

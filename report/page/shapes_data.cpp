@@ -9,6 +9,7 @@
 #include "io/results/vtp.hpp"
 #include "report/page/arrays.hpp"
 #include "report/page/surface.hpp"
+#include "report/summary/write_json.hpp"
 
 namespace thinwall::report {
 
@@ -104,7 +105,7 @@ json surface_of(const io::SurfaceFields& fields, const Thinned& thin) {
   return shapes;
 }
 
-json shapes_of(const fs::path& folder, const json& summary, std::size_t most_vectors) {
+json shapes_of(const fs::path& folder, const Summary& summary, std::size_t most_vectors) {
   const io::SurfaceFields part = io::read_vtp(folder / "part_surface.vtp");
   const fs::path coupled_file = folder / "coupled_surface.vtp";
   io::SurfaceFields coupled;
@@ -116,9 +117,8 @@ json shapes_of(const fs::path& folder, const json& summary, std::size_t most_vec
   if (coupled.surface.vertices.size() == part.surface.vertices.size())
     add_modes(shapes["modes"], "coupled", coupled, thin, folder / "coupled_modes.csv");
   add_triangle_fields(shapes, part, thin);
-  shapes["points"] = summary.value("points", json::array());
-  if (summary.contains("robot") && summary.at("robot").contains("arm_m"))
-    shapes["robot_arm"] = summary.at("robot").at("arm_m");
+  shapes["points"] = json_of(summary.points);
+  if (summary.robot && summary.robot->posture.arm_m) shapes["robot_arm"] = json_of(*summary.robot->posture.arm_m);
   return shapes;
 }
 
@@ -140,17 +140,17 @@ json likeness(const fs::path& file, const fs::path& columns) {
 
 }  // namespace
 
-json shapes_data(const fs::path& results, const json& summary, std::size_t most_vectors) {
+json shapes_data(const fs::path& results, const Summary& summary, std::size_t most_vectors) {
   const fs::path folder = results / "modes";
   json run = json::object();
   if (fs::exists(folder / "part_surface.vtp")) run["shapes"] = shapes_of(folder, summary, most_vectors);
   if (fs::exists(folder / "mac.csv")) run["mac"] = likeness(folder / "mac.csv", folder / "coupled_modes.csv");
   if (fs::exists(folder / "auto_mac.csv")) run["auto_mac"] = likeness(folder / "auto_mac.csv", folder / "modes.csv");
-  if (summary.contains("reduction") && summary.at("reduction").contains("error_by_size")) {
+  if (summary.reduction) {
     json modes = json::array(), error = json::array();
-    for (const json& step : summary.at("reduction").at("error_by_size")) {
-      modes.push_back(step.at("kept_modes"));
-      error.push_back(step.at("max_relative_frequency_error"));
+    for (const ErrorBySizeSummary& step : summary.reduction->error_by_size) {
+      modes.push_back(step.kept_modes);
+      error.push_back(json_of(step.max_relative_frequency_error));
     }
     if (!modes.empty()) run["reduction_error"] = {{"modes", modes}, {"error", error}};
   }

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
@@ -243,12 +244,14 @@ TEST_F(CommandLine, DoctorComputesACantileverAndSaysWhetherItIsRight) {
 }
 
 TEST_F(CommandLine, SchemaPrintsJsonOfEachFile) {
-  for (const std::string file : {"case", "expected", "joints"}) {
+  for (const std::string file : {"case", "expected", "joints", "summary"}) {
     const auto schema = nlohmann::json::parse(call({"schema", file}).out);
     EXPECT_EQ(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
     EXPECT_FALSE(schema["properties"].empty());
   }
   EXPECT_EQ(call({"schema"}).out, call({"schema", "case"}).out);
+  EXPECT_EQ(call({"schema", "--summary"}).out, call({"schema", "summary"}).out);
+  EXPECT_EQ(call({"schema", "case", "--summary"}).code, 2);
   EXPECT_EQ(call({"schema", "robot"}).code, 2);
 }
 

@@ -177,7 +177,7 @@ TEST_F(Sweep, EveryPointIsTheRunOfTheCaseWithItsValues) {
   const Case alone = read_case(folder() / "case", {"cutting.mode=down", "cutting.radial_depth=1 mm", "tool.teeth=3"});
   fs::create_directory(folder() / "alone");
   const auto summary = run_case(alone, {folder() / "alone", true, -1, false, {}}).summary;
-  const double depth = summary["lobes"][0]["at_case_speed"]["limiting_depth_m"].get<double>() * 1e3;
+  const double depth = summary.lobes[0].at_case_speed->limiting_depth_m * 1e3;
   EXPECT_NE(table.find("\n4,1,3," + core::number_text(depth) + ","), std::string::npos) << table;
   EXPECT_TRUE(fs::exists(folder() / "all" / "004" / "summary.json"));
   EXPECT_TRUE(fs::exists(folder() / "all" / "sweep.svg"));

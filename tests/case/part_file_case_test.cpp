@@ -75,7 +75,7 @@ TEST(PartFile, ASurfaceIsReadInItsUnitAndPlaced) {
       folder.path);
   EXPECT_LT((box_size(*inch.part) - 25.4 * Eigen::Vector3d(0.1, 0.06, 0.004)).norm(), 1e-6);
   EXPECT_LT(bounds(*inch.part).min().norm(), 1e-6);
-  EXPECT_EQ(report::geometry_summary(*inch.part)["read"].get<std::string>().find("2540 x 1524 x 101.6 mm"), 0U);
+  EXPECT_EQ(report::geometry_summary(*inch.part).read.find("2540 x 1524 x 101.6 mm"), 0U);
   EXPECT_EQ(input_files(inch).front(), folder.path / "plate.stl");
   const Case scaled = [&] {
     Case copy = plain;

@@ -150,12 +150,12 @@ TEST(PathReport, TheWeakestPositionAndTheBestSpeedForAllAreNamed) {
   const PathLobes path{"supported",
                        {milling::lobes_of(rows({2e-3, 3e-3, 4e-3}), "direct"),
                         milling::lobes_of(rows({1e-3, 3.5e-3, 2.5e-3}), "direct")}};
-  nlohmann::json summary;
-  summary["path"].push_back(path_summary(c, path));
-  EXPECT_EQ(summary["path"][0]["weakest"]["position"], 2);
-  EXPECT_EQ(summary["path"][0]["weakest"]["at_spindle_speed_rpm"], 1000.0);
-  EXPECT_EQ(summary["path"][0]["deepest_everywhere"]["spindle_speed_rpm"], 2000.0);
-  EXPECT_EQ(summary["path"][0]["deepest_everywhere"]["limited_at_position"], 1);
+  Summary summary;
+  summary.path.push_back(path_summary(c, path));
+  EXPECT_EQ(summary.path[0].weakest.position, 2);
+  EXPECT_EQ(summary.path[0].weakest.at_spindle_speed_rpm, 1000.0);
+  EXPECT_EQ(summary.path[0].deepest_everywhere.spindle_speed_rpm, 2000.0);
+  EXPECT_EQ(summary.path[0].deepest_everywhere.limited_at_position, 1);
   const std::string text = path_text(summary);
   EXPECT_NE(text.find("weakest at position 2 of 2, (6, 60, 50) mm"), std::string::npos) << text;
   EXPECT_NE(text.find("1.000 mm at 1000 rpm"), std::string::npos) << text;

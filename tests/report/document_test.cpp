@@ -35,15 +35,19 @@ TEST(Document, OfAFolderWithoutResultsIsRefused) {
   expect_refused(folder, "no_results");
   summary("{ no json");
   expect_refused(folder, "summary.json");
-  summary(R"({"lobes": [{"name": "part"}]})");
-  expect_refused(folder, "summary.json");
   summary("[1, 2]");
   expect_refused(folder, "summary.json");
-  summary(R"({"lobes": [], "case": "x", "title": 7})");
-  expect_refused(folder, "summary.json");
-  summary(R"({"lobes": [], "case": "x", "sentences": [3]})");
-  expect_refused(folder, "summary.json");
-  summary(R"({"lobes": [], "case": "x"})");
+  json good = summary_json(Summary{});
+  for (const auto& [key, value] :
+       {std::pair{"title", json(7)}, {"sentences", json({3})}, {"lobes", json({{{"name", "part"}}})}}) {
+    json wrong = good;
+    wrong[key] = value;
+    summary(wrong.dump());
+    expect_refused(folder, "summary.json");
+  }
+  good["case"] = "x";
+  good["of_a_later_version"] = 1;
+  summary(good.dump());
   EXPECT_EQ(run_in(folder)["label"], "x");
   for (const char* manifest : {R"({"program": "x"})", R"({"program": {"version": 3}})", "[]", "{"}) {
     core::write_file_atomically(folder / "manifest.json", manifest);
@@ -64,8 +68,7 @@ TEST(Document, NamesTheProgramThatMakesThePageAndThatOfTheRun) {
 }
 
 TEST(Document, RunsOfOneCaseAreToldApartByTheirFolders) {
-  const fs::path a = result_folder("label_a"), b = result_folder("label_b"),
-                 other = result_folder("label_c", {{"case", "big"}});
+  const fs::path a = result_folder("label_a"), b = result_folder("label_b"), other = result_folder("label_c", "big");
   const auto labels = [](const std::vector<fs::path>& folders) {
     std::vector<std::string> list;
     const json made = document({folders, "thinwall 9"});

@@ -5,48 +5,49 @@
 namespace thinwall::report::headline_test {
 namespace {
 
-using nlohmann::json;
-
-json chart(const std::string& name, double depth_m, bool at_limit) {
-  return {{"name", name},
-          {"minimum_depth_m", 0.001},
-          {"speeds", 10},
-          {"speeds_stable_to_depth_limit", 0},
-          {"speeds_not_converged", 0},
-          {"error_estimate_relative", 1e-4},
-          {"error_budget", nullptr},
-          {"best_pockets",
-           {{{"depth_m", 0.02},
-             {"spindle_speed_rpm", 2250.0},
-             {"limited_by", "tool_length"},
-             {"removal_rate_cm3_per_min", nullptr}}}},
-          {"at_case_speed",
-           {{"at_depth_limit", at_limit},
-            {"limiting_depth_m", depth_m},
-            {"spindle_speed_rpm", 1900.0},
-            {"error_estimate_relative", 1e-4},
-            {"status", at_limit ? "stable_to_depth_limit" : "converged"}}}};
+LobesSummary chart(const std::string& name, double depth_m, bool at_limit) {
+  LobesSummary chart;
+  chart.name = name;
+  chart.minimum_depth_m = 0.001;
+  chart.speeds = 10;
+  chart.error_estimate_relative = 1e-4;
+  chart.best_pockets = {{2250.0, 0.02, true, "tool_length", {}}};
+  CaseSpeedSummary& row = chart.at_case_speed.emplace();
+  row.at_depth_limit = at_limit;
+  row.limiting_depth_m = depth_m;
+  row.spindle_speed_rpm = 1900.0;
+  row.error_estimate_relative = 1e-4;
+  row.status = at_limit ? "stable_to_depth_limit" : "converged";
+  return chart;
 }
 
-json point(const std::string& name, bool stable, double margin_m) {
-  return {{"chart", name},
-          {"spindle_speed_rpm", 1900.0},
-          {"depth_m", 0.002},
-          {"stable", stable},
-          {"depth_margin_m", margin_m},
-          {"depth_margin_at_limit", stable},
-          {"status", stable ? "stable_to_depth_limit" : "converged"}};
+OperatingPointSummary point(const std::string& name, bool stable, double margin_m) {
+  OperatingPointSummary point;
+  point.chart = name;
+  point.spindle_speed_rpm = 1900.0;
+  point.depth_m = 0.002;
+  point.stable = stable;
+  point.depth_margin_m = margin_m;
+  point.depth_margin_at_limit = stable;
+  point.status = stable ? "stable_to_depth_limit" : "converged";
+  return point;
 }
 
-json both(const std::string& cut_at, const std::string& held_at) {
-  return {{"lobes", {chart("part", 0.0017, false), chart("supported", 0.02, true)}},
-          {"cutting", {{"at", cut_at}, {"depth_limit_is", "tool_length"}}},
-          {"contacts", {{{"part", held_at}, {"robot", "R"}}}}};
+Summary both(const std::string& cut_at, const std::string& held_at) {
+  Summary summary;
+  summary.lobes = {chart("part", 0.0017, false), chart("supported", 0.02, true)};
+  summary.cutting.emplace();
+  summary.cutting->depth_limit_is = "tool_length";
+  summary.cutting->at = cut_at;
+  summary.contacts.emplace_back();
+  summary.contacts[0].part = held_at;
+  summary.contacts[0].robot = "R";
+  return summary;
 }
 
 TEST(Headline, SaysTheAnswerFirstAndTheSupportedPartBeforeTheBareOne) {
-  json summary = both("P", "P");
-  summary["operating_points"] = {point("part", false, -0.0003), point("supported", true, 0.018)};
+  Summary summary = both("P", "P");
+  summary.operating_points = {point("part", false, -0.0003), point("supported", true, 0.018)};
   const auto text = headline(summary);
   ASSERT_EQ(text.size(), 2U);
   EXPECT_EQ(text[0], "With the robot at P: stable up to 20 mm at 1900 rpm (tool length); without: 1.7 mm.");
@@ -56,33 +57,33 @@ TEST(Headline, SaysTheAnswerFirstAndTheSupportedPartBeforeTheBareOne) {
 }
 
 TEST(Headline, TellsTheCutFromTheContactAndADepthLimitThatIsNotTheTool) {
-  json summary = both("P", "B");
-  summary["cutting"]["depth_limit_is"] = "depth_limit";
+  Summary summary = both("P", "B");
+  summary.cutting->depth_limit_is = "depth_limit";
   EXPECT_EQ(headline(summary)[0],
             "With the robot at B, cut at P: stable up to 20 mm at 1900 rpm (depth limit); without: 1.7 mm.");
   EXPECT_EQ(headline(summary)[1].find("margin"), std::string::npos) << "no operating point, no margin";
-  summary["lobes"] = {chart("part", 0.0017, false)};
+  summary.lobes = {chart("part", 0.0017, false)};
   EXPECT_EQ(headline(summary)[0], "Part alone, cut at P: stable up to 1.7 mm at 1900 rpm.");
-  summary["lobes"] = {chart("tool", 0.0017, false)};
+  summary.lobes = {chart("tool", 0.0017, false)};
   EXPECT_EQ(headline(summary)[0], "This tool: stable up to 1.7 mm at 1900 rpm.");
 }
 
 TEST(Headline, AnAnswerThatDidNotConvergeIsNotCalledStable) {
-  json summary = both("P", "P");
-  summary["lobes"][1]["at_case_speed"]["at_depth_limit"] = false;
-  summary["lobes"][1]["at_case_speed"]["status"] = "node_limit_reached";
-  summary["lobes"][0]["at_case_speed"]["status"] = "crossing_missed";
+  Summary summary = both("P", "P");
+  summary.lobes[1].at_case_speed->at_depth_limit = false;
+  summary.lobes[1].at_case_speed->status = "node_limit_reached";
+  summary.lobes[0].at_case_speed->status = "crossing_missed";
   EXPECT_EQ(headline(summary)[0],
             "With the robot at P: not converged: 20 mm at 1900 rpm; without: not converged, 1.7 mm.");
-  for (json& of : summary["lobes"]) of.erase("at_case_speed");
+  for (LobesSummary& of : summary.lobes) of.at_case_speed.reset();
   EXPECT_EQ(headline(summary)[0], "With the robot at P: stable up to 1 mm at every speed; without: 1 mm.");
-  summary["lobes"][1]["speeds_not_converged"] = 3;
+  summary.lobes[1].speeds_not_converged = 3;
   EXPECT_EQ(headline(summary)[0],
             "With the robot at P: not converged: 1 mm at every speed (3 of 10 speeds did not reach the tolerance); "
             "without: 1 mm.");
-  json open = point("supported", true, 0.018);
-  open["status"] = "crossing_missed";
-  summary["operating_points"] = {open};
+  OperatingPointSummary open = point("supported", true, 0.018);
+  open.status = "crossing_missed";
+  summary.operating_points = {open};
   EXPECT_NE(headline(summary)[1].find("margin at 1900 rpm and 2 mm: not converged"), std::string::npos);
   EXPECT_EQ(sentences(summary)[0],
             "With the robot, 1900 rpm and 2 mm: not converged: stable, margin in depth at least 18 mm.");
@@ -90,33 +91,33 @@ TEST(Headline, AnAnswerThatDidNotConvergeIsNotCalledStable) {
 
 /// 18 mm whose reduction moves it by 0.30 mm is right to 1.7 %, whatever the collocation reaches.
 TEST(Headline, TheErrorIsThatOfTheDepthsInTheSentence) {
-  json summary = {{"lobes", {chart("part", 0.018, false), chart("supported", 0.0137, false)}}};
-  summary["lobes"][0]["error_budget"] = {{"largest_truncation_relative", 0.5}, {"largest_noise_relative", nullptr}};
-  summary["lobes"][0]["at_case_speed"]["error_budget"] = {{"truncation_m", -0.0003}, {"noise_deviation_m", nullptr}};
+  Summary summary;
+  summary.lobes = {chart("part", 0.018, false), chart("supported", 0.0137, false)};
+  summary.lobes[0].error_budget.emplace().largest_truncation_relative = 0.5;
+  summary.lobes[0].at_case_speed->error_budget.emplace().truncation_m = -0.0003;
   EXPECT_NE(headline(summary)[1].find("estimated error 1.7 %"), std::string::npos) << headline(summary)[1];
-  summary["lobes"][1]["error_budget"] = {{"largest_truncation_relative", nullptr}, {"largest_noise_relative", 0.2}};
-  summary["lobes"][1]["at_case_speed"]["error_budget"] = {{"truncation_m", nullptr}, {"noise_deviation_m", 0.000685}};
+  summary.lobes[1].error_budget.emplace().largest_noise_relative = 0.2;
+  summary.lobes[1].at_case_speed->error_budget.emplace().noise_deviation_m = 0.000685;
   EXPECT_NE(headline(summary)[1].find("estimated error 10 %"), std::string::npos) << "twice the deviation of 5 %";
-  summary["lobes"][1]["at_case_speed"]["error_budget"]["noise_deviation_m"] = nullptr;
+  summary.lobes[1].at_case_speed->error_budget->noise_deviation_m.reset();
   EXPECT_NE(headline(summary)[1].find("estimated error 40 %"), std::string::npos) << "not known there: the chart's";
 }
 
-json path(const std::string& name, double depth_m) {
-  const json least = {{"position", 10}, {"minimum_depth_m", depth_m}, {"speeds_stable_to_depth_limit", 0}};
-  return {
-      {"name", name},
-      {"speeds", 40},
-      {"positions", std::vector<json>(11, least)},
-      {"weakest", least},
-      {"deepest_everywhere",
-       {{"spindle_speed_rpm", 10615.0}, {"depth_m", 0.00203}, {"at_depth_limit", false}, {"limited_at_position", 9}}},
-      {"error_estimate_relative", 1e-3},
-      {"rows_not_converged", 0}};
+PathSummary path(const std::string& name, double depth_m) {
+  PathSummary path;
+  path.name = name;
+  path.speeds = 40;
+  path.weakest.position = 10;
+  path.weakest.minimum_depth_m = depth_m;
+  path.positions.resize(11, path.weakest);
+  path.deepest_everywhere = {10615.0, 0.00203, false, 9};
+  path.error_estimate_relative = 1e-3;
+  return path;
 }
 
 TEST(Headline, OfAPathIsOfAllItsPositions) {
-  json summary = both("P", "B");
-  summary["path"] = {path("part", 1.4e-5), path("supported", 0.000512)};
+  Summary summary = both("P", "B");
+  summary.path = {path("part", 1.4e-5), path("supported", 0.000512)};
   auto text = headline(summary);
   EXPECT_EQ(text[0],
             "Along the path with the robot: stable up to 0.512 mm at every speed (weakest at position 10 of 11); "
@@ -125,34 +126,34 @@ TEST(Headline, OfAPathIsOfAllItsPositions) {
   EXPECT_EQ(sentences(summary)[0],
             "With the robot at B, cut at P: stable up to 20 mm at 1900 rpm (tool length); without: 1.7 mm.")
       << "the single position comes second";
-  summary["path"][1]["at_case_speed"] = {{"spindle_speed_rpm", 1900.0},    {"limiting_depth_m", 0.009},
-                                         {"at_depth_limit", false},        {"limited_at_position", 6},
-                                         {"status", "converged"},          {"positions_not_converged", 0},
-                                         {"error_estimate_relative", 1e-3}};
+  summary.path[1].at_case_speed = {1900.0, 0.009, false, 6, 1e-3, "converged", 0};
   EXPECT_EQ(
       headline(summary)[0].find("Along the path with the robot: stable up to 9 mm at 1900 rpm (weakest at position "
                                 "6 of 11); without:"),
       0U);
-  summary["path"][1]["at_case_speed"]["positions_not_converged"] = 1;
+  summary.path[1].at_case_speed->positions_not_converged = 1;
   EXPECT_EQ(headline(summary)[0].find("Along the path with the robot: not converged: 9 mm at 1900 rpm"), 0U);
 }
 
 TEST(Headline, OfAPartAloneNamesItsModes) {
-  const json summary = {
-      {"lobes", json::array()},
-      {"part", {{"modes", {{{"frequency_hz", 0.0}, {"rigid_body", true}}, {{"frequency_hz", 212.918}}}}}}};
+  Summary summary;
+  summary.part.emplace();
+  summary.part->modes.resize(2);
+  summary.part->modes[0].rigid_body = true;
+  summary.part->modes[1].frequency_hz = 212.918;
   const auto text = headline(summary);
   ASSERT_EQ(text.size(), 1U);
   EXPECT_EQ(text[0], "First natural frequencies of the part: 212.9 Hz.");
 }
 
 TEST(Sentences, AreThePointsWhatTheRunSaidAndTheRoutes) {
-  json summary = both("P", "P");
-  json lost = point("supported", true, 0.018);
-  lost["contact"] = {{"lost", true}};
-  summary["operating_points"] = {point("part", false, -0.0003), lost};
-  summary["sentences"] = {"Part alone: 1 % more K_t lowers the limit by 1.00 %."};
-  summary["coupling"] = {{"route_difference", {{"max_relative", 7.4e-13}}}};
+  Summary summary = both("P", "P");
+  OperatingPointSummary lost = point("supported", true, 0.018);
+  lost.contact.emplace().lost = true;
+  summary.operating_points = {point("part", false, -0.0003), lost};
+  summary.sentences = {"Part alone: 1 % more K_t lowers the limit by 1.00 %."};
+  summary.coupling.emplace();
+  summary.coupling->route_difference.emplace().max_relative = 7.4e-13;
   EXPECT_EQ(
       sentences(summary),
       (std::vector<std::string>{"Part alone, 1900 rpm and 2 mm: chatter, 0.3 mm too deep.",

@@ -18,14 +18,17 @@ namespace fs = std::filesystem;
 using Numbers = std::vector<double>;
 using Words = std::vector<std::string>;
 
-json summary() {
-  return {
-      {"case", "small"},
-      {"cutting", {{"teeth", 4}, {"depth_limit_m", 0.02}}},
-      {"lobes",
-       {{{"name", "tool"},
-         {"main_modes_hz", {855.0, 1610.0}},
-         {"best_pockets", {{{"depth_m", 0.01}, {"spindle_speed_rpm", 2000.0}, {"removal_rate_cm3_per_min", 8.0}}}}}}}};
+Summary summary() {
+  Summary summary;
+  summary.case_name = "small";
+  summary.cutting.emplace();
+  summary.cutting->teeth = 4;
+  summary.cutting->depth_limit_m = 0.02;
+  summary.lobes.emplace_back();
+  summary.lobes[0].name = "tool";
+  summary.lobes[0].main_modes_hz = {855.0, 1610.0};
+  summary.lobes[0].best_pockets = {{2000.0, 0.01, false, "stability", 8.0}};
+  return summary;
 }
 
 void write_chart(const fs::path& folder, const Words& status) {
@@ -68,9 +71,11 @@ TEST(LobesData, RobustLimitsAndOtherMethodsAreThereWhereTheCaseAsksForThem) {
   io::Table robust = limits;
   robust.push_back({"robust_depth_m", Numbers{0.0008, 0.0}});
   io::write_csv(folder / "lobes" / "tool.csv", robust);
-  json with = summary();
+  Summary with = summary();
   EXPECT_FALSE(lobes_data(folder, with)["lobes"][0].contains("compared"));
-  with["lobes"][0]["compared"] = {{{"name", "zeroth_order"}}, {{"name", "left_out"}}};
+  with.lobes[0].compared.resize(2);
+  with.lobes[0].compared[0].name = "zeroth_order";
+  with.lobes[0].compared[1].name = "left_out";
   io::write_csv(folder / "lobes" / "tool_zeroth_order.csv", limits);
   const json chart = lobes_data(folder, with)["lobes"][0];
   EXPECT_NEAR(unpacked<float>(chart["robust_depth_m"])[0], 0.0008, 1e-8);

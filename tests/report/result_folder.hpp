@@ -10,16 +10,18 @@
 #include "core/atomic_file.hpp"
 #include "dynamics/response_model.hpp"
 #include "io/frf/response_csv.hpp"
+#include "report/summary/summary_json.hpp"
 
 namespace thinwall::report {
 
 /// An empty folder of that name among the test's temporary files, with a summary.json.
-inline std::filesystem::path result_folder(const std::string& name, nlohmann::json summary = {{"case", "small"}}) {
+inline std::filesystem::path result_folder(const std::string& name, const std::string& case_name = "small") {
   const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / name;
   std::filesystem::remove_all(folder);
   for (const char* sub : {"frf", "modes", "lobes"}) std::filesystem::create_directories(folder / sub);
-  if (!summary.contains("lobes")) summary["lobes"] = nlohmann::json::array();
-  core::write_file_atomically(folder / "summary.json", summary.dump());
+  Summary summary;
+  summary.case_name = case_name;
+  core::write_file_atomically(folder / "summary.json", summary_json(summary).dump());
   return folder;
 }
 

@@ -46,7 +46,7 @@ const io::Table two_modes{
 
 void expect_shapes_refused(const fs::path& folder, const std::string& file) {
   try {
-    (void)shapes_data(folder, json::object());
+    (void)shapes_data(folder, Summary{});
     FAIL() << file;
   } catch (const core::DataError& error) {
     EXPECT_NE(std::string(error.what()).find(file), std::string::npos) << error.what();
@@ -54,7 +54,7 @@ void expect_shapes_refused(const fs::path& folder, const std::string& file) {
 }
 
 TEST(ShapesData, AreTheModesOfTheTableOnTheSurface) {
-  const json shapes = shapes_data(square("shapes_square", two_modes), json::object())["shapes"];
+  const json shapes = shapes_data(square("shapes_square", two_modes), Summary{})["shapes"];
   ASSERT_EQ(shapes["modes"].size(), 2U);
   const json &first = shapes["modes"][0], &second = shapes["modes"][1];
   EXPECT_EQ(first["hz"], 100.0);
@@ -71,7 +71,7 @@ TEST(ShapesData, AreTheModesOfTheTableOnTheSurface) {
 }
 
 TEST(ShapesData, SupportsHaveTheirNames) {
-  const json fixtures = shapes_data(square("shapes_supports", two_modes), json::object())["shapes"]["fixtures"];
+  const json fixtures = shapes_data(square("shapes_supports", two_modes), Summary{})["shapes"]["fixtures"];
   ASSERT_EQ(fixtures.size(), 2U);
   EXPECT_EQ(fixtures[0]["name"], "left");
   EXPECT_EQ(unpacked<std::uint32_t>(fixtures[0]["triangles"]), (std::vector<std::uint32_t>{0}));
@@ -89,7 +89,7 @@ TEST(ShapesData, PartAndRobotHaveOneScale) {
                                                          {"robot_x", Numbers{6.0}},
                                                          {"robot_y", Numbers{-8.0}},
                                                          {"robot_z", Numbers{0.0}}});
-  const json mode = shapes_data(folder, json::object())["shapes"]["modes"][2];
+  const json mode = shapes_data(folder, Summary{})["shapes"]["modes"][2];
   EXPECT_EQ(mode["of"], "coupled");
   EXPECT_NEAR(mode["robot"][0].get<double>(), 0.6, 1e-12);
   EXPECT_NEAR(mode["robot"][1].get<double>(), -0.8, 1e-12);
@@ -104,7 +104,7 @@ TEST(ShapesData, TheMacIsTheTable) {
                                                {"coupled_mode_1", Numbers{0.5, 0.25}},
                                                {"coupled_mode_2", Numbers{1.0, 0.0}},
                                                {"coupled_mode_3", Numbers{0.0, 0.125}}});
-  const json mac = shapes_data(folder, json::object())["mac"];
+  const json mac = shapes_data(folder, Summary{})["mac"];
   EXPECT_EQ(mac["values"]["shape"], (std::vector<int>{2, 3}));
   EXPECT_EQ(unpacked<float>(mac["values"]), (std::vector<float>{0.5F, 1.0F, 0.0F, 0.25F, 0.0F, 0.125F}));
   EXPECT_EQ(mac["row_hz"], (Numbers{100.0, 250.5}));

@@ -30,17 +30,15 @@ TEST(Library, GivesTheFiguresOfTheCommandLineToTheLastDigit) {
   fs::remove_all(out);
   ASSERT_EQ(results.lobes.size(), 2U);
   for (std::size_t i = 0; i < results.lobes.size(); ++i) {
-    const nlohmann::json& chart = run.summary["lobes"][i];
-    EXPECT_EQ(chart["name"].get<std::string>(), results.lobes[i].name);
-    EXPECT_EQ(chart["minimum_depth_m"].get<double>(), results.lobes[i].lobes.minimum_depth_m);
-    EXPECT_EQ(chart["at_case_speed"]["limiting_depth_m"].get<double>(),
-              results.lobes[i].at_spindle_speed->limiting_depth_m);
+    const report::LobesSummary& chart = run.summary.lobes[i];
+    EXPECT_EQ(chart.name, results.lobes[i].name);
+    EXPECT_EQ(chart.minimum_depth_m, results.lobes[i].lobes.minimum_depth_m);
+    EXPECT_EQ(chart.at_case_speed->limiting_depth_m, results.lobes[i].at_spindle_speed->limiting_depth_m);
   }
-  EXPECT_EQ(run.summary["coupling"]["route_difference"]["max_relative"].get<double>(),
-            results.coupled->difference->max_relative);
+  EXPECT_EQ(run.summary.coupling->route_difference->max_relative, results.coupled->difference->max_relative);
   const auto& modes = results.finite_elements->modes.frequency_hz;
   for (Eigen::Index i = 0; i < modes.size(); ++i)
-    EXPECT_EQ(run.summary["part"]["modes"][static_cast<std::size_t>(i)]["frequency_hz"].get<double>(), modes(i));
+    EXPECT_EQ(run.summary.part->modes[static_cast<std::size_t>(i)].frequency_hz, modes(i));
 }
 
 TEST(Library, TellsItsStagesAndMessagesToWhoeverListensAndWritesNothing) {

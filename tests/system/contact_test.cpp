@@ -11,6 +11,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "io/frf/response_csv.hpp"
+#include "report/summary/summary_json.hpp"
 #include "report/terminal_report.hpp"
 #include "tests/measurement/synthetic_measurement.hpp"
 #include "tests/system/run_in_folder.hpp"
@@ -112,7 +113,7 @@ TEST(Contact, ASpringIsFoundAgainFromTheAssemblyThatWasComputedWithIt) {
   EXPECT_EQ(summary["contacts"][0]["stiffness_n_per_m"][0].get<double>(), found(summary, "stiffness_n_per_m"));
   EXPECT_LT(difference(known, seen, "Q.y"), 1e-6) << "the joint that was found is the one that was coupled";
   EXPECT_LT(summary["coupling"]["route_difference"]["max_relative"].get<double>(), 1e-9) << "by both routes";
-  const std::string text = terminal_report(summary, "results");
+  const std::string text = terminal_report(summary_from(summary, "summary.json"), "results");
   EXPECT_NE(text.find("contact     P-R: x 2e+06 N/m"), std::string::npos) << text;
   EXPECT_NE(text.find("found along x: 2e+06 ±"), std::string::npos) << text;
 }
@@ -209,7 +210,8 @@ TEST(Contact, APressedBallIsHertzsInTheRunAndItsReport) {
   EXPECT_NEAR(joined["hertz"]["contact_radius_m"].get<double>() / a, 1.0, 1e-12);
   EXPECT_NEAR(joined["hertz"]["peak_pressure_pa"].get<double>() / (1.5 * F / (M_PI * a * a)), 1.0, 1e-12);
   EXPECT_NEAR(joined["preload_n"].get<double>(), F, 1e-12);
-  EXPECT_NE(terminal_report(summary, "results").find("hertz, 60 N; radius"), std::string::npos);
+  EXPECT_NE(terminal_report(summary_from(summary, "summary.json"), "results").find("hertz, 60 N; radius"),
+            std::string::npos);
   char stiffness[64];
   std::snprintf(stiffness, sizeof stiffness, "stiffness = \"%.17g N/m\"\n", k);
   (void)run(wall + robot + contact(stiffness), same);
@@ -230,7 +232,7 @@ TEST(Contact, ATruncatedKernelJoinsOnceWhatIsGivenTwice) {
   EXPECT_LT(coupling["regularisation"]["compatibility_residual_max"].get<double>(), 1e-9) << "both ask for the same";
   EXPECT_TRUE(coupling["route_difference"].is_null()) << "there is no spatial route, and none is claimed";
   EXPECT_NE(coupling["no_spatial_route"].get<std::string>().find("depend"), std::string::npos);
-  EXPECT_NE(terminal_report(summary, "r").find("637 of 637 lines"), std::string::npos);
+  EXPECT_NE(terminal_report(summary_from(summary, "summary.json"), "r").find("637 of 637 lines"), std::string::npos);
 }
 
 // One rigid direction has one singular value: Tikhonov leaves t²/(1 + t²) of its opening, and the routes differ.
@@ -242,7 +244,7 @@ TEST(Contact, WhatTikhonovChangesIsReportedAndNotHidden) {
   EXPECT_NEAR(coupling["regularisation"]["compatibility_residual_max"].get<double>(), 0.01 / 1.01, 1e-9);
   EXPECT_EQ(coupling["regularisation"]["lines_with_dropped"], 0);
   EXPECT_GT(coupling["route_difference"]["max_relative"].get<double>(), 1e-3);
-  EXPECT_NE(terminal_report(summary, "r").find("coupling differ by"), std::string::npos);
+  EXPECT_NE(terminal_report(summary_from(summary, "summary.json"), "r").find("coupling differ by"), std::string::npos);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "io/frf/response_csv.hpp"
 #include "io/program_id.hpp"
 #include "report/page/document.hpp"
+#include "report/summary/summary_json.hpp"
 #include "run_in_folder.hpp"
 #include "study/kept/checkpoint.hpp"
 #include "study/kept/stage_keys.hpp"
@@ -105,7 +106,7 @@ support = "follows"
 }
 
 nlohmann::json run_kept(const std::string& text, const fs::path& folder, bool fresh = false) {
-  return run_case(parse_case(text, folder), {folder, fresh, -1, false}).summary;
+  return summary_json(run_case(parse_case(text, folder), {folder, fresh, -1, false}).summary);
 }
 
 nlohmann::json without_times(nlohmann::json summary) {
@@ -206,7 +207,7 @@ TEST(Kept, PartsMayBeSharedByManyRuns) {
   const auto run = [&](const std::string& text, const std::string& name) {
     RunOptions options{scratch(name), false, -1, false};
     options.parts = parts;
-    return run_case(parse_case(text, options.out), options).summary;
+    return summary_json(run_case(parse_case(text, options.out), options).summary);
   };
   const std::string cut = replaced(wall, "radial_depth = \"1 mm\"", "radial_depth = \"0.5 mm\"");
   const std::string thick = replaced(wall, "thickness = \"3 mm\"", "thickness = \"4 mm\"");

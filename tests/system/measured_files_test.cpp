@@ -69,7 +69,7 @@ TEST(MeasuredCase, TheCommittedFilesSayWhatTheyAreAndMeetTheCasesExpectations) {
   }
   const RunResult run = run_case(cases::read_case(shipped / "barrios-2019-measured", {}),
                                  {scratch("measured_committed"), true, -1, false});
-  EXPECT_TRUE(run.expectations_hold) << run.summary["checks"].dump(2);
+  EXPECT_TRUE(run.expectations_hold) << summary_json(run.summary)["checks"].dump(2);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "io/surface/stl.hpp"
 #include "mesh/box.hpp"
 #include "mesh/surface/shapes.hpp"
+#include "report/summary/summary_json.hpp"
 #include "report/terminal_report.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
@@ -47,7 +48,7 @@ ratio = 0.01
 )";
 
 nlohmann::json run(const std::string& part, const fs::path& folder, const std::string& out) {
-  return run_case(parse_case("[part]\n" + part + rest, folder), {folder / out, true, -1, false}).summary;
+  return summary_json(run_case(parse_case("[part]\n" + part + rest, folder), {folder / out, true, -1, false}).summary);
 }
 
 /// A wall of 60 x 100 x 4 mm as a box, and as the triangles of an STL in inches whose facets are turned and doubled:
@@ -151,12 +152,13 @@ TEST(PartFile, MatricesOfAPartGoThroughThePipelineAsThePartDoes) {
   request.out = folder / "model";
   request.modes = 20;
   (void)reduce_part(parse_case(plate, folder), request);
-  const auto own = run_case(parse_case(plate, folder), {folder / "own", true, -1, false}).summary;
+  const auto own = summary_json(run_case(parse_case(plate, folder), {folder / "own", true, -1, false}).summary);
   const std::string matrices =
       "[part]\nunit = \"m\"\nmass_unit = \"kg\"\n[part.matrices]\nstiffness = \"model/stiffness.mtx\"\n"
       "mass = \"model/mass.mtx\"\ndamping = \"model/damping.mtx\"\ndofs = \"model/dofs.csv\"\n" +
       with_place("", "matrices", "");
-  const auto from_files = run_case(parse_case(matrices, folder), {folder / "files", true, -1, false}).summary;
+  const auto from_files =
+      summary_json(run_case(parse_case(matrices, folder), {folder / "files", true, -1, false}).summary);
   EXPECT_EQ(from_files["reduction"]["full_dofs"], 23);
   EXPECT_LT(from_files["coupling"]["route_difference"]["max_relative"].get<double>(), 1e-9);
   for (std::size_t k = 0; k < 6; ++k) {
@@ -191,7 +193,8 @@ TEST(PartFile, AMeshIsSolvedOnItsOwnNodesAndHeldByItsSets) {
     return "[part]\nfile = \"" + source + "\"\nunit = \"mm\"\n" + block_material + "[[part.supports]]\non = \"" + on +
            "\"\n[modes]\ncount = 6\n";
   };
-  const auto by_set = run_case(parse_case(text("CLAMPED"), folder), {folder / "set", true, -1, false}).summary;
+  const auto by_set =
+      summary_json(run_case(parse_case(text("CLAMPED"), folder), {folder / "set", true, -1, false}).summary);
   const mesh::SolidMesh solid = io::read_solid_mesh(source, "mm");
   const auto& held = mesh::node_set(solid, "clamped", "box").nodes;
   const fem::Model model =
@@ -223,7 +226,7 @@ TEST(PartFile, ClampsGoFromFreeToHeldAndMassesCount) {
       "order = 3\n[modes]\ncount = 4\n" +
       block_material;
   const auto run_with = [&](const std::string& more, const std::string& out) {
-    return run_case(parse_case(plate + more, folder), {folder / out, true, -1, false}).summary;
+    return summary_json(run_case(parse_case(plate + more, folder), {folder / out, true, -1, false}).summary);
   };
   const auto clamps = [](const std::string& k) {
     return "[[part.clamps]]\non = \"y_min\"\nnormal_stiffness = \"" + k + "\"\ntangential_stiffness = \"" + k + "\"\n";
@@ -239,8 +242,9 @@ TEST(PartFile, ClampsGoFromFreeToHeldAndMassesCount) {
   const auto soft = run_with(clamps("1 N/m^3"), "soft");
   EXPECT_EQ(free["part"]["rigid_body_modes"], 6);
   EXPECT_EQ(free["part"]["free_motions"].size(), 6U) << free["part"].dump();
-  EXPECT_NE(terminal_report(free, "r").find("6: translation along x, "), std::string::npos)
-      << terminal_report(free, "r");
+  EXPECT_NE(terminal_report(summary_from(free, "summary.json"), "r").find("6: translation along x, "),
+            std::string::npos)
+      << terminal_report(summary_from(free, "summary.json"), "r");
   EXPECT_NEAR(frequencies(soft).back() / frequencies(free).back(), 1.0, 1e-6);
   const std::string mass =
       "[[part.masses]]\nat = \"P\"\nmass = \"20 g\"\n[points.P]\nposition = [0.03, 0.1, 0.004]\npatch_radius = \"5 "
@@ -257,17 +261,18 @@ TEST(PartFile, ABoxOfAnotherMaterialEndsWhereItEnds) {
   const fs::path folder = fs::path(::testing::TempDir()) / "part_two_materials";
   fs::remove_all(folder);
   fs::create_directories(folder);
-  const auto summary = run_case(parse_case("[part]\nlength = \"100 mm\"\nheight = \"40 mm\"\nthickness = \"5 mm\"\n"
-                                           "[part.axes]\nlength = \"x\"\nheight = \"y\"\nthickness = \"z\"\n"
-                                           "[part.mesh]\ntolerance = 0.001\n[modes]\ncount = 4\n" +
-                                               block_material +
-                                               "[[part.materials]]\non = \"end\"\nyoungs_modulus = \"210 GPa\"\n"
-                                               "poisson_ratio = 0.3\ndensity = \"7850 kg/m^3\"\n"
-                                               "[selections.end.box]\nmin = [\"60 mm\", \"-1 mm\", \"-1 mm\"]\n"
-                                               "max = [\"101 mm\", \"41 mm\", \"6 mm\"]\n",
-                                           folder),
-                                {folder / "out", true, -1, false})
-                           .summary;
+  const auto summary =
+      summary_json(run_case(parse_case("[part]\nlength = \"100 mm\"\nheight = \"40 mm\"\nthickness = \"5 mm\"\n"
+                                       "[part.axes]\nlength = \"x\"\nheight = \"y\"\nthickness = \"z\"\n"
+                                       "[part.mesh]\ntolerance = 0.001\n[modes]\ncount = 4\n" +
+                                           block_material +
+                                           "[[part.materials]]\non = \"end\"\nyoungs_modulus = \"210 GPa\"\n"
+                                           "poisson_ratio = 0.3\ndensity = \"7850 kg/m^3\"\n"
+                                           "[selections.end.box]\nmin = [\"60 mm\", \"-1 mm\", \"-1 mm\"]\n"
+                                           "max = [\"101 mm\", \"41 mm\", \"6 mm\"]\n",
+                                       folder),
+                            {folder / "out", true, -1, false})
+                       .summary);
   mesh::TetMesh mesh = mesh::kuhn_box({0.1, 0.04, 0.005}, {10, 4, 1});
   fem::Materials materials{{{71e9, 0.33, 2810.0}, {210e9, 0.3, 7850.0}}, {}};
   for (const auto& tet : mesh.tets) {
@@ -308,8 +313,9 @@ TEST(PartFile, FreeMatricesAreFree) {
       "[part]\nunit = \"m\"\nmass_unit = \"kg\"\n[part.matrices]\nstiffness = \"model/stiffness.mtx\"\n"
       "mass = \"model/mass.mtx\"\ndofs = \"model/dofs.csv\"\n[points.P]\n[points.A]\n[points.B]\n[modes]\ncount = 4\n"
       "[reduction]\nmodes = 10\n[damping]\nratio = 0.01\n";
-  const auto own = run_case(part, {folder / "own", true, -1, false}).summary;
-  const auto from_files = run_case(parse_case(matrices, folder), {folder / "files", true, -1, false}).summary;
+  const auto own = summary_json(run_case(part, {folder / "own", true, -1, false}).summary);
+  const auto from_files =
+      summary_json(run_case(parse_case(matrices, folder), {folder / "files", true, -1, false}).summary);
   EXPECT_EQ(from_files["part"]["rigid_body_modes"], 6);
   for (std::size_t k = 6; k < 10; ++k) EXPECT_NEAR(frequencies(from_files)[k] / frequencies(own)[k], 1.0, 2e-3) << k;
 }
@@ -323,12 +329,13 @@ TEST(PartFile, SmallMatricesGiveTheModesThatTheyHave) {
   core::write_file_atomically(folder / "k.mtx", head + "3 3 5\n1 1 2e6\n2 1 -1e6\n2 2 2e6\n3 2 -1e6\n3 3 1e6\n");
   core::write_file_atomically(folder / "m.mtx", head + "3 3 3\n1 1 1\n2 2 1\n3 3 1\n");
   core::write_file_atomically(folder / "dofs.csv", "node,component,point\n1,x,A\n2,x,B\n3,x,C\n");
-  const auto summary = run_case(parse_case("[part]\nunit = \"m\"\nmass_unit = \"kg\"\n[part.matrices]\n"
-                                           "stiffness = \"k.mtx\"\nmass = \"m.mtx\"\ndofs = \"dofs.csv\"\n[points.C]\n"
-                                           "directions = \"x\"\n",
-                                           folder),
-                                {folder / "out", true, -1, false})
-                           .summary;
+  const auto summary =
+      summary_json(run_case(parse_case("[part]\nunit = \"m\"\nmass_unit = \"kg\"\n[part.matrices]\n"
+                                       "stiffness = \"k.mtx\"\nmass = \"m.mtx\"\ndofs = \"dofs.csv\"\n[points.C]\n"
+                                       "directions = \"x\"\n",
+                                       folder),
+                            {folder / "out", true, -1, false})
+                       .summary);
   ASSERT_EQ(summary["part"]["modes"].size(), 2U);
   for (int k = 1; k <= 2; ++k) {  // λ_k = 4 (k/m) sin²((2k − 1) π / 14) of a chain of three, held at one end
     const double omega = 2e3 * std::sin((2 * k - 1) * M_PI / 14);
@@ -350,19 +357,21 @@ TEST(PartFile, APointOnACurvedSurfaceIsHeldToTheFileAndMovedToTheMesh) {
            position + "\n" + more;
   };
   const std::string there = "[\"3.158 mm\", \"4.509 mm\", \"60 mm\"]";
-  const auto at_point = run_case(parse_case(text(there, ""), folder), {folder / "point", true, -1, false}).summary;
-  const auto over_disc =
+  const auto at_point =
+      summary_json(run_case(parse_case(text(there, ""), folder), {folder / "point", true, -1, false}).summary);
+  const auto over_disc = summary_json(
       run_case(parse_case(text(there, "patch_radius = \"2 mm\"\n"), folder), {folder / "disc", true, -1, false})
-          .summary;
+          .summary);
   EXPECT_EQ(at_point["status"], "ok");
   // What the mesh costs stands in the answer, and whether that is what was asked for; and no free motion is there.
-  const std::string text_of_run = terminal_report(at_point, "results");
+  const std::string text_of_run = terminal_report(summary_from(at_point, "summary.json"), "results");
   const auto& estimate = at_point["mesh"]["error_estimate"];
   EXPECT_NE(text_of_run.find("by estimate frequencies within"), std::string::npos) << text_of_run;
   EXPECT_EQ(text_of_run.find("NOT MET") == std::string::npos, estimate["met"].get<bool>()) << text_of_run;
   nlohmann::json missed = at_point;
   missed["mesh"]["error_estimate"]["met"] = !estimate["met"].get<bool>();
-  EXPECT_EQ(terminal_report(missed, "results").find("NOT MET") == std::string::npos, !estimate["met"].get<bool>());
+  EXPECT_EQ(terminal_report(summary_from(missed, "summary.json"), "results").find("NOT MET") == std::string::npos,
+            !estimate["met"].get<bool>());
   EXPECT_TRUE(at_point["part"]["free_motions"].empty());
   EXPECT_EQ(text_of_run.find("rigid-body modes"), std::string::npos) << text_of_run;
   EXPECT_EQ(over_disc["status"], "ok");

@@ -11,6 +11,8 @@
 #include "app/case_run.hpp"
 #include "case/reader.hpp"
 #include "io/results/csv_table.hpp"
+#include "report/summary/summary_json.hpp"
+#include "tests/system/published_schema.hpp"
 
 namespace thinwall::tests {
 
@@ -25,9 +27,11 @@ inline std::filesystem::path scratch(const std::string& name) {
   return folder;
 }
 
-/// Runs the case of that text, whose files and results are in `folder`; returns its summary.
+/// Runs the case of that text, whose files and results are in `folder`; returns its summary, which is as published.
 inline nlohmann::json run(const std::string& text, const std::filesystem::path& folder) {
-  return run_case(parse_case(text, folder), {folder, true, -1, false}).summary;
+  const RunResult result = run_case(parse_case(text, folder), {folder, true, -1, false});
+  expect_as_published(folder / "summary.json");
+  return summary_json(result.summary);
 }
 
 /// A column of a CSV.

@@ -11,6 +11,7 @@
 #include "dynamics/response_model.hpp"
 #include "io/frf/response_csv.hpp"
 #include "io/results/vtp.hpp"
+#include "report/summary/summary_json.hpp"
 #include "tests/system/run_in_folder.hpp"
 
 namespace thinwall::tests::template_test {
@@ -26,9 +27,9 @@ namespace fs = std::filesystem;
 nlohmann::json summary_of_template(const std::string& name) {
   const fs::path folder = scratch("template_" + name);
   const Case source = read_case(write_template(name, folder / "case"));
-  nlohmann::json summary = run_case(source, {folder, true, -1, false}).summary;
+  nlohmann::json summary = summary_json(run_case(source, {folder, true, -1, false}).summary);
   EXPECT_EQ(summary["status"], "ok");
-  EXPECT_TRUE(fs::exists(folder / "summary.json"));
+  expect_as_published(folder / "summary.json");
   for (const auto& chart : summary["lobes"]) EXPECT_EQ(chart["speeds_not_converged"], 0) << name;
   return summary;
 }

@@ -12,6 +12,7 @@
 #include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "io/frf/uff.hpp"
+#include "report/summary/summary_json.hpp"
 #include "tests/system/run_in_folder.hpp"
 #include "tests/verification/tool_swap/machine.hpp"
 
@@ -124,7 +125,8 @@ TEST(ToolSwapCase, TheCaseIsTheSyntheticMachine) {
 TEST(ToolSwapCase, ItsChartIsThatOfTheMeasuredTip) {
   const dynamics::FrequencyAxis axis = dynamics::linear_axis(5.0, 8000.0, 1600);
   const fs::path folder = measured_folder(axis);
-  const auto swapped = run_case(parse_case(swap_case(), folder), {folder / "swap", true, -1, false}).summary;
+  const auto swapped =
+      summary_json(run_case(parse_case(swap_case(), folder), {folder / "swap", true, -1, false}).summary);
   io::UffForm form;
   form.binary = true;
   io::write_uff(folder / "target.uff", with_target(axis), form);
@@ -139,7 +141,7 @@ TEST(ToolSwapCase, ItsChartIsThatOfTheMeasuredTip) {
     }
   }
   text.insert(text.find("[cutting]"), files);
-  const auto measured = run_case(parse_case(text, folder), {folder / "direct", true, -1, false}).summary;
+  const auto measured = summary_json(run_case(parse_case(text, folder), {folder / "direct", true, -1, false}).summary);
   EXPECT_NEAR(
       swapped["lobes"][0]["minimum_depth_m"].get<double>() / measured["lobes"][0]["minimum_depth_m"].get<double>(), 1.0,
       1e-4);
