@@ -22,7 +22,8 @@ std::shared_ptr<const setup::ImportedPart> read_imported(const setup::Part& part
   try {
     return setup::read_part_file(part);
   } catch (const core::InputError&) {
-    if (part.shape == setup::PartShape::matrices) setup::require_plausible_files(part.file.matrices);
+    if (const auto* matrices = std::get_if<setup::MatrixShape>(&part.shape))
+      setup::require_plausible_files(matrices->files);
     throw;
   }
 }

@@ -24,7 +24,7 @@ void add_surface(nlohmann::json& result, const mesh::SurfaceRepair& surface) {
 nlohmann::json geometry_summary(const setup::Part& part) {
   const setup::ImportedPart& imported = *part.imported;
   nlohmann::json result = {
-      {"file", setup::main_file(part).filename().string()}, {"unit", part.file.unit}, {"read", imported.said}};
+      {"file", setup::main_file(part).filename().string()}, {"unit", setup::file_unit(part)}, {"read", imported.said}};
   result["size_m"] = imported.box.isEmpty() ? nlohmann::json(nullptr) : vector_json(imported.box.sizes());
   result["notes"] = imported.notes;
   if (imported.surface) add_surface(result, *imported.surface);
