@@ -132,7 +132,7 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
     const auto rounded = [](double value) { return core::readable_text(value, core::kind::number); };
     if (size.elements > 0.0)
       out << "  elements  about " << rounded(size.elements) << " of order " << size.order << ", "
-          << (source.part->shape == setup::PartShape::mesh ? "as the file has them"
+          << (setup::kind(*source.part) == setup::ShapeKind::mesh ? "as the file has them"
               : source.part->mesh.element_size
                   ? "size " + core::readable_text(*source.part->mesh.element_size, core::kind::length)
                   : "size and order from the tolerance of " + rounded(source.part->mesh.tolerance))

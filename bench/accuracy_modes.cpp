@@ -103,8 +103,8 @@ mesh::TetMesh subdivided(const mesh::TetMesh& mesh, int n) {
 
 /// The closed surface of the flat part, in triangles as large as its borders allow.
 mesh::FacetedSurface flat_surface(const setup::Part& part) {
-  if (part.shape == setup::PartShape::box) return mesh::surface(mesh::Box{setup::box_size(part)});
-  const mesh::TetMesh filled = one_layer(part, mesh::diagonal(part.prism));
+  if (setup::kind(part) == setup::ShapeKind::box) return mesh::surface(mesh::Box{setup::box_size(part)});
+  const mesh::TetMesh filled = one_layer(part, mesh::diagonal(setup::planar(part).prism));
   mesh::FacetedSurface surface{filled.vertices, {}};
   for (const auto& t : mesh::boundary(filled)) surface.facets.emplace_back(t.vertices.begin(), t.vertices.end());
   return surface;

@@ -47,27 +47,64 @@ setup::PartFile bind_part_file(const Table& table, const std::filesystem::path& 
   setup::PartFile file;
   if (const std::string name = table.text("file"); !name.empty()) file.path = folder / name;
   file.unit = table.text("unit");
-  file.mass_unit = table.text("mass_unit");
   if (table.has("origin")) file.origin = table.vector("origin");
+  return file;
+}
+
+mesh::SurfaceRepairOptions bind_repair(const Table& table) {
+  mesh::SurfaceRepairOptions options;
+  options.merge_tolerance_m = table.optional("merge_tolerance").value_or(0.0);
+  options.largest_hole_edges = table.has("largest_hole") ? table.integer("largest_hole") : 0;
+  options.largest_movement = table.optional("largest_movement").value_or(options.largest_movement);
+  options.thinnest_wall_m = table.optional("thinnest_wall").value_or(0.0);
+  return options;
+}
+
+setup::MatrixShape bind_matrices(const Table& table, const std::filesystem::path& folder) {
   const Table matrices = table.table("matrices");
-  const auto matrix = [&](const char* key) {
+  const auto file = [&](const char* key) {
     const std::string name = matrices.text(key);
     return name.empty() ? std::filesystem::path() : folder / name;
   };
-  file.matrices.stiffness = matrix("stiffness");
-  file.matrices.mass = matrix("mass");
-  file.matrices.damping = matrix("damping");
-  file.matrices.dofs = matrix("dofs");
-  file.matrices.positions = matrix("positions");
-  file.matrices.length_unit = file.unit;
-  file.matrices.mass_unit = file.mass_unit;
-  const Table repair = table.table("repair");
-  mesh::SurfaceRepairOptions& options = file.repair;
-  options.merge_tolerance_m = repair.optional("merge_tolerance").value_or(0.0);
-  options.largest_hole_edges = repair.has("largest_hole") ? repair.integer("largest_hole") : 0;
-  options.largest_movement = repair.optional("largest_movement").value_or(options.largest_movement);
-  options.thinnest_wall_m = repair.optional("thinnest_wall").value_or(0.0);
-  return file;
+  setup::MatrixShape shape;
+  shape.files.stiffness = file("stiffness");
+  shape.files.mass = file("mass");
+  shape.files.damping = file("damping");
+  shape.files.dofs = file("dofs");
+  shape.files.positions = file("positions");
+  shape.files.length_unit = table.text("unit");
+  shape.files.mass_unit = table.text("mass_unit");
+  if (table.has("origin")) shape.origin = table.vector("origin");
+  return shape;
+}
+
+std::optional<setup::Bend> bind_bend(const Table& table) {
+  if (!table.exists()) return std::nullopt;
+  return setup::Bend{table.number("radius"),
+                     table.has("along") ? std::optional(axis_index(table.text("along"))) : std::nullopt};
+}
+
+setup::PartShape bind_shape(const Table& table, const std::filesystem::path& folder) {
+  const auto bend = bind_bend(table.table("bend"));
+  switch (table.choice<setup::ShapeKind>("shape")) {
+    case setup::ShapeKind::box:
+      break;
+    case setup::ShapeKind::prism:
+      return setup::PrismShape{bind_prism(table), bend};
+    case setup::ShapeKind::surface:
+      return setup::SurfaceShape{bind_part_file(table, folder), bind_repair(table.table("repair"))};
+    case setup::ShapeKind::mesh:
+      return setup::MeshShape{bind_part_file(table, folder), table.text("mass_unit")};
+    case setup::ShapeKind::matrices:
+      return bind_matrices(table, folder);
+  }
+  return setup::BoxShape{table.number("length"),
+                         table.number("height"),
+                         table.number("thickness"),
+                         axis_index(table.text("axes.length")),
+                         axis_index(table.text("axes.height")),
+                         axis_index(table.text("axes.thickness")),
+                         bend};
 }
 
 setup::Material bind_material(const Table& table) {
@@ -88,21 +125,7 @@ void bind_attachments(const Table& table, setup::Part& part) {
 
 setup::Part bind_part(const Table& table, const std::filesystem::path& folder) {
   setup::Part part;
-  part.file = bind_part_file(table, folder);
-  part.shape = table.choice<setup::PartShape>("shape");
-  if (part.shape == setup::PartShape::prism) part.prism = bind_prism(table);
-  if (const Table bend = table.table("bend"); bend.exists()) {
-    part.bend = setup::Bend{bend.number("radius"), {}};
-    if (bend.has("along")) part.bend->along = axis_index(bend.text("along"));
-  }
-  part.length = table.number("length");
-  part.height = table.number("height");
-  part.thickness = table.number("thickness");
-  if (part.shape == setup::PartShape::box) {
-    part.length_axis = axis_index(table.text("axes.length"));
-    part.height_axis = axis_index(table.text("axes.height"));
-    part.thickness_axis = axis_index(table.text("axes.thickness"));
-  }
+  part.shape = bind_shape(table, folder);
   const Table material = table.table("material"), mesh = table.table("mesh");
   part.material = bind_material(material);
   bind_attachments(table, part);

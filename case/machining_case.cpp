@@ -14,12 +14,11 @@ std::vector<DataFile> named_files(const setup::Setup& source) {
     for (const setup::MeasuredFrf& frf : all) add(frf.file);
   };
   section = "part";
-  if (source.part && from_file(*source.part)) {
-    const io::MatrixFiles& matrices = source.part->file.matrices;
-    for (const auto& file : {source.part->file.path, matrices.stiffness, matrices.mass, matrices.damping,
-                             io::dof_table_path(matrices), matrices.positions})
-      add(file);
+  if (const auto* matrices = source.part ? std::get_if<setup::MatrixShape>(&source.part->shape) : nullptr) {
+    const io::MatrixFiles& of = matrices->files;
+    for (const auto& file : {of.stiffness, of.mass, of.damping, io::dof_table_path(of), of.positions}) add(file);
   }
+  if (const auto* file = source.part ? setup::shape_file(*source.part) : nullptr) add(file->path);
   add_measured(source.measured_part);
   section = "robot";
   if (source.robot) {

@@ -18,7 +18,7 @@ GeometrySummary geometry_summary(const setup::Part& part) {
   const setup::ImportedPart& imported = *part.imported;
   GeometrySummary result;
   result.file = setup::main_file(part).filename().string();
-  result.unit = part.file.unit;
+  result.unit = setup::file_unit(part);
   result.read = imported.summary;
   if (!imported.box.isEmpty()) result.size_m = imported.box.sizes();
   result.notes = imported.notes;

@@ -1,10 +1,9 @@
-#include "setup/contact_model.hpp"
-
 #include <cmath>
 
 #include "core/error.hpp"
 #include "core/overloaded.hpp"
 #include "io/results/csv_table.hpp"
+#include "setup/contact_model.hpp"
 
 namespace thinwall::setup {
 
@@ -19,7 +18,7 @@ double required_preload(const SupportSetup& source, const Contact& contact) {
 
 coupling::Elastic surface_of(const PartSetup& source, const std::optional<coupling::Elastic>& given) {
   if (given) return *given;
-  if (source.part && source.part->shape != PartShape::matrices)
+  if (source.part && kind(*source.part) != ShapeKind::matrices)
     return {source.part->material.youngs_modulus, source.part->material.poisson_ratio};
   throw core::InputError("what the ball touches is not known: give [contacts.surface]");
 }
@@ -29,12 +28,40 @@ coupling::HertzState touch(const ContactBall& ball, const coupling::Elastic& sur
   return coupling::hertz({coupling::relative_radius(ball.radius), ball.steel, surface}, preload_n);
 }
 
-/// Adds a spring along each direction of the contact.
-void add_springs(const Contact& contact, const std::vector<double>& stiffness, const std::vector<double>& damping,
-                 JoinedContact& result) {
-  for (std::size_t i = 0; i < stiffness.size(); ++i)
-    result.contact.springs.push_back({contact.directions[i], stiffness[i], damping[i], contact.loss_factor});
-}
+/// Adds the springs that each model of a contact gives; the preload is in the result.
+struct Joining {
+  const PartSetup& part;
+  const Contact& contact;
+  JoinedContact& result;
+
+  void add(const std::vector<double>& stiffness, const std::vector<double>& damping) const {
+    for (std::size_t i = 0; i < stiffness.size(); ++i)
+      result.contact.springs.push_back({contact.directions[i], stiffness[i], damping[i], contact.loss_factor});
+  }
+
+  void operator()(const SpringContact& springs) const { add(springs.stiffness, springs.damping); }
+
+  void operator()(const TabledContact& tabled) const {
+    if (!tabled.rows) throw core::InputError("its table was not read; call setup::read_data_files()");
+    result.contact.springs.push_back(coupling::spring_at(*tabled.rows, *result.preload_n, contact.directions.front()));
+    result.contact.springs.back().loss_factor = contact.loss_factor;
+  }
+
+  void operator()(const BallContact& pressed) const {
+    result.hertz = touch(pressed.ball, surface_of(part, pressed.surface), *result.preload_n);
+    std::vector<double> stiffness(contact.directions.size(), result.hertz->tangential);
+    stiffness.front() = result.hertz->normal;
+    add(stiffness, pressed.damping);
+  }
+
+  void operator()(const CasterContact& caster) const {
+    const coupling::Elastic surface = surface_of(part, caster.surface);
+    result.hertz = touch(caster.ball, surface, *result.preload_n);
+    const coupling::BallCaster balls{caster.ball.radius, caster.support_radius, caster.supports, caster.support_angle,
+                                     caster.ball.steel};
+    add({coupling::caster_stiffness(balls, surface, *result.preload_n)}, caster.damping);
+  }
+};
 
 }  // namespace
 
@@ -77,30 +104,7 @@ JoinedContact joined_contact(const PartSetup& part, const SupportSetup& support,
     return result;
   }
   if (kind(contact) != ContactKind::springs) result.preload_n = required_preload(support, contact);
-  std::visit(
-      core::overloaded{
-          [&](const SpringContact& springs) { add_springs(contact, springs.stiffness, springs.damping, result); },
-          [&](const TabledContact& tabled) {
-            if (!tabled.rows) throw core::InputError("its table was not read; call setup::read_data_files()");
-            result.contact.springs.push_back(
-                coupling::spring_at(*tabled.rows, *result.preload_n, contact.directions.front()));
-            result.contact.springs.back().loss_factor = contact.loss_factor;
-          },
-          [&](const BallContact& pressed) {
-            result.hertz = touch(pressed.ball, surface_of(part, pressed.surface), *result.preload_n);
-            std::vector<double> stiffness(contact.directions.size(), result.hertz->tangential);
-            stiffness.front() = result.hertz->normal;
-            add_springs(contact, stiffness, pressed.damping, result);
-          },
-          [&](const CasterContact& caster) {
-            const coupling::Elastic surface = surface_of(part, caster.surface);
-            result.hertz = touch(caster.ball, surface, *result.preload_n);
-            const coupling::BallCaster balls{caster.ball.radius, caster.support_radius, caster.supports,
-                                             caster.support_angle, caster.ball.steel};
-            add_springs(contact, {coupling::caster_stiffness(balls, surface, *result.preload_n)}, caster.damping,
-                        result);
-          }},
-      contact.model);
+  std::visit(Joining{part, contact, result}, contact.model);
   return result;
 }
 

@@ -31,11 +31,11 @@ std::string as_origin(const Eigen::Vector3d& x) {
   return list + "]";
 }
 
-ImportedPart read_surface_part(const PartFile& file) {
+ImportedPart read_surface_part(const PartFile& file, const mesh::SurfaceRepairOptions& repair) {
   mesh::TriangleSoup soup = io::read_surface(file.path, file.unit);
   for (auto& x : soup.points) x -= file.origin;
   ImportedPart part;
-  part.surface = mesh::repaired_surface(soup, file.repair);
+  part.surface = mesh::repaired_surface(soup, repair);
   if (part.surface->moved_by != Eigen::Vector3d::Zero()) {
     throw core::InputError("the part lies far from the origin for its size of " + mesh::size_text(soup) +
                            "; set part.origin to a place on it, such as " +
@@ -66,17 +66,17 @@ ImportedPart read_mesh_part(const PartFile& file) {
   return part;
 }
 
-ImportedPart read_matrix_part(const PartFile& file) {
-  io::ImportedMatrices imported = io::read_matrices(file.matrices);
+ImportedPart read_matrix_part(const MatrixShape& shape) {
+  io::ImportedMatrices imported = io::read_matrices(shape.files);
   dynamics::require_consistent(imported.model);
   try {
     dynamics::require_plausible(imported.model);
   } catch (const core::InputError&) {
-    require_plausible_files(file.matrices, imported.model);  // tells which file
+    require_plausible_files(shape.files, imported.model);  // tells which file
     throw;
   }
   ImportedPart part;
-  for (auto& [node, x] : imported.model.positions) part.box.extend(x -= file.origin);
+  for (auto& [node, x] : imported.model.positions) part.box.extend(x -= shape.origin);
   part.summary = imported.format + ", " + std::to_string(imported.model.size()) + " rows";
   part.notes = std::move(imported.notes);
   part.matrices = std::move(imported.model);
@@ -85,16 +85,18 @@ ImportedPart read_matrix_part(const PartFile& file) {
 
 }  // namespace
 
-const std::filesystem::path& main_file(const Part& part) {
-  return part.shape == PartShape::matrices ? part.file.matrices.stiffness : part.file.path;
+std::filesystem::path main_file(const Part& part) {
+  if (const auto* matrices = std::get_if<MatrixShape>(&part.shape)) return matrices->files.stiffness;
+  const PartFile* file = shape_file(part);
+  return file != nullptr ? file->path : std::filesystem::path();
 }
 
-std::optional<PartShape> shape_of_file(const std::filesystem::path& file) {
+std::optional<ShapeKind> shape_of_file(const std::filesystem::path& file) {
   const auto among = [end = ending(file)](const auto& endings) {
     return std::ranges::find(endings, end) != endings.end();
   };
-  if (among(surface_endings)) return PartShape::surface;
-  return among(mesh_endings) ? std::optional(PartShape::mesh) : std::nullopt;
+  if (among(surface_endings)) return ShapeKind::surface;
+  return among(mesh_endings) ? std::optional(ShapeKind::mesh) : std::nullopt;
 }
 
 bool tells_its_unit(const std::filesystem::path& file) {
@@ -102,7 +104,7 @@ bool tells_its_unit(const std::filesystem::path& file) {
 }
 
 bool from_file(const Part& part) {
-  return part.shape == PartShape::surface || part.shape == PartShape::mesh || part.shape == PartShape::matrices;
+  return kind(part) == ShapeKind::surface || kind(part) == ShapeKind::mesh || kind(part) == ShapeKind::matrices;
 }
 
 Eigen::Vector3d node_position(const Part& part, int node) {
@@ -151,9 +153,12 @@ std::vector<int> node_numbers(const ImportedPart& part) {
 
 std::shared_ptr<const ImportedPart> read_part_file(const Part& part) {
   try {
-    return std::make_shared<ImportedPart>(part.shape == PartShape::matrices ? read_matrix_part(part.file)
-                                          : part.shape == PartShape::mesh   ? read_mesh_part(part.file)
-                                                                            : read_surface_part(part.file));
+    if (const auto* matrices = std::get_if<MatrixShape>(&part.shape))
+      return std::make_shared<ImportedPart>(read_matrix_part(*matrices));
+    if (const auto* mesh = std::get_if<MeshShape>(&part.shape))
+      return std::make_shared<ImportedPart>(read_mesh_part(mesh->file));
+    const auto& surface = std::get<SurfaceShape>(part.shape);
+    return std::make_shared<ImportedPart>(read_surface_part(surface.file, surface.repair));
   } catch (const core::InputError& error) {
     throw core::InputError(main_file(part).string() + ": " + error.what());
   }

@@ -25,7 +25,7 @@ struct ImportedPart {
 };
 
 /// The shape that a file's ending tells: "surface", "mesh"; empty for an ending that no reader knows.
-[[nodiscard]] std::optional<PartShape> shape_of_file(const std::filesystem::path& file);
+[[nodiscard]] std::optional<ShapeKind> shape_of_file(const std::filesystem::path& file);
 
 /// True if a file of that ending states its unit of length: STEP.
 [[nodiscard]] bool tells_its_unit(const std::filesystem::path& file);
@@ -45,8 +45,8 @@ struct ImportedPart {
 /// Numbers of the nodes that can move, ascending; empty for parts without numbered nodes.
 [[nodiscard]] std::vector<int> node_numbers(const ImportedPart& part);
 
-/// The file that a part's shape comes from; of matrices, that of the stiffness.
-[[nodiscard]] const std::filesystem::path& main_file(const Part& part);
+/// The file that a part's shape comes from, of matrices that of the stiffness; empty of other parts.
+[[nodiscard]] std::filesystem::path main_file(const Part& part);
 
 /// Reads the part's file. Throws DataError for one that cannot be read, InputError, with the file's name, for a unit
 /// that is none and for what mesh::repaired_surface refuses. Matrices that no part has throw DataError with the file of

@@ -10,7 +10,7 @@ namespace thinwall::setup {
 bool names_node_set(const PartSetup& source, const std::string& name) {
   const bool face = name.size() == 5 && std::string("xyz").find(name[0]) != std::string::npos &&
                     (name.ends_with("_min") || name.ends_with("_max"));
-  return source.part && source.part->shape == PartShape::mesh && !face &&
+  return source.part && kind(*source.part) == ShapeKind::mesh && !face &&
          std::ranges::find(source.selections, name, &Selection::name) == source.selections.end();
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/words.hpp"
@@ -16,15 +17,6 @@
 #include "setup/point.hpp"
 
 namespace thinwall::setup {
-
-/// Shapes of a part, or the kind of file that its shape comes from.
-enum class PartShape {
-  box,
-  prism,     ///< an outline in x and y, extruded along z
-  surface,   ///< a closed surface of triangles
-  mesh,      ///< a mesh of tetrahedra
-  matrices,  ///< stiffness and mass matrices
-};
 
 /// Isotropic linear elasticity.
 struct Material {
@@ -87,24 +79,53 @@ struct Bend {
 
 struct ImportedPart;
 
-/// A file that a part's shape comes from, and how it is read.
+/// A surface or a mesh in a file, and how it is read.
 struct PartFile {
   std::filesystem::path path;
   std::string unit;                                  ///< of length; no default
-  std::string mass_unit;                             ///< of matrices, and of materials in a mesh
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< m: the point of the file where the part's axes begin
-  mesh::SurfaceRepairOptions repair;                 ///< of a surface
-  io::MatrixFiles matrices;                          ///< of shape matrices; `path` is empty then
 };
 
-/// A box with one corner at the origin, a prism, or what a file holds.
-struct Part {
-  PartShape shape = PartShape::box;
+/// A box with one corner at the origin, as it stands or bent.
+struct BoxShape {
   double length = 0.0, height = 0.0, thickness = 0.0;        ///< m
   int length_axis = 1, height_axis = 2, thickness_axis = 0;  ///< 0, 1, 2 for x, y, z
-  mesh::Prism prism;                                         ///< of shape prism: outline in x, y; height along z
   std::optional<Bend> bend;
-  PartFile file;                                 ///< of shapes surface, mesh, matrices
+};
+
+/// An outline in x and y, extruded along z, as it stands or bent.
+struct PrismShape {
+  mesh::Prism prism;
+  std::optional<Bend> bend;
+};
+
+/// A closed surface of triangles in a file.
+struct SurfaceShape {
+  PartFile file;
+  mesh::SurfaceRepairOptions repair;
+};
+
+/// A mesh of tetrahedra in a file.
+struct MeshShape {
+  PartFile file;
+  std::string mass_unit;  ///< of the materials in the file
+};
+
+/// Stiffness and mass matrices in files.
+struct MatrixShape {
+  io::MatrixFiles files;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< m: the point of the file where the part's axes begin
+};
+
+/// The shape of a part, or the file that it comes from.
+using PartShape = std::variant<BoxShape, PrismShape, SurfaceShape, MeshShape, MatrixShape>;
+
+/// The shapes of a part, in the order of PartShape.
+enum class ShapeKind { box, prism, surface, mesh, matrices };
+
+/// A part: its shape, material, mesh, and what holds it or hangs on it.
+struct Part {
+  PartShape shape;
   std::shared_ptr<const ImportedPart> imported;  ///< what the file holds, once it is read (setup/imported_part.hpp)
   Material material;
   std::vector<MaterialRegion> materials;  ///< others; later ones win
@@ -114,6 +135,20 @@ struct Part {
   std::vector<PointMass> masses;
   std::vector<PointSpring> springs;
 };
+
+/// The kind of a part's shape.
+[[nodiscard]] inline ShapeKind kind(const Part& part) {
+  return static_cast<ShapeKind>(part.shape.index());
+}
+
+/// The bend of a box or a prism; nullptr of a part that is not bent.
+[[nodiscard]] const Bend* bend(const Part& part);
+
+/// The file of a surface or a mesh; nullptr of other parts.
+[[nodiscard]] const PartFile* shape_file(const Part& part);
+
+/// The unit of length of the part's file; "" where it is not stated, and of a part without one.
+[[nodiscard]] std::string file_unit(const Part& part);
 
 /// The block around the part, before it is bent, m.
 [[nodiscard]] Eigen::AlignedBox3d bounds(const Part& part);
@@ -135,6 +170,6 @@ struct Part {
 namespace thinwall::core {
 
 template <>
-inline constexpr std::array<std::string_view, 5> words<setup::PartShape>{"box", "prism", "surface", "mesh", "matrices"};
+inline constexpr std::array<std::string_view, 5> words<setup::ShapeKind>{"box", "prism", "surface", "mesh", "matrices"};
 
 }  // namespace thinwall::core

@@ -10,7 +10,7 @@ namespace thinwall::setup {
 namespace {
 
 int along_axis(const Part& part, int through) {
-  if (part.bend->along) return *part.bend->along;
+  if (const auto along = bend(part)->along) return *along;
   Eigen::Vector3d size = box_size(part);
   size[through] = 0.0;
   int longest = 0;
@@ -21,11 +21,12 @@ int along_axis(const Part& part, int through) {
 }  // namespace
 
 PlanarPart planar(const Part& part) {
-  if (part.shape == PartShape::prism) return {part.prism, {0, 1, 2}};
+  if (const auto* shape = std::get_if<PrismShape>(&part.shape)) return {shape->prism, {0, 1, 2}};
+  const auto& box = std::get<BoxShape>(part.shape);
   PlanarPart result;
-  result.axes = {part.length_axis, part.height_axis, part.thickness_axis};
-  result.prism.outline = {{0.0, 0.0}, {part.length, 0.0}, {part.length, part.height}, {0.0, part.height}};
-  result.prism.top = part.thickness;
+  result.axes = {box.length_axis, box.height_axis, box.thickness_axis};
+  result.prism.outline = {{0.0, 0.0}, {box.length, 0.0}, {box.length, box.height}, {0.0, box.height}};
+  result.prism.top = box.thickness;
   return result;
 }
 
@@ -33,24 +34,24 @@ mesh::Bend bend_of(const Part& part) {
   const int through = planar(part).axes[2];
   const int along = along_axis(part, through);
   const Eigen::Vector3d middle = bounds(part).center();
-  return {part.bend->radius, along, through, middle[along], middle[through]};
+  return {bend(part)->radius, along, through, middle[along], middle[through]};
 }
 
 fem::Shaping shaping(const Part& part) {
-  if (!part.bend) return {};
+  if (bend(part) == nullptr) return {};
   return [bend = bend_of(part)](mesh::LagrangeNodes& nodes) { mesh::bend(bend, nodes.positions); };
 }
 
 double mass(const Part& part, const mesh::TetMesh& flat) {
   if (from_file(part)) return part.material.density * part.imported->surface->volume_m3;
-  if (!part.bend) return part.material.density * mesh::volume(planar(part).prism);
-  const mesh::Bend bend = bend_of(part);
+  if (bend(part) == nullptr) return part.material.density * mesh::volume(planar(part).prism);
+  const mesh::Bend curve = bend_of(part);
   double volume = 0.0;
   for (int tet = 0; tet < static_cast<int>(flat.tets.size()); ++tet) {
-    double w = -bend.middle_m;
+    double w = -curve.middle_m;
     for (const int v : flat.tets[static_cast<std::size_t>(tet)])
-      w += 0.25 * flat.vertices[static_cast<std::size_t>(v)][bend.through];
-    volume += mesh::volume(flat, tet) * (1.0 + w / bend.radius_m);
+      w += 0.25 * flat.vertices[static_cast<std::size_t>(v)][curve.through];
+    volume += mesh::volume(flat, tet) * (1.0 + w / curve.radius_m);
   }
   return part.material.density * volume;
 }
@@ -73,7 +74,7 @@ std::vector<int> rows_held_by_sets(const PartSetup& source, const mesh::SolidMes
   std::vector<int> rows;
   for (const Support& support : source.part->supports) {
     if (!names_node_set(source, support.on)) continue;
-    const auto& set = mesh::node_set(solid, support.on, source.part->file.path.string());
+    const auto& set = mesh::node_set(solid, support.on, main_file(*source.part).string());
     for (const int row : fem::rows_of(set.nodes, support.fixed)) rows.push_back(row);
   }
   return rows;
@@ -93,7 +94,7 @@ std::vector<fem::Support> supports_of(const PartSetup& source) {
 }
 
 double off_surface(const Part& part) {
-  if (part.shape == PartShape::surface) return 0.01 * bounds(part).diagonal().norm();
+  if (kind(part) == ShapeKind::surface) return 0.01 * bounds(part).diagonal().norm();
   const mesh::SolidMesh* solid = solid_of(part);
   if (solid == nullptr || solid->midside_offset < 1e-6) return 0.0;
   const auto vertex = [solid](int v) { return solid->mesh.vertices[static_cast<std::size_t>(v)]; };
@@ -116,7 +117,7 @@ fem::ModeOptions mode_options(const PartSetup& source) {
 std::vector<std::string> unreachable_tolerances(const PartSetup& source) {
   std::vector<std::string> warnings;
   if (!source.part || source.part->mesh.element_size) return warnings;
-  if (source.part->shape == PartShape::matrices || source.part->shape == PartShape::mesh) return warnings;
+  if (kind(*source.part) == ShapeKind::matrices || kind(*source.part) == ShapeKind::mesh) return warnings;
   for (const std::string& name : source.reduction.interface) {
     if (point(source, name).patch_radius > 0.0) continue;
     warnings.push_back("points." + name +

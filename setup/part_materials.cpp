@@ -33,7 +33,7 @@ Eigen::Vector3d centre(const mesh::TetMesh& mesh, std::size_t tet) {
 std::vector<int> tets_in(const PartSetup& source, const std::string& name, const mesh::TetMesh& mesh) {
   const auto selection = std::ranges::find(source.selections, name, &Selection::name);
   if (selection == source.selections.end())
-    return mesh::element_set(*solid_of(*source.part), name, source.part->file.path.string()).tets;
+    return mesh::element_set(*solid_of(*source.part), name, main_file(*source.part).string()).tets;
   std::vector<int> tets;
   for (std::size_t tet = 0; tet < mesh.tets.size(); ++tet) {
     if (contains(*selection, centre(mesh, tet), 0.0)) tets.push_back(static_cast<int>(tet));
@@ -50,16 +50,16 @@ void set_material(fem::Materials& materials, const std::vector<int>& tets, const
 }
 
 double kilograms_per_unit(const Part& part) {
-  return core::parse_quantity("1 " + part.file.mass_unit, core::kind::mass);
+  return core::parse_quantity("1 " + std::get<MeshShape>(part.shape).mass_unit, core::kind::mass);
 }
 
 /// The file's sections in SI, each on its set of elements.
 void add_sections(const Part& part, fem::Materials& materials) {
-  const double metres = io::metres_per_unit(part.file.unit, part.file.path.string());
+  const double metres = io::metres_per_unit(file_unit(part), main_file(part).string());
   for (const io::InpMaterial& raw : part.imported->mesh->materials) {
     const io::InpMaterial m = io::in_si(raw, metres, kilograms_per_unit(part));
     if (!io::what_lacks(m).empty()) continue;  // the check has told of it
-    set_material(materials, mesh::element_set(*solid_of(part), m.element_set, part.file.path.string()).tets,
+    set_material(materials, mesh::element_set(*solid_of(part), m.element_set, main_file(part).string()).tets,
                  {*m.youngs_modulus, *m.poisson_ratio, *m.density});
   }
 }
@@ -67,12 +67,13 @@ void add_sections(const Part& part, fem::Materials& materials) {
 }  // namespace
 
 bool materials_in_file(const Part& part) {
-  return part.imported && part.imported->mesh && !part.imported->mesh->materials.empty() &&
-         !part.file.mass_unit.empty();
+  const auto* mesh = std::get_if<MeshShape>(&part.shape);
+  return mesh != nullptr && part.imported && part.imported->mesh && !part.imported->mesh->materials.empty() &&
+         !mesh->mass_unit.empty();
 }
 
 mesh::TetMesh cut_at_materials(const PartSetup& source, mesh::TetMesh mesh) {
-  if (source.part->shape == PartShape::mesh) return mesh;
+  if (kind(*source.part) == ShapeKind::mesh) return mesh;
   for (const MaterialRegion& region : source.part->materials) {
     const auto selection = std::ranges::find(source.selections, region.on, &Selection::name);
     if (selection == source.selections.end() || !selection->box) continue;

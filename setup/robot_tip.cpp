@@ -133,7 +133,7 @@ std::optional<Vector3d> contact_place(const PartSetup& part, const SupportSetup&
   if (support.contacts.empty() || !part.part) return std::nullopt;
   const Vector3d flat = position(*part.part, point(part, support.contacts.front().part_point));
   if (!flat.allFinite()) return std::nullopt;  // a node of matrices whose place no file tells
-  return part.part->bend ? mesh::bent(bend_of(*part.part), flat) : flat;
+  return bend(*part.part) != nullptr ? mesh::bent(bend_of(*part.part), flat) : flat;
 }
 
 std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list) {

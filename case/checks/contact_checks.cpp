@@ -56,7 +56,7 @@ std::vector<double> numbers_of(const Case& source, const setup::Contact& contact
   std::vector<double> numbers{pressed.ball.radius, pressed.ball.steel.E, pressed.ball.steel.nu};
   if (pressed.surface) {
     numbers.insert(numbers.end(), {pressed.surface->E, pressed.surface->nu});
-  } else if (source.part && source.part->shape != setup::PartShape::matrices) {
+  } else if (source.part && setup::kind(*source.part) != setup::ShapeKind::matrices) {
     const setup::Material& material = source.part->material;
     numbers.insert(numbers.end(), {material.youngs_modulus, material.poisson_ratio});
   }

@@ -21,7 +21,8 @@ constexpr double most_dofs = 5e6;
 
 /// Parts that TetGen meshes: boxes with a given element size.
 bool by_tetgen(const setup::Part& part) {
-  return part.shape == setup::PartShape::box && !part.bend && part.mesh.element_size.has_value();
+  return setup::kind(part) == setup::ShapeKind::box && setup::bend(part) == nullptr &&
+         part.mesh.element_size.has_value();
 }
 
 /// Element size as the mesher is asked for it: `near` at the points, growing with the distance to them up to `far`.
@@ -39,7 +40,7 @@ struct Grading {
 
 Grading grading_of(const Case& source) {
   const setup::Part& part = *source.part;
-  const double thinnest = std::min({part.length, part.height, part.thickness});
+  const double thinnest = setup::box_size(part).minCoeff();
   // The quality bound lets a tetrahedron be about twice as wide as the wall is thick, however large it may be.
   const double far = std::min(*part.mesh.element_size, 2.0 * thinnest);
   Grading grading{{}, far, 0.0, far};
@@ -109,17 +110,17 @@ void check_surface_size(const Case& source, Findings& findings) {
 SizeEstimate estimate_size(const Case& source) {
   const setup::Part& part = *source.part;
   SizeEstimate size;
-  if (part.shape == setup::PartShape::matrices) {
+  if (setup::kind(part) == setup::ShapeKind::matrices) {
     size.dofs = static_cast<double>(part.imported->matrices->size());
     size.seconds = 3.0 * std::pow(size.dofs / 4e4, 1.3);
     return size;
   }
   size.order = part.mesh.order.value_or(part.mesh.element_size ? 2 : 5);
-  if (part.shape == setup::PartShape::mesh)
+  if (setup::kind(part) == setup::ShapeKind::mesh)
     size.order = part.mesh.order.value_or(std::max(2, part.imported->mesh->solid.nodes.order));
   size.elements =
-      part.shape == setup::PartShape::mesh ? static_cast<double>(part.imported->mesh->solid.mesh.tets.size())
-      : setup::from_file(part)             ? elements_in_surface(part)
+      setup::kind(part) == setup::ShapeKind::mesh ? static_cast<double>(part.imported->mesh->solid.mesh.tets.size())
+      : setup::from_file(part)                    ? elements_in_surface(part)
       : by_tetgen(part) ? std::max(6.0, tets_in({Eigen::Vector3d::Zero(), setup::box_size(part)}, grading_of(source)))
                         : static_cast<double>(setup::graded_mesh(source, 0).tets.size());
   // A tetrahedral mesh of a thin wall has about 0.3 vertices, 1.6 edges and 2.3 faces an element.
@@ -141,11 +142,11 @@ void check_mesh_size(const Case& source, Findings& findings) {
     findings.report(other_quality ? "part.mesh.quality" : "part.mesh.point_element_size",
                     "belongs to boxes with a given element_size; elsewhere meshes are graded by rule; remove it");
   }
-  if (source.part->shape == setup::PartShape::surface && !mesh.element_size && mesh.tolerance < 1e-3)
+  if (setup::kind(*source.part) == setup::ShapeKind::surface && !mesh.element_size && mesh.tolerance < 1e-3)
     findings.report("part.mesh.tolerance", "a surface from a file is followed to 0.001 at best; take that or more");
   if (mesh.element_size && mesh.tolerance != setup::usual_tolerance(*source.part))
     findings.report("part.mesh.tolerance", "nothing is estimated with a given element_size; remove one of the two");
-  if (source.part->shape == setup::PartShape::surface) check_surface_size(source, findings);
+  if (setup::kind(*source.part) == setup::ShapeKind::surface) check_surface_size(source, findings);
   if (!by_tetgen(*source.part)) return;
   const int order_now = mesh.order.value_or(2);
   const SizeEstimate size = estimate_size(source);
@@ -161,7 +162,7 @@ void check_mesh_size(const Case& source, Findings& findings) {
   const std::string order = " of order " + std::to_string(order_now);
   const std::string what = many_tets ? number(size.elements) + " tetrahedra, at most 2e+07 are made"
                                      : number(size.dofs) + " degrees of freedom, at most 5e+06 are solved";
-  const double widest = 2.0 * std::min({source.part->length, source.part->height, source.part->thickness});
+  const double widest = 2.0 * setup::box_size(*source.part).minCoeff();
   const std::string remedy = near_points        ? "larger elements at the points, or a larger part.mesh.grading"
                              : enough <= widest ? length(enough) + " or more"
                                                 : "a smaller or thicker part";

@@ -9,6 +9,7 @@
 #include "case/checks/part_description_checks.hpp"
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/overloaded.hpp"
 #include "core/units.hpp"
 #include "dynamics/dof.hpp"
 #include "dynamics/unit_system.hpp"
@@ -26,7 +27,7 @@ namespace thinwall::cases {
 
 namespace {
 
-bool axes_differ(const setup::Part& part) {
+bool axes_differ(const setup::BoxShape& part) {
   const int sum = (1 << std::max(part.length_axis, 0)) + (1 << std::max(part.height_axis, 0)) +
                   (1 << std::max(part.thickness_axis, 0));
   return std::min({part.length_axis, part.height_axis, part.thickness_axis}) >= 0 && sum == 7 &&
@@ -34,9 +35,13 @@ bool axes_differ(const setup::Part& part) {
 }
 
 bool geometry_known(const setup::Part& part) {
-  if (setup::from_file(part)) return part.imported != nullptr;
-  if (part.shape == setup::PartShape::prism) return mesh::violations(part.prism).empty();
-  return axes_differ(part) && std::isfinite(part.length) && std::isfinite(part.height) && std::isfinite(part.thickness);
+  const auto known = [](const setup::BoxShape& box) {
+    return axes_differ(box) && std::isfinite(box.length) && std::isfinite(box.height) && std::isfinite(box.thickness);
+  };
+  return std::visit(
+      core::overloaded{known, [](const setup::PrismShape& shape) { return mesh::violations(shape.prism).empty(); },
+                       [&](const auto& /*from a file*/) { return part.imported != nullptr; }},
+      part.shape);
 }
 
 /// Coordinates equal to a face's up to this are on it.
@@ -55,48 +60,48 @@ bool on_face(const setup::Part& part, const std::string& face, const Eigen::Vect
   return std::abs(p[axis] - coordinate) <= tolerance(part);
 }
 
-void check_matrices(const setup::Part& part, Findings& findings) {
+void check_matrices(const io::MatrixFiles& files, Findings& findings) {
   try {
-    (void)dynamics::unit_system(part.file.unit, part.file.matrices.mass_unit);
+    (void)dynamics::unit_system(files.length_unit, files.mass_unit);
   } catch (const core::InputError& error) {
     findings.report("part.matrices", std::string(error.what()) + "; set part.unit and part.mass_unit");
   }
 }
 
-void check_part_file(const setup::Part& part, Findings& findings) {
-  if (part.shape == setup::PartShape::matrices) return check_matrices(part, findings);
-  if (!findings.written("part.shape") && !part.file.path.empty() && !setup::shape_of_file(part.file.path)) {
-    findings.report("part.file", "\"" + part.file.path.filename().string() +
+void check_part_file(const setup::PartFile& file, Findings& findings) {
+  if (!findings.written("part.shape") && !file.path.empty() && !setup::shape_of_file(file.path)) {
+    findings.report("part.file", "\"" + file.path.filename().string() +
                                      "\" has an ending that is not read; take a .stl, .off, .obj, .ply or .step, or a "
                                      "mesh as .msh, .inp or .vtu");
     return;
   }
-  if (setup::tells_its_unit(part.file.path) && !findings.given("part.unit")) return;
+  if (setup::tells_its_unit(file.path) && !findings.given("part.unit")) return;
   if (!findings.given("part.unit")) {
     findings.report("part.unit", "missing; the file does not tell its unit of length: \"mm\", \"m\", \"inch\"");
   } else {
     try {
-      (void)io::metres_per_unit(part.file.unit, part.file.path.filename().string());
+      (void)io::metres_per_unit(file.unit, file.path.filename().string());
     } catch (const core::InputError& error) {
       findings.report("part.unit", error.what());
     }
   }
 }
 
-void check_prism(const setup::Part& part, Findings& findings) {
-  if (!findings.given("part.outline") || !std::isfinite(part.prism.top)) return;
-  bool unread = part.prism.outline.empty();  // and reported as such
-  for (const auto& hole : part.prism.holes) unread = unread || hole.empty();
-  for (const auto& zone : part.prism.zones) unread = unread || zone.outline.empty() || !std::isfinite(zone.top);
+void check_prism(const mesh::Prism& prism, Findings& findings) {
+  if (!findings.given("part.outline") || !std::isfinite(prism.top)) return;
+  bool unread = prism.outline.empty();  // and reported as such
+  for (const auto& hole : prism.holes) unread = unread || hole.empty();
+  for (const auto& zone : prism.zones) unread = unread || zone.outline.empty() || !std::isfinite(zone.top);
   if (unread) return;
-  for (const std::string& violation : mesh::violations(part.prism)) findings.report("part.outline", violation);
+  for (const std::string& violation : mesh::violations(prism)) findings.report("part.outline", violation);
 }
 
 void check_bend(const setup::Part& part, Findings& findings) {
-  if (!part.bend || setup::from_file(part) || !geometry_known(part) || !std::isfinite(part.bend->radius)) return;
+  const setup::Bend* bend = setup::bend(part);
+  if (bend == nullptr || !geometry_known(part) || !std::isfinite(bend->radius)) return;
   const int through = setup::planar(part).axes[2];
   const Eigen::AlignedBox3d box = setup::bounds(part);
-  if (part.bend->along && *part.bend->along == through) {
+  if (bend->along && *bend->along == through) {
     findings.report("part.bend.along", "the part is bent along its wall, not through its thickness; name another axis");
     return;
   }
@@ -112,11 +117,14 @@ void check_shape(const Case& source, Findings& findings) {
     findings.report("part.measured", "a part is either modelled (part.length …) or measured; remove one of the two");
   }
   if (findings.unreadable("part.shape")) return;
-  if (setup::from_file(part)) return check_part_file(part, findings);
-  if (part.shape == setup::PartShape::prism) return check_prism(part, findings);
-  if (findings.given("part.axes.length") && !axes_differ(part)) {
-    findings.report("part.axes.length", "length, height and thickness must run along three different axes");
-  }
+  const auto check_box = [&](const setup::BoxShape& box) {
+    if (findings.given("part.axes.length") && !axes_differ(box))
+      findings.report("part.axes.length", "length, height and thickness must run along three different axes");
+  };
+  std::visit(core::overloaded{check_box, [&](const setup::PrismShape& shape) { check_prism(shape.prism, findings); },
+                              [&](const setup::MatrixShape& shape) { check_matrices(shape.files, findings); },
+                              [&](const auto& shape) { check_part_file(shape.file, findings); }},
+             part.shape);
 }
 
 void check_selection(const setup::Selection& selection, Findings& findings) {
@@ -142,7 +150,7 @@ std::string text(const Eigen::Vector3d& p) {
 void check_node(const Case& source, const setup::Point& point, Findings& findings) {
   const std::string key = "points." + point.name;
   if (!source.part ||
-      (source.part->shape != setup::PartShape::matrices && source.part->shape != setup::PartShape::mesh))
+      (setup::kind(*source.part) != setup::ShapeKind::matrices && setup::kind(*source.part) != setup::ShapeKind::mesh))
     return findings.report(key + ".node", "this part has no numbered nodes; give at or position");
   if (point.at || point.position)
     return findings.report(key, "give the node = its number, and neither at nor position (matrices know no places)");
@@ -161,7 +169,7 @@ void check_node(const Case& source, const setup::Point& point, Findings& finding
 
 void check_point(const Case& source, const setup::Point& point, Findings& findings) {
   const std::string key = "points." + point.name;
-  const bool matrices = source.part && source.part->shape == setup::PartShape::matrices;
+  const bool matrices = source.part && setup::kind(*source.part) == setup::ShapeKind::matrices;
   if (matrices || point.node) return check_node(source, point, findings);
   if (point.at.has_value() == point.position.has_value()) {
     findings.report(key, "give either at = [fractions of the box] or position = [lengths]");
@@ -220,8 +228,8 @@ void check_part(const Case& source, Findings& findings) {
     check_description(source, findings);
     check_bend(*source.part, findings);
     if (geometry_known(*source.part)) check_material_places(source, findings);
-    if (geometry_known(*source.part) && source.part->shape != setup::PartShape::matrices &&
-        source.part->shape != setup::PartShape::mesh)
+    if (geometry_known(*source.part) && setup::kind(*source.part) != setup::ShapeKind::matrices &&
+        setup::kind(*source.part) != setup::ShapeKind::mesh)
       check_mesh_size(source, findings);
   }
   for (const auto& selection : source.selections) check_selection(selection, findings);
@@ -236,7 +244,7 @@ std::string outside_part(const setup::Part& part, const Eigen::Vector3d& p, doub
     return text(p) + " lies outside the part, which reaches from " +
            (box.min().isZero() ? "the origin" : text(box.min())) + " to " + text(box.max());
   }
-  if (part.shape != setup::PartShape::surface) return "";
+  if (setup::kind(part) != setup::ShapeKind::surface) return "";
   const mesh::PointToSurface place = mesh::point_to_surface(part.imported->surface->surface, p);
   const bool inside_is_well = patch_radius <= 0.0;
   if (place.distance_m <= given_to(part) || (place.inside && inside_is_well)) return "";

@@ -28,7 +28,7 @@ std::string as_in_file(const std::string& name, const std::vector<std::string>& 
 void check_supports(const Case& source, Findings& findings) {
   const auto& supports = source.part->supports;
   const mesh::SolidMesh* solid = setup::solid_of(*source.part);
-  if (source.part->shape == setup::PartShape::mesh && solid == nullptr) return;
+  if (setup::kind(*source.part) == setup::ShapeKind::mesh && solid == nullptr) return;
   std::vector<std::string> known = faces_and_selections(source);
   if (solid != nullptr) {
     for (const auto& set : solid->node_sets) known.push_back(set.name);
@@ -45,14 +45,14 @@ void check_supports(const Case& source, Findings& findings) {
 
 void check_material(const Case& source, Findings& findings) {
   const setup::Part& part = *source.part;
-  if (part.shape == setup::PartShape::matrices ||
-      (part.shape == setup::PartShape::mesh && (part.imported == nullptr || setup::materials_in_file(part))))
+  if (setup::kind(part) == setup::ShapeKind::matrices ||
+      (setup::kind(part) == setup::ShapeKind::mesh && (part.imported == nullptr || setup::materials_in_file(part))))
     return;
   for (const auto& [key, meaning] : {std::pair{"part.material.youngs_modulus", "Young's modulus"},
                                      {"part.material.poisson_ratio", "Poisson's ratio"},
                                      {"part.material.density", "density"}}) {
     if (findings.given(key)) continue;
-    const bool in_file = part.shape == setup::PartShape::mesh && !part.imported->mesh->materials.empty();
+    const bool in_file = setup::kind(part) == setup::ShapeKind::mesh && !part.imported->mesh->materials.empty();
     findings.report(key, "missing; " + std::string(meaning) +
                              (in_file ? ", or part.mass_unit to take the materials of the file" : ""));
   }
@@ -81,7 +81,7 @@ void check_materials(const Case& source, Findings& findings) {
   std::vector<std::string> known;
   for (const auto& selection : source.selections) known.push_back(selection.name);
   const mesh::SolidMesh* solid = setup::solid_of(*source.part);
-  if (source.part->shape == setup::PartShape::mesh && solid == nullptr) return;
+  if (setup::kind(*source.part) == setup::ShapeKind::mesh && solid == nullptr) return;
   if (solid != nullptr) {
     for (const auto& set : solid->element_sets) known.push_back(set.name);
   }
@@ -147,7 +147,7 @@ void check_description(const Case& source, Findings& findings) {
   check_materials_of_file(source, findings);
   check_supports(source, findings);
   check_attachments(source, findings);
-  if (source.part->shape == setup::PartShape::mesh) check_given_mesh(source, findings);
+  if (setup::kind(*source.part) == setup::ShapeKind::mesh) check_given_mesh(source, findings);
 }
 
 }  // namespace thinwall::cases

@@ -32,7 +32,7 @@ void check_keys(Findings& findings) {
 /// True if nothing is missing that a path needs.
 bool check_needs(const Case& source, Findings& findings) {
   const std::size_t before = findings.problems.size();
-  if (!source.part || source.part->shape == setup::PartShape::matrices)
+  if (!source.part || setup::kind(*source.part) == setup::ShapeKind::matrices)
     findings.report("path", "there is no modelled part to move along; describe it (part.length …), or remove [path]");
   if (!source.tool || !source.cutting || !source.lobes)
     findings.report("path", "a path needs [tool], [cutting] and [lobes]; add what is missing, or remove [path]");

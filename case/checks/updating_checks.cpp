@@ -122,7 +122,8 @@ void check_updating(const Case& source, Findings& findings) {
   for (std::size_t i = 0; i < source.updating.size(); ++i) {
     const std::string key = indexed("updating", i);
     const setup::Updating& updating = source.updating[i];
-    if (!source.part || (updating.on == setup::FitOf::part && source.part->shape == setup::PartShape::matrices)) {
+    if (!source.part ||
+        (updating.on == setup::FitOf::part && setup::kind(*source.part) == setup::ShapeKind::matrices)) {
       findings.report(key, "there is no modelled part to fit; add part.length, part.height, part.thickness");
       continue;
     }

@@ -19,7 +19,7 @@ const setup::PartSetup& points_and_model(const PartInput& input) {
 }
 
 bool damping_shapes_part(const PartInput& input, const std::vector<setup::Updating>& fits) {
-  const bool from_matrices = input.part && input.part->shape == setup::PartShape::matrices;
+  const bool from_matrices = input.part && setup::kind(*input.part) == setup::ShapeKind::matrices;
   return input.reduction.tolerance || from_matrices || !fits.empty();
 }
 

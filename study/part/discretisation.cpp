@@ -161,7 +161,7 @@ Discretisation refined_surface(const PartInput& source) {
 
 Discretisation refined_to_tolerance(const PartInput& source) {
   for (const std::string& warning : setup::unreachable_tolerances(source)) core::warn(warning);
-  if (source.part->shape == setup::PartShape::surface) return refined_surface(source);
+  if (setup::kind(*source.part) == setup::ShapeKind::surface) return refined_surface(source);
   const setup::MeshOptions& wanted = source.part->mesh;
   fem::SolidPart part{[&](int level) { return setup::cut_at_materials(source, setup::graded_mesh(source, level)); },
                       setup::shaping(*source.part),
@@ -188,25 +188,26 @@ Discretisation refined_to_tolerance(const PartInput& source) {
 
 Discretisation discretise(const PartInput& source) {
   const setup::Part& part = *source.part;
-  if (part.shape == setup::PartShape::matrices) {
+  if (setup::kind(part) == setup::ShapeKind::matrices) {
     Discretisation result;
     result.solved.emplace(matrix_solution(source));
     return result;
   }
-  if (part.shape == setup::PartShape::mesh) {
+  if (setup::kind(part) == setup::ShapeKind::mesh) {
     const mesh::SolidMesh& solid = part.imported->mesh->solid;
     return {solid.mesh, part.mesh.order.value_or(std::max(2, solid.nodes.order)), {}, {}};
   }
-  if (part.shape == setup::PartShape::box && part.thickness > std::max(part.length, part.height)) {
+  const auto* box = std::get_if<setup::BoxShape>(&part.shape);
+  if (box != nullptr && box->thickness > std::max(box->length, box->height)) {
     core::warn(
         fmt::format("the part is {:g} m thick, more than it is long or high; a number without a unit is in metres",
-                    part.thickness));
+                    box->thickness));
   }
   if (!part.mesh.element_size) return refined_to_tolerance(source);
   const int order = part.mesh.order.value_or(2);
-  mesh::TetMesh mesh = part.shape == setup::PartShape::surface             ? surface_mesh(source)
-                       : part.shape == setup::PartShape::box && !part.bend ? tetgen_mesh(source)
-                                                                           : setup::graded_mesh(source, 0);
+  mesh::TetMesh mesh = setup::kind(part) == setup::ShapeKind::surface ? surface_mesh(source)
+                       : box != nullptr && !box->bend                 ? tetgen_mesh(source)
+                                                                      : setup::graded_mesh(source, 0);
   mesh = setup::cut_at_materials(source, std::move(mesh));
   warn_of_misplaced(source, mesh);
   return {std::move(mesh), order, {}, {}};

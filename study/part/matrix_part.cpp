@@ -97,7 +97,7 @@ void count_rigid_motions(fem::Model& model) {
 Solution solved_matrices(const setup::PartSetup& source) {
   fem::Model model = model_of(*source.part->imported->matrices);
   if (!has_definite_mass(model))
-    setup::require_definite_files(source.part->file.matrices,
+    setup::require_definite_files(std::get<setup::MatrixShape>(source.part->shape).files,
                                   *source.part->imported->matrices);  // or the file's digits
   count_rigid_motions(model);
   fem::Factored factored = fem::factorise(model, core::available_memory_bytes());
@@ -120,7 +120,8 @@ Solution matrix_solution(const setup::PartSetup& source) {
   } catch (const linalg::MemoryLimitError&) {
     throw;
   } catch (const core::NumericalError&) {
-    setup::require_definite_files(source.part->file.matrices, *source.part->imported->matrices);
+    setup::require_definite_files(std::get<setup::MatrixShape>(source.part->shape).files,
+                                  *source.part->imported->matrices);
     throw;
   }
 }

@@ -28,13 +28,13 @@ fem::Model mesh_model(const setup::PartSetup& source, int order, const fem::Mate
 
 fem::Model part_model(const setup::PartSetup& source, mesh::TetMesh mesh, int order) {
   const fem::Materials materials = setup::materials_on(source, mesh);
-  if (source.part->shape == setup::PartShape::mesh) return mesh_model(source, order, materials);
+  if (setup::kind(*source.part) == setup::ShapeKind::mesh) return mesh_model(source, order, materials);
   return fem::supported_model(std::move(mesh), order, materials, setup::supports_of(source),
                               setup::shaping(*source.part), setup::attachments_of(source));
 }
 
 reduction::Interface part_interface(const setup::PartSetup& source, const fem::Model& model) {
-  if (source.part->shape == setup::PartShape::matrices) return matrix_interface(source);
+  if (setup::kind(*source.part) == setup::ShapeKind::matrices) return matrix_interface(source);
   reduction::Interface interface;
   std::vector<Eigen::Triplet<double>> entries;
   for (const std::string& name : source.reduction.interface) {

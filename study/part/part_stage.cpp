@@ -130,7 +130,8 @@ namespace {
 
 /// C of the part's file on the reduced coordinates, TᵀCT.
 void take_damping_of_file(const setup::PartSetup& source, PartResult& part) {
-  if (source.part->shape != setup::PartShape::matrices || !source.part->imported->matrices->has_damping()) return;
+  if (setup::kind(*source.part) != setup::ShapeKind::matrices || !source.part->imported->matrices->has_damping())
+    return;
   if (std::holds_alternative<setup::MatrixDamping>(source.damping)) {
     const Eigen::MatrixXd C_T = source.part->imported->matrices->C * part.reduced->T;
     part.reduced->model.C = part.reduced->T.transpose() * C_T;
@@ -163,13 +164,13 @@ void look_at_mesh(PartResult& part) {
 
 /// The matrix's mass against the geometry's: exact for straight elements, to the accuracy of the curve for bent ones.
 void check_mass(const setup::PartSetup& source, PartResult& part) {
-  const bool summed = source.part->shape == setup::PartShape::mesh || !source.part->materials.empty();
+  const bool summed = setup::kind(*source.part) == setup::ShapeKind::mesh || !source.part->materials.empty();
   if (summed && part.model.curved_elements > 0) return;  // nothing to compare with
   const double expected = summed ? setup::mass(setup::materials_on(source, part.model.mesh), part.model.mesh)
                                  : mass(*source.part, part.model.mesh);
   part.mass_difference = std::abs(part.model.mass.mass_kg / expected - 1.0);
   double bound = part.model.curved_elements > 0 ? 1e-4 : 1e-8;
-  if (source.part->shape == setup::PartShape::surface && !summed) {
+  if (setup::kind(*source.part) == setup::ShapeKind::surface && !summed) {
     const setup::MeshOptions& mesh = source.part->mesh;
     bound = mesh.element_size ? mesh::SurfaceMeshOptions{}.volume_tolerance : fem::share_of_surface * mesh.tolerance;
   }

@@ -372,7 +372,8 @@ TEST(Cases, EveryCaseOfTheProjectIsRight) {
 
 TEST(SizeEstimate, IsTheIntegralOfTheGradedSizeAroundAPoint) {
   Case c = parse_case(plate_case(), ".");
-  c.part->length = c.part->height = c.part->thickness = 1.0;
+  auto& box = std::get<BoxShape>(c.part->shape);
+  box.length = box.height = box.thickness = 1.0;
   c.part->mesh.element_size = 0.1;
   const double uniform = estimate_size(c).elements;
   c.points.resize(1);
@@ -437,10 +438,10 @@ void expect_pocket_problem(const std::string& from, const std::string& to, const
 TEST(BadPrism, TheGoodOneHasNoProblemAndIsBoundAsWritten) {
   EXPECT_TRUE(problems_of(pocket_case()).empty());
   const Case c = parse_case(pocket_case(), ".");
-  EXPECT_EQ(c.part->prism.outline.size(), 4U);
-  EXPECT_EQ(c.part->prism.holes.at(0).size(), 3U);
-  EXPECT_DOUBLE_EQ(c.part->prism.zones.at(0).top, 0.003);
-  EXPECT_DOUBLE_EQ(c.part->bend->radius, 0.2);
+  EXPECT_EQ(std::get<PrismShape>(c.part->shape).prism.outline.size(), 4U);
+  EXPECT_EQ(std::get<PrismShape>(c.part->shape).prism.holes.at(0).size(), 3U);
+  EXPECT_DOUBLE_EQ(std::get<PrismShape>(c.part->shape).prism.zones.at(0).top, 0.003);
+  EXPECT_DOUBLE_EQ(bend(*c.part)->radius, 0.2);
   EXPECT_TRUE(bounds(*c.part).max().isApprox(Eigen::Vector3d(0.1, 0.06, 0.006)));
   EXPECT_FALSE(c.part->mesh.element_size.has_value());
   EXPECT_DOUBLE_EQ(c.part->mesh.tolerance, 1e-3);

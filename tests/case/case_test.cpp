@@ -23,7 +23,7 @@ namespace {
 TEST(Case, QuantitiesArriveInSi) {
   const Case c = parse_case(plate_case(), ".");
   ASSERT_TRUE(c.part);
-  EXPECT_DOUBLE_EQ(c.part->length, 0.392);
+  EXPECT_DOUBLE_EQ(std::get<BoxShape>(c.part->shape).length, 0.392);
   EXPECT_DOUBLE_EQ(c.part->material.youngs_modulus, 2.1e11);
   EXPECT_DOUBLE_EQ(c.part->mesh.element_size.value_or(0.0), 0.012);
   EXPECT_EQ(c.part->supports.size(), 2U);
@@ -61,7 +61,7 @@ TEST(Case, PointsLieWhereFractionsAndOffsetSay) {
 TEST(Case, SettingAKeyMovesAllThatFollowsFromIt) {
   Case c = parse_case(plate_case(), ".");
   set_value(c, "part.length", 0.4);
-  EXPECT_DOUBLE_EQ(c.part->length, 0.4);
+  EXPECT_DOUBLE_EQ(std::get<BoxShape>(c.part->shape).length, 0.4);
   EXPECT_DOUBLE_EQ(position(*c.part, point(c, "P")).y(), 0.2);
   set_value(c, "damping.ratios[0]", 0.02);
   EXPECT_DOUBLE_EQ(std::get<ModalDamping>(c.damping).ratios[0], 0.02);
@@ -98,7 +98,7 @@ TEST(Case, SettingRefusesWhatTheSchemaRefuses) {
   } catch (const core::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("did you mean \"part.length\"?"), std::string::npos);
   }
-  EXPECT_DOUBLE_EQ(c.part->length, 0.392);
+  EXPECT_DOUBLE_EQ(std::get<BoxShape>(c.part->shape).length, 0.392);
 }
 
 TEST(Case, OverridesGoOverTheFileBeforeValidation) {

@@ -67,7 +67,7 @@ TEST(PartFile, ASurfaceIsReadInItsUnitAndPlaced) {
   write_plate(folder.path / "plate.stl", {0.5, 0.5, 0.5});
   const Case plain = parse_case(surface_case("file = \"plate.stl\"\nunit = \"mm\""), folder.path);
   ASSERT_TRUE(plain.part->imported);
-  EXPECT_EQ(plain.part->shape, PartShape::surface);
+  EXPECT_EQ(kind(*plain.part), ShapeKind::surface);
   EXPECT_LT((bounds(*plain.part).min() - Eigen::Vector3d::Constant(0.5)).norm(), 1e-7);
   EXPECT_LT((box_size(*plain.part) - Eigen::Vector3d(0.1, 0.06, 0.004)).norm(), 1e-7);
   const Case inch = parse_case(
@@ -272,7 +272,7 @@ TEST(PartFile, MatricesAreReadInTheirUnitsAndTheirNodesNamed) {
   write_matrices(folder.path);
   const Case source = parse_case("[part]\n" + two_masses + "[points.B]\ndirections = \"x\"\n", folder.path);
   ASSERT_TRUE(source.part->imported);
-  EXPECT_EQ(source.part->shape, PartShape::matrices);
+  EXPECT_EQ(kind(*source.part), ShapeKind::matrices);
   EXPECT_EQ(source.part->imported->matrices->K.coeff(0, 0), 200.0 * 1000.0);  // t/s² = N/mm
   EXPECT_EQ(source.part->imported->matrices->M.coeff(1, 1), 1.0);
   EXPECT_EQ(node_of(*source.part->imported, source.points.front()), 8);
