@@ -1,9 +1,10 @@
+#include "setup/contact_model.hpp"
+
 #include <cmath>
 
 #include "core/error.hpp"
 #include "core/overloaded.hpp"
 #include "io/results/csv_table.hpp"
-#include "setup/contact_model.hpp"
 
 namespace thinwall::setup {
 
