@@ -30,7 +30,7 @@ TEST(Case, QuantitiesArriveInSi) {
   EXPECT_EQ(c.part->supports[0].fixed, (std::vector<int>{0, 1, 2}));
   EXPECT_DOUBLE_EQ(std::get<ModalDamping>(c.damping).ratios.at(1), 0.006);
   EXPECT_DOUBLE_EQ(*std::get<OneModeRobot>(c.robot->model).frequency_hz, 29.0);
-  EXPECT_TRUE(std::isinf(c.contacts.at(0).stiffness.at(0)));
+  EXPECT_TRUE(std::isinf(std::get<SpringContact>(c.contacts.at(0).model).stiffness.at(0)));
   EXPECT_EQ(c.contacts[0].directions.at(0), Eigen::Vector3d::UnitX());
   EXPECT_DOUBLE_EQ(c.cutting->Kt, 1.8e9);
   EXPECT_DOUBLE_EQ(*c.cutting->spindle_speed_rpm, 1900.0);
