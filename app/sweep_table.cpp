@@ -30,7 +30,7 @@ std::vector<double> elastic_hz(const report::PartSummary& part) {
   return frequencies;
 }
 
-/// Of all modes of part and robot, or of the main ones where these are all that is known.
+/// Frequencies of all modes of part and robot, or of the main ones where these are all that is known.
 std::vector<double> supported_hz(const report::CouplingSummary& coupling) {
   std::vector<double> frequencies;
   for (const report::ModeSummary& mode : coupling.modes) frequencies.push_back(mode.frequency_hz);

@@ -12,7 +12,7 @@ json number_or_null(double value) {
   return std::isfinite(value) ? json(value) : json(nullptr);
 }
 
-json list(const Eigen::Ref<const Eigen::VectorXd>& values) {
+json numbers_json(const Eigen::Ref<const Eigen::VectorXd>& values) {
   json result = json::array();
   for (const double value : values) result.push_back(number_or_null(value));
   return result;
@@ -23,11 +23,11 @@ json effective_mass_json(const reduction::EffectiveMass& effective) {
   json modes = json::array();
   for (Eigen::Index k = 0; k < effective.mass.rows(); ++k) {
     modes.push_back({{"frequency_hz", number_or_null(effective.frequency_hz(k))},
-                     {"kg_and_kg_m2", list(effective.mass.row(k).transpose())}});
+                     {"kg_and_kg_m2", numbers_json(effective.mass.row(k).transpose())}});
   }
   return {{"modes_with_interface_held", modes},
-          {"interface_own", list(effective.interface_own)},
-          {"rigid_body", list(effective.total)},
+          {"interface_own", numbers_json(effective.interface_own)},
+          {"rigid_body", numbers_json(effective.total)},
           {"closure_relative", number_or_null(effective.closure)}};
 }
 
@@ -37,13 +37,13 @@ json rigid_json(const reduction::RigidBodyState& rigid) {
                 {"free_motions_in_words", rigid.in_words}};
   if (rigid.sets.seen != 6) return known;
   json inertia = json::array();
-  for (int i = 0; i < 3; ++i) inertia.push_back(list(rigid.body.inertia_kg_m2.row(i).transpose()));
+  for (int i = 0; i < 3; ++i) inertia.push_back(numbers_json(rigid.body.inertia_kg_m2.row(i).transpose()));
   json result = {{"mass_kg", number_or_null(rigid.body.mass_kg)},
-                 {"centre_m", list(rigid.body.centre_m)},
+                 {"centre_m", numbers_json(rigid.body.centre_m)},
                  {"inertia_about_centre_kg_m2", inertia},
-                 {"reference_m", list(rigid.reference)},
-                 {"grounding_n_per_m_and_n_m_per_rad", list(rigid.grounding_stiffness)},
-                 {"grounding_hz", list(rigid.grounding_hz)},
+                 {"reference_m", numbers_json(rigid.reference)},
+                 {"grounding_n_per_m_and_n_m_per_rad", numbers_json(rigid.grounding_stiffness)},
+                 {"grounding_hz", numbers_json(rigid.grounding_hz)},
                  {"geometry_misfit", number_or_null(rigid.sets.geometry_misfit)},
                  {"stiffness_disagreement", number_or_null(rigid.sets.stiffness_disagreement)},
                  {"eigen_disagreement", number_or_null(rigid.sets.eigen_disagreement)},

@@ -18,9 +18,9 @@ struct Answer {
   double error = 0.0, error_of_least = 0.0;  ///< relative, of that limit and of the least depth anywhere
 };
 
-/// How far a depth may be off, relative: the estimate of the computation, what the part's reduction left out, and twice
-/// the standard deviation by the noise of measured FRFs, as the chart's band has them. Where the row does not tell, the
-/// chart's largest. 0: nothing is known.
+/// The relative error that a depth may have: the estimate of the computation, what the part's reduction left out, and
+/// twice the standard deviation by the noise of measured FRFs, as the chart's band has them. Where the row does not
+/// tell, the chart's largest. 0: nothing is known.
 double depth_error(double depth_m, const std::optional<double>& estimate, const DepthErrorsSummary* of_row,
                    const std::optional<ChartErrorsSummary>& of_chart) {
   const auto share = [&](const std::optional<double>& here, const std::optional<double>& largest) {
@@ -166,7 +166,7 @@ std::string frequencies_sentence(const char* name, std::vector<double> elastic_h
   return fmt::format("First natural frequencies of the {}: {} Hz.", name, frequencies);
 }
 
-/// Of a run without lobes: what the support does, or the modes.
+/// The answer of a run without lobes: what the support does, or the modes.
 std::vector<std::string> dynamics(const Summary& summary) {
   std::vector<std::string> list;
   if (summary.coupling) {

@@ -12,7 +12,7 @@ std::string depth_limit_in_words(const std::optional<CuttingSummary>& cutting) {
   return in_words(cutting ? cutting->depth_limit_is : "depth_limit");
 }
 
-/// Of a row at the case's speed, of a chart or of a path.
+/// The limit of a row at the case's speed, of a chart or of a path.
 template <class Row>
 Limit at_speed(const Row& row, const std::optional<CuttingSummary>& cutting) {
   Limit limit{row.limiting_depth_m, fmt::format(" at {:.0f} rpm", row.spindle_speed_rpm), is_sound(row.status), "", ""};

@@ -21,7 +21,7 @@
 
 namespace thinwall::report {
 
-/// How a value that a run does not have is written.
+/// The ways of writing a value that a run does not have.
 enum class Presence {
   by_type,  ///< a std::optional without a value is absent; everything else is there
   or_null,  ///< a std::optional without a value is null; its key is there

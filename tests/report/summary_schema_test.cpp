@@ -54,7 +54,7 @@ TEST(SummarySchema, TheUnitOfAKindIsThatOfTheName) {
   EXPECT_GT(with_unit, 80U);
 }
 
-/// Whether a schema lets a number stand at its place.
+/// True if a schema lets a number stand at its place.
 bool takes_numbers(const json& schema) {
   for (const char* type : {"number", "integer"}) {
     if (schema["type"] == type || (schema["type"].is_array() && schema["type"][0] == type)) return true;
