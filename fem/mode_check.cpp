@@ -14,18 +14,18 @@ namespace {
 
 using linalg::EigenCheckStatus;
 
-std::string hertz(double lambda) {
+std::string in_hertz(double lambda) {
   return core::number_text(std::sqrt(std::max(lambda, 0.0)) / (2.0 * std::numbers::pi), 8) + " Hz";
 }
 
 std::string missed_or_too_many(const linalg::EigenpairCheck& check) {
-  return std::to_string(check.below) + " modes were found below " + hertz(check.shift) + ", where the Sturm count of " +
+  return std::to_string(check.below) + " modes were found below " + in_hertz(check.shift) + ", where the Sturm count of " +
          "K - sM shows " + std::to_string(check.counted) + ": ask for a few more modes";
 }
 
 std::string apart(const linalg::EigenpairCheck& check) {
-  const std::string mode = "mode " + std::to_string(check.pair + 1) + " at " + hertz(check.lambda);
-  const std::string other = hertz(check.other_lambda);
+  const std::string mode = "mode " + std::to_string(check.pair + 1) + " at " + in_hertz(check.lambda);
+  const std::string other = in_hertz(check.other_lambda);
   return (check.second_alone ? "Spectra's Lanczos finds a mode at " + other + ", to which the nearest is " + mode
                              : mode + " is not confirmed by Spectra's Lanczos, whose nearest is at " + other) +
          ": the eigenvalues differ by " + core::number_text(check.largest_difference, 2) + " relative, more than " +

@@ -6,9 +6,9 @@
 //       visit(Field{"frequency_hz", Kind::frequency, "natural frequency"}, mode.frequency_hz);
 //     }
 //
-// from which follow the JSON (write_json.hpp), the reader (read_json.hpp), the published schema and the kinds by which
-// two results are compared (summary_schema.hpp). A member is a number, a text, a truth value, a Vector3d, a section, a
-// list of these, or a std::optional of one of them.
+// from which follow the JSON (write_json.hpp), the reader (summary_json.cpp), the published schema and the kinds by
+// which two results are compared (summary_schema.hpp). A member is a number, a text, a truth value, a Vector3d, a
+// section, a list of these, or a std::optional of one of them.
 
 #include <Eigen/Core>
 #include <concepts>

@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "milling/cut/cutting_load.hpp"
+#include "milling/cut/product_rule.hpp"
 #include "milling/direct/stability.hpp"
 #include "milling/structure/periodic_motion.hpp"
 #include "tests/milling/marching.hpp"

@@ -145,7 +145,7 @@ TEST(Arcs, TwoThatAdjoinAreOne) {
 /// Σ force chipᵀ at every node, and the share of the period that belongs to it: their sum is the mean of A.
 Eigen::Matrix3d mean_of(const ContactGrid& grid) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (const Contact& c : grid.contacts) {
+  for (const EdgeContact& c : grid.contacts) {
     for (const CutElement& e : grid.elements) {
       if (c.node < e.first_node || c.node >= e.first_node + e.nodes) continue;
       const double weight = core::gauss_legendre(e.nodes).weight(c.node - e.first_node);
