@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "app/command_line.hpp"
@@ -166,16 +168,15 @@ TEST_F(ChartChoices, SensitivitiesAreListedLargestFirstAndNamedInWords) {
 }
 
 TEST(ChartAnswers, NameTheTwoParametersThatMatterMost) {
-  const auto entry = [](const char* parameter, nlohmann::json hz, double value) {
-    return nlohmann::json{{"parameter", parameter}, {"mode_frequency_hz", std::move(hz)}, {"sensitivity", value}};
+  const auto entry = [](const char* parameter, std::optional<double> hz, double value) {
+    return SensitivitySummary{.parameter = parameter, .mode_frequency_hz = hz, .sensitivity = value};
   };
-  EXPECT_EQ(
-      sensitivities_text({entry("damping_ratio", 412.0, 0.8), entry("K_t", nullptr, -0.5), entry("K_r", nullptr, 0.4)}),
-      "    1 % more damping of the mode at 412.0 Hz raises the limit by 0.80 %\n"
-      "    1 % more K_t lowers the limit by 0.50 %\n");
-  EXPECT_EQ(sensitivities_text({entry("frequency", 412.0, -9.0), entry("K_t", nullptr, -0.5)}),
+  EXPECT_EQ(sensitivities_text({entry("damping_ratio", 412.0, 0.8), entry("K_t", {}, -0.5), entry("K_r", {}, 0.4)}),
+            "    1 % more damping of the mode at 412.0 Hz raises the limit by 0.80 %\n"
+            "    1 % more K_t lowers the limit by 0.50 %\n");
+  EXPECT_EQ(sensitivities_text({entry("frequency", 412.0, -9.0), entry("K_t", {}, -0.5)}),
             "    a 1 % higher natural frequency of the mode at 412.0 Hz lowers the limit by 9.00 %\n");
-  EXPECT_EQ(sensitivities_text(nlohmann::json::array()), "");
+  EXPECT_EQ(sensitivities_text({}), "");
 }
 
 TEST_F(ChartChoices, PocketsStayWithinTheMachine) {
