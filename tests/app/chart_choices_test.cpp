@@ -251,7 +251,7 @@ TEST(ChartChoicesBad, MapsAndUncertaintiesOutOfBoundsAreRefused) {
   expect_problem(uncertain("frequency = 0.4\n"), "lobes.uncertainty.frequency", "at most 50 % can be followed");
   expect_problem(uncertain("confidence = 2\n"), "lobes.uncertainty", "nothing is uncertain");
   expect_problem(mill("", "", "method = \"zeroth_order\"\n[lobes.uncertainty]\nfrequency = 0.01\n"),
-                 "lobes.uncertainty", "those of lobes.method = \"direct\"");
+                 "lobes.uncertainty", "belongs to lobes.method = \"direct\", but it is \"zeroth_order\"");
 }
 
 TEST(ChartChoicesBad, AMachineThatCannotBeIsRefused) {
