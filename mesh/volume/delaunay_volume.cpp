@@ -1,13 +1,11 @@
 #include "mesh/volume/delaunay_volume.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Mesh_3/Mesher_3.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_criteria_3.h>
 #include <CGAL/Mesh_triangulation_3.h>
 #include <CGAL/Polyhedral_mesh_domain_with_features_3.h>
 #include <CGAL/Surface_mesh.h>
-#include <CGAL/exude_mesh_3.h>
 #include <CGAL/make_mesh_3.h>
 
 #include <map>
@@ -52,20 +50,6 @@ TetMesh tet_mesh(const Complex& complex) {
   return mesh;
 }
 
-/// The steps of CGAL::make_mesh_3 with its default exudation and without perturbation: protecting balls on the sharp
-/// lines, refinement, exudation for as long as the refinement took. They are called one by one because make_mesh_3 also
-/// compiles the three optimisers that are not wanted here, which takes gcc longer than all the rest of this file.
-Complex refined_complex(const Domain& domain, const Criteria& criteria) {
-  Complex complex;
-  CGAL::Mesh_3::internal::C3t3_initializer<Complex, Domain, Criteria, true, CGAL::Tag_true>()(complex, domain, criteria,
-                                                                                              true);
-  CGAL::Mesh_3::Mesher_3<Complex, Criteria, Domain> mesher(complex, domain, criteria);
-  const double seconds = mesher.refine_mesh();
-  complex.clear_manifold_info();
-  CGAL::exude_mesh_3(complex, CGAL::parameters::time_limit = seconds);
-  return complex;
-}
-
 TetMesh refine(const TriangleSurface& surface, const DelaunayVolumeOptions& options) {
   namespace parameters = CGAL::parameters;
   constexpr double facet_angle_deg = 25.0;   // guaranteed up to 30
@@ -78,7 +62,7 @@ TetMesh refine(const TriangleSurface& surface, const DelaunayVolumeOptions& opti
       parameters::edge_size = options.size_m, parameters::facet_angle = facet_angle_deg,
       parameters::facet_size = options.size_m, parameters::facet_distance = options.surface_distance_m,
       parameters::cell_radius_edge_ratio = radius_edge_ratio, parameters::cell_size = options.size_m);
-  return tet_mesh(refined_complex(domain, criteria));
+  return tet_mesh(CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb()));
 }
 
 }  // namespace
