@@ -19,8 +19,8 @@ std::string in_hertz(double lambda) {
 }
 
 std::string missed_or_too_many(const linalg::EigenpairCheck& check) {
-  return std::to_string(check.below) + " modes were found below " + in_hertz(check.shift) + ", where the Sturm count of " +
-         "K - sM shows " + std::to_string(check.counted) + ": ask for a few more modes";
+  return std::to_string(check.below) + " modes were found below " + in_hertz(check.shift) +
+         ", where the Sturm count of " + "K - sM shows " + std::to_string(check.counted) + ": ask for a few more modes";
 }
 
 std::string apart(const linalg::EigenpairCheck& check) {
