@@ -10,6 +10,7 @@ struct overloaded : Functions... {
   using Functions::operator()...;
 };
 
+/// The type of a set of functions from the functions themselves.
 template <class... Functions>
 overloaded(Functions...) -> overloaded<Functions...>;
 

@@ -16,7 +16,7 @@ enum class EigenCheckStatus {
   not_converged,    ///< the second eigen-solver did not converge
 };
 
-/// What the two algorithms found.
+/// Findings of both algorithms.
 struct [[nodiscard]] EigenpairCheck {
   EigenCheckStatus status = EigenCheckStatus::agrees;
   double shift = 0.0;               ///< rad²/s², at which eigenvalues were counted
