@@ -71,7 +71,7 @@ class InputBytes {
   template <class... Alternatives>
   void add(const std::variant<Alternatives...>& value) {
     add(value.index());
-    std::visit([this](const auto& alternative) { add(alternative); }, value);
+    std::visit([this](const auto& alternative) { this->add(alternative); }, value);
   }
   /// Adds nothing: the number of the alternative tells it.
   void add(const std::monostate& /*nothing*/) {}
@@ -135,7 +135,7 @@ class InputBytes {
   template <class Struct>
   requires std::is_class_v<Struct> && std::is_aggregate_v<Struct>
   void add(const Struct& value) {
-    std::apply([this](const auto&... member) { (add(member), ...); }, core::fields_of(value));
+    std::apply([this](const auto&... member) { (this->add(member), ...); }, core::fields_of(value));
   }
 
   /// The bytes of all that was added.
