@@ -132,7 +132,7 @@ cases::CaseValues measured_values(const Source& source, std::size_t number, cons
           {frf + "frequency_unit", input.frequency_unit.empty() ? "Hz" : input.frequency_unit}};
 }
 
-/// What moves: the modes of a table, or an FRF of each file.
+/// The structure that moves: the modes of a table, or an FRF of each file.
 cases::CaseValues structure_values(const LobesInput& input) {
   cases::CaseValues values;
   for (std::size_t i = 0; i < input.sources.size(); ++i) {

@@ -70,7 +70,7 @@ bool ends_so(std::string file, std::string_view endings) {
   return std::ranges::find(list, std::filesystem::path(file).extension().string()) != list.end();
 }
 
-/// What a key or a table is for.
+/// The meaning of a key or a table, as the schema words it.
 std::string_view meaning_of(const Schema& schema, std::string_view pattern) {
   if (const Key* key = find_key(schema, pattern)) return key->meaning;
   return find_section(schema, pattern)->meaning;

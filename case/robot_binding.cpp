@@ -55,7 +55,7 @@ int link_number(const std::string& name, const std::vector<robot::Link>& links) 
   return static_cast<int>(std::ranges::find(links, name, &robot::Link::name) - links.begin());
 }
 
-/// Where the robot stands, in the part's axes.
+/// The place and the orientation of the robot's base, in the part's axes.
 Eigen::Isometry3d bind_base(const Table& robot) {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   const Table base = robot.table("base");

@@ -20,7 +20,7 @@ std::string in_hertz(double lambda) {
 
 std::string missed_or_too_many(const linalg::EigenpairCheck& check) {
   return std::to_string(check.below) + " modes were found below " + in_hertz(check.shift) +
-         ", where the Sturm count of " + "K - sM shows " + std::to_string(check.counted) + ": ask for a few more modes";
+         ", where the Sturm count of K - sM shows " + std::to_string(check.counted) + ": ask for a few more modes";
 }
 
 std::string apart(const linalg::EigenpairCheck& check) {
@@ -42,7 +42,7 @@ std::string fault(const linalg::EigenpairCheck& check) {
       return "ill-conditioned: no shift near the last mode gave a factor whose pivots can be counted; ask for another "
              "number of modes";
     case EigenCheckStatus::not_converged:
-      return "Spectra's Lanczos did not converge; ask for fewer modes";
+      return "Spectra's Lanczos did not converge, or an eigenvalue is not finite; ask for fewer modes";
     case EigenCheckStatus::agrees:
       break;
   }

@@ -96,7 +96,8 @@ EigenpairCheck check_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, co
   EigenpairCheck check;
   const Tolerance tolerance(K, M, inverse.sigma);
   const Eigenpairs second = single_vector_eigenpairs(K, M, inverse, static_cast<int>(pairs.lambda.size()));
-  if (second.status != EigenStatus::converged) {
+  // A NaN would compare as no difference.
+  if (second.status != EigenStatus::converged || !pairs.lambda.allFinite() || !second.lambda.allFinite()) {
     check.status = EigenCheckStatus::not_converged;
     return check;
   }

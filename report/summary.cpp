@@ -77,7 +77,7 @@ PartSummary part_of(const study::Results& results) {
   if (!part.model.mesh.tets.empty()) result.free_motions = part.model.free_motions;
   if (const auto& check = part.modes.check) {
     result.mode_check = {.modes_counted = check->counted,
-                         .below_hz = std::sqrt(check->shift) / (2.0 * std::numbers::pi),
+                         .below_hz = std::sqrt(std::max(check->shift, 0.0)) / (2.0 * std::numbers::pi),
                          .largest_difference_relative = check->largest_difference,
                          .of_mode = check->pair + 1};
   }

@@ -165,7 +165,8 @@ Json told(const Schema& schema, const Telling& telling) {
   return result;
 }
 
-/// What a table may hold with one word of its chooser: that word, the keys that it needs, and none of other words.
+/// The schema of a table whose chooser has one word: it requires the keys that the word needs and forbids those of
+/// others.
 Json branch(const Schema& schema, const Key& chooser, const std::string& word) {
   const std::string name(last_name(chooser.path));
   Json result = {{"properties", {{name, {{"const", word}}}}}};

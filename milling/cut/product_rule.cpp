@@ -103,7 +103,8 @@ ModeMoments ProductRule::moments(const Eigen::VectorXcd& z) const {
     auto& in_gap = decay[static_cast<std::size_t>(same)];
     if (i == same) in_gap = exponentials(z * gap_(i), gap_distance_);
     const Eigen::VectorXcd over_gap = (z * gap_(i)).array().exp();
-    // What was there is carried over the gap, and what the gap adds comes to it. After the last gap this is the end.
+    // The state before the gap is carried over it, and the gap's own share is added. After the last gap this is the
+    // end.
     result.end =
         (over_gap.asDiagonal() * result.end + as_complex(in_gap * gap_table_[static_cast<std::size_t>(i)])).eval();
     if (i < n) result.inside.push_back(result.end);

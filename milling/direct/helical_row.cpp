@@ -245,7 +245,7 @@ class HelicalGrids : public SearchGrids {
     return settle(cut_, next, 0.9 * crossing.depth_m, 1.1 * crossing.depth_m, crossing) ? OnFinerGrid::kept
                                                                                         : OnFinerGrid::lost;
   }
-  /// Of the finest grid so far, whatever the level.
+  /// The nodes of the finest grid so far, whatever the level.
   [[nodiscard]] int nodes(std::size_t /*level*/) override { return finest_; }
   [[nodiscard]] int unstable(std::size_t level, double depth_m) override {
     return milling::unstable(discrete(cut_, resolution(level, depth_m), depth_m), depth_m);

@@ -23,7 +23,7 @@ class OpenedFiles {
   OpenedFiles(const OpenedFiles&) = delete;
   OpenedFiles& operator=(const OpenedFiles&) = delete;
 
-  /// How often the file of that name was opened until now.
+  /// The number of times that the file of that name was opened until now.
   [[nodiscard]] int count(const std::filesystem::path& file) {
     alignas(inotify_event) std::array<char, 65536> buffer{};
     for (ssize_t size = ::read(watch_, buffer.data(), buffer.size()); size > 0;

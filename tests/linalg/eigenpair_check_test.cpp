@@ -73,6 +73,14 @@ TEST_F(EigenpairCheckOfAMembrane, RefusesAChangedEigenvalueAndNamesIt) {
   }
 }
 
+TEST_F(EigenpairCheckOfAMembrane, RefusesAValueThatIsNotFinite) {
+  for (const int k : {0, 3, 7}) {
+    Eigenpairs forged = lowest(8);
+    forged.lambda(k) = std::nan("");
+    EXPECT_EQ(check(forged).status, EigenCheckStatus::not_converged) << k;
+  }
+}
+
 TEST_F(EigenpairCheckOfAMembrane, RefusesACopyInPlaceOfAnother) {
   Eigenpairs forged = lowest(8);
   // One eigenvalue twice, another missing: the number of pairs is right.

@@ -272,7 +272,7 @@ void InputKeyOfFiles::expect_contents_in_keys(setup::Setup& source, std::size_t 
   }
 }
 
-/// What a file holds stands in the keys, and not only its name.
+/// The keys depend on the contents of a file, and not only on its name.
 TEST_F(InputKeyOfFiles, AChangedFileChangesTheKeyWhereverItIsNamed) {
   setup::Setup source = full_setup();
   // FRFs of the part, of its damping and two of the tool; a robot and a contact have one file, or none.

@@ -44,7 +44,7 @@ study::Solution solution() {
   return found;
 }
 
-/// What the part's stage says of this solution; empty if it takes it.
+/// The message with which the part's stage refuses this solution; empty if it takes it.
 std::string refusal(study::Solution found) {
   const cases::Case source = cases::parse_case(wall("true"), ".");
   study::Stages stages;
