@@ -40,12 +40,13 @@ std::vector<double> supported_hz(const report::CouplingSummary& coupling) {
 }
 
 void add_chart(SweepFigures& figures, const report::LobesSummary& chart) {
+  const std::string name = core::word_of(chart.name);
   if (const auto& row = chart.at_case_speed) {
-    add_figure(figures, chart.name + "_depth_at_speed_mm", row->limiting_depth_m * 1e3);
-    figures.emplace_back(chart.name + "_depth_at_limit", row->at_depth_limit ? 1.0 : 0.0);
+    add_figure(figures, name + "_depth_at_speed_mm", row->limiting_depth_m * 1e3);
+    figures.emplace_back(name + "_depth_at_limit", row->at_depth_limit ? 1.0 : 0.0);
   }
-  add_figure(figures, chart.name + "_least_depth_mm", chart.minimum_depth_m * 1e3);
-  add_figure(figures, chart.name + "_least_depth_at_rpm", chart.at_spindle_speed_rpm);
+  add_figure(figures, name + "_least_depth_mm", chart.minimum_depth_m * 1e3);
+  add_figure(figures, name + "_least_depth_at_rpm", chart.at_spindle_speed_rpm);
 }
 
 std::optional<double> figure(const SweepRow& row, const std::string& column) {

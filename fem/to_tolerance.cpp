@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "fem/determined_motions.hpp"
 #include "fem/interpolation.hpp"
-#include "fem/seen_motions.hpp"
 
 namespace thinwall::fem {
 
@@ -187,7 +187,7 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
     // follow from it by inverse iteration.
     Solution now = solve(part, mesh, options.first_order + 1, options);
     if (level == 0 && options.points_hold && now.factored.sigma != 0.0)
-      require_motions_seen(now.model, now.modes, now.amplitudes);
+      require_motions_determined(now.model, now.modes, now.amplitudes);
     Solution below = solve_below(part, now, options);
     estimate.steps.push_back({level, options.first_order, below.model.K.rows(), {}, {}});
     for (int order = options.first_order + 1;; ++order) {

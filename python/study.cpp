@@ -80,7 +80,7 @@ std::string summary_text(const study::Results& results) {
 
 std::map<std::string, milling::Lobes> charts(const study::Results& results) {
   std::map<std::string, milling::Lobes> list;
-  for (const study::NamedLobes& named : results.lobes) list[named.name] = named.lobes;
+  for (const study::StructureLobes& named : results.lobes) list[core::word_of(named.of)] = named.lobes;
   return list;
 }
 

@@ -76,7 +76,7 @@ ErrorBudgetSummary error_budget_summary(const study::Results& results) {
   return budget;
 }
 
-std::optional<ChartErrorsSummary> chart_errors_summary(const study::NamedLobes& named) {
+std::optional<ChartErrorsSummary> chart_errors_summary(const study::StructureLobes& named) {
   if (named.errors.empty()) return std::nullopt;
   std::optional<double> truncation, noise;
   const study::DepthError* least = nullptr;

@@ -16,7 +16,7 @@ namespace thinwall::report {
 
 /// `error_budget` of a chart: the largest of all rows, relative to their depths, and that of the row of least depth.
 /// None where nothing is known to be wrong.
-[[nodiscard]] std::optional<ChartErrorsSummary> chart_errors_summary(const study::NamedLobes& named);
+[[nodiscard]] std::optional<ChartErrorsSummary> chart_errors_summary(const study::StructureLobes& named);
 
 /// The error summary of the row at the case's own speed, with what drawing samples gave.
 [[nodiscard]] DepthErrorsSummary row_errors_summary(const study::DepthError& error,

@@ -112,7 +112,7 @@ std::vector<std::string> chart_notes(const LobesSummary& chart) {
   }
   if (chart.speeds_not_converged > 0) {
     notes.push_back(fmt::format("{} of {} speeds did not reach the tolerance: see the status column of lobes/{}.csv",
-                                chart.speeds_not_converged, chart.speeds, chart.name));
+                                chart.speeds_not_converged, chart.speeds, core::word_of(chart.name)));
   }
   return notes;
 }
@@ -136,7 +136,7 @@ std::vector<std::string> answer_sentences(const Summary& summary) {
     list.push_back(
         as_sentence("along the path, " + chart_title(path.name),
                     fmt::format("{} rows did not reach the tolerance: see the status column of lobes/{}_path.csv",
-                                path.rows_not_converged, path.name)));
+                                path.rows_not_converged, core::word_of(path.name))));
   }
   return list;
 }

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Every crossing of every speed, so that islands and gaps above the limiting depth are there, too.
-void write_crossings(const fs::path& folder, const study::NamedLobes& named) {
+void write_crossings(const fs::path& folder, const study::StructureLobes& named) {
   std::vector<double> speed, depth, chatter, change, error;
   std::vector<std::string> kind;
   for (const milling::LobeRow& row : named.lobes.rows) {
@@ -28,7 +28,7 @@ void write_crossings(const fs::path& folder, const study::NamedLobes& named) {
       error.push_back(point.error_estimate);
     }
   }
-  io::write_csv(folder / (named.name + "_crossings.csv"),
+  io::write_csv(folder / (core::word_of(named.of) + "_crossings.csv"),
                 {{"spindle_speed_rpm", speed},
                  {"depth_m", depth},
                  {"chatter_frequency_hz", chatter},
@@ -103,12 +103,13 @@ void write_map(const fs::path& file, const milling::StabilityMap& map) {
 
 }  // namespace
 
-void write_lobes(const fs::path& folder, const study::NamedLobes& named) {
-  write_chart(folder / (named.name + ".csv"), named.lobes, named.robust ? &*named.robust : nullptr, named.errors);
+void write_lobes(const fs::path& folder, const study::StructureLobes& named) {
+  const std::string name = core::word_of(named.of);
+  write_chart(folder / (name + ".csv"), named.lobes, named.robust ? &*named.robust : nullptr, named.errors);
   write_crossings(folder, named);
   for (const study::ComparedLobes& other : named.compared)
-    write_chart(folder / (named.name + "_" + other.method + ".csv"), other.lobes, nullptr, {});
-  if (named.map) write_map(folder / (named.name + "_map.csv"), *named.map);
+    write_chart(folder / (name + "_" + other.method + ".csv"), other.lobes, nullptr, {});
+  if (named.map) write_map(folder / (name + "_map.csv"), *named.map);
 }
 
 void write_path(const fs::path& folder, const setup::Setup& source, const study::PathLobes& path) {
@@ -129,7 +130,7 @@ void write_path(const fs::path& folder, const setup::Setup& source, const study:
       status.push_back(milling::name(row.status));
     }
   }
-  io::write_csv(folder / (path.name + "_path.csv"),
+  io::write_csv(folder / (core::word_of(path.of) + "_path.csv"),
                 {{"position", number},
                  {"x_m", x},
                  {"y_m", y},

@@ -66,7 +66,7 @@ std::vector<SensitivitySummary> sensitivities_summary(const std::vector<study::P
   return entries;
 }
 
-void add_what_was_asked(LobesSummary& chart, const setup::Setup& source, const study::NamedLobes& named) {
+void add_what_was_asked(LobesSummary& chart, const setup::Setup& source, const study::StructureLobes& named) {
   for (const study::ComparedLobes& other : named.compared) chart.compared.push_back(compared_summary(other));
   if (named.map) chart.map = map_summary(*named.map);
   if (!named.robust) return;

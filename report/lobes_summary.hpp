@@ -23,6 +23,6 @@ namespace thinwall::report {
     const std::vector<study::ParameterSensitivity>& list);
 
 /// Puts `compared`, `map` and `robust` beside the chart, those that there are.
-void add_what_was_asked(LobesSummary& chart, const setup::Setup& source, const study::NamedLobes& named);
+void add_what_was_asked(LobesSummary& chart, const setup::Setup& source, const study::StructureLobes& named);
 
 }  // namespace thinwall::report

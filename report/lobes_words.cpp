@@ -8,8 +8,16 @@ std::string depth_text(double depth_m, bool at_limit) {
   return fmt::format("{}{:.3f} mm", at_limit ? "over " : "", depth_m * 1e3);
 }
 
-std::string chart_title(const std::string& chart) {
-  return chart == "part" ? "part alone" : chart == "tool" ? "tool" : "with the robot";
+std::string chart_title(study::ChartOf chart) {
+  switch (chart) {
+    case study::ChartOf::part:
+      return "part alone";
+    case study::ChartOf::supported:
+      return "with the robot";
+    case study::ChartOf::tool:
+      break;
+  }
+  return "tool";
 }
 
 double total_seconds(const Summary& summary) {

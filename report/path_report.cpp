@@ -88,7 +88,7 @@ std::string text_of_chart(const PathSummary& path) {
                         depth_text(row->limiting_depth_m, row->at_depth_limit), row->limited_at_position);
   if (path.rows_not_converged > 0)
     text += fmt::format("    {} rows did not reach the tolerance: see the status column of lobes/{}_path.csv\n",
-                        path.rows_not_converged, path.name);
+                        path.rows_not_converged, core::word_of(path.name));
   return text;
 }
 
@@ -96,7 +96,7 @@ std::string text_of_chart(const PathSummary& path) {
 
 PathSummary path_summary(const setup::Setup& source, const study::PathLobes& path) {
   PathSummary result;
-  result.name = path.name;
+  result.name = path.of;
   result.method = path.lobes.front().method;
   result.support = source.path->robot_follows ? "follows" : "held";
   result.speeds = std::ssize(path.lobes.front().rows);

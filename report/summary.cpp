@@ -171,7 +171,7 @@ CrossingSummary crossing_of(const milling::LobePoint& point) {
           .error_estimate_relative = finite(point.error_estimate)};
 }
 
-CaseSpeedSummary case_speed_of(const setup::Setup& source, const study::NamedLobes& named) {
+CaseSpeedSummary case_speed_of(const setup::Setup& source, const study::StructureLobes& named) {
   CaseSpeedSummary row{row_of(*named.at_spindle_speed), {}, sensitivities_summary(named.sensitivities), {}};
   for (const auto& point : named.at_spindle_speed->crossings) row.crossings.push_back(crossing_of(point));
   if (named.error_at_spindle_speed)
@@ -179,11 +179,11 @@ CaseSpeedSummary case_speed_of(const setup::Setup& source, const study::NamedLob
   return row;
 }
 
-LobesSummary lobes_of(const setup::Setup& source, const study::NamedLobes& named) {
+LobesSummary lobes_of(const setup::Setup& source, const study::StructureLobes& named) {
   const milling::Lobes& lobes = named.lobes;
   const auto deepest = std::ranges::max_element(lobes.rows, {}, &milling::LobeRow::limiting_depth_m);
   LobesSummary result;
-  result.name = named.name;
+  result.name = named.of;
   result.method = lobes.method;
   result.minimum_depth_m = lobes.minimum_depth_m;
   result.at_spindle_speed_rpm = lobes.at_spindle_speed_rpm;
@@ -211,7 +211,7 @@ ForcedVibrationSummary forced_of(const milling::ForcedVibration& v) {
           .error_estimate_relative = finite(v.error_estimate)};
 }
 
-OperatingPointSummary operating_point_of(const std::string& chart, const study::PointStability& found) {
+OperatingPointSummary operating_point_of(study::ChartOf chart, const study::PointStability& found) {
   const auto& boundary = found.depth.boundary;
   OperatingPointSummary result;
   result.chart = chart;
@@ -296,7 +296,7 @@ Summary summary_of(const setup::Setup& source, const study::Results& results) {
   for (const auto& lobes : results.lobes) summary.lobes.push_back(lobes_of(source, lobes));
   for (const auto& path : results.path) summary.path.push_back(path_summary(source, path));
   for (const auto& lobes : results.lobes) {
-    for (const auto& point : lobes.points) summary.operating_points.push_back(operating_point_of(lobes.name, point));
+    for (const auto& point : lobes.points) summary.operating_points.push_back(operating_point_of(lobes.of, point));
   }
   summary.sentences = answer_sentences(summary);
   summary.timings_s.insert(results.timings_s.begin(), results.timings_s.end());

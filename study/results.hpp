@@ -33,6 +33,7 @@
 #include "setup/contact_model.hpp"
 #include "setup/machining_setup.hpp"
 #include "setup/robot_tip.hpp"
+#include "study/lobes/chart_of.hpp"
 
 namespace thinwall::study {
 
@@ -173,9 +174,9 @@ struct ComparedLobes {
   double at_spindle_speed_rpm = 0.0;
 };
 
-/// A stability chart by its name, with all that was asked of it.
-struct NamedLobes {
-  std::string name;  ///< "part", "supported", "tool"
+/// The stability chart of a structure, with all that was asked of it.
+struct StructureLobes {
+  ChartOf of = ChartOf::part;
   milling::Lobes lobes;
   std::optional<milling::LobeRow> at_spindle_speed;  ///< at the case's own speed
   std::vector<PointStability> points;                ///< that were asked for
@@ -193,7 +194,7 @@ struct NamedLobes {
 
 /// Charts of one structure at the positions of the path.
 struct PathLobes {
-  std::string name;                                  ///< "part", "supported"
+  ChartOf of = ChartOf::part;                        ///< part or supported
   std::vector<milling::Lobes> lobes;                 ///< of each position
   std::vector<milling::LobeRow> at_spindle_speed{};  ///< of each, at the case's own speed; empty without one
   std::vector<setup::RobotPosture> robot{};          ///< how it stands at each; empty for the part alone
@@ -235,7 +236,7 @@ struct Results {
   std::optional<CouplingResult> coupled;
   std::vector<AmplitudeReduction> reductions;
   ErrorBudget errors;
-  std::vector<NamedLobes> lobes;
+  std::vector<StructureLobes> lobes;
   std::vector<PathLobes> path;
   std::vector<std::pair<std::string, double>> timings_s;  ///< stage, seconds, in the order they ran
 };

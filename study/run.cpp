@@ -167,7 +167,7 @@ void add_sampled_chart(const setup::CutSetup& work, const milling::ToolFrame& fr
   try {
     const auto structure = sampled_structure(work, frame, results.coupled->receptance.response);
     const StructureErrors errors = sampled_structure_errors(work, frame, results);
-    results.lobes.push_back(compute_lobes(work, "supported", structure, errors, points, kept));
+    results.lobes.push_back(compute_lobes(work, ChartOf::supported, structure, errors, points, kept));
   } catch (const core::Interrupted&) {
     throw;
   } catch (const core::Error& error) {
@@ -180,7 +180,7 @@ void flag_contacts(const setup::Setup& work, Results& results) {
   if (work.coupling.regularisation != coupling::Regularisation::none) return;
   const CutPlace place{work.cutting->at, setup::milling_process(work).frame.rotation()};
   for (PointStability& point : results.lobes.back().points) {
-    if (results.lobes.back().name != "supported" || !point.forced) continue;
+    if (results.lobes.back().of != ChartOf::supported || !point.forced) continue;
     point.contact =
         contact_force(work, contacts_of(results.contacts), place, *results.part, *results.robot, *point.forced);
     if (!point.contact->lost) continue;
@@ -194,26 +194,25 @@ void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoi
                Results& results, Stages& stages) {
   if (!work.lobes || !work.cutting || !work.tool) return;
   const milling::ToolFrame frame = setup::milling_process(work).frame;
-  const auto chart_of = [&](const std::string& name, const dynamics::ModalModel* part,
-                            const dynamics::ModalModel* richer) {
+  const auto chart_of = [&](ChartOf of, const dynamics::ModalModel* part, const dynamics::ModalModel* richer) {
     const CutStructure structure = cut_structure(work, frame, part);
     const StructureErrors errors = structure_errors(work, frame, structure, richer);
-    results.lobes.push_back(compute_lobes(work, name, structure, errors, points, kept));
+    results.lobes.push_back(compute_lobes(work, of, structure, errors, points, kept));
   };
   const auto modal = [](const std::optional<Component>& component) {
     return component && component->modal ? &*component->modal : nullptr;
   };
   stages.begin("lobes");
-  if (!work.part && work.measured_part.empty()) return chart_of("tool", nullptr, nullptr);
+  if (!work.part && work.measured_part.empty()) return chart_of(ChartOf::tool, nullptr, nullptr);
   if (!results.part || !results.part->modal) {
     throw core::InputError(
         "lobes need a part that is held and known as a model (part.shape with part.supports), not by measured "
         "receptances alone");
   }
-  chart_of("part", &*results.part->modal, modal(results.errors.richer_part));
+  chart_of(ChartOf::part, &*results.part->modal, modal(results.errors.richer_part));
   if (results.coupled && results.coupled->modal) {
     const auto& richer = results.errors.richer_coupled;
-    chart_of("supported", &*results.coupled->modal, richer ? &*richer : nullptr);
+    chart_of(ChartOf::supported, &*results.coupled->modal, richer ? &*richer : nullptr);
   } else if (results.coupled) {
     add_sampled_chart(work, frame, points, kept, results);
   }

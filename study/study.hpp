@@ -7,6 +7,7 @@
 #include "study/kept/checkpoint.hpp"
 #include "study/kept/stage_keys.hpp"
 #include "study/least_squares.hpp"
+#include "study/lobes/chart_of.hpp"
 #include "study/lobes/cut_structure.hpp"
 #include "study/lobes/lobe_sensitivity.hpp"
 #include "study/lobes/lobes_stage.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/lobes_words.hpp"
 #include "report/page/limit_text.hpp"
 
 namespace thinwall::report {
@@ -46,8 +47,8 @@ double error_at_speed(const LobesSummary& chart) {
 }
 
 /// The supported part before the bare one.
-void add(std::vector<Answer>& list, const std::string& name, Answer answer) {
-  list.insert(name == "supported" ? list.begin() : list.end(), std::move(answer));
+void add(std::vector<Answer>& list, study::ChartOf name, Answer answer) {
+  list.insert(name == study::ChartOf::supported ? list.begin() : list.end(), std::move(answer));
 }
 
 std::vector<Answer> chart_answers(const Summary& summary) {
@@ -84,16 +85,16 @@ std::string held_points(const Summary& summary) {
 
 /// "with the robot at P", "with the robot at B, cut at P", "part alone, cut at P", "this tool".
 std::string subject(const LobesSummary& chart, const Summary& summary) {
-  if (chart.name == "tool") return "this tool";
+  if (chart.name == study::ChartOf::tool) return "this tool";
   const std::string at = summary.cutting ? summary.cutting->at.value_or("") : "";
   const std::string cut = at.empty() ? "" : ", cut at " + at;
-  if (chart.name != "supported") return "part alone" + cut;
+  if (chart.name != study::ChartOf::supported) return "part alone" + cut;
   const std::string held = held_points(summary);
   return "with the robot" + (held.empty() ? "" : " at " + held) + (held == at ? "" : cut);
 }
 
 std::string path_subject(const PathSummary& path) {
-  return path.name == "supported" ? "along the path with the robot" : "along the path, part alone";
+  return path.name == study::ChartOf::supported ? "along the path with the robot" : "along the path, part alone";
 }
 
 /// Both limits in one sentence.
@@ -191,9 +192,7 @@ std::vector<std::string> dynamics(const Summary& summary) {
 }
 
 std::string point_sentence(const OperatingPointSummary& point) {
-  std::string text = (point.chart == "supported" ? "With the robot, "
-                      : point.chart == "part"    ? "Part alone, "
-                                                 : "This tool, ") +
+  std::string text = (point.chart == study::ChartOf::tool ? "This tool" : capital(chart_title(point.chart))) + ", " +
                      place_text(point) + ": ";
   if (!is_sound(point.status)) text += "not converged: ";
   text += point.stable ? "stable" : "chatter";

@@ -56,7 +56,7 @@ struct Source {
 json compared_of(const fs::path& folder, const LobesSummary& of) {
   json list = json::array();
   for (const ComparedSummary& other : of.compared) {
-    const fs::path file = folder / fmt::format("{}_{}.csv", of.name, other.name);
+    const fs::path file = folder / fmt::format("{}_{}.csv", core::word_of(of.name), other.name);
     if (!fs::exists(file)) continue;
     const Source chart(file);
     list.push_back({{"name", other.name},
@@ -131,12 +131,13 @@ json lobes_data(const fs::path& results, const Summary& summary) {
   const fs::path folder = results / "lobes";
   if (summary.lobes.empty()) return run;
   for (const LobesSummary& chart : summary.lobes) {
-    if (!fs::exists(folder / (chart.name + ".csv"))) continue;
-    run["lobes"].push_back(chart_of(folder, chart.name));
+    const std::string name = core::word_of(chart.name);
+    if (!fs::exists(folder / (name + ".csv"))) continue;
+    run["lobes"].push_back(chart_of(folder, name));
     if (json others = compared_of(folder, chart); !others.empty()) run["lobes"].back()["compared"] = std::move(others);
     run["lobes"].back()["tooth_passing_hz"] = chart.main_modes_hz;
-    if (const fs::path path = folder / (chart.name + "_path.csv"); fs::exists(path))
-      run["paths"].push_back(path_of(path, chart.name));
+    if (const fs::path path = folder / (name + "_path.csv"); fs::exists(path))
+      run["paths"].push_back(path_of(path, name));
   }
   run["cutting"] = cutting_of(summary);
   return run;

@@ -7,8 +7,8 @@
 //     }
 //
 // from which follow the JSON (write_json.hpp), the reader (summary_json.cpp), the published schema and the kinds by
-// which two results are compared (summary_schema.hpp). A member is a number, a text, a truth value, a Vector3d, a
-// section, a list of these, or a std::optional of one of them.
+// which two results are compared (summary_schema.hpp). A member is a number, a text, a truth value, an
+// enumeration with words (core/words.hpp), a Vector3d, a section, a list of these, or a std::optional of one of them.
 
 #include <Eigen/Core>
 #include <concepts>
@@ -17,6 +17,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/words.hpp"
 #include "report/summary/quantity_kind.hpp"
 
 namespace thinwall::report {
@@ -56,6 +57,10 @@ template <class T>
 inline constexpr bool is_optional = false;
 template <class T>
 inline constexpr bool is_optional<std::optional<T>> = true;
+
+/// An enumeration with words, as which its values are written.
+template <class T>
+concept IsWord = std::is_enum_v<T> && !core::words<T>.empty();
 
 template <class T>
 inline constexpr bool is_list = false;

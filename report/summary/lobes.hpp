@@ -6,6 +6,7 @@
 
 #include "report/summary/errors.hpp"
 #include "report/summary/field.hpp"
+#include "study/lobes/chart_of.hpp"
 
 namespace thinwall::report {
 
@@ -202,7 +203,8 @@ void fields(Visitor& visit, Section& robust) {
 
 /// A stability chart.
 struct LobesSummary {
-  std::string name, method;
+  study::ChartOf name = study::ChartOf::part;
+  std::string method;
   double minimum_depth_m = 0.0, at_spindle_speed_rpm = 0.0;
   RowSummary maximum;
   std::optional<double> error_estimate_relative, static_share;
@@ -219,7 +221,7 @@ struct LobesSummary {
 
 template <class Visitor, Either<LobesSummary> Section>
 void fields(Visitor& visit, Section& chart) {
-  visit(Field{"name", Kind::text, "\"part\", \"supported\" or \"tool\""}, chart.name);
+  visit(Field{"name", Kind::text, "structure of the chart"}, chart.name);
   visit(Field{"method", Kind::text, "method in words"}, chart.method);
   visit(Field{"minimum_depth_m", Kind::length, "least limiting depth of all speeds"}, chart.minimum_depth_m);
   visit(Field{"at_spindle_speed_rpm", Kind::spindle_speed, "speed of that"}, chart.at_spindle_speed_rpm);

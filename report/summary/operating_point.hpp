@@ -49,7 +49,7 @@ void fields(Visitor& visit, Section& force) {
 
 /// The answer of a chart for one operating point.
 struct OperatingPointSummary {
-  std::string chart;
+  study::ChartOf chart = study::ChartOf::part;
   double spindle_speed_rpm = 0.0, depth_m = 0.0;
   bool stable = false;
   std::optional<double> multiplier_modulus;

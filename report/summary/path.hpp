@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "report/summary/robot.hpp"
+#include "study/lobes/chart_of.hpp"
 
 namespace thinwall::report {
 
@@ -75,7 +76,8 @@ void fields(Visitor& visit, Section& row) {
 
 /// Charts of one structure along the path.
 struct PathSummary {
-  std::string name, method, support;
+  study::ChartOf name = study::ChartOf::part;
+  std::string method, support;
   long speeds = 0;
   PositionSummary weakest;
   EverywhereSummary deepest_everywhere;
@@ -87,7 +89,7 @@ struct PathSummary {
 
 template <class Visitor, Either<PathSummary> Section>
 void fields(Visitor& visit, Section& path) {
-  visit(Field{"name", Kind::text, "\"part\" or \"supported\""}, path.name);
+  visit(Field{"name", Kind::text, "structure of the charts"}, path.name);
   visit(Field{"method", Kind::text, "method in words"}, path.method);
   visit(Field{"support", Kind::text, "\"follows\" if the robot follows the cut, else \"held\""}, path.support);
   visit(Field{"speeds", Kind::count, "spindle speeds"}, path.speeds);

@@ -34,6 +34,13 @@ void take(const JsonValue& from, std::string& value) {
   value = from.text();
 }
 
+template <IsWord T>
+void take(const JsonValue& from, T& value) {
+  const std::optional<T> known = core::from_word<T>(from.text());
+  if (!known) from.refuse("is none of the words that may stand here");
+  value = *known;
+}
+
 void take(const JsonValue& from, Eigen::Vector3d& value) {
   const std::vector<double> numbers = from.numbers();
   if (numbers.size() != 3) from.refuse("is no list of three numbers");

@@ -61,6 +61,8 @@ Json type_schema() {
     return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}};
   } else if constexpr (std::same_as<T, std::map<std::string, double>>) {
     return {{"type", "object"}, {"additionalProperties", {{"type", "number"}}}};
+  } else if constexpr (IsWord<T>) {
+    return {{"type", "string"}, {"enum", core::words<T>}};
   } else if constexpr (IsSection<T>) {
     return object_schema<T>();
   } else {

@@ -44,6 +44,8 @@ nlohmann::json json_of(const T& value) {
     JsonWriter writer;
     fields(writer, value);
     return std::move(writer.object);
+  } else if constexpr (IsWord<T>) {
+    return nlohmann::json(core::word_of(value));
   } else if constexpr (std::same_as<T, double>) {
     return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
   } else {

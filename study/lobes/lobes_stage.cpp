@@ -65,7 +65,8 @@ struct Chart {
 };
 
 /// Errors of the limiting depths, and at the case's own speed; the rows share out among the threads.
-void add_errors(const setup::CutSetup& source, const Chart& chart, const StructureErrors& errors, NamedLobes& result) {
+void add_errors(const setup::CutSetup& source, const Chart& chart, const StructureErrors& errors,
+                StructureLobes& result) {
   if (errors.none() || (chart.poles() != nullptr && !chart.direct)) return;  // crossings of other methods are their own
   const auto at = [&](const milling::LobeRow& row) {
     if (row.crossings.empty()) return DepthError{};
@@ -141,7 +142,7 @@ ComparedLobes compared(const Chart& chart, const milling::Lobes& reference, mill
 }
 
 /// A comparison that fails leaves the chart as it is.
-void add_compared(const Chart& chart, milling::Method method, NamedLobes& result) {
+void add_compared(const Chart& chart, milling::Method method, StructureLobes& result) {
   try {
     result.compared.push_back(compared(chart, result.lobes, method));
   } catch (const core::InputError& error) {
@@ -168,7 +169,7 @@ std::vector<milling::LobeRow> robust_rows(std::vector<milling::LobeRow> rows, co
   return rows;
 }
 
-void add_pockets(const setup::CutSetup& source, const milling::MillingProcess& process, NamedLobes& result) {
+void add_pockets(const setup::CutSetup& source, const milling::MillingProcess& process, StructureLobes& result) {
   constexpr std::size_t most = 5;
   const milling::MachineLimits machine = source.machine.value_or(milling::MachineLimits{});
   std::optional<milling::CutLoad> load;
@@ -189,18 +190,18 @@ milling::StabilityOptions stability_options(const setup::LobesOptions& wanted) {
   return options;
 }
 
-NamedLobes compute_lobes(const setup::CutSetup& source, const std::string& name, CutStructure structure,
-                         const StructureErrors& errors, const std::vector<milling::OperatingPoint>& points,
-                         Checkpoint& kept) {
+StructureLobes compute_lobes(const setup::CutSetup& source, ChartOf of, CutStructure structure,
+                             const StructureErrors& errors, const std::vector<milling::OperatingPoint>& points,
+                             Checkpoint& kept) {
   const setup::LobesOptions& wanted = *source.lobes;
   const milling::MillingProcess process = setup::milling_process(source);
   const Chart chart{std::move(structure), process, options_of(wanted),
                     milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count),
                     wanted.method == milling::Method::direct};
-  NamedLobes result;
-  result.name = name;
+  StructureLobes result;
+  result.of = of;
   result.main_modes_hz = main_modes_hz(chart.structure);
-  result.lobes = chart.by(wanted.method, kept_rows(kept, name));
+  result.lobes = chart.by(wanted.method, kept_rows(kept, core::word_of(of)));
   if (const auto rpm = source.cutting->spindle_speed_rpm) {
     result.at_spindle_speed = chart.row_at(wanted.method)(*rpm, chart.options.stability);
     if (!result.at_spindle_speed->crossings.empty())

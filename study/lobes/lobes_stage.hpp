@@ -14,12 +14,12 @@ namespace thinwall::study {
 /// Options of the search at a speed, from [lobes].
 [[nodiscard]] milling::StabilityOptions stability_options(const setup::LobesOptions& wanted);
 
-/// The chart of what the cut feels, what `errors` of the structure make of its depths, and what it says of operating
-/// points. Rows that are kept are taken, others kept as they are found. From samples there are neither comparisons, a
-/// map, a robust chart nor sensitivities.
-[[nodiscard]] NamedLobes compute_lobes(const setup::CutSetup& source, const std::string& name, CutStructure structure,
-                                       const StructureErrors& errors,
-                                       const std::vector<milling::OperatingPoint>& points, Checkpoint& kept);
+/// The chart of a structure as the cut feels it, what `errors` of the structure make of its depths, and what it says of
+/// operating points. Rows that are kept are taken, others kept as they are found. From samples there are neither
+/// comparisons, a map, a robust chart nor sensitivities.
+[[nodiscard]] StructureLobes compute_lobes(const setup::CutSetup& source, ChartOf of, CutStructure structure,
+                                           const StructureErrors& errors,
+                                           const std::vector<milling::OperatingPoint>& points, Checkpoint& kept);
 
 /// Throws InputError, before anything is computed, if operating points are asked of a case without a chart or lie
 /// deeper than it goes.

@@ -83,14 +83,15 @@ StructuresAlongPath structures_along_path(const PathInput& input, const Results&
   return structures;
 }
 
-PathLobes charts(const setup::CutSetup& source, const std::string& name, const std::string& method,
+PathLobes charts(const setup::CutSetup& source, ChartOf of, const std::string& method,
                  const milling::MillingProcess& process, const std::vector<milling::RelativeStructure>& structures,
                  Checkpoint& kept) {
   const setup::LobesOptions& wanted = *source.lobes;
   const auto speeds = milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count);
-  auto rows =
-      milling::lobe_field(structures, process, speeds, stability_options(wanted), kept_rows(kept, "path-" + name)).rows;
-  PathLobes result{name, {}};
+  auto rows = milling::lobe_field(structures, process, speeds, stability_options(wanted),
+                                  kept_rows(kept, "path-" + core::word_of(of)))
+                  .rows;
+  PathLobes result{of, {}};
   if (const auto rpm = source.cutting->spindle_speed_rpm) {
     for (const auto& of_place : milling::lobe_field(structures, process, {*rpm}, stability_options(wanted)).rows)
       result.at_spindle_speed.push_back(of_place.front());
@@ -115,9 +116,9 @@ std::vector<PathLobes> lobes_along_path(const PathInput& input, const Results& r
   const std::string& method = results.lobes.front().lobes.method;
   if (structures.supported.empty() && results.coupled)
     core::warn("no charts of the supported part along the path: part and robot are not joined by matrices");
-  std::vector<PathLobes> all{charts(input.cut, "part", method, process, structures.part, kept)};
+  std::vector<PathLobes> all{charts(input.cut, ChartOf::part, method, process, structures.part, kept)};
   if (!structures.supported.empty()) {
-    all.push_back(charts(input.cut, "supported", method, process, structures.supported, kept));
+    all.push_back(charts(input.cut, ChartOf::supported, method, process, structures.supported, kept));
     all.back().robot = structures.robot;
   }
   return all;

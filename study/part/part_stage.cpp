@@ -13,9 +13,9 @@
 #include "core/messages.hpp"
 #include "core/units.hpp"
 #include "fem/closed_part.hpp"
+#include "fem/determined_motions.hpp"
 #include "fem/mode_check.hpp"
 #include "fem/points.hpp"
-#include "fem/seen_motions.hpp"
 #include "mesh/solid/tessellation.hpp"
 #include "mesh/surface/triangle_tree.hpp"
 #include "mesh/surface/wall_thickness.hpp"
@@ -68,7 +68,7 @@ void reduce_to_tolerance(const setup::PartSetup& source, PartResult& part) {
 /// The reduced model and what it leaves out.
 void reduce(const setup::PartSetup& source, PartResult& part, const fem::Factored& factored) {
   if (factored.sigma != 0.0)
-    fem::require_motions_seen(part.model, part.modes, part.interface.W.transpose() * part.modes.pairs.Phi);
+    fem::require_motions_determined(part.model, part.modes, part.interface.W.transpose() * part.modes.pairs.Phi);
   if (source.reduction.tolerance) return reduce_to_tolerance(source, part);
   const auto inner = static_cast<int>(part.model.K.rows() - part.interface.W.cols());  // a small model has few
   const reduction::CraigBamptonOptions options{std::min(source.reduction.fixed_interface.count.value_or(30), inner),

@@ -147,7 +147,7 @@ TEST(PathReport, TheWeakestPositionAndTheBestSpeedForAllAreNamed) {
     }
     return list;
   };
-  const PathLobes path{"supported",
+  const PathLobes path{ChartOf::supported,
                        {milling::lobes_of(rows({2e-3, 3e-3, 4e-3}), "direct"),
                         milling::lobes_of(rows({1e-3, 3.5e-3, 2.5e-3}), "direct")}};
   Summary summary;

@@ -5,7 +5,9 @@
 namespace thinwall::report::headline_test {
 namespace {
 
-LobesSummary chart(const std::string& name, double depth_m, bool at_limit) {
+using study::ChartOf;
+
+LobesSummary chart(ChartOf name, double depth_m, bool at_limit) {
   LobesSummary chart;
   chart.name = name;
   chart.minimum_depth_m = 0.001;
@@ -21,7 +23,7 @@ LobesSummary chart(const std::string& name, double depth_m, bool at_limit) {
   return chart;
 }
 
-OperatingPointSummary point(const std::string& name, bool stable, double margin_m) {
+OperatingPointSummary point(ChartOf name, bool stable, double margin_m) {
   OperatingPointSummary point;
   point.chart = name;
   point.spindle_speed_rpm = 1900.0;
@@ -35,7 +37,7 @@ OperatingPointSummary point(const std::string& name, bool stable, double margin_
 
 Summary both(const std::string& cut_at, const std::string& held_at) {
   Summary summary;
-  summary.lobes = {chart("part", 0.0017, false), chart("supported", 0.02, true)};
+  summary.lobes = {chart(ChartOf::part, 0.0017, false), chart(ChartOf::supported, 0.02, true)};
   summary.cutting.emplace();
   summary.cutting->depth_limit_is = "tool_length";
   summary.cutting->at = cut_at;
@@ -47,7 +49,7 @@ Summary both(const std::string& cut_at, const std::string& held_at) {
 
 TEST(Headline, SaysTheAnswerFirstAndTheSupportedPartBeforeTheBareOne) {
   Summary summary = both("P", "P");
-  summary.operating_points = {point("part", false, -0.0003), point("supported", true, 0.018)};
+  summary.operating_points = {point(ChartOf::part, false, -0.0003), point(ChartOf::supported, true, 0.018)};
   const auto text = headline(summary);
   ASSERT_EQ(text.size(), 2U);
   EXPECT_EQ(text[0], "With the robot at P: stable up to 20 mm at 1900 rpm (tool length); without: 1.7 mm.");
@@ -62,9 +64,9 @@ TEST(Headline, TellsTheCutFromTheContactAndADepthLimitThatIsNotTheTool) {
   EXPECT_EQ(headline(summary)[0],
             "With the robot at B, cut at P: stable up to 20 mm at 1900 rpm (depth limit); without: 1.7 mm.");
   EXPECT_EQ(headline(summary)[1].find("margin"), std::string::npos) << "no operating point, no margin";
-  summary.lobes = {chart("part", 0.0017, false)};
+  summary.lobes = {chart(ChartOf::part, 0.0017, false)};
   EXPECT_EQ(headline(summary)[0], "Part alone, cut at P: stable up to 1.7 mm at 1900 rpm.");
-  summary.lobes = {chart("tool", 0.0017, false)};
+  summary.lobes = {chart(ChartOf::tool, 0.0017, false)};
   EXPECT_EQ(headline(summary)[0], "This tool: stable up to 1.7 mm at 1900 rpm.");
 }
 
@@ -81,7 +83,7 @@ TEST(Headline, AnAnswerThatDidNotConvergeIsNotCalledStable) {
   EXPECT_EQ(headline(summary)[0],
             "With the robot at P: not converged: 1 mm at every speed (3 of 10 speeds did not reach the tolerance); "
             "without: 1 mm.");
-  OperatingPointSummary open = point("supported", true, 0.018);
+  OperatingPointSummary open = point(ChartOf::supported, true, 0.018);
   open.status = "crossing_missed";
   summary.operating_points = {open};
   EXPECT_NE(headline(summary)[1].find("margin at 1900 rpm and 2 mm: not converged"), std::string::npos);
@@ -92,7 +94,7 @@ TEST(Headline, AnAnswerThatDidNotConvergeIsNotCalledStable) {
 /// 18 mm whose reduction moves it by 0.30 mm is right to 1.7 %, whatever the collocation reaches.
 TEST(Headline, TheErrorIsThatOfTheDepthsInTheSentence) {
   Summary summary;
-  summary.lobes = {chart("part", 0.018, false), chart("supported", 0.0137, false)};
+  summary.lobes = {chart(ChartOf::part, 0.018, false), chart(ChartOf::supported, 0.0137, false)};
   summary.lobes[0].error_budget.emplace().largest_truncation_relative = 0.5;
   summary.lobes[0].at_case_speed->error_budget.emplace().truncation_m = -0.0003;
   EXPECT_NE(headline(summary)[1].find("estimated error 1.7 %"), std::string::npos) << headline(summary)[1];
@@ -103,7 +105,7 @@ TEST(Headline, TheErrorIsThatOfTheDepthsInTheSentence) {
   EXPECT_NE(headline(summary)[1].find("estimated error 40 %"), std::string::npos) << "not known there: the chart's";
 }
 
-PathSummary path(const std::string& name, double depth_m) {
+PathSummary path(ChartOf name, double depth_m) {
   PathSummary path;
   path.name = name;
   path.speeds = 40;
@@ -117,7 +119,7 @@ PathSummary path(const std::string& name, double depth_m) {
 
 TEST(Headline, OfAPathIsOfAllItsPositions) {
   Summary summary = both("P", "B");
-  summary.path = {path("part", 1.4e-5), path("supported", 0.000512)};
+  summary.path = {path(ChartOf::part, 1.4e-5), path(ChartOf::supported, 0.000512)};
   auto text = headline(summary);
   EXPECT_EQ(text[0],
             "Along the path with the robot: stable up to 0.512 mm at every speed (weakest at position 10 of 11); "
@@ -148,9 +150,9 @@ TEST(Headline, OfAPartAloneNamesItsModes) {
 
 TEST(Sentences, AreThePointsWhatTheRunSaidAndTheRoutes) {
   Summary summary = both("P", "P");
-  OperatingPointSummary lost = point("supported", true, 0.018);
+  OperatingPointSummary lost = point(ChartOf::supported, true, 0.018);
   lost.contact.emplace().lost = true;
-  summary.operating_points = {point("part", false, -0.0003), lost};
+  summary.operating_points = {point(ChartOf::part, false, -0.0003), lost};
   summary.sentences = {"Part alone: 1 % more K_t lowers the limit by 1.00 %."};
   summary.coupling.emplace();
   summary.coupling->route_difference.emplace().max_relative = 7.4e-13;

@@ -25,7 +25,7 @@ Summary summary() {
   summary.cutting->teeth = 4;
   summary.cutting->depth_limit_m = 0.02;
   summary.lobes.emplace_back();
-  summary.lobes[0].name = "tool";
+  summary.lobes[0].name = study::ChartOf::tool;
   summary.lobes[0].main_modes_hz = {855.0, 1610.0};
   summary.lobes[0].best_pockets = {{2000.0, 0.01, false, "stability", 8.0}};
   return summary;

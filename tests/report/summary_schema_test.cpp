@@ -118,7 +118,7 @@ Summary example() {
   summary.robot->static_stiffness_n_per_m = {1e6, std::nullopt, 2e6};
   summary.robot->least_static_stiffness_n_per_m.emplace();
   summary.lobes.resize(2);
-  summary.lobes[1].name = "supported";
+  summary.lobes[1].name = study::ChartOf::supported;
   summary.lobes[1].compared.resize(1);
   summary.lobes[1].at_case_speed.emplace();
   summary.lobes[1].at_case_speed->limiting_depth_m = 0.0137;
@@ -143,6 +143,15 @@ TEST(SummaryJson, WhatIsNotThereIsAbsentOrNullAsItsFieldSays) {
 TEST(SummaryJson, WhatWasWrittenIsReadToTheLastBit) {
   const json written = summary_json(example());
   EXPECT_EQ(summary_json(summary_from(written, "summary.json")), written);
+}
+
+TEST(SummaryJson, AnEnumerationIsOneOfItsWords) {
+  json written = summary_json(example());
+  EXPECT_EQ(written["lobes"][1]["name"], "supported");
+  EXPECT_EQ(summary_schema()["properties"]["lobes"]["items"]["properties"]["name"]["enum"].dump(),
+            R"(["part","supported","tool"])");
+  written["lobes"][1]["name"] = "suported";
+  EXPECT_THROW((void)summary_from(written, "summary.json"), core::DataError);
 }
 
 TEST(SummaryJson, AnInfinityIsNullAndReadAsNoNumber) {

@@ -31,7 +31,7 @@ TEST(Library, GivesTheFiguresOfTheCommandLineToTheLastDigit) {
   ASSERT_EQ(results.lobes.size(), 2U);
   for (std::size_t i = 0; i < results.lobes.size(); ++i) {
     const report::LobesSummary& chart = run.summary.lobes[i];
-    EXPECT_EQ(chart.name, results.lobes[i].name);
+    EXPECT_EQ(chart.name, results.lobes[i].of);
     EXPECT_EQ(chart.minimum_depth_m, results.lobes[i].lobes.minimum_depth_m);
     EXPECT_EQ(chart.at_case_speed->limiting_depth_m, results.lobes[i].at_spindle_speed->limiting_depth_m);
   }

@@ -1,4 +1,4 @@
-#include "fem/seen_motions.hpp"
+#include "fem/determined_motions.hpp"
 
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace thinwall::fem {
 
-void require_motions_seen(const Model& model, const Modes& modes, const Eigen::MatrixXd& amplitudes) {
+void require_motions_determined(const Model& model, const Modes& modes, const Eigen::MatrixXd& amplitudes) {
   const Eigen::Index rigid = modes.rigid_motions;
   if (rigid == 0) return;  // the part is held, rigidly or by soft springs
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(Eigen::MatrixXd(amplitudes.leftCols(rigid)));

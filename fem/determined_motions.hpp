@@ -11,6 +11,6 @@ namespace thinwall::fem {
 /// a free part. Such a part is held only by what is joined to its points; points on one line, for instance, do not
 /// determine the rotation about it. `amplitudes` = Wᵀ Φ (points' directions × modes); the rank of its first
 /// modes.rigid_motions columns is taken with a relative threshold of 1e-6. Cost O(directions · motions²).
-void require_motions_seen(const Model& model, const Modes& modes, const Eigen::MatrixXd& amplitudes);
+void require_motions_determined(const Model& model, const Modes& modes, const Eigen::MatrixXd& amplitudes);
 
 }  // namespace thinwall::fem
