@@ -1,11 +1,16 @@
 #include "mesh/polygon.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace thinwall::mesh {
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
+  // The compiler may fuse one of the products with the difference, which then is what the other one was rounded by:
+  // not 0 for a = b. The second line takes that rounding back.
+  const double product = a.y() * b.x();
+  const double rounding = std::fma(-a.y(), b.x(), product);
+  return std::fma(a.x(), b.y(), -product) + rounding;
 }
 
 double signed_area(const Polygon& polygon) {

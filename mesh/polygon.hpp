@@ -14,7 +14,9 @@ using Polygon = std::vector<Eigen::Vector2d>;
 /// The two ends of a segment, m.
 using Segment = std::array<Eigen::Vector2d, 2>;
 
-/// The component a_x b_y − a_y b_x of the cross product.
+/// The component a_x b_y − a_y b_x of the cross product, to two units in its last place (Kahan's algorithm: Jeannerod,
+/// Louvet and Muller 2013, Alg. 1), so that it is 0 for parallel vectors whose products are equal, which decides
+/// whether segments with a common end cross.
 [[nodiscard]] double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
 
 /// The area ½ Σ p_i × p_{i+1}, m², positive for a counter-clockwise polygon.

@@ -38,6 +38,19 @@ TEST(Polygon, SegmentsCrossProperlyOrNotAtAll) {
   EXPECT_NEAR(distance(a, Segment{Eigen::Vector2d(3, 2), Eigen::Vector2d(4, 0)}), 1.0, 1e-15);
 }
 
+/// Where the compiler fuses products and sums, an end on the other segment has a cross product that is not 0.
+TEST(Polygon, SegmentsWithACommonEndDoNotCross) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> at(-0.3, 0.3);
+  const auto point = [&] { return Eigen::Vector2d(at(random), at(random)); };
+  for (int i = 0; i < 20000; ++i) {
+    const Eigen::Vector2d common = point();
+    const Segment from{common, point()}, to{point(), common};
+    EXPECT_FALSE(crossing(from, to));
+    EXPECT_EQ(cross(from[1] - common, from[1] - common), 0.0);
+  }
+}
+
 TEST(Polygon, SegmentsApartOnOneLineDoNotCrossByRoundOff) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> angle(0.0, 6.3);
