@@ -10,9 +10,15 @@ setup::MeasuredFrf bind_measured(const Table& table, const std::filesystem::path
   const auto integer = [&](const char* key) {
     return table.has(key) ? std::optional(table.integer(key)) : std::nullopt;
   };
-  return {table.text("response"), table.text("force"),     file.empty() ? std::filesystem::path() : folder / file,
-          table.text("quantity"), table.text("unit"),      table.text("frequency_unit"),
-          integer("record"),      table.optional("noise"), integer("averages")};
+  return {.response = table.text("response"),
+          .force = table.text("force"),
+          .file = file.empty() ? std::filesystem::path() : folder / file,
+          .quantity = table.optional_choice<io::FrfQuantity>("quantity"),
+          .unit = table.text("unit"),
+          .frequency_unit = table.text("frequency_unit"),
+          .record = integer("record"),
+          .noise = table.optional("noise"),
+          .averages = integer("averages")};
 }
 
 std::vector<setup::MeasuredFrf> bind_all_measured(const std::vector<Table>& tables,

@@ -54,7 +54,12 @@ struct Table {
   /// report.
   template <class Enum>
   [[nodiscard]] Enum choice(std::string_view name, Enum otherwise = Enum{}) const {
-    return core::from_word<Enum>(text(name)).value_or(otherwise);
+    return optional_choice<Enum>(name).value_or(otherwise);
+  }
+  /// The value whose word the text of that name is; none if it is absent or a word of none.
+  template <class Enum>
+  [[nodiscard]] std::optional<Enum> optional_choice(std::string_view name) const {
+    return core::from_word<Enum>(text(name));
   }
   /// The truth value of that name; false if it is absent.
   [[nodiscard]] bool flag(std::string_view name) const { return value<bool>(name, false); }

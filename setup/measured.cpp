@@ -28,8 +28,10 @@ bool holds_one_frf(FrfFileKind kind) {
 }
 
 std::optional<io::FrfFormat> stated_format(const MeasuredFrf& measured) {
-  if (measured.quantity.empty() && measured.unit.empty()) return std::nullopt;
-  return io::frf_format(measured.quantity, measured.unit, measured.frequency_unit);
+  if (!measured.quantity && measured.unit.empty()) return std::nullopt;
+  if (!measured.quantity)
+    throw core::InputError("the unit \"" + measured.unit + "\" is stated without a quantity; give both or neither");
+  return io::frf_format(*measured.quantity, measured.unit, measured.frequency_unit);
 }
 
 /// The FRFs of our own MAT file, row by row.
@@ -117,7 +119,8 @@ FrfFileKind frf_file_kind(const std::filesystem::path& file) {
 
 FrfContent read_measured(const MeasuredFrf& measured, FrfFiles& files) {
   const std::string key =
-      measured.file.string() + '\n' + measured.quantity + '\n' + measured.unit + '\n' + measured.frequency_unit;
+      fmt::format("{}\n{}\n{}\n{}", measured.file.string(), measured.quantity ? core::word_of(*measured.quantity) : "",
+                  measured.unit, measured.frequency_unit);
   auto file = files.find(key);
   if (file == files.end()) file = files.emplace(key, read_file(measured)).first;
   const io::MeasuredEntry& entry = record_of(file->second, measured);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "io/frf/frf_quantity.hpp"
 #include "io/frf/measured_response.hpp"
 
 namespace thinwall::setup {
@@ -24,13 +25,13 @@ struct FrfContent {
 struct MeasuredFrf {
   std::string response;  ///< DOF name, "P.x"
   std::string force;
-  std::filesystem::path file;     ///< absolute, or relative to the working directory
-  std::string quantity;           ///< receptance, mobility, accelerance; empty: the file says it
-  std::string unit;               ///< of the FRF, "um/N"; empty: the file says it
-  std::string frequency_unit;     ///< "Hz", "rad/s"
-  std::optional<int> record;      ///< number of the FRF in the file, from 1; none: its only one
-  std::optional<double> noise{};  ///< standard deviation of real and imaginary part alike, relative to |H|
-  std::optional<int> averages{};  ///< that the file's coherence belongs to, in place of `noise`
+  std::filesystem::path file;               ///< absolute, or relative to the working directory
+  std::optional<io::FrfQuantity> quantity;  ///< none: the file says it
+  std::string unit;                         ///< of the FRF, "um/N"; empty: the file says it
+  std::string frequency_unit;               ///< "Hz", "rad/s"
+  std::optional<int> record;                ///< number of the FRF in the file, from 1; none: its only one
+  std::optional<double> noise{};            ///< standard deviation of real and imaginary part alike, relative to |H|
+  std::optional<int> averages{};            ///< that the file's coherence belongs to, in place of `noise`
   std::shared_ptr<const FrfContent> content = {};  ///< what the file holds, once it is read (setup/data_files.hpp)
 };
 

@@ -65,48 +65,30 @@ void check_damping(const Case& source, Findings& findings) {
     findings.report("damping.model", "rayleigh needs alpha or beta");
 }
 
-/// True for every unit that the readers take, "g/N" among them.
-bool is_frf_unit(const std::string& quantity, const std::string& unit) {
+/// What the readers say about a unit that is none of the quantity; empty if they take it.
+std::string fault_of_unit(io::FrfQuantity quantity, const std::string& unit) {
   try {
     (void)io::frf_format(quantity, unit, "Hz");
-    return true;
-  } catch (const core::InputError&) {
-    return false;
+    return "";
+  } catch (const core::InputError& error) {
+    return error.what();
   }
-}
-
-/// The power of time in the dimension of an FRF: a receptance in m/N has s²/kg, a mobility s/kg, an accelerance 1/kg.
-int power_of_time(const std::string& quantity) {
-  if (quantity == io::quantity_word(io::FrfQuantity::receptance)) return 2;
-  return quantity == io::quantity_word(io::FrfQuantity::mobility) ? 1 : 0;
 }
 
 void check_measured(const std::string& key, const setup::MeasuredFrf& frf, Findings& findings) {
   const bool tells_itself = setup::frf_file_kind(frf.file) != setup::FrfFileKind::csv;
-  if (frf.quantity.empty() && !findings.given(key + ".quantity") && !tells_itself)
+  if (!frf.quantity && !findings.given(key + ".quantity") && !tells_itself)
     findings.report(key + ".quantity", "missing; say what was measured: receptance, mobility or accelerance");
   if (frf.unit.empty() && !findings.given(key + ".unit") && !tells_itself)
     findings.report(key + ".unit", "missing; say its unit, for example \"m/s^2/N\"");
-  if (tells_itself && frf.quantity.empty() != frf.unit.empty())
+  if (tells_itself && frf.quantity.has_value() == frf.unit.empty())
     findings.report(key + (frf.unit.empty() ? ".unit" : ".quantity"),
                     "missing; give quantity and unit together, or neither where the file says them");
-  if (tells_itself && frf.quantity.empty() && frf.unit.empty() && frf.frequency_unit != "Hz" &&
-      !frf.frequency_unit.empty())
+  if (tells_itself && !frf.quantity && frf.unit.empty() && frf.frequency_unit != "Hz" && !frf.frequency_unit.empty())
     findings.report(key + ".frequency_unit", "counts beside quantity and unit only; give these too, or remove it");
-  const int time = power_of_time(frf.quantity);
-  if (!frf.unit.empty() && !frf.quantity.empty() && !is_frf_unit(frf.quantity, frf.unit)) {
-    try {
-      if (core::parse_unit(frf.unit).dimension != core::Dimension{0, -1, time, 0, 0}) {
-        findings.report(key + ".unit", "\"" + frf.unit + "\" is no unit of a " + frf.quantity +
-                                           "; write for example \"" +
-                                           (time == 2   ? "m/N"
-                                            : time == 1 ? "m/s/N"
-                                                        : "m/s^2/N") +
-                                           "\"");
-      }
-    } catch (const core::InputError& error) {
-      findings.report(key + ".unit", error.what());
-    }
+  if (frf.quantity && !frf.unit.empty()) {
+    if (const std::string fault = fault_of_unit(*frf.quantity, frf.unit); !fault.empty())
+      findings.report(key + ".unit", fault);
   }
   if (frf.noise && frf.averages) findings.report(key + ".averages", "the noise is given; keep one of the two");
   require_direction(key + ".response", frf.response, findings);

@@ -44,7 +44,7 @@ bool equal(double a, double b) {
 }
 
 std::optional<FrfFormat> format_of_unit(const std::string& word) {
-  for (const char* quantity : {"receptance", "mobility", "accelerance"}) {
+  for (const FrfQuantity quantity : {FrfQuantity::receptance, FrfQuantity::mobility, FrfQuantity::accelerance}) {
     try {
       return frf_format(quantity, word, "Hz");
     } catch (const core::InputError&) {
@@ -55,7 +55,7 @@ std::optional<FrfFormat> format_of_unit(const std::string& word) {
 
 std::optional<double> frequency_unit(const std::string& word) {
   try {
-    return frf_format("receptance", "m/N", word).unit_in_hz;
+    return frf_format(FrfQuantity::receptance, "m/N", word).unit_in_hz;
   } catch (const core::InputError&) {
     return std::nullopt;
   }

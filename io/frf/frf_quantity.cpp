@@ -1,7 +1,12 @@
 #include "io/frf/frf_quantity.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "core/error.hpp"
@@ -12,18 +17,10 @@ namespace thinwall::io {
 
 namespace {
 
-struct NamedQuantity {
-  std::string name;
-  FrfQuantity quantity;
-  core::Dimension dimension;  ///< length/force, per time for each derivative
-};
+constexpr std::array quantities{FrfQuantity::receptance, FrfQuantity::mobility, FrfQuantity::accelerance};
 
-const std::vector<NamedQuantity>& named_quantities() {
-  static const std::vector<NamedQuantity> quantities{
-      {"receptance", FrfQuantity::receptance, core::parse_unit("m/N").dimension},
-      {"mobility", FrfQuantity::mobility, core::parse_unit("m/s/N").dimension},
-      {"accelerance", FrfQuantity::accelerance, core::parse_unit("m/s^2/N").dimension}};
-  return quantities;
+core::Dimension dimension_of(FrfQuantity quantity) {
+  return core::parse_unit(si_unit(quantity)).dimension;
 }
 
 struct NamedFrequency {
@@ -36,47 +33,54 @@ const std::vector<NamedFrequency>& named_frequencies() {
   return frequencies;
 }
 
-/// The entry called `word`. Throws InputError with the nearest name if there is none.
-template <typename Entry>
-const Entry& find(const std::vector<Entry>& entries, const std::string& word, const std::string& meaning) {
+/// Throws InputError with the nearest of the names that `word` is none of.
+[[noreturn]] void refuse_word(const std::string& word, const std::string& meaning,
+                              const std::vector<std::string>& names) {
+  throw core::InputError("the " + meaning + " \"" + word + "\" is none of " +
+                         fmt::format("{}", fmt::join(names, ", ")) + core::did_you_mean(word, names));
+}
+
+double frequency_in_hz(const std::string& unit) {
   std::vector<std::string> names;
-  std::string list;
-  for (const Entry& entry : entries) {
-    if (entry.name == word) return entry;
-    names.push_back(entry.name);
-    list += (list.empty() ? "" : ", ") + entry.name;
+  for (const NamedFrequency& named : named_frequencies()) {
+    if (named.name == unit) return named.in_hz;
+    names.push_back(named.name);
   }
-  throw core::InputError("the " + meaning + " \"" + word + "\" is none of " + list + core::did_you_mean(word, names));
+  refuse_word(unit, "frequency unit", names);
 }
 
 /// The factor of a unit to SI. Throws InputError if it is no unit of the quantity.
-double unit_in_si(const std::string& unit, const NamedQuantity& quantity) {
+double unit_in_si(const std::string& unit, FrfQuantity quantity) {
   constexpr double standard_gravity = 9.80665;  // an accelerometer's "g", never a gram
-  if (unit == "g/N" && quantity.quantity == FrfQuantity::accelerance) return standard_gravity;
+  if (unit == "g/N" && quantity == FrfQuantity::accelerance) return standard_gravity;
   const core::Quantity parsed = core::parse_unit(unit);
-  if (parsed.dimension == quantity.dimension) return parsed.value;
-  for (const NamedQuantity& other : named_quantities()) {
-    if (parsed.dimension == other.dimension) {
-      throw core::InputError("\"" + unit + "\" is a unit of " + other.name + ", but the quantity is " + quantity.name +
-                             "; make them agree");
+  if (parsed.dimension == dimension_of(quantity)) return parsed.value;
+  for (const FrfQuantity other : quantities) {
+    if (parsed.dimension == dimension_of(other)) {
+      throw core::InputError("\"" + unit + "\" is a unit of " + core::word_of(other) + ", but the quantity is " +
+                             core::word_of(quantity) + "; make them agree");
     }
   }
-  throw core::InputError("\"" + unit + "\" is no unit of " + quantity.name +
+  throw core::InputError("\"" + unit + "\" is no unit of " + core::word_of(quantity) +
                          "; write for example m/N, m/s/N or m/s^2/N");
 }
 
 }  // namespace
 
-FrfFormat frf_format(const std::string& quantity, const std::string& unit, const std::string& frequency) {
-  const NamedQuantity& named = find(named_quantities(), quantity, "FRF quantity");
-  return {named.quantity, unit_in_si(unit, named), find(named_frequencies(), frequency, "frequency unit").in_hz};
+FrfFormat frf_format(FrfQuantity quantity, const std::string& unit, const std::string& frequency) {
+  return {quantity, unit_in_si(unit, quantity), frequency_in_hz(frequency)};
 }
 
-std::string quantity_word(FrfQuantity quantity) {
-  for (const NamedQuantity& named : named_quantities()) {
-    if (named.quantity == quantity) return named.name;
-  }
-  throw core::InputError("a frequency response function is of no known quantity");
+FrfFormat frf_format(const std::string& quantity, const std::string& unit, const std::string& frequency) {
+  const std::optional<FrfQuantity> named = core::from_word<FrfQuantity>(quantity);
+  if (named) return frf_format(*named, unit, frequency);
+  const auto& words = core::words<FrfQuantity>;
+  refuse_word(quantity, "FRF quantity", {words.begin(), words.end()});
+}
+
+std::string si_unit(FrfQuantity quantity) {
+  constexpr std::array units{"m/N", "m/s/N", "m/s^2/N"};
+  return units.at(static_cast<std::size_t>(quantity));
 }
 
 std::complex<double> to_receptance(std::complex<double> value, double omega_rad_s, const FrfFormat& format) {

@@ -1,8 +1,12 @@
 #pragma once
 // The meaning of the numbers of a measured FRF: quantity and units.
 
+#include <array>
 #include <complex>
 #include <string>
+#include <string_view>
+
+#include "core/words.hpp"
 
 namespace thinwall::io {
 
@@ -17,16 +21,26 @@ struct FrfFormat {
   double unit_in_hz;  ///< the unit of the frequencies in Hz
 };
 
-/// The format from its words: a quantity ("receptance", "mobility" or "accelerance"); a unit of that quantity ("um/N",
-/// "mm/s/N", "m/s^2/N", "1/kg", all that core::parse_unit() accepts, and "g/N" with g = 9.80665 m/s²); and a unit of
-/// frequency ("Hz", "kHz" or "rad/s"). Throws InputError with the nearest word, or with the quantity of the given unit.
+/// The format from a quantity; a unit of that quantity ("um/N", "mm/s/N", "m/s^2/N", "1/kg", all that
+/// core::parse_unit() accepts, and "g/N" with g = 9.80665 m/s²); and a unit of frequency ("Hz", "kHz" or "rad/s").
+/// Throws InputError with the nearest word, or with the quantity of the given unit.
+[[nodiscard]] FrfFormat frf_format(FrfQuantity quantity, const std::string& unit, const std::string& frequency);
+
+/// The same where the quantity is a word: "receptance", "mobility" or "accelerance".
 [[nodiscard]] FrfFormat frf_format(const std::string& quantity, const std::string& unit, const std::string& frequency);
 
-/// The word of a quantity: "receptance", "mobility" or "accelerance".
-[[nodiscard]] std::string quantity_word(FrfQuantity quantity);
+/// The SI unit of a quantity: "m/N", "m/s/N" or "m/s^2/N".
+[[nodiscard]] std::string si_unit(FrfQuantity quantity);
 
 /// A value Y of a file as receptance in m/N: Y, Y/(iω) or −Y/ω² times the file's unit. ω > 0 unless Y is a receptance.
 [[nodiscard]] std::complex<double> to_receptance(std::complex<double> value, double omega_rad_s,
                                                  const FrfFormat& format);
 
 }  // namespace thinwall::io
+
+namespace thinwall::core {
+
+template <>
+inline constexpr std::array<std::string_view, 3> words<io::FrfQuantity>{"receptance", "mobility", "accelerance"};
+
+}  // namespace thinwall::core

@@ -150,9 +150,8 @@ std::optional<FrfQuantity> quantity_of(int numerator_type) {
 }
 
 std::string format_text(const FrfFormat& format) {
-  constexpr std::array units{"m/N", "m/s/N", "m/s^2/N"};
   const std::string factor = format.unit_in_si == 1.0 ? "" : core::number_text(format.unit_in_si) + " ";
-  return quantity_word(format.quantity) + " in " + factor + units.at(static_cast<std::size_t>(format.quantity));
+  return core::word_of(format.quantity) + " in " + factor + si_unit(format.quantity);
 }
 
 [[noreturn]] void refuse_statement(const UffRecords& records, const std::string& stated, const std::string& told) {
@@ -169,7 +168,7 @@ void require_agreeing_types(const UffFunction& function, const FrfFormat& stated
   const auto told = quantity_of(motion);
   refuse_statement(records, format_text(stated),
                    "data type " + std::to_string(motion) + " over " + std::to_string(force) +
-                       " (data set 58, records 9 and 10)" + (told && same_force ? ", " + quantity_word(*told) : ""));
+                       " (data set 58, records 9 and 10)" + (told && same_force ? ", " + core::word_of(*told) : ""));
 }
 
 /// The unit of one side in SI; empty if neither a known label nor data set 164 gives it.

@@ -256,7 +256,7 @@ TEST(MeasuredCase, AnEntryThatNoFileGivesIsSeenBeforeAnythingIsComputed) {
 
 TEST(MeasuredCase, TheCheckAndTheMatrixSayTheSame) {
   const auto frf = [](const char* response, const char* force) {
-    return MeasuredFrf{response, force, "nowhere.csv", "receptance", "m/N", "Hz", {}};
+    return MeasuredFrf{response, force, "nowhere.csv", io::FrfQuantity::receptance, "m/N", "Hz", {}};
   };
   const std::vector<MeasuredFrf> files{frf("R.x", "R.x"), frf("R.z", "R.x"), frf("R.y", "R.y")};
   const MeasuredLayout layout = measured_layout(files);
@@ -275,7 +275,8 @@ TEST(MeasuredCase, AFileIsNotReadAsSomethingElseThanItSays) {
   const TemporaryFolder folder;
   io::write_uff(folder.path / "tip.uff", dynamics::direct_response(loaded(body({"R"}, 5), "R", 0.1), measured_axis()));
   const auto stated = [&](const std::string& quantity, const std::string& unit, const std::string& frequency) {
-    return MeasuredFrf{"R.x", "R.x", folder.path / "tip.uff", quantity, unit, frequency, 1};
+    return MeasuredFrf{"R.x",     "R.x", folder.path / "tip.uff", core::from_word<io::FrfQuantity>(quantity), unit,
+                       frequency, 1};
   };
   const Eigen::VectorXcd H = read_measured(stated("", "", "Hz")).frf.H;
   EXPECT_EQ(read_measured(stated("receptance", "m/N", "Hz")).frf.H, H);

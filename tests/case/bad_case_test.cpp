@@ -331,7 +331,7 @@ TEST(BadCase, MeasuredFilesMustExistAndCarryTheUnitOfTheirQuantity) {
   ASSERT_EQ(problems.size(), 3U);
   EXPECT_NE(problems[0].text.find("names no direction; write for example \"P.x\""), std::string::npos);
   EXPECT_NE(problems[1].text.find("there is no file"), std::string::npos);
-  EXPECT_NE(problems[2].text.find("is no unit of a mobility"), std::string::npos);
+  EXPECT_NE(problems[2].text.find("is a unit of receptance, but the quantity is mobility"), std::string::npos);
 }
 
 TEST(BadCase, SeveralErrorsAreFoundInOnePassInTheOrderOfTheFile) {

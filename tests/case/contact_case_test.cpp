@@ -242,7 +242,7 @@ TEST(ContactCase, AnAssemblyIsReadWhereAllItsFilesReach) {
   core::write_file_atomically(folder.path / "low.csv", "10,1,0\n20,2,0\n30,3,0\n40,4,0\n");
   core::write_file_atomically(folder.path / "high.csv", "20,5,0\n30,6,0\n40,7,0\n50,8,0\n");
   const auto file = [&](const char* response, const char* force, const char* name) {
-    MeasuredFrf frf{response, force, folder.path / name, "receptance", "m/N", "Hz", {}};
+    MeasuredFrf frf{response, force, folder.path / name, io::FrfQuantity::receptance, "m/N", "Hz", {}};
     frf.content = std::make_shared<const FrfContent>(read_measured(frf));
     return frf;
   };

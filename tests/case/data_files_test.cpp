@@ -110,7 +110,7 @@ TEST(DataFiles, ACaseWithAnotherNumberHoldsWhatTheFilesSaidWithoutThem) {
 }
 
 TEST(DataFiles, AnFrfThatWasNotReadIsRefused) {
-  const setup::MeasuredFrf frf{"P.x", "P.x", "tip.csv", "receptance", "m/N", "Hz", {}};
+  const setup::MeasuredFrf frf{"P.x", "P.x", "tip.csv", io::FrfQuantity::receptance, "m/N", "Hz", {}};
   EXPECT_THROW((void)setup::receptance_of(frf), core::InputError);
 }
 

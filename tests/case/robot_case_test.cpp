@@ -156,11 +156,11 @@ TEST(RobotCase, SignsOfAFilesDirectionsCount) {
   for (int line = 0; line < 12; ++line)
     tip.H.emplace_back(Eigen::MatrixXcd::Constant(1, 1, {-1e-6, 1e-7 * (line + 1)}));
   io::write_uff(folder.path / "tip.uff", tip);
-  const MeasuredFrf named{"R.x", "R.x", folder.path / "tip.uff", "", "", "Hz", {}};
+  const MeasuredFrf named{"R.x", "R.x", folder.path / "tip.uff", std::nullopt, "", "Hz", {}};
   EXPECT_NEAR(read_measured(named).frf.H(3).real(), 1e-6, 1e-18);
   EXPECT_NEAR(read_measured(named).frf.H(3).imag(), -4e-7, 1e-18);
   EXPECT_EQ(read_measured(named).notes.size(), 1U) << "the FRF is turned";
-  const MeasuredFrf second{"R.x", "R.x", folder.path / "tip.uff", "", "", "Hz", 2};
+  const MeasuredFrf second{"R.x", "R.x", folder.path / "tip.uff", std::nullopt, "", "Hz", 2};
   EXPECT_THROW((void)read_measured(second), core::InputError);
 }
 

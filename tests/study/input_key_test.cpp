@@ -114,7 +114,7 @@ struct Variation {
       fill(alternative);
       if (before.index() != std::variant<Alternatives...>(alternative).index()) with(value, {alternative});
       value = alternative;
-      std::visit([this](auto& held) { vary(held); }, value);
+      std::visit([this](auto& held) { this->vary(held); }, value);
       value = before;
     };
     (one(Alternatives{}), ...);
@@ -174,7 +174,7 @@ struct Variation {
     } else if constexpr (requires { value.fill(value.front()); }) {
       for (auto& item : value) vary(item);
     } else {
-      std::apply([this](auto&... member) { (vary(member), ...); }, core::fields_of(value));
+      std::apply([this](auto&... member) { (this->vary(member), ...); }, core::fields_of(value));
     }
   }
 };
@@ -245,7 +245,7 @@ void InputKeyOfFiles::expect_contents_in_keys(setup::Setup& source, std::size_t 
   };
   for (setup::MeasuredFrf* frf : setup::measured_frfs(source)) {
     name_one(frf->file, "1,1e-6,0\n2,2e-6,0\n");
-    frf->quantity = "receptance";
+    frf->quantity = io::FrfQuantity::receptance;
     frf->unit = "m/N";
     frf->frequency_unit = "Hz";
   }
