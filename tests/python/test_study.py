@@ -11,12 +11,13 @@ import thinwall
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CASE = ROOT / "cases" / "barrios-2019"
-QUICK = ["lobes.count=24"]
+QUICK = ["part.mesh.tolerance=0.05", "lobes.count=24"]
 
 
 def test_run_gives_the_figures_of_the_command_line_to_the_last_digit(tmp_path):
     program = os.environ["THINWALL_PROGRAM"]
-    subprocess.run([program, "run", CASE, "--out", tmp_path, "-q", "--set", QUICK[0]], check=True, capture_output=True)
+    words = [word for setting in QUICK for word in ("--set", setting)]
+    subprocess.run([program, "run", CASE, "--out", tmp_path, "-q", *words], check=True, capture_output=True)
     by_command = thinwall.read_results(tmp_path)
     stages = []
     computed = thinwall.run(thinwall.Case.load(CASE, QUICK), progress=stages.append)

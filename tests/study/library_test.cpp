@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 cases::Case default_case() {
-  return cases::read_case(fs::path(THINWALL_SOURCE_DIR) / "cases" / "barrios-2019", {"lobes.count=24"});
+  return cases::read_case(fs::path(THINWALL_SOURCE_DIR) / "cases" / "barrios-2019",
+                          {"part.mesh.tolerance=0.05", "lobes.count=24"});
 }
 
 TEST(Library, GivesTheFiguresOfTheCommandLineToTheLastDigit) {
