@@ -65,9 +65,7 @@ def add_command(commands):
 def build(folder, target="bench_fem"):
     """Configures and builds the programs of a command; the output is shown only if it fails."""
     print(f"building in {folder}", file=sys.stderr)
-    configure = ["cmake", "-S", ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DTHINWALL_BENCH=ON"]
-    if not (folder / "CMakeCache.txt").exists():
-        configure += ["-G", "Ninja"]
+    configure = ["cmake", "-S", ROOT, "--preset", "bench", "-B", folder]
     for command in (configure, ["cmake", "--build", folder, "--target", target]):
         done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               text=True)

@@ -15,14 +15,11 @@ folders="core|dynamics|linalg|mesh|fem|reduction|robot|coupling|milling|io|setup
 
 configure() {  # batches or not
   mkdir -p build
-  cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
-    -DTHINWALL_BATCHES="$1" >"$build.log" 2>&1 || { cat "$build.log" >&2; exit 2; }
-  sed -i 's/ -fcx-limited-range//g' "$build/compile_commands.json"  # gcc's, which clang does not know
+  cmake --preset tidy -DTHINWALL_BATCHES="$1" >"$build.log" 2>&1 || { cat "$build.log" >&2; exit 2; }
 }
 
-# -Wshadow is left to gcc, with which the sources are compiled: clang would report names across the files of a batch.
 analyse() {  # patterns
-  run-clang-tidy -quiet -p "$build" -j "$(nproc)" -extra-arg=-Wno-unknown-warning-option -extra-arg=-Wno-shadow "$@"
+  run-clang-tidy -quiet -p "$build" -j "$(nproc)" "$@"
 }
 
 batches() { sed -nE "s#^ *\"file\": \"(($build|$PWD)/($folders)/.*\.(cxx|cpp))\".*#\1#p" "$build/compile_commands.json"; }

@@ -24,7 +24,7 @@ struct Selection {
   /// All points in a sphere.
   struct Sphere {
     Eigen::Vector3d centre;
-    double radius = 0.0;
+    double radius;
   };
   std::string name;
   std::optional<Plane> plane;

@@ -35,6 +35,8 @@ expect_equal "the examples against closed forms" "closed forms hold" \
   "$("$python" "$here/closed_forms.py" "$tree" 2>&1 || true)"
 
 # --- pkg-config, for vector units narrower and wider than the library's
+# By the compiler that is Debian's c++ where there is one, because the library may have been made by another.
+cxx=$(command -v g++ || echo "$cxx")
 library=$(dirname "$(find "$prefix/lib" -name libthinwall.so)")
 export PKG_CONFIG_PATH=$library/pkgconfig LD_LIBRARY_PATH=$library
 read -ra flags < <(pkg-config --cflags thinwall)

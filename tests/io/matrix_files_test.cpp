@@ -157,7 +157,8 @@ TEST_F(MatrixFile, OfMatTakesFromEachFileTheMatrixThatItIsStatedFor) {
            {MatrixFiles{path("all.mat"), path("M.mat")}, "all.mat: holds M, which"},
            {MatrixFiles{path("all.mat"), "", path("C.mat")}, "all.mat: holds C, which"},
        }) {
-    const std::string message = message_of<core::DataError>([&] { (void)read_matrices(si(files)); });
+    const MatrixFiles stated = si(files);
+    const std::string message = message_of<core::DataError>([&] { (void)read_matrices(stated); });
     EXPECT_TRUE(has(message, part)) << message;
   }
 }

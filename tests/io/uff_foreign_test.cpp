@@ -208,7 +208,7 @@ TEST_F(ForeignUniversalFile, ThatSaysWhatTheCallerStatesIsReadWithoutANote) {
 }
 
 TEST_F(ForeignUniversalFile, ThatSaysAnotherQuantityOrUnitThanTheCallerIsRefused) {
-  const auto refused = [this](const std::string& bytes, const FrfFormat& stated, const std::string& part) {
+  const auto refused = [](const std::string& bytes, const FrfFormat& stated, const std::string& part) {
     const std::string text = message_of<core::DataError>([&] { (void)entries(bytes, {stated}); });
     EXPECT_NE(text.find(part), std::string::npos) << text;
     EXPECT_EQ(text.find("analyser.uff:"), 0U) << text;

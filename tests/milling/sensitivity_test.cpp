@@ -61,7 +61,8 @@ struct Cut {
 class Sensitivity : public ::testing::TestWithParam<Cut> {};
 
 TEST_P(Sensitivity, IsThatOfTheLimitItself) {
-  const auto& [what, radial_share, rpm, helices] = GetParam();
+  const auto& [what, radial_share, speed_rpm, helices] = GetParam();
+  const double rpm = speed_rpm;  // clang 14 lets no lambda capture a name of such a declaration
   const MillingProcess process = process_of(radial_share, helices);
   const LobeRow row = limiting_depth(structure_of(three_modes), process, rpm, exact());
   ASSERT_FALSE(row.crossings.empty());
@@ -93,7 +94,8 @@ TEST_P(Sensitivity, IsThatOfTheLimitItself) {
 }
 
 TEST_P(Sensitivity, FollowsAnotherStructureToFirstOrder) {
-  const auto& [what, radial_share, rpm, helices] = GetParam();
+  const auto& [what, radial_share, speed_rpm, helices] = GetParam();
+  const double rpm = speed_rpm;  // clang 14 lets no lambda capture a name of such a declaration
   const MillingProcess process = process_of(radial_share, helices);
   const LobeRow row = limiting_depth(structure_of(three_modes), process, rpm, exact());
   ASSERT_FALSE(row.crossings.empty());

@@ -64,11 +64,12 @@ struct Ring {
     return A.determinant();
   }
 
-  /// Frequencies below `up_to_hz`, by the changes of sign.
+  /// Frequencies below `up_to_hz` and above a hundredth of it, by the changes of sign. Nearer to zero the Bessel
+  /// functions of both waves are the same powers of r, and the sign of the determinant is round-off.
   [[nodiscard]] std::vector<double> frequencies(double n, double up_to_hz) const {
     std::vector<double> found;
     const double step = 2.0 * std::numbers::pi * up_to_hz / 2000.0;
-    for (int i = 1; i < 2000; ++i) {
+    for (int i = 20; i < 2000; ++i) {
       double low = i * step;
       double high = low + step;
       const bool rises = determinant(n, high) > 0.0;
