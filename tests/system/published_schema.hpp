@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -26,24 +28,52 @@ inline void expect_kinds(const nlohmann::json& value, const std::string& path) {
   }
 }
 
-/// The file is valid by the schema that `thinwall schema --summary` prints, which allows no key that it does not name;
-/// judged by a validator where there is one.
+/// The summaries of all runs of a test program. A validator that others wrote judges them at the end, because starting
+/// it for each would take longer than many a run.
+class PublishedSummaries : public ::testing::Environment {
+ public:
+  /// Keeps a copy under the name of the running test.
+  void add(const std::filesystem::path& summary) {
+    const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string(test.test_suite_name()) + "." + test.name() + "." + std::to_string(count_++);
+    std::ranges::replace(name, '/', '_');
+    std::filesystem::create_directories(folder_);
+    std::filesystem::copy_file(summary, folder_ / (name + ".json"));
+  }
+
+  /// Expects each to be valid by the schema that `thinwall schema --summary` prints, which allows no key that it does
+  /// not name, where there is a validator.
+  void TearDown() override {
+    if (count_ == 0) return;
+    const std::filesystem::path schema = folder_ / "schema";
+    core::write_file_atomically(schema, report::summary_schema().dump());
+    const std::string command = "cd '" + folder_.string() + "' && python3 '" + std::string(THINWALL_SOURCE_DIR) +
+                                "/tests/system/validate_summaries.py' schema *.json 2>&1";
+    FILE* pipe = ::popen(command.c_str(), "r");
+    ASSERT_NE(pipe, nullptr);
+    std::string said;
+    char buffer[512];
+    while (std::fgets(buffer, sizeof buffer, pipe) != nullptr) said += buffer;
+    const int code = WEXITSTATUS(::pclose(pipe));
+    std::filesystem::remove_all(folder_);
+    const bool no_validator = code == 77 || code == 127;
+    EXPECT_TRUE(code == 0 || no_validator) << said;
+  }
+
+ private:
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("thinwall_summaries_" + std::to_string(::getpid()));
+  int count_ = 0;
+};
+
+// gtest deletes it.
+inline auto& published_summaries =
+    static_cast<PublishedSummaries&>(*::testing::AddGlobalTestEnvironment(new PublishedSummaries));
+
+/// The file has the kinds and the keys of the published schema; what a validator finds fails the program at its end.
 inline void expect_as_published(const std::filesystem::path& summary) {
   expect_kinds(io::read_json(summary), "");
-  const std::filesystem::path schema = summary.parent_path() / "summary.schema.json";
-  core::write_file_atomically(schema, report::summary_schema().dump());
-  const std::string command = "python3 '" + std::string(THINWALL_SOURCE_DIR) +
-                              "/tests/system/validate_summaries.py' '" + schema.string() + "' '" + summary.string() +
-                              "' 2>&1";
-  FILE* pipe = ::popen(command.c_str(), "r");
-  ASSERT_NE(pipe, nullptr);
-  std::string said;
-  char buffer[512];
-  while (std::fgets(buffer, sizeof buffer, pipe) != nullptr) said += buffer;
-  const int code = WEXITSTATUS(::pclose(pipe));
-  std::filesystem::remove(schema);
-  const bool no_validator = code == 77 || code == 127;
-  EXPECT_TRUE(code == 0 || no_validator) << said;
+  published_summaries.add(summary);
 }
 
 }  // namespace thinwall::tests
