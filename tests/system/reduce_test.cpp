@@ -189,7 +189,7 @@ TEST(Reduce, OptionsAndFolderAreRefusedBeforeAnythingIsComputed) {
     EXPECT_EQ(answer.code, code) << answer.err;
     EXPECT_NE(answer.err.find(part), std::string::npos) << answer.err;
     EXPECT_EQ(answer.err.find('\n'), answer.err.size() - 1) << answer.err;
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
   };
   const std::string out = (folder / "model").string();
   refused({"-o", out, "--tolerance", "5"}, 2, "--tolerance is 5; it is relative, a number from 1e-8 to 1");
