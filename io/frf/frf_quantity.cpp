@@ -1,8 +1,5 @@
 #include "io/frf/frf_quantity.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -36,8 +33,9 @@ const std::vector<NamedFrequency>& named_frequencies() {
 /// Throws InputError with the nearest of the names that `word` is none of.
 [[noreturn]] void refuse_word(const std::string& word, const std::string& meaning,
                               const std::vector<std::string>& names) {
-  throw core::InputError("the " + meaning + " \"" + word + "\" is none of " +
-                         fmt::format("{}", fmt::join(names, ", ")) + core::did_you_mean(word, names));
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  throw core::InputError("the " + meaning + " \"" + word + "\" is none of " + list + core::did_you_mean(word, names));
 }
 
 double frequency_in_hz(const std::string& unit) {
