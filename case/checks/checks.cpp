@@ -65,7 +65,7 @@ void check_damping(const Case& source, Findings& findings) {
     findings.report("damping.model", "rayleigh needs alpha or beta");
 }
 
-/// What the readers say about a unit that is none of the quantity; empty if they take it.
+/// The readers' message about a unit that does not fit the quantity; empty if they accept the unit.
 std::string fault_of_unit(io::FrfQuantity quantity, const std::string& unit) {
   try {
     (void)io::frf_format(quantity, unit, "Hz");

@@ -26,7 +26,7 @@ struct FrfFormat {
 /// Throws InputError with the nearest word, or with the quantity of the given unit.
 [[nodiscard]] FrfFormat frf_format(FrfQuantity quantity, const std::string& unit, const std::string& frequency);
 
-/// The same where the quantity is a word: "receptance", "mobility" or "accelerance".
+/// The format from the word of a quantity: "receptance", "mobility" or "accelerance".
 [[nodiscard]] FrfFormat frf_format(const std::string& quantity, const std::string& unit, const std::string& frequency);
 
 /// The SI unit of a quantity: "m/N", "m/s/N" or "m/s^2/N".

@@ -38,7 +38,7 @@ TEST(Polygon, SegmentsCrossProperlyOrNotAtAll) {
   EXPECT_NEAR(distance(a, Segment{Eigen::Vector2d(3, 2), Eigen::Vector2d(4, 0)}), 1.0, 1e-15);
 }
 
-/// Where the compiler fuses products and sums, an end on the other segment has a cross product that is not 0.
+/// A compiler that fuses products and sums makes a plain cross product of equal vectors differ from 0.
 TEST(Polygon, SegmentsWithACommonEndDoNotCross) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> at(-0.3, 0.3);
