@@ -150,7 +150,7 @@ TEST(ConfinedProcess, AHangEndsAtItsTimeLimit) {
       1.0);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_NE(text.find("did not finish within 1"), std::string::npos) << text;
-  EXPECT_LT(seconds, 5.0);
+  EXPECT_LT(seconds, 60.0);
 }
 
 TEST(ConfinedProcess, AMemoryHogEndsAtItsLimit) {
@@ -158,7 +158,7 @@ TEST(ConfinedProcess, AMemoryHogEndsAtItsLimit) {
     std::vector<Bytes> hoard;
     for (;;) hoard.emplace_back(10'000'000, char{1});
   });
-#ifdef __SANITIZE_ADDRESS__  // its allocator ends the process itself
+#ifdef THINWALL_ADDRESS_SANITIZER  // its allocator ends the process itself
   EXPECT_NE(text, "no error");
 #else
   EXPECT_EQ(text, "it ran out of its memory limit");
@@ -172,10 +172,10 @@ TEST(ConfinedProcess, AnInterruptionEndsItAtOnce) {
                    []() -> Bytes {
                      for (;;) sleep(1);
                    },
-                   60.0, 2e8),
+                   600.0, 2e8),
                core::Interrupted);
   core::clear_interrupt();
-  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5.0);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 60.0);
 }
 
 }  // namespace
