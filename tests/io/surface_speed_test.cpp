@@ -10,22 +10,11 @@
 #include "mesh/surface/surface_repair.hpp"
 #include "scratch_folder.hpp"
 #include "tests/mesh/solid_shapes.hpp"
+#include "tests/processor_time.hpp"
 
 namespace thinwall::io::test::surface_speed_test {
 
 namespace {
-
-/// Processor time of this process and its children, s: other work on the machine does not count.
-double processor_seconds() {
-  double seconds = 0.0;
-  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
-    rusage usage{};
-    getrusage(who, &usage);
-    for (const timeval& time : {usage.ru_utime, usage.ru_stime})
-      seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  }
-  return seconds;
-}
 
 /// The larger of what this process and a child ever had in memory, GB.
 double peak_gigabytes() {
@@ -41,13 +30,13 @@ double peak_gigabytes() {
 class SurfaceSpeed : public ScratchFolder {};
 
 TEST_F(SurfaceSpeed, AMillionFacetsAreReadAndCheckedInTenSeconds) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(THINWALL_ADDRESS_SANITIZER)
   GTEST_SKIP() << "sanitizers take several times as long";
 #endif
   write_stl(path("torus.stl"), mesh::soup(mesh::torus(0.5, 0.2, 1000, 500)), 1e-3);
-  const double start = processor_seconds();
+  const double start = tests::processor_seconds();
   const auto repair = mesh::repaired_surface(read_stl(path("torus.stl"), 1e-3));
-  const double seconds = processor_seconds() - start;
+  const double seconds = tests::processor_seconds() - start;
   std::printf("a million facets in %.1f s of processor time, at most %.2f GB in a process\n", seconds,
               peak_gigabytes());
   EXPECT_EQ(repair.surface.triangles.size(), 1000000U);
