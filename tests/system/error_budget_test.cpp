@@ -47,7 +47,7 @@ youngs_modulus = "210 GPa"
 poisson_ratio = 0.3
 density = "7850 kg/m^3"
 [part.mesh]
-element_size = "10 mm"
+element_size = "15 mm"
 [[part.supports]]
 on = "z_min"
 [points.P]
