@@ -20,7 +20,6 @@
 #include "io/matrices/mat_sparse.hpp"
 #include "io/matrices/mat_variables.hpp"
 #include "io/matrices/matrix_market.hpp"
-#include "io/matrices/nastran_cards.hpp"
 #include "matrix_model.hpp"
 #include "scratch_folder.hpp"
 
@@ -228,22 +227,6 @@ TEST_F(MatrixFile, OfDmigIsReadInAllFields) {
   EXPECT_EQ(Eigen::MatrixXd(read.model.M), M);
   EXPECT_EQ(read.model.dofs, (std::vector<NodeDof>{{7, 1}, {9, 2}}));
   EXPECT_EQ(read.model.positions.at(7), Eigen::Vector3d(0.5, 1.0, -0.2));
-}
-
-TEST(NastranReal, FitsSixteenColumnsAndComesBack) {
-  for (const double value :
-       {1.0, -1.0, 0.1, 123456789012345.0, -2.5e-7, 1e300, -1e-300, 7.25e2, 0.0, -0.25, 0.30000000000001}) {
-    const std::string text = nastran_real_text(value);
-    EXPECT_LE(text.size(), 16U);
-    EXPECT_NE(text.find('.'), std::string::npos) << text;
-    EXPECT_EQ(nastran_real(text, "x", 1), value) << text;
-  }
-  for (const double value : {1.0 / 3.0, -2.0 / 3.0 * 1e7, -1.0 / 3.0 * 1e-9, 2.0 / 3.0 * 1e200}) {
-    const std::string text = nastran_real_text(value);
-    EXPECT_LE(text.size(), 16U);
-    EXPECT_LT(std::abs(nastran_real(text, "x", 1) / value - 1.0), 2e-11) << text;
-    EXPECT_EQ(nastran_real_text(nastran_real(text, "x", 1)), text);
-  }
 }
 
 TEST_F(MatrixFile, OfAbaqusIsReadFromEitherTriangleOrBoth) {
