@@ -41,8 +41,10 @@ std::string fault(const linalg::EigenpairCheck& check) {
     case EigenCheckStatus::ill_conditioned:
       return "ill-conditioned: no shift near the last mode gave a factor whose pivots can be counted; ask for another "
              "number of modes";
+    case EigenCheckStatus::not_finite:
+      return "an eigenvalue is not a finite number; look for material constants that are far out of scale";
     case EigenCheckStatus::not_converged:
-      return "Spectra's Lanczos did not converge, or an eigenvalue is not finite; ask for fewer modes";
+      return "Spectra's Lanczos did not converge; ask for fewer modes";
     case EigenCheckStatus::agrees:
       break;
   }

@@ -94,10 +94,14 @@ void compare(const Eigen::VectorXd& lambda, const Eigen::VectorXd& second, const
 EigenpairCheck check_eigenpairs(const SparseMatrix& K, const SparseMatrix& M, const ShiftedInverse& inverse,
                                 const Eigenpairs& pairs, const std::vector<int>& node_of_row) {
   EigenpairCheck check;
+  // A NaN would compare as no difference.
+  if (!pairs.lambda.allFinite()) {
+    check.status = EigenCheckStatus::not_finite;
+    return check;
+  }
   const Tolerance tolerance(K, M, inverse.sigma);
   const Eigenpairs second = single_vector_eigenpairs(K, M, inverse, static_cast<int>(pairs.lambda.size()));
-  // A NaN would compare as no difference.
-  if (second.status != EigenStatus::converged || !pairs.lambda.allFinite() || !second.lambda.allFinite()) {
+  if (second.status != EigenStatus::converged || !second.lambda.allFinite()) {
     check.status = EigenCheckStatus::not_converged;
     return check;
   }

@@ -13,7 +13,8 @@ enum class EigenCheckStatus {
   count_differs,    ///< the Sturm count is not the number of pairs below its shift
   values_differ,    ///< an eigenvalue of one list has no partner in the other
   ill_conditioned,  ///< no shift near the last pair gave a factor whose pivots can be counted
-  not_converged,    ///< the second eigen-solver did not converge, or a value is not finite
+  not_finite,       ///< an eigenvalue is not finite
+  not_converged,    ///< the second eigen-solver did not converge
 };
 
 /// Findings of both algorithms.
