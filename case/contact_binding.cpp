@@ -42,8 +42,9 @@ setup::ContactModel bind_model(const Table& table, std::size_t directions, const
 
 }  // namespace
 
-std::vector<setup::Contact> bind_contacts(const std::vector<Table>& tables, const std::filesystem::path& folder) {
-  std::vector<setup::Contact> list;
+std::vector<setup::SupportContact> bind_contacts(const std::vector<Table>& tables,
+                                                 const std::filesystem::path& folder) {
+  std::vector<setup::SupportContact> list;
   list.reserve(tables.size());
   for (const Table& table : tables) {
     std::vector<Eigen::Vector3d> directions = table.directions("directions");

@@ -10,7 +10,7 @@
 namespace thinwall::cases {
 
 /// The contacts in the order of the file, each with the model that is chosen; data files are in `folder`.
-[[nodiscard]] std::vector<setup::Contact> bind_contacts(const std::vector<Table>& tables,
-                                                        const std::filesystem::path& folder);
+[[nodiscard]] std::vector<setup::SupportContact> bind_contacts(const std::vector<Table>& tables,
+                                                               const std::filesystem::path& folder);
 
 }  // namespace thinwall::cases

@@ -30,7 +30,7 @@ std::vector<DataFile> named_files(const setup::Setup& source) {
     }
   }
   section = "contacts";
-  for (const setup::Contact& contact : source.contacts) {
+  for (const setup::SupportContact& contact : source.contacts) {
     if (const auto* tabled = std::get_if<setup::TabledContact>(&contact.model)) add(tabled->table);
     add_measured(setup::measured_assembly(contact));
   }

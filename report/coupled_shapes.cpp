@@ -16,7 +16,7 @@ namespace {
 /// contact.
 Eigen::Matrix3Xd end_of_robot(const setup::Setup& source, const dynamics::DofTable& dofs) {
   if (source.contacts.empty()) return Eigen::Matrix3Xd::Zero(3, std::ssize(dofs));
-  const setup::Contact& contact = source.contacts.front();
+  const setup::SupportContact& contact = source.contacts.front();
   const auto has = [&](const std::string& point) { return std::ranges::count(dofs, point, &dynamics::Dof::point) > 0; };
   if (has(contact.robot_point)) return dynamics::displacement_matrix(dofs, contact.robot_point);
   if (!has(contact.part_point)) return Eigen::Matrix3Xd::Zero(3, std::ssize(dofs));

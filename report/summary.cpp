@@ -270,7 +270,7 @@ std::vector<PointSummary> points_of(const setup::Setup& source, const std::vecto
   for (const setup::Point& p : source.points) {
     const Eigen::Vector3d x = setup::position(*source.part, p);
     if (!x.allFinite()) continue;
-    const bool touched = std::ranges::count(source.contacts, p.name, &setup::Contact::part_point) > 0;
+    const bool touched = std::ranges::count(source.contacts, p.name, &setup::SupportContact::part_point) > 0;
     points.push_back({p.name, x, p.patch_radius, touched, p.directions, joined_at(p.name, contacts)});
   }
   return points;

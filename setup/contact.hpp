@@ -70,7 +70,7 @@ using ContactModel = std::variant<SpringContact, TabledContact, BallContact, Cas
 enum class ContactKind { springs, table, hertz, caster };
 
 /// A place where the robot touches the part, and the source of its stiffness.
-struct Contact {
+struct SupportContact {
   std::string part_point, robot_point;
   std::vector<Eigen::Vector3d> directions;  ///< the first is the contact's normal
   double loss_factor = 0.0;
@@ -78,12 +78,12 @@ struct Contact {
 };
 
 /// The kind of a contact's model.
-[[nodiscard]] inline ContactKind kind(const Contact& contact) {
+[[nodiscard]] inline ContactKind kind(const SupportContact& contact) {
   return static_cast<ContactKind>(contact.model.index());
 }
 
 /// The FRFs of the assembly from which a contact's joint is to be found; none where its stiffness is told otherwise.
-[[nodiscard]] inline std::vector<MeasuredFrf> measured_assembly(const Contact& contact) {
+[[nodiscard]] inline std::vector<MeasuredFrf> measured_assembly(const SupportContact& contact) {
   const auto* springs = std::get_if<SpringContact>(&contact.model);
   return springs == nullptr ? std::vector<MeasuredFrf>() : springs->measured;
 }

@@ -10,7 +10,7 @@ namespace thinwall::setup {
 
 namespace {
 
-double required_preload(const SupportSetup& source, const Contact& contact) {
+double required_preload(const SupportSetup& source, const SupportContact& contact) {
   if (const auto preload = preload_of(source, contact)) return *preload;
   throw core::InputError(
       "its stiffness depends on the preload, and none presses it: give contacts.preload" +
@@ -32,7 +32,7 @@ coupling::HertzState touch(const ContactBall& ball, const coupling::Elastic& sur
 /// Adds the springs that each model of a contact gives; the preload is in the result.
 struct Joining {
   const PartSetup& part;
-  const Contact& contact;
+  const SupportContact& contact;
   JoinedContact& result;
 
   void add(const std::vector<double>& stiffness, const std::vector<double>& damping) const {
@@ -66,13 +66,13 @@ struct Joining {
 
 }  // namespace
 
-std::optional<double> own_preload(const Contact& contact) {
+std::optional<double> own_preload(const SupportContact& contact) {
   return std::visit(core::overloaded{[](const SpringContact&) { return std::optional<double>(); },
                                      [](const auto& pressed) { return pressed.preload; }},
                     contact.model);
 }
 
-std::optional<double> preload_of(const SupportSetup& source, const Contact& contact) {
+std::optional<double> preload_of(const SupportSetup& source, const SupportContact& contact) {
   if (const auto preload = own_preload(contact)) return preload;
   if (!source.robot || source.contacts.size() != 1 || contact.directions.empty()) return std::nullopt;
   const Eigen::Vector3d& force = source.robot->preload;
@@ -95,7 +95,7 @@ coupling::ContactTable read_contact_table(const std::filesystem::path& path) {
   return table;
 }
 
-JoinedContact joined_contact(const PartSetup& part, const SupportSetup& support, const Contact& contact,
+JoinedContact joined_contact(const PartSetup& part, const SupportSetup& support, const SupportContact& contact,
                              const std::optional<coupling::JointMatrices>& identified) {
   JoinedContact result{core::word_of(kind(contact)), {contact.part_point, contact.robot_point, {}, {}}, {}, {}};
   if (identified) {
@@ -113,7 +113,7 @@ std::vector<JoinedContact> joined_contacts(const PartSetup& part, const SupportS
                                            const std::optional<coupling::JointMatrices>& identified) {
   std::vector<JoinedContact> list;
   list.reserve(support.contacts.size());
-  for (const Contact& contact : support.contacts) {
+  for (const SupportContact& contact : support.contacts) {
     try {
       list.push_back(joined_contact(part, support, contact, list.empty() ? identified : std::nullopt));
     } catch (const core::InputError& error) {

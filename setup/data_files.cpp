@@ -58,7 +58,7 @@ void read_data_files(Setup& source) {
   for (MeasuredFrf* frf : measured_frfs(source)) {
     if (!frf->content) frf->content = std::make_shared<const FrfContent>(read_measured(*frf, files));
   }
-  for (Contact& contact : source.contacts) {
+  for (SupportContact& contact : source.contacts) {
     if (auto* tabled = std::get_if<TabledContact>(&contact.model); tabled != nullptr && !tabled->rows)
       tabled->rows = std::make_shared<const coupling::ContactTable>(read_contact_table(tabled->table));
   }

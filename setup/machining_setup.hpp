@@ -40,7 +40,7 @@ struct MeasuredPart {
 /// The robot, the places where it holds the part, and the options of the coupling.
 struct SupportSetup {
   std::optional<Robot> robot;
-  std::vector<Contact> contacts;
+  std::vector<SupportContact> contacts;
   CouplingChoice coupling;
 };
 

@@ -30,7 +30,7 @@ PathStation station(const Setup& source, std::size_t position_number) {
   cut.position = source.path->positions[position_number];  // to the last bit
   cut.name = "the cut";                                    // no name that a user can give
   PathStation there{{cut}, cut.name, {}};
-  for (const Contact& contact : source.contacts) {
+  for (const SupportContact& contact : source.contacts) {
     const Eigen::Vector3d by = source.path->robot_follows ? way : Eigen::Vector3d::Zero();
     const Point touched = moved(part, point(source, contact.part_point), by);
     if (coincide(part, touched, cut)) {

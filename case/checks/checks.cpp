@@ -143,7 +143,7 @@ void check_all_measured(const Case& source, Findings& findings) {
 }
 
 /// A contact joins what both sides can do: the part's point in its directions, the robot along its own.
-void check_contact_directions(const Case& source, const std::string& key, const setup::Contact& contact,
+void check_contact_directions(const Case& source, const std::string& key, const setup::SupportContact& contact,
                               Findings& findings) {
   const auto here = directions_at(source, contact.part_point);
   for (const auto& direction : contact.directions) {
@@ -165,7 +165,7 @@ void check_contact_directions(const Case& source, const std::string& key, const 
 }
 
 /// Lists of a contact have a value for each of its directions.
-void check_one_a_direction(const std::string& key, const setup::Contact& contact, Findings& findings) {
+void check_one_a_direction(const std::string& key, const setup::SupportContact& contact, Findings& findings) {
   const auto check = [&](const char* name, const std::vector<double>& list) {
     if (list.empty() || contact.directions.empty() || list.size() == contact.directions.size()) return;
     findings.report(key + name, std::to_string(list.size()) + " values for " +
@@ -181,7 +181,8 @@ void check_one_a_direction(const std::string& key, const setup::Contact& contact
              contact.model);
 }
 
-void check_contact(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
+void check_contact(const Case& source, const std::string& key, const setup::SupportContact& contact,
+                   Findings& findings) {
   require_kept(source, key + ".part", contact.part_point, findings);
   check_contact_directions(source, key, contact, findings);
   if (!source.robot) {

@@ -26,7 +26,7 @@ bool gives_damping(const setup::SpringContact& springs) {
   return std::ranges::any_of(springs.damping, [](double c) { return c > 0.0; });
 }
 
-void check_directions(const std::string& key, const setup::Contact& contact, Findings& findings) {
+void check_directions(const std::string& key, const setup::SupportContact& contact, Findings& findings) {
   const auto& directions = contact.directions;
   if (std::holds_alternative<setup::BallContact>(contact.model)) {
     const bool across = std::all_of(directions.begin() + 1, directions.end(), [&](const Eigen::Vector3d& d) {
@@ -43,7 +43,8 @@ void check_directions(const std::string& key, const setup::Contact& contact, Fin
   }
 }
 
-void check_preload(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
+void check_preload(const Case& source, const std::string& key, const setup::SupportContact& contact,
+                   Findings& findings) {
   if (setup::preload_of(source, contact)) return;
   const std::string text = "missing; the stiffness depends on the force that presses the contact together";
   findings.report(key + ".preload",
@@ -52,7 +53,7 @@ void check_preload(const Case& source, const std::string& key, const setup::Cont
 }
 
 /// Numbers of the ball, of what it touches and of its damping; NaN among them where one could not be read.
-std::vector<double> numbers_of(const Case& source, const setup::Contact& contact, const auto& pressed) {
+std::vector<double> numbers_of(const Case& source, const setup::SupportContact& contact, const auto& pressed) {
   std::vector<double> numbers{pressed.ball.radius, pressed.ball.steel.E, pressed.ball.steel.nu};
   if (pressed.surface) {
     numbers.insert(numbers.end(), {pressed.surface->E, pressed.surface->nu});
@@ -66,7 +67,7 @@ std::vector<double> numbers_of(const Case& source, const setup::Contact& contact
 
 /// Reports what the model itself refuses of a contact that has all it needs. Numbers that could not be read, or are not
 /// there, were reported before.
-void try_contact(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
+void try_contact(const Case& source, const std::string& key, const setup::SupportContact& contact, Findings& findings) {
   const auto* tabled = std::get_if<setup::TabledContact>(&contact.model);
   std::error_code ignored;
   if (tabled != nullptr && !std::filesystem::is_regular_file(tabled->table, ignored)) {
@@ -95,14 +96,15 @@ void try_contact(const Case& source, const std::string& key, const setup::Contac
 }
 
 /// A measured part does not tell what a ball touches.
-bool lacks_surface(const Case& source, const setup::Contact& contact) {
+bool lacks_surface(const Case& source, const setup::SupportContact& contact) {
   const auto lacks = [&](const auto& pressed) { return !source.part && !pressed.surface; };
   return std::visit(core::overloaded{lacks, [](const setup::SpringContact&) { return false; },
                                      [](const setup::TabledContact&) { return false; }},
                     contact.model);
 }
 
-void check_preloaded(const Case& source, const std::string& key, const setup::Contact& contact, Findings& findings) {
+void check_preloaded(const Case& source, const std::string& key, const setup::SupportContact& contact,
+                     Findings& findings) {
   if (contact.directions.empty()) return;
   const std::size_t before = findings.problems.size();
   check_directions(key, contact, findings);
@@ -114,7 +116,7 @@ void check_preloaded(const Case& source, const std::string& key, const setup::Co
 
 /// The points where the assembly moves (`response`), or where it is excited: one, that the part's model knows in the
 /// contact's directions.
-void check_measured_end(const Case& source, const std::string& key, const setup::Contact& contact, bool response,
+void check_measured_end(const Case& source, const std::string& key, const setup::SupportContact& contact, bool response,
                         Findings& findings) {
   const auto end = [&](const setup::MeasuredFrf& frf) { return response ? frf.response : frf.force; };
   const auto measured = setup::measured_assembly(contact);
@@ -143,7 +145,7 @@ void check_measured_end(const Case& source, const std::string& key, const setup:
                                            "fewer");
 }
 
-void check_measured_points(const Case& source, const std::string& key, const setup::Contact& contact,
+void check_measured_points(const Case& source, const std::string& key, const setup::SupportContact& contact,
                            Findings& findings) {
   const auto unnamed = [](const setup::MeasuredFrf& frf) { return frf.response.empty() || frf.force.empty(); };
   const auto measured = setup::measured_assembly(contact);
@@ -155,7 +157,7 @@ void check_measured_points(const Case& source, const std::string& key, const set
   if (!same || findings.problems.size() == before) check_measured_end(source, key, contact, false, findings);
 }
 
-void check_identification(const Case& source, const std::string& key, const setup::Contact& contact,
+void check_identification(const Case& source, const std::string& key, const setup::SupportContact& contact,
                           const setup::SpringContact& springs, Findings& findings) {
   if (source.contacts.size() > 1)
     findings.report(key + ".measured", "a joint is found where the robot has one contact; remove the other contacts");
@@ -170,7 +172,7 @@ void check_identification(const Case& source, const std::string& key, const setu
         "the contact is found after fits, so none with on = \"coupled\" may need it; remove one of the two");
 }
 
-void check_springs(const Case& source, const std::string& key, const setup::Contact& contact,
+void check_springs(const Case& source, const std::string& key, const setup::SupportContact& contact,
                    const setup::SpringContact& springs, Findings& findings) {
   if (!springs.noise.empty() && springs.noise.size() != 3)
     findings.report(key + ".noise", "give one value, or three: of the assembly, of the part, of the robot");
@@ -188,7 +190,7 @@ void check_springs(const Case& source, const std::string& key, const setup::Cont
 void check_contact_models(const Case& source, Findings& findings) {
   for (std::size_t i = 0; i < source.contacts.size(); ++i) {
     const std::string key = indexed("contacts", i);
-    const setup::Contact& contact = source.contacts[i];
+    const setup::SupportContact& contact = source.contacts[i];
     if (findings.unreadable(key + ".model")) continue;  // it could not be read
     if (const auto* springs = std::get_if<setup::SpringContact>(&contact.model)) {
       check_springs(source, key, contact, *springs, findings);

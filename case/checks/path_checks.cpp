@@ -112,7 +112,7 @@ bool points_known(const Case& source) {
     });
   };
   return known(source.cutting->at) &&
-         std::ranges::all_of(source.contacts, [&](const setup::Contact& c) { return known(c.part_point); });
+         std::ranges::all_of(source.contacts, [&](const setup::SupportContact& c) { return known(c.part_point); });
 }
 
 }  // namespace

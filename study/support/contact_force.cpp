@@ -52,7 +52,7 @@ dynamics::ResponseModel response_on(const Component& known, const dynamics::Freq
 /// robot.preload.
 std::pair<double, Eigen::Vector3d> pressing_force(const setup::SupportSetup& source) {
   const Eigen::Vector3d& on_tip = source.robot->preload;
-  const setup::Contact& first = source.contacts.front();
+  const setup::SupportContact& first = source.contacts.front();
   if (const auto preload = setup::preload_of(source, first); preload && source.contacts.size() == 1) {
     const Eigen::Vector3d& normal = first.directions.front();
     return {*preload, on_tip.dot(normal) < 0.0 ? Eigen::Vector3d(-normal) : normal};

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double far_above_one = 4.0;  // residuals twice the noise
 
-std::string name_of(const setup::Contact& contact) {
+std::string name_of(const setup::SupportContact& contact) {
   return contact.part_point + "-" + contact.robot_point;
 }
 
@@ -104,7 +104,7 @@ coupling::IdentificationOptions options_of(const setup::SpringContact& sought) {
 }
 
 /// Throws NumericalError unless there is a stiffness that can be joined.
-void require_stiffness(const coupling::IdentifiedJoint& found, const setup::Contact& contact) {
+void require_stiffness(const coupling::IdentifiedJoint& found, const setup::SupportContact& contact) {
   if (found.status == coupling::IdentificationStatus::no_information) {
     throw core::NumericalError(
         "the FRFs of the assembly hold too little of contact " + name_of(contact) +
@@ -152,7 +152,8 @@ dynamics::ResponseModel assembly_response(const std::vector<setup::MeasuredFrf>&
   return model;
 }
 
-ContactIdentification identify_contact(const setup::Contact& contact, const Component& part, const Component& robot) {
+ContactIdentification identify_contact(const setup::SupportContact& contact, const Component& part,
+                                       const Component& robot) {
   const auto& sought = std::get<setup::SpringContact>(contact.model);
   const dynamics::ResponseModel assembly = assembly_response(sought.measured, part.response.axis);
   setup::warn_if_implausible(assembly, "the assembly's");
@@ -174,7 +175,7 @@ ContactIdentification identify_contact(const setup::Contact& contact, const Comp
   return result;
 }
 
-void warn_of_misfit(const setup::Contact& contact, const ContactIdentification& identification) {
+void warn_of_misfit(const setup::SupportContact& contact, const ContactIdentification& identification) {
   const std::string name = name_of(contact);
   const double chi_squared = identification.found.chi_squared;
   if (chi_squared > far_above_one) {

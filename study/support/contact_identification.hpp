@@ -20,10 +20,10 @@ namespace thinwall::study {
 /// noisy as the case says, not for exact. Throws NumericalError where the lines hold too little of the contact or K is
 /// not positive definite, InputError as assembly_response() and coupling::identify_joint(). Cost lines · n⁴ times some
 /// passes.
-[[nodiscard]] ContactIdentification identify_contact(const setup::Contact& contact, const Component& part,
+[[nodiscard]] ContactIdentification identify_contact(const setup::SupportContact& contact, const Component& part,
                                                      const Component& robot);
 
 /// Warns where the residuals are far larger than the noise (chi_squared above 4) or damping was raised to none.
-void warn_of_misfit(const setup::Contact& contact, const ContactIdentification& identification);
+void warn_of_misfit(const setup::SupportContact& contact, const ContactIdentification& identification);
 
 }  // namespace thinwall::study
