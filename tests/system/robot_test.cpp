@@ -158,7 +158,7 @@ TEST(Robot, AlongAPathTheArmIsThatOfSingleCasesWithTheSameJoints) {
 // measurement, and the wall's at 9.5 kHz moves a depth by 16 %.
 TEST(Robot, AMeasuredTipGivesTheChartOfTheModelItWasMeasuredOn) {
   const fs::path out = scratch("measured_tip"), measured = scratch("measured_tip_again");
-  const std::string lines = "[response]\nfrom = \"1 Hz\"\nto = \"16 kHz\"\nlines = 8000\n";
+  const std::string lines = "[response]\nfrom = \"1 Hz\"\nto = \"24 kHz\"\nlines = 12000\n";
   const std::string one_mode = "[robot]\nfrequency = \"150 Hz\"\nstiffness = \"1e6 N/m\"\ndamping_ratio = 0.2\n";
   const auto few_modes = [](std::string text) { return text.replace(text.find("modes = 60"), 10, "modes = 20"); };
   (void)run(few_modes(wall(40.0, one_mode, lines + rows)), out);
