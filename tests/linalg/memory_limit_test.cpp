@@ -54,7 +54,9 @@ TEST(MemoryLimit, IsReportedWithTheNeedBeforeTheFactorIsAllocated) {
                 error.what());
     EXPECT_EQ(error.limit_bytes, 5e7);
     EXPECT_GT(error.needed_bytes, 1.2e8);
+#if !defined(THINWALL_ADDRESS_SANITIZER)  // which keeps freed memory
     EXPECT_LT(taken, 0.5 * error.needed_bytes) << "the ordering and the symbolic factor only";
+#endif
     EXPECT_NE(std::string(error.what()).find("64000 rows"), std::string::npos) << error.what();
   }
 }
