@@ -14,7 +14,7 @@ enum class EigenCheckStatus {
   values_differ,    ///< an eigenvalue of one list has no partner in the other
   ill_conditioned,  ///< no shift near the last pair gave a factor whose pivots can be counted
   not_finite,       ///< an eigenvalue is not finite
-  not_converged,    ///< the second eigen-solver did not converge
+  not_converged,    ///< the second eigen-solver did not converge, or gave values that are not finite
 };
 
 /// Findings of both algorithms.

@@ -44,9 +44,9 @@ bool equal(double a, double b) {
 }
 
 std::optional<FrfFormat> format_of_unit(const std::string& word) {
-  for (const std::string_view quantity : core::words<FrfQuantity>) {
+  for (const FrfQuantity quantity : {FrfQuantity::receptance, FrfQuantity::mobility, FrfQuantity::accelerance}) {
     try {
-      return frf_format(std::string(quantity), word, "Hz");
+      return frf_format(quantity, word, "Hz");
     } catch (const core::InputError&) {
     }
   }
