@@ -1,9 +1,8 @@
 #pragma once
 // All that milling/ offers to other programs.
-// Internal: contact_grid, contact_state, critical_depths, crossing,
-// cut_at_speed, cut_cycle, dominant_eigenvalue, edge, found_crossings, helical_row, parameter_change,
-// product_rule, refined_crossing, row_search, sampled_peak, step_coefficients, uniform_step_map,
-// uniform_step_stability, unstable_count, vanishing_powers.
+// Internal: contact_grid, contact_state, critical_depths, crossing, cut_at_speed, cut_cycle, dominant_eigenvalue, edge,
+// fitted_receptance, found_crossings, harmonic_gain, helical_row, parameter_change, product_rule, refined_crossing,
+// row_search, sampled_peak, step_coefficients, uniform_step_map, uniform_step_stability, vanishing_powers.
 
 #include "core/eigen_alignment.hpp"
 #include "milling/chart/lobe_field.hpp"

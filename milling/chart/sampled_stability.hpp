@@ -19,28 +19,51 @@ struct SampledStructure {
   std::optional<RelativeStructure> poles;  ///< part axes
 };
 
-/// All crossings of a speed, as limiting_depth() of stability.hpp finds them from poles, here by CriticalDepths on
-/// harmonic_gain() of the samples plus loop_gain() of the poles.
+/// A sampled structure as poles, with what these leave of the lines; and twice more from every second line, which tells
+/// how much the lines leave open.
+struct FittedStructure {
+  /// One fit.
+  struct Fit {
+    RelativeStructure poles;      ///< part axes: those of the fit and those that were given
+    SampledReceptance remainder;  ///< tool axes
+  };
+  SampledStructure lines;  ///< as they were given
+  Fit all, even, odd;
+  std::vector<Eigen::Matrix3d> mean_square;  ///< of the entries of the remainder about each line, (m/N)²
+};
+
+/// The fits of a structure whose samples are in the tool axes of `frame`. Throws InputError as fitted(). Cost: that of
+/// three fits.
+[[nodiscard]] FittedStructure fitted_structure(const SampledStructure& structure, const ToolFrame& frame);
+
+/// The row of a speed. The crossings are those of the fit's poles, found and checked as limiting_depth() of
+/// stability.hpp does. Each is then followed, on a grid of its own depth, to where it lies with the remainder
+/// (harmonic_gain()), so that the row is that of the lines as they are. The estimate of a crossing adds
 ///
-/// Each finer grid has more nodes and twice the harmonics, so that the change of a depth from grid to grid, which makes
-/// its estimate, is that of both. Nodes start with the highest line that matters: |H| of a twentieth of the largest, or
-/// enough to regenerate at the depth that is called stable (2 w ‖D̄‖ |H| ≥ ½); harmonics with four times its frequency.
-/// Beyond its lines the receptance is continued as that of an oscillator of its highest resonance; twice what
-/// the depth moves by with a plain static or inertia line instead is added to the estimate, and a row that misses the
-/// tolerance for it is `range_limited`.
+///  - twice the larger change of the depth if every second line alone is known: what spacing and range of the lines
+///    leave open;
+///  - three standard deviations of the depth (depth_gradient()) by noise of the size that the remainder has about each
+///    line;
+///  - the change by the remainder itself where the shape of the cut changes with the depth, because the grid is then
+///    that of the depth before.
 ///
-/// The counts that check the search are Nyquist's (unstable_count.hpp), at its end on the grid of the search and just
-/// below the first crossing on the next finer one. Without poles there is no |μ|: a row that is stable up to the limit
-/// has the frequency that comes closest to chatter there, by |1 − wν|, and no estimate (0).
-///
-/// Throws InputError for a bad process, option or speed, teeth of unequal pitch or a helix (the cut must repeat itself
-/// with the tooth and not change with its depth), receptances without resonance or whose lines do not reach the
-/// harmonics next to the highest resonance (require_range()); NumericalError if an eigen-solution fails. Cost: some
-/// hundred sums over the harmonics, each O(harmonics nodes²).
+/// A row that misses the tolerance for it is `data_limited`. A row that is stable up to the depth limit has the change
+/// of |μ| there in its estimate. Any cutter will do. Throws InputError for a bad process, option or speed, and as
+/// require_range(); NumericalError if an eigen-solution fails. Cost: a row from poles, and for each crossing some ten
+/// sums over the harmonics within the lines, each O(harmonics contacts²).
+[[nodiscard]] LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& process,
+                                     double spindle_speed_rpm, const StabilityOptions& options);
+
+/// The same with a fit of its own.
 [[nodiscard]] LobeRow limiting_depth(const SampledStructure& structure, const MillingProcess& process,
                                      double spindle_speed_rpm, const StabilityOptions& options);
 
-/// limiting_depth() at every speed in parallel, as the chart from poles (lobes.hpp).
+/// limiting_depth() at every speed in parallel, as the chart from poles (lobes.hpp), from one fit.
+[[nodiscard]] Lobes stability_lobes(const FittedStructure& structure, const MillingProcess& process,
+                                    const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options,
+                                    const KeptRows& kept = {});
+
+/// The same with a fit of its own.
 [[nodiscard]] Lobes stability_lobes(const SampledStructure& structure, const MillingProcess& process,
                                     const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options,
                                     const KeptRows& kept = {});
@@ -51,11 +74,11 @@ struct SampledStructure {
 ///
 ///     dw = −w² Re [ (1 + i Re ν_θ/Im ν_θ) dν ],     dν = −lᵀ dZ r / lᵀ r
 ///
-/// and Re dν alone at a flip. What continues H beyond its lines is kept as it is. Scaling all samples by 1 + ε gives
-/// dw = −ε w: Re Σ g_ij H_ij = −w where nothing else moves. `point` is one of limiting_depth()'s crossings for the same
+/// and Re dν alone at a flip. What continues H beyond its lines is kept as it is, so that scaling all samples by 1 + ε
+/// gives dw = −ε w, Re Σ g_ij H_ij = −w, as far as no harmonic beyond the lines has a part. `point` is one of limiting_depth()'s crossings for the same
 /// arguments. Errors as limiting_depth(), and NumericalError if the crossing is not found again. Cost: some ten values
 /// of Z.
-[[nodiscard]] std::vector<Eigen::Matrix3cd> depth_gradient(const SampledStructure& structure,
+[[nodiscard]] std::vector<Eigen::Matrix3cd> depth_gradient(const FittedStructure& structure,
                                                            const MillingProcess& process, double spindle_speed_rpm,
                                                            const LobePoint& point, const StabilityOptions& options);
 

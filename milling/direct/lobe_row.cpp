@@ -34,8 +34,8 @@ std::string name(StabilityStatus status) {
       return "converged";
     case StabilityStatus::node_limit_reached:
       return "node_limit_reached";
-    case StabilityStatus::range_limited:
-      return "range_limited";
+    case StabilityStatus::data_limited:
+      return "data_limited";
     case StabilityStatus::stable_to_depth_limit:
       return "stable_to_depth_limit";
     case StabilityStatus::crossing_missed:
@@ -67,6 +67,12 @@ std::vector<std::string> validate(const StabilityOptions& options) {
           "at least 1; 20 is usual");
   require(options.most_nodes >= 8, "largest number of nodes", options.most_nodes, "at least 8; 240 is usual");
   return violations;
+}
+
+bool answers(const LobeRow& row) {
+  constexpr double largest = 0.1;
+  return row.status == StabilityStatus::converged || row.status == StabilityStatus::stable_to_depth_limit ||
+         (row.status == StabilityStatus::data_limited && row.error_estimate <= largest);
 }
 
 void take_limit_from_crossings(LobeRow& row) {

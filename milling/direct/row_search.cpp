@@ -49,12 +49,9 @@ int refine_boundaries(SearchGrids& grids, std::vector<RefinedCrossing>& all, con
       while (all.size() > i) drop_last(all, row);
       return count;
     }
-    const double beyond_grids = c.kept ? grids.error_beyond_grids(c.level, c.crossing) : 0.0;
     if (!c.kept) row.status = StabilityStatus::crossing_missed;
     else if (row.status == StabilityStatus::crossing_missed) continue;
     else if (c.error_estimate > options.error_tolerance) row.status = StabilityStatus::node_limit_reached;
-    else if (beyond_grids > options.error_tolerance) row.status = StabilityStatus::range_limited;
-    c.error_estimate += beyond_grids;
   }
   return count;
 }
@@ -159,8 +156,7 @@ LobeRow checked_row(SearchGrids& grids, CoarseCrossings coarse, double spindle_s
 }
 
 bool sound(const LobeRow& row) {
-  return row.status == StabilityStatus::converged || row.status == StabilityStatus::range_limited ||
-         row.status == StabilityStatus::stable_to_depth_limit;
+  return row.status == StabilityStatus::converged || row.status == StabilityStatus::stable_to_depth_limit;
 }
 
 }  // namespace thinwall::milling

@@ -27,8 +27,6 @@ class SearchGrids {
   [[nodiscard]] virtual bool stable(std::size_t level, double depth_m) { return unstable(level, depth_m) == 0; }
   /// The chatter frequency of a crossing of that grid, Hz.
   [[nodiscard]] virtual double chatter_frequency_hz(std::size_t level, const Crossing& crossing) = 0;
-  /// The error of a depth, relative, that no finer grid shows.
-  [[nodiscard]] virtual double error_beyond_grids(std::size_t /*level*/, const Crossing& /*crossing*/) { return 0.0; }
 };
 
 /// Grids of a cut without helix, one a level for all depths; finer ones are made when they are asked for.

@@ -12,7 +12,6 @@
 #include "milling/cut/contact_grid.hpp"
 #include "milling/cut/edge.hpp"
 #include "milling/cut/step_coefficients.hpp"
-#include "milling/direct/sampled_receptance.hpp"
 #include "milling/direct/stability.hpp"
 #include "tests/milling/marching.hpp"
 #include "tests/milling/single_mode.hpp"
@@ -287,18 +286,6 @@ TEST(General, ValidationNamesWhatIsWrong) {
   EXPECT_EQ(violations([](MillingProcess& p) { p.cutter.envelope = bull_nose(0.012, 0.007); }), 1u);
   EXPECT_EQ(violations([](MillingProcess& p) { p.damping.C = -1.0; }), 1u);
   EXPECT_EQ(violations([](MillingProcess& p) { p.damping.C = 1e4, p.cutter.envelope = ball_end(0.012); }), 1u);
-}
-
-TEST(General, SampledReceptancesRefuseDelaysThatDiffer) {
-  SampledReceptance sampled;
-  sampled.frequency_hz = Eigen::VectorXd::LinSpaced(100, 0.0, 2000.0);
-  for (const double hz : sampled.frequency_hz)
-    sampled.H.push_back(receptance(structure(), 2.0 * std::numbers::pi * hz));
-  MillingProcess process = process_with({2, 0.012}, 0.0, 1.0);
-  const Eigen::Matrix3Xd all = Eigen::Matrix3d::Identity();
-  EXPECT_NO_THROW((void)harmonic_gain(sampled, contact_grid(process, all, {1, 4}), 5000.0));
-  process.damping.C = 1e4;
-  EXPECT_THROW((void)harmonic_gain(sampled, contact_grid(process, all, {1, 4}), 5000.0), core::InputError);
 }
 
 TEST(General, ClassicalMethodsRefuseWhatTheyDoNotKnow) {

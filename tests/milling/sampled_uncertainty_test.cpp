@@ -78,7 +78,7 @@ TEST(DepthGradient, OneModeInASlotHasItsClosedForm) {
   for (const double rpm : {5300.0, 7000.0, 12000.0}) {
     const LobeRow row = limiting_depth(structure, process, rpm, fine());
     const LobePoint point = first_crossing_of(row);
-    const auto gradient = depth_gradient(structure, process, rpm, point, fine());
+    const auto gradient = depth_gradient(fitted_structure(structure, process.frame), process, rpm, point, fine());
     // ν = −K G (1 − e^{−iωT}) is real at ω, dν = ν dG/G, and ν' = ν (G'/G + iT e^{−iωT}/(1 − e^{−iωT})).
     const double omega = 2.0 * pi * point.chatter_frequency_hz, T = 60.0 / (4.0 * rpm), h = 1e-3;
     const auto G_at = [&](double w) { return receptance(in_tool_axes(one_mode(), process.frame), w)(0, 0); };
@@ -107,7 +107,7 @@ TEST(DepthGradient, ScalingTheReceptanceScalesTheDepth) {
   const SampledStructure structure{sampled(skewed(), process.frame, 6000.0, 2.0), {}};
   for (const double rpm : {2300.0, 4100.0, 9700.0}) {
     const LobePoint point = first_crossing_of(limiting_depth(structure, process, rpm, fine()));
-    const auto gradient = depth_gradient(structure, process, rpm, point, fine());
+    const auto gradient = depth_gradient(fitted_structure(structure, process.frame), process, rpm, point, fine());
     double sum = 0.0;
     for (std::size_t i = 0; i < gradient.size(); ++i)
       sum += gradient[i].cwiseProduct(structure.samples.H[i]).sum().real();
@@ -124,8 +124,8 @@ TEST(DepthGradient, IsTheDifferenceQuotientForAnyChangeOfTheSamples) {
       relative_structure(testing::modal_model({{1900.0, 0.01, 0.9, Eigen::Vector3d(0.1, 1.0, 0.0).normalized()}}), "P");
   for (const std::optional<RelativeStructure>& poles : {std::optional<RelativeStructure>{}, std::optional(part)}) {
     for (const double rpm : slow ? std::vector{2300.0, 5600.0, 9700.0} : std::vector{5600.0}) {
-      const LobePoint point = first_crossing_of(limiting_depth({lines, poles}, process, rpm, fine()));
-      const auto gradient = depth_gradient({lines, poles}, process, rpm, point, fine());
+      const LobePoint point = first_crossing_of(limiting_depth(SampledStructure{lines, poles}, process, rpm, fine()));
+      const auto gradient = depth_gradient(fitted_structure({lines, poles}, process.frame), process, rpm, point, fine());
       // smooth, near the chatter frequency, not symmetric, and where no poles are in a direction that was still
       const auto moved = [&](double step) {
         SampledReceptance other = lines;
@@ -139,7 +139,7 @@ TEST(DepthGradient, IsTheDifferenceQuotientForAnyChangeOfTheSamples) {
         return other;
       };
       const auto depth = [&](double step) {
-        return limiting_depth({moved(step), poles}, process, rpm, fine()).limiting_depth_m;
+        return limiting_depth(SampledStructure{moved(step), poles}, process, rpm, fine()).limiting_depth_m;
       };
       const double h = 0.02;
       const double quotient = (depth(h) - depth(-h)) / (2.0 * h);
@@ -167,7 +167,7 @@ TEST(SampledDepths, DrawsScatterAsFirstOrderSaysWhereTheNoiseIsSmall) {
     const LobePoint point = first_crossing_of(limiting_depth(c.structure, process, c.rpm, options));
     const SampleCovariance covariance = relative_noise(c.structure.samples, 0.003);
     const double first_order =
-        depth_deviation_m(depth_gradient(c.structure, process, c.rpm, point, options), covariance);
+        depth_deviation_m(depth_gradient(fitted_structure(c.structure, process.frame), process, c.rpm, point, options), covariance);
     const DepthScatter scatter = sampled_depths(c.structure, process, c.rpm, options, covariance, n, 5);
     EXPECT_EQ(scatter.without_limit, 0);
     EXPECT_NEAR(scatter.deviation_m / first_order, 1.0, 3.0 / std::sqrt(2.0 * n)) << c.rpm;

@@ -1,0 +1,259 @@
+#include "dynamics/rational_fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "core/dense_eigenvalues.hpp"
+#include "core/dense_factorisations.hpp"
+#include "core/error.hpp"
+
+namespace thinwall::dynamics {
+
+namespace {
+
+using Eigen::Index;
+using std::complex;
+using std::numbers::pi;
+
+/// Lines and entries as the fit takes them. Frequencies are divided by the last one, so that columns are of one order.
+struct Lines {
+  Eigen::VectorXcd s;         ///< iω over the last ω
+  Eigen::VectorXcd weight;    ///< 1/√‖H‖, the largest ‖H‖ being 1; real
+  Eigen::MatrixXcd entries;   ///< lines × entries, over the largest ‖H‖
+  Eigen::MatrixXcd combined;  ///< lines × at most three
+  double scale = 1.0;         ///< largest ‖H‖, m/N
+  double omega = 1.0;         ///< last ω, rad/s
+};
+
+bool is_real(complex<double> pole) {
+  return pole.imag() == 0.0;
+}
+
+/// Real over imaginary parts: least squares with real unknowns.
+Eigen::MatrixXd stacked(const Eigen::MatrixXcd& A) {
+  Eigen::MatrixXd both(2 * A.rows(), A.cols());
+  both << A.real(), A.imag();
+  return both;
+}
+
+/// The basis at every line, with real coefficients: 1/(s − λ) of a real pole; of a pair 1/(s − λ) + 1/(s − λ̄) and
+/// i/(s − λ) − i/(s − λ̄), so that coefficients a, b stand for the residue a + ib. The last column is 1.
+Eigen::MatrixXcd basis(const Eigen::VectorXcd& s, const Eigen::VectorXcd& poles) {
+  const auto reals = std::count_if(poles.begin(), poles.end(), is_real);
+  Eigen::MatrixXcd B(s.size(), 2 * poles.size() - reals + 1);
+  Index column = 0;
+  for (const complex<double> pole : poles) {
+    const Eigen::ArrayXcd above = (s.array() - pole).inverse();
+    if (is_real(pole)) {
+      B.col(column++) = above;
+      continue;
+    }
+    const Eigen::ArrayXcd below = (s.array() - std::conj(pole)).inverse();
+    B.col(column++) = above + below;
+    B.col(column++) = complex<double>(0.0, 1.0) * (above - below);
+  }
+  B.col(column).setOnes();
+  return B;
+}
+
+/// Least squares with columns of unit length, for those of poles far apart differ by orders.
+Eigen::MatrixXd least_squares(Eigen::MatrixXd A, const Eigen::MatrixXd& b) {
+  const Eigen::VectorXd length = A.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());
+  A *= length.cwiseInverse().asDiagonal();
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
+  return length.cwiseInverse().asDiagonal() * qr.solve(b);
+}
+
+/// The real combinations of the entries with the most weight: eigenvectors of the entries' Gram matrix.
+Eigen::MatrixXcd main_combinations(const Eigen::MatrixXcd& entries, const Eigen::VectorXcd& weight) {
+  const Eigen::MatrixXd weighed = stacked(weight.asDiagonal() * entries);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(weighed.transpose() * weighed));
+  const auto& size = eigen.eigenvalues();
+  const double least = 1e-20 * size(size.size() - 1);
+  const Index count = std::min<Index>(3, (size.array() > least).count());
+  return entries * eigen.eigenvectors().rightCols(count);
+}
+
+Lines lines_of(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H) {
+  const auto fail = [](const std::string& what) { throw core::InputError("rational fit: " + what); };
+  const Index count = hz.size();
+  if (count < 6) fail(std::to_string(count) + " frequency lines, at least 6 are needed");
+  if (static_cast<std::size_t>(count) != H.size())
+    fail(std::to_string(count) + " frequencies for " + std::to_string(H.size()) + " matrices, must be as many");
+  Lines lines{complex<double>(0.0, 1.0 / hz(count - 1)) * hz.cast<complex<double>>(), {}, {}, {}, 1.0,
+              2.0 * pi * hz(count - 1)};
+  lines.entries.resize(count, H.front().size());
+  for (Index i = 0; i < count; ++i) {
+    const Eigen::MatrixXcd& at = H[static_cast<std::size_t>(i)];
+    if (at.rows() != H.front().rows() || at.cols() != H.front().cols())
+      fail("line " + std::to_string(i + 1) + " has another shape than the first");
+    lines.entries.row(i) = at.reshaped().transpose();
+  }
+  lines.scale = lines.entries.rowwise().norm().maxCoeff();
+  if (!(lines.scale > 0.0) || !lines.entries.allFinite() || !hz.allFinite())
+    fail("the lines are all zero or not all finite; check the file");
+  lines.entries /= lines.scale;
+  // A line of nothing must not get all the weight.
+  lines.weight = lines.entries.rowwise().norm().cwiseMax(1e-8).cwiseSqrt().cwiseInverse().cast<complex<double>>();
+  lines.combined = main_combinations(lines.entries, lines.weight);
+  return lines;
+}
+
+/// The coefficients of the factor (c₀ + Σ c_n φ_n), c₀ last. Of each combination only what no numerator can reproduce
+/// takes part (the QR of its own unknowns is eliminated); the sum of the factor's real part over the lines is held at
+/// their number, which is what "relaxed" says: with c₀ = 1 noise would draw the poles towards the lines' start.
+Eigen::VectorXd factor_coefficients(const Lines& lines, const Eigen::MatrixXcd& B) {
+  const Index unknowns = B.cols();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> numerator(stacked(lines.weight.asDiagonal() * B));
+  const Index combinations = lines.combined.cols();
+  Eigen::MatrixXd A(combinations * unknowns + 1, unknowns);
+  for (Index c = 0; c < combinations; ++c) {
+    const Eigen::VectorXcd weighed = lines.weight.cwiseProduct(lines.combined.col(c));
+    Eigen::MatrixXd denominator = stacked(weighed.asDiagonal() * B);
+    denominator.applyOnTheLeft(numerator.householderQ().adjoint());
+    const Eigen::HouseholderQR<Eigen::MatrixXd> rest(denominator.bottomRows(denominator.rows() - unknowns));
+    A.middleRows(c * unknowns, unknowns) = rest.matrixQR().topRows(unknowns).triangularView<Eigen::Upper>();
+  }
+  const auto count = static_cast<double>(lines.s.size());
+  const double size = (lines.weight.asDiagonal() * lines.combined).norm() / count;
+  A.bottomRows(1) = size * B.real().colwise().sum();
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(A.rows());
+  b(b.size() - 1) = size * count;
+  return least_squares(std::move(A), b);
+}
+
+/// The zeros of c₀ + Σ c_n φ_n: eigenvalues of A − b cᵀ/c₀, with A the real form of the poles.
+Eigen::VectorXcd zeros(const Eigen::VectorXcd& poles, const Eigen::VectorXd& c) {
+  const Index n = c.size() - 1;
+  // A vanishing constant would send a zero to infinity.
+  const double constant = std::copysign(std::max(std::abs(c(n)), 1e-8), c(n));
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd b(n);
+  Index at = 0;
+  for (const complex<double> pole : poles) {
+    A(at, at) = pole.real();
+    b(at) = is_real(pole) ? 1.0 : 2.0;
+    if (!is_real(pole)) {
+      A(at + 1, at + 1) = pole.real();
+      A(at, at + 1) = pole.imag();
+      A(at + 1, at) = -pole.imag();
+      b(++at) = 0.0;
+    }
+    ++at;
+  }
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(A - b * c.head(n).transpose() / constant), false);
+  std::vector<complex<double>> found;
+  for (complex<double> zero : eigen.eigenvalues()) {
+    if (zero.imag() < 0.0) continue;
+    const double decay = std::max(std::abs(zero.real()), 1e-9 * std::abs(zero));
+    if (decay > 0.0) found.emplace_back(-decay, zero.imag());
+  }
+  std::ranges::sort(found, [](auto a, auto b) { return std::abs(a) < std::abs(b); });
+  return Eigen::Map<const Eigen::VectorXcd>(found.data(), static_cast<Index>(found.size()));
+}
+
+bool settled(const Eigen::VectorXcd& before, const Eigen::VectorXcd& after) {
+  return before.size() == after.size() &&
+         ((before - after).array().abs() <= 1e-10 * after.array().abs()).all();
+}
+
+/// A fit of scaled lines: coefficients, basis functions × entries, and what is left of the lines.
+struct Fit {
+  Eigen::VectorXcd poles;
+  Eigen::MatrixXd coefficients;
+  double weighed = INFINITY;  ///< ‖W (fit − H)‖ / ‖W H‖
+  double plain = INFINITY;    ///< ‖fit − H‖ / ‖H‖
+};
+
+Fit fit(const Lines& lines, Eigen::VectorXcd poles) {
+  constexpr int most_steps = 20;
+  for (int step = 0; step < most_steps; ++step) {
+    const Eigen::VectorXcd next = zeros(poles, factor_coefficients(lines, basis(lines.s, poles)));
+    const bool done = settled(poles, next);
+    poles = next;
+    if (done) break;
+  }
+  // A pole that lies far beyond the lines is static to them, and no line tells where it is.
+  constexpr double far_beyond = 4.0;
+  std::vector<Index> kept;
+  for (Index i = 0; i < poles.size(); ++i) {
+    if (std::abs(poles(i)) <= far_beyond) kept.push_back(i);
+  }
+  poles = Eigen::VectorXcd(poles(kept));
+  const Eigen::MatrixXcd B = basis(lines.s, poles);
+  const Eigen::MatrixXcd weighed = lines.weight.asDiagonal() * lines.entries;
+  const Eigen::MatrixXd x = least_squares(stacked(lines.weight.asDiagonal() * B), stacked(weighed));
+  const Eigen::MatrixXcd left = B * x - lines.entries;
+  return {poles, x, (lines.weight.asDiagonal() * left).norm() / weighed.norm(), left.norm() / lines.entries.norm()};
+}
+
+PartialFractions unscaled(const Fit& fit, const Lines& lines, Index rows, Index columns) {
+  PartialFractions sum{lines.omega * fit.poles, {}, {}};
+  const auto matrix = [&](const Eigen::RowVectorXd& row) { return Eigen::MatrixXd(row.reshaped(rows, columns)); };
+  Index at = 0;
+  for (const complex<double> pole : fit.poles) {
+    Eigen::MatrixXcd residue = matrix(fit.coefficients.row(at++)).cast<complex<double>>();
+    if (!is_real(pole)) residue += complex<double>(0.0, 1.0) * matrix(fit.coefficients.row(at++));
+    sum.residues.emplace_back(lines.scale * lines.omega * residue);
+  }
+  sum.constant = lines.scale * matrix(fit.coefficients.row(at));
+  return sum;
+}
+
+/// Weakly damped pairs over the lines, where resonances are looked for.
+Eigen::VectorXcd spread_poles(const Lines& lines, int pairs) {
+  const double from = std::max(lines.s(0).imag(), 0.01);
+  Eigen::VectorXcd poles(pairs);
+  for (int i = 0; i < pairs; ++i) {
+    const double at = pairs == 1 ? 0.5 * (from + 1.0) : from + (1.0 - from) * i / (pairs - 1);
+    poles(i) = at * complex<double>(-0.01, 1.0);
+  }
+  return poles;
+}
+
+}  // namespace
+
+Eigen::MatrixXcd value(const PartialFractions& sum, double omega_rad_s) {
+  Eigen::MatrixXcd H = sum.constant.cast<complex<double>>();
+  const complex<double> s(0.0, omega_rad_s);
+  for (Index k = 0; k < sum.poles.size(); ++k) {
+    const Eigen::MatrixXcd& residue = sum.residues[static_cast<std::size_t>(k)];
+    H += residue / (s - sum.poles(k));
+    if (!is_real(sum.poles(k))) H += residue.conjugate() / (s - std::conj(sum.poles(k)));
+  }
+  return H;
+}
+
+PartialFractions vector_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H,
+                            const Eigen::VectorXcd& poles) {
+  const Lines lines = lines_of(hz, H);
+  const Index unknowns = 2 * (2 * poles.size() + 1);
+  if (poles.size() == 0 || 2 * hz.size() <= 2 * unknowns) {
+    throw core::InputError("rational fit: " + std::to_string(hz.size()) + " lines for " +
+                           std::to_string(poles.size()) + " poles; more than " + std::to_string(unknowns) +
+                           " lines and one pole at least are needed");
+  }
+  return unscaled(fit(lines, poles / lines.omega), lines, H.front().rows(), H.front().cols());
+}
+
+PartialFractions rational_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H) {
+  const Lines lines = lines_of(hz, H);
+  constexpr double enough = 1e-12;
+  Fit best;
+  int without_gain = 0;
+  for (const int pairs : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 24, 28, 32}) {
+    if (pairs > 1 && 4 * (2 * pairs + 1) >= lines.s.size()) break;
+    const Fit next = fit(lines, spread_poles(lines, pairs));
+    const bool gains = next.weighed < 0.7 * best.weighed || next.plain < 0.7 * best.plain;
+    without_gain = gains ? 0 : without_gain + 1;
+    if (gains) best = next;
+    if (best.weighed <= enough || without_gain == 2) break;
+  }
+  return unscaled(best, lines, H.front().rows(), H.front().cols());
+}
+
+}  // namespace thinwall::dynamics

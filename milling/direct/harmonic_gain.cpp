@@ -1,0 +1,116 @@
+#include "milling/direct/harmonic_gain.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "milling/cut/product_rule.hpp"
+
+namespace thinwall::milling {
+
+namespace {
+
+using Eigen::Index;
+using std::complex;
+using std::numbers::pi;
+
+/// The sum over the harmonics at one angle: visit(ω, seen, force) for each, so that
+///
+///     Z = (1/T) Σ seen H(ω) force
+class Harmonics {
+ public:
+  Harmonics(const SampledReceptance& receptance, const ContactGrid& grid, double spindle_speed_rpm)
+      : grid_(grid),
+        seconds_per_rad_(30.0 / (pi * spindle_speed_rpm)),
+        highest_(2.0 * pi * receptance.frequency_hz(receptance.frequency_hz.size() - 1)) {
+    for (const CutElement& e : grid.elements)
+      rules_.emplace_back(e.nodes, highest_ * (e.to_rad - e.from_rad) * seconds_per_rad_);
+  }
+
+  [[nodiscard]] double period_s() const { return grid_.period_rad * seconds_per_rad_; }
+
+  template <typename Visit>
+  void at(double theta, Visit visit) const {
+    const auto contacts = static_cast<Index>(grid_.contacts.size());
+    const double period = period_s();
+    Eigen::Matrix3Xcd force(3, contacts);
+    Eigen::MatrixX3cd seen(contacts, 3);
+    const int last = static_cast<int>(std::floor((highest_ * period - theta) / (2.0 * pi)));
+    // As many on the negative side, so that the sum is real where it has to be.
+    const int first = static_cast<int>(std::ceil((-highest_ * period - theta) / (2.0 * pi)));
+    const complex<double> period_ago = theta == pi ? complex<double>(-1.0) : std::polar(1.0, -theta);
+    for (int k = first; k <= last; ++k) {
+      const double omega = (theta + 2.0 * pi * k) / period;
+      const Eigen::VectorXcd moments = node_moments(omega);
+      for (Index j = 0; j < contacts; ++j) {
+        const EdgeContact& c = grid_.contacts[static_cast<std::size_t>(j)];
+        force.col(j) = moments(c.node) * c.force;
+        seen.row(j) = turn(c.node, omega) * c.chip.transpose();
+        for (const Past& past : c.past) {
+          const complex<double> then = turn(past.node, omega) * (past.previous_period ? period_ago : 1.0);
+          seen.row(j) -= then * past.chip.transpose();
+        }
+      }
+      visit(omega, seen, force);
+    }
+  }
+
+ private:
+  /// e^{iωt} at a node.
+  [[nodiscard]] complex<double> turn(int node, double omega) const {
+    return std::polar(1.0, omega * grid_.node_rad(node) * seconds_per_rad_);
+  }
+
+  /// ∫ e^{−iω s} ℓ_j(s) ds over each element's polynomials, s from the start of the period; one a node.
+  [[nodiscard]] Eigen::VectorXcd node_moments(double omega) const {
+    Eigen::VectorXcd moments(grid_.node_rad.size());
+    for (std::size_t e = 0; e < grid_.elements.size(); ++e) {
+      const CutElement& element = grid_.elements[e];
+      const double length = (element.to_rad - element.from_rad) * seconds_per_rad_;
+      const complex<double> at_end = std::polar(length, -omega * element.to_rad * seconds_per_rad_);
+      moments.segment(element.first_node, element.nodes) = at_end * rules_[e].end({0.0, omega * length}).transpose();
+    }
+    return moments;
+  }
+
+  const ContactGrid& grid_;
+  double seconds_per_rad_;
+  double highest_;
+  std::vector<ProductRule> rules_;
+};
+
+}  // namespace
+
+GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGrid& grid, double spindle_speed_rpm) {
+  require_usable(receptance);
+  const Harmonics harmonics(receptance, grid, spindle_speed_rpm);
+  const auto contacts = static_cast<Index>(grid.contacts.size());
+  const auto gain = [&receptance, harmonics, contacts](double theta) {
+    Eigen::MatrixXcd Z = Eigen::MatrixXcd::Zero(contacts, contacts);
+    harmonics.at(theta, [&](double omega, const Eigen::MatrixX3cd& seen, const Eigen::Matrix3Xcd& force) {
+      Z.noalias() += (seen * interpolated(receptance, omega)) * force;
+    });
+    return Eigen::MatrixXcd(Z / harmonics.period_s());
+  };
+  const auto slope = [gain](double theta) {
+    constexpr double h = 1e-5;  // rad; the slope steers Newton's rule and need not be exact
+    return Eigen::MatrixXcd((gain(theta + h) - gain(theta - h)) / (2.0 * h));
+  };
+  return {contacts, gain, slope, {}};
+}
+
+std::vector<Eigen::Matrix3cd> gain_gradient(const SampledReceptance& receptance, const ContactGrid& grid,
+                                            double spindle_speed_rpm, double theta_rad, const Eigen::VectorXcd& l,
+                                            const Eigen::VectorXcd& r, complex<double> factor) {
+  require_usable(receptance);
+  const Harmonics harmonics(receptance, grid, spindle_speed_rpm);
+  std::vector<Eigen::Matrix3cd> gradient(receptance.H.size(), Eigen::Matrix3cd::Zero());
+  harmonics.at(theta_rad, [&](double omega, const Eigen::MatrixX3cd& seen, const Eigen::Matrix3Xcd& force) {
+    const LineWeights of = line_weights(receptance, std::abs(omega) / (2.0 * pi));
+    Eigen::Matrix3cd g = factor / harmonics.period_s() * (seen.transpose() * l) * (force * r).transpose();
+    if (omega < 0.0) g = g.conjugate().eval();  // Re(z̄) = Re(z)
+    for (Index i = 0; i < of.weight.size(); ++i) gradient[static_cast<std::size_t>(of.first + i)] += of.weight(i) * g;
+  });
+  return gradient;
+}
+
+}  // namespace thinwall::milling

@@ -1,0 +1,158 @@
+// Partial fractions from lines: structures whose poles are known, between their lines and beyond them.
+
+#include "dynamics/rational_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "core/error.hpp"
+
+namespace thinwall::dynamics::rational_fit_test {
+namespace {
+
+using std::complex;
+using std::numbers::pi;
+
+/// Modes of unit residue matrices, in Hz.
+struct Modes {
+  Eigen::VectorXd hz, damping, mass;
+  Eigen::Matrix3Xd shape;
+};
+
+double uniform(std::mt19937_64& random, double from, double to) {
+  return std::uniform_real_distribution<double>(from, to)(random);
+}
+
+Modes random_modes(std::mt19937_64& random, int count) {
+  Modes modes{Eigen::VectorXd(count), Eigen::VectorXd(count), Eigen::VectorXd(count), Eigen::Matrix3Xd(3, count)};
+  for (int k = 0; k < count; ++k) {
+    modes.hz(k) = uniform(random, 100.0, 1000.0);
+    modes.damping(k) = std::pow(10.0, uniform(random, -2.5, -1.3));
+    modes.mass(k) = std::pow(10.0, uniform(random, -1.0, 1.0));
+    for (double& component : modes.shape.col(k)) component = uniform(random, -1.0, 1.0);
+    modes.shape.col(k).normalize();
+  }
+  return modes;
+}
+
+Eigen::MatrixXcd receptance(const Modes& modes, double hz) {
+  Eigen::Matrix3cd H = Eigen::Matrix3cd::Zero();
+  const double omega = 2.0 * pi * hz;
+  for (Eigen::Index k = 0; k < modes.hz.size(); ++k) {
+    const double natural = 2.0 * pi * modes.hz(k);
+    const complex<double> stiffness(natural * natural - omega * omega, 2.0 * modes.damping(k) * natural * omega);
+    H += modes.shape.col(k) * modes.shape.col(k).transpose() / (modes.mass(k) * stiffness);
+  }
+  return H;
+}
+
+std::vector<Eigen::MatrixXcd> lines_of(const Modes& modes, const Eigen::VectorXd& hz) {
+  std::vector<Eigen::MatrixXcd> H;
+  for (const double at : hz) H.push_back(receptance(modes, at));
+  return H;
+}
+
+double peak(const Modes& modes) {
+  double largest = 0.0;
+  for (const double hz : modes.hz) largest = std::max(largest, receptance(modes, hz).norm());
+  return largest;
+}
+
+/// Differences on a fine axis, over the peak.
+struct Error {
+  double largest = 0.0, mean_square = 0.0;
+};
+
+Error error(const PartialFractions& fit, const Modes& modes, double from_hz, double to_hz) {
+  Error error;
+  for (const double hz : Eigen::VectorXd::LinSpaced(3001, from_hz, to_hz)) {
+    const double off = (value(fit, 2.0 * pi * hz) - receptance(modes, hz)).norm() / peak(modes);
+    error.largest = std::max(error.largest, off);
+    error.mean_square += off * off / 3001.0;
+  }
+  return error;
+}
+
+/// Lines from below the lowest mode to beyond the highest, `spacing` half widths of the sharpest apart.
+Eigen::VectorXd axis_of(const Modes& modes, double spacing, double to_hz) {
+  const double step = spacing * modes.hz.cwiseProduct(modes.damping).minCoeff();
+  const double from = 0.5 * modes.hz.minCoeff();
+  const auto lines = std::max<Eigen::Index>(2, static_cast<Eigen::Index>((to_hz - from) / step)) + 1;
+  return Eigen::VectorXd::LinSpaced(lines, from, to_hz);
+}
+
+TEST(RationalFit, FindsRandomStructuresBetweenTheirLinesAndBeyondThem) {
+  std::mt19937_64 random(7);
+  int systems = 0;
+  while (systems < 40) {
+    const int count = static_cast<int>(uniform(random, 1.0, 7.0));
+    const Modes modes = random_modes(random, count);
+    const Eigen::VectorXd hz = axis_of(modes, std::pow(10.0, uniform(random, -0.5, 0.5)), 1300.0);
+    if (hz.size() > 1500 || hz.size() < 8 * (2 * count + 3)) continue;
+    ++systems;
+    const PartialFractions fit = rational_fit(hz, lines_of(modes, hz));
+    EXPECT_LT(error(fit, modes, hz(0), 1300.0).largest, 1e-9) << count << " modes, " << hz.size() << " lines";
+    EXPECT_LT(error(fit, modes, 1300.0, 8000.0).largest, 1e-9) << count << " modes, " << hz.size() << " lines";
+  }
+}
+
+TEST(RationalFit, FindsAModeBeyondTheLines) {
+  std::mt19937_64 random(3);
+  Modes modes = random_modes(random, 3);
+  modes.hz << 300.0, 520.0, 1400.0;
+  const Eigen::VectorXd hz = Eigen::VectorXd::LinSpaced(401, 100.0, 900.0);
+  EXPECT_LT(error(rational_fit(hz, lines_of(modes, hz)), modes, 100.0, 3000.0).largest, 1e-6);
+}
+
+TEST(RationalFit, AveragesNoise) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 10; ++i) {
+    SCOPED_TRACE(i);
+    const Modes modes = random_modes(random, 2);
+    const Eigen::VectorXd hz = axis_of(modes, 0.3, 1300.0);
+    std::vector<Eigen::MatrixXcd> H = lines_of(modes, hz);
+    const double noise = 1e-3 * peak(modes);
+    for (Eigen::MatrixXcd& at : H) {
+      for (complex<double>& entry : at.reshaped()) entry += noise * complex<double>(normal(random), normal(random));
+    }
+    const Error off = error(rational_fit(hz, H), modes, hz(0), 1300.0);
+    EXPECT_LT(std::sqrt(off.mean_square), 0.4 * std::sqrt(18.0) * 1e-3);
+    EXPECT_LT(off.largest, 2.0 * std::sqrt(18.0) * 1e-3);
+  }
+}
+
+TEST(RationalFit, TakesAStaticPartAndAPoleThatDoesNotOscillate) {
+  const PartialFractions exact{Eigen::Vector2cd(complex<double>(-900.0, 0.0), complex<double>(-40.0, 2500.0)),
+                               {Eigen::MatrixXcd::Constant(1, 1, 2e-5), Eigen::MatrixXcd::Constant(1, 1, {3e-6, -4e-4})},
+                               Eigen::MatrixXd::Constant(1, 1, 1e-8)};
+  const Eigen::VectorXd hz = Eigen::VectorXd::LinSpaced(200, 0.0, 700.0);
+  std::vector<Eigen::MatrixXcd> H;
+  for (const double at : hz) H.push_back(value(exact, 2.0 * pi * at));
+  const PartialFractions fit = rational_fit(hz, H);
+  for (const double at : {0.0, 17.3, 399.0, 650.1, 2000.0}) {
+    const complex<double> wanted = value(exact, 2.0 * pi * at)(0, 0);
+    EXPECT_LT(std::abs(value(fit, 2.0 * pi * at)(0, 0) - wanted), 1e-8 * std::abs(value(exact, 2500.0)(0, 0))) << at;
+  }
+}
+
+TEST(RationalFit, RefusesWhatCannotBeFitted) {
+  const Eigen::VectorXd five = Eigen::VectorXd::LinSpaced(5, 1.0, 5.0);
+  const std::vector<Eigen::MatrixXcd> ones(5, Eigen::MatrixXcd::Ones(1, 1));
+  EXPECT_THROW((void)rational_fit(five, ones), core::InputError);
+  const Eigen::VectorXd ten = Eigen::VectorXd::LinSpaced(10, 1.0, 10.0);
+  EXPECT_THROW((void)rational_fit(ten, ones), core::InputError);
+  std::vector<Eigen::MatrixXcd> zeros(10, Eigen::MatrixXcd::Zero(1, 1));
+  EXPECT_THROW((void)rational_fit(ten, zeros), core::InputError);
+  zeros[3](0, 0) = NAN;
+  EXPECT_THROW((void)rational_fit(ten, zeros), core::InputError);
+  EXPECT_THROW((void)vector_fit(ten, std::vector<Eigen::MatrixXcd>(10, Eigen::MatrixXcd::Ones(1, 1)),
+                                Eigen::VectorXcd::Constant(3, complex<double>(-1.0, 100.0))),
+               core::InputError);
+}
+
+}  // namespace
+}  // namespace thinwall::dynamics::rational_fit_test

@@ -1,0 +1,172 @@
+// Lobes from lines of random structures: no depth may be further from that of the poles than the row says, whatever the
+// spacing, range and noise of the lines.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+
+#include "core/error.hpp"
+#include "milling/chart/sampled_stability.hpp"
+#include "milling/direct/stability.hpp"
+#include "single_mode.hpp"
+
+namespace thinwall::milling::sampled_lines_test {
+namespace {
+
+/// With THINWALL_SLOW=1 in the environment there are ten times as many structures.
+const int structures = std::getenv("THINWALL_SLOW") != nullptr ? 2000 : 200;
+
+class Draws {
+ public:
+  explicit Draws(unsigned seed) : engine_(seed) {}
+  double uniform(double from, double to) { return std::uniform_real_distribution<double>(from, to)(engine_); }
+  double logarithmic(double from, double to) { return std::exp(uniform(std::log(from), std::log(to))); }
+  double normal() { return normal_(engine_); }
+
+ private:
+  std::mt19937_64 engine_;
+  std::normal_distribution<double> normal_;
+};
+
+struct Structure {
+  RelativeStructure poles;
+  double lowest_hz = 1e9, highest_hz = 0.0;
+  double half_width_hz = 1e9;  ///< of the sharpest mode
+};
+
+/// One to five modes in the plane of the cut, ζ from 0.3 to 5 %.
+Structure random_structure(Draws& draw) {
+  std::vector<testing::Mode> modes(static_cast<std::size_t>(draw.uniform(1.0, 6.0)));
+  Structure result;
+  for (testing::Mode& mode : modes) {
+    const double angle = draw.uniform(0.0, std::numbers::pi);
+    const double hz = draw.uniform(150.0, 1200.0), damping = draw.logarithmic(0.003, 0.05);
+    mode = {hz, damping, draw.logarithmic(0.2, 5.0), Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0)};
+    result.lowest_hz = std::min(result.lowest_hz, hz);
+    result.highest_hz = std::max(result.highest_hz, hz);
+    result.half_width_hz = std::min(result.half_width_hz, damping * hz);
+  }
+  result.poles = relative_structure(testing::modal_model(modes), "P");
+  return result;
+}
+
+SampledReceptance lines_of(const RelativeStructure& poles, double from_hz, double to_hz, double spacing_hz) {
+  const auto count = std::clamp<Eigen::Index>(static_cast<Eigen::Index>((to_hz - from_hz) / spacing_hz) + 1, 14, 6000);
+  SampledReceptance lines{Eigen::VectorXd::LinSpaced(count, from_hz, to_hz), {}};
+  for (const double hz : lines.frequency_hz) lines.H.push_back(receptance(poles, 2.0 * std::numbers::pi * hz));
+  return lines;
+}
+
+MillingProcess random_cut(Draws& draw) {
+  MillingProcess process;
+  process.cutter = {static_cast<int>(draw.uniform(1.0, 5.0)), 0.012};
+  process.coefficients = {draw.logarithmic(3e8, 3e9), draw.logarithmic(1e8, 1e9)};
+  process.engagement = engagement_of(process.cutter, draw.uniform(5e-4, 0.012),
+                                     draw.uniform(0.0, 1.0) < 0.5 ? MillingDirection::up : MillingDirection::down);
+  return process;
+}
+
+/// What rows have come to.
+struct Tally {
+  int rows = 0, beyond = 0;
+  double worst = 0.0;              ///< largest error over estimate
+  std::vector<double> estimates;
+
+  void add(const LobeRow& found, const LobeRow& exact) {
+    if (exact.at_limit || found.at_limit || found.status == StabilityStatus::crossing_missed) return;
+    const double error = std::abs(found.limiting_depth_m / exact.limiting_depth_m - 1.0);
+    const double ratio = error / (found.error_estimate + exact.error_estimate);
+    ++rows;
+    beyond += ratio > 1.0 ? 1 : 0;
+    worst = std::max(worst, ratio);
+    estimates.push_back(found.error_estimate);
+  }
+  [[nodiscard]] double median_estimate() {
+    std::ranges::nth_element(estimates, estimates.begin() + static_cast<long>(estimates.size() / 2));
+    return estimates[estimates.size() / 2];
+  }
+  void print(const char* what) {
+    std::printf("%s: %d rows, %d beyond, worst %.2f, median estimate %.1e\n", what, rows, beyond, worst,
+                median_estimate());
+  }
+};
+
+StabilityOptions first_only() {
+  StabilityOptions options;
+  options.follow = 1.0;
+  options.depth_limit_m = 0.2;
+  return options;
+}
+
+TEST(SampledLines, NoDepthIsFurtherOffThanClaimedWhateverTheSpacing) {
+  Draws draw(1);
+  Tally tally;
+  for (int i = 0; i < structures; ++i) {
+    const Structure structure = random_structure(draw);
+    const MillingProcess process = random_cut(draw);
+    const double rpm = draw.uniform(2000.0, 15000.0);
+    const SampledReceptance lines = lines_of(structure.poles, 0.3 * structure.lowest_hz, 3.0 * structure.highest_hz,
+                                             draw.logarithmic(0.1, 3.0) * structure.half_width_hz);
+    try {
+      tally.add(limiting_depth(SampledStructure{lines, {}}, process, rpm, first_only()),
+                limiting_depth(structure.poles, process, rpm, first_only()));
+    } catch (const core::InputError&) {  // a tooth passing beyond the lines, or no resonance among a few of them
+    }
+  }
+  tally.print("spacing");
+  EXPECT_GE(tally.rows, structures / 2);
+  EXPECT_EQ(tally.beyond, 0);
+}
+
+TEST(SampledLines, NoDepthIsFurtherOffThanClaimedWhereTheBandEndsEarly) {
+  Draws draw(2);
+  Tally tally;
+  for (int i = 0; i < structures; ++i) {
+    const Structure structure = random_structure(draw);
+    const MillingProcess process = random_cut(draw);
+    const double rpm = draw.uniform(2000.0, 15000.0);
+    const SampledReceptance lines =
+        lines_of(structure.poles, draw.uniform(0.05, 0.9) * structure.lowest_hz,
+                 draw.uniform(0.6, 1.5) * structure.highest_hz, draw.logarithmic(0.1, 1.0) * structure.half_width_hz);
+    try {
+      tally.add(limiting_depth(SampledStructure{lines, {}}, process, rpm, first_only()),
+                limiting_depth(structure.poles, process, rpm, first_only()));
+    } catch (const core::InputError&) {
+    }
+  }
+  tally.print("range");
+  EXPECT_GE(tally.rows, structures / 4);
+  EXPECT_EQ(tally.beyond, 0);
+}
+
+TEST(SampledLines, NoiseIsInTheEstimate) {
+  Draws draw(3);
+  Tally tally;
+  for (int i = 0; i < structures; ++i) {
+    const Structure structure = random_structure(draw);
+    const MillingProcess process = random_cut(draw);
+    const double rpm = draw.uniform(2000.0, 15000.0);
+    SampledReceptance lines = lines_of(structure.poles, 0.3 * structure.lowest_hz, 3.0 * structure.highest_hz,
+                                       draw.logarithmic(0.1, 1.0) * structure.half_width_hz);
+    const double noise = draw.logarithmic(1e-4, 3e-2);
+    for (Eigen::Matrix3cd& H : lines.H) {
+      for (auto& entry : H.topLeftCorner<2, 2>().reshaped())
+        entry *= 1.0 + noise * std::complex<double>(draw.normal(), draw.normal());
+    }
+    try {
+      tally.add(limiting_depth(SampledStructure{lines, {}}, process, rpm, first_only()),
+                limiting_depth(structure.poles, process, rpm, first_only()));
+    } catch (const core::InputError&) {
+    }
+  }
+  tally.print("noise");
+  EXPECT_GE(tally.rows, structures / 2);
+  EXPECT_EQ(tally.beyond, 0);
+}
+
+}  // namespace
+}  // namespace thinwall::milling::sampled_lines_test
