@@ -19,6 +19,8 @@ using Eigen::Index;
 using std::complex;
 using std::numbers::pi;
 
+constexpr int most_steps = 20;  // relocations of the poles: as a rule five are enough
+
 /// Lines and entries as the fit takes them. Frequencies are divided by the last one, so that columns are of one order.
 struct Lines {
   Eigen::VectorXcd s;         ///< iω over the last ω
@@ -148,9 +150,10 @@ Eigen::VectorXcd zeros(const Eigen::VectorXcd& poles, const Eigen::VectorXd& c) 
   const Eigen::EigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(A - b * c.head(n).transpose() / constant), false);
   std::vector<complex<double>> found;
   for (complex<double> zero : eigen.eigenvalues()) {
-    if (zero.imag() < 0.0) continue;
-    const double decay = std::max(std::abs(zero.real()), 1e-9 * std::abs(zero));
-    if (decay > 0.0) found.emplace_back(-decay, zero.imag());
+    if (zero.imag() < 0.0 || zero == 0.0) continue;
+    // What grows without much of an oscillation is no resonance, but cancels another pole within the lines.
+    if (zero.real() > 0.5 * std::abs(zero)) zero.real(-zero.real());
+    found.push_back(zero);
   }
   std::ranges::sort(found, [](auto a, auto b) { return std::abs(a) < std::abs(b); });
   return Eigen::Map<const Eigen::VectorXcd>(found.data(), static_cast<Index>(found.size()));
@@ -167,28 +170,44 @@ struct Fit {
   Eigen::MatrixXd coefficients;
   double weighed = INFINITY;  ///< ‖W (fit − H)‖ / ‖W H‖
   double plain = INFINITY;    ///< ‖fit − H‖ / ‖H‖
+  Eigen::VectorXd rest;       ///< ‖W (fit − H)‖ of each line
 };
 
-Fit fit(const Lines& lines, Eigen::VectorXcd poles) {
-  constexpr int most_steps = 20;
-  for (int step = 0; step < most_steps; ++step) {
+/// The coefficients for given poles.
+Fit with_poles(const Lines& lines, const Eigen::VectorXcd& poles) {
+  const Eigen::MatrixXcd B = basis(lines.s, poles);
+  const Eigen::MatrixXcd weighed = lines.weight.asDiagonal() * lines.entries;
+  const Eigen::MatrixXd x = least_squares(stacked(lines.weight.asDiagonal() * B), stacked(weighed));
+  const Eigen::MatrixXcd left = B * x - lines.entries;
+  const Eigen::VectorXd rest = (lines.weight.asDiagonal() * left).rowwise().norm();
+  return {poles, x, rest.norm() / weighed.norm(), left.norm() / lines.entries.norm(), rest};
+}
+
+/// The distance between the lines about a frequency, scaled as they are.
+double spacing_at(const Lines& lines, double s) {
+  const Index count = lines.s.size();
+  Index above = 1;
+  while (above + 1 < count && lines.s(above).imag() < s) ++above;
+  return lines.s(above).imag() - lines.s(above - 1).imag();
+}
+
+/// The fit after at most `steps` relocations of the poles.
+Fit fit(const Lines& lines, Eigen::VectorXcd poles, int steps) {
+  for (int step = 0; step < steps; ++step) {
     const Eigen::VectorXcd next = zeros(poles, factor_coefficients(lines, basis(lines.s, poles)));
     const bool done = settled(poles, next);
     poles = next;
     if (done) break;
   }
-  // A pole that lies far beyond the lines is static to them, and no line tells where it is.
-  constexpr double far_beyond = 4.0;
+  // No line tells where a pole is that lies far beyond the lines, to which it is static, nor how high the peak of one
+  // is that is far sharper than the lines are close.
+  constexpr double far_beyond = 4.0, sharp = 0.05;
   std::vector<Index> kept;
   for (Index i = 0; i < poles.size(); ++i) {
-    if (std::abs(poles(i)) <= far_beyond) kept.push_back(i);
+    const bool resolved = std::abs(poles(i).real()) >= sharp * spacing_at(lines, poles(i).imag());
+    if (resolved && std::abs(poles(i)) <= far_beyond) kept.push_back(i);
   }
-  poles = Eigen::VectorXcd(poles(kept));
-  const Eigen::MatrixXcd B = basis(lines.s, poles);
-  const Eigen::MatrixXcd weighed = lines.weight.asDiagonal() * lines.entries;
-  const Eigen::MatrixXd x = least_squares(stacked(lines.weight.asDiagonal() * B), stacked(weighed));
-  const Eigen::MatrixXcd left = B * x - lines.entries;
-  return {poles, x, (lines.weight.asDiagonal() * left).norm() / weighed.norm(), left.norm() / lines.entries.norm()};
+  return with_poles(lines, Eigen::VectorXcd(poles(kept)));
 }
 
 PartialFractions unscaled(const Fit& fit, const Lines& lines, Index rows, Index columns) {
@@ -204,15 +223,23 @@ PartialFractions unscaled(const Fit& fit, const Lines& lines, Index rows, Index 
   return sum;
 }
 
-/// Weakly damped pairs over the lines, where resonances are looked for.
-Eigen::VectorXcd spread_poles(const Lines& lines, int pairs) {
-  const double from = std::max(lines.s(0).imag(), 0.01);
-  Eigen::VectorXcd poles(pairs);
-  for (int i = 0; i < pairs; ++i) {
-    const double at = pairs == 1 ? 0.5 * (from + 1.0) : from + (1.0 - from) * i / (pairs - 1);
-    poles(i) = at * complex<double>(-0.01, 1.0);
+/// The poles of a fit, and as many weakly damped pairs more where it leaves most of the lines: at the largest weighed
+/// rests, no two of them nearer than a quarter of their mean distance over the lines.
+Eigen::VectorXcd with_more(const Fit& fit, const Lines& lines, Index more) {
+  std::vector<complex<double>> poles(fit.poles.begin(), fit.poles.end());
+  Eigen::VectorXd rest = fit.rest;
+  const double last = lines.s(lines.s.size() - 1).imag(), range = last - lines.s(0).imag();
+  for (Index i = 0; i < more; ++i) {
+    Index at = 0;
+    rest.maxCoeff(&at);
+    const double where = std::max(lines.s(at).imag(), 1e-3 * last);
+    poles.push_back(where * complex<double>(-0.01, 1.0));
+    const double beside = 0.25 * range / static_cast<double>(more);
+    for (Index line = 0; line < rest.size(); ++line) {
+      if (std::abs(lines.s(line).imag() - where) < beside) rest(line) = 0.0;
+    }
   }
-  return poles;
+  return Eigen::Map<const Eigen::VectorXcd>(poles.data(), static_cast<Index>(poles.size()));
 }
 
 }  // namespace
@@ -237,22 +264,24 @@ PartialFractions vector_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::
                            std::to_string(poles.size()) + " poles; more than " + std::to_string(unknowns) +
                            " lines and one pole at least are needed");
   }
-  return unscaled(fit(lines, poles / lines.omega), lines, H.front().rows(), H.front().cols());
+  return unscaled(fit(lines, poles / lines.omega, most_steps), lines, H.front().rows(), H.front().cols());
 }
 
 PartialFractions rational_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H) {
   const Lines lines = lines_of(hz, H);
-  constexpr double enough = 1e-12;
-  Fit best;
-  int without_gain = 0;
-  for (const int pairs : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 24, 28, 32}) {
+  constexpr double enough = 1e-9;
+  constexpr int most = 40, steps_of_a_try = 6;
+  Fit best, last;
+  last.rest = (lines.weight.asDiagonal() * lines.entries).rowwise().norm();
+  for (int pairs = 1, tries = 0; pairs <= most && tries < 4; pairs += 1 + pairs / 8, ++tries) {
     if (pairs > 1 && 4 * (2 * pairs + 1) >= lines.s.size()) break;
-    const Fit next = fit(lines, spread_poles(lines, pairs));
-    const bool gains = next.weighed < 0.7 * best.weighed || next.plain < 0.7 * best.plain;
-    without_gain = gains ? 0 : without_gain + 1;
-    if (gains) best = next;
-    if (best.weighed <= enough || without_gain == 2) break;
+    last = fit(lines, with_more(last, lines, std::max<Index>(1, pairs - last.poles.size())), steps_of_a_try);
+    if (!(last.weighed < 0.7 * best.weighed) && !(last.plain < 0.7 * best.plain)) continue;
+    best = last;
+    tries = -1;
+    if (best.weighed <= enough) break;
   }
+  best = fit(lines, best.poles, most_steps);
   return unscaled(best, lines, H.front().rows(), H.front().cols());
 }
 

@@ -78,7 +78,8 @@ Chart chart_of(const Structure& structure, const MillingProcess& process, const 
                const milling::StabilityOptions& options, const std::string& method) {
   if (const auto* response = std::get_if<dynamics::ResponseModel>(&structure)) {
     if (method != "direct") throw core::InputError("from receptances the method is \"direct\", not \"" + method + "\"");
-    return [felt = samples(*response, at, process.frame), process, options](const std::vector<double>& speeds) {
+    const auto felt = milling::fitted_structure(samples(*response, at, process.frame), process.frame);
+    return [felt, process, options](const std::vector<double>& speeds) {
       return milling::stability_lobes(felt, process, speeds, options);
     };
   }

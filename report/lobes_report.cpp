@@ -6,6 +6,7 @@
 
 #include "report/lobes_answers.hpp"
 #include "report/lobes_words.hpp"
+#include "report/page/limit_text.hpp"
 #include "report/path_report.hpp"
 
 namespace thinwall::report {
@@ -74,7 +75,7 @@ std::string point_text(const OperatingPointSummary& p) {
   if (p.multiplier_modulus) text += fmt::format(", |mu| {:.6f}", *p.multiplier_modulus);
   if (p.chatter_frequency_hz)
     text += fmt::format(", {:.1f} Hz ({})", *p.chatter_frequency_hz, p.bifurcation.value_or(""));
-  if (p.status != "converged" && p.status != "stable_to_depth_limit") text += ", " + p.status;
+  if (!is_sound(p.status)) text += ", " + p.status;
   text += fmt::format("\n    {}\n    speeds {} to {} at this depth\n", depth_margin_text(p),
                       speed_text(p.boundary_below_rpm, rpm, "from the chart's lowest"),
                       speed_text(p.boundary_above_rpm, rpm, "the chart's highest"));

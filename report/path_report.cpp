@@ -51,10 +51,8 @@ EverywhereSummary deepest_everywhere(const study::PathLobes& path) {
 /// The least depth of all positions at the case's own speed.
 PathCaseSpeedSummary at_case_speed(const std::vector<milling::LobeRow>& rows) {
   const auto weakest = std::ranges::min_element(rows, {}, &milling::LobeRow::limiting_depth_m);
-  const auto open = std::ranges::count_if(rows, [](const milling::LobeRow& row) {
-    return row.status != milling::StabilityStatus::converged &&
-           row.status != milling::StabilityStatus::stable_to_depth_limit;
-  });
+  const auto open =
+      std::ranges::count_if(rows, [](const milling::LobeRow& row) { return !milling::answers(row.status); });
   return {.spindle_speed_rpm = weakest->spindle_speed_rpm,
           .limiting_depth_m = weakest->limiting_depth_m,
           .at_depth_limit = weakest->at_limit,

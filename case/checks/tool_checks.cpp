@@ -35,14 +35,6 @@ void check_measured_tool(const setup::Tool& tool, Findings& findings) {
   if (tool.swap) check_swap(tool, findings);
   if (!tool.modes.empty() && !tool.measured.empty())
     findings.report("tool.measured", "give either tool.modes or tool.measured, not both");
-  const bool helix = std::ranges::any_of(tool.helices, [](double angle) { return angle != 0.0; });
-  const bool equal = std::ranges::adjacent_find(tool.pitches, std::not_equal_to<>()) == tool.pitches.end();
-  if (helix)
-    findings.report("tool.helices",
-                    "a chart from tool.measured takes straight teeth only; remove it or give tool.modes");
-  if (!equal)
-    findings.report("tool.pitches",
-                    "a chart from tool.measured takes equal pitches only; remove it or give tool.modes");
   for (std::size_t i = 0; i < tool.measured.size(); ++i) {
     const auto& frf = tool.measured[i];
     const auto same = [&](const setup::MeasuredFrf& other) {

@@ -6,8 +6,7 @@
 
 namespace thinwall::cases {
 
-/// Samples of a receptance have no poles: reports modes beside them, a helix, unequal pitches, and an entry of the FRF
-/// matrix that is given twice. `tool.measured` is not empty.
+/// Reports modes beside measured FRFs, and an entry of the FRF matrix that is given twice. `tool.measured` is not empty.
 void check_measured_tool(const setup::Tool& tool, Findings& findings);
 
 }  // namespace thinwall::cases

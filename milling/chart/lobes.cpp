@@ -25,7 +25,7 @@ Lobes lobes_of(std::vector<LobeRow> rows, std::string method) {
   for (const LobeRow& row : lobes.rows) {
     if (row.at_limit) ++lobes.rows_at_limit;
     else lobes.worst_error_estimate = std::max(lobes.worst_error_estimate, row.error_estimate);
-    if (!answers(row)) ++lobes.rows_not_converged;
+    if (!answers(row.status)) ++lobes.rows_not_converged;
   }
   return lobes;
 }

@@ -139,8 +139,10 @@ void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, Lo
     const std::optional<double> depth_m = grid.depth_by(*half, by_lines);
     open = std::max(open, depth_m ? std::abs(*depth_m / by_lines.depth_m - 1.0) : 1.0);
   }
+  const std::optional<double> within_m = grid.depth_by(structure.within, by_lines);
+  const double beyond = within_m ? std::abs(*within_m / by_lines.depth_m - 1.0) : 1.0;
   point.depth_m *= change;
-  point.error_estimate += 2.0 * open;
+  point.error_estimate += 2.0 * open + beyond;
   if (!remainder.H.empty()) {
     const auto gradient = gradient_at(grid, gain, remainder, by_lines);
     point.error_estimate += 3.0 * deviation(gradient, structure.mean_square, by_lines.depth_m);
@@ -165,11 +167,11 @@ void compare_at_limit(const FittedStructure& structure, const MillingProcess& pr
 
 FittedStructure fitted_structure(const SampledStructure& structure, const ToolFrame& frame) {
   const SampledReceptance& samples = structure.samples;
-  const FittedReceptance all = fitted(samples);
-  const auto half = [&](Eigen::Index from) {
-    return fit_in_part_axes(fitted(every_second_line(samples, from), all), structure, frame);
-  };
-  return {structure, fit_in_part_axes(all, structure, frame), half(0), half(1), local_mean_square(all.remainder)};
+  FittedLines fits = fitted(samples);
+  const auto of = [&](FittedReceptance& fit) { return fit_in_part_axes(std::move(fit), structure, frame); };
+  FittedStructure result{structure, of(fits.all), of(fits.even), of(fits.odd), of(fits.within), {}};
+  result.mean_square = local_mean_square(result.all.remainder);
+  return result;
 }
 
 LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& process, double spindle_speed_rpm,
@@ -182,8 +184,11 @@ LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& p
   std::ranges::stable_sort(row.crossings, {}, &LobePoint::depth_m);
   if (row.at_limit) compare_at_limit(structure, process, options, row);
   take_limit_from_crossings(row);
-  const bool met = row.error_estimate <= options.error_tolerance;
-  if (row.status == StabilityStatus::converged && !met) row.status = StabilityStatus::data_limited;
+  if (row.status == StabilityStatus::converged && row.error_estimate > options.error_tolerance) {
+    constexpr double answers_to = 0.1;
+    row.status =
+        row.error_estimate <= answers_to ? StabilityStatus::data_limited : StabilityStatus::data_insufficient;
+  }
   return row;
 }
 

@@ -28,7 +28,7 @@ struct FittedStructure {
     SampledReceptance remainder;  ///< tool axes
   };
   SampledStructure lines;  ///< as they were given
-  Fit all, even, odd;
+  Fit all, even, odd, within;
   std::vector<Eigen::Matrix3d> mean_square;  ///< of the entries of the remainder about each line, (m/N)²
 };
 
@@ -47,7 +47,7 @@ struct FittedStructure {
 ///  - the change by the remainder itself where the shape of the cut changes with the depth, because the grid is then
 ///    that of the depth before.
 ///
-/// A row that misses the tolerance for it is `data_limited`. A row that is stable up to the depth limit has the change
+/// A row that misses the tolerance for it is `data_limited`, beyond a tenth of the depth `data_insufficient`. A row that is stable up to the depth limit has the change
 /// of |μ| there in its estimate. Any cutter will do. Throws InputError for a bad process, option or speed, and as
 /// require_range(); NumericalError if an eigen-solution fails. Cost: a row from poles, and for each crossing some ten
 /// sums over the harmonics within the lines, each O(harmonics contacts²).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -36,12 +37,15 @@ RelativeStructure modes_of(const dynamics::PartialFractions& sum, double least) 
   std::vector<std::complex<double>> poles;
   std::vector<Eigen::Vector3cd> phi, b;
   for (Index k = 0; k < sum.poles.size(); ++k) {
+    // A pole that grows is taken as decaying with the same residue: far from it both are the same, so that the remainder
+    // holds the difference about its frequency alone.
+    const std::complex<double> pole(-std::abs(sum.poles(k).real()), sum.poles(k).imag());
     const Eigen::Matrix3cd residue = sum.residues[static_cast<std::size_t>(k)];
     const Eigen::JacobiSVD<Eigen::Matrix3cd> svd(residue, Eigen::ComputeFullU | Eigen::ComputeFullV);
     for (int i = 0; i < 3; ++i) {
       const double size = svd.singularValues()(i);
-      if (!(size > least * std::abs(sum.poles(k).real()))) break;
-      poles.push_back(sum.poles(k));
+      if (!(size > least * std::abs(pole.real()))) break;
+      poles.push_back(pole);
       phi.emplace_back(std::sqrt(size) * svd.matrixU().col(i));
       b.emplace_back(std::sqrt(size) * svd.matrixV().col(i).conjugate());
     }
@@ -55,6 +59,47 @@ RelativeStructure modes_of(const dynamics::PartialFractions& sum, double least) 
     structure.b.col(k) = b[static_cast<std::size_t>(k)];
   }
   return structure;
+}
+
+/// True if a sum has a pole near enough for the peak of both to be the same within a third or so.
+bool has_pole(const dynamics::PartialFractions& sum, std::complex<double> pole) {
+  constexpr double near = 0.3;  // of the half width
+  return ((sum.poles.array() - pole).abs() <= near * std::abs(pole.real())).any();
+}
+
+/// The sum with poles above the last line as they are where the others have them, too; the rest are damped so that they
+/// have no peak to speak of, their static part unchanged.
+dynamics::PartialFractions agreed(dynamics::PartialFractions sum,
+                                  std::initializer_list<const dynamics::PartialFractions*> others,
+                                  double last_rad_s) {
+  constexpr double damping = 0.1;
+  for (Index k = 0; k < sum.poles.size(); ++k) {
+    const std::complex<double> pole = sum.poles(k);
+    const double size = std::abs(pole);
+    if (size <= last_rad_s || std::abs(pole.real()) >= damping * size) continue;
+    if (std::ranges::all_of(others, [&](const auto* other) { return has_pole(*other, pole); })) continue;
+    sum.poles(k) = size * std::complex<double>(-damping, std::sqrt(1.0 - damping * damping));
+    sum.residues[static_cast<std::size_t>(k)] *= sum.poles(k) / pole;
+  }
+  return sum;
+}
+
+/// The sum with the static part of poles above the last line in place of these.
+dynamics::PartialFractions within(const dynamics::PartialFractions& sum, double last_rad_s) {
+  dynamics::PartialFractions result{{}, {}, sum.constant};
+  std::vector<std::complex<double>> poles;
+  for (Index k = 0; k < sum.poles.size(); ++k) {
+    const std::complex<double> pole = sum.poles(k);
+    const Eigen::MatrixXcd& residue = sum.residues[static_cast<std::size_t>(k)];
+    if (std::abs(pole) <= last_rad_s) {
+      poles.push_back(pole);
+      result.residues.push_back(residue);
+    } else {
+      result.constant -= (pole.imag() == 0.0 ? 1.0 : 2.0) * (residue / pole).real();
+    }
+  }
+  result.poles = Eigen::Map<const Eigen::VectorXcd>(poles.data(), static_cast<Index>(poles.size()));
+  return result;
 }
 
 FittedReceptance split(const SampledReceptance& samples, const dynamics::PartialFractions& sum) {
@@ -74,24 +119,20 @@ FittedReceptance split(const SampledReceptance& samples, const dynamics::Partial
 
 }  // namespace
 
-FittedReceptance fitted(const SampledReceptance& samples) {
+FittedLines fitted(const SampledReceptance& samples) {
   require_usable(samples);
   if (samples.H.size() < 14) {
     throw core::InputError("receptance at the cut: " + std::to_string(samples.H.size()) +
                            " frequency lines, at least 14 are needed; measure closer lines");
   }
-  return split(samples, dynamics::rational_fit(samples.frequency_hz, matrices(samples)));
-}
-
-FittedReceptance fitted(const SampledReceptance& samples, const FittedReceptance& near) {
-  require_usable(samples);
-  // Modes of one residue have one pole.
-  std::vector<std::complex<double>> poles;
-  for (const std::complex<double> pole : near.poles.poles) {
-    if (std::ranges::find(poles, pole) == poles.end()) poles.push_back(pole);
-  }
-  const Eigen::Map<const Eigen::VectorXcd> start(poles.data(), static_cast<Index>(poles.size()));
-  return split(samples, dynamics::vector_fit(samples.frequency_hz, matrices(samples), start));
+  const SampledReceptance even = every_second_line(samples, 0), odd = every_second_line(samples, 1);
+  const auto all_sum = dynamics::rational_fit(samples.frequency_hz, matrices(samples));
+  const auto even_sum = dynamics::vector_fit(even.frequency_hz, matrices(even), all_sum.poles);
+  const auto odd_sum = dynamics::vector_fit(odd.frequency_hz, matrices(odd), all_sum.poles);
+  const double last = 2.0 * pi * samples.frequency_hz(samples.frequency_hz.size() - 1);
+  return {split(samples, agreed(all_sum, {&even_sum, &odd_sum}, last)),
+          split(even, agreed(even_sum, {&all_sum, &odd_sum}, last)),
+          split(odd, agreed(odd_sum, {&all_sum, &even_sum}, last)), split(samples, within(all_sum, last))};
 }
 
 }  // namespace thinwall::milling

@@ -8,19 +8,24 @@ namespace thinwall::milling {
 
 /// H(ω) = receptance(poles, ω) + interpolated(remainder, ω), equal to the samples at their lines. The poles carry the
 /// resonances, which polynomials between lines would miss, and continue them beyond the lines; the remainder holds
-/// noise, and what the fit did not explain.
+/// noise, what the fit did not explain, and what makes poles grow that no passive structure has: these are taken as
+/// decaying.
 struct FittedReceptance {
   RelativeStructure poles;      ///< tool axes
   SampledReceptance remainder;  ///< tool axes; without lines where it is below 1e-12 of the largest ‖H‖
 };
 
+/// The fit of all lines; of every second one alone; and of all with no pole above the last line, the static part of such
+/// poles in their place. What these differ in is what the lines leave open.
+struct FittedLines {
+  FittedReceptance all, even, odd, within;
+};
+
 /// The samples by dynamics::rational_fit(). A residue is taken apart by its singular values into at most three modes
 /// with the same pole; a mode whose peak is below a tenth of what the fit leaves of a line (root mean square) stays in
-/// the remainder. Throws InputError as require_usable(), and for fewer than 14 lines, of which the halves could not be
-/// fitted. Cost: that of the fit, a tenth of a second for thousands of lines.
-[[nodiscard]] FittedReceptance fitted(const SampledReceptance& samples);
-
-/// The same with poles that start from those of `near`, a fit of other lines of the same receptance.
-[[nodiscard]] FittedReceptance fitted(const SampledReceptance& samples, const FittedReceptance& near);
+/// the remainder. A pole above the last line is taken as it is only if the fits of the others have it, too, within three
+/// tenths of its half width, so that its peak is known; else it is damped to 10 %, its static part unchanged. Throws InputError as
+/// require_usable(), and for fewer than 14 lines, of which the halves could not be fitted. Cost: that of three fits.
+[[nodiscard]] FittedLines fitted(const SampledReceptance& samples);
 
 }  // namespace thinwall::milling

@@ -36,6 +36,8 @@ std::string name(StabilityStatus status) {
       return "node_limit_reached";
     case StabilityStatus::data_limited:
       return "data_limited";
+    case StabilityStatus::data_insufficient:
+      return "data_insufficient";
     case StabilityStatus::stable_to_depth_limit:
       return "stable_to_depth_limit";
     case StabilityStatus::crossing_missed:
@@ -69,10 +71,9 @@ std::vector<std::string> validate(const StabilityOptions& options) {
   return violations;
 }
 
-bool answers(const LobeRow& row) {
-  constexpr double largest = 0.1;
-  return row.status == StabilityStatus::converged || row.status == StabilityStatus::stable_to_depth_limit ||
-         (row.status == StabilityStatus::data_limited && row.error_estimate <= largest);
+bool answers(StabilityStatus status) {
+  return status == StabilityStatus::converged || status == StabilityStatus::stable_to_depth_limit ||
+         status == StabilityStatus::data_limited;
 }
 
 void take_limit_from_crossings(LobeRow& row) {

@@ -19,7 +19,9 @@ enum class Bifurcation {
 enum class StabilityStatus {
   converged,              ///< the error estimate meets the tolerance
   node_limit_reached,     ///< it does not, at the largest number of nodes; the estimate says by how much
-  data_limited,           ///< it does not, for what noise, spacing and range of a sampled receptance leave open
+  data_limited,           ///< it does not, for what noise, spacing and range of a sampled receptance leave open: up to
+                          ///< a tenth
+  data_insufficient,      ///< likewise, but more than a tenth
   stable_to_depth_limit,  ///< no crossing up to the depth limit
   crossing_missed,        ///< the count of unstable multipliers at the end of the search is not that of the crossings
 };
@@ -89,10 +91,9 @@ struct LobeRow {
   StabilityStatus status = StabilityStatus::converged;
 };
 
-/// True if the row is an answer: the estimate meets the tolerance, or what keeps it from that is the data, and by no
-/// more than a tenth of the depth. No setting makes lines tell more than they do, so that a chart of a good measurement
-/// counts as answered with its error said.
-[[nodiscard]] bool answers(const LobeRow& row);
+/// True if a row of this status is an answer: converged, stable to the depth limit, or data_limited. No setting makes
+/// lines tell more than they do, so that a chart of a good measurement counts as answered with its error said.
+[[nodiscard]] bool answers(StabilityStatus status);
 
 /// Limiting depth, frequency, kind and estimate are the first crossing's, if there is one.
 void take_limit_from_crossings(LobeRow& row);

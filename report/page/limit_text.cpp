@@ -44,7 +44,7 @@ std::string capital(std::string text) {
 }
 
 bool is_sound(const std::string& status) {
-  return status == "converged" || status == "stable_to_depth_limit";
+  return status == "converged" || status == "stable_to_depth_limit" || status == "data_limited";
 }
 
 std::string text_of(const Limit& limit) {

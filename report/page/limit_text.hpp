@@ -17,7 +17,8 @@ namespace thinwall::report {
 /// The text with a capital letter.
 [[nodiscard]] std::string capital(std::string text);
 
-/// True if a row or a point of this `status` is right: converged, or stable to the depth limit.
+/// True if a row or a point of this `status` is right within its error: converged, stable to the depth limit, or
+/// limited by its data.
 [[nodiscard]] bool is_sound(const std::string& status);
 
 /// A limiting depth with all that is to be said of it.

@@ -39,7 +39,8 @@ struct Source {
   [[nodiscard]] json statuses() const {
     json list = words("status");
     for (json& status : list) {
-      if (status != "converged" && status != "stable_to_depth_limit") status = "not_converged";
+      if (!is_sound(status.get<std::string>())) status = "not_converged";
+      else if (status == "data_limited") status = "converged";  // its error is in a column of its own
     }
     return list;
   }

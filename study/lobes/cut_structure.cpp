@@ -56,18 +56,6 @@ void warn_if_implausible(const milling::SampledReceptance& tip, const std::strin
         "passive structure's is not): check sign convention, quantity and unit",
         "xyz"[doubt->direction], doubt -> frequency_hz, doubt -> share, whose));
   }
-  const auto resonances = milling::resonances(tip);
-  if (resonances.empty()) return;
-  const auto highest = std::ranges::max_element(resonances, {}, &milling::Resonance::size);
-  const auto* begin = tip.frequency_hz.data();
-  const auto* line = std::lower_bound(begin, begin + tip.frequency_hz.size(), highest->frequency_hz);
-  const double spacing = *line - *(line - 1);
-  if (2.0 * spacing > highest->half_width_hz) {
-    core::warn(fmt::format(
-        "lines {:.2g} Hz apart are few for the resonance at {:.1f} Hz, whose half width is {:.2g} Hz: the chart may be "
-        "off; measure with lines at half of that or closer",
-        spacing, highest->frequency_hz, highest->half_width_hz));
-  }
 }
 
 /// The swapped tip, with a warning where digits were lost.
@@ -106,7 +94,7 @@ std::optional<milling::RelativeStructure> cut_poles(const setup::CutSetup& sourc
   return poles ? milling::sum(*poles, tool_modes(*source.tool)) : tool_modes(*source.tool);
 }
 
-milling::SampledStructure sampled_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
+milling::FittedStructure sampled_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                             const dynamics::ResponseModel& coupled) {
   const dynamics::ResponseModel at_cut = dynamics::between(coupled, source.cutting->at, source.cutting->at);
   const Eigen::Matrix3Xd D = dynamics::displacement_matrix(at_cut.responses, source.cutting->at);
@@ -122,18 +110,18 @@ milling::SampledStructure sampled_structure(const setup::CutSetup& source, const
   } else if (!source.tool->modes.empty()) {
     tool = tool_modes(*source.tool);
   }
-  return {in_tool_axes(std::move(felt), frame), tool};
+  return milling::fitted_structure({in_tool_axes(std::move(felt), frame), tool}, frame);
 }
 
 CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                            const dynamics::ModalModel* part) {
   const std::optional<milling::RelativeStructure> modal = cut_poles(source, part);
-  if (source.tool->swap) return milling::SampledStructure{in_tool_axes(swapped(source), frame), modal};
+  if (source.tool->swap) return milling::fitted_structure({in_tool_axes(swapped(source), frame), modal}, frame);
   if (!source.tool->measured.empty()) {
     milling::SampledReceptance tip =
         measured_tip(source.tool->measured, setup::receptance_of(source.tool->measured.front()).axis);
     warn_if_implausible(tip, "the tool's");
-    return milling::SampledStructure{in_tool_axes(std::move(tip), frame), modal};
+    return milling::fitted_structure({in_tool_axes(std::move(tip), frame), modal}, frame);
   }
   if (!modal) throw core::InputError("lobes need something that moves: a part, tool.modes or tool.measured");
   return *modal;

@@ -15,9 +15,9 @@
 
 namespace thinwall::study {
 
-/// Poles where everything is known by its modes (part axes); samples, with the part's poles beside them, where the tool
-/// tip is measured.
-using CutStructure = std::variant<milling::RelativeStructure, milling::SampledStructure>;
+/// Poles where everything is known by its modes (part axes); the fit of samples, with the part's poles beside them, where
+/// the tool tip is measured.
+using CutStructure = std::variant<milling::RelativeStructure, milling::FittedStructure>;
 
 /// The poles of what is known by its modes: the part (null: a rigid one), and the tool where it is given by modes. None
 /// if nothing is.
@@ -32,7 +32,7 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::SampledSt
 
 /// Part and tool together; `frame` is the cut's, `part` must hold the point that is cut, null: a rigid part. Samples
 /// lie on the lines of the first measured file; what speaks against them is logged as a warning: a driving point that
-/// gives energy, the highest resonance with fewer than two lines in half its width. Throws InputError if nothing moves,
+/// gives energy. Throws InputError if nothing moves or the lines cannot be fitted (milling::fitted_structure()),
 /// DataError as io::resample.
 [[nodiscard]] CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                          const dynamics::ModalModel* part);
@@ -40,8 +40,7 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::SampledSt
 /// The part as it is held by a robot that has no poles: samples of `coupled` (part axes) at the point that is cut, on
 /// its lines, and the tool: its modes as poles, or its measured receptance put on these lines. Warns as above. Throws
 /// DataError as io::resample.
-[[nodiscard]] milling::SampledStructure sampled_structure(const setup::CutSetup& source,
-                                                          const milling::ToolFrame& frame,
-                                                          const dynamics::ResponseModel& coupled);
+[[nodiscard]] milling::FittedStructure sampled_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
+                                                         const dynamics::ResponseModel& coupled);
 
 }  // namespace thinwall::study

@@ -44,13 +44,13 @@ struct Chart {
     return std::get_if<milling::RelativeStructure>(&structure);
   }
   [[nodiscard]] milling::Lobes by(milling::Method method, const milling::KeptRows& kept = {}) const {
-    if (const auto* sampled = std::get_if<milling::SampledStructure>(&structure))
+    if (const auto* sampled = std::get_if<milling::FittedStructure>(&structure))
       return milling::stability_lobes(*sampled, process, speeds_rpm, options.stability, kept);
     return milling::stability_lobes(*milling::lobe_method(method, *poles(), process, options), speeds_rpm, kept);
   }
   [[nodiscard]] milling::RowAt row_at(milling::Method method) const {
     return [this, method](double rpm, const milling::StabilityOptions& with) {
-      if (const auto* sampled = std::get_if<milling::SampledStructure>(&structure))
+      if (const auto* sampled = std::get_if<milling::FittedStructure>(&structure))
         return milling::limiting_depth(*sampled, process, rpm, with);
       milling::MethodOptions all = options;
       all.stability = with;
@@ -77,9 +77,9 @@ void add_errors(const setup::CutSetup& source, const Chart& chart, const Structu
   core::parallel_for(result.errors.size(), [&](std::size_t i) { result.errors[i] = at(result.lobes.rows[i]); });
   if (!result.at_spindle_speed) return;
   result.error_at_spindle_speed = at(*result.at_spindle_speed);
-  const auto* sampled = std::get_if<milling::SampledStructure>(&chart.structure);
+  const auto* sampled = std::get_if<milling::FittedStructure>(&chart.structure);
   if (!source.lobes->noise_samples || sampled == nullptr || errors.noise.empty()) return;
-  result.scatter = milling::sampled_depths(*sampled, chart.process, result.at_spindle_speed->spindle_speed_rpm,
+  result.scatter = milling::sampled_depths(sampled->lines, chart.process, result.at_spindle_speed->spindle_speed_rpm,
                                            chart.options.stability, errors.noise, *source.lobes->noise_samples,
                                            static_cast<std::uint64_t>(source.lobes->seed));
 }

@@ -92,13 +92,13 @@ std::optional<double> if_finite(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-DepthError sampled_error(const milling::SampledStructure& structure, const StructureErrors& errors,
+DepthError sampled_error(const milling::FittedStructure& structure, const StructureErrors& errors,
                          const milling::MillingProcess& process, double rpm, const milling::LobePoint& point,
                          const milling::StabilityOptions& options) {
   const auto gradient = milling::depth_gradient(structure, process, rpm, point, options);
   DepthError result;
   if (errors.richer || !errors.truncation.empty())
-    result.truncation_m = if_finite(depth_change(gradient, structure, errors, process.frame));
+    result.truncation_m = if_finite(depth_change(gradient, structure.lines, errors, process.frame));
   if (!errors.noise.empty()) result.noise_m = if_finite(milling::depth_deviation_m(gradient, errors.noise));
   return result;
 }
@@ -109,8 +109,8 @@ StructureErrors structure_errors(const setup::CutSetup& source, const milling::T
                                  const CutStructure& structure, const dynamics::ModalModel* richer_part) {
   StructureErrors errors;
   if (richer_part != nullptr) errors.richer = cut_poles(source, richer_part);
-  if (const auto* sampled = std::get_if<milling::SampledStructure>(&structure); sampled && !source.tool->swap)
-    add_tool_noise(source, frame, {sampled->samples.frequency_hz}, errors.noise);
+  if (const auto* sampled = std::get_if<milling::FittedStructure>(&structure); sampled && !source.tool->swap)
+    add_tool_noise(source, frame, {sampled->lines.samples.frequency_hz}, errors.noise);
   return errors;
 }
 
@@ -133,7 +133,7 @@ DepthError depth_error(const CutStructure& structure, const StructureErrors& err
                        const milling::MillingProcess& process, double spindle_speed_rpm,
                        const milling::LobePoint& point, const milling::StabilityOptions& options) {
   try {
-    if (const auto* sampled = std::get_if<milling::SampledStructure>(&structure))
+    if (const auto* sampled = std::get_if<milling::FittedStructure>(&structure))
       return sampled_error(*sampled, errors, process, spindle_speed_rpm, point, options);
     if (!errors.richer) return {};
     const double change = milling::relative_depth_change(std::get<milling::RelativeStructure>(structure),

@@ -33,21 +33,21 @@ milling::RelativeStructure one_mode(double mass_kg) {
                                      "P");
 }
 
-milling::SampledStructure sampled(const milling::MillingProcess& process) {
+milling::FittedStructure sampled(const milling::MillingProcess& process) {
   milling::SampledReceptance samples{Eigen::VectorXd::LinSpaced(1001, 0.0, 5000.0), {}};
   const milling::RelativeStructure turned = milling::in_tool_axes(one_mode(0.4), process.frame);
   for (const double hz : samples.frequency_hz)
     samples.H.push_back(milling::receptance(turned, 2.0 * std::numbers::pi * hz));
-  return {samples, {}};
+  return milling::fitted_structure({samples, {}}, process.frame);
 }
 
 TEST(DepthError, WhatIsNotFiniteIsUnknown) {
   const milling::MillingProcess process = slot();
   const milling::StabilityOptions options;
   const CutStructure structure = sampled(process);
-  const auto& samples = std::get<milling::SampledStructure>(structure).samples;
+  const auto& samples = std::get<milling::FittedStructure>(structure).lines.samples;
   const milling::LobePoint point =
-      milling::limiting_depth(std::get<milling::SampledStructure>(structure), process, rpm, options).crossings.front();
+      milling::limiting_depth(std::get<milling::FittedStructure>(structure), process, rpm, options).crossings.front();
   StructureErrors errors;
   for (const Eigen::Matrix3cd& H : samples.H) errors.truncation.emplace_back(0.01 * H);
   errors.noise.assign(samples.H.size(), 1e-20 * milling::SampleCovariance::value_type::Identity());
