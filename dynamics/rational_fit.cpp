@@ -10,6 +10,7 @@
 #include "core/dense_eigenvalues.hpp"
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 
 namespace thinwall::dynamics {
 
@@ -86,7 +87,11 @@ Lines lines_of(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H
   if (count < 6) fail(std::to_string(count) + " frequency lines, at least 6 are needed");
   if (static_cast<std::size_t>(count) != H.size())
     fail(std::to_string(count) + " frequencies for " + std::to_string(H.size()) + " matrices, must be as many");
-  Lines lines{complex<double>(0.0, 1.0 / hz(count - 1)) * hz.cast<complex<double>>(), {}, {}, {}, 1.0,
+  Lines lines{complex<double>(0.0, 1.0 / hz(count - 1)) * hz.cast<complex<double>>(),
+              {},
+              {},
+              {},
+              1.0,
               2.0 * pi * hz(count - 1)};
   lines.entries.resize(count, H.front().size());
   for (Index i = 0; i < count; ++i) {
@@ -160,8 +165,7 @@ Eigen::VectorXcd zeros(const Eigen::VectorXcd& poles, const Eigen::VectorXd& c) 
 }
 
 bool settled(const Eigen::VectorXcd& before, const Eigen::VectorXcd& after) {
-  return before.size() == after.size() &&
-         ((before - after).array().abs() <= 1e-10 * after.array().abs()).all();
+  return before.size() == after.size() && ((before - after).array().abs() <= 1e-10 * after.array().abs()).all();
 }
 
 /// A fit of scaled lines: coefficients, basis functions × entries, and what is left of the lines.
@@ -194,6 +198,7 @@ double spacing_at(const Lines& lines, double s) {
 /// The fit after at most `steps` relocations of the poles.
 Fit fit(const Lines& lines, Eigen::VectorXcd poles, int steps) {
   for (int step = 0; step < steps; ++step) {
+    core::check_interrupt();
     const Eigen::VectorXcd next = zeros(poles, factor_coefficients(lines, basis(lines.s, poles)));
     const bool done = settled(poles, next);
     poles = next;
@@ -260,9 +265,8 @@ PartialFractions vector_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::
   const Lines lines = lines_of(hz, H);
   const Index unknowns = 2 * (2 * poles.size() + 1);
   if (poles.size() == 0 || 2 * hz.size() <= 2 * unknowns) {
-    throw core::InputError("rational fit: " + std::to_string(hz.size()) + " lines for " +
-                           std::to_string(poles.size()) + " poles; more than " + std::to_string(unknowns) +
-                           " lines and one pole at least are needed");
+    throw core::InputError("rational fit: " + std::to_string(hz.size()) + " lines for " + std::to_string(poles.size()) +
+                           " poles; more than " + std::to_string(unknowns) + " lines and one pole at least are needed");
   }
   return unscaled(fit(lines, poles / lines.omega, most_steps), lines, H.front().rows(), H.front().cols());
 }

@@ -12,9 +12,9 @@ namespace thinwall::dynamics {
 ///     H(ω) = D + Σ_k [ R_k/(iω − λ_k) + conjugate of the same at −ω ]            (one term without the conjugate for a
 ///                                                                                real pole)
 ///
-/// with λ_k in rad/s (Im ≥ 0), one for each conjugate pair or real pole, residues R_k in m/(N s) and the static part D in
-/// m/N. All matrices have the same shape, responses × forces. Lines that no passive structure has may ask for poles that
-/// grow (Re > 0).
+/// with λ_k in rad/s (Im ≥ 0), one for each conjugate pair or real pole, residues R_k in m/(N s) and the static part D
+/// in m/N. All matrices have the same shape, responses × forces. Lines that no passive structure has may ask for poles
+/// that grow (Re > 0).
 struct PartialFractions {
   Eigen::VectorXcd poles;
   std::vector<Eigen::MatrixXcd> residues;
@@ -30,19 +30,19 @@ struct PartialFractions {
 ///
 ///     (c₀ + Σ c_n φ_n(ω)) H(ω) = d + Σ r_n φ_n(ω)      in least squares over the lines,
 ///
-/// where c is common to all entries and r and d are not; the zeros of the factor on the left are the next poles, at most
-/// twenty times. Then poles are left out that lie above four times the last line, or whose half width is below a
-/// twentieth of the distance between lines, and residues and D follow by linear least squares. Lines are weighed by 1/√‖H‖, so that neither the peaks nor what lies
-/// between them count alone. The poles are found from the three linear combinations of the entries (real coefficients)
-/// that hold most of the matrix. Throws InputError unless the lines are as said and more than twice as many as the
-/// unknowns of an entry. Cost: a step O(lines pairs²).
+/// where c is common to all entries and r and d are not; the zeros of the factor on the left are the next poles, at
+/// most twenty times. Then poles are left out that lie above four times the last line, or whose half width is below a
+/// twentieth of the distance between lines, and residues and D follow by linear least squares. Lines are weighed by
+/// 1/√‖H‖, so that neither the peaks nor what lies between them count alone. The poles are found from the three linear
+/// combinations of the entries (real coefficients) that hold most of the matrix. Throws InputError unless the lines are
+/// as said and more than twice as many as the unknowns of an entry, Interrupted. Cost: a step O(lines pairs²).
 [[nodiscard]] PartialFractions vector_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H,
                                           const Eigen::VectorXcd& poles);
 
-/// vector_fit() with as many poles as the lines call for. From one pair on, up to 40, more are added where the fit leaves
-/// most of the lines, as long as one of four attempts lowers the weighed or the plain residual by three tenths, as noise
-/// does not. The lines must be four times as many as the unknowns, so that every second line has the same poles. Errors
-/// as vector_fit(). Cost: some 0.2 s for 6000 lines and 20 pairs.
+/// vector_fit() with as many poles as the lines call for. From one pair on, up to 40, more are added where the fit
+/// leaves most of the lines, as long as one of four attempts lowers the weighed or the plain residual by three tenths,
+/// as noise does not. The lines must be four times as many as the unknowns, so that every second line has the same
+/// poles. Errors as vector_fit(). Cost: some 0.2 s for 6000 lines and 20 pairs.
 [[nodiscard]] PartialFractions rational_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H);
 
 }  // namespace thinwall::dynamics

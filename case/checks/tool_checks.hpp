@@ -6,7 +6,8 @@
 
 namespace thinwall::cases {
 
-/// Reports modes beside measured FRFs, and an entry of the FRF matrix that is given twice. `tool.measured` is not empty.
+/// Reports modes beside measured FRFs, and an entry of the FRF matrix that is given twice. `tool.measured` is not
+/// empty.
 void check_measured_tool(const setup::Tool& tool, Findings& findings);
 
 }  // namespace thinwall::cases

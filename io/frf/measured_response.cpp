@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "dynamics/rational_fit.hpp"
 
 namespace thinwall::io {
 
@@ -113,6 +114,13 @@ std::vector<Place> places_of(const std::vector<MeasuredEntry>& entries, GrowingT
   return places;
 }
 
+/// A fit of one entry at the lines of an axis.
+Eigen::VectorXcd on_axis(const dynamics::PartialFractions& fit, const dynamics::FrequencyAxis& axis) {
+  Eigen::VectorXcd H(axis.size());
+  for (Eigen::Index line = 0; line < axis.size(); ++line) H(line) = value(fit, axis.omega_rad_s(line))(0, 0);
+  return H;
+}
+
 /// The values on another axis, by polynomials through `points` neighbours.
 Eigen::VectorXcd interpolated(const MeasuredFrf& frf, const Eigen::VectorXcd& values,
                               const dynamics::FrequencyAxis& axis, std::size_t points) {
@@ -169,7 +177,12 @@ MeasuredResponse response_matrix(const MeasuredEntries& measured) {
 
 Eigen::VectorXcd resample(const MeasuredFrf& frf, const dynamics::FrequencyAxis& axis) {
   if (equal(frf.axis, axis)) return frf.H;
-  return interpolated(frf, frf.H, axis, 4);
+  constexpr Eigen::Index fit_from = 14;
+  if (frf.axis.size() < fit_from || frf.H.isZero(0.0)) return interpolated(frf, frf.H, axis, 4);
+  std::vector<Eigen::MatrixXcd> lines;
+  for (const Complex H : frf.H) lines.emplace_back(Eigen::MatrixXcd::Constant(1, 1, H));
+  const dynamics::PartialFractions fit = dynamics::rational_fit(frf.axis.hz, lines);
+  return interpolated(frf, frf.H - on_axis(fit, frf.axis), axis, 4) + on_axis(fit, axis);
 }
 
 Eigen::VectorXd coherence_on(const MeasuredFrf& frf, const dynamics::FrequencyAxis& axis) {

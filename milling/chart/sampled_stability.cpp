@@ -65,8 +65,7 @@ class CrossingGrid {
   }
   /// The depth at which a crossing lies by another fit; none if it is lost.
   [[nodiscard]] std::optional<double> depth_by(const Fit& fit, Crossing crossing) const {
-    CutAtSpeed other{in_tool_axes(fit.poles, cut_.process.frame), cut_.process, cut_.yielding,
-                     cut_.spindle_speed_rpm};
+    CutAtSpeed other{in_tool_axes(fit.poles, cut_.process.frame), cut_.process, cut_.yielding, cut_.spindle_speed_rpm};
     const DiscreteCut on_grid = discrete(other, resolution_, shape_m_);
     if (!refine(with_remainder(gain_of(on_grid), fit.remainder), crossing)) return std::nullopt;
     return crossing.depth_m;
@@ -76,7 +75,8 @@ class CrossingGrid {
   [[nodiscard]] GainOnCircle with_remainder(GainOnCircle poles, const SampledReceptance& remainder) const {
     if (remainder.H.empty()) return poles;
     const GainOnCircle lines = harmonic_gain(remainder, discrete_.grid, cut_.spindle_speed_rpm);
-    return {poles.size, [poles, lines](double theta) { return Eigen::MatrixXcd(poles.Z(theta) + lines.Z(theta)); },
+    return {poles.size,
+            [poles, lines](double theta) { return Eigen::MatrixXcd(poles.Z(theta) + lines.Z(theta)); },
             [poles, lines](double theta) { return Eigen::MatrixXcd(poles.slope(theta) + lines.slope(theta)); },
             {}};
   }
@@ -169,7 +169,7 @@ FittedStructure fitted_structure(const SampledStructure& structure, const ToolFr
   const SampledReceptance& samples = structure.samples;
   FittedLines fits = fitted(samples);
   const auto of = [&](FittedReceptance& fit) { return fit_in_part_axes(std::move(fit), structure, frame); };
-  FittedStructure result{structure, of(fits.all), of(fits.even), of(fits.odd), of(fits.within), {}};
+  FittedStructure result{structure, of(fits.all), of(fits.even), of(fits.odd), of(fits.within), fits.growing, {}};
   result.mean_square = local_mean_square(result.all.remainder);
   return result;
 }
@@ -186,8 +186,7 @@ LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& p
   take_limit_from_crossings(row);
   if (row.status == StabilityStatus::converged && row.error_estimate > options.error_tolerance) {
     constexpr double answers_to = 0.1;
-    row.status =
-        row.error_estimate <= answers_to ? StabilityStatus::data_limited : StabilityStatus::data_insufficient;
+    row.status = row.error_estimate <= answers_to ? StabilityStatus::data_limited : StabilityStatus::data_insufficient;
   }
   return row;
 }

@@ -19,8 +19,8 @@ struct SampledStructure {
   std::optional<RelativeStructure> poles;  ///< part axes
 };
 
-/// A sampled structure as poles, with what these leave of the lines; and twice more from every second line, which tells
-/// how much the lines leave open.
+/// A sampled structure as poles, with what these leave of the lines, for all lines and thrice more
+/// (fitted_receptance.hpp), which tells how much the lines leave open.
 struct FittedStructure {
   /// One fit.
   struct Fit {
@@ -29,7 +29,8 @@ struct FittedStructure {
   };
   SampledStructure lines;  ///< as they were given
   Fit all, even, odd, within;
-  std::vector<Eigen::Matrix3d> mean_square;  ///< of the entries of the remainder about each line, (m/N)²
+  std::optional<std::complex<double>> growing;  ///< a pole of the samples that no passive structure has, rad/s
+  std::vector<Eigen::Matrix3d> mean_square;     ///< of the entries of the remainder about each line, (m/N)²
 };
 
 /// The fits of a structure whose samples are in the tool axes of `frame`. Throws InputError as fitted(). Cost: that of
@@ -40,17 +41,18 @@ struct FittedStructure {
 /// stability.hpp does. Each is then followed, on a grid of its own depth, to where it lies with the remainder
 /// (harmonic_gain()), so that the row is that of the lines as they are. The estimate of a crossing adds
 ///
-///  - twice the larger change of the depth if every second line alone is known: what spacing and range of the lines
-///    leave open;
+///  - twice the larger change of the depth if every second line alone is known: what their spacing leaves open;
+///  - its change if the poles above the last line are static: what the range of the lines leaves open;
 ///  - three standard deviations of the depth (depth_gradient()) by noise of the size that the remainder has about each
 ///    line;
 ///  - the change by the remainder itself where the shape of the cut changes with the depth, because the grid is then
 ///    that of the depth before.
 ///
-/// A row that misses the tolerance for it is `data_limited`, beyond a tenth of the depth `data_insufficient`. A row that is stable up to the depth limit has the change
-/// of |μ| there in its estimate. Any cutter will do. Throws InputError for a bad process, option or speed, and as
-/// require_range(); NumericalError if an eigen-solution fails. Cost: a row from poles, and for each crossing some ten
-/// sums over the harmonics within the lines, each O(harmonics contacts²).
+/// A row that misses the tolerance for it is `data_limited`, beyond a tenth of the depth `data_insufficient`. A row
+/// that is stable up to the depth limit has the change of |μ| there in its estimate. Any cutter will do. Throws
+/// InputError for a bad process, option or speed, and as require_range(); NumericalError if an eigen-solution fails.
+/// Cost: a row from poles, and for each crossing some ten sums over the harmonics within the lines, each O(harmonics
+/// contacts²).
 [[nodiscard]] LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& process,
                                      double spindle_speed_rpm, const StabilityOptions& options);
 
@@ -75,9 +77,9 @@ struct FittedStructure {
 ///     dw = −w² Re [ (1 + i Re ν_θ/Im ν_θ) dν ],     dν = −lᵀ dZ r / lᵀ r
 ///
 /// and Re dν alone at a flip. What continues H beyond its lines is kept as it is, so that scaling all samples by 1 + ε
-/// gives dw = −ε w, Re Σ g_ij H_ij = −w, as far as no harmonic beyond the lines has a part. `point` is one of limiting_depth()'s crossings for the same
-/// arguments. Errors as limiting_depth(), and NumericalError if the crossing is not found again. Cost: some ten values
-/// of Z.
+/// gives dw = −ε w, Re Σ g_ij H_ij = −w, as far as no harmonic beyond the lines has a part. `point` is one of
+/// limiting_depth()'s crossings for the same arguments. Errors as limiting_depth(), and NumericalError if the crossing
+/// is not found again. Cost: some ten values of Z.
 [[nodiscard]] std::vector<Eigen::Matrix3cd> depth_gradient(const FittedStructure& structure,
                                                            const MillingProcess& process, double spindle_speed_rpm,
                                                            const LobePoint& point, const StabilityOptions& options);

@@ -37,8 +37,8 @@ RelativeStructure modes_of(const dynamics::PartialFractions& sum, double least) 
   std::vector<std::complex<double>> poles;
   std::vector<Eigen::Vector3cd> phi, b;
   for (Index k = 0; k < sum.poles.size(); ++k) {
-    // A pole that grows is taken as decaying with the same residue: far from it both are the same, so that the remainder
-    // holds the difference about its frequency alone.
+    // A pole that grows is taken as decaying with the same residue: far from it both are the same, so that the
+    // remainder holds the difference about its frequency alone.
     const std::complex<double> pole(-std::abs(sum.poles(k).real()), sum.poles(k).imag());
     const Eigen::Matrix3cd residue = sum.residues[static_cast<std::size_t>(k)];
     const Eigen::JacobiSVD<Eigen::Matrix3cd> svd(residue, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -67,11 +67,29 @@ bool has_pole(const dynamics::PartialFractions& sum, std::complex<double> pole) 
   return ((sum.poles.array() - pole).abs() <= near * std::abs(pole.real())).any();
 }
 
+/// The largest pole among the lines that grows and that the others have, too.
+std::optional<std::complex<double>> growing_pole(const dynamics::PartialFractions& sum,
+                                                 std::initializer_list<const dynamics::PartialFractions*> others,
+                                                 const SampledReceptance& samples) {
+  const Eigen::VectorXd omega = 2.0 * pi * samples.frequency_hz;
+  std::optional<std::complex<double>> found;
+  double largest = 0.0;
+  for (Index k = 0; k < sum.poles.size(); ++k) {
+    const std::complex<double> pole = sum.poles(k);
+    const double peak = sum.residues[static_cast<std::size_t>(k)].norm() / pole.real();
+    if (pole.real() <= 0.0 || pole.imag() < omega(0) || pole.imag() > omega(omega.size() - 1) || peak < largest)
+      continue;
+    if (!std::ranges::all_of(others, [&](const auto* other) { return has_pole(*other, pole); })) continue;
+    largest = peak;
+    found = pole;
+  }
+  return found;
+}
+
 /// The sum with poles above the last line as they are where the others have them, too; the rest are damped so that they
 /// have no peak to speak of, their static part unchanged.
 dynamics::PartialFractions agreed(dynamics::PartialFractions sum,
-                                  std::initializer_list<const dynamics::PartialFractions*> others,
-                                  double last_rad_s) {
+                                  std::initializer_list<const dynamics::PartialFractions*> others, double last_rad_s) {
   constexpr double damping = 0.1;
   for (Index k = 0; k < sum.poles.size(); ++k) {
     const std::complex<double> pole = sum.poles(k);
@@ -132,7 +150,8 @@ FittedLines fitted(const SampledReceptance& samples) {
   const double last = 2.0 * pi * samples.frequency_hz(samples.frequency_hz.size() - 1);
   return {split(samples, agreed(all_sum, {&even_sum, &odd_sum}, last)),
           split(even, agreed(even_sum, {&all_sum, &odd_sum}, last)),
-          split(odd, agreed(odd_sum, {&all_sum, &even_sum}, last)), split(samples, within(all_sum, last))};
+          split(odd, agreed(odd_sum, {&all_sum, &even_sum}, last)), split(samples, within(all_sum, last)),
+          growing_pole(all_sum, {&even_sum, &odd_sum}, samples)};
 }
 
 }  // namespace thinwall::milling

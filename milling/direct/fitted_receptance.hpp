@@ -1,6 +1,9 @@
 #pragma once
 // A sampled receptance as poles and what these leave of the lines.
 
+#include <complex>
+#include <optional>
+
 #include "milling/direct/sampled_receptance.hpp"
 #include "milling/structure/relative_structure.hpp"
 
@@ -15,17 +18,20 @@ struct FittedReceptance {
   SampledReceptance remainder;  ///< tool axes; without lines where it is below 1e-12 of the largest ‖H‖
 };
 
-/// The fit of all lines; of every second one alone; and of all with no pole above the last line, the static part of such
-/// poles in their place. What these differ in is what the lines leave open.
+/// The fit of all lines; of every second one alone; and of all with no pole above the last line, the static part of
+/// such poles in their place. What these differ in is what the lines leave open.
 struct FittedLines {
   FittedReceptance all, even, odd, within;
+  std::optional<std::complex<double>> growing;  ///< rad/s: the pole among the lines with Re > 0 that all fits have and
+                                                ///< that is largest; a passive structure has none
 };
 
 /// The samples by dynamics::rational_fit(). A residue is taken apart by its singular values into at most three modes
 /// with the same pole; a mode whose peak is below a tenth of what the fit leaves of a line (root mean square) stays in
-/// the remainder. A pole above the last line is taken as it is only if the fits of the others have it, too, within three
-/// tenths of its half width, so that its peak is known; else it is damped to 10 %, its static part unchanged. Throws InputError as
-/// require_usable(), and for fewer than 14 lines, of which the halves could not be fitted. Cost: that of three fits.
+/// the remainder. A pole above the last line is taken as it is only if the fits of the others have it, too, within
+/// three tenths of its half width, so that its peak is known; else it is damped to 10 %, its static part unchanged.
+/// Throws InputError as require_usable(), and for fewer than 14 lines, of which the halves could not be fitted. Cost:
+/// that of three fits.
 [[nodiscard]] FittedLines fitted(const SampledReceptance& samples);
 
 }  // namespace thinwall::milling

@@ -17,10 +17,10 @@ namespace thinwall::milling {
 ///     s_i(ω) = e^{iωt_i} v_iᵀ − Σ_past e^{iωt_past} v_pastᵀ,      e^{−iθ} times that for a past in the period before
 ///
 /// over all harmonics within the range of the lines. The integrals are those of the polynomials (plain quadrature of
-/// the impulse response loses up to 1 %, its kernel has a kink). Any grid will do; with a helix it is that of one depth.
-/// The result has no stops: it serves to follow a crossing, not to search for one. Its slope is a central difference.
-/// Both arguments must outlive the result. Throws InputError as require_usable(). Cost of a value: harmonics ×
-/// contacts².
+/// the impulse response loses up to 1 %, its kernel has a kink). Any grid will do; with a helix it is that of one
+/// depth. The result has no stops: it serves to follow a crossing, not to search for one. Its slope is a central
+/// difference. Both arguments must outlive the result. Throws InputError as require_usable(). Cost of a value:
+/// harmonics × contacts².
 [[nodiscard]] GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGrid& grid,
                                          double spindle_speed_rpm);
 

@@ -19,8 +19,8 @@ void require_usable(const SampledReceptance& receptance);
 /// Every second line, from the first (`from` = 0) or the second (1) on.
 [[nodiscard]] SampledReceptance every_second_line(const SampledReceptance& receptance, Eigen::Index from);
 
-/// H(ω) as a sum over lines: H(ω) = Σ weight_i H_(first + i), the polynomial through the six nearest; no line takes part
-/// outside of the lines' range, where nothing is known.
+/// H(ω) as a sum over lines: H(ω) = Σ weight_i H_(first + i), the polynomial through the six nearest; no line takes
+/// part outside of the lines' range, where nothing is known.
 struct LineWeights {
   Eigen::Index first = 0;
   Eigen::VectorXd weight;

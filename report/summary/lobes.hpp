@@ -49,7 +49,8 @@ void fields(Visitor& visit, Section& row) {
   visit(Field{"chatter_frequency_hz", Kind::frequency, "chatter frequency; null: not known", Presence::or_null},
         row.chatter_frequency_hz);
   visit(Field{"bifurcation", Kind::text, "\"hopf\", \"flip\" or \"fold\""}, row.bifurcation);
-  visit(Field{"status", Kind::text, "\"converged\", \"stable_to_depth_limit\", \"data_limited\", or why the row is not to be trusted"},
+  visit(Field{"status", Kind::text,
+              "\"converged\", \"stable_to_depth_limit\", \"data_limited\", or why the row is not to be trusted"},
         row.status);
   visit(Field{"error_estimate_relative", Kind::error_estimate, "estimated relative error of the depth; null: not known",
               Presence::or_null},

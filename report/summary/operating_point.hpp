@@ -85,7 +85,8 @@ void fields(Visitor& visit, Section& point) {
   visit(Field{"boundary_above_rpm", Kind::spindle_speed, "next boundary at higher speeds; null: none in the chart",
               Presence::or_null},
         point.boundary_above_rpm);
-  visit(Field{"status", Kind::text, "\"converged\", \"stable_to_depth_limit\", \"data_limited\", or why the answer is not to be trusted"},
+  visit(Field{"status", Kind::text,
+              "\"converged\", \"stable_to_depth_limit\", \"data_limited\", or why the answer is not to be trusted"},
         point.status);
   visit(Field{"multiplier_error_estimate_relative", Kind::error_estimate,
               "estimated relative error of the modulus; null: not known", Presence::or_null},

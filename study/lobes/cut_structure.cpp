@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
+#include <complex>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -75,6 +76,20 @@ milling::SampledReceptance in_tool_axes(milling::SampledReceptance tip, const mi
   return tip;
 }
 
+/// The fit, with a warning where the lines are those of no passive structure.
+milling::FittedStructure fitted(const milling::SampledReceptance& tip,
+                                const std::optional<milling::RelativeStructure>& poles, const milling::ToolFrame& frame,
+                                const std::string& whose) {
+  milling::FittedStructure fit = milling::fitted_structure({in_tool_axes(tip, frame), poles}, frame);
+  if (const auto pole = fit.growing) {
+    core::warn(fmt::format(
+        "{} lines have a motion at {:.1f} Hz that grows by itself (damping {:.2g} %), which no passive structure has; "
+        "the chart takes it as decaying: check the signs and directions of what was measured",
+        whose, std::abs(*pole) / (2.0 * std::numbers::pi), -100.0 * pole->real() / std::abs(*pole)));
+  }
+  return fit;
+}
+
 }  // namespace
 
 int direction_of_dof(const std::string& dof) {
@@ -95,7 +110,7 @@ std::optional<milling::RelativeStructure> cut_poles(const setup::CutSetup& sourc
 }
 
 milling::FittedStructure sampled_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
-                                            const dynamics::ResponseModel& coupled) {
+                                           const dynamics::ResponseModel& coupled) {
   const dynamics::ResponseModel at_cut = dynamics::between(coupled, source.cutting->at, source.cutting->at);
   const Eigen::Matrix3Xd D = dynamics::displacement_matrix(at_cut.responses, source.cutting->at);
   milling::SampledReceptance felt{coupled.axis.hz, {}};
@@ -110,18 +125,18 @@ milling::FittedStructure sampled_structure(const setup::CutSetup& source, const 
   } else if (!source.tool->modes.empty()) {
     tool = tool_modes(*source.tool);
   }
-  return milling::fitted_structure({in_tool_axes(std::move(felt), frame), tool}, frame);
+  return fitted(felt, tool, frame, "the supported part's");
 }
 
 CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                            const dynamics::ModalModel* part) {
   const std::optional<milling::RelativeStructure> modal = cut_poles(source, part);
-  if (source.tool->swap) return milling::fitted_structure({in_tool_axes(swapped(source), frame), modal}, frame);
+  if (source.tool->swap) return fitted(swapped(source), modal, frame, "the swapped tool's");
   if (!source.tool->measured.empty()) {
     milling::SampledReceptance tip =
         measured_tip(source.tool->measured, setup::receptance_of(source.tool->measured.front()).axis);
     warn_if_implausible(tip, "the tool's");
-    return milling::fitted_structure({in_tool_axes(std::move(tip), frame), modal}, frame);
+    return fitted(tip, modal, frame, "the tool's");
   }
   if (!modal) throw core::InputError("lobes need something that moves: a part, tool.modes or tool.measured");
   return *modal;

@@ -15,8 +15,8 @@
 
 namespace thinwall::study {
 
-/// Poles where everything is known by its modes (part axes); the fit of samples, with the part's poles beside them, where
-/// the tool tip is measured.
+/// Poles where everything is known by its modes (part axes); the fit of samples, with the part's poles beside them,
+/// where the tool tip is measured.
 using CutStructure = std::variant<milling::RelativeStructure, milling::FittedStructure>;
 
 /// The poles of what is known by its modes: the part (null: a rigid one), and the tool where it is given by modes. None

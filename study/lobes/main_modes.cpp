@@ -31,7 +31,8 @@ std::vector<double> main_modes_hz(const CutStructure& structure) {
   if (const auto* poles = std::get_if<milling::RelativeStructure>(&structure)) add_peaks(*poles, peaks);
   if (const auto* sampled = std::get_if<milling::FittedStructure>(&structure)) {
     if (sampled->lines.poles) add_peaks(*sampled->lines.poles, peaks);
-    for (const auto& found : milling::resonances(sampled->lines.samples)) peaks.push_back({found.frequency_hz, found.size});
+    for (const auto& found : milling::resonances(sampled->lines.samples))
+      peaks.push_back({found.frequency_hz, found.size});
   }
   std::ranges::sort(peaks, std::greater(), &Peak::size);
   std::vector<double> frequencies;

@@ -126,9 +126,10 @@ TEST(RationalFit, AveragesNoise) {
 }
 
 TEST(RationalFit, TakesAStaticPartAndAPoleThatDoesNotOscillate) {
-  const PartialFractions exact{Eigen::Vector2cd(complex<double>(-900.0, 0.0), complex<double>(-40.0, 2500.0)),
-                               {Eigen::MatrixXcd::Constant(1, 1, 2e-5), Eigen::MatrixXcd::Constant(1, 1, {3e-6, -4e-4})},
-                               Eigen::MatrixXd::Constant(1, 1, 1e-8)};
+  const PartialFractions exact{
+      Eigen::Vector2cd(complex<double>(-900.0, 0.0), complex<double>(-40.0, 2500.0)),
+      {Eigen::MatrixXcd::Constant(1, 1, 2e-5), Eigen::MatrixXcd::Constant(1, 1, {3e-6, -4e-4})},
+      Eigen::MatrixXd::Constant(1, 1, 1e-8)};
   const Eigen::VectorXd hz = Eigen::VectorXd::LinSpaced(200, 0.0, 700.0);
   std::vector<Eigen::MatrixXcd> H;
   for (const double at : hz) H.push_back(value(exact, 2.0 * pi * at));

@@ -73,7 +73,7 @@ MillingProcess random_cut(Draws& draw) {
 /// What rows have come to.
 struct Tally {
   int rows = 0, beyond = 0;
-  double worst = 0.0;              ///< largest error over estimate
+  double worst = 0.0;  ///< largest error over estimate
   std::vector<double> estimates;
 
   void add(const LobeRow& found, const LobeRow& exact) {

@@ -239,13 +239,14 @@ TEST(SampledStability, ARangeThatIsTooNarrowNamesTheHarmonicAndWhatWouldDo) {
 }
 
 TEST(SampledStability, RefusesABadSpeedAndAStructureThatIsStill) {
-  EXPECT_NE(refusal([&] {
-              (void)limiting_depth(benchmark_fit(), benchmark_process(0.1), 0.0, {});
-            }).find("0 rpm"),
+  EXPECT_NE(refusal([&] { (void)limiting_depth(benchmark_fit(), benchmark_process(0.1), 0.0, {}); }).find("0 rpm"),
             std::string::npos);
   SampledReceptance still = benchmark_lines();
   for (auto& H : still.H) H.topRows<2>().setZero();
-  EXPECT_NE(refusal([&] { (void)limiting_depth(SampledStructure{still, {}}, benchmark_process(0.1), 5000.0, {}); }), "");
+  EXPECT_NE(refusal([&] {
+              (void)limiting_depth(SampledStructure{still, {}}, benchmark_process(0.1), 5000.0, {});
+            }),
+            "");
 }
 
 TEST(SampledStability, StableToTheDepthLimitIsSaidWithTheMotionNearestToChatter) {

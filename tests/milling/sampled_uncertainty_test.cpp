@@ -125,7 +125,8 @@ TEST(DepthGradient, IsTheDifferenceQuotientForAnyChangeOfTheSamples) {
   for (const std::optional<RelativeStructure>& poles : {std::optional<RelativeStructure>{}, std::optional(part)}) {
     for (const double rpm : slow ? std::vector{2300.0, 5600.0, 9700.0} : std::vector{5600.0}) {
       const LobePoint point = first_crossing_of(limiting_depth(SampledStructure{lines, poles}, process, rpm, fine()));
-      const auto gradient = depth_gradient(fitted_structure({lines, poles}, process.frame), process, rpm, point, fine());
+      const auto gradient =
+          depth_gradient(fitted_structure({lines, poles}, process.frame), process, rpm, point, fine());
       // smooth, near the chatter frequency, not symmetric, and where no poles are in a direction that was still
       const auto moved = [&](double step) {
         SampledReceptance other = lines;
@@ -166,8 +167,8 @@ TEST(SampledDepths, DrawsScatterAsFirstOrderSaysWhereTheNoiseIsSmall) {
     options.error_tolerance = 1e-3;
     const LobePoint point = first_crossing_of(limiting_depth(c.structure, process, c.rpm, options));
     const SampleCovariance covariance = relative_noise(c.structure.samples, 0.003);
-    const double first_order =
-        depth_deviation_m(depth_gradient(fitted_structure(c.structure, process.frame), process, c.rpm, point, options), covariance);
+    const double first_order = depth_deviation_m(
+        depth_gradient(fitted_structure(c.structure, process.frame), process, c.rpm, point, options), covariance);
     const DepthScatter scatter = sampled_depths(c.structure, process, c.rpm, options, covariance, n, 5);
     EXPECT_EQ(scatter.without_limit, 0);
     EXPECT_NEAR(scatter.deviation_m / first_order, 1.0, 3.0 / std::sqrt(2.0 * n)) << c.rpm;
