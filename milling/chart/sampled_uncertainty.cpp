@@ -40,7 +40,11 @@ Matrix9cd factor(const Matrix9cd& covariance, std::size_t line) {
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
-SampledReceptance drawn(SampledReceptance samples, const std::vector<Matrix9cd>& factors, std::uint64_t seed) {
+/// The structure with noise on its lines: the poles of the fit stay, and the remainder takes the noise.
+FittedStructure drawn(FittedStructure structure, const std::vector<Matrix9cd>& factors, std::uint64_t seed) {
+  SampledReceptance& remainder = structure.all.remainder;
+  if (remainder.H.empty())
+    remainder = {structure.lines.samples.frequency_hz, {factors.size(), Eigen::Matrix3cd::Zero()}};
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal(0.0, std::sqrt(0.5));
   for (std::size_t line = 0; line < factors.size(); ++line) {
@@ -50,9 +54,10 @@ SampledReceptance drawn(SampledReceptance samples, const std::vector<Matrix9cd>&
       entry = {real, normal(generator)};
     }
     const Vector9cd v = factors[line] * z;
-    samples.H[line] += v.reshaped<Eigen::ColMajor>(3, 3);
+    remainder.H[line] += v.reshaped<Eigen::ColMajor>(3, 3);
   }
-  return samples;
+  structure.mean_square.resize(factors.size(), Eigen::Matrix3d::Zero());
+  return structure;
 }
 
 }  // namespace
@@ -67,10 +72,10 @@ double depth_deviation_m(const std::vector<Eigen::Matrix3cd>& gradient, const Sa
   return std::sqrt(std::max(variance, 0.0));
 }
 
-DepthScatter sampled_depths(const SampledStructure& structure, const MillingProcess& process, double spindle_speed_rpm,
+DepthScatter sampled_depths(const FittedStructure& structure, const MillingProcess& process, double spindle_speed_rpm,
                             const StabilityOptions& options, const SampleCovariance& covariance, int samples,
                             std::uint64_t seed) {
-  require_valid(covariance, structure.samples.H.size());
+  require_valid(covariance, structure.lines.samples.H.size());
   if (samples < 2) {
     throw core::InputError("scatter of a limiting depth: " + std::to_string(samples) + " samples; take at least 2");
   }
@@ -79,8 +84,7 @@ DepthScatter sampled_depths(const SampledStructure& structure, const MillingProc
   std::vector<LobeRow> rows(static_cast<std::size_t>(samples));
   core::Progress progress("draws of the noise", rows.size());
   core::parallel_for(rows.size(), [&](std::size_t i) {
-    const SampledStructure other{drawn(structure.samples, factors, seed + i), structure.poles};
-    rows[i] = limiting_depth(other, process, spindle_speed_rpm, options);
+    rows[i] = limiting_depth(drawn(structure, factors, seed + i), process, spindle_speed_rpm, options);
     progress.step();
   });
   DepthScatter scatter;

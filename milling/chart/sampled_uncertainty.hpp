@@ -30,11 +30,12 @@ struct DepthScatter {
 };
 
 /// limiting_depth() of `samples` ≥ 2 draws H + F z, F Fᴴ = E[v vᴴ], z complex normal with E|z|² = 1, from
-/// std::mt19937_64 with seed, seed + 1, … The draws are shared out among core::thread_count() threads; the result does
+/// std::mt19937_64 with seed, seed + 1, … The poles of the fit stay, as they do in depth_gradient(), and the remainder
+/// takes the noise. The draws are shared out among core::thread_count() threads; the result does
 /// not depend on their number. Where the mean is off the limit without noise, or another lobe takes over, first order
 /// does not hold: the limit is the least of several depths. Errors as limiting_depth() and above; a covariance that is
 /// not positive semidefinite. Cost: `samples` rows.
-[[nodiscard]] DepthScatter sampled_depths(const SampledStructure& structure, const MillingProcess& process,
+[[nodiscard]] DepthScatter sampled_depths(const FittedStructure& structure, const MillingProcess& process,
                                           double spindle_speed_rpm, const StabilityOptions& options,
                                           const SampleCovariance& covariance, int samples, std::uint64_t seed);
 

@@ -79,7 +79,7 @@ void add_errors(const setup::CutSetup& source, const Chart& chart, const Structu
   result.error_at_spindle_speed = at(*result.at_spindle_speed);
   const auto* sampled = std::get_if<milling::FittedStructure>(&chart.structure);
   if (!source.lobes->noise_samples || sampled == nullptr || errors.noise.empty()) return;
-  result.scatter = milling::sampled_depths(sampled->lines, chart.process, result.at_spindle_speed->spindle_speed_rpm,
+  result.scatter = milling::sampled_depths(*sampled, chart.process, result.at_spindle_speed->spindle_speed_rpm,
                                            chart.options.stability, errors.noise, *source.lobes->noise_samples,
                                            static_cast<std::uint64_t>(source.lobes->seed));
 }

@@ -169,12 +169,14 @@ TEST(SampledDepths, DrawsScatterAsFirstOrderSaysWhereTheNoiseIsSmall) {
     const SampleCovariance covariance = relative_noise(c.structure.samples, 0.003);
     const double first_order = depth_deviation_m(
         depth_gradient(fitted_structure(c.structure, process.frame), process, c.rpm, point, options), covariance);
-    const DepthScatter scatter = sampled_depths(c.structure, process, c.rpm, options, covariance, n, 5);
+    const DepthScatter scatter =
+        sampled_depths(fitted_structure(c.structure, process.frame), process, c.rpm, options, covariance, n, 5);
     EXPECT_EQ(scatter.without_limit, 0);
     EXPECT_NEAR(scatter.deviation_m / first_order, 1.0, 3.0 / std::sqrt(2.0 * n)) << c.rpm;
     EXPECT_NEAR(scatter.mean_m, point.depth_m, 4.0 * first_order / std::sqrt(n));
     EXPECT_GT(first_order, 5e-4 * point.depth_m);
-    const DepthScatter again = sampled_depths(c.structure, process, c.rpm, options, covariance, 2, 5);
+    const DepthScatter again =
+        sampled_depths(fitted_structure(c.structure, process.frame), process, c.rpm, options, covariance, 2, 5);
     EXPECT_EQ(again.depth_m[1], scatter.depth_m[1]) << "a seed is a result";
     std::printf("%g rpm: deviation %.3g sampled, %.3g first order, of %.3g mm\n", c.rpm, scatter.deviation_m * 1e3,
                 first_order * 1e3, point.depth_m * 1e3);
@@ -186,7 +188,7 @@ TEST(SampledDepths, RefusesCovariancesThatAreNone) {
   const SampledStructure structure{sampled(one_mode(), process.frame, 3000.0, 4.0), {}};
   const SampleCovariance good = relative_noise(structure.samples, 0.01);
   const auto with = [&](const SampleCovariance& covariance, int samples = 2) {
-    (void)sampled_depths(structure, process, 7000.0, {}, covariance, samples, 1);
+    (void)sampled_depths(fitted_structure(structure, process.frame), process, 7000.0, {}, covariance, samples, 1);
   };
   EXPECT_THROW(with({}), core::InputError);
   EXPECT_THROW(with(good, 1), core::InputError);
@@ -202,7 +204,9 @@ TEST(SampledDepths, RefusesCovariancesThatAreNone) {
   EXPECT_THROW((void)depth_deviation_m({}, good), core::InputError);
   StabilityOptions shallow;
   shallow.depth_limit_m = 1e-6;
-  EXPECT_EQ(sampled_depths(structure, process, 7000.0, shallow, good, 2, 1).without_limit, 2);
+  EXPECT_EQ(
+      sampled_depths(fitted_structure(structure, process.frame), process, 7000.0, shallow, good, 2, 1).without_limit,
+      2);
 }
 
 }  // namespace
