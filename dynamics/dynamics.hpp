@@ -11,6 +11,7 @@
 #include "dynamics/mac.hpp"
 #include "dynamics/modal_model.hpp"
 #include "dynamics/modal_table.hpp"
+#include "dynamics/rational_fit.hpp"
 #include "dynamics/response_model.hpp"
 #include "dynamics/rigid_body.hpp"
 #include "dynamics/sparse_model.hpp"

@@ -1,6 +1,7 @@
 #include "milling/chart/sampled_stability.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -98,55 +99,49 @@ std::vector<Eigen::Matrix3cd> gradient_at(const CrossingGrid& grid, const GainOn
   return gain_gradient(lines, grid.grid(), grid.spindle_speed_rpm(), theta, pair.left, pair.right, factor);
 }
 
-/// The deviation of a depth, relative, by noise that is independent from line to line and from entry to entry.
-double deviation(const std::vector<Eigen::Matrix3cd>& gradient, const std::vector<Eigen::Matrix3d>& mean_square,
-                 double depth_m) {
-  double variance = 0.0;
-  for (std::size_t line = 0; line < gradient.size(); ++line)
-    variance += 0.5 * gradient[line].cwiseAbs2().cwiseProduct(mean_square[line]).sum();
-  return std::sqrt(variance) / depth_m;
+/// The largest relative change of a depth by any of some fits; 1 if the crossing is lost.
+template <std::size_t count>
+double largest_change(const CrossingGrid& grid, const Crossing& crossing, const std::array<const Fit*, count>& fits) {
+  double largest = 0.0;
+  for (const Fit* fit : fits) {
+    const std::optional<double> depth_m = grid.depth_by(*fit, crossing);
+    largest = std::max(largest, depth_m ? std::abs(*depth_m / crossing.depth_m - 1.0) : 1.0);
+  }
+  return largest;
 }
 
-/// Mean squares of the entries of a remainder over twenty-one lines about each.
-std::vector<Eigen::Matrix3d> local_mean_square(const SampledReceptance& remainder) {
-  constexpr std::size_t beside = 10;
-  std::vector<Eigen::Matrix3d> result(remainder.H.size());
-  for (std::size_t line = 0; line < result.size(); ++line) {
-    const std::size_t from = line - std::min(line, beside), to = std::min(line + beside + 1, result.size());
-    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    for (std::size_t i = from; i < to; ++i) sum += remainder.H[i].cwiseAbs2();
-    result[line] = sum / static_cast<double>(to - from);
+/// The standard deviation of a depth by noise, relative: the jackknife's, from fits that each leave out a part of the
+/// lines (Efron 1982, Eq. 3.3), σ² = (g − 1)/g Σ (w_i − mean)². 1 if a crossing is lost.
+double deviation(const CrossingGrid& grid, const Crossing& crossing, const std::vector<Fit>& without) {
+  if (without.empty()) return 0.0;
+  const auto count = static_cast<Eigen::Index>(without.size());
+  Eigen::ArrayXd depth_m(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const std::optional<double> at = grid.depth_by(without[static_cast<std::size_t>(i)], crossing);
+    if (!at) return 1.0;
+    depth_m(i) = *at;
   }
-  return result;
+  const double squares = (depth_m - depth_m.mean()).square().sum();
+  return std::sqrt(squares * static_cast<double>(count - 1) / static_cast<double>(count)) / crossing.depth_m;
 }
 
 /// Moves a crossing of the fit's poles to where it lies by the lines, and adds what the lines leave open.
 void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, LobePoint& point) {
+  constexpr double deviations = 5.0;
   const CrossingGrid grid(cut, point.depth_m);
   Crossing by_poles = grid.crossing(point);
   bool kept = refine(grid.gain(), by_poles);
   Crossing by_lines = by_poles;
-  const SampledReceptance& remainder = structure.all.remainder;
-  const GainOnCircle gain = grid.gain(remainder);
-  kept = kept && refine(gain, by_lines);
+  if (!structure.all.remainder.H.empty()) kept = kept && refine(grid.gain(structure.all.remainder), by_lines);
   if (!kept) {
     point.error_estimate = 1.0;
     return;
   }
   const double change = by_lines.depth_m / by_poles.depth_m;
-  double open = 0.0;
-  for (const Fit* half : {&structure.even, &structure.odd}) {
-    const std::optional<double> depth_m = grid.depth_by(*half, by_lines);
-    open = std::max(open, depth_m ? std::abs(*depth_m / by_lines.depth_m - 1.0) : 1.0);
-  }
-  const std::optional<double> within_m = grid.depth_by(structure.within, by_lines);
-  const double beyond = within_m ? std::abs(*within_m / by_lines.depth_m - 1.0) : 1.0;
   point.depth_m *= change;
-  point.error_estimate += 2.0 * open + beyond;
-  if (!remainder.H.empty()) {
-    const auto gradient = gradient_at(grid, gain, remainder, by_lines);
-    point.error_estimate += 3.0 * deviation(gradient, structure.mean_square, by_lines.depth_m);
-  }
+  point.error_estimate += 2.0 * largest_change<2>(grid, by_lines, {&structure.even, &structure.odd}) +
+                          largest_change<1>(grid, by_lines, {&structure.within}) +
+                          deviations * deviation(grid, by_lines, structure.without);
   if (cut.process.cutter.depends_on_depth()) point.error_estimate += std::abs(change - 1.0);
 }
 
@@ -169,8 +164,8 @@ FittedStructure fitted_structure(const SampledStructure& structure, const ToolFr
   const SampledReceptance& samples = structure.samples;
   FittedLines fits = fitted(samples);
   const auto of = [&](FittedReceptance& fit) { return fit_in_part_axes(std::move(fit), structure, frame); };
-  FittedStructure result{structure, of(fits.all), of(fits.even), of(fits.odd), of(fits.within), fits.growing, {}};
-  result.mean_square = local_mean_square(result.all.remainder);
+  FittedStructure result{structure, of(fits.all), of(fits.even), of(fits.odd), of(fits.within), {}, fits.growing};
+  for (FittedReceptance& fit : fits.without) result.without.push_back(of(fit));
   return result;
 }
 

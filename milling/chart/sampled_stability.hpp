@@ -29,8 +29,8 @@ struct FittedStructure {
   };
   SampledStructure lines;  ///< as they were given
   Fit all, even, odd, within;
+  std::vector<Fit> without;                     ///< each without every tenth line, where there is noise
   std::optional<std::complex<double>> growing;  ///< a pole of the samples that no passive structure has, rad/s
-  std::vector<Eigen::Matrix3d> mean_square;     ///< of the entries of the remainder about each line, (m/N)²
 };
 
 /// The fits of a structure whose samples are in the tool axes of `frame`. Throws InputError as fitted(). Cost: that of
@@ -39,12 +39,11 @@ struct FittedStructure {
 
 /// The row of a speed. The crossings are those of the fit's poles, found and checked as limiting_depth() of
 /// stability.hpp does. Each is then followed, on a grid of its own depth, to where it lies with the remainder
-/// (harmonic_gain()), so that the row is that of the lines as they are. The estimate of a crossing adds
+/// (harmonic_gain()), so that the row is that of the lines less their noise. The estimate of a crossing adds
 ///
 ///  - twice the larger change of the depth if every second line alone is known: what their spacing leaves open;
 ///  - its change if the poles above the last line are static: what the range of the lines leaves open;
-///  - three standard deviations of the depth (depth_gradient()) by noise of the size that the remainder has about each
-///    line;
+///  - five standard deviations by the scatter of ten fits, each without every tenth line (jackknife): the noise;
 ///  - the change by the remainder itself where the shape of the cut changes with the depth, because the grid is then
 ///    that of the depth before.
 ///

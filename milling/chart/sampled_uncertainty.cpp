@@ -56,7 +56,6 @@ FittedStructure drawn(FittedStructure structure, const std::vector<Matrix9cd>& f
     const Vector9cd v = factors[line] * z;
     remainder.H[line] += v.reshaped<Eigen::ColMajor>(3, 3);
   }
-  structure.mean_square.resize(factors.size(), Eigen::Matrix3d::Zero());
   return structure;
 }
 

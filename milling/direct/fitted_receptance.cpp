@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "dynamics/rational_fit.hpp"
 
 namespace thinwall::milling {
@@ -120,19 +122,56 @@ dynamics::PartialFractions within(const dynamics::PartialFractions& sum, double 
   return result;
 }
 
+/// The share of a rest that neighbouring lines have in common, line by line.
+Eigen::VectorXd common_share(const std::vector<Eigen::Matrix3cd>& rest) {
+  constexpr Index beside = 10;
+  const auto lines = static_cast<Index>(rest.size());
+  Eigen::VectorXd square(lines), product(lines);
+  for (Index i = 0; i < lines; ++i) {
+    const auto at = static_cast<std::size_t>(i), next = static_cast<std::size_t>(std::min(i + 1, lines - 1));
+    square(i) = rest[at].squaredNorm();
+    product(i) = rest[at].conjugate().cwiseProduct(rest[next]).sum().real();
+  }
+  Eigen::VectorXd share(lines);
+  for (Index i = 0; i < lines; ++i) {
+    const Index from = std::max<Index>(i - beside, 0), count = std::min(i + beside + 1, lines) - from;
+    const double correlation = product.segment(from, count - 1).sum() /
+                               std::max(square.segment(from, count - 1).sum(), std::numeric_limits<double>::min());
+    share(i) = std::clamp((correlation - 0.5) / 0.4, 0.0, 1.0);
+  }
+  return share;
+}
+
 FittedReceptance split(const SampledReceptance& samples, const dynamics::PartialFractions& sum) {
   double largest = 0.0;
   for (const Eigen::Matrix3cd& H : samples.H) largest = std::max(largest, H.norm());
   const double round_off = 1e-12 * largest;
   FittedReceptance result{modes_of(sum, std::max(0.1 * rest_of_a_line(samples, sum), 1e-2 * round_off)), samples};
-  double left = 0.0;
-  for (Index i = 0; i < samples.frequency_hz.size(); ++i) {
-    Eigen::Matrix3cd& H = result.remainder.H[static_cast<std::size_t>(i)];
-    H -= receptance(result.poles, 2.0 * pi * samples.frequency_hz(i));
-    left = std::max(left, H.norm());
+  std::vector<Eigen::Matrix3cd>& rest = result.remainder.H;
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    rest[i] -= receptance(result.poles, 2.0 * pi * samples.frequency_hz(static_cast<Index>(i)));
+  const Eigen::VectorXd share = common_share(rest);
+  double left = 0.0, noise = 0.0;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const double common = share(static_cast<Index>(i));
+    noise += std::pow((1.0 - common) * rest[i].norm(), 2);
+    rest[i] *= common;
+    left = std::max(left, rest[i].norm());
   }
+  result.noise = std::sqrt(noise / static_cast<double>(rest.size())) / largest;
   if (left <= round_off) result.remainder = {};
   return result;
+}
+
+/// The lines without every tenth, the first of which is `from`.
+SampledReceptance without_every_tenth(const SampledReceptance& samples, Index from) {
+  std::vector<Index> kept;
+  for (Index i = 0; i < samples.frequency_hz.size(); ++i) {
+    if (i % 10 != from) kept.push_back(i);
+  }
+  SampledReceptance rest{samples.frequency_hz(kept), {}};
+  for (const Index i : kept) rest.H.push_back(samples.H[static_cast<std::size_t>(i)]);
+  return rest;
 }
 
 }  // namespace
@@ -148,10 +187,20 @@ FittedLines fitted(const SampledReceptance& samples) {
   const auto even_sum = dynamics::vector_fit(even.frequency_hz, matrices(even), all_sum.poles);
   const auto odd_sum = dynamics::vector_fit(odd.frequency_hz, matrices(odd), all_sum.poles);
   const double last = 2.0 * pi * samples.frequency_hz(samples.frequency_hz.size() - 1);
-  return {split(samples, agreed(all_sum, {&even_sum, &odd_sum}, last)),
-          split(even, agreed(even_sum, {&all_sum, &odd_sum}, last)),
-          split(odd, agreed(odd_sum, {&all_sum, &even_sum}, last)), split(samples, within(all_sum, last)),
-          growing_pole(all_sum, {&even_sum, &odd_sum}, samples)};
+  FittedLines result{split(samples, agreed(all_sum, {&even_sum, &odd_sum}, last)),
+                     split(even, agreed(even_sum, {&all_sum, &odd_sum}, last)),
+                     split(odd, agreed(odd_sum, {&all_sum, &even_sum}, last)),
+                     split(samples, within(all_sum, last)),
+                     {},
+                     growing_pole(all_sum, {&even_sum, &odd_sum}, samples)};
+  if (result.all.noise <= 1e-10) return result;
+  result.without.resize(10);
+  core::parallel_for(result.without.size(), [&](std::size_t i) {
+    const SampledReceptance lines = without_every_tenth(samples, static_cast<Index>(i));
+    const auto near = dynamics::vector_fit(lines.frequency_hz, matrices(lines), all_sum.poles);
+    result.without[i] = split(lines, agreed(near, {&even_sum, &odd_sum}, last));
+  });
+  return result;
 }
 
 }  // namespace thinwall::milling

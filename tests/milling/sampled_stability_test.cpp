@@ -221,6 +221,32 @@ TEST(SampledStability, AnyCutterHasTheRowOfThePoles) {
   }
 }
 
+TEST(SampledStability, AMotionThatGrowsIsNamedAndTheChartIsThatOfTheLinesElsewhere) {
+  // A growing motion at 200 Hz beside the benchmark's mode at 922 Hz, along x.
+  const double rpm = 9000.0;
+  SampledReceptance lines = sampled(benchmark_structure(), {}, 20.0, 4000.0, 1.0);
+  EXPECT_FALSE(fitted_structure({lines, {}}, {}).growing);
+  const std::complex<double> pole = 2.0 * std::numbers::pi * 200.0 * std::complex<double>(0.05, 1.0);
+  for (std::size_t i = 0; i < lines.H.size(); ++i) {
+    const std::complex<double> s(0.0, 2.0 * std::numbers::pi * lines.frequency_hz(static_cast<Eigen::Index>(i)));
+    lines.H[i](0, 0) += 1e-6 * std::norm(pole) / ((s - pole) * (s - std::conj(pole)));
+  }
+  const FittedStructure fit = fitted_structure({lines, {}}, {});
+  ASSERT_TRUE(fit.growing);
+  EXPECT_LT(std::abs(*fit.growing - pole), 1e-6 * std::abs(pole));
+  // The same motion as it would decay, by its pole.
+  RelativeStructure decaying = benchmark_structure();
+  RelativeStructure motion{Eigen::VectorXcd::Constant(1, -std::conj(pole)), Eigen::Matrix3Xcd::Zero(3, 1),
+                           Eigen::Matrix3Xcd::Zero(3, 1)};
+  motion.phi(0, 0) = 1.0;
+  motion.b(0, 0) = 1e-6 * std::norm(pole) / (pole - std::conj(pole));
+  decaying = sum(decaying, motion);
+  const MillingProcess process = benchmark_process(0.1);
+  const LobeRow by_lines = limiting_depth(fit, process, rpm, {});
+  const LobeRow by_poles = limiting_depth(decaying, process, rpm, {});
+  EXPECT_NEAR(by_lines.limiting_depth_m / by_poles.limiting_depth_m, 1.0, 0.02 + by_lines.error_estimate);
+}
+
 TEST(SampledStability, ARangeThatIsTooNarrowNamesTheHarmonicAndWhatWouldDo) {
   const MillingProcess process = benchmark_process(0.1);
   // At 25000 rpm two teeth pass 833.3 times a second: 922 + 833.3 = 1755.3 Hz is needed.
