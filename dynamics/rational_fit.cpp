@@ -110,6 +110,15 @@ Lines lines_of(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H
   return lines;
 }
 
+/// Every n-th of the lines, and the last.
+Lines every(const Lines& lines, Index n) {
+  std::vector<Index> kept;
+  for (Index i = 0; i < lines.s.size(); i += n) kept.push_back(i);
+  if (kept.back() != lines.s.size() - 1) kept.push_back(lines.s.size() - 1);
+  return {lines.s(kept), lines.weight(kept), lines.entries(kept, Eigen::all), lines.combined(kept, Eigen::all),
+          lines.scale,   lines.omega};
+}
+
 /// The coefficients of the factor (c₀ + Σ c_n φ_n), c₀ last. Of each combination only what no numerator can reproduce
 /// takes part (the QR of its own unknowns is eliminated); the sum of the factor's real part over the lines is held at
 /// their number, which is what "relaxed" says: with c₀ = 1 noise would draw the poles towards the lines' start.
@@ -165,7 +174,7 @@ Eigen::VectorXcd zeros(const Eigen::VectorXcd& poles, const Eigen::VectorXd& c) 
 }
 
 bool settled(const Eigen::VectorXcd& before, const Eigen::VectorXcd& after) {
-  return before.size() == after.size() && ((before - after).array().abs() <= 1e-10 * after.array().abs()).all();
+  return before.size() == after.size() && ((before - after).array().abs() <= 1e-8 * after.array().real().abs()).all();
 }
 
 /// A fit of scaled lines: coefficients, basis functions × entries, and what is left of the lines.
@@ -273,20 +282,22 @@ PartialFractions vector_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::
 
 PartialFractions rational_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H) {
   const Lines lines = lines_of(hz, H);
+  // Poles are looked for among two thousand of the lines at most, which show how many there are, and then brought to
+  // where all lines have them.
+  const Lines some = every(lines, 1 + (lines.s.size() - 1) / 2000);
   constexpr double enough = 1e-9;
   constexpr int most = 40, steps_of_a_try = 6;
   Fit best, last;
-  last.rest = (lines.weight.asDiagonal() * lines.entries).rowwise().norm();
+  last.rest = (some.weight.asDiagonal() * some.entries).rowwise().norm();
   for (int pairs = 1, tries = 0; pairs <= most && tries < 4; pairs += 1 + pairs / 8, ++tries) {
-    if (pairs > 1 && 4 * (2 * pairs + 1) >= lines.s.size()) break;
-    last = fit(lines, with_more(last, lines, std::max<Index>(1, pairs - last.poles.size())), steps_of_a_try);
+    if (pairs > 1 && 4 * (2 * pairs + 1) >= some.s.size()) break;
+    last = fit(some, with_more(last, some, std::max<Index>(1, pairs - last.poles.size())), steps_of_a_try);
     if (!(last.weighed < 0.7 * best.weighed) && !(last.plain < 0.7 * best.plain)) continue;
     best = last;
     tries = -1;
     if (best.weighed <= enough) break;
   }
-  best = fit(lines, best.poles, most_steps);
-  return unscaled(best, lines, H.front().rows(), H.front().cols());
+  return unscaled(fit(lines, best.poles, most_steps), lines, H.front().rows(), H.front().cols());
 }
 
 }  // namespace thinwall::dynamics

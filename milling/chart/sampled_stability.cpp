@@ -175,7 +175,13 @@ LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& p
   LobeRow row = limiting_depth(structure.all.poles, process, spindle_speed_rpm, options);
   if (row.status == StabilityStatus::crossing_missed) return row;
   const CutAtSpeed cut = cut_at_speed(structure.all.poles, process, spindle_speed_rpm);
-  for (LobePoint& point : row.crossings) follow_to_lines(structure, cut, point);
+  // What crosses while other multipliers are outside changes no limit, and stays where the poles have it.
+  int outside = 0;
+  for (LobePoint& point : row.crossings) {
+    const bool bounds = outside == 0 || outside + point.unstable_change == 0;
+    outside += point.unstable_change;
+    if (bounds) follow_to_lines(structure, cut, point);
+  }
   std::ranges::stable_sort(row.crossings, {}, &LobePoint::depth_m);
   if (row.at_limit) compare_at_limit(structure, process, options, row);
   take_limit_from_crossings(row);

@@ -38,7 +38,7 @@ struct FittedStructure {
 [[nodiscard]] FittedStructure fitted_structure(const SampledStructure& structure, const ToolFrame& frame);
 
 /// The row of a speed. The crossings are those of the fit's poles, found and checked as limiting_depth() of
-/// stability.hpp does. Each is then followed, on a grid of its own depth, to where it lies with the remainder
+/// stability.hpp does. Each that bounds a stable range is then followed, on a grid of its own depth, to where it lies with the remainder
 /// (harmonic_gain()), so that the row is that of the lines less their noise. The estimate of a crossing adds
 ///
 ///  - twice the larger change of the depth if every second line alone is known: what their spacing leaves open;

@@ -193,7 +193,8 @@ FittedLines fitted(const SampledReceptance& samples) {
                      split(samples, within(all_sum, last)),
                      {},
                      growing_pole(all_sum, {&even_sum, &odd_sum}, samples)};
-  if (result.all.noise <= 1e-10) return result;
+  constexpr double negligible = 1e-6;  // single precision has a tenth of that
+  if (result.all.noise <= negligible) return result;
   result.without.resize(10);
   core::parallel_for(result.without.size(), [&](std::size_t i) {
     const SampledReceptance lines = without_every_tenth(samples, static_cast<Index>(i));

@@ -27,8 +27,8 @@ struct FittedReceptance {
 /// such poles in their place. What these differ in is what the lines leave open.
 struct FittedLines {
   FittedReceptance all, even, odd, within;
-  std::vector<FittedReceptance> without;  ///< ten fits, each without every tenth line; none where the lines have no
-                                          ///< noise above round-off
+  std::vector<FittedReceptance> without;        ///< ten fits, each without every tenth line; none where the noise is
+                                                ///< below 1e-6
   std::optional<std::complex<double>> growing;  ///< rad/s: the pole among the lines with Re > 0 that all fits have and
                                                 ///< that is largest; a passive structure has none
 };
