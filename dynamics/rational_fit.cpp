@@ -165,7 +165,7 @@ Eigen::VectorXcd zeros(const Eigen::VectorXcd& poles, const Eigen::VectorXd& c) 
   std::vector<complex<double>> found;
   for (complex<double> zero : eigen.eigenvalues()) {
     if (zero.imag() < 0.0 || zero == 0.0) continue;
-    // What grows without much of an oscillation is no resonance, but cancels another pole within the lines.
+    // A pole that grows without much of an oscillation is no resonance, but cancels another one within the lines.
     if (zero.real() > 0.5 * std::abs(zero)) zero.real(-zero.real());
     found.push_back(zero);
   }

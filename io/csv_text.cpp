@@ -86,7 +86,7 @@ bool is_header(const std::vector<std::string>& fields) {
 
 }  // namespace
 
-CsvText read_csv_text(const std::filesystem::path& path) {
+CsvText read_csv_table_text(const std::filesystem::path& path) {
   CsvText text;
   text.path = path;
   const std::string content = core::read_file(path);
@@ -114,6 +114,12 @@ CsvText read_csv_text(const std::filesystem::path& path) {
     }
     first = false;
   }
+  if (text.lines.empty() && text.header.empty()) throw core::DataError(path.string() + ": holds no line of data");
+  return text;
+}
+
+CsvText read_csv_text(const std::filesystem::path& path) {
+  CsvText text = read_csv_table_text(path);
   if (text.lines.empty()) throw core::DataError(path.string() + ": holds no line of data");
   return text;
 }

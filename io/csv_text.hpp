@@ -30,6 +30,9 @@ struct CsvText {
 /// line of data. Cost O(bytes).
 [[nodiscard]] CsvText read_csv_text(const std::filesystem::path& path);
 
+/// read_csv_text() of a table that may have no line below its header.
+[[nodiscard]] CsvText read_csv_table_text(const std::filesystem::path& path);
+
 /// The place of a line for messages, such as "file.csv:12".
 [[nodiscard]] std::string location(const CsvText& text, const CsvLine& line);
 

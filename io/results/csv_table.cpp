@@ -46,6 +46,7 @@ std::optional<double> infinity(const std::string& text) {
 }
 
 Column read_column(const CsvText& text, std::size_t index) {
+  if (text.lines.empty()) return {text.header[index], std::vector<double>{}};
   const auto filled = std::ranges::find_if(text.lines, [&](const CsvLine& l) { return !l.fields[index].empty(); });
   if (filled == text.lines.end() || !is_number(filled->fields[index])) {
     std::vector<std::string> words;
@@ -95,7 +96,7 @@ void write_csv(const std::filesystem::path& path, const Table& table, const std:
 }
 
 Table read_csv(const std::filesystem::path& path) {
-  const CsvText text = read_csv_text(path);
+  const CsvText text = read_csv_table_text(path);
   if (text.header.empty()) {
     throw core::DataError(location(text, text.lines.front()) + ": the columns have no names; add a header row");
   }

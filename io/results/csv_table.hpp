@@ -25,8 +25,8 @@ using Table = std::vector<Column>;
 void write_csv(const std::filesystem::path& path, const Table& table, const std::vector<std::string>& comments = {});
 
 /// Reads a table with one header row. A column contains numbers if its first field that is not empty is one ("inf"
-/// included), otherwise words. Throws DataError with file and line for a missing header, unequal lines, and NaN or a
-/// word among numbers.
+/// included), otherwise words; without any line, no numbers. Throws DataError with file and line for a missing header,
+/// unequal lines, and NaN or a word among numbers.
 [[nodiscard]] Table read_csv(const std::filesystem::path& path);
 
 /// The numbers of the column called `name`. Throws DataError, which proposes the nearest name, if there is none, or if

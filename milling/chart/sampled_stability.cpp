@@ -145,7 +145,7 @@ void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, Lo
   if (cut.process.cutter.depends_on_depth()) point.error_estimate += std::abs(change - 1.0);
 }
 
-/// The same of a row that is stable up to the depth limit: the change of |μ|.
+/// Adds to a row that is stable up to the depth limit what the lines leave open: twice the larger change of |μ| there.
 void compare_at_limit(const FittedStructure& structure, const MillingProcess& process, const StabilityOptions& options,
                       LobeRow& row) {
   const auto modulus = [&](const Fit& fit) {
@@ -175,7 +175,7 @@ LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& p
   LobeRow row = limiting_depth(structure.all.poles, process, spindle_speed_rpm, options);
   if (row.status == StabilityStatus::crossing_missed) return row;
   const CutAtSpeed cut = cut_at_speed(structure.all.poles, process, spindle_speed_rpm);
-  // What crosses while other multipliers are outside changes no limit, and stays where the poles have it.
+  // A crossing while other multipliers are outside changes no limit, and stays where the poles have it.
   int outside = 0;
   for (LobePoint& point : row.crossings) {
     const bool bounds = outside == 0 || outside + point.unstable_change == 0;

@@ -38,8 +38,9 @@ struct FittedStructure {
 [[nodiscard]] FittedStructure fitted_structure(const SampledStructure& structure, const ToolFrame& frame);
 
 /// The row of a speed. The crossings are those of the fit's poles, found and checked as limiting_depth() of
-/// stability.hpp does. Each that bounds a stable range is then followed, on a grid of its own depth, to where it lies with the remainder
-/// (harmonic_gain()), so that the row is that of the lines less their noise. The estimate of a crossing adds
+/// stability.hpp does. Each that bounds a stable range is then followed, on a grid of its own depth, to where it lies
+/// with the remainder (harmonic_gain()), so that the row is that of the lines less their noise. The estimate of a
+/// crossing adds
 ///
 ///  - twice the larger change of the depth if every second line alone is known: what their spacing leaves open;
 ///  - its change if the poles above the last line are static: what the range of the lines leaves open;
@@ -55,7 +56,7 @@ struct FittedStructure {
 [[nodiscard]] LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& process,
                                      double spindle_speed_rpm, const StabilityOptions& options);
 
-/// The same with a fit of its own.
+/// limiting_depth() of fitted_structure().
 [[nodiscard]] LobeRow limiting_depth(const SampledStructure& structure, const MillingProcess& process,
                                      double spindle_speed_rpm, const StabilityOptions& options);
 
@@ -64,7 +65,7 @@ struct FittedStructure {
                                     const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options,
                                     const KeptRows& kept = {});
 
-/// The same with a fit of its own.
+/// stability_lobes() of fitted_structure().
 [[nodiscard]] Lobes stability_lobes(const SampledStructure& structure, const MillingProcess& process,
                                     const std::vector<double>& spindle_speeds_rpm, const StabilityOptions& options,
                                     const KeptRows& kept = {});

@@ -299,11 +299,14 @@ TEST_F(LobesCommand, ToolsCutsAndSpeedsThatCannotBeAreRefusedWithTheirKey) {
   refused("teeth = 2", "teeth = 2\npitches = [\"360 deg\"]", "1 values for 2 teeth");
 }
 
-TEST_F(LobesCommand, HelixAndPitchesDoNotGoWithFrfs) {
-  write("tool.toml", with(tool_toml, "teeth = 2", "teeth = 2\nhelices = \"30 deg\""));
-  expect_refused(frf(path("tip.csv")), 3, "straight teeth only");
-  write("tool.toml", with(tool_toml, "teeth = 2", "teeth = 2\npitches = [\"170 deg\", \"190 deg\"]"));
-  expect_refused(frf(path("tip.csv")), 3, "equal pitches only");
+TEST_F(LobesCommand, HelixAndPitchesGoWithFrfsAsWithModes) {
+  for (const char* key : {"helices = \"30 deg\"", "pitches = [\"170 deg\", \"190 deg\"]"}) {
+    write("tool.toml", with(tool_toml, "teeth = 2", std::string("teeth = 2\n") + key));
+    ASSERT_EQ(lobes({path("modes.csv"), "--tool", path("tool.toml")}).code, 0) << key;
+    const double depth = summary()["lobes"][0]["minimum_depth_m"];
+    ASSERT_EQ(frf(path("tip.csv")).code, 0) << key;
+    EXPECT_NEAR(summary()["lobes"][0]["minimum_depth_m"].get<double>() / depth, 1.0, 2e-4) << key;
+  }
 }
 
 }  // namespace

@@ -57,9 +57,23 @@ TEST(LobesData, TheArraysAreTheFile) {
   EXPECT_TRUE(std::isnan(unpacked<float>(chart["truncation_m"])[1])) << "not known";
   EXPECT_EQ(chart["kind"], (Words{"hopf", "hopf", "flip"}));
   EXPECT_EQ(chart["status"], (Words{"converged", "stable_to_depth_limit", "not_converged"}));
+  write_chart(folder, {"data_limited", "data_insufficient", "converged"});
+  EXPECT_EQ(lobes_data(folder, summary())["lobes"][0]["status"], (Words{"converged", "not_converged", "converged"}));
   EXPECT_EQ(unpacked<double>(chart["crossings"]["depth_m"]), (Numbers{0.001, 0.004}));
   EXPECT_EQ(chart["tooth_passing_hz"], (Numbers{855.0, 1610.0}));
   EXPECT_DOUBLE_EQ(run["cutting"]["removal_cm3_per_min_per_m_rpm"].get<double>(), 8.0 / (0.01 * 2000.0));
+}
+
+TEST(LobesData, AChartWithoutAnyCrossingIsShown) {
+  const fs::path folder = result_folder("lobes_stable");
+  write_chart(folder, {"stable_to_depth_limit", "stable_to_depth_limit", "stable_to_depth_limit"});
+  io::write_csv(folder / "lobes" / "tool_crossings.csv", {{"spindle_speed_rpm", Numbers{}},
+                                                          {"depth_m", Numbers{}},
+                                                          {"chatter_frequency_hz", Numbers{}},
+                                                          {"bifurcation", Words{}}});
+  const json chart = lobes_data(folder, summary())["lobes"][0];
+  EXPECT_TRUE(unpacked<double>(chart["crossings"]["depth_m"]).empty());
+  EXPECT_EQ(chart["crossings"]["kind"], json::array());
 }
 
 TEST(LobesData, RobustLimitsAndOtherMethodsAreThereWhereTheCaseAsksForThem) {
