@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "io/results/csv_table.hpp"
 #include "report/page/arrays.hpp"
+#include "report/page/limit_text.hpp"
 #include "report/summary/write_json.hpp"
 
 namespace thinwall::report {
