@@ -75,6 +75,7 @@ class LobesCommand : public testing::Test {
     words.insert(words.begin(), {"thinwall", "lobes"});
     words.insert(words.end(), {"--out", path("results"), "-q"});
     std::vector<const char*> argv;
+    argv.reserve(words.size());
     for (const auto& word : words) argv.push_back(word.c_str());
     std::ostringstream out, err;
     const int code = run_command_line(static_cast<int>(argv.size()), argv.data(), run_case, out, err);
