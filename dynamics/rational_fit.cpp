@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "core/dense_eigenvalues.hpp"
 #include "core/dense_factorisations.hpp"
@@ -19,8 +20,6 @@ namespace {
 using Eigen::Index;
 using std::complex;
 using std::numbers::pi;
-
-constexpr int most_steps = 20;  // relocations of the poles: as a rule five are enough
 
 /// Lines and entries as the fit takes them. Frequencies are divided by the last one, so that columns are of one order.
 struct Lines {
@@ -204,24 +203,45 @@ double spacing_at(const Lines& lines, double s) {
   return lines.s(above).imag() - lines.s(above - 1).imag();
 }
 
-/// The fit after at most `steps` relocations of the poles.
-Fit fit(const Lines& lines, Eigen::VectorXcd poles, int steps) {
-  for (int step = 0; step < steps; ++step) {
-    core::check_interrupt();
-    const Eigen::VectorXcd next = zeros(poles, factor_coefficients(lines, basis(lines.s, poles)));
-    const bool done = settled(poles, next);
-    poles = next;
-    if (done) break;
-  }
-  // No line tells where a pole is that lies far beyond the lines, to which it is static, nor how high the peak of one
-  // is that is far sharper than the lines are close.
+/// The poles without those that lie far beyond the lines, to which they are static, and those that are far sharper than
+/// the lines are close, of whose peak no line tells how high it is.
+Eigen::VectorXcd resolved(const Lines& lines, const Eigen::VectorXcd& poles) {
   constexpr double far_beyond = 4.0, sharp = 0.05;
   std::vector<Index> kept;
   for (Index i = 0; i < poles.size(); ++i) {
-    const bool resolved = std::abs(poles(i).real()) >= sharp * spacing_at(lines, poles(i).imag());
-    if (resolved && std::abs(poles(i)) <= far_beyond) kept.push_back(i);
+    const bool wide = std::abs(poles(i).real()) >= sharp * spacing_at(lines, poles(i).imag());
+    if (wide && std::abs(poles(i)) <= far_beyond) kept.push_back(i);
   }
-  return with_poles(lines, Eigen::VectorXcd(poles(kept)));
+  return poles(kept);
+}
+
+Eigen::VectorXcd relocated(const Lines& lines, const Eigen::VectorXcd& poles) {
+  core::check_interrupt();
+  return zeros(poles, factor_coefficients(lines, basis(lines.s, poles)));
+}
+
+/// The fit after at most `steps` relocations of the poles.
+Fit fit(const Lines& lines, Eigen::VectorXcd poles, int steps) {
+  for (int step = 0; step < steps; ++step) {
+    const Eigen::VectorXcd before = std::exchange(poles, relocated(lines, poles));
+    if (settled(before, poles)) break;
+  }
+  return with_poles(lines, resolved(lines, poles));
+}
+
+/// The best fit on the way of the poles through relocations, until two of them gain no more than a thousandth. It may
+/// be the first: poles that the lines do not need wander once the others are where they belong, and take these with
+/// them.
+Fit improved(const Lines& lines, Eigen::VectorXcd poles) {
+  constexpr int most_steps = 20;
+  Fit best = with_poles(lines, resolved(lines, poles));
+  for (int step = 0, idle = 0; step < most_steps && idle < 2; ++step) {
+    poles = relocated(lines, poles);
+    const Fit next = with_poles(lines, resolved(lines, poles));
+    idle = next.weighed < 0.999 * best.weighed ? 0 : idle + 1;
+    if (next.weighed < best.weighed) best = next;
+  }
+  return best;
 }
 
 PartialFractions unscaled(const Fit& fit, const Lines& lines, Index rows, Index columns) {
@@ -277,7 +297,7 @@ PartialFractions vector_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::
     throw core::InputError("rational fit: " + std::to_string(hz.size()) + " lines for " + std::to_string(poles.size()) +
                            " poles; more than " + std::to_string(unknowns) + " lines and one pole at least are needed");
   }
-  return unscaled(fit(lines, poles / lines.omega, most_steps), lines, H.front().rows(), H.front().cols());
+  return unscaled(improved(lines, poles / lines.omega), lines, H.front().rows(), H.front().cols());
 }
 
 PartialFractions rational_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H) {
@@ -297,7 +317,7 @@ PartialFractions rational_fit(const Eigen::VectorXd& hz, const std::vector<Eigen
     tries = -1;
     if (best.weighed <= enough) break;
   }
-  return unscaled(fit(lines, best.poles, most_steps), lines, H.front().rows(), H.front().cols());
+  return unscaled(improved(lines, best.poles), lines, H.front().rows(), H.front().cols());
 }
 
 }  // namespace thinwall::dynamics

@@ -31,11 +31,12 @@ struct PartialFractions {
 ///     (c₀ + Σ c_n φ_n(ω)) H(ω) = d + Σ r_n φ_n(ω)      in least squares over the lines,
 ///
 /// where c is common to all entries and r and d are not; the zeros of the factor on the left are the next poles, at
-/// most twenty times. Then poles are left out that lie above four times the last line, or whose half width is below a
-/// twentieth of the distance between lines, and residues and D follow by linear least squares. Lines are weighed by
-/// 1/√‖H‖, so that neither the peaks nor what lies between them count alone. The poles are found from the three linear
-/// combinations of the entries (real coefficients) that hold most of the matrix. Throws InputError unless the lines are
-/// as said and more than twice as many as the unknowns of an entry, Interrupted. Cost: a step O(lines pairs²).
+/// most twenty times, and the best on the way counts. Poles are left out that lie above four times the last line, or
+/// whose half width is below a twentieth of the distance between lines, and residues and D follow by linear least
+/// squares. Lines are weighed by 1/√‖H‖, so that neither the peaks nor what lies between them count alone. The poles
+/// are found from the three linear combinations of the entries (real coefficients) that hold most of the matrix. Throws
+/// InputError unless the lines are as said and more than twice as many as the unknowns of an entry, Interrupted. Cost:
+/// a step O(lines pairs²).
 [[nodiscard]] PartialFractions vector_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H,
                                           const Eigen::VectorXcd& poles);
 

@@ -140,6 +140,23 @@ TEST(RationalFit, TakesAStaticPartAndAPoleThatDoesNotOscillate) {
   }
 }
 
+TEST(RationalFit, StaysWhereItIsExactWhateverOtherPolesDo) {
+  std::mt19937_64 random(19);
+  for (int i = 0; i < 20; ++i) {
+    const Modes modes = random_modes(random, 3);
+    const Eigen::VectorXd hz = axis_of(modes, 1.0, 1300.0);
+    Eigen::VectorXcd poles(5);
+    for (int k = 0; k < 3; ++k) {
+      const double natural = 2.0 * pi * modes.hz(k), damping = modes.damping(k);
+      poles(k) = natural * complex<double>(-damping, std::sqrt(1.0 - damping * damping));
+    }
+    poles(3) = -uniform(random, 100.0, 5000.0);
+    poles(4) = 2.0 * pi * uniform(random, 100.0, 2000.0) * complex<double>(-0.1, 1.0);
+    const PartialFractions fit = vector_fit(hz, lines_of(modes, hz), poles);
+    EXPECT_LT(error(fit, modes, hz(0), 1300.0).largest, 1e-9) << i;
+  }
+}
+
 TEST(RationalFit, RefusesWhatCannotBeFitted) {
   const Eigen::VectorXd five = Eigen::VectorXd::LinSpaced(5, 1.0, 5.0);
   const std::vector<Eigen::MatrixXcd> ones(5, Eigen::MatrixXcd::Ones(1, 1));
