@@ -229,17 +229,16 @@ Fit fit(const Lines& lines, Eigen::VectorXcd poles, int steps) {
   return with_poles(lines, resolved(lines, poles));
 }
 
-/// The best fit on the way of the poles through relocations, until two of them gain no more than a thousandth. It may
-/// be the first: poles that the lines do not need wander once the others are where they belong, and take these with
-/// them.
+/// The best fit on the way of the poles through twenty relocations, or until they settle. It may be the first: poles
+/// that the lines do not need wander once the others are where they belong, and take these with them.
 Fit improved(const Lines& lines, Eigen::VectorXcd poles) {
   constexpr int most_steps = 20;
   Fit best = with_poles(lines, resolved(lines, poles));
-  for (int step = 0, idle = 0; step < most_steps && idle < 2; ++step) {
-    poles = relocated(lines, poles);
+  for (int step = 0; step < most_steps; ++step) {
+    const Eigen::VectorXcd before = std::exchange(poles, relocated(lines, poles));
     const Fit next = with_poles(lines, resolved(lines, poles));
-    idle = next.weighed < 0.999 * best.weighed ? 0 : idle + 1;
     if (next.weighed < best.weighed) best = next;
+    if (settled(before, poles)) break;
   }
   return best;
 }
