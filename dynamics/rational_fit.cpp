@@ -1,7 +1,6 @@
 #include "dynamics/rational_fit.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -161,6 +160,8 @@ Eigen::VectorXcd zeros(const Eigen::VectorXcd& poles, const Eigen::VectorXd& c) 
     ++at;
   }
   const Eigen::EigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(A - b * c.head(n).transpose() / constant), false);
+  if (eigen.info() != Eigen::Success)
+    throw core::NumericalError("rational fit: the poles were not found; check the lines for entries of other orders");
   std::vector<complex<double>> found;
   for (complex<double> zero : eigen.eigenvalues()) {
     if (zero.imag() < 0.0 || zero == 0.0) continue;
@@ -217,6 +218,7 @@ Eigen::VectorXcd resolved(const Lines& lines, const Eigen::VectorXcd& poles) {
 
 Eigen::VectorXcd relocated(const Lines& lines, const Eigen::VectorXcd& poles) {
   core::check_interrupt();
+  if (poles.size() == 0) return poles;  // the static part alone
   return zeros(poles, factor_coefficients(lines, basis(lines.s, poles)));
 }
 

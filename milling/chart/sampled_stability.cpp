@@ -12,7 +12,6 @@
 #include "milling/direct/cut_at_speed.hpp"
 #include "milling/direct/fitted_receptance.hpp"
 #include "milling/direct/harmonic_gain.hpp"
-#include "milling/direct/row_search.hpp"
 #include "milling/direct/stability.hpp"
 
 namespace thinwall::milling {
@@ -105,7 +104,8 @@ double largest_change(const CrossingGrid& grid, const Crossing& crossing, const 
   double largest = 0.0;
   for (const Fit* fit : fits) {
     const std::optional<double> depth_m = grid.depth_by(*fit, crossing);
-    largest = std::max(largest, depth_m ? std::abs(*depth_m / crossing.depth_m - 1.0) : 1.0);
+    const double change = depth_m ? std::abs(*depth_m / crossing.depth_m - 1.0) : 1.0;
+    largest = std::max(largest, std::isfinite(change) ? change : 1.0);  // the larger of a number and NaN is the number
   }
   return largest;
 }
@@ -185,7 +185,8 @@ LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& p
   std::ranges::stable_sort(row.crossings, {}, &LobePoint::depth_m);
   if (row.at_limit) compare_at_limit(structure, process, options, row);
   take_limit_from_crossings(row);
-  if (row.status == StabilityStatus::converged && row.error_estimate > options.error_tolerance) {
+  // An estimate that is no number meets no tolerance.
+  if (row.status == StabilityStatus::converged && !(row.error_estimate <= options.error_tolerance)) {
     constexpr double answers_to = 0.1;
     row.status = row.error_estimate <= answers_to ? StabilityStatus::data_limited : StabilityStatus::data_insufficient;
   }

@@ -157,6 +157,13 @@ TEST(RationalFit, StaysWhereItIsExactWhateverOtherPolesDo) {
   }
 }
 
+TEST(RationalFit, OfASpringIsItsCompliance) {
+  const Eigen::VectorXd hz = Eigen::VectorXd::LinSpaced(40, 1.0, 100.0);
+  const PartialFractions fit =
+      rational_fit(hz, std::vector<Eigen::MatrixXcd>(40, Eigen::MatrixXcd::Constant(1, 1, 2e-6)));
+  for (const double at : {0.0, 33.3, 100.0}) EXPECT_LT(std::abs(value(fit, 2.0 * pi * at)(0, 0) - 2e-6), 1e-14) << at;
+}
+
 TEST(RationalFit, RefusesWhatCannotBeFitted) {
   const Eigen::VectorXd five = Eigen::VectorXd::LinSpaced(5, 1.0, 5.0);
   const std::vector<Eigen::MatrixXcd> ones(5, Eigen::MatrixXcd::Ones(1, 1));

@@ -70,7 +70,7 @@ MillingProcess random_cut(Draws& draw) {
   return process;
 }
 
-/// What rows have come to.
+/// Counts of rows by error and estimate.
 struct Tally {
   int rows = 0, beyond = 0;
   double worst = 0.0;  ///< largest error over estimate
@@ -102,6 +102,17 @@ StabilityOptions first_only() {
   return options;
 }
 
+/// Adds the row of lines against that of the poles. Lines are refused where a tooth passing lies beyond them, or where
+/// a few of them show no resonance.
+void compare(const SampledReceptance& lines, const RelativeStructure& poles, const MillingProcess& process, double rpm,
+             Tally& tally) {
+  try {
+    tally.add(limiting_depth(SampledStructure{lines, {}}, process, rpm, first_only()),
+              limiting_depth(poles, process, rpm, first_only()));
+  } catch (const core::InputError&) {
+  }
+}
+
 TEST(SampledLines, NoDepthIsFurtherOffThanClaimedWhateverTheSpacing) {
   Draws draw(1);
   Tally tally;
@@ -111,11 +122,7 @@ TEST(SampledLines, NoDepthIsFurtherOffThanClaimedWhateverTheSpacing) {
     const double rpm = draw.uniform(2000.0, 15000.0);
     const SampledReceptance lines = lines_of(structure.poles, 0.3 * structure.lowest_hz, 3.0 * structure.highest_hz,
                                              draw.logarithmic(0.1, 3.0) * structure.half_width_hz);
-    try {
-      tally.add(limiting_depth(SampledStructure{lines, {}}, process, rpm, first_only()),
-                limiting_depth(structure.poles, process, rpm, first_only()));
-    } catch (const core::InputError&) {  // a tooth passing beyond the lines, or no resonance among a few of them
-    }
+    compare(lines, structure.poles, process, rpm, tally);
   }
   tally.print("spacing");
   EXPECT_GE(tally.rows, structures / 2);
@@ -132,11 +139,7 @@ TEST(SampledLines, NoDepthIsFurtherOffThanClaimedWhereTheBandEndsEarly) {
     const SampledReceptance lines =
         lines_of(structure.poles, draw.uniform(0.05, 0.9) * structure.lowest_hz,
                  draw.uniform(0.6, 1.5) * structure.highest_hz, draw.logarithmic(0.1, 1.0) * structure.half_width_hz);
-    try {
-      tally.add(limiting_depth(SampledStructure{lines, {}}, process, rpm, first_only()),
-                limiting_depth(structure.poles, process, rpm, first_only()));
-    } catch (const core::InputError&) {
-    }
+    compare(lines, structure.poles, process, rpm, tally);
   }
   tally.print("range");
   EXPECT_GE(tally.rows, structures / 4);
@@ -157,11 +160,7 @@ TEST(SampledLines, NoiseIsInTheEstimate) {
       for (auto& entry : H.topLeftCorner<2, 2>().reshaped())
         entry *= 1.0 + noise * std::complex<double>(draw.normal(), draw.normal());
     }
-    try {
-      tally.add(limiting_depth(SampledStructure{lines, {}}, process, rpm, first_only()),
-                limiting_depth(structure.poles, process, rpm, first_only()));
-    } catch (const core::InputError&) {
-    }
+    compare(lines, structure.poles, process, rpm, tally);
   }
   tally.print("noise");
   EXPECT_GE(tally.rows, structures / 2);

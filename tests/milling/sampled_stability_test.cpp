@@ -234,7 +234,7 @@ TEST(SampledStability, AMotionThatGrowsIsNamedAndTheChartIsThatOfTheLinesElsewhe
   const FittedStructure fit = fitted_structure({lines, {}}, {});
   ASSERT_TRUE(fit.growing);
   EXPECT_LT(std::abs(*fit.growing - pole), 1e-6 * std::abs(pole));
-  // The same motion as it would decay, by its pole.
+  // This structure has that motion as it would decay, by its pole.
   RelativeStructure decaying = benchmark_structure();
   RelativeStructure motion{Eigen::VectorXcd::Constant(1, -std::conj(pole)), Eigen::Matrix3Xcd::Zero(3, 1),
                            Eigen::Matrix3Xcd::Zero(3, 1)};
