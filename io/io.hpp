@@ -12,6 +12,7 @@
 #include "io/frf/mat_response.hpp"
 #include "io/frf/measured_response.hpp"
 #include "io/frf/modal_table_csv.hpp"
+#include "io/frf/resample.hpp"
 #include "io/frf/response_csv.hpp"
 #include "io/frf/uff.hpp"
 #include "io/frf/uff_function.hpp"

@@ -15,6 +15,7 @@
 #include "io/frf/frf_csv.hpp"
 #include "io/frf/frf_cutpro.hpp"
 #include "io/frf/mat_response.hpp"
+#include "io/frf/resample.hpp"
 #include "io/frf/uff.hpp"
 #include "reduction/damping.hpp"
 #include "setup/measured_layout.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "io/frf/resample.hpp"
 #include "setup/measured.hpp"
 #include "setup/measured_layout.hpp"
 

@@ -11,6 +11,7 @@
 #include "core/overloaded.hpp"
 #include "dynamics/conversion.hpp"
 #include "io/frf/modal_table_csv.hpp"
+#include "io/frf/resample.hpp"
 #include "robot/arm_kinematics.hpp"
 #include "robot/flexible_joints.hpp"
 #include "robot/inverse_kinematics.hpp"

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/messages.hpp"
 #include "dynamics/conversion.hpp"
+#include "io/frf/resample.hpp"
 #include "milling/direct/passivity.hpp"
 #include "setup/measured.hpp"
 #include "setup/robot_tip.hpp"

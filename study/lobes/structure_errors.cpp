@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "coupling/error_budget.hpp"
+#include "io/frf/resample.hpp"
 #include "milling/chart/sensitivity.hpp"
 #include "setup/measured.hpp"
 #include "setup/measured_noise.hpp"

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/messages.hpp"
 #include "io/frf/measured_response.hpp"
+#include "io/frf/resample.hpp"
 #include "setup/measured.hpp"
 #include "setup/measured_layout.hpp"
 

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "io/frf/resample.hpp"
 #include "scratch_folder.hpp"
 
 namespace thinwall::io::test::frf_csv_test {
