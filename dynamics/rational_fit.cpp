@@ -73,6 +73,9 @@ Eigen::MatrixXd least_squares(Eigen::MatrixXd A, const Eigen::MatrixXd& b) {
 Eigen::MatrixXcd main_combinations(const Eigen::MatrixXcd& entries, const Eigen::VectorXcd& weight) {
   const Eigen::MatrixXd weighed = stacked(weight.asDiagonal() * entries);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(weighed.transpose() * weighed));
+  if (eigen.info() != Eigen::Success)
+    throw core::NumericalError(
+        "rational fit: the entries were not combined; check the lines for entries of other orders");
   const auto& size = eigen.eigenvalues();
   const double least = 1e-20 * size(size.size() - 1);
   const Index count = std::min<Index>(3, (size.array() > least).count());
@@ -216,6 +219,7 @@ Eigen::VectorXcd resolved(const Lines& lines, const Eigen::VectorXcd& poles) {
   return poles(kept);
 }
 
+/// The poles of the next step.
 Eigen::VectorXcd relocated(const Lines& lines, const Eigen::VectorXcd& poles) {
   core::check_interrupt();
   if (poles.size() == 0) return poles;  // the static part alone

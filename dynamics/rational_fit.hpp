@@ -36,7 +36,7 @@ struct PartialFractions {
 /// squares. Lines are weighed by 1/√‖H‖, so that neither the peaks nor what lies between them count alone. The poles
 /// are found from the three linear combinations of the entries (real coefficients) that hold most of the matrix. Throws
 /// InputError unless the lines are as said and more than twice as many as the unknowns of an entry, NumericalError if
-/// an eigen-solution fails, Interrupted. Cost: a step O(lines pairs²).
+/// an eigen-solution fails, as where an undamped pole lies on a line, Interrupted. Cost: a step O(lines pairs²).
 [[nodiscard]] PartialFractions vector_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H,
                                           const Eigen::VectorXcd& poles);
 

@@ -52,13 +52,13 @@ Eigen::VectorXcd interpolated(const MeasuredFrf& frf, const Eigen::VectorXcd& va
                           "; narrow the frequency range of the case or measure further");
   }
   points = std::min(points, x.size());
-  Eigen::VectorXcd on_axis(axis.size());
+  Eigen::VectorXcd there(axis.size());
   for (Eigen::Index line = 0; line < axis.size(); ++line) {
     const auto above = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), axis.hz(line)) - x.begin());
     const std::size_t first = std::min(above - std::min(above, points / 2), x.size() - points);
-    on_axis(line) = interpolate(x.subspan(first, points), y.subspan(first, points), axis.hz(line));
+    there(line) = interpolate(x.subspan(first, points), y.subspan(first, points), axis.hz(line));
   }
-  return on_axis;
+  return there;
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace thinwall::io {
 /// structure of up to 40 modes without noise come out to round-off, even if they lie three half widths of a resonance
 /// apart, where a cubic through H itself would be off by half of the peak. With fewer than 14 lines there is the cubic
 /// alone. Throws DataError, with both ranges, if the axis extends beyond the measured one, because nothing is
-/// extrapolated; Interrupted. Cost: that of the fit.
+/// extrapolated; what rational_fit() throws. Cost: that of the fit.
 [[nodiscard]] Eigen::VectorXcd resample(const MeasuredFrf& frf, const dynamics::FrequencyAxis& axis);
 
 /// The coherence on another axis, interpolated linearly; equal lines are unchanged. Empty if there is none. Throws

@@ -164,6 +164,14 @@ TEST(RationalFit, OfASpringIsItsCompliance) {
   for (const double at : {0.0, 33.3, 100.0}) EXPECT_LT(std::abs(value(fit, 2.0 * pi * at)(0, 0) - 2e-6), 1e-14) << at;
 }
 
+TEST(RationalFit, TellsOfAnUndampedPoleOnALine) {
+  std::mt19937_64 random(20);
+  const Modes modes = random_modes(random, 2);
+  const Eigen::VectorXd hz = axis_of(modes, 1.0, 1300.0);
+  const Eigen::VectorXcd on_a_line = Eigen::VectorXcd::Constant(1, complex<double>(0.0, 2.0 * pi * hz(hz.size() - 1)));
+  EXPECT_THROW((void)vector_fit(hz, lines_of(modes, hz), on_a_line), core::NumericalError);
+}
+
 TEST(RationalFit, RefusesWhatCannotBeFitted) {
   const Eigen::VectorXd five = Eigen::VectorXd::LinSpaced(5, 1.0, 5.0);
   const std::vector<Eigen::MatrixXcd> ones(5, Eigen::MatrixXcd::Ones(1, 1));
