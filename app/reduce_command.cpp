@@ -162,7 +162,7 @@ reduction::Positions positions_of(const cases::Case& source, const fem::Model& m
   reduction::Positions positions;
   for (const std::string& name : source.reduction.interface) {
     const fem::NamedPoint p = setup::named_point(source, name);
-    const fem::Patch disc = fem::Disc{p.position_m, p.patch_radius_m, p.off_m};
+    const fem::Patch disc = fem::disc_of(p);
     const Eigen::Vector3d x =
         model.mesh.tets.empty() ? p.position_m : fem::patch_average(model.mesh, model.nodes, disc, name).centre_m;
     if (!x.allFinite()) return {};

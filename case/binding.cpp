@@ -180,6 +180,7 @@ std::vector<setup::Point> bind_points(const Table& table) {
     bound.offset = point.vector("offset");
     bound.patch_radius = point.number("patch_radius");
     bound.rigid = point.text("connection") == "rigid";
+    if (point.has("face")) bound.face = point.text("face");
     bound.directions = point.directions("directions");
     list.push_back(std::move(bound));
   }

@@ -7,7 +7,6 @@
 #include "core/error.hpp"
 #include "fem/face_points.hpp"
 #include "fem/reference_element.hpp"
-#include "mesh/solid/locate.hpp"
 
 namespace thinwall::fem {
 
@@ -46,8 +45,7 @@ struct Sums {
 /// Adds the samples of a disc to the sums.
 void add_samples(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes, const Disc& disc, const std::string&,
                  Sums& sums) {
-  for (const mesh::PatchSample& sample :
-       mesh::patch_samples(mesh, mesh::boundary(mesh), disc.centre_m, disc.radius_m, disc.off_m)) {
+  for (const mesh::PatchSample& sample : mesh::patch_samples(mesh, mesh::boundary(mesh), disc)) {
     const Eigen::VectorXd N = shape_functions(nodes.order, sample.location.lambda);
     const Eigen::VectorXi row = nodes.elements.row(sample.location.tet);
     const std::vector<int> of_element(row.begin(), row.end());

@@ -9,16 +9,12 @@
 
 #include "mesh/lagrange_nodes.hpp"
 #include "mesh/selection.hpp"
+#include "mesh/solid/locate.hpp"
 #include "mesh/tet_mesh.hpp"
 
 namespace thinwall::fem {
 
-/// A disc about a point on the surface (m), cut off where it leaves the surface; with radius 0 it is the point itself.
-struct Disc {
-  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
-  double radius_m = 0.0;
-  double off_m = 0.0;  ///< allowed distance of the mesh from the true surface, on which the centre lies
-};
+using mesh::Disc;
 
 /// A patch: a disc, or all faces of a region. Both are looked up on the straight mesh.
 using Patch = std::variant<Disc, mesh::Region>;

@@ -34,9 +34,12 @@ double add_column(const Model& model, const RowMap& rows, const PatchAverage& av
 
 }  // namespace
 
+mesh::Disc disc_of(const NamedPoint& point) {
+  return {point.position_m, point.patch_radius_m, point.off_m, point.facing.empty() ? point.directions : point.facing};
+}
+
 linalg::SparseMatrix point_columns(const Model& model, const NamedPoint& point) {
-  const Patch patch =
-      point.faces ? Patch(*point.faces) : Patch(Disc{point.position_m, point.patch_radius_m, point.off_m});
+  const Patch patch = point.faces ? Patch(*point.faces) : Patch(disc_of(point));
   const PatchAverage average = patch_average(model.mesh, model.nodes, patch, point.name);
   const Eigen::Matrix3d J_inverse = point.turns.empty() ? Eigen::Matrix3d::Zero() : inverse_spread(average, point.name);
   const RowMap rows = row_map(model.nodes.positions.rows(), model.free_rows, model.rigid);

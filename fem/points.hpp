@@ -9,6 +9,7 @@
 #include "fem/model.hpp"
 #include "linalg/sparse.hpp"
 #include "mesh/selection.hpp"
+#include "mesh/solid/locate.hpp"
 
 namespace thinwall::fem {
 
@@ -22,7 +23,11 @@ struct NamedPoint {
   std::vector<Eigen::Vector3d> turns{};     ///< unit vectors about which its rotation is wanted
   std::optional<mesh::Region> faces{};      ///< the patch, if it is not the disc about the position
   double off_m = 0.0;                       ///< Disc::off_m of the disc
+  std::vector<Eigen::Vector3d> facing{};    ///< Disc::facing of the disc; empty: the directions
 };
+
+/// The disc of a point.
+[[nodiscard]] mesh::Disc disc_of(const NamedPoint& point);
 
 /// The columns W of a point over the free rows, rows × (directions + turns). The column of a direction n gives wᵀu = n
 /// · ∫ u dA / ∫ dA over the patch (or n · u at the position), from the shape functions at the patch's samples; as a

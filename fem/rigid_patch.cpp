@@ -21,7 +21,7 @@ std::vector<int> nodes_in(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& 
 /// straight mesh, on which a disc is looked up.
 std::vector<int> nodes_in(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes, const Disc& disc,
                           const std::string& /*name*/) {
-  const mesh::DiscFace face = mesh::disc_face(mesh, mesh::boundary(mesh), disc.centre_m, disc.radius_m, disc.off_m);
+  const mesh::DiscFace face = mesh::disc_face(mesh, mesh::boundary(mesh), disc);
   const auto straight = mesh::lagrange_nodes(mesh, nodes.order);
   std::vector<int> chosen = mesh::nodes_on(nodes, mesh, face.triangles);
   std::erase_if(chosen, [&](int node) {

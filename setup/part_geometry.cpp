@@ -105,9 +105,19 @@ double off_surface(const Part& part) {
   return solid->midside_offset * longest;
 }
 
+std::vector<Eigen::Vector3d> facing(const PartSetup& source, const Point& point) {
+  if (point.face.empty()) return point.directions;
+  return {std::get<mesh::PlaneRegion>(region_of(source, point.face)).normal.normalized()};
+}
+
+mesh::Disc disc_of(const PartSetup& source, const Point& point) {
+  return {position(*source.part, point), point.patch_radius, off_surface(*source.part), facing(source, point)};
+}
+
 fem::NamedPoint named_point(const PartSetup& source, const std::string& name) {
   const Point& p = point(source, name);
-  return {p.name, position(*source.part, p), p.patch_radius, p.directions, {}, {}, off_surface(*source.part)};
+  const mesh::Disc disc = disc_of(source, p);
+  return {p.name, disc.centre_m, disc.radius_m, p.directions, {}, {}, disc.off_m, disc.facing};
 }
 
 fem::ModeOptions mode_options(const PartSetup& source) {

@@ -49,6 +49,13 @@ struct PlanarPart {
 /// surface itself); what the edges of a file's curved elements bow by.
 [[nodiscard]] double off_surface(const Part& part);
 
+/// Directions that choose the face of a point's patch (mesh::Disc::facing): the normal of points.NAME.face, or else the
+/// point's directions.
+[[nodiscard]] std::vector<Eigen::Vector3d> facing(const PartSetup& source, const Point& point);
+
+/// The disc of a point's patch.
+[[nodiscard]] mesh::Disc disc_of(const PartSetup& source, const Point& point);
+
 /// The point of that name as the finite elements take it. Throws InputError with the nearest name if there is none.
 [[nodiscard]] fem::NamedPoint named_point(const PartSetup& source, const std::string& name);
 

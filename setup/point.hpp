@@ -41,6 +41,7 @@ struct Point {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< m
   double patch_radius = 0.0;                         ///< m; 0: the nearest node alone
   bool rigid = false;                                ///< the patch moves as one body
+  std::string face;                                  ///< plane on which the patch lies, where faces meet; "": by rule
   std::vector<Eigen::Vector3d> directions;           ///< unit vectors
 };
 

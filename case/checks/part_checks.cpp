@@ -167,6 +167,26 @@ void check_node(const Case& source, const setup::Point& point, Findings& finding
                   "the part's file has no " + which + " (nodes are numbered " + range + ")");
 }
 
+/// Checks the face on which a point's patch is to lie.
+void check_face(const Case& source, const setup::Point& point, Findings& findings) {
+  if (point.face.empty()) return;
+  const std::string key = "points." + point.name + ".face";
+  std::vector<std::string> known(mesh::face_names().begin(), mesh::face_names().end());
+  for (const auto& selection : source.selections)
+    if (selection.plane) known.push_back(selection.name);
+  if (std::ranges::find(known, point.face) == known.end())
+    return findings.require_known(key, point.face, known, "face or selection of a plane");
+  if (point.patch_radius <= 0.0)
+    return findings.report(key, "a face is chosen for a patch; give points." + point.name + ".patch_radius");
+  if (!source.part || !geometry_known(*source.part)) return;
+  const auto plane = std::get<mesh::PlaneRegion>(setup::region_of(source, point.face));
+  const double off =
+      std::abs((setup::position(*source.part, point) - plane.point).dot(plane.normal)) / plane.normal.norm();
+  if (off > 1e-6 * setup::bounds(*source.part).diagonal().norm())
+    findings.report(key, "the point lies " + core::readable_text(off, core::kind::length) + " off the plane of \"" +
+                             point.face + "\"; move it there, or name a face that it lies on");
+}
+
 void check_point(const Case& source, const setup::Point& point, Findings& findings) {
   const std::string key = "points." + point.name;
   const bool matrices = source.part && setup::kind(*source.part) == setup::ShapeKind::matrices;
@@ -179,6 +199,7 @@ void check_point(const Case& source, const setup::Point& point, Findings& findin
     const std::string outside = outside_part(*source.part, setup::position(*source.part, point), point.patch_radius);
     if (!outside.empty()) findings.report(point.at ? key + ".at" : key + ".position", outside);
   }
+  check_face(source, point, findings);
   if (!independent(point.directions)) {
     findings.report(key + ".directions", "the directions must be independent, three at most");
   }

@@ -101,6 +101,7 @@ constexpr Key case_keys[] = {
     Key{"points.*.connection", Type::choice, kind::number, "\"averaging\"", any, "averaging|rigid", "How masses and springs hold on to its patch. `rigid`: the patch moves as one body, which stiffens the part."},
     Key{"points.*.offset", Type::vector, kind::length, "[0, 0, 0]", any, "", "Added to the position."},
     Key{"points.*.patch_radius", Type::quantity, kind::length, "0", not_negative, "", "The point stands for the mean motion of the surface within this radius; 0 for a single node."},
+    Key{"points.*.face", Type::name, kind::number, "", any, "", "A face of the box around the part, or a selection of a plane, on which the patch lies. Where faces meet, at an edge or a corner, and none is given, it is the face to which the first direction is most nearly normal; between equals the next direction decides."},
     Key{"points.*.directions", Type::directions, kind::number, "[\"x\", \"y\", \"z\"]", any, "", "Directions in which it can be loaded and watched."},
 
     Key{"modes.count", Type::integer, kind::number, "", {1, 2000, false, false, false, ""}, "", "Number of modes."},

@@ -47,6 +47,12 @@ double diagonal(const TetMesh& mesh) {
   return (high - low).norm();
 }
 
+/// The point of a triangle nearest to x.
+Eigen::Vector3d nearest_on(const TetMesh& mesh, const BoundaryTriangle& triangle, const Eigen::Vector3d& x) {
+  const auto& v = triangle.vertices;
+  return nearest_on_triangle(x, vertex(mesh, v[0]), vertex(mesh, v[1]), vertex(mesh, v[2]));
+}
+
 /// The boundary triangle nearest to a point, and its point nearest to it.
 struct OnBoundary {
   const BoundaryTriangle* triangle = nullptr;
@@ -56,8 +62,7 @@ struct OnBoundary {
 OnBoundary nearest(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary, const Eigen::Vector3d& x) {
   OnBoundary best;
   for (const auto& triangle : boundary) {
-    const auto& v = triangle.vertices;
-    const Eigen::Vector3d p = nearest_on_triangle(x, vertex(mesh, v[0]), vertex(mesh, v[1]), vertex(mesh, v[2]));
+    const Eigen::Vector3d p = nearest_on(mesh, triangle, x);
     if ((p - x).norm() < best.distance_m) best = {&triangle, p, (p - x).norm()};
   }
   return best;
@@ -83,6 +88,37 @@ Eigen::Vector3d normal(const TetMesh& mesh, const BoundaryTriangle& triangle) {
   return (vertex(mesh, v[1]) - a).cross(vertex(mesh, v[2]) - a).normalized();
 }
 
+/// True if two normals differ by less than 30°, as those of the pieces of a curved face do.
+bool alike(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a.dot(b) > std::cos(std::numbers::pi / 6.0);
+}
+
+/// True if a disc lies on a face of normal a rather than on one of normal b (Disc::facing).
+bool preferred(const Disc& disc, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const auto by = [&](const Eigen::Vector3d& d) { return std::abs(a.dot(d)) - std::abs(b.dot(d)); };
+  constexpr double equal = 1e-6;
+  for (const Eigen::Vector3d& d : disc.facing)
+    if (std::abs(by(d)) > equal) return by(d) > 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(by(Eigen::Vector3d::Unit(axis))) > equal) return by(Eigen::Vector3d::Unit(axis)) > 0.0;
+  return false;
+}
+
+/// The triangle on which a disc lies: of those as near to the centre as the nearest one, within the tolerance (m), the
+/// preferred().
+OnBoundary chosen(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary, const Disc& disc,
+                  double tolerance) {
+  OnBoundary best = nearest(mesh, boundary, disc.centre_m);
+  const double within = best.distance_m + tolerance;
+  for (const auto& triangle : boundary) {
+    const Eigen::Vector3d p = nearest_on(mesh, triangle, disc.centre_m);
+    const double distance = (p - disc.centre_m).norm();
+    if (distance <= within && preferred(disc, normal(mesh, triangle), normal(mesh, *best.triangle)))
+      best = {&triangle, p, distance};
+  }
+  return best;
+}
+
 }  // namespace
 
 Located locate(const TetMesh& mesh, const Eigen::Vector3d& x) {
@@ -101,36 +137,39 @@ Located locate(const TetMesh& mesh, const Eigen::Vector3d& x) {
   return {best, (position(mesh, best) - x).norm()};
 }
 
-DiscFace disc_face(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary, const Eigen::Vector3d& x,
-                   double radius_m, double off_m) {
+DiscFace disc_face(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary, const Disc& disc) {
   const double tolerance = 1e-6 * diagonal(mesh);
-  const OnBoundary centre = nearest(mesh, boundary, x);
-  if (centre.distance_m > tolerance + off_m)
-    off_the_part(x, centre.distance_m, "the part's surface, where a patch must lie");
-  DiscFace face{centre.point, normal(mesh, *centre.triangle), tolerance, {*centre.triangle}};
-  if (off_m > 0.0) face.depth_m += off_m + 0.25 * radius_m;
-  const double reach = radius_m + face.depth_m;
+  const OnBoundary centre = chosen(mesh, boundary, disc, tolerance);
+  if (centre.distance_m > tolerance + disc.off_m)
+    off_the_part(disc.centre_m, centre.distance_m, "the part's surface, where a patch must lie");
+  DiscFace face{centre.point, normal(mesh, *centre.triangle), tolerance, {*centre.triangle}, {}};
+  if (disc.off_m > 0.0) face.depth_m += disc.off_m + 0.25 * disc.radius_m;
+  const double reach = disc.radius_m + face.depth_m;
   for (const auto& triangle : boundary) {
     Eigen::AlignedBox3d box;
     for (const int corner : triangle.vertices) box.extend(vertex(mesh, corner));
-    if (&triangle != centre.triangle && box.squaredExteriorDistance(face.centre_m) <= reach * reach &&
-        normal(mesh, triangle).dot(face.normal) > 0.5)
-      face.triangles.push_back(triangle);
+    if (&triangle == centre.triangle || box.squaredExteriorDistance(face.centre_m) > reach * reach) continue;
+    const Eigen::Vector3d n = normal(mesh, triangle);
+    if (n.dot(face.normal) > 0.5) face.triangles.push_back(triangle);
+    if (!alike(n, face.normal) && std::ranges::none_of(face.others, [&](const auto& o) { return alike(n, o); }) &&
+        (nearest_on(mesh, triangle, face.centre_m) - face.centre_m).norm() <= tolerance)
+      face.others.push_back(n);
   }
   return face;
 }
 
 std::vector<PatchSample> patch_samples(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary,
-                                       const Eigen::Vector3d& x, double radius_m, double off_m) {
+                                       const Disc& disc) {
   const double tolerance = 1e-6 * diagonal(mesh);
-  if (radius_m <= 0.0) {
+  const Eigen::Vector3d& x = disc.centre_m;
+  if (disc.radius_m <= 0.0) {
     const Located found = locate(mesh, x);
     if (found.distance_m <= tolerance) return {{found.location, 1.0}};
     const OnBoundary moved = nearest(mesh, boundary, x);  // locate() moves x by more than its distance
-    if (moved.distance_m > tolerance + off_m) off_the_part(x, moved.distance_m, "the part");
+    if (moved.distance_m > tolerance + disc.off_m) off_the_part(x, moved.distance_m, "the part");
     return {{location_of(mesh, moved), 1.0}};
   }
-  const DiscFace face = disc_face(mesh, boundary, x, radius_m, off_m);
+  const DiscFace face = disc_face(mesh, boundary, disc);
   const auto& v = face.triangles.front().vertices;
   const Eigen::Vector3d e1 = (vertex(mesh, v[1]) - vertex(mesh, v[0])).normalized();
   const Eigen::Vector3d e2 = face.normal.cross(e1);
@@ -138,7 +177,7 @@ std::vector<PatchSample> patch_samples(const TetMesh& mesh, const std::vector<Bo
   constexpr int sectors = 24;
   std::vector<PatchSample> samples;
   for (int ring = 0; ring < rings; ++ring) {
-    const double r = radius_m * std::sqrt((ring + 0.5) / rings);
+    const double r = disc.radius_m * std::sqrt((ring + 0.5) / rings);
     for (int sector = 0; sector < sectors; ++sector) {
       // The angles are offset by a quarter of a sector. Without offset, or with half a sector, some samples would lie
       // exactly on an edge of the part along e1 and count as a whole on one side of it.
@@ -151,7 +190,7 @@ std::vector<PatchSample> patch_samples(const TetMesh& mesh, const std::vector<Bo
       if (fall <= face.depth_m && aside <= tolerance + fall) samples.push_back({location_of(mesh, found), 1.0});
     }
   }
-  if (samples.empty()) off_the_part(x, radius_m, "the part's surface, where a patch must lie");
+  if (samples.empty()) off_the_part(x, disc.radius_m, "the part's surface, where a patch must lie");
   for (auto& sample : samples) sample.weight = 1.0 / static_cast<double>(samples.size());
   return samples;
 }

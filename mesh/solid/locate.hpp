@@ -23,23 +23,36 @@ struct Located {
 /// The place of x (part axes, m) in the mesh. Cost O(tets).
 [[nodiscard]] Located locate(const TetMesh& mesh, const Eigen::Vector3d& x);
 
-/// The disc about a point on the part's surface.
+/// A disc about a point on the surface of a part, cut off where it leaves the surface; with radius 0 it is the point
+/// itself.
+struct Disc {
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
+  double radius_m = 0.0;
+  double off_m =
+      0.0;  ///< allowed distance of the mesh, which follows a curved surface by chords, from the true surface
+  /// Unit vectors that choose between the faces that meet in the centre, at an edge or a corner of the part: the disc
+  /// lies on the face whose normal is most nearly parallel to the first; between equals the next decides, and after the
+  /// last x, y, z.
+  std::vector<Eigen::Vector3d> facing{};
+};
+
+/// The face of the surface on which a disc lies.
 struct DiscFace {
-  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< the surface's point nearest to the given point
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< the surface's point nearest to the disc's centre
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< outward normal of the triangle there
   double depth_m = 0.0;                                ///< distance from its plane within which faces belong to it
   /// Boundary triangles within reach whose normals differ from `normal` by less than 60°, which excludes the other side
   /// of a wall. The triangle with the centre is the first.
   std::vector<BoundaryTriangle> triangles;
+  std::vector<Eigen::Vector3d>
+      others;  ///< outward normals of the faces that meet here at 30° or more and were not taken
 };
 
-/// The disc of radius radius_m about the point x of the surface, m. off_m: distance by which the mesh, which follows a
-/// curved surface by chords, may lie off the surface that x was taken from. Faces within 1e-6 of the part's diagonal
-/// from the disc's plane belong to it; if off_m > 0, the depth is larger by off_m and a quarter of the radius, by which
-/// a sphere of twice the radius curves away at the disc's edge. Throws InputError if x lies more than 1e-6 of the
-/// diagonal and off_m off the part's surface. Cost O(boundary triangles).
-[[nodiscard]] DiscFace disc_face(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary,
-                                 const Eigen::Vector3d& x, double radius_m, double off_m);
+/// The face under a disc. Faces within 1e-6 of the part's diagonal from the disc's plane belong to it; if off_m > 0,
+/// the depth is larger by off_m and a quarter of the radius, by which a sphere of twice the radius curves away at the
+/// disc's edge. Throws InputError if the centre lies more than 1e-6 of the diagonal and off_m off the part's surface.
+/// Cost O(boundary triangles).
+[[nodiscard]] DiscFace disc_face(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary, const Disc& disc);
 
 /// A sample of a patch and its share of the patch's area; shares sum to one.
 struct PatchSample {
@@ -47,16 +60,15 @@ struct PatchSample {
   double weight = 0.0;
 };
 
-/// Weighted samples of equal area over the disc of radius r (m) about x on the part's surface, cut off where it leaves
-/// the surface, for the area-weighted average ∫ u dA / ∫ dA. The disc lies in the plane of the boundary triangle
-/// nearest to x. Samples lie on 8 rings × 24 sectors, at the midpoints in area; the average of a quadratic field then
-/// has an error of 1 % of its variation over the disc. For r = 0 the only sample is x.
+/// Weighted samples of equal area over a disc, for the area-weighted average ∫ u dA / ∫ dA. The disc lies in the plane
+/// of its face (disc_face()). Samples lie on 8 rings × 24 sectors, at the midpoints in area; the average of a quadratic
+/// field then has an error of 1 % of its variation over the disc. For radius 0 the only sample is the centre.
 ///
-/// With `off_m` (see disc_face()) x is moved to the mesh, and samples are projected onto the faces of the disc; those
-/// that the projection moves more along the disc than towards it are left out. Throws InputError if x lies more than
-/// 1e-6 of the part's diagonal and off_m off the part, or (r > 0) off its surface. Cost O(tets + samples × triangles of
-/// the face).
+/// With `off_m` the centre is moved to the mesh, and samples are projected onto the faces of the disc; those that the
+/// projection moves more along the disc than towards it are left out. Throws InputError if the centre lies more than
+/// 1e-6 of the part's diagonal and off_m off the part, or (radius > 0) off its surface. Cost O(tets + samples ×
+/// triangles of the face).
 [[nodiscard]] std::vector<PatchSample> patch_samples(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary,
-                                                     const Eigen::Vector3d& x, double radius_m, double off_m = 0.0);
+                                                     const Disc& disc);
 
 }  // namespace thinwall::mesh

@@ -21,9 +21,8 @@ namespace {
 Eigen::Index participating_mode(const setup::PartSetup& source, const Solution& part,
                                 const setup::UpdatingTarget& target) {
   const auto dot = target.point.rfind('.');
-  const setup::Point& p = setup::point(source, target.point.substr(0, dot));
-  const fem::NamedPoint named{
-      p.name, setup::position(*source.part, p), p.patch_radius, {dynamics::axis(target.point.substr(dot + 1))}};
+  fem::NamedPoint named = setup::named_point(source, target.point.substr(0, dot));
+  named.directions = {dynamics::axis(target.point.substr(dot + 1))};
   const Eigen::Index rigid = part.modes.rigid_motions;
   const Eigen::VectorXd amplitude = part.modes.pairs.Phi.transpose() * fem::point_columns(part.model, named);
   const Eigen::ArrayXd share =

@@ -16,6 +16,7 @@
 #include "fem/determined_motions.hpp"
 #include "fem/mode_check.hpp"
 #include "fem/points.hpp"
+#include "mesh/solid/locate.hpp"
 #include "mesh/solid/tessellation.hpp"
 #include "mesh/surface/triangle_tree.hpp"
 #include "mesh/surface/wall_thickness.hpp"
@@ -181,6 +182,26 @@ void check_mass(const setup::PartSetup& source, PartResult& part) {
                              (part.model.curved_elements > 0 ? ": use smaller elements or a higher order" : ""));
 }
 
+std::string direction_text(const Eigen::Vector3d& n) {
+  return fmt::format("({:.3g}, {:.3g}, {:.3g})", n.x() + 0.0, n.y() + 0.0, n.z() + 0.0);
+}
+
+/// Says which of the faces that meet in a point carries its patch, where the case does not choose one.
+void tell_chosen_faces(const setup::PartSetup& source, const mesh::TetMesh& mesh) {
+  const auto boundary = mesh::boundary(mesh);
+  for (const std::string& name : source.reduction.interface) {
+    const setup::Point& point = setup::point(source, name);
+    if (point.patch_radius <= 0.0 || !point.face.empty()) continue;
+    const mesh::DiscFace face = mesh::disc_face(mesh, boundary, setup::disc_of(source, point));
+    if (face.others.empty()) continue;
+    core::warn(
+        fmt::format("point \"{}\" lies where faces meet; its patch is on the one of outward normal {}, not {}, by the "
+                    "point's first "
+                    "direction; points.{}.face chooses another",
+                    name, direction_text(face.normal), direction_text(face.others.front()), name));
+  }
+}
+
 }  // namespace
 
 namespace {
@@ -232,6 +253,7 @@ PartResult compute_part(const PartInput& source, Discretisation discretisation, 
   if (meshed) look_at_mesh(part);
   if (source.reduction.interface.empty()) return part;
   stages.begin("reduction");
+  if (meshed) tell_chosen_faces(source, part.model.mesh);
   part.interface = part_interface(source, part.model);
   reduce(source, part, factored);
   if (part.reduced->status != linalg::EigenStatus::converged) {

@@ -19,7 +19,7 @@ void require(bool holds, const char* what) {
 /// PatchSample holds a Vector4d behind an int: its place and the samples' distance follow from the alignment.
 void samples_come_back_in_one_piece() {
   const mesh::TetMesh mesh = mesh::mesh_box({{0.1, 0.1, 0.01}}, {.size_m = 0.05});
-  const auto samples = mesh::patch_samples(mesh, mesh::boundary(mesh), {0.05, 0.05, 0.01}, 0.01);
+  const auto samples = mesh::patch_samples(mesh, mesh::boundary(mesh), {{0.05, 0.05, 0.01}, 0.01});
   double weight = 0.0;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const auto& sample : samples) {

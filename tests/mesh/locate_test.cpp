@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "tests/mesh/kuhn_box.hpp"
@@ -52,7 +55,7 @@ struct Average {
 
 Average average(const TetMesh& mesh, const Eigen::Vector3d& centre, double radius) {
   Average result;
-  for (const auto& sample : patch_samples(mesh, boundary(mesh), centre, radius)) {
+  for (const auto& sample : patch_samples(mesh, boundary(mesh), {centre, radius})) {
     const Eigen::Vector3d x = position(mesh, sample.location);
     result.mean += sample.weight * x;
     result.second += sample.weight * (x - centre) * (x - centre).transpose();
@@ -96,9 +99,44 @@ TEST(Patch, IsCutAtAnEdge) {
   EXPECT_NEAR(average(mesh, centre, r).weight, 1.0, 1e-14);
 }
 
+/// The outward normal of the face on which a disc at (x) lies.
+Eigen::Vector3d normal_at(const TetMesh& mesh, const Eigen::Vector3d& x, std::vector<Eigen::Vector3d> facing) {
+  return disc_face(mesh, boundary(mesh), {x, 0.02, 0.0, std::move(facing)}).normal;
+}
+
+TEST(Patch, LiesAtAnEdgeOnTheFaceThatIsMostNearlyNormalToItsDirections) {
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
+  // Cells of other sizes, and a point off the edge by round-off, must not change the face.
+  for (const std::array<int, 3>& cells : {std::array{3, 2, 2}, std::array{1, 1, 1}, std::array{5, 3, 7}}) {
+    const TetMesh mesh = kuhn_box(size, cells);
+    for (const double off : {-1e-12, 0.0, 1e-12}) {
+      const Eigen::Vector3d edge(0.3 + off, 0.11, 0.1 - off);
+      EXPECT_LT((normal_at(mesh, edge, {z}) - z).norm(), 1e-12);
+      EXPECT_LT((normal_at(mesh, edge, {-x}) - x).norm(), 1e-12) << "either sense of a direction counts";
+      EXPECT_LT((normal_at(mesh, edge, {y, z}) - z).norm(), 1e-12) << "y lies in both faces: the next decides";
+      EXPECT_LT((normal_at(mesh, edge, {y}) - x).norm(), 1e-12) << "x before y before z where nothing decides";
+      EXPECT_LT((normal_at(mesh, edge, {(x + 1.1 * z).normalized()}) - z).norm(), 1e-12);
+      const Eigen::Vector3d corner(0.3 + off, 0.2, 0.1 - off);
+      EXPECT_LT((normal_at(mesh, corner, {y}) - y).norm(), 1e-12);
+      for (const auto& sample : patch_samples(mesh, boundary(mesh), {edge, 0.02, 0.0, {z}}))
+        EXPECT_NEAR(position(mesh, sample.location).z(), 0.1, 1e-12);
+    }
+  }
+}
+
+TEST(Patch, NamesTheFacesThatItDidNotTake) {
+  const TetMesh mesh = kuhn_box(size, {3, 2, 2});
+  const auto others = [&](const Eigen::Vector3d& x) { return disc_face(mesh, boundary(mesh), {x, 0.02}).others; };
+  EXPECT_TRUE(others({0.15, 0.1, 0.1}).empty());
+  EXPECT_TRUE(others({0.29, 0.1, 0.1}).empty()) << "within the radius of an edge, but not on it";
+  ASSERT_EQ(others({0.3, 0.11, 0.1}).size(), 1U);
+  EXPECT_LT((others({0.3, 0.11, 0.1})[0] - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+  EXPECT_EQ(others({0.3, 0.2, 0.1}).size(), 2U);
+}
+
 TEST(Patch, OfNoRadiusIsThePointItself) {
   const TetMesh mesh = kuhn_box(size, {3, 2, 2});
-  const auto samples = patch_samples(mesh, boundary(mesh), {0.17, 0.11, 0.047}, 0.0);
+  const auto samples = patch_samples(mesh, boundary(mesh), {{0.17, 0.11, 0.047}, 0.0});
   ASSERT_EQ(samples.size(), 1U);
   EXPECT_LT((position(mesh, samples[0].location) - Eigen::Vector3d(0.17, 0.11, 0.047)).norm(), 1e-15);
 }
@@ -106,14 +144,14 @@ TEST(Patch, OfNoRadiusIsThePointItself) {
 TEST(Patch, OffThePartOrOffItsSurfaceIsAnErrorThatSaysByHowMuch) {
   const TetMesh mesh = kuhn_box(size, {3, 2, 2});
   try {
-    (void)patch_samples(mesh, boundary(mesh), {0.31, 0.13, 0.06}, 0.0);
+    (void)patch_samples(mesh, boundary(mesh), {{0.31, 0.13, 0.06}, 0.0});
     FAIL() << "10 mm off the part";
   } catch (const core::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("10 mm"), std::string::npos) << error.what();
   }
-  EXPECT_THROW((void)patch_samples(mesh, boundary(mesh), {0.301, 0.1, 0.05}, 0.0), core::InputError);
-  EXPECT_THROW((void)patch_samples(mesh, boundary(mesh), {0.301, 0.1, 0.05}, 0.01), core::InputError);
-  EXPECT_THROW((void)patch_samples(mesh, boundary(mesh), {0.15, 0.1, 0.05}, 0.01), core::InputError) << "inside";
+  EXPECT_THROW((void)patch_samples(mesh, boundary(mesh), {{0.301, 0.1, 0.05}, 0.0}), core::InputError);
+  EXPECT_THROW((void)patch_samples(mesh, boundary(mesh), {{0.301, 0.1, 0.05}, 0.01}), core::InputError);
+  EXPECT_THROW((void)patch_samples(mesh, boundary(mesh), {{0.15, 0.1, 0.05}, 0.01}), core::InputError) << "inside";
 }
 
 /// A quarter of a tube of radius R between chords: its elements lie up to a sagitta off the cylinder.
@@ -137,12 +175,12 @@ TEST(Patch, OnACurvedSurfaceFallsOntoTheChordsOfTheMesh) {
   for (const double radius : {outer, R}) {  // the convex face, and the concave one
     const Eigen::Vector3d x = radius * out + Eigen::Vector3d(0.0, 0.0, 0.021);
     if (radius == outer) {
-      EXPECT_THROW((void)patch_samples(mesh, boundary(mesh), x, 0.0), core::InputError) << "off the chords";
-      EXPECT_THROW((void)patch_samples(mesh, boundary(mesh), x, r), core::InputError);
+      EXPECT_THROW((void)patch_samples(mesh, boundary(mesh), {x, 0.0}), core::InputError) << "off the chords";
+      EXPECT_THROW((void)patch_samples(mesh, boundary(mesh), {x, r}), core::InputError);
     }
-    const auto one = patch_samples(mesh, boundary(mesh), x, 0.0, 2.0 * sagitta);
+    const auto one = patch_samples(mesh, boundary(mesh), {x, 0.0, 2.0 * sagitta});
     EXPECT_LE((position(mesh, one[0].location) - x).norm(), 1.0001 * sagitta);
-    const auto samples = patch_samples(mesh, boundary(mesh), x, r, 2.0 * sagitta);
+    const auto samples = patch_samples(mesh, boundary(mesh), {x, r, 2.0 * sagitta});
     EXPECT_EQ(samples.size(), 192U) << "nothing is cut where no edge is";
     Eigen::Vector3d mean = Eigen::Vector3d::Zero(), second = Eigen::Vector3d::Zero();
     for (const auto& sample : samples) {
@@ -168,7 +206,7 @@ TEST(Patch, EndsAtAnInnerCorner) {
   }
   const double r = 0.02;
   const Eigen::Vector3d centre(0.1 + 0.25 * r, 0.06, 0.05);
-  for (const auto& sample : patch_samples(step, boundary(step), centre, r))
+  for (const auto& sample : patch_samples(step, boundary(step), {centre, r}))
     EXPECT_GE(position(step, sample.location).x(), 0.1 - 1e-12);
 }
 
