@@ -32,7 +32,8 @@ struct UndampedModes {
 /// has norm ω_max instead of ω_max², which keeps the low poles exact to round-off. Damping may be non-proportional; if
 /// D is diagonal to round-off, the poles follow in closed form. Throws InputError for structural damping, which has no
 /// causal pole pairs: use direct_response(), or equivalent_viscous() first. Throws NumericalError if a pole is double
-/// and defective. A singular K (free part) is allowed otherwise; its poles at zero make H singular at ω = 0 only. Cost
+/// and defective, except for a rigid motion that neither stiffness nor damping holds: its double pole at zero, which
+/// has no modal form, becomes the pair ± iε of a suspension with a millionth of the lowest elastic frequency. Cost
 /// O((2n)³).
 [[nodiscard]] ModalModel to_modal(const SpatialModel& model);
 

@@ -25,8 +25,8 @@ struct QuadraticModes {
 [[noreturn]] void refuse_double_pole(Complex lambda) {
   std::ostringstream text;
   text << "the pole at " << lambda.real() << (lambda.imag() < 0.0 ? " - " : " + ") << std::abs(lambda.imag())
-       << "i rad/s is double (an undamped rigid-body motion, or critical damping) and has no modal form; change its "
-          "stiffness or damping, or use the direct response";
+       << "i rad/s is double (critical damping) and has no modal form; change its stiffness or damping, or use the "
+          "direct response";
   throw core::NumericalError(text.str());
 }
 
@@ -36,13 +36,32 @@ void require_simple(Complex lambda, Complex a, double scale) {
   if (!(std::abs(a) > 1e-7 * scale)) refuse_double_pole(lambda);
 }
 
+/// The frequency (rad/s) of the soft suspension that stands for the double pole at zero of a free motion (to_modal()).
+/// With a millionth of the lowest elastic one, 1/(s² + ε²) differs from 1/s² by 1e-12 there, and the difference of its
+/// two terms keeps ten digits.
+double suspension(const Eigen::VectorXd& omega) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const double w : omega)
+    if (w > 0.0) lowest = std::min(lowest, w);
+  return std::isfinite(lowest) ? 1e-6 * lowest : 1e-3;
+}
+
+/// The modes of ω = 0 that no damping acts on: in their rows of ΦᵀCΦ, whose entries without cancellation have the size
+/// `uncancelled`, all cancels but for the round-off of the shapes.
+std::vector<Eigen::Index> free_motions(const Eigen::VectorXd& omega, const Eigen::MatrixXd& D,
+                                       const Eigen::MatrixXd& uncancelled) {
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index r = 0; r < omega.size(); ++r)
+    if (omega(r) == 0.0 && (D.row(r).array().abs() <= 1e-9 * uncancelled.row(r).array()).all()) free.push_back(r);
+  return free;
+}
+
 /// The diagonal of D = ΦᵀCΦ if D is diagonal, else nothing. An off-diagonal entry counts as zero if it is within the
 /// round-off of forming it, or within 1e-12 of the damping of both modes: dropping it then changes no receptance by
 /// more than 1e-12 of itself.
-std::optional<Eigen::VectorXd> proportional_damping(const Eigen::MatrixXd& C, const Eigen::MatrixXd& Phi,
-                                                    const Eigen::MatrixXd& D) {
-  const Eigen::MatrixXd round_off = static_cast<double>(C.rows()) * std::numeric_limits<double>::epsilon() *
-                                    (Phi.cwiseAbs().transpose() * C.cwiseAbs() * Phi.cwiseAbs());
+std::optional<Eigen::VectorXd> proportional_damping(const Eigen::MatrixXd& D, const Eigen::MatrixXd& uncancelled) {
+  const Eigen::MatrixXd round_off =
+      static_cast<double>(D.rows()) * std::numeric_limits<double>::epsilon() * uncancelled;
   Eigen::VectorXd d = D.diagonal();
   for (Eigen::Index i = 0; i < d.size(); ++i) {
     for (Eigen::Index j = 0; j < d.size(); ++j) {
@@ -60,6 +79,13 @@ QuadraticModes proportional_modes(const Eigen::VectorXd& omega, const Eigen::Vec
   const Eigen::Index n = omega.size();
   QuadraticModes modes{Eigen::VectorXcd(2 * n), Eigen::MatrixXcd::Zero(n, 2 * n), Eigen::VectorXcd(2 * n)};
   for (Eigen::Index r = 0; r < n; ++r) {
+    modes.eta.row(r).segment(2 * r, 2).setOnes();
+    if (omega(r) == 0.0 && d(r) == 0.0) {
+      const Complex pole(0.0, suspension(omega));
+      modes.lambda.segment(2 * r, 2) << pole, -pole;
+      modes.a.segment(2 * r, 2) << 2.0 * pole, -2.0 * pole;
+      continue;
+    }
     const double half = 0.5 * d(r);
     const double root = std::sqrt(std::abs((omega(r) - half) * (omega(r) + half)));
     const bool oscillates = omega(r) > std::abs(half);
@@ -70,7 +96,6 @@ QuadraticModes proportional_modes(const Eigen::VectorXd& omega, const Eigen::Vec
     require_simple(first, a, 2.0 * std::max(omega(r), std::abs(half)));
     modes.lambda.segment(2 * r, 2) << first, second;
     modes.a.segment(2 * r, 2) << a, -a;
-    modes.eta.row(r).segment(2 * r, 2).setOnes();
   }
   return modes;
 }
@@ -162,6 +187,27 @@ QuadraticModes general_modes(const Eigen::VectorXd& omega, const Eigen::MatrixXd
   return modes;
 }
 
+/// All modes, of which the free motions are taken apart: they are uncoupled from the others, and an eigen-solver would
+/// return round-off for their double pole.
+QuadraticModes modes_beside(const std::vector<Eigen::Index>& free, const Eigen::VectorXd& omega,
+                            const Eigen::MatrixXd& D) {
+  if (free.empty()) return general_modes(omega, D);
+  std::vector<Eigen::Index> held;
+  for (Eigen::Index r = 0; r < omega.size(); ++r)
+    if (std::ranges::find(free, r) == free.end()) held.push_back(r);
+  const QuadraticModes of_free = proportional_modes(Eigen::VectorXd::Constant(std::ssize(free), suspension(omega)),
+                                                    Eigen::VectorXd::Zero(std::ssize(free)));
+  const QuadraticModes of_held = general_modes(omega(held), D(held, held));
+  const Eigen::Index n = omega.size();
+  const Eigen::Index first = 2 * std::ssize(free);
+  QuadraticModes modes{Eigen::VectorXcd(2 * n), Eigen::MatrixXcd::Zero(n, 2 * n), Eigen::VectorXcd(2 * n)};
+  modes.lambda << of_free.lambda, of_held.lambda;
+  modes.a << of_free.a, of_held.a;
+  modes.eta(free, Eigen::seqN(0, first)) = of_free.eta;
+  modes.eta(held, Eigen::seq(first, Eigen::last)) = of_held.eta;
+  return modes;
+}
+
 }  // namespace
 
 ModalModel to_modal(const SpatialModel& model) {
@@ -174,9 +220,12 @@ ModalModel to_modal(const SpatialModel& model) {
   const UndampedModes undamped = undamped_modes(model);
   const Eigen::MatrixXd product = undamped.Phi.transpose() * model.C * undamped.Phi;
   const Eigen::MatrixXd D = 0.5 * (product + product.transpose());
-  const auto diagonal = proportional_damping(model.C, undamped.Phi, D);
+  const Eigen::MatrixXd uncancelled =
+      undamped.Phi.cwiseAbs().transpose() * model.C.cwiseAbs() * undamped.Phi.cwiseAbs();
+  const auto diagonal = proportional_damping(D, uncancelled);
   const QuadraticModes modes =
-      diagonal ? proportional_modes(undamped.omega_rad_s, *diagonal) : general_modes(undamped.omega_rad_s, D);
+      diagonal ? proportional_modes(undamped.omega_rad_s, *diagonal)
+               : modes_beside(free_motions(undamped.omega_rad_s, D, uncancelled), undamped.omega_rad_s, D);
   Eigen::MatrixXcd shapes = undamped.Phi * modes.eta;
   if (model.has_own_coordinates()) shapes = (model.T * shapes).eval();
   return {modes.lambda, shapes, shapes, modes.a, Eigen::MatrixXd(), model.dofs};
