@@ -12,6 +12,7 @@
 #include "io/manifest.hpp"
 #include "setup/contact_model.hpp"
 #include "setup/data_files.hpp"
+#include "setup/imported_part.hpp"
 #include "setup/robot_tip.hpp"
 
 namespace thinwall::cases {
@@ -71,6 +72,9 @@ void read_described_files(Case& source, Findings& findings) {
 
 void read_data_files(Case& source) {
   setup::read_data_files(source);
+  if (source.part && source.part->imported && source.part->imported->mesh) {
+    for (const auto& path : source.part->imported->mesh->included) source.data_files.push_back({path, "part", {}});
+  }
   std::map<std::filesystem::path, std::string> checksums;  // a file may be named more than once
   for (DataFile& file : source.data_files) {
     const auto [place, is_new] = checksums.try_emplace(file.path);

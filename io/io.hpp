@@ -29,6 +29,7 @@
 #include "io/matrices/matrix_triplets.hpp"
 #include "io/mesh/gmsh.hpp"
 #include "io/mesh/inp.hpp"
+#include "io/mesh/inp_lines.hpp"
 #include "io/mesh/mesh_file.hpp"
 #include "io/results/csv_table.hpp"
 #include "io/results/polyline_vtu.hpp"

@@ -25,6 +25,14 @@ std::string as_in_file(const std::string& name, const std::vector<std::string>& 
   return same == known.end() ? name : *same;
 }
 
+/// A set of nodes of the file that names a node which the file does not have.
+void require_sound_set(const Case& source, const mesh::SolidMesh* solid, const std::string& name,
+                       const std::string& key, Findings& findings) {
+  if (solid == nullptr || !names_node_set(source, name)) return;
+  for (const auto& set : solid->node_sets)
+    if (io::capitals(set.name) == io::capitals(name) && !set.fault.empty()) findings.report(key, set.fault);
+}
+
 void check_supports(const Case& source, Findings& findings) {
   const auto& supports = source.part->supports;
   const mesh::SolidMesh* solid = setup::solid_of(*source.part);
@@ -35,6 +43,7 @@ void check_supports(const Case& source, Findings& findings) {
   }
   for (std::size_t i = 0; i < supports.size(); ++i) {
     const std::string key = "part.supports[" + std::to_string(i) + "]";
+    require_sound_set(source, solid, supports[i].on, key + ".on", findings);
     findings.require_known(key + ".on", as_in_file(supports[i].on, known), known,
                            solid == nullptr ? "face or selection" : "face, selection or set of nodes");
     if (source.part->mesh.order.value_or(2) > 2 && names_node_set(source, supports[i].on))

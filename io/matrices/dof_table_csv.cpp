@@ -140,7 +140,7 @@ void write_dof_table(const std::filesystem::path& path, const dynamics::SparseMo
 std::map<int, Eigen::Vector3d> read_node_positions(const std::filesystem::path& path) {
   std::map<int, Eigen::Vector3d> positions;
   if (lower_case(path.extension().string()) == ".inp") {
-    InpText text = inp_text(core::read_file(path), path.string(), 1.0);
+    InpText text = inp_text(core::read_file(path), path.string(), 1.0, included_file);
     mesh::sort_nodes(text.mesh);
     if (text.mesh.nodes.empty()) mesh::fail_at(text.mesh, 0, "holds no *NODE");
     for (const mesh::LabelledNode& node : text.mesh.nodes) positions.emplace(static_cast<int>(node.label), node.x);

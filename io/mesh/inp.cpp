@@ -48,10 +48,18 @@ class Expansion {
     return ranges;
   }
 
-  Labels nodes(const std::vector<InpLabelRange>& ranges) {
-    for (const InpLabelRange& range : ranges)
-      if (!range.gaps_allowed) static_cast<void>(mesh::row_of_node(text_.mesh, range.first, range.line));
-    return expanded(ranges, node_labels_);
+  Labels nodes(const std::vector<InpLabelRange>& ranges) { return expanded(ranges, node_labels_); }
+
+  /// The set of nodes of the ranges; one that names a node which is not there has a fault.
+  mesh::LabelledSet node_set(const std::string& name, const std::vector<InpLabelRange>& ranges) {
+    mesh::LabelledSet set{name, nodes(ranges)};
+    const auto missing = std::find_if(ranges.begin(), ranges.end(), [this](const InpLabelRange& range) {
+      return !range.gaps_allowed && !std::binary_search(node_labels_.begin(), node_labels_.end(), range.first);
+    });
+    if (missing == ranges.end()) return set;
+    set.fault = mesh::place_of(text_.mesh, missing->line) + ": the set \"" + name + "\" names node " +
+                std::to_string(missing->first) + ", which is not among the nodes of the file";
+    return set;
   }
 
   /// The cells of the ranges; elements that are no solids are left out.
@@ -70,16 +78,22 @@ class Expansion {
     return nodes;
   }
 
-  /// The nodes of the faces of a surface.
-  Labels faces(const std::vector<InpTextFace>& faces) {
-    Labels nodes;
+  /// The nodes of the faces of a surface, as a set.
+  mesh::LabelledSet surface(const std::string& name, const std::vector<InpTextFace>& faces) {
+    mesh::LabelledSet set{name, {}};
     for (const InpTextFace& face : faces) {
-      for (const std::int64_t label : members(face)) {
-        if (face.face == 0) nodes.push_back(label);
-        if (face.face > 0) add_face(face, text_.mesh.cells[cells_.at(label)], nodes);
+      const std::vector<InpLabelRange> ranges = members(face);
+      if (face.face > 0) {
+        for (const std::int64_t label : cells(ranges)) add_face(face, text_.mesh.cells[cells_.at(label)], set.labels);
+        continue;
       }
+      const bool of_nodes = face.face == 0;
+      mesh::LabelledSet part = of_nodes ? node_set(name, ranges) : mesh::LabelledSet{name, nodes_of_flat(ranges)};
+      if (!of_nodes && part.labels.empty()) require_no_solid(face, ranges);
+      set.labels.insert(set.labels.end(), part.labels.begin(), part.labels.end());
+      if (set.fault.empty()) set.fault = std::move(part.fault);
     }
-    return nodes;
+    return set;
   }
 
  private:
@@ -121,15 +135,21 @@ class Expansion {
     labels.push_back(label);
   }
 
-  Labels members(const InpTextFace& face) {
+  /// Throws DataError if SPOS or SNEG, the sides of a shell, is said of a solid.
+  void require_no_solid(const InpTextFace& face, const std::vector<InpLabelRange>& ranges) {
+    const Labels solids = cells(ranges);
+    if (!solids.empty())
+      mesh::fail_at(text_.mesh, face.line,
+                    "element " + std::to_string(solids.front()) + " is a solid, which has no face SPOS or SNEG");
+  }
+
+  std::vector<InpLabelRange> members(const InpTextFace& face) {
     const bool of_nodes = face.face == 0;
     const TextSets& sets = of_nodes ? text_.node_sets : text_.element_sets;
     if (!face.set.empty() && !sets.contains(face.set))
       mesh::fail_at(text_.mesh, face.line, "the set \"" + face.set + "\" of a surface is not in the file");
-    const std::vector<InpLabelRange> ranges =
-        face.set.empty() ? std::vector<InpLabelRange>{{face.label, face.label, 1, face.line, false}}
-                         : all_ranges(sets, face.set);
-    return of_nodes ? nodes(ranges) : cells(ranges);
+    if (face.set.empty()) return {{face.label, face.label, 1, face.line, false}};
+    return all_ranges(sets, face.set);
   }
 
   /// Adds the corners of a face and the nodes of the edges between them.
@@ -162,12 +182,20 @@ class Expansion {
   std::size_t left_ = 0;
 };
 
+void note_faults(const std::vector<mesh::LabelledSet>& sets, std::vector<std::string>& notices) {
+  const auto has_fault = [](const mesh::LabelledSet& set) { return !set.fault.empty(); };
+  const auto count = std::count_if(sets.begin(), sets.end(), has_fault);
+  if (count == 0) return;
+  notices.push_back(std::to_string(count) + " sets name missing nodes and cannot be used, the first at " +
+                    std::find_if(sets.begin(), sets.end(), has_fault)->fault);
+}
+
 void expand_sets(InpText& text) {
   Expansion expansion(text);
   std::vector<mesh::LabelledSet> node_sets;
   std::vector<mesh::LabelledSet> cell_sets;
   for (const auto& [name, set] : text.node_sets)
-    node_sets.push_back({name, expansion.nodes(expansion.all_ranges(text.node_sets, name))});
+    node_sets.push_back(expansion.node_set(name, expansion.all_ranges(text.node_sets, name)));
   for (const auto& [name, set] : text.element_sets) {
     const auto ranges = expansion.all_ranges(text.element_sets, name);
     Labels cells = expansion.cells(ranges);
@@ -176,7 +204,8 @@ void expand_sets(InpText& text) {
     if (!nodes.empty() && !text.node_sets.contains(name)) node_sets.push_back({name, std::move(nodes)});
   }
   for (const auto& [name, faces] : text.surfaces)
-    node_sets.push_back({text.node_sets.contains(name) ? name + "_SURFACE" : name, expansion.faces(faces)});
+    node_sets.push_back(expansion.surface(text.node_sets.contains(name) ? name + "_SURFACE" : name, faces));
+  note_faults(node_sets, text.mesh.notices);
   text.mesh.node_sets = std::move(node_sets);
   text.mesh.cell_sets = std::move(cell_sets);
 }
@@ -198,14 +227,15 @@ std::vector<InpMaterial> section_materials(const InpText& text) {
 
 }  // namespace
 
-InpLabelled inp_mesh(std::string_view bytes, const std::string& name, double metres_per_unit) {
+InpLabelled inp_mesh(std::string_view bytes, const std::string& name, double metres_per_unit,
+                     const InpInclude& include) {
   require_metres_per_unit(metres_per_unit, name);
-  InpText text = inp_text(bytes, name, metres_per_unit);
+  InpText text = inp_text(bytes, name, metres_per_unit, include);
   if (text.mesh.cells.empty()) mesh::fail_at(text.mesh, 0, "holds no *ELEMENT of a solid, such as TYPE=C3D10");
   mesh::sort_nodes(text.mesh);
   expand_sets(text);
   std::vector<InpMaterial> materials = section_materials(text);
-  return {std::move(text.mesh), std::move(materials)};
+  return {std::move(text.mesh), std::move(materials), std::move(text.included)};
 }
 
 InpPart read_inp_part(const std::filesystem::path& path, double metres_per_unit) {

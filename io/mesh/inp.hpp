@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/mesh/inp_lines.hpp"
 #include "mesh/lagrange_nodes.hpp"
 #include "mesh/solid/solid_mesh.hpp"
 
@@ -35,20 +36,24 @@ struct InpPart {
 struct InpLabelled {
   mesh::LabelledMesh mesh;
   std::vector<InpMaterial> materials;
+  std::vector<std::filesystem::path> included;  ///< files of *INCLUDE, each once
 };
 
 /// Reads *NODE, *ELEMENT of TYPE=C3D4, C3D10, C3D8, C3D20, C3D6, C3D15 and C3D5 with any letter behind, *NSET and
-/// *ELSET (also GENERATE, and sets by name), with NSET= of *NODE and ELSET= of *ELEMENT; *SURFACE of element faces or
-/// nodes, whose nodes become a node set; *MATERIAL, *ELASTIC, *DENSITY (first line of each) and *SOLID SECTION.
-/// Elements that are no solids are skipped and counted in a notice, but the nodes of a set of them become a node set;
-/// other keywords are skipped with their lines. A file does not contain its unit: coordinates times `metres_per_unit`
-/// are m. `name` is the file's name in messages; names of sets are in capitals. Throws DataError with file and line for
-/// a keyword that makes or moves nodes or elements and is not supported (*INCLUDE, *SYSTEM, *NGEN, an *INSTANCE that
-/// moves …), another solid element, text in place of a number, a value that is not finite, a missing node, sets that
-/// together have over 6 million members and 60 times the number of nodes, or that contain each other over two million
-/// times. A range of GENERATE may contain numbers of nodes that do not exist. Cost O(bytes) and of the members of the
-/// sets.
-[[nodiscard]] InpLabelled inp_mesh(std::string_view bytes, const std::string& name, double metres_per_unit);
+/// *ELSET (also GENERATE, and sets by name), with NSET= of *NODE and ELSET= of *ELEMENT; *SURFACE of element faces
+/// (S1 to S6, and SPOS and SNEG of shells) or nodes, whose nodes become a node set; *MATERIAL, *ELASTIC, *DENSITY
+/// (first line of each), *SOLID SECTION, and *INCLUDE (io/mesh/inp_lines.hpp), by `include`. Coordinates that a node
+/// leaves out are 0, which a notice tells. Elements that are no solids are skipped and counted in a notice, but the
+/// nodes of a set of them become a node set; other keywords are skipped with their lines. A set that names a node which
+/// is not there is told in a notice, and refused by mesh::node_set(). A file does not contain its unit: coordinates
+/// times `metres_per_unit` are m. `name` is the file's name in messages; names of sets are in capitals. Throws
+/// DataError with file and line for a keyword that makes or moves nodes or elements and is not supported (*SYSTEM,
+/// *NGEN, an *INSTANCE that moves …), another solid element, text in place of a number, a value that is not finite, an
+/// element with a missing node, sets that together have over 6 million members and 60 times the number of nodes, or
+/// that contain each other over two million times. A range of GENERATE may contain numbers of nodes that do not exist.
+/// Cost O(bytes) and of the members of the sets.
+[[nodiscard]] InpLabelled inp_mesh(std::string_view bytes, const std::string& name, double metres_per_unit,
+                                   const InpInclude& include = included_file);
 
 /// The file as tetrahedra, by mesh::solid_mesh() of inp_mesh(), with its materials.
 [[nodiscard]] InpPart read_inp_part(const std::filesystem::path& path, double metres_per_unit);

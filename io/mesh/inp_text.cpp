@@ -10,12 +10,6 @@ namespace thinwall::io {
 
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 /// The kind of data in the lines after a keyword.
 enum class Section {
   passed_over,
@@ -53,20 +47,18 @@ InpElement element_of_type(std::string_view type) {
 
 /// A reader of a file line by line.
 class InpReader {
+  using Parameters = std::map<std::string, std::string>;
+
  public:
-  InpReader(std::string_view bytes, const std::string& name, double metres_per_unit)
-      : text_(bytes), metres_per_unit_(metres_per_unit) {
+  InpReader(std::string_view bytes, const std::string& name, double metres_per_unit, const InpInclude& include)
+      : metres_per_unit_(metres_per_unit) {
     result_.mesh.path = name;
+    lines_.emplace(bytes, include, result_.mesh);
   }
 
   InpText read() {
-    std::string_view rest = text_;
-    while (!rest.empty()) {
-      const auto end = std::min(rest.find('\n'), rest.size());
-      const std::string_view line = trimmed(rest.substr(0, end));
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-      ++line_;
-      if (line.empty() || line.starts_with("**")) continue;
+    for (std::string_view line; lines_->next(line);) {
+      line_ = lines_->number();
       if (line.front() == '*' || keyword_goes_on_) {
         read_keyword(line);
       } else {
@@ -77,6 +69,11 @@ class InpReader {
     for (const auto& [type, count] : passed_over_)
       result_.mesh.notices.push_back(std::to_string(count) + " elements of type " + type +
                                      " are no solids and are passed over");
+    if (omitted_ > 0)
+      result_.mesh.notices.push_back(std::to_string(omitted_) +
+                                     " nodes have fewer than three coordinates (the first: " +
+                                     mesh::place_of(result_.mesh, first_omitted_) + "); those left out are 0");
+    result_.included = lines_->included();
     return std::move(result_);
   }
 
@@ -89,21 +86,21 @@ class InpReader {
     keyword_ += line;
     keyword_goes_on_ = line.back() == ',';
     if (keyword_goes_on_) return;
-    require_whole_element();
     std::string_view rest = keyword_;
     const std::string name = capitals(next_field(rest));
-    std::map<std::string, std::string> parameters;
+    Parameters parameters;
     while (!rest.empty()) {
       const std::string_view field = next_field(rest);
       const auto equals = std::min(field.find('='), field.size());
-      std::string_view value = trimmed(field.substr(std::min(equals + 1, field.size())));
+      std::string_view value = without_blanks(field.substr(std::min(equals + 1, field.size())));
       if (value.size() > 1 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
-      parameters[capitals(trimmed(field.substr(0, equals)))] = capitals(value);
+      parameters[capitals(without_blanks(field.substr(0, equals)))] = value;
     }
+    if (name == "*INCLUDE") return lines_->include(parameters["INPUT"]);  // its lines may go on with this section
+    require_whole_element();
+    for (auto& [parameter, value] : parameters) value = capitals(value);
     open_section(name, parameters);
   }
-
-  using Parameters = std::map<std::string, std::string>;
 
   void open_section(const std::string& name, Parameters& parameters) {
     section_ = Section::passed_over;
@@ -131,7 +128,7 @@ class InpReader {
   }
 
   void require_no_maker(const std::string& name) const {
-    for (const char* maker : {"*INCLUDE", "*SYSTEM", "*NGEN", "*NFILL", "*NCOPY", "*NMAP", "*ELGEN", "*ELCOPY"}) {
+    for (const char* maker : {"*SYSTEM", "*NGEN", "*NFILL", "*NCOPY", "*NMAP", "*ELGEN", "*ELCOPY"}) {
       if (name == maker) {
         fail(name + " is not read, and without it the mesh would be another one: have the program that writes the " +
              "file write all nodes and elements");
@@ -202,7 +199,13 @@ class InpReader {
 
   void read_node(std::string_view rest) {
     mesh::LabelledNode node{next_label(rest), line_, Eigen::Vector3d::Zero()};
-    for (int i = 0; i < 3; ++i) node.x(i) = metres_per_unit_ * next_number(rest);
+    bool omitted = false;
+    for (int i = 0; i < 3; ++i) {
+      const std::string_view field = next_field(rest);
+      omitted = omitted || field.empty();
+      if (!field.empty()) node.x(i) = metres_per_unit_ * number(field);
+    }
+    if (omitted && omitted_++ == 0) first_omitted_ = line_;
     if (!rest.empty()) fail("a node has a number and three coordinates; " + io::quoted(rest) + " is beyond them");
     if (set_ != nullptr) set_->ranges.push_back({node.label, node.label, 1, line_, false});
     result_.mesh.nodes.push_back(node);
@@ -290,9 +293,10 @@ class InpReader {
     if (!is_name(field)) face.label = next_label(field);
     if (!surface_of_nodes_) {
       const std::string name = capitals(next_field(rest));
-      if (name.size() != 2 || name[0] != 'S' || name[1] < '1' || name[1] > '6')
-        fail("the face " + io::quoted(name) + " of a surface is not read; S1 to S6 are");
-      face.face = name[1] - '0';
+      const bool numbered = name.size() == 2 && name[0] == 'S' && name[1] >= '1' && name[1] <= '6';
+      if (!numbered && name != "SPOS" && name != "SNEG")
+        fail("the face " + io::quoted(name) + " of a surface is not read; S1 to S6, SPOS and SNEG are");
+      face.face = numbered ? name[1] - '0' : whole_shell;
     }
     surface_->push_back(face);
   }
@@ -312,7 +316,7 @@ class InpReader {
   /// Takes the text up to the next comma off `rest`.
   static std::string_view next_field(std::string_view& rest) {
     const auto comma = std::min(rest.find(','), rest.size());
-    const std::string_view field = trimmed(rest.substr(0, comma));
+    const std::string_view field = without_blanks(rest.substr(0, comma));
     rest.remove_prefix(std::min(comma + 1, rest.size()));
     return field;
   }
@@ -327,9 +331,10 @@ class InpReader {
     return label;
   }
 
-  /// The next number, also in Fortran's forms "1.5D-3" and "+1.5".
-  double next_number(std::string_view& rest) const {
-    const std::string_view field = next_field(rest);
+  double next_number(std::string_view& rest) const { return number(next_field(rest)); }
+
+  /// The field as a number, also in Fortran's forms "1.5D-3" and "+1.5".
+  double number(std::string_view field) const {
     double value = std::nan("");
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
     if (error == std::errc{} && end == field.data() + field.size() && std::isfinite(value)) return value;
@@ -343,9 +348,9 @@ class InpReader {
     return value;
   }
 
-  std::string_view text_;
   double metres_per_unit_ = 0.0;
   InpText result_;
+  std::optional<InpLines> lines_;
   Section section_ = Section::passed_over;
   InpElement element_;
   InpTextSet* set_ = nullptr;                          ///< the set that the section adds to
@@ -359,12 +364,14 @@ class InpReader {
   bool keyword_goes_on_ = false;
   std::size_t nodes_missing_ = 0;  ///< nodes that the last element still lacks
   int line_ = 0;
+  int omitted_ = 0;  ///< nodes that lack a coordinate
+  int first_omitted_ = 0;
 };
 
 }  // namespace
 
-InpText inp_text(std::string_view bytes, const std::string& name, double metres_per_unit) {
-  return InpReader(bytes, name, metres_per_unit).read();
+InpText inp_text(std::string_view bytes, const std::string& name, double metres_per_unit, const InpInclude& include) {
+  return InpReader(bytes, name, metres_per_unit, include).read();
 }
 
 std::string capitals(std::string_view text) {

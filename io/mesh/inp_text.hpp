@@ -2,12 +2,14 @@
 // The lines of an input file of Abaqus or CalculiX in its own numbers, from which io/mesh/inp.hpp makes a mesh.
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/mesh/inp_lines.hpp"
 #include "mesh/solid/labelled_mesh.hpp"
 
 namespace thinwall::io {
@@ -26,6 +28,9 @@ struct InpTextSet {
   std::vector<InpLabelRange> ranges;
   std::vector<std::string> others;
 };
+
+/// The face of a line of *SURFACE that is a whole shell, from either side (SPOS, SNEG).
+inline constexpr int whole_shell = -1;
 
 /// A line of *SURFACE: an element or a set of elements, and the number of the face, from 1; 0 for nodes.
 struct InpTextFace {
@@ -67,11 +72,14 @@ struct InpText {
   std::vector<std::int64_t> flat_nodes;
   std::vector<InpTextMaterial> materials;
   std::vector<InpTextSection> sections;
+  std::vector<std::filesystem::path> included;  ///< files of *INCLUDE, each once
 };
 
-/// Reads the lines, coordinates times `metres_per_unit`; `name` is the file's name in messages. Throws DataError with
-/// file and line for every fault that a line alone can have (listed in io/mesh/inp.hpp). Cost O(bytes).
-[[nodiscard]] InpText inp_text(std::string_view bytes, const std::string& name, double metres_per_unit);
+/// Reads the lines, coordinates times `metres_per_unit`, and those of included files, whose bytes `include` returns;
+/// `name` is the file's name in messages, and included files lie in its folder. Throws DataError with file and line for
+/// every fault that a line alone can have (listed in io/mesh/inp.hpp). Cost O(bytes).
+[[nodiscard]] InpText inp_text(std::string_view bytes, const std::string& name, double metres_per_unit,
+                               const InpInclude& include);
 
 /// The text with a…z as A…Z, whatever the locale, because the format's names do not depend on case.
 [[nodiscard]] std::string capitals(std::string_view text);

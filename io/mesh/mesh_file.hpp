@@ -14,6 +14,7 @@ namespace thinwall::io {
 struct MeshFile {
   mesh::SolidMesh solid;
   std::vector<InpMaterial> materials;
+  std::vector<std::filesystem::path> included;  ///< further files that it was read from (*INCLUDE), each once
 };
 
 /// Reads a mesh of Gmsh (a file that begins with "$"), VTK (one whose first element is VTKFile) or Abaqus and CalculiX

@@ -14,8 +14,9 @@ namespace {
 /// Largest number of a node. Degrees of freedom are named by it, and other formats store it as a 32-bit integer.
 constexpr std::int64_t most_label = std::numeric_limits<std::int32_t>::max();
 
-std::string in_line(std::int64_t line) {
-  return line > 0 ? ", in line " + std::to_string(line) : "";
+std::string in_line(const LabelledMesh& labelled, std::int64_t line) {
+  if (line <= 0) return "";
+  return labelled.origins.empty() ? ", in line " + std::to_string(line) : ", at " + place_of(labelled, line);
 }
 
 void require_cells_once(const LabelledMesh& labelled) {
@@ -26,8 +27,8 @@ void require_cells_once(const LabelledMesh& labelled) {
   for (std::size_t i = 1; i < labels.size(); ++i) {
     if (labels[i].first != labels[i - 1].first) continue;
     fail_at(labelled, labels[i].second,
-            "element " + std::to_string(labels[i].first) + " is there already" + in_line(labels[i - 1].second) +
-                ": give every element a number of its own");
+            "element " + std::to_string(labels[i].first) + " is there already" +
+                in_line(labelled, labels[i - 1].second) + ": give every element a number of its own");
   }
 }
 
@@ -91,7 +92,7 @@ void merge_repeated_cells(LabelledMesh& labelled, const std::vector<int>& rows, 
     const LabelledCell& second = labelled.cells[pairs.front().second];
     fail_at(labelled, second.line,
             "element " + std::to_string(second.label) + " stands on the same nodes as element " +
-                std::to_string(first.label) + in_line(first.line) + ": remove one of them");
+                std::to_string(first.label) + in_line(labelled, first.line) + ": remove one of them");
   }
   std::unordered_map<std::int64_t, std::int64_t> kept_label;
   std::vector<bool> drop(labelled.cells.size(), false);
@@ -146,7 +147,7 @@ void sort_nodes(LabelledMesh& labelled) {
     if (i == 0 || labelled.nodes[i - 1].label != node.label) continue;
     const std::int64_t other = labelled.nodes[i - 1].line;
     fail_at(labelled, std::max(node.line, other),
-            "node " + std::to_string(node.label) + " is there already" + in_line(std::min(node.line, other)) +
+            "node " + std::to_string(node.label) + " is there already" + in_line(labelled, std::min(node.line, other)) +
                 ": give every node a number of its own");
   }
 }

@@ -31,6 +31,15 @@ struct LabelledCell {
 struct LabelledSet {
   std::string name;
   std::vector<std::int64_t> labels;
+  std::string fault{};  ///< a message about a member that the file does not have; such a set cannot be used
+};
+
+/// The beginning of a run of lines of one file, where a format has files that include others: lines are numbered
+/// through all of them.
+struct LineOrigin {
+  std::int64_t first = 0;  ///< running number of the first line of the run
+  std::string path;
+  std::int64_t line = 0;  ///< its number in the file
 };
 
 /// A mesh as read. Its numbers and positions may be faulty; mesh::solid_mesh() checks all of them.
@@ -44,7 +53,11 @@ struct LabelledMesh {
   bool wedges_may_be_turned = false;    ///< the format's wedges come in both senses (VTK)
   bool repeated_cells_are_one = false;  ///< the format repeats an element for each of its groups (MSH 2)
   std::vector<std::string> notices;     ///< notes of the reader about what it left out
+  std::vector<LineOrigin> origins;      ///< ascending; lines before the first one are those of `path`
 };
+
+/// The file and line of a running number of a line, such as "part.inp:12"; the path alone for the line 0.
+[[nodiscard]] std::string place_of(const LabelledMesh& mesh, std::int64_t line);
 
 /// Throws DataError with a message such as "part.inp:12: what", without the line if it is 0.
 [[noreturn]] void fail_at(const LabelledMesh& mesh, std::int64_t line, const std::string& what);

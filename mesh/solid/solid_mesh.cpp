@@ -110,6 +110,7 @@ std::vector<LabelledSet> joined_by_name(std::vector<LabelledSet> sets) {
     } else {
       std::vector<std::int64_t>& labels = joined[known->second].labels;
       labels.insert(labels.end(), set.labels.begin(), set.labels.end());
+      if (joined[known->second].fault.empty()) joined[known->second].fault = std::move(set.fault);
     }
   }
   return joined;
@@ -121,6 +122,7 @@ std::vector<NodeSet> placed_node_sets(const LabelledMesh& labelled, const std::v
   for (const LabelledSet& set : labelled.node_sets) {
     NodeSet& placed = sets.emplace_back();
     placed.name = set.name;
+    placed.fault = set.fault;
     for (const std::int64_t label : set.labels) {
       const int node = place[static_cast<std::size_t>(row_of_node(labelled, label, 0))];
       if (node >= 0) placed.nodes.push_back(node);
@@ -274,7 +276,9 @@ SolidMesh with_order(SolidMesh solid, int order) {
 }
 
 const NodeSet& node_set(const SolidMesh& solid, const std::string& name, const std::string& path) {
-  return named(solid.node_sets, "node", name, path);
+  const NodeSet& set = named(solid.node_sets, "node", name, path);
+  if (!set.fault.empty()) throw core::DataError(set.fault);
+  return set;
 }
 
 const ElementSet& element_set(const SolidMesh& solid, const std::string& name, const std::string& path) {

@@ -15,6 +15,7 @@ namespace thinwall::mesh {
 struct NodeSet {
   std::string name;
   std::vector<int> nodes;
+  std::string fault{};  ///< a message about a node that the file does not have, for which the set cannot be used
 };
 
 /// A named set of elements, by ascending indices of tetrahedra.
@@ -60,7 +61,7 @@ struct SolidMesh {
 [[nodiscard]] SolidMesh with_order(SolidMesh solid, int order);
 
 /// The set of nodes of that name, upper or lower case alike. Throws DataError, which proposes the nearest name, if
-/// there is none. `path` is for the message.
+/// there is none, and for a set with a fault. `path` is for the message.
 [[nodiscard]] const NodeSet& node_set(const SolidMesh& solid, const std::string& name, const std::string& path);
 /// The set of elements of that name; errors as above.
 [[nodiscard]] const ElementSet& element_set(const SolidMesh& solid, const std::string& name, const std::string& path);

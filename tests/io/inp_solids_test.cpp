@@ -76,6 +76,23 @@ TEST_F(InpSolids, HaveTheirFacesWhereTheFormatHasThem) {
   }
 }
 
+/// A shell's two sides are its nodes, alone, by a set, or beside the face of a solid.
+TEST_F(InpSolids, HaveTheSidesOfShellsAsSurfaces) {
+  const mesh::SolidMesh solid =
+      read_inp(write("a.inp", bricks + "*SURFACE, NAME=OVER\nSKIN, SPOS\n*SURFACE, NAME=UNDER\n3, sneg\n"
+                                       "*SURFACE, NAME=ALL, TYPE=ELEMENT\nSKIN, SNEG\n2, S2\n"),
+               1e-3);
+  const auto labels = [&](const std::string& name) {
+    std::vector<std::int64_t> result;
+    for (const int node : mesh::node_set(solid, name, "a.inp").nodes)
+      result.push_back(solid.node_labels[static_cast<std::size_t>(node)]);
+    return result;
+  };
+  EXPECT_EQ(labels("OVER"), (std::vector<std::int64_t>{5, 6, 7, 8}));
+  EXPECT_EQ(labels("UNDER"), (std::vector<std::int64_t>{5, 6, 7, 8}));
+  EXPECT_EQ(labels("ALL"), (std::vector<std::int64_t>{5, 6, 7, 8, 12, 13}));
+}
+
 struct BadFile {
   const char* name;
   std::string text;
@@ -102,6 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"bad.inp:11:", "element 1", "positive volume", "mm"}},
         BadFile{"MovedInstance", bricks + "*INSTANCE, NAME=A\n5., 0., 0.\n", {"*INSTANCE"}},
         BadFile{"FaceThatIsNone", bricks + "*SURFACE, NAME=A\n1, S7\n", {"\"S7\""}},
+        BadFile{"SideOfASolid", bricks + "*SURFACE, NAME=A\nBODY, SPOS\n", {"element 1 is a solid"}},
         BadFile{"SurfaceOfUnknownSet", bricks + "*SURFACE, NAME=A\nNOWHERE, S1\n", {"\"NOWHERE\""}},
         BadFile{"SectionOfUnknownMaterial", bricks + "*SOLID SECTION, ELSET=BODY, MATERIAL=X\n", {"\"X\""}},
         BadFile{"MixedOrders",

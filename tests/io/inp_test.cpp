@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <random>
 
@@ -217,7 +219,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"NotANumber", "*NODE\n1,0,nan,0\n", {"bad.inp:2:", "finite"}},
         BadFile{"Infinity", "*NODE\n1,0,1e999,0\n", {"bad.inp:2:", "finite"}},
         BadFile{"DecimalComma", "*NODE\n1,0,5,0,0,0\n", {"bad.inp:2:", "beyond"}},
-        BadFile{"TwoCoordinates", "*NODE\n1,0,5\n", {"bad.inp:2:", "\"\""}},
         BadFile{"NegativeLabel", "*NODE\n-1,0,0,0\n", {"bad.inp:2:", "\"-1\""}},
         BadFile{"HugeLabel", "*NODE\n99999999999,0,0,0\n", {"bad.inp:2:", "2147483647"}},
         BadFile{"NodeTwice", sound + "*NODE\n3,5,5,5\n", {"bad.inp:9:", "node 3", "line 4"}},
@@ -231,14 +232,103 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"BothOrders",
                 sound + "*ELEMENT, TYPE=C3D10\n2,1,2,3,4,1,2,3,4,1,2\n",
                 {"bad.inp:9:", "element 2", "one order"}},
-        BadFile{"Include", sound + "*INCLUDE, INPUT=more.inp\n", {"bad.inp:8:", "*INCLUDE"}},
+        BadFile{"AbsentInclude", sound + "*INCLUDE, INPUT=more.inp\n", {"bad.inp:8:", "more.inp\" is not there"}},
+        BadFile{"NamelessInclude", sound + "*INCLUDE\n", {"bad.inp:8:", "INPUT=file"}},
+        BadFile{"IncludedFolder", sound + "*INCLUDE, INPUT=.\n", {"bad.inp:8:", "no plain file"}},
+        BadFile{"IncludedInItself", sound + "*INCLUDE, INPUT=./bad.inp\n", {"bad.inp:8:", "includes itself"}},
         BadFile{"NodeGeneration", "*NODE\n1,0,0,0\n*ngen\n1,5,1\n", {"bad.inp:3:", "*NGEN"}},
         BadFile{"NamelessSet", sound + "*NSET\n1\n", {"bad.inp:8:", "NSET=name"}},
-        BadFile{"SetOfAbsentNode", sound + "*NSET, NSET=A\n1, 9\n", {"bad.inp:9:", "node 9"}},
         BadFile{"SetOfUnknownSet", sound + "*NSET, NSET=A\nB\n", {"bad.inp:9:", "\"B\""}},
         BadFile{"RangeBackwards", sound + "*NSET, NSET=A, GENERATE\n5, 1, 1\n", {"bad.inp:9:", "from 5 down to 1"}},
         BadFile{"RangeOfStepZero", sound + "*NSET, NSET=A, GENERATE\n1, 5, 0\n", {"bad.inp:9:", "\"0\""}}),
     [](const auto& file) { return file.param.name; });
+
+/// The lines of a file go on in those that it includes, in the section that is open, and its own go on behind them.
+TEST_F(InpFile, IncludesOthersInTheirPlaces) {
+  std::filesystem::create_directory(path("mesh"));
+  write("mesh/points.txt", "2,1,0,0\n3,0,1,0\n");
+  write("mesh/Corners.inp", "*NODE\n1,0,0,0\n*include, input=mesh/points.txt\n4,0,0,1\n");
+  write("mesh/fixed.inp", "*NSET, NSET=FIXED\n1, 2\n");
+  const auto file = write("main.inp",
+                          "*INCLUDE, INPUT=\"mesh\\Corners.inp\"\n*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n"
+                          "*INCLUDE, INPUT=mesh/fixed.inp\n*INCLUDE, INPUT=mesh/fixed.inp\n*NSET, NSET=TOP\n4\n");
+  const InpLabelled read = inp_mesh(core::read_file(file), file.string(), 1.0);
+  const mesh::SolidMesh solid = mesh::solid_mesh(read.mesh);
+  EXPECT_NEAR(mesh::volume(solid.mesh), 1.0 / 6.0, 1e-15);
+  EXPECT_EQ(mesh::node_set(solid, "FIXED", "").nodes, (std::vector<int>{0, 1}));
+  EXPECT_EQ(mesh::node_set(solid, "TOP", "").nodes, std::vector<int>{3});
+  std::vector<std::string> names;
+  for (const auto& included : read.included) names.push_back(included.filename().string());
+  EXPECT_EQ(names, (std::vector<std::string>{"Corners.inp", "fixed.inp", "points.txt"})) << "each once";
+}
+
+/// A fault is told with the file and the line where it stands, on both sides of an included file and within it.
+TEST_F(InpFile, TellsFaultsWithTheIncludedFileAndItsLine) {
+  const auto message = [&](const std::string& main, const std::string& more) {
+    write("more.inp", more);
+    const auto file = write("main.inp", main);
+    return test::message_of<core::DataError>([&] { (void)read_inp(file, 1.0); });
+  };
+  const std::string include = "*INCLUDE, INPUT=more.inp\n";
+  const std::string within = message(corners + include, "** none\n5,0,zero,0\n");
+  EXPECT_NE(within.find("more.inp:2: \"zero\""), std::string::npos) << within;
+  const std::string behind = message(sound + include + "*NODE\n9,0,0\n*NODE\n8,x,0,0\n", "*NSET, NSET=A\n1\n");
+  EXPECT_NE(behind.find("main.inp:12: \"x\""), std::string::npos) << behind;
+  const std::string twice = message(sound + include, "*NODE\n3,5,5,5\n");
+  EXPECT_NE(twice.find("more.inp:2: node 3 is there already, at "), std::string::npos) << twice;
+  EXPECT_NE(twice.find("main.inp:4"), std::string::npos) << twice;
+  const std::string again = message(include + include, sound);
+  EXPECT_NE(again.find("main.inp:2:"), std::string::npos) << again;
+  EXPECT_NE(again.find("for the second time"), std::string::npos) << again;
+  const std::string cycle = message(include, sound + "*INCLUDE, INPUT=main.inp\n");
+  EXPECT_NE(cycle.find("more.inp:8: the file \"main.inp\" includes itself"), std::string::npos) << cycle;
+}
+
+TEST_F(InpFile, IncludesTenFilesWithinEachOtherAndAThousandInAll) {
+  const auto chain = [&](int files) {  // each names the next, the last one has the mesh
+    for (int k = 0; k < files; ++k) write("f" + std::to_string(k), "*INCLUDE, INPUT=f" + std::to_string(k + 1) + "\n");
+    write("f" + std::to_string(files), sound);
+    return path("f0");
+  };
+  EXPECT_EQ(read_inp(chain(10), 1.0).mesh.tets.size(), 1U);
+  EXPECT_NE(test::message_of<core::DataError>([&] { (void)read_inp(chain(11), 1.0); }).find("more than 10 files"),
+            std::string::npos);
+  write("empty", "** nothing\n");
+  std::string text = sound;
+  for (int k = 0; k < 1000; ++k) text += "*INCLUDE, INPUT=empty\n";
+  EXPECT_EQ(read_inp(write("many.inp", text), 1.0).mesh.tets.size(), 1U);
+  const auto file = write("many.inp", text + "*INCLUDE, INPUT=empty\n");
+  EXPECT_NE(test::message_of<core::DataError>([&] { (void)read_inp(file, 1.0); }).find("more than 1000 files"),
+            std::string::npos);
+}
+
+/// Abaqus and CalculiX take a coordinate that is blank, or left out, as 0.
+TEST_F(InpFile, TakesCoordinatesThatAreLeftOutAsZeroAndTellsSo) {
+  const mesh::SolidMesh solid =
+      read_inp(write("blank.inp", "*NODE\n1\n2,1\n3,,1\n4, , ,1.\n*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n"), 1.0);
+  EXPECT_NEAR(mesh::volume(solid.mesh), 1.0 / 6.0, 1e-15);
+  const auto told = std::find_if(solid.notices.begin(), solid.notices.end(), [](const std::string& notice) {
+    return notice.find("4 nodes have fewer than three coordinates") != std::string::npos;
+  });
+  ASSERT_NE(told, solid.notices.end());
+  EXPECT_NE(told->find("blank.inp:2)"), std::string::npos) << *told;
+}
+
+TEST_F(InpFile, MayHaveASetOfAMissingNodeThatNobodyUses) {
+  const auto file = write("sets.inp", sound +
+                                          "*NSET, NSET=A\n1, 9\n*NSET, NSET=B\nA\n*NSET, NSET=C\n2\n"
+                                          "*SURFACE, NAME=S, TYPE=NODE\nA\n");
+  const mesh::SolidMesh solid = read_inp(file, 1.0);
+  EXPECT_EQ(node_set(solid, "C", "").nodes, std::vector<int>{1});
+  for (const char* name : {"A", "B", "S"}) {
+    const std::string message = test::message_of<core::DataError>([&] { (void)node_set(solid, name, ""); });
+    EXPECT_NE(message.find("sets.inp:9: the set \"" + std::string(name) + "\" names node 9"), std::string::npos)
+        << message;
+  }
+  EXPECT_EQ(std::count_if(solid.notices.begin(), solid.notices.end(),
+                          [](const std::string& notice) { return notice.starts_with("3 sets name missing nodes"); }),
+            1);
+}
 
 TEST_F(InpFile, WhereACornerIsAMidEdgeNodeElsewhereDoesNotFitTogether) {
   const auto file = write("bad.inp",
