@@ -2,9 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <span>
 #include <string>
+
+#include "io/surface/ear_clipping.hpp"
 
 namespace thinwall::io {
 
@@ -64,6 +67,19 @@ std::size_t best_apex(const Points& points, std::span<const int> corners) {
   return best;
 }
 
+/// The triangles of a facet that no fan fills, as seen along its normal; empty if its outline crosses itself.
+std::vector<std::array<std::size_t, 3>> ears_of(const Points& points, std::span<const int> corners) {
+  const Eigen::Vector3d normal = newell_normal(points, corners).normalized();
+  const Eigen::Vector3d along_x = normal.unitOrthogonal();
+  const Eigen::Vector3d along_y = normal.cross(along_x);
+  std::vector<Eigen::Vector2d> seen;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Eigen::Vector3d x = at(points, corners, k) - at(points, corners, 0);
+    seen.emplace_back(along_x.dot(x), along_y.dot(x));
+  }
+  return clipped_ears(seen);
+}
+
 }  // namespace
 
 mesh::TriangleSoup triangles_of(std::vector<Eigen::Vector3d> points, const FacetList& facets,
@@ -81,8 +97,12 @@ mesh::TriangleSoup triangles_of(std::vector<Eigen::Vector3d> points, const Facet
     }
     const std::size_t apex = best_apex(points, corners);
     if (apex == corners.size()) {
-      fail(facets.places[f], "a facet of " + std::to_string(corners.size()) +
-                                 " corners cannot be cut into triangles from one of them; export triangles");
+      const auto ears = ears_of(points, corners);
+      if (ears.empty())
+        fail(facets.places[f], "a facet of " + std::to_string(corners.size()) +
+                                   " corners crosses itself and cannot be cut into triangles; export triangles");
+      for (const auto& ear : ears) result.triangles.push_back({corners[ear[0]], corners[ear[1]], corners[ear[2]]});
+      continue;
     }
     for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
       const auto corner = [&](std::size_t i) { return corners[(apex + i) % corners.size()]; };

@@ -21,9 +21,9 @@ struct FacetList {
 
 /// The triangles of all facets in their order. Three corners are one triangle; more are a fan of triangles from the
 /// corner for which the smallest triangle, seen along the facet's (Newell's) normal, is largest. Beyond 64 corners the
-/// best of 33 to 64 evenly spaced ones is taken, and if none of these is valid the first valid one. Calls `fail(place,
-/// what)`, which must throw, for a facet with a missing point or one that no fan from a corner fills. Cost O(corners)
-/// for a facet, and O(corners²) if none of the 64 is valid.
+/// best of 33 to 64 evenly spaced ones is taken, and if none of these is valid the first valid one. A facet that no fan
+/// fills is divided by clipped_ears(). Calls `fail(place, what)`, which must throw, for a facet with a missing point or
+/// one that crosses itself. Cost O(corners) for a facet, and O(corners²) if none of the 64 is valid.
 [[nodiscard]] mesh::TriangleSoup triangles_of(std::vector<Eigen::Vector3d> points, const FacetList& facets,
                                               const std::function<void(int, const std::string&)>& fail);
 
