@@ -18,6 +18,7 @@
 #include "core/units.hpp"
 #include "dynamics/dof.hpp"
 #include "io/csv_text.hpp"
+#include "setup/measured.hpp"
 
 namespace thinwall::app {
 
@@ -26,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using core::UsageError;
 
-/// One CSV file of the command line.
+/// One file of the command line.
 struct Source {
   char response = 'x';
   char force = 'x';
@@ -116,20 +117,24 @@ cases::CaseValues modes_values(const io::CsvText& text) {
   return values;
 }
 
-/// The values of the [[tool.measured]] of that number.
-cases::CaseValues measured_values(const Source& source, std::size_t number, const LobesInput& input) {
-  if (input.quantity.empty() || input.unit.empty()) {
+/// The values of the [[tool.measured]] of that number. `tells_itself`: the format has quantity and unit.
+cases::CaseValues measured_values(const Source& source, std::size_t number, const LobesInput& input,
+                                  bool tells_itself) {
+  const bool none_given = input.quantity.empty() && input.unit.empty() && input.frequency_unit.empty();
+  if (!(tells_itself && none_given) && (input.quantity.empty() || input.unit.empty())) {
     throw UsageError("\"" + source.file.string() +
                      "\": say what the FRF is, for example --quantity accelerance --unit m/s^2/N (receptance m/N, "
                      "mobility m/s/N)");
   }
   const std::string frf = "tool.measured[" + std::to_string(number) + "].";
-  return {{frf + "response", std::string(1, source.response)},
-          {frf + "force", std::string(1, source.force)},
-          {frf + "file", name_in_case(source.file)},
-          {frf + "quantity", input.quantity},
-          {frf + "unit", input.unit},
-          {frf + "frequency_unit", input.frequency_unit.empty() ? "Hz" : input.frequency_unit}};
+  cases::CaseValues values{{frf + "response", std::string(1, source.response)},
+                           {frf + "force", std::string(1, source.force)},
+                           {frf + "file", name_in_case(source.file)}};
+  if (tells_itself && none_given) return values;
+  values.push_back({frf + "quantity", input.quantity});
+  values.push_back({frf + "unit", input.unit});
+  values.push_back({frf + "frequency_unit", input.frequency_unit.empty() ? "Hz" : input.frequency_unit});
+  return values;
 }
 
 /// The structure that moves: the modes of a table, or an FRF of each file.
@@ -137,13 +142,18 @@ cases::CaseValues structure_values(const LobesInput& input) {
   cases::CaseValues values;
   for (std::size_t i = 0; i < input.sources.size(); ++i) {
     const Source source = source_of(input.sources[i]);
+    if (setup::frf_file_kind(source.file) != setup::FrfFileKind::csv) {
+      std::ranges::move(measured_values(source, i, input, true), std::back_inserter(values));
+      continue;
+    }
     const io::CsvText text = io::read_csv_text(source.file);
     const bool modes = is_table_of_modes(text);
     if (modes && (input.sources.size() > 1 || source.entry_given || !input.quantity.empty() || !input.unit.empty())) {
       throw UsageError("\"" + source.file.string() +
                        "\" is a table of modes: give it alone, without ENTRY=, --quantity and --unit");
     }
-    std::ranges::move(modes ? modes_values(text) : measured_values(source, i, input), std::back_inserter(values));
+    std::ranges::move(modes ? modes_values(text) : measured_values(source, i, input, false),
+                      std::back_inserter(values));
   }
   return values;
 }
@@ -178,8 +188,9 @@ cases::Case parsed(const std::string& tool, const fs::path& file, const cases::C
 cases::Case from_case(const LobesInput& input) {
   if (input.sources.size() > 1 || !input.tool.empty() || !input.quantity.empty() || !input.unit.empty() ||
       !input.frequency_unit.empty()) {
-    throw UsageError("\"" + input.sources.front() +
-                     "\" is a case: give it alone; --tool, --quantity, --unit and --frequency-unit go with CSV files");
+    throw UsageError(
+        "\"" + input.sources.front() +
+        "\" is a case: give it alone; --tool, --quantity, --unit and --frequency-unit go with files of FRFs");
   }
   cases::Case result = cases::read_case(input.sources.front(), input.overrides);
   if (!result.lobes || !result.cutting || !result.tool) {

@@ -1,7 +1,7 @@
 #pragma once
 // The headers of io/ that other programs may include.
-// Internal: csv_text, ear_clipping, gmsh_element, gmsh_numbers, inp_text, json_file, mat_variables, matrix_entries,
-// nastran_cards, ply_heading, program_id, step_triangles, surface_facets, surface_text, surface_unit, uff_fields, uff_meaning,
+// Internal: csv_text, ear_clipping, gmsh_element, gmsh_numbers, inp_text, json_file, mat4, mat5_layout, mat_variables,
+// mat_version, matrix_entries, nastran_cards, ply_heading, program_id, step_triangles, surface_facets, surface_text, surface_unit, uff_fields, uff_meaning,
 // uff_units, universal_file, vtu_array, vtu_reader.
 
 #include "core/eigen_alignment.hpp"

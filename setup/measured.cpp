@@ -17,6 +17,7 @@
 #include "io/frf/mat_response.hpp"
 #include "io/frf/resample.hpp"
 #include "io/frf/uff.hpp"
+#include "io/matrices/mat_version.hpp"
 #include "reduction/damping.hpp"
 #include "setup/measured_layout.hpp"
 
@@ -111,6 +112,7 @@ io::MeasuredEntries read_file(const MeasuredFrf& measured) {
 }  // namespace
 
 FrfFileKind frf_file_kind(const std::filesystem::path& file) {
+  if (io::mat_version_of_file(file) != io::MatVersion::none) return FrfFileKind::mat;
   std::string extension = file.extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
   if (extension == ".frf") return FrfFileKind::cutpro;

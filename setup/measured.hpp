@@ -14,9 +14,10 @@
 
 namespace thinwall::setup {
 
-/// The kind of a file of FRFs, by the end of its name: .frf, .uff or .unv, .mat; anything else is a CSV.
+/// The kind of a file of FRFs.
 enum class FrfFileKind { csv, cutpro, universal, mat };
-/// The kind of a file of FRFs by its ending.
+/// The kind of a file of FRFs: MAT by its first bytes or its ending, otherwise by the ending .frf, .uff or .unv;
+/// anything else is a CSV.
 [[nodiscard]] FrfFileKind frf_file_kind(const std::filesystem::path& file);
 
 /// The FRFs of files that were read, by the file and by what is stated of it.

@@ -16,6 +16,9 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "io/matrices/mat4.hpp"
+#include "io/matrices/mat5_layout.hpp"
+#include "io/matrices/mat_version.hpp"
 
 namespace thinwall::io {
 
@@ -138,54 +141,6 @@ Variable encoded(const MatVariable& variable) {
 
 // ---- Reading ----
 
-/// Checks the head of an array that is not compressed: flags, dimensions, whose product must be possible in its `size`
-/// bytes, and the name. With impossible dimensions matio takes minutes.
-void require_head(const std::string& bytes, std::size_t at, std::size_t size, const std::filesystem::path& path) {
-  constexpr std::size_t head_size = 24;  // the tag of the flags, the flags, the tag of the dimensions
-  std::array<std::uint32_t, 6> head{};
-  if (size < head_size || at + size > bytes.size()) return;  // refused as not whole, or empty
-  std::memcpy(head.data(), bytes.data() + at, head_size);
-  const std::uint32_t kind = head[2] & 0xFFU;
-  if (kind == MAT_C_STRUCT || kind == MAT_C_OBJECT || kind > MAT_C_UINT64) return;  // none of these is read
-  const std::size_t dimensions = head[5] / 4;
-  bool whole = head[0] == MAT_T_UINT32 && head[1] == 8 && head[4] == MAT_T_INT32 && head[5] <= size - head_size;
-  std::size_t left = size;
-  for (std::size_t i = kind == MAT_C_SPARSE ? 1 : 0; whole && i < dimensions; ++i) {
-    std::uint32_t length = 0;
-    std::memcpy(&length, bytes.data() + at + head_size + 4 * i, sizeof length);
-    left = length == 0 ? size : left / length;
-    whole = left > 0;
-  }
-  const std::size_t name_at = head_size + (head[5] + 7) / 8 * 8;
-  std::array<std::uint32_t, 2> name{};
-  whole = whole && name_at + 8 <= size;
-  if (whole) std::memcpy(name.data(), bytes.data() + at + name_at, 8);
-  whole = whole && (name[0] > 0xFFFFU || name[1] <= size - name_at - 8);  // a short name lies within its tag
-  if (!whole) fail_in(path, "has a variable that states more than its bytes hold; write it again");
-}
-
-/// Checks the lengths of all elements of the file, because matio reads a variable whose end is missing as if its last
-/// entries were zero. An element is a tag (type, bytes) and its data, in whole words of 8 bytes unless they are
-/// compressed. Returns the largest number of bytes that a variable can have.
-std::size_t require_whole(const std::filesystem::path& path) {
-  constexpr std::size_t header_size = 128;
-  constexpr std::size_t tag_size = 8;
-  const std::string bytes = core::read_file(path);
-  std::size_t at = header_size;
-  bool compressed = false;
-  while (at + tag_size <= bytes.size()) {
-    std::array<std::uint32_t, 2> tag{};
-    std::memcpy(tag.data(), bytes.data() + at, tag_size);
-    const std::size_t size = tag[1];
-    if (tag[0] == MAT_T_MATRIX) require_head(bytes, at + tag_size, size, path);
-    compressed = compressed || tag[0] == MAT_T_COMPRESSED;
-    at += tag_size + (tag[0] == MAT_T_COMPRESSED ? size : (size + 7) / 8 * 8);
-  }
-  if (at != bytes.size()) fail_in(path, "is no whole MAT file of version 5; write it again with that version");
-  constexpr std::size_t most_by_deflate = 1032;
-  return bytes.size() * (compressed ? most_by_deflate : 1);
-}
-
 /// Throws DataError if a variable states more entries than its bytes can contain: every entry of an array or a list
 /// takes at least one byte, every column of a sparse matrix four. matio would allocate the memory stated.
 void require_entries_within(const matvar_t& stated, std::size_t bytes, const std::string& name,
@@ -256,6 +211,18 @@ void take_numbers(const matvar_t& stored, const std::filesystem::path& path, Mat
   variable.im = numbers_of<Number>(parts->Im, count, path, variable.name);
 }
 
+void take_numbers_of_any_kind(const matvar_t& stored, const std::filesystem::path& path, MatVariable& variable) {
+  const auto take = [&]<typename... Number>() {
+    constexpr std::array types{MAT_T_DOUBLE, MAT_T_SINGLE, MAT_T_INT8,   MAT_T_UINT8, MAT_T_INT16,
+                               MAT_T_UINT16, MAT_T_INT32,  MAT_T_UINT32, MAT_T_INT64, MAT_T_UINT64};
+    std::size_t i = 0;
+    return ((stored.data_type == types[i++] && (take_numbers<Number>(stored, path, variable), true)) || ...);
+  };
+  const bool taken = take.operator()<double, float, std::int8_t, std::uint8_t, std::int16_t, std::uint16_t,
+                                     std::int32_t, std::uint32_t, std::int64_t, std::uint64_t>();
+  if (!taken) fail_in(path, "the variable " + variable.name + " is of numbers that are not known");
+}
+
 /// The sparse matrix with each index checked, because matio takes indices unchecked from the file.
 Eigen::SparseMatrix<double> sparse_numbers(const matvar_t& stored, const std::string& name,
                                            const std::filesystem::path& path) {
@@ -288,12 +255,10 @@ MatVariable decoded(const matvar_t& stored, const std::string& name, const std::
   } else if (stored.class_type == MAT_C_SPARSE) {
     variable.is_sparse = true;
     variable.sparse = sparse_numbers(stored, name, path);
-  } else if (stored.class_type == MAT_C_DOUBLE && stored.data_type == MAT_T_DOUBLE) {
-    take_numbers<double>(stored, path, variable);
-  } else if (stored.class_type == MAT_C_SINGLE && stored.data_type == MAT_T_SINGLE) {
-    take_numbers<float>(stored, path, variable);
+  } else if (stored.class_type >= MAT_C_DOUBLE && stored.class_type <= MAT_C_UINT64) {
+    take_numbers_of_any_kind(stored, path, variable);
   } else {
-    fail_in(path, "the variable " + name + " is neither a full matrix of doubles or singles nor a list of texts");
+    fail_in(path, "the variable " + name + " is neither a matrix of numbers nor a list of texts");
   }
   return variable;
 }
@@ -337,7 +302,11 @@ void write_mat_variables(const std::filesystem::path& path, const std::string& t
 
 MatVariables read_mat_variables(const std::filesystem::path& path, const std::vector<std::string>& names) {
   return in_memory(path, [&] {
-    const std::size_t most_bytes = require_whole(path);
+    const MatVersion version = mat_version_of_file(path);
+    if (version == MatVersion::four) return mat4_variables(core::read_file(path), names, path.string());
+    if (version == MatVersion::hdf5)
+      fail_in(path, "is a MAT file of version 7.3 (HDF5), which is not read; write it again by save(…, '-v7')");
+    const std::size_t most_bytes = require_whole_mat5(core::read_file(path), path);
     const MatFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
     if (!file) fail_in(path, "cannot be read as a MAT file");
     MatVariables variables;

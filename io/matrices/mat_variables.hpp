@@ -1,5 +1,5 @@
 #pragma once
-// MAT files of version 5 as plain variables, which MATLAB, Octave, SciPy and measuring programs exchange.
+// MAT files as plain variables, which MATLAB, Octave, SciPy and measuring programs exchange.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -51,10 +51,10 @@ auto in_memory(const std::filesystem::path& path, const Read& read) {
 void write_mat_variables(const std::filesystem::path& path, const std::string& title,
                          const std::vector<MatVariable>& variables);
 
-/// Reads those of the named variables that the file contains: arrays of doubles or singles, real sparse matrices of
-/// doubles, cell arrays of texts. Throws DataError that names the file, and the variable if it is of another kind,
-/// contains NaN or infinity or states more entries than the file can contain; and for a file of version 7.3 (HDF5) or a
-/// truncated one.
+/// Reads those of the named variables that the file contains: arrays of numbers of any type (whole ones beyond 2⁵³ are
+/// rounded), real sparse matrices of doubles, cell arrays of texts. Files of version 4 are read, too (mat4.hpp). Throws
+/// DataError that names the file, and the variable if it is of another kind, contains NaN or infinity or states more
+/// entries than the file can contain; and for a file of version 7.3 (HDF5) or a truncated one.
 [[nodiscard]] MatVariables read_mat_variables(const std::filesystem::path& path, const std::vector<std::string>& names);
 
 /// The variable of that name. Throws DataError "path: has no variable name" if there is none.

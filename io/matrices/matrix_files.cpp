@@ -10,6 +10,7 @@
 #include "io/matrices/dmig.hpp"
 #include "io/matrices/dof_table_csv.hpp"
 #include "io/matrices/mat_sparse.hpp"
+#include "io/matrices/mat_version.hpp"
 #include "io/matrices/matrix_entries.hpp"
 #include "io/matrices/matrix_format.hpp"
 #include "io/matrices/matrix_market.hpp"
@@ -49,7 +50,7 @@ bool has_dmig(std::string_view bytes) {
 }
 
 Format format_of(std::string_view bytes, const std::string& path) {
-  if (bytes.starts_with("MATLAB")) return Format::mat;
+  if (mat_version(bytes) != MatVersion::none) return Format::mat;
   if (is_matrix_market(bytes)) return Format::matrix_market;
   const int fields = fields_of_first_line(bytes);
   const auto first = bytes.find_first_not_of(" \t\r\n");
@@ -61,7 +62,7 @@ Format format_of(std::string_view bytes, const std::string& path) {
   throw core::DataError(
       path +
       ": is no matrix that is known: Matrix Market (%%MatrixMarket), CalculiX .sti or .mas and Abaqus "
-      ".mtx (lines of three or five numbers), Nastran DMIG, MAT version 5");
+      ".mtx (lines of three or five numbers), Nastran DMIG, MAT");
 }
 
 /// The three matrices of the files, by row or by label; a matrix that is not given has no path.

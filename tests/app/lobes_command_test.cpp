@@ -11,6 +11,7 @@
 #include "app/lobes_input.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
+#include "io/frf/mat_response.hpp"
 #include "tests/case/case_text.hpp"
 #include "tests/core/temporary_folder.hpp"
 
@@ -139,6 +140,24 @@ TEST_F(LobesCommand, EntriesOfTheFrfMatrixAreNamedBeforeTheFile) {
   EXPECT_EQ(source.tool->measured[1].response, "tool.y");
   EXPECT_EQ(source.tool->measured[1].force, "tool.x");
   EXPECT_EQ(source.name, "tip");
+}
+
+/// Whatever the name of a MAT file, it is none of lines of text, and says itself what it holds.
+TEST_F(LobesCommand, AMatFileIsKnownByItsContent) {
+  io::MeasuredResponse tip;
+  tip.response.axis = dynamics::linear_axis(100.0, 2000.0, 400);
+  tip.response.responses = tip.response.forces = {{"tool", Eigen::Vector3d::UnitX(), dynamics::DofKind::translation}};
+  for (const double hz : tip.response.axis.hz)
+    tip.response.H.push_back(Eigen::MatrixXcd::Constant(
+        1, 1, 1.0 / (1.3e6 * std::complex<double>(1.0 - std::pow(hz / 922.0, 2), 0.022 * hz / 922.0))));
+  io::write_mat_response(temporary.path / "tip.dat", tip);
+  const Case source = lobes_case({{path("tip.dat")}, path("tool.toml"), {}, "", "", ""});
+  ASSERT_EQ(source.tool->measured.size(), 1U);
+  ASSERT_TRUE(source.tool->measured[0].content);
+  EXPECT_EQ(source.tool->measured[0].content->frf.H(7), tip.response.H[7](0, 0));
+  const Outcome stated = frf(path("tip.dat"), {}, "accelerance", "m/s^2/N");
+  EXPECT_NE(stated.code, 0);
+  EXPECT_NE(stated.err.find("holds receptances in m/N"), std::string::npos) << stated.err;
 }
 
 TEST_F(LobesCommand, WhatMovesIsPutBehindTheToolsOwnAndTakesSet) {
