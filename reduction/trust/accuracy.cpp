@@ -8,6 +8,8 @@
 #include "core/interrupt.hpp"
 #include "dynamics/conversion.hpp"
 #include "linalg/sparse_indefinite.hpp"
+#include "linalg/tall.hpp"
+#include "reduction/trust/receptance_sum.hpp"
 #include "reduction/worst.hpp"
 
 namespace thinwall::reduction {
@@ -50,9 +52,17 @@ std::vector<FullReceptance> full_receptances(const linalg::SparseMatrix& K, cons
   for (const double hz : frequencies_hz) {
     core::check_interrupt();
     const double omega = 2.0 * std::numbers::pi * hz;
-    const linalg::SparseIndefinite dynamic_stiffness(linalg::combine(1.0, K, -omega * omega, M), node_of_row);
-    const auto solution = dynamic_stiffness.solve(W);
-    result.push_back({hz, interface.W.transpose() * solution.X, solution.relative_residual});
+    const linalg::SparseMatrix Z = linalg::combine(1.0, K, -omega * omega, M);
+    const auto solution = linalg::SparseIndefinite(Z, node_of_row).solve(W);
+    const Eigen::MatrixXd H = interface.W.transpose() * solution.X;
+    double error = solution.relative_residual;
+    if (!(error < small_residual)) {
+      const Eigen::MatrixXd R = linalg::symmetric_product(Z, solution.X) - W;
+      const Eigen::MatrixXd wrong =
+          (solution.X.transpose() * R).cwiseAbs() + residual_round_off(Z.cwiseAbs(), solution.X);
+      error = wrong.maxCoeff<Eigen::PropagateNaN>() / H.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    }
+    result.push_back({hz, H, solution.relative_residual, error});
   }
   return result;
 }

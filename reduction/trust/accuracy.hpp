@@ -33,6 +33,9 @@ struct [[nodiscard]] FullReceptance {
   double frequency_hz = 0.0;
   Eigen::MatrixXd H;               ///< interface × interface, undamped, m/N
   double relative_residual = 0.0;  ///< residual of the sparse solve
+  /// The residual where it is below small_residual (receptance_sum.hpp); beyond it the error of the receptances by it
+  /// to first order, max|XᵀR| / max|H|.
+  double relative_error = 0.0;
 };
 
 /// The receptances Wᵀ (K − ω²M)⁻¹ W of the undamped full model, by a sparse L D Lᵀ factorisation at each frequency,

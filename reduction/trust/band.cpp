@@ -127,7 +127,7 @@ BandTruth band_truth(const FullModel& full, const Interface& interface, const Ba
   BandTruth truth;
   truth.natural_hz = hz.head((hz.array() <= band.to_hz).count());
   truth.rigid_motions = static_cast<int>(rigid);
-  truth.max_relative_residual = sum.max_relative_residual;
+  truth.max_relative_error = sum.max_relative_error;
   truth.z = squares(band, truth.natural_hz);
   for (const Complex z : truth.z) {
     core::check_interrupt();

@@ -61,7 +61,7 @@ struct [[nodiscard]] BandTruth {
   std::vector<std::complex<double>> z;
   std::vector<Eigen::MatrixXcd> H;  ///< H(z), interface × interface
   Eigen::VectorXd units;
-  double max_relative_residual = 0.0;  ///< that of receptance_sum()
+  double max_relative_error = 0.0;  ///< that of receptance_sum()
 };
 
 /// The receptances of the full model over a band, without reduction: every mode up to the band's end, and the rest of

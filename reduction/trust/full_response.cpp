@@ -17,6 +17,7 @@ FullResponse full_response(const linalg::SparseMatrix& K, const linalg::SparseMa
     ratio(k) = k < static_cast<Eigen::Index>(ratios.size()) ? ratios[static_cast<std::size_t>(k)] : rest_ratio;
   FullResponse result;
   result.max_relative_residual = sum.max_relative_residual;
+  result.max_relative_error = sum.max_relative_error;
   result.response.axis = axis;
   result.response.responses = interface.dofs;
   result.response.forces = interface.dofs;

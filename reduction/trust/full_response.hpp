@@ -11,6 +11,7 @@ namespace thinwall::reduction {
 struct [[nodiscard]] FullResponse {
   dynamics::ResponseModel response;
   double max_relative_residual = 0.0;  ///< ‖(K − ω²M) x − w‖ / ‖w‖ of the undamped solution at the highest frequency
+  double max_relative_error = 0.0;  ///< that of receptance_sum()
 };
 
 /// The receptances H(ω) = Wᵀ (K − ω²M + iωC)⁻¹ W with C = M Φ diag(2ζω_r) Φᵀ M on the known modes:

@@ -16,7 +16,14 @@ struct [[nodiscard]] ReceptanceSum {
   Eigen::MatrixXd amplitude;  ///< interface × terms
   Eigen::Index modes = 0;
   double max_relative_residual = 0.0;  ///< ‖(K − ω²M) x − w‖ / ‖w‖ of the undamped solution at the highest frequency
+  /// The residual where it is below small_residual; an estimate of the receptances' relative error beyond it.
+  double max_relative_error = 0.0;
 };
+
+/// The relative residual below which no better measure of the error is asked for. A larger one need not mean a larger
+/// error: where stiffnesses differ by many orders, as in elements of a bad shape or with nearly rigid links, the
+/// residual contains the round-off of the largest ones.
+inline constexpr double small_residual = 1e-6;
 
 /// The receptance as a sum of known modes and, for the rest of the model, of Ritz pairs of a Krylov space that begins
 /// with the static deflections (Su & Craig 1991): V is an M-orthonormal basis of {X, AX, A²X …}, A = K⁻¹M, X = K⁻¹W,
@@ -25,10 +32,17 @@ struct [[nodiscard]] ReceptanceSum {
 /// 0.25, where the series takes 24. The sum is therefore exact to round-off, and no mode is left out. `pairs` must
 /// contain every mode below ω_max and some beyond, those of a free part beginning with the rigid-body modes with λ = 0;
 /// `inverse` is K⁻¹, or the elastic flexibility of a free part (sigma 0). Throws InputError if ω_max is beyond 0.9 of
-/// the highest known frequency. Cost: a solve of interface-many right-hand sides for each of at most 21 steps.
+/// the highest known frequency. With the residual R of the solution X at ω_max, and Z = K − ω²M, the error of the
+/// receptance is XᵀR − RᵀZ⁻¹R; its estimate takes one more solve. Cost: a solve of interface-many right-hand sides for
+/// each of at most 21 steps.
 ReceptanceSum receptance_sum(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M,
                              const linalg::ShiftedInverse& inverse, const linalg::Eigenpairs& pairs,
                              const Interface& interface, double omega_max_rad_s);
+
+/// The round-off of XᵀR, where R is the residual of X in equations whose entries have the magnitudes `absolute`: 4ε
+/// times the root of the sum of squares of x_i (|Z||x|)_i, since the errors of the rows are independent. The rounding
+/// of the entries themselves changes XᵀZX by as much.
+[[nodiscard]] Eigen::MatrixXd residual_round_off(const linalg::SparseMatrix& absolute, const Eigen::MatrixXd& X);
 
 /// The receptance H(z), interface × interface.
 [[nodiscard]] Eigen::MatrixXcd receptance_at(const ReceptanceSum& sum, std::complex<double> z);

@@ -170,5 +170,93 @@ TEST(FullResponse, IsExactWhereItsBasisHoldsTheWholeModel) {
   }
 }
 
+/// Unit masses and springs in a chain, held at one end if `held`, with one link in the middle that is nearly rigid: its
+/// round-off fills the residual.
+struct ChainWithRigidLink {
+  static constexpr int n = 60;
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);
+  Interface interface;
+
+  ChainWithRigidLink(double link, bool held) {
+    const auto spring = [&](int i, double k) {
+      K(i, i) += k;
+      if (i > 0) K(i - 1, i - 1) += k;
+      if (i > 0) K(i, i - 1) = K(i - 1, i) = -k;
+    };
+    for (int i = held ? 0 : 1; i < n; ++i) spring(i, i == n / 2 ? link : 1.0);
+    interface.W.resize(n, 2);
+    interface.W.insert(n - 1, 0) = 1.0;
+    interface.W.insert(n / 2, 1) = 1.0;
+    interface.dofs = {{"tip", Eigen::Vector3d::UnitX(), dynamics::DofKind::translation},
+                      {"middle", Eigen::Vector3d::UnitX(), dynamics::DofKind::translation}};
+  }
+
+  /// The receptances by elimination with pivots in long double; all entries of K are exact in double precision.
+  [[nodiscard]] Eigen::MatrixXd receptance(double omega) const {
+    using Long = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+    const Long Z = K.cast<long double>() - static_cast<long double>(omega) * omega * Long::Identity(n, n);
+    const Long W = Eigen::MatrixXd(interface.W).cast<long double>();
+    return Long(W.transpose() * Z.fullPivLu().solve(W)).cast<double>();
+  }
+};
+
+/// A residual far above 1e-6 that is round-off does not mean receptances that are as wrong.
+TEST(FullResponse, TellsTheErrorOfReceptancesWhereRoundOffFillsTheResidual) {
+  const ChainWithRigidLink chain(1e10, true);
+  const linalg::SparseMatrix K(chain.K.sparseView());
+  const linalg::SparseMatrix M(Eigen::MatrixXd(Eigen::MatrixXd::Identity(chain.n, chain.n)).sparseView());
+  linalg::Eigenpairs pairs = linalg::dense_eigenpairs(K, M, {});
+  pairs.lambda.conservativeResize(6);
+  pairs.Phi.conservativeResize(Eigen::NoChange, 6);
+  const Eigen::LDLT<Eigen::MatrixXd> factor(chain.K);
+  const linalg::ShiftedInverse action{
+      [&](const Eigen::Ref<const Eigen::MatrixXd>& B) -> Eigen::MatrixXd { return factor.solve(B); }, 0.0};
+  const double hz = 0.7 * std::sqrt(pairs.lambda(5)) / (2.0 * std::numbers::pi);
+  const auto full =
+      full_response(K, M, action, pairs, {}, 0.0, chain.interface, dynamics::linear_axis(0.5 * hz, hz, 2));
+  const Eigen::MatrixXd expected = chain.receptance(full.response.axis.omega_rad_s(1));
+  const double error = (full.response.H[1].real() - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
+  std::printf("residual %.1e, receptances off by %.1e, said %.1e\n", full.max_relative_residual, error,
+              full.max_relative_error);
+  EXPECT_GT(full.max_relative_residual, 1e-6) << "the case is one that was refused";
+  EXPECT_LT(error, full.max_relative_error);
+  EXPECT_LT(full.max_relative_error, 1e-3);
+}
+
+/// Where a mode is missing among the known ones, the estimate does not pass the answer.
+TEST(FullResponse, SaysALargeErrorWhereItsBasisIsTooSmall) {
+  const ChainWithRigidLink chain(1.0, true);
+  const linalg::SparseMatrix K(chain.K.sparseView());
+  const linalg::SparseMatrix M(Eigen::MatrixXd(Eigen::MatrixXd::Identity(chain.n, chain.n)).sparseView());
+  linalg::Eigenpairs pairs = linalg::dense_eigenpairs(K, M, {});
+  pairs.lambda.conservativeResize(20);
+  pairs.lambda(19) *= 200.0;  // pretends that the modes reach far, so that few steps are made
+  pairs.Phi.conservativeResize(Eigen::NoChange, 20);
+  const Eigen::LDLT<Eigen::MatrixXd> factor(chain.K);
+  const linalg::ShiftedInverse action{
+      [&](const Eigen::Ref<const Eigen::MatrixXd>& B) -> Eigen::MatrixXd { return factor.solve(B); }, 0.0};
+  const double hz = 0.5 * std::sqrt(pairs.lambda(19)) / (2.0 * std::numbers::pi);
+  const auto full =
+      full_response(K, M, action, pairs, {}, 0.0, chain.interface, dynamics::linear_axis(0.5 * hz, hz, 2));
+  EXPECT_GT(full.max_relative_error, 1e-3);
+}
+
+TEST(FullReceptances, TellTheirErrorWhereRoundOffFillsTheResidual) {
+  const ChainWithRigidLink chain(1e9, false);
+  const linalg::SparseMatrix K(chain.K.sparseView());
+  const linalg::SparseMatrix M(Eigen::MatrixXd(Eigen::MatrixXd::Identity(chain.n, chain.n)).sparseView());
+  std::vector<int> nodes(chain.n);
+  for (int i = 0; i < chain.n; ++i) nodes[static_cast<std::size_t>(i)] = i;
+  const double hz = 0.021 / (2.0 * std::numbers::pi);  // below the first elastic mode
+  const auto lines = full_receptances(K, M, nodes, chain.interface, {hz});
+  const Eigen::MatrixXd expected = chain.receptance(2.0 * std::numbers::pi * hz);
+  const double error = (lines[0].H - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
+  std::printf("residual %.1e, receptances off by %.1e, said %.1e\n", lines[0].relative_residual, error,
+              lines[0].relative_error);
+  EXPECT_GT(lines[0].relative_residual, 1e-6);
+  EXPECT_LT(error, lines[0].relative_error);
+  EXPECT_LT(lines[0].relative_error, 1e-3);
+}
+
 }  // namespace
 }  // namespace thinwall::reduction::accuracy_test
