@@ -5,6 +5,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "io/matrices/matrix_names.hpp"
 #include "io/matrices/nastran_cards.hpp"
 #include "io/mesh/inp_text.hpp"
 #include "io/surface_text.hpp"
@@ -110,12 +111,6 @@ class DmigReader {
   std::map<std::string, std::size_t> places_;
 };
 
-std::string names_of(const DmigFile& file) {
-  std::string names;
-  for (const DmigMatrix& matrix : file.matrices) names += (names.empty() ? "" : ", ") + matrix.labelled.name;
-  return names;
-}
-
 // ---- Writing ----
 
 std::string right(const std::string& text, std::size_t width) {
@@ -176,18 +171,9 @@ DmigFile read_dmig(std::string_view bytes, const std::string& name) {
 }
 
 const DmigMatrix& dmig_matrix(const DmigFile& file, const std::string& wanted, char letter, const std::string& name) {
-  std::vector<const DmigMatrix*> found;
-  for (const DmigMatrix& matrix : file.matrices) {
-    const std::string& own = matrix.labelled.name;
-    const bool by_letter = own.starts_with(letter) && !own.starts_with("K4");
-    if (wanted.empty() ? by_letter : own == capitals(wanted)) found.push_back(&matrix);
-  }
-  if (found.size() != 1) {
-    throw core::DataError(name + ": has " + (found.empty() ? "no" : "more than one") + " matrix " +
-                          (wanted.empty() ? std::string("whose name begins with ") + letter : io::quoted(wanted)) +
-                          "; state the name, one of " + names_of(file));
-  }
-  const DmigMatrix& matrix = *found.front();
+  std::vector<std::string> names;
+  for (const DmigMatrix& matrix : file.matrices) names.push_back(matrix.labelled.name);
+  const DmigMatrix& matrix = file.matrices[matrix_by_name(names, wanted, letter, name)];
   if (matrix.form == 1 || matrix.form == 6) {
     if (matrix.type <= 2) return matrix;
     throw core::DataError(name + ":" + std::to_string(matrix.line) + ": " + matrix.labelled.name +

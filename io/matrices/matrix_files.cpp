@@ -15,6 +15,7 @@
 #include "io/matrices/matrix_format.hpp"
 #include "io/matrices/matrix_market.hpp"
 #include "io/matrices/matrix_triplets.hpp"
+#include "io/matrices/op4.hpp"
 #include "io/surface_text.hpp"
 
 namespace thinwall::io {
@@ -24,7 +25,7 @@ namespace {
 using dynamics::NodeDof;
 using dynamics::SparseModel;
 
-enum class Format { mat, matrix_market, dmig, labelled, triplets };
+enum class Format { mat, matrix_market, dmig, op4, labelled, triplets };
 
 const char* name_of(Format format) {
   switch (format) {
@@ -34,6 +35,8 @@ const char* name_of(Format format) {
       return "Matrix Market";
     case Format::dmig:
       return "Nastran DMIG";
+    case Format::op4:
+      return "Nastran OP4";
     case Format::labelled:
       return "Abaqus matrix input";
     case Format::triplets:
@@ -52,6 +55,7 @@ bool has_dmig(std::string_view bytes) {
 Format format_of(std::string_view bytes, const std::string& path) {
   if (mat_version(bytes) != MatVersion::none) return Format::mat;
   if (is_matrix_market(bytes)) return Format::matrix_market;
+  if (is_op4(bytes)) return Format::op4;
   const int fields = fields_of_first_line(bytes);
   const auto first = bytes.find_first_not_of(" \t\r\n");
   constexpr std::string_view begins_numbers = "0123456789+-*";
@@ -62,7 +66,7 @@ Format format_of(std::string_view bytes, const std::string& path) {
   throw core::DataError(
       path +
       ": is no matrix that is known: Matrix Market (%%MatrixMarket), CalculiX .sti or .mas and Abaqus "
-      ".mtx (lines of three or five numbers), Nastran DMIG, MAT");
+      ".mtx (lines of three or five numbers), Nastran DMIG and OP4, MAT");
 }
 
 /// The three matrices of the files, by row or by label; a matrix that is not given has no path.
@@ -74,23 +78,41 @@ struct Matrices {
   [[nodiscard]] bool by_label() const { return format == Format::dmig || format == Format::labelled; }
 };
 
-void take_dmig(const std::string& bytes, const std::string& path, const MatrixFiles& files, std::size_t which,
-               Matrices& matrices) {
-  const DmigFile file = read_dmig(bytes, path);
-  const std::array names{files.stiffness_name, files.mass_name, files.damping_name};
+/// Calls `take(k, name, letter)` for the matrices that are taken of a file which may hold several: its own, and of the
+/// file of the stiffness also those for which no file is stated. `names` are those of its matrices.
+template <class Take>
+void take_several(const MatrixFiles& files, std::size_t which, const std::vector<std::string>& names, Take take) {
+  const std::array wanted{files.stiffness_name, files.mass_name, files.damping_name};
   constexpr std::array letters{'K', 'M', 'B'};
   const std::array<bool, 3> here{which == 0, which == 1 || (which == 0 && files.mass.empty()),
                                  which == 2 || (which == 0 && files.damping.empty())};
-  const auto is_there = [&](std::size_t k) {
-    return std::any_of(file.matrices.begin(), file.matrices.end(), [&](const DmigMatrix& matrix) {
-      return names[k].empty() && matrix.labelled.name.starts_with(letters[k]);
-    });
-  };
   for (std::size_t k = 0; k < 3; ++k) {
-    if (!here[k] || (k == 2 && which == 0 && names[k].empty() && !is_there(k))) continue;
-    matrices.labelled[k] = dmig_matrix(file, names[k], letters[k], path).labelled;
+    const bool is_there = !wanted[k].empty() || std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+      return name.starts_with(letters[k]);
+    });
+    if (here[k] && (k != 2 || which == 2 || is_there)) take(k, wanted[k], letters[k]);
   }
+}
+
+void take_dmig(const std::string& bytes, const std::string& path, const MatrixFiles& files, std::size_t which,
+               Matrices& matrices) {
+  const DmigFile file = read_dmig(bytes, path);
+  std::vector<std::string> names;
+  for (const DmigMatrix& matrix : file.matrices) names.push_back(matrix.labelled.name);
+  take_several(files, which, names, [&](std::size_t k, const std::string& wanted, char letter) {
+    matrices.labelled[k] = dmig_matrix(file, wanted, letter, path).labelled;
+  });
   matrices.positions.insert(file.positions.begin(), file.positions.end());
+}
+
+void take_op4(const std::string& bytes, const std::string& path, const MatrixFiles& files, std::size_t which,
+              Matrices& matrices) {
+  const std::vector<Op4Matrix> file = read_op4(bytes, path);
+  std::vector<std::string> names;
+  for (const Op4Matrix& matrix : file) names.push_back(matrix.name);
+  take_several(files, which, names, [&](std::size_t k, const std::string& wanted, char letter) {
+    matrices.rows[k] = op4_matrix(file, wanted, letter, path);
+  });
 }
 
 Matrices take_files(const MatrixFiles& files) {
@@ -110,6 +132,7 @@ Matrices take_files(const MatrixFiles& files) {
     if (format == Format::triplets) matrices.rows[k] = triplet_entries(bytes, path);
     if (format == Format::labelled) matrices.labelled[k] = labelled_triplets(bytes, path);
     if (format == Format::dmig) take_dmig(bytes, path, files, k, matrices);
+    if (format == Format::op4) take_op4(bytes, path, files, k, matrices);
   }
   return matrices;
 }
@@ -222,7 +245,7 @@ void require_each_once(const std::vector<NodeDof>& dofs, const std::filesystem::
 
 bool may_hold_several_matrices(const std::filesystem::path& path) {
   const Format format = format_of(core::read_file(path), path.string());
-  return format == Format::mat || format == Format::dmig;
+  return format == Format::mat || format == Format::dmig || format == Format::op4;
 }
 
 std::filesystem::path dof_table_path(const MatrixFiles& files) {

@@ -10,18 +10,19 @@
 namespace thinwall::io {
 
 /// The files of a component. The format of each is recognised from its contents: Matrix Market, CalculiX MATRIXSTORAGE,
-/// Abaqus *MATRIX OUTPUT, Nastran DMIG, MAT version 5.
+/// Abaqus *MATRIX OUTPUT, Nastran DMIG and OP4, MAT.
 struct MatrixFiles {
   std::filesystem::path stiffness;
-  std::filesystem::path mass{};     ///< empty: in the file of the stiffness (DMIG, MAT)
-  std::filesystem::path damping{};  ///< empty: none, or in the file of the stiffness (DMIG, MAT)
+  std::filesystem::path mass{};     ///< empty: in the file of the stiffness (DMIG, OP4, MAT)
+  std::filesystem::path damping{};  ///< empty: none, or in the file of the stiffness (DMIG, OP4, MAT)
   std::filesystem::path dofs{};  ///< .dof of CalculiX or io/matrices/dof_table_csv.hpp; empty: job.dof beside job.sti
   std::filesystem::path positions{};  ///< io/matrices/dof_table_csv.hpp; empty: positions of the other files
   std::string length_unit{};          ///< unit of length, such as "mm", which must be given
   std::string mass_unit{};            ///< unit of mass, such as "t", likewise; time is in s (dynamics/unit_system.hpp)
-  std::string stiffness_name{};       ///< name of a DMIG matrix if there are several; empty: the one that begins with K
-  std::string mass_name{};            ///< likewise; empty: M
-  std::string damping_name{};         ///< likewise; empty: B
+  std::string
+      stiffness_name{};        ///< name of a DMIG or OP4 matrix if there are several; empty: the one that begins with K
+  std::string mass_name{};     ///< likewise; empty: M
+  std::string damping_name{};  ///< likewise; empty: B
 };
 
 /// A model in SI, consistent, but not checked for plausibility (dynamics::require_plausible()).

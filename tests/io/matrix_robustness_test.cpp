@@ -15,8 +15,10 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "io/matrices/dmig.hpp"
+#include "io/matrices/mat4.hpp"
 #include "io/matrices/matrix_market.hpp"
 #include "io/matrices/matrix_triplets.hpp"
+#include "io/matrices/op4.hpp"
 #include "tests/processor_time.hpp"
 
 namespace thinwall::io::test::matrix_robustness_test {
@@ -46,8 +48,17 @@ const std::vector<Format>& formats() {
       {"triplets", [](std::string_view bytes) { assemble(triplet_entries(bytes, "x")); }},
       {"abaqus_matrix", [](std::string_view bytes) { assemble(labelled_triplets(bytes, "x")); }},
       {"ccx_dof", [](std::string_view bytes) { (void)ccx_dofs(bytes, "x"); }},
-      {"dmig", [](std::string_view bytes) {
+      {"dmig",
+       [](std::string_view bytes) {
          for (const DmigMatrix& matrix : read_dmig(bytes, "x").matrices) assemble(matrix.labelled);
+       }},
+      {"op4",
+       [](std::string_view bytes) {
+         for (const Op4Matrix& matrix : read_op4(bytes, "x"))
+           assemble(MatrixEntries{"x", matrix.rows, matrix.entries, matrix.form == 6});
+       }},
+      {"mat4", [](std::string_view bytes) {
+         (void)mat4_variables(bytes, {"K", "M", "dof_node"}, "x");
        }}};
   return all;
 }
