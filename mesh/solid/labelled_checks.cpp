@@ -7,12 +7,17 @@
 #include <unordered_map>
 #include <utility>
 
+#include "mesh/triangle_soup.hpp"
+
 namespace thinwall::mesh {
 
 namespace {
 
 /// Largest number of a node. Degrees of freedom are named by it, and other formats store it as a 32-bit integer.
 constexpr std::int64_t most_label = std::numeric_limits<std::int32_t>::max();
+
+/// Largest coordinate of a node, m.
+constexpr double farthest_m = 1e6;
 
 std::string in_line(const LabelledMesh& labelled, std::int64_t line) {
   if (line <= 0) return "";
@@ -144,6 +149,10 @@ void sort_nodes(LabelledMesh& labelled) {
                   ": renumber the nodes");
     if (!node.x.allFinite())
       fail_at(labelled, node.line, "node " + std::to_string(node.label) + " has a coordinate that is not finite");
+    if (node.x.cwiseAbs().maxCoeff() > farthest_m)
+      fail_at(labelled, node.line,
+              "node " + std::to_string(node.label) + " lies at " + place_text(node.x) +
+                  ", and no part is larger than 1e+09 mm: look for a stray node, and check the unit");
     if (i == 0 || labelled.nodes[i - 1].label != node.label) continue;
     const std::int64_t other = labelled.nodes[i - 1].line;
     fail_at(labelled, std::max(node.line, other),

@@ -65,11 +65,29 @@ struct Repair {
   }
 };
 
+/// Products of three larger or smaller lengths leave the range in which predicates are exact.
+constexpr double largest_size_m = 1e6, smallest_size_m = 1e-9;
+
+/// Throws InputError if the surface has a size that no part has, as by a stray point or a wrong unit.
+void require_size(const TriangleSoup& soup) {
+  const SoupBounds block = bounds(soup);
+  const double diagonal = (block.largest - block.least).norm();
+  if (diagonal > largest_size_m) {
+    const double farthest = block.largest.cwiseAbs().cwiseMax(block.least.cwiseAbs()).maxCoeff();
+    const auto far = [&](const Eigen::Vector3d& x) { return x.cwiseAbs().maxCoeff() == farthest; };
+    throw core::InputError("the surface reaches to " + place_text(*std::ranges::find_if(soup.points, far)) +
+                           ", and no part is larger than 1e+09 mm; look for a stray point, and check the unit");
+  }
+  if (diagonal > 0.0 && diagonal < smallest_size_m)
+    throw core::InputError("the surface is " + size_text(soup) + ", and no part is that small; check the unit");
+}
+
 /// Merges points; throws InputError if that moves a point too far.
 void merge(Repair& repair, const TriangleSoup& soup, const SurfaceRepairOptions& options) {
   MergedPoints merged = merged_points(soup, options.merge_tolerance_m);
   repair.soup = std::move(merged.soup);
   if (repair.soup.triangles.empty()) throw core::InputError("the surface has no triangles; give a closed surface");
+  require_size(repair.soup);
   repair.result.largest_movement_m = merged.largest_way;
   repair.note({"points that lay on another", merged.merged, merged.first_merged, ""});
   repair.note({"points that no facet uses", merged.unused, merged.first_unused, ""});

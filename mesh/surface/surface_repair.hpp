@@ -39,8 +39,8 @@ struct SurfaceRepair {
 /// throws InputError, in one line with counts and first places in mm of everything found at that stage, for open edges,
 /// edges of more than two triangles, walls without thickness (coincident opposite facets), points in which parts touch,
 /// a one-sided surface, several bodies, cavities, triangles that cross or cover each other, walls below the tolerance,
-/// a movement above the bound, coordinates too far away for double precision, and options out of range. Throws
-/// NumericalError if a search does not end within the limits. Cost O(n log n).
+/// a movement above the bound, coordinates too far away for double precision, a diagonal beyond 1000 km or below 1 nm,
+/// and options out of range. Throws NumericalError if a search does not end within the limits. Cost O(n log n).
 [[nodiscard]] SurfaceRepair repaired_surface(const TriangleSoup& soup, const SurfaceRepairOptions& options = {});
 
 /// The repairs in one line, or "nothing to mend".

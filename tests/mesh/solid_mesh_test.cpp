@@ -248,6 +248,9 @@ TEST(SolidMeshInput, ThatIsWrongIsRefused) {
   LabelledMesh not_finite = two_tets();
   not_finite.nodes[2].x.y() = std::nan("");
   expect_parts(refusal(not_finite), {"node 2", "finite"});
+  LabelledMesh stray = two_tets();
+  stray.nodes[2].x.y() = 3e38;
+  expect_parts(refusal(stray), {"node 2 lies at", "3e+41", "no part is larger"});
   LabelledMesh repeated = two_tets();
   repeated.cell_nodes = {0, 1, 2, 3, 1, 2, 0, 3};
   expect_parts(refusal(repeated), {"element 2", "same nodes as element 1"});

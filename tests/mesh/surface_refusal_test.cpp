@@ -149,6 +149,15 @@ TEST(SurfaceRefusal, CoordinatesBeyondTheDigitsOfADoubleAreNamed) {
   expect_refused(far, "diagonals from the origin", "too far to resolve");
 }
 
+TEST(SurfaceRefusal, ASizeThatNoPartHasIsNamedWithItsFarthestPoint) {
+  TriangleSoup stray = soup(cube);
+  stray.points[3](1) = 3e35;  // 3e38 mm, the largest number of a file in single precision
+  expect_refused(stray, "reaches to", "3e+38");
+  TriangleSoup small = soup(cube);
+  for (auto& x : small.points) x *= 1e-30;
+  expect_refused(small, "no part is that small", "check the unit");
+}
+
 TEST(SurfaceRefusal, NumbersThatAreNoneAndPointsThatAreNotThereAreNamed) {
   TriangleSoup bad = soup(cube);
   bad.points[3](1) = std::numeric_limits<double>::quiet_NaN();
