@@ -4,6 +4,8 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
+#include <map>
+#include <string_view>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -36,8 +38,57 @@ class ParserErrors : public console_bridge::OutputHandler {
   std::string first;
 };
 
+/// The parser descends by recursion into elements, and frees links so.
+constexpr int deepest_element = 100, most_joints = 1000;
+
+/// Refuses what the parser would not survive, by the tags of the text; comments and quoted texts are passed over.
+void require_modest(const std::string& text, const std::filesystem::path& path) {
+  int depth = 0, joints = 0;
+  for (std::size_t i = text.find('<'); i != std::string::npos; i = text.find('<', i)) {
+    const std::string_view rest = std::string_view(text).substr(i);
+    const auto comment = rest.starts_with("<!--");
+    std::size_t end = comment ? rest.find("-->") : 1;
+    for (char quote = 0; !comment && end < rest.size() && (quote != 0 || rest[end] != '>'); ++end) {
+      if (quote == 0 && (rest[end] == '"' || rest[end] == '\'')) quote = rest[end];
+      else if (rest[end] == quote) quote = 0;
+    }
+    if (end >= rest.size()) return;  // no XML, which the parser says
+    const bool declaration = rest[1] == '?' || rest[1] == '!';
+    if (rest[1] == '/') --depth;
+    else if (!declaration && rest[end - 1] != '/') ++depth;
+    if (rest.starts_with("<joint")) ++joints;
+    if (depth > deepest_element)
+      throw DataError(path.string() + ": elements are nested deeper than " + std::to_string(deepest_element) +
+                      "; a robot needs five: look for a tag that is not closed");
+    if (joints > most_joints)
+      throw DataError(path.string() + ": more than " + std::to_string(most_joints) +
+                      " joints; keep those between the robot's base and its tip");
+    i += end;
+  }
+}
+
+/// A link that hangs on itself, or on two others, is none of a tree.
+void require_tree(const urdf::ModelInterface& model, const std::filesystem::path& path) {
+  std::map<std::string, std::string> joint_of;
+  for (const auto& [name, joint] : model.joints_) {
+    const auto [first, is_new] = joint_of.emplace(joint->child_link_name, name);
+    if (!is_new)
+      throw DataError(path.string() + ": the joints \"" + first->second + "\" and \"" + name + "\" both carry link \"" +
+                      joint->child_link_name + "\"; a link hangs on one joint");
+  }
+  for (const auto& [name, link] : model.links_) {
+    auto below = link->getParent();
+    for (std::size_t step = 0; below; below = below->getParent()) {
+      if (++step > model.links_.size())
+        throw DataError(path.string() + ": link \"" + name +
+                        "\" hangs on joints that form a cycle; a linkage is no serial chain: open it");
+    }
+  }
+}
+
 urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& path) {
   const std::string text = core::read_file(path);
+  require_modest(text, path);
   ParserErrors errors;
   urdf::ModelInterfaceSharedPtr model;
   try {
@@ -49,6 +100,7 @@ urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& path) {
     std::ranges::replace(errors.first, '\n', ' ');
     throw DataError(path.string() + ": no robot in URDF" + (errors.first.empty() ? "" : ": " + errors.first));
   }
+  require_tree(*model, path);
   return model;
 }
 

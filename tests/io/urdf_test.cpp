@@ -103,5 +103,39 @@ TEST_F(Urdf, WhatAnArmCannotHaveIsRefusedByName) {
   EXPECT_THROW((void)read(two_links, "flange", "world"), core::DataError) << "the wrong way";
 }
 
+std::string links(int count, const std::string& joints) {
+  std::string text = "<robot name=\"r\"><link name=\"root\"/>";
+  for (int i = 0; i < count; ++i) text += "<link name=\"l" + std::to_string(i) + "\"/>";
+  return text + joints + "</robot>";
+}
+
+std::string joint(const std::string& name, const std::string& parent, const std::string& child) {
+  return "<joint name=\"" + name + "\" type=\"fixed\"><parent link=\"" + parent + "\"/><child link=\"" + child +
+         "\"/></joint>";
+}
+
+// A way up from l1 has no end, and every one of twenty links that hang twice doubles the ways down.
+TEST_F(Urdf, JointsThatMakeNoTreeAreRefusedByName) {
+  expect_refused(links(3, joint("a", "root", "l0") + joint("b", "l1", "l2") + joint("c", "l2", "l1")),
+                 "hangs on joints that form a cycle", "l1");
+  expect_refused(links(1, joint("a", "l0", "l0")), "hangs on joints that form a cycle", "l0");
+  expect_refused(links(2, joint("a", "root", "l0") + joint("b", "l0", "l1") + joint("c", "l0", "l1")),
+                 "\"b\" and \"c\" both carry link \"l1\"", "l1");
+}
+
+// The parser descends by recursion, and so are links freed.
+TEST_F(Urdf, WhatIsNestedTooDeepForTheParserIsRefusedBeforeIt) {
+  std::string deep = "<robot name=\"r\">";
+  for (int i = 0; i < 1000000; ++i) deep += "<a>";
+  expect_refused(deep, "nested deeper than 100");
+  std::string joints;
+  for (int i = 1; i < 1100; ++i)
+    joints += joint("j" + std::to_string(i), "l" + std::to_string(i - 1), "l" + std::to_string(i));
+  expect_refused(links(1100, joints), "more than 1000 joints");
+  std::string flat = two_links;
+  for (int i = 0; i < 200; ++i) flat.insert(flat.rfind("</robot>"), "<!-- <a> --><gazebo reference=\"a>b\"/>");
+  EXPECT_EQ(read(flat, "", "flange").links.size(), 2U) << "comments and closed tags have no depth";
+}
+
 }  // namespace
 }  // namespace thinwall::io::urdf_test
