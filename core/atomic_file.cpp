@@ -106,7 +106,13 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 
 std::string read_file(const std::filesystem::path& path) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) fail_to_read(path, EISDIR);
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status)) fail_to_read(path, EISDIR);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    // A pipe is waited for without end, and a device may never end.
+    throw DataError("cannot read \"" + path.string() +
+                    "\": it is a pipe or a device; write its content to a plain file");
+  }
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) fail_to_read(path, errno);

@@ -43,7 +43,8 @@ class PartialFile {
 /// a part. Throws DataError (full disk, read-only folder, missing folder) and then leaves the earlier file as it was.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
-/// The content of the whole file as bytes. Throws DataError with the cause if it is a folder or cannot be read.
+/// The content of the whole file as bytes. Throws DataError with the cause if it is a folder, a pipe or a device, or
+/// cannot be read.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
 }  // namespace thinwall::core

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <fstream>
@@ -79,6 +80,14 @@ TEST_F(AtomicFile, ReadingNamesThePathAndTheCause) {
     EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos);
   }
   EXPECT_THROW((void)read_file(folder), DataError);
+}
+
+// Without a writer a pipe is waited for without end, and the device never ends.
+TEST_F(AtomicFile, ReadingRefusesPipesAndDevices) {
+  const auto pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW((void)read_file(pipe), DataError);
+  EXPECT_THROW((void)read_file("/dev/zero"), DataError);
 }
 
 }  // namespace
