@@ -137,6 +137,23 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
+/// The powers of a unit's symbols, one after the other: m/s^2/N gives m 1, s −2, N −1.
+struct SymbolPower {
+  std::string_view symbol;
+  int power = 0;
+};
+
+/// Throws if the powers of one symbol have both signs, as of m^-1/m^-2, where the writer lost count of them.
+void require_no_cancelling(const std::vector<SymbolPower>& factors, std::string_view whole) {
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (factors[i].symbol != factors[k].symbol || factors[i].power * factors[k].power > 0) continue;
+      throw InputError("the unit \"" + std::string(whole) + "\" multiplies and divides by " +
+                       std::string(factors[i].symbol) + "; write what remains");
+    }
+  }
+}
+
 /// The kinds whose name is used for a dimension in messages. Of kinds with equal dimension the first is used, so that
 /// N/m is called a stiffness.
 constexpr std::array named_kinds{kind::number,
@@ -183,15 +200,21 @@ std::vector<std::string_view> readable_units(const QuantityKind& kind) {
 }  // namespace
 
 Quantity parse_unit(std::string_view text) {
+  constexpr std::size_t most_factors = 12;
   Quantity product{1.0, {}};
+  std::vector<SymbolPower> factors;
   std::string_view rest = trimmed(text);
   int sign = 1;
   while (!rest.empty()) {
+    if (factors.size() == most_factors)
+      throw InputError("the unit \"" + std::string(text.substr(0, 40)) + "…\" has more than " +
+                       std::to_string(most_factors) + " factors; write it with powers");
     std::size_t end = 0;
     while (end < rest.size() && separator_length(rest.substr(end)) == 0) ++end;
     std::string_view factor = rest.substr(0, end);
     const int power = take_power(factor, text);
     multiply(product, named_unit(factor, text), sign * power);
+    factors.push_back({factor, sign * power});
     rest.remove_prefix(end);
     sign = 1;
     while (const std::size_t length_of_separator = separator_length(rest)) {
@@ -200,6 +223,7 @@ Quantity parse_unit(std::string_view text) {
     }
     if (rest.empty() && sign < 0) throw InputError("the unit \"" + std::string(text) + "\" ends with \"/\"");
   }
+  require_no_cancelling(factors, text);
   return product;
 }
 

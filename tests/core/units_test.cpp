@@ -62,6 +62,16 @@ TEST(Units, ADivisionBindsOnlyTheFactorThatFollows) {
   EXPECT_DOUBLE_EQ(parse_unit("N/mm/um").value, 1e9);
 }
 
+TEST(Units, AUnitThatCancelsOrHasNoEndIsRefused) {
+  EXPECT_NE(message_of("60 m^-1/m^-2", kind::length).find("multiplies and divides by m; write what remains"),
+            std::string::npos);
+  EXPECT_NE(message_of("60 mm^3/mm^2", kind::length).find("multiplies and divides by mm"), std::string::npos);
+  std::string long_unit = "60 m";
+  for (int i = 0; i < 100000; ++i) long_unit += "*m/m";
+  EXPECT_NE(message_of(long_unit, kind::length).find("more than 12 factors"), std::string::npos);
+  EXPECT_DOUBLE_EQ(parse_unit("mm/s/s").value, 1e-3) << "a unit may divide twice";
+}
+
 TEST(Units, HertzRadiansPerSecondAndRpmAreToldApart) {
   EXPECT_NE(parse_unit("Hz").dimension, parse_unit("rad/s").dimension);
   EXPECT_EQ(parse_unit("rpm").dimension, parse_unit("rad/s").dimension);
