@@ -353,7 +353,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   bound.selections = bind_selections(root.table("selections"));
   bound.points = bind_points(root.table("points"));
   bound.modes = {bind_range(root.table("modes"), "count", 10), root.flag("modes.verify")};
-  bound.reduction.fixed_interface = bind_range(root.table("reduction"), "modes", 30);
+  bound.reduction.fixed_interface = bind_range(root.table("reduction"), "modes", setup::usual_reduction_modes);
   bound.reduction.tolerance = root.table("reduction").optional("tolerance");
   bound.reduction.interface = root.names("reduction.interface");
   if (bound.reduction.interface.empty()) bound.reduction.interface = point_names(bound.points);

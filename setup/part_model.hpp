@@ -27,6 +27,9 @@ struct Modes {
   bool verify = false;  ///< by a Sturm count and a second eigen-solver
 };
 
+/// Fixed-interface modes of a reduced model where a case does not say how many; fewer of a part that has no more.
+inline constexpr int usual_reduction_modes = 30;
+
 /// The reduced model of the part that is asked for.
 struct Reduction {
   ModeRange fixed_interface;

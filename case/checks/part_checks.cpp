@@ -224,6 +224,25 @@ void check_material_places(const Case& source, Findings& findings) {
   }
 }
 
+/// The number of degrees of freedom, where a file tells it.
+std::optional<Eigen::Index> dofs_of_file(const setup::Part& part) {
+  if (part.imported && part.imported->matrices) return part.imported->matrices->size();
+  const mesh::SolidMesh* solid = setup::solid_of(part);
+  if (solid == nullptr || part.mesh.order.value_or(std::max(2, solid->nodes.order)) != solid->nodes.order) return {};
+  return 3 * solid->nodes.positions.rows();
+}
+
+void check_mode_counts(const Case& source, Findings& findings) {
+  const auto dofs = dofs_of_file(*source.part);
+  if (!dofs) return;
+  for (const auto& [key, range] :
+       {std::pair{"modes.count", source.modes.range}, std::pair{"reduction.modes", source.reduction.fixed_interface}}) {
+    if (findings.written(key) && range.count.value_or(0) >= *dofs)
+      findings.report(key, std::to_string(*range.count) + " modes of a part that has " + std::to_string(*dofs) +
+                               " degrees of freedom by its file; ask for fewer");
+  }
+}
+
 bool holds(const setup::PartSetup& source, const setup::Support& support, const Eigen::Vector3d& p) {
   const auto& part = *source.part;
   if (std::ranges::find(mesh::face_names(), support.on) != mesh::face_names().end())
@@ -247,6 +266,7 @@ void check_part(const Case& source, Findings& findings) {
   if (source.part) {
     check_shape(source, findings);
     check_description(source, findings);
+    check_mode_counts(source, findings);
     check_bend(*source.part, findings);
     if (geometry_known(*source.part)) check_material_places(source, findings);
     if (geometry_known(*source.part) && setup::kind(*source.part) != setup::ShapeKind::matrices &&

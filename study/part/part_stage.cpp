@@ -88,8 +88,15 @@ void reduce(const setup::PartSetup& source, PartResult& part, const fem::Factore
   if (factored.sigma != 0.0)
     fem::require_motions_determined(part.model, part.modes, part.interface.W.transpose() * part.modes.pairs.Phi);
   if (source.reduction.tolerance) return reduce_to_tolerance(source, part);
-  const auto inner = static_cast<int>(part.model.K.rows() - part.interface.W.cols());  // a small model has few
-  const reduction::CraigBamptonOptions options{std::min(source.reduction.fixed_interface.count.value_or(30), inner),
+  const auto inner = static_cast<int>(part.model.K.rows() - part.interface.W.cols());
+  const int asked = source.reduction.fixed_interface.count.value_or(setup::usual_reduction_modes);
+  if (asked > std::max(inner, setup::usual_reduction_modes)) {
+    throw core::InputError(
+        fmt::format("reduction.modes is {}, but the part has {} degrees of freedom besides its points; "
+                    "ask for fewer modes, or take a finer mesh",
+                    asked, inner));
+  }
+  const reduction::CraigBamptonOptions options{std::min(asked, inner),  // a small model has fewer than is usual
                                                source.reduction.fixed_interface.up_to_hz};
   const auto by = [&](const linalg::ShiftedInverse& inverse) {
     part.reduced = reduction::craig_bampton(part.model.K, part.model.M, inverse, part.interface, options);
