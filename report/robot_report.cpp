@@ -25,6 +25,23 @@ std::string three(const Eigen::Vector3d& v, double unit, const char* format) {
   return text;
 }
 
+/// Stiffness along x, y, z in N/um; "-" along an axis of which nothing is known.
+std::string three_stiffnesses(const Eigen::Vector3d& stiffness) {
+  std::string text;
+  for (const double value : stiffness)
+    text += std::isfinite(value) ? fmt::format("{:>8.3g}", value * 1e-6) : fmt::format("{:>8}", "-");
+  return text;
+}
+
+/// A line that names the axes whose stiffness is not known; "" where all are.
+std::string unknown_axes(const Eigen::Vector3d& stiffness) {
+  std::string axes;
+  for (int i = 0; i < 3; ++i) {
+    if (!std::isfinite(stiffness[i])) axes += std::string(axes.empty() ? "" : ", ") + "xyz"[i];
+  }
+  return axes.empty() ? "" : "  -: not measured along " + axes + "; the robot's model does not move there\n";
+}
+
 std::size_t most_modes(const study::RobotSurvey& survey) {
   std::size_t most = 0;
   for (const study::TipReport& tip : survey.tips) most = std::max(most, tip.modes.size());
@@ -143,13 +160,13 @@ std::string survey_text(const study::RobotSurvey& survey) {
     for (std::size_t k = 0; k < modes; ++k)
       text += k < tip.modes.size() ? fmt::format("{:>8.2f}", tip.modes[k].frequency_hz) : fmt::format("{:>8}", "-");
     if (tip.stiffness) {
-      text += "  " + three(*tip.stiffness, 1e-6, "{:>8.3g}") +
-              fmt::format("  {:>8.3g}  ", *tip.least_stiffness * 1e-6) +
+      text += "  " + three_stiffnesses(*tip.stiffness) + fmt::format("  {:>8.3g}  ", *tip.least_stiffness * 1e-6) +
               fmt::format("({:.2f}, {:.2f}, {:.2f})", tip.softest.x(), tip.softest.y(), tip.softest.z());
     }
     if (tip.robot.smallest_singular && *tip.robot.smallest_singular < 1e-4) text += "  singular posture";
     text += '\n';
   }
+  if (first.stiffness) text += unknown_axes(*first.stiffness);
   if (!survey.out_of_reach.empty()) {
     text += fmt::format("  {} of {} places are not reached; the first: {}\n", survey.out_of_reach.size(),
                         survey.out_of_reach.size() + survey.tips.size(), survey.out_of_reach.front().reason);
