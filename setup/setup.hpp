@@ -11,6 +11,7 @@
 #include "setup/fit.hpp"
 #include "setup/graded_mesh.hpp"
 #include "setup/imported_part.hpp"
+#include "setup/loose_pieces.hpp"
 #include "setup/machining_setup.hpp"
 #include "setup/measured.hpp"
 #include "setup/measured_frf.hpp"

@@ -1,11 +1,15 @@
 #include "case/checks/part_description_checks.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
 #include "io/mesh/inp_text.hpp"
 #include "mesh/box.hpp"
+#include "mesh/triangle_soup.hpp"
 #include "setup/imported_part.hpp"
+#include "setup/loose_pieces.hpp"
 #include "setup/part_materials.hpp"
 
 namespace thinwall::cases {
@@ -148,6 +152,18 @@ void check_given_mesh(const Case& source, Findings& findings) {
     findings.report("part.mesh.order", "the file's elements are curved; their order can be 2 only");
 }
 
+/// A piece that nothing holds, beside others that are held, would fly off.
+void check_pieces(const Case& source, Findings& findings) {
+  const std::vector<setup::MeshPiece> loose = setup::loose_pieces(source);
+  if (loose.empty()) return;
+  const int pieces = setup::solid_of(*source.part)->pieces;
+  findings.report("part.file",
+                  fmt::format("the mesh is in {} pieces that share no node, and nothing holds {} of them, "
+                              "the first with {} tetrahedra at {}; join the pieces, hold each, or leave "
+                              "them out",
+                              pieces, loose.size(), loose.front().tets, mesh::place_text(loose.front().place)));
+}
+
 }  // namespace
 
 void check_description(const Case& source, Findings& findings) {
@@ -157,6 +173,7 @@ void check_description(const Case& source, Findings& findings) {
   check_supports(source, findings);
   check_attachments(source, findings);
   if (setup::kind(*source.part) == setup::ShapeKind::mesh) check_given_mesh(source, findings);
+  check_pieces(source, findings);
 }
 
 }  // namespace thinwall::cases

@@ -208,6 +208,42 @@ density = "2700 kg/m^3"
   EXPECT_NEAR(mass(materials, mesh), volume * (2700.0 + 7800.0), 1e-15);
 }
 
+/// Two tetrahedra that share no node, one foot of each in z = 0; the case adds what holds them.
+std::string problem_of_two_pieces(const std::string& held) {
+  const TemporaryFolder folder;
+  core::write_file_atomically(folder.path / "two.inp", R"(*NODE, NSET=ALL
+1, 0, 0, 0
+2, 10, 0, 0
+3, 0, 10, 0
+4, 0, 0, 10
+*NODE, NSET=FAR
+11, 50, 0, 0
+12, 60, 0, 0
+13, 50, 10, 0
+14, 50, 0, 10
+*ELEMENT, TYPE=C3D4
+1, 1, 2, 3, 4
+2, 11, 12, 13, 14
+)");
+  return problem_of("file = \"two.inp\"\nunit = \"mm\"\n" + held, folder.path);
+}
+
+TEST(PartFile, APieceOfAMeshThatNothingHoldsBesideOneThatIsHeldIsRefused) {
+  const std::string loose =
+      "part.file: the mesh is in 2 pieces that share no node, and nothing holds 1 of them, the first with 1 tetrahedra "
+      "at (52.5, 2.5, 2.5) mm; join the pieces, hold each, or leave them out";
+  EXPECT_EQ(problem_of_two_pieces("[[part.supports]]\non = \"x_min\"\n"), loose);
+  EXPECT_EQ(problem_of_two_pieces("[[part.supports]]\non = \"all\"\n"), loose);
+  EXPECT_EQ(problem_of_two_pieces("[[part.clamps]]\non = \"x_min\"\nnormal_stiffness = \"5 N/mm^3\"\n"), loose);
+  EXPECT_EQ(problem_of_two_pieces("[[part.springs]]\nat = \"P\"\nstiffness = [1e6, 1e6, 1e6]\n[points.P]\n"
+                                  "position = [0.003, 0.003, 0]\npatch_radius = \"1 mm\"\n"),
+            loose);
+  EXPECT_EQ(problem_of_two_pieces("[[part.supports]]\non = \"z_min\"\n"), "no problem");
+  EXPECT_EQ(problem_of_two_pieces("[[part.supports]]\non = \"x_min\"\n[[part.supports]]\non = \"FAR\"\n"),
+            "no problem");
+  EXPECT_EQ(problem_of_two_pieces(""), "no problem") << "a free part is told of otherwise";
+}
+
 /// A section whose material lacks something is named, with what it lacks, unless the case gives another.
 TEST(PartFile, AMaterialOfAMeshThatLacksSomethingIsNamed) {
   const TemporaryFolder folder;
