@@ -249,12 +249,14 @@ ExitCode parse(CLI::App& app, int argc, const char* const* argv, std::ostream& o
   }
 }
 
-/// Every problem of a case with what it points at beneath.
+/// The problems of a case with what they point at beneath; of very many the first.
 void report(std::ostream& err, const cases::CaseError& error) {
-  for (const cases::Problem& problem : error.problems) {
-    report(err, cases::problem_line(error.source.name, problem));
-    err << cases::excerpt(error.source, problem);
+  for (std::size_t i = 0; i < std::min(error.problems.size(), cases::shown_problems); ++i) {
+    report(err, cases::problem_line(error.source.name, error.problems[i]));
+    err << cases::excerpt(error.source, error.problems[i]);
   }
+  if (const std::string further = cases::further_problems(error.problems.size()); !further.empty())
+    report(err, error.source.name + ": " + further);
 }
 
 int guarded(const std::function<ExitCode()>& command, std::ostream& err) {

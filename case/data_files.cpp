@@ -35,6 +35,12 @@ bool is_file(const std::filesystem::path& file) {
   return std::filesystem::is_regular_file(file, ignored);
 }
 
+/// False of folders, pipes and devices, which the checks report.
+bool file_or_absent(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return is_file(file) || !std::filesystem::exists(file, ignored);
+}
+
 /// The model of the robot, where it is of that kind; null otherwise.
 template <class Model>
 Model* model_of(Case& source) {
@@ -44,6 +50,7 @@ Model* model_of(Case& source) {
 /// The arm of a URDF, unless keys speak against it, which the checks report.
 void read_arm(Case& source, setup::JointedRobot& robot, Findings& findings) {
   if (robot.urdf.empty() || robot.joints.empty() || array_size(source.values, "robot.links") > 0) return;
+  if (!file_or_absent(robot.urdf) || !file_or_absent(robot.joints)) return;
   const Table table{source.values, "robot"};
   read_or_report("robot.urdf", findings, [&] {
     source.urdf_arm = std::make_shared<const robot::SerialArm>(
@@ -56,7 +63,8 @@ void read_arm(Case& source, setup::JointedRobot& robot, Findings& findings) {
 
 void read_described_files(Case& source, Findings& findings) {
   if (auto* robot = model_of<setup::JointedRobot>(source)) read_arm(source, *robot, findings);
-  if (auto* robot = model_of<setup::TabledRobot>(source); robot != nullptr && !robot->table.empty()) {
+  if (auto* robot = model_of<setup::TabledRobot>(source);
+      robot != nullptr && !robot->table.empty() && file_or_absent(robot->table)) {
     read_or_report("robot.table", findings, [&] {
       robot->table_modes = std::make_shared<const dynamics::ModalTable>(setup::read_table_of_modes(*robot));
     });

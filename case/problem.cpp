@@ -12,8 +12,10 @@ constexpr std::size_t longest_excerpt = 160;
 
 std::string problem_lines(const std::string& file, const std::vector<Problem>& problems) {
   std::string text;
-  for (const auto& problem : problems) text += (text.empty() ? "" : "\n") + problem_line(file, problem);
-  return text;
+  for (std::size_t i = 0; i < std::min(problems.size(), shown_problems); ++i)
+    text += (text.empty() ? "" : "\n") + problem_line(file, problems[i]);
+  const std::string further = further_problems(problems.size());
+  return further.empty() ? text : text + "\n" + file + ": " + further;
 }
 
 std::vector<Problem> in_order(std::vector<Problem> problems) {
@@ -97,6 +99,12 @@ std::string excerpt(const CaseText& source, const Problem& problem) {
   text += "\n" + std::string(width, ' ') + " | ";
   for (std::size_t i = 0; i < first; ++i) text += line[i] == "\t" ? "\t" : " ";
   return text + "^" + std::string(length - 1, '~') + "\n";
+}
+
+std::string further_problems(std::size_t count) {
+  if (count <= shown_problems) return "";
+  return "and " + std::to_string(count - shown_problems) + " more problems; the first " +
+         std::to_string(shown_problems) + " are shown";
 }
 
 CaseError::CaseError(CaseText where, std::vector<Problem> found)

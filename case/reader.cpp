@@ -51,7 +51,10 @@ Case read_case(const std::filesystem::path& folder_or_file, const std::vector<st
 
 std::vector<Expectation> read_expectations(const std::filesystem::path& case_file) {
   const auto file = case_file.parent_path() / "expected.toml";
-  if (!std::filesystem::exists(file)) return {};
+  const auto status = std::filesystem::status(file);
+  if (!std::filesystem::exists(status)) return {};
+  if (!std::filesystem::is_regular_file(status))
+    throw core::InputError(file.string() + " is no plain file; write the expectations in one, or remove it");
   const std::string text = core::read_file(file);
   ReadValues read = read_values(text, file.string(), expectation_schema());
   for (int i = 0; i < array_size(read.values, "expect"); ++i) {

@@ -56,11 +56,22 @@ std::string read_choice(const toml::node& node, const Key& key) {
   throw InputError("\"" + text + "\" is none of " + list + core::did_you_mean(text, allowed));
 }
 
+/// The most entries of a list: modes of which a case gives ratios are at most 2000, and corners of an outline are
+/// looked at in pairs.
+constexpr std::size_t most_entries = 2000;
+
+void require_few(const toml::array& list) {
+  if (list.size() > most_entries)
+    throw InputError(std::to_string(list.size()) + " entries are too many, at most " + std::to_string(most_entries) +
+                     " are read");
+}
+
 /// Applies `read` to every entry of a list, or to a value that stands alone.
 template <typename Read>
 auto read_list(const toml::node& node, Read read) {
   std::vector<decltype(read(node))> list;
   if (const auto* array = node.as_array()) {
+    require_few(*array);
     for (const auto& entry : *array) list.push_back(read(entry));
   } else {
     list.push_back(read(node));
@@ -81,6 +92,7 @@ std::vector<double> read_polygon(const toml::node& node, const Key& key) {
   constexpr auto expected = "must be a list of at least three corners [x, y], such as [[\"0 mm\", \"0 mm\"], …]";
   const auto* corners = node.as_array();
   if (corners == nullptr || corners->size() < 3) throw InputError(expected);
+  require_few(*corners);
   std::vector<double> list;
   for (const auto& corner : *corners) {
     const auto* pair = corner.as_array();

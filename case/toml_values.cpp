@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <map>
+#include <optional>
 
 #include "case/alternatives.hpp"
+#include "case/toml_nesting.hpp"
 #include "case/toml_node.hpp"
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
@@ -25,12 +28,22 @@ struct Override {
   int value_column = 1;
 };
 
+/// The most tables that an array of tables, or a table whose entries the user names, may have: a hundred times what
+/// cases have, and few enough that any file is told about at once.
+constexpr std::size_t most_tables = 1000;
+
+/// Problems beyond so many come without the key that was perhaps meant: they are counted, not shown.
+constexpr std::size_t most_suggestions = 10 * shown_problems;
+
 /// Walks the document along the schema and gathers values and problems.
 class Walk {
  public:
   Walk(const Schema& schema, const std::vector<Override>& overrides) : schema_(schema), overrides_(overrides) {}
 
   void table(const toml::table& table, const std::string& path, const std::string& pattern) {
+    const std::vector<std::string>& below = names(pattern);
+    const bool named_by_user = below.size() == 1 && below.front() == "*";
+    if (named_by_user && table.size() > most_tables) return report_many(table.source().begin, path, table.size());
     for (const auto& [name, node] : in_file_order(table)) entry(*name, *node, path, pattern);
     for (const auto& key : schema_.keys) absent_key(key, table, path, pattern);
     for (const auto& section : schema_.sections) implied_section(section, table, path, pattern);
@@ -38,6 +51,7 @@ class Walk {
 
   CaseValues values;
   std::vector<Problem> problems;
+  std::optional<Problem> too_many;  ///< tables of one kind, which were not walked: what else seems to lack may be there
 
  private:
   using Entries = std::vector<std::pair<const toml::key*, const toml::node*>>;
@@ -71,26 +85,44 @@ class Walk {
     problems.back().text = path + ": " + text;
   }
 
+  void report_many(const toml::source_position& place, const std::string& path, std::size_t count) {
+    report(place, path,
+           std::to_string(count) + " tables are too many, at most " + std::to_string(most_tables) +
+               " are read; remove those that are not needed");
+    too_many = problems.back();
+  }
+
+  /// names_below(), which are asked for again and again.
+  const std::vector<std::string>& names(const std::string& pattern) {
+    const auto [known, is_new] = names_.try_emplace(pattern);
+    if (is_new) known->second = names_below(schema_, pattern);
+    return known->second;
+  }
+
+  void report_unknown(const toml::key& name, const std::string& path, const std::vector<std::string>& known) {
+    std::string hint;
+    if (problems.size() < most_suggestions) hint = core::did_you_mean(name.str(), known) + place_hint(name);
+    report(name.source().begin, path, "unknown key" + hint);
+  }
+
   void entry(const toml::key& name, const toml::node& node, const std::string& path, const std::string& pattern) {
-    const auto below = names_below(schema_, pattern);
+    const std::vector<std::string>& below = names(pattern);
     const bool named_by_user = below.size() == 1 && below.front() == "*";
     const std::string child_path = join(path, name.str());
     const std::string child = join(pattern, named_by_user ? "*" : name.str());
     if (named_by_user && !is_name(name.str())) {
       report(name.source().begin, child_path, "a name starts with a letter and goes on with letters, digits and _");
+    } else if (!named_by_user && std::ranges::find(below, name.str()) == below.end()) {
+      report_unknown(name, child_path, below);
     } else if (const Key* key = find_key(schema_, child)) {
       value(*key, node, child_path);
     } else if (find_section(schema_, child + "[]") != nullptr) {
       array(name, node, child_path, child + "[]");
-    } else if (!names_below(schema_, child).empty()) {
-      if (const auto* inner = node.as_table()) {
-        table(*inner, child_path, child);
-      } else {
-        report(name.source().begin, child_path,
-               "got " + std::string(node_type(node)) + ", expected a table [" + child_path + "]");
-      }
+    } else if (const auto* inner = node.as_table()) {
+      table(*inner, child_path, child);
     } else {
-      report(name.source().begin, child_path, "unknown key" + core::did_you_mean(name.str(), below) + place_hint(name));
+      report(name.source().begin, child_path,
+             "got " + std::string(node_type(node)) + ", expected a table [" + child_path + "]");
     }
   }
 
@@ -117,6 +149,7 @@ class Walk {
       return report(name.source().begin, path,
                     "got " + std::string(node_type(node)) + ", expected tables [[" + path + "]], one for each");
     }
+    if (list->size() > most_tables) return report_many(name.source().begin, path, list->size());
     for (std::size_t i = 0; i < list->size(); ++i) {
       const std::string item = path + "[" + std::to_string(i) + "]";
       table_place_ = (*list)[i].source().begin;
@@ -171,10 +204,12 @@ class Walk {
 
   const Schema& schema_;
   const std::vector<Override>& overrides_;
+  std::map<std::string, std::vector<std::string>> names_;  // by pattern
   toml::source_position table_place_{};
 };
 
 toml::table parse_document(const std::string& text, const std::string& name) {
+  if (const auto problem = too_deep(text)) throw CaseError({name, text}, {*problem});
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
@@ -185,6 +220,21 @@ toml::table parse_document(const std::string& text, const std::string& name) {
   }
 }
 
+/// The place in `list` that the brackets of `name` ("contacts[1]") tell.
+std::size_t list_place(std::string_view name, const toml::array* list, const std::string& path) {
+  const auto bracket = name.find('[');
+  const std::string bare(name.substr(0, bracket));
+  const std::size_t count = list == nullptr ? 0 : list->size();
+  if (count == 0) throw InputError("--set " + path + ": the case has no list " + bare);
+  std::size_t place = 0;
+  const char* const last = name.data() + name.size();
+  const auto [end, error] = std::from_chars(name.data() + bracket + 1, last, place);
+  const bool number = error != std::errc::invalid_argument && std::string_view(end, last) == "]";
+  if (number && error == std::errc() && place < count) return place;
+  throw InputError("--set " + path + ": there is no " + std::string(name) + "; entries of lists are numbered from 0: " +
+                   bare + "[0]" + (count == 1 ? " is the only one" : " to [" + std::to_string(count - 1) + "]"));
+}
+
 /// The table or array entry `name` ("part", "contacts[1]") below `table`; made if it is a plain table that is not
 /// there.
 toml::table& descend(toml::table& table, std::string_view name, const std::string& path) {
@@ -192,9 +242,9 @@ toml::table& descend(toml::table& table, std::string_view name, const std::strin
   if (bracket == std::string_view::npos) {
     table.insert(name, toml::table{});
     if (auto* inner = table.get(name)->as_table()) return *inner;
-  } else if (auto* array = table[name.substr(0, bracket)].as_array()) {
-    const std::size_t index = std::stoul("0" + std::string(name.substr(bracket + 1)));
-    if (index < array->size() && (*array)[index].is_table()) return *(*array)[index].as_table();
+  } else {
+    auto* array = table[name.substr(0, bracket)].as_array();
+    if (auto* inner = array == nullptr ? nullptr : (*array)[list_place(name, array, path)].as_table()) return *inner;
   }
   throw InputError("--set " + path + ": the case has no " + std::string(name));
 }
@@ -213,6 +263,8 @@ Override apply_override(toml::table& document, const Schema& schema, const std::
   if (equals == std::string::npos || equals == 0) {
     throw core::UsageError("--set \"" + assignment + "\": write key=value, for example --set part.length=\"390 mm\"");
   }
+  if (const auto problem = too_deep(assignment))
+    throw InputError("--set " + assignment.substr(0, 40) + "…: " + problem->text);
   const std::string path = full_path(schema, assignment.substr(0, equals));
   Override applied{path, static_cast<int>(equals) + 2};
   toml::table* table = &document;
@@ -228,9 +280,8 @@ Override apply_override(toml::table& document, const Schema& schema, const std::
     return applied;
   }
   auto* list = (*table)[rest.substr(0, bracket)].as_array();
-  const std::size_t index = std::stoul("0" + std::string(rest.substr(bracket + 1)));
-  if (list == nullptr || index >= list->size()) throw InputError("--set " + path + ": the case has no such entry");
-  list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(index), *value.get("value"));
+  const std::size_t place = list_place(rest, list, path);
+  list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(place), *value.get("value"));
   return applied;
 }
 
@@ -275,6 +326,7 @@ ReadValues read_values(const std::string& text, const std::string& name, const S
   for (const auto& assignment : overrides) applied.push_back(apply_override(document, schema, assignment));
   Walk walk(schema, applied);
   walk.table(document, "", "");
+  if (walk.too_many) throw CaseError({name, text, overrides}, {*walk.too_many});
   return {std::move(walk.values), std::move(walk.problems)};
 }
 

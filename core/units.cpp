@@ -148,7 +148,7 @@ void require_no_cancelling(const std::vector<SymbolPower>& factors, std::string_
   for (std::size_t i = 0; i < factors.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (factors[i].symbol != factors[k].symbol || factors[i].power * factors[k].power > 0) continue;
-      throw InputError("the unit \"" + std::string(whole) + "\" multiplies and divides by " +
+      throw InputError("the unit \"" + std::string(trimmed(whole)) + "\" multiplies and divides by " +
                        std::string(factors[i].symbol) + "; write what remains");
     }
   }

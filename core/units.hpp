@@ -73,7 +73,7 @@ inline constexpr QuantityKind memory{"memory", "B", "4 GB"};
 [[nodiscard]] double bare_number(double value, const QuantityKind& kind);
 
 /// The factor to base units and the dimension of a unit: "N/mm^2" gives 1e6 and kg/(m s²). Throws InputError for an
-/// unknown unit.
+/// unknown unit, for one that multiplies and divides by the same symbol, and for more than 12 factors.
 [[nodiscard]] Quantity parse_unit(std::string_view text);
 
 /// The name of a dimension: "stress", "length", or its exponents if no kind has that dimension.

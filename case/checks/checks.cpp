@@ -44,6 +44,22 @@ void check_something_to_do(const Case& source, Findings& findings) {
                   "measured FRFs and [lobes]");
 }
 
+/// A folder holds no data, and a pipe is waited for without end.
+void check_named_files(const Case& source, Findings& findings) {
+  for (const CaseValue& value : source.values) {
+    const auto* name = std::get_if<std::string>(&value.value);
+    if (name == nullptr || name->empty() || !value.from_file) continue;
+    const Key* key = find_key(case_schema(), pattern_of(case_schema(), value.key));
+    if (key == nullptr || key->type != Type::file) continue;
+    std::error_code ignored;
+    const auto status = std::filesystem::status(source.folder / *name, ignored);
+    if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) continue;
+    findings.report(value.key, "\"" + *name + "\" is " +
+                                   (std::filesystem::is_directory(status) ? "a folder; name a file in it"
+                                                                          : "a pipe or a device; name a plain file"));
+  }
+}
+
 void check_ranges(const Case& source, Findings& findings) {
   for (const auto& [a, b] :
        {std::pair{"modes.count", "modes.up_to"}, std::pair{"reduction.modes", "reduction.up_to"},
@@ -94,7 +110,7 @@ void check_measured(const std::string& key, const setup::MeasuredFrf& frf, Findi
   require_direction(key + ".response", frf.response, findings);
   require_direction(key + ".force", frf.force, findings);
   std::error_code ignored;
-  if (!frf.file.empty() && !std::filesystem::is_regular_file(frf.file, ignored)) {
+  if (!frf.file.empty() && !std::filesystem::exists(frf.file, ignored)) {
     findings.report(key + ".file", "there is no file \"" + frf.file.string() + "\"");
   } else if (frf.averages && frf.content) {
     if (const std::string fault = setup::fault_of_coherence(frf); !fault.empty())
@@ -274,6 +290,7 @@ std::vector<Problem> check_case(const Case& source) {
   Findings findings{source.values, {}};
   for (const auto& [key, text] : faults_of_alternatives(case_schema(), source.values)) findings.report(key, text);
   check_something_to_do(source, findings);
+  check_named_files(source, findings);
   check_part(source, findings);
   check_ranges(source, findings);
   check_damping(source, findings);

@@ -70,7 +70,7 @@ std::vector<double> numbers_of(const Case& source, const setup::SupportContact& 
 void try_contact(const Case& source, const std::string& key, const setup::SupportContact& contact, Findings& findings) {
   const auto* tabled = std::get_if<setup::TabledContact>(&contact.model);
   std::error_code ignored;
-  if (tabled != nullptr && !std::filesystem::is_regular_file(tabled->table, ignored)) {
+  if (tabled != nullptr && !std::filesystem::exists(tabled->table, ignored)) {
     if (!tabled->table.empty()) findings.report(key + ".table", "there is no file \"" + tabled->table.string() + "\"");
     return;
   }

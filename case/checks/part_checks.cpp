@@ -34,9 +34,13 @@ bool axes_differ(const setup::BoxShape& part) {
          part.length_axis != part.height_axis;
 }
 
+bool sizes_known(const setup::BoxShape& box) {
+  return axes_differ(box) && std::isfinite(box.length) && std::isfinite(box.height) && std::isfinite(box.thickness);
+}
+
 bool geometry_known(const setup::Part& part) {
-  const auto known = [](const setup::BoxShape& box) {
-    return axes_differ(box) && std::isfinite(box.length) && std::isfinite(box.height) && std::isfinite(box.thickness);
+  const auto known = [&](const setup::BoxShape& box) {
+    return sizes_known(box) && mesh::violations(setup::planar(part).prism).empty();
   };
   return std::visit(
       core::overloaded{known, [](const setup::PrismShape& shape) { return mesh::violations(shape.prism).empty(); },
@@ -120,6 +124,9 @@ void check_shape(const Case& source, Findings& findings) {
   const auto check_box = [&](const setup::BoxShape& box) {
     if (findings.given("part.axes.length") && !axes_differ(box))
       findings.report("part.axes.length", "length, height and thickness must run along three different axes");
+    if (!sizes_known(box)) return;
+    for (const std::string& violation : mesh::violations(setup::planar(part).prism))
+      findings.report("part.thickness", violation);
   };
   std::visit(core::overloaded{check_box, [&](const setup::PrismShape& shape) { check_prism(shape.prism, findings); },
                               [&](const setup::MatrixShape& shape) { check_matrices(shape.files, findings); },

@@ -1,10 +1,14 @@
 #include "case/checks/robot_checks.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "case/checks/measured_checks.hpp"
 #include "case/checks/part_checks.hpp"
 #include "case/robot_binding.hpp"
+#include "case/schema/schema.hpp"
+#include "core/error.hpp"
 #include "core/overloaded.hpp"
 #include "robot/flexible_joints.hpp"
 #include "setup/measured_layout.hpp"
@@ -20,6 +24,13 @@ void check_one_mode(const setup::OneModeRobot& robot, Findings& findings) {
   }
   if (robot.damping.has_value() == robot.damping_ratio.has_value()) {
     findings.report("robot.damping_ratio", "give either damping_ratio or damping");
+  }
+  if (!robot.mass || !robot.stiffness || !(*robot.mass > 0.0) || !std::isfinite(*robot.stiffness)) return;
+  try {
+    require_within_bounds(*find_key(case_schema(), "robot.frequency"),
+                          std::sqrt(*robot.stiffness / *robot.mass) / (2.0 * std::numbers::pi));
+  } catch (const core::InputError& error) {
+    findings.report("robot.mass", "beside robot.stiffness it cannot be: " + std::string(error.what()));
   }
 }
 

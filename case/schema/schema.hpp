@@ -130,7 +130,8 @@ struct Schema {
 /// "0 < ν < 0.5" as text: "above 0, below 0.5"; "" if unbounded.
 [[nodiscard]] std::string bounds_text(const Key& key);
 
-/// Throws InputError with the value, the bound and the remedy unless the number lies within the key's bounds.
+/// Throws InputError with the value, the bound and the remedy unless the number lies within the key's bounds and is one
+/// that its kind of quantity can have.
 void require_within_bounds(const Key& key, double value);
 
 /// The tables of docs/case-file.md, one a section, as Markdown.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "case/schema/physical_range.hpp"
 #include "case/schema/schema.hpp"
 #include "core/error.hpp"
 
@@ -226,7 +227,7 @@ void require_within_bounds(const Key& key, double value) {
   if (bounds.infinity_allowed && value == std::numeric_limits<double>::infinity()) return;
   const bool above = bounds.lower_open ? value > bounds.lower : value >= bounds.lower;
   const bool below = bounds.upper_open ? value < bounds.upper : value <= bounds.upper;
-  if (std::isfinite(value) && above && below) return;
+  if (std::isfinite(value) && above && below) return require_physical(key, value);
   const std::string allowed = bounds_text(key);
   throw core::InputError(core::exact_text(value, key.kind) + " is out of range: it must be " +
                          (allowed.empty() ? "finite" : allowed) +

@@ -30,7 +30,7 @@ const Schema& schema() {
 std::string number_within(const Key& key) {
   const bool below = std::isfinite(key.bounds.upper), above = std::isfinite(key.bounds.lower);
   const double value = below && above ? 0.5 * (key.bounds.lower + key.bounds.upper)
-                       : above        ? key.bounds.lower + 1.0
+                       : above        ? key.bounds.lower + 100.0
                                       : 1.0;
   return core::exact_text(value, key.kind);
 }
