@@ -10,11 +10,13 @@
 #include "app/expectation_checks.hpp"
 #include "app/log.hpp"
 #include "app/stage_display.hpp"
+#include "case/checks/doubts.hpp"
 #include "case/expectation.hpp"
 #include "case/numbers.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/messages.hpp"
 #include "report/kept_files.hpp"
 #include "report/page/page.hpp"
 #include "report/result_files.hpp"
@@ -78,6 +80,7 @@ RunResult run_case(const cases::Case& source, const RunOptions& options) {
   const std::string started = now_utc();
   const auto expectations = cases::read_expectations(source.file);
   messages_to_log();
+  for (const std::string& doubt : cases::doubts_about(source)) core::warn(doubt);
   StageDisplay display(options.progress      ? ProgressDisplay::line
                        : options.stage_lines ? ProgressDisplay::lines
                                              : ProgressDisplay::none);

@@ -19,6 +19,7 @@
 #include "app/reduce_command.hpp"
 #include "app/terminal.hpp"
 #include "app/unknown_word.hpp"
+#include "case/checks/doubts.hpp"
 #include "case/checks/mesh_size.hpp"
 #include "case/reader.hpp"
 #include "case/schema/json_schema.hpp"
@@ -142,6 +143,7 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
         << " for mesh, modes and reduction on two cores\n";
     for (const std::string& warning : setup::unreachable_tolerances(source)) out << "  warning   " << warning << '\n';
   }
+  for (const std::string& doubt : cases::doubts_about(source)) out << "  warning   " << doubt << '\n';
   if (source.lobes) out << "  lobes     " << source.lobes->count << " speeds\n";
   if (!expectations.empty()) out << "  expected  " << expectations.size() << " figures\n";
   return ExitCode::done;

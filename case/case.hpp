@@ -1,7 +1,7 @@
 #pragma once
 // All that case/ offers to other programs.
 // Internal: alternatives, binding, case_alternatives, case_sections, checks, contact_binding, contact_checks,
-// cutting_checks, data_files, findings, joint_binding, json_schema, keys, kept_points, lobes_binding,
+// cutting_checks, data_files, doubts, findings, joint_binding, json_schema, keys, kept_points, lobes_binding,
 // lobes_checks, measured_binding, measured_checks, mesh_size, part_checks, part_description_checks, path_checks,
 // physical_range, robot_binding, robot_checks, schema, schema_bounds, table, template_texts, templates, toml_nesting,
 // toml_node, toml_values, tool_checks, updating_checks, urdf_arm, writer.

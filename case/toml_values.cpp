@@ -161,7 +161,7 @@ class Walk {
     // A value that --set puts into the document has no place in the file: toml++ says line 0.
     const auto source = node.source().begin;
     const Problem place = place_of(source, path);
-    CaseValue read{path, {}, place.line, place.column, true};
+    CaseValue read{path, {}, place.line, place.column, true, node.is_number()};
     try {
       read.value = read_value(node, key);
     } catch (const InputError& error) {

@@ -21,6 +21,7 @@ struct CaseValue {
   int line = 0;
   int column = 0;
   bool from_file = false;
+  bool bare = false;  ///< a number that was written without a unit
 };
 
 /// All keys, defaults included, tables and arrays of tables in the order of the file.

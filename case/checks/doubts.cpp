@@ -1,0 +1,80 @@
+#include "case/checks/doubts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/units.hpp"
+
+namespace thinwall::cases {
+
+namespace {
+
+/// Walls of machined parts are thinner, and their other extents shorter: what is more, and was written without a unit,
+/// may have been meant in millimetres.
+constexpr double doubtful_wall = 0.5, doubtful_extent = 20.0;
+
+/// Beside a metal, soft rubber is 2e5 times softer.
+constexpr double doubtful_ratio = 1e6;
+
+std::string length(double value) {
+  return core::readable_text(value, core::kind::length);
+}
+
+/// "part.thickness is 2 m: did you mean 2 mm? …", of a key that is given.
+std::string asked(const CaseValue& value, double metres, const std::string& remedy) {
+  return value.key + " is " + length(metres) + ": did you mean \"" + core::number_text(metres) + " mm\"? " + remedy;
+}
+
+/// Lengths without a unit, which are taken in metres. Who writes the unit is not asked.
+void ask_about_bare_lengths(const Case& source, std::vector<std::string>& doubts) {
+  for (const CaseValue& value : source.values) {
+    const auto* metres = std::get_if<double>(&value.value);
+    if (metres == nullptr || !value.bare) continue;
+    const bool wall =
+        value.key == "part.thickness" || (value.key.starts_with("part.zones[") && value.key.ends_with("].thickness"));
+    const bool extent = value.key == "part.length" || value.key == "part.height";
+    if ((wall && *metres >= doubtful_wall) || (extent && *metres >= doubtful_extent))
+      doubts.push_back(asked(value, *metres, "A number without a unit is in metres; write the unit"));
+  }
+}
+
+/// A wall of metres that is more than length and height.
+void ask_about_wall(const Case& source, std::vector<std::string>& doubts) {
+  const auto* box = source.part ? std::get_if<setup::BoxShape>(&source.part->shape) : nullptr;
+  const CaseValue* thickness = find(source.values, "part.thickness");
+  if (box == nullptr || thickness == nullptr || thickness->bare) return;
+  if (!(box->thickness >= doubtful_wall && box->thickness > std::max(box->length, box->height))) return;
+  doubts.push_back(asked(*thickness, box->thickness,
+                         "The part is " + length(box->length) + " by " + length(box->height) +
+                             " otherwise; if it is so, name its largest extent part.length"));
+}
+
+void ask_about_materials(const Case& source, std::vector<std::string>& doubts) {
+  if (!source.part) return;
+  std::vector<std::pair<double, std::string>> moduli;
+  if (std::isfinite(source.part->material.youngs_modulus))
+    moduli.emplace_back(source.part->material.youngs_modulus, "part.material");
+  for (const setup::MaterialRegion& region : source.part->materials)
+    moduli.emplace_back(region.material.youngs_modulus, "the material of \"" + region.on + "\"");
+  if (moduli.size() < 2) return;
+  const auto [softest, stiffest] = std::ranges::minmax_element(moduli);
+  if (!(stiffest->first >= doubtful_ratio * softest->first)) return;
+  const auto stress = [](double value) { return core::readable_text(value, core::kind::stress); };
+  doubts.push_back(stiffest->second + " has " + stress(stiffest->first) + " and " + softest->second + " " +
+                   stress(softest->first) + ", a factor of " + core::number_text(stiffest->first / softest->first, 1) +
+                   ": is a unit wrong? Steel has 210 GPa, rubber 5 MPa. The modes will be those of the soft one alone, "
+                   "and their digits fewer");
+}
+
+}  // namespace
+
+std::vector<std::string> doubts_about(const Case& source) {
+  std::vector<std::string> doubts;
+  ask_about_bare_lengths(source, doubts);
+  ask_about_wall(source, doubts);
+  ask_about_materials(source, doubts);
+  return doubts;
+}
+
+}  // namespace thinwall::cases

@@ -1,0 +1,15 @@
+#pragma once
+// What a case may say, and probably did not mean.
+
+#include <string>
+#include <vector>
+
+#include "case/machining_case.hpp"
+
+namespace thinwall::cases {
+
+/// Doubts about values that are allowed, a sentence each, with the value that was perhaps meant: a part of metres whose
+/// lengths were written without a unit, or whose wall is its largest extent; materials of very different stiffness.
+[[nodiscard]] std::vector<std::string> doubts_about(const Case& source);
+
+}  // namespace thinwall::cases
