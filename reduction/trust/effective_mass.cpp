@@ -21,10 +21,14 @@ bool positive(const MatrixXd& A) {
   return factor.info() == Eigen::Success && factor.matrixLLT().diagonal().minCoeff() > 1e-7;
 }
 
-/// The diagonal of rᵀ (B M⁻¹ Bᵀ)⁻¹ r, over the independent rows of B.
-VectorXd own_mass(const MatrixXd& M, const MatrixXd& B, const MatrixXd& r) {
-  const MatrixXd mobility = B * M.llt().solve(B.transpose());
-  return (r.transpose() * mobility.completeOrthogonalDecomposition().solve(r)).diagonal();
+/// The diagonal of rᵀ (B M⁻¹ Bᵀ)⁻¹ r as the least of xᵀMx over B x = r (Gauss's principle), with x any such motion and
+/// Z the motions of B Z = 0. M is not inverted: it may be singular, and nearly singular to the last bit.
+VectorXd own_mass(const MatrixXd& M, const MatrixXd& B, const MatrixXd& r, const MatrixXd& Z, const MatrixXd& Mz) {
+  const MatrixXd x = B.completeOrthogonalDecomposition().solve(r);
+  VectorXd moved = (x.transpose() * M * x).diagonal();
+  if (Z.cols() == 0) return moved;
+  const MatrixXd b = Z.transpose() * M * x;
+  return moved - (b.transpose() * Mz.llt().solve(b)).diagonal();
 }
 
 }  // namespace
@@ -46,7 +50,7 @@ EffectiveMass effective_mass(const MatrixXd& K, const MatrixXd& M, const MatrixX
     result.mass = (eigen.eigenvectors().transpose() * Z.transpose() * M * Y).cwiseAbs2();
   }
   const VectorXd of_modes = result.mass.colwise().sum().transpose();
-  result.interface_own = positive(M) ? own_mass(M, B, B * Y) : VectorXd(result.total - of_modes);
+  result.interface_own = own_mass(M, B, B * Y, Z, Mz);
   result.closure = (of_modes + result.interface_own - result.total).cwiseQuotient(result.total).cwiseAbs().maxCoeff();
   return result;
 }

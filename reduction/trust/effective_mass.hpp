@@ -22,8 +22,8 @@ struct EffectiveMass {
   bool available = false;         ///< false if M is not positive definite with the interface held
 };
 
-/// The effective masses of a model. K, M: n × n; B: interface × n; Y: n × 6. If M is singular (MacNeal's model),
-/// `interface_own` is the difference of the other terms and closure is 0. Cost O(n³).
+/// The effective masses of a model. K, M: n × n; B: interface × n; Y: n × 6. M may be singular as long as no motion
+/// with the interface held is without mass. Cost O(n³).
 [[nodiscard]] EffectiveMass effective_mass(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, const Eigen::MatrixXd& B,
                                            const Eigen::MatrixXd& Y);
 

@@ -151,6 +151,42 @@ std::vector<std::string> bare_coordinates(const dynamics::SpatialModel& model) {
   return names;
 }
 
+/// Coordinates, other than the bare ones, that move together without mass and without stiffness: the null space that K
+/// and M share, in which no equation of motion holds anything.
+struct SharedNullSpace {
+  int motions = 0;
+  std::string place;  ///< a coordinate of them
+};
+
+SharedNullSpace shared_null_space(const dynamics::SpatialModel& model, double bound) {
+  const double K_size = model.K.norm(), M_size = model.M.norm();
+  SharedNullSpace found;
+  if (!(K_size > 0.0 && M_size > 0.0)) return found;
+  const Index n = model.size();
+  MatrixXd both(2 * n, n);
+  both << model.K / K_size, model.M / M_size;
+  const VectorXd own = both.cwiseAbs().colwise().maxCoeff();
+  const VectorXd scale = own.unaryExpr([](double size) { return size > 0.0 ? 1.0 / std::sqrt(size) : 0.0; });
+  both.topRows(n) = (scale.asDiagonal() * both.topRows(n) * scale.asDiagonal()).eval();
+  both.bottomRows(n) = (scale.asDiagonal() * both.bottomRows(n) * scale.asDiagonal()).eval();
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(both);
+  qr.setThreshold(bound);
+  for (Index k = qr.rank(); k < n; ++k) {
+    const Index coordinate = qr.colsPermutation().indices()(k);
+    if (own(coordinate) == 0.0) continue;  // it is told by find_bare()
+    if (found.motions++ == 0) found.place = coordinate_name(model, coordinate);
+  }
+  return found;
+}
+
+void find_shared_null_space(const SharedNullSpace& shared, ReducedModelReport& report) {
+  if (shared.motions == 0) return;
+  report.findings.push_back({"motions without mass and stiffness", static_cast<double>(shared.motions), 0.0, false,
+                             "K and M share a null space, in which " + shared.place +
+                                 " moves with others: coordinates depend on each other; leave out as many, or export "
+                                 "the model on independent ones"});
+}
+
 void find_in_rigid_body(const ReportOptions& options, ReducedModelReport& report) {
   if (!report.rigid) return;
   const RigidBodyState& rigid = *report.rigid;
@@ -196,7 +232,8 @@ ReducedModelReport report(const dynamics::SpatialModel& model, const ReportOptio
   ReducedModelReport result = counted(model.dofs);
   result.coordinates = static_cast<int>(model.size());
   result.without_energy = modes_without_energy(model);
-  result.frequencies_hz = lowest_frequencies(model, result.without_energy.count);
+  const SharedNullSpace shared = shared_null_space(model, options.definiteness);
+  if (shared.motions == 0) result.frequencies_hz = lowest_frequencies(model, result.without_energy.count);
   const double lowest = result.frequencies_hz.empty() ? 0.0 : result.frequencies_hz.front();
   const double lambda = std::pow(2.0 * std::numbers::pi * lowest, 2);
   const VectorXd none = VectorXd::Zero(model.size());
@@ -208,7 +245,11 @@ ReducedModelReport report(const dynamics::SpatialModel& model, const ReportOptio
   if (!options.positions.empty()) result.rigid = rigid_body_state(model, options, lowest);
   check_receptances(model, result);
   find_bare(bare_coordinates(model), result);
-  find_frequencies(!model.K.isZero(0.0), "M or K is missing, zero or singular: nothing was checked against it", result);
+  find_shared_null_space(shared, result);
+  find_frequencies(!model.K.isZero(0.0),
+                   shared.motions > 0 ? "none is determined beside motions without mass and stiffness"
+                                      : "M or K is missing, zero or singular: nothing was checked against it",
+                   result);
   find_in_matrices(options, result);
   find_in_rigid_body(options, result);
   find_free_modes(options, result);

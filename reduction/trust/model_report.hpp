@@ -20,11 +20,12 @@ struct ReportOptions {
   std::optional<Eigen::Vector3d> reference{};  ///< m, centre of rotations; by default the mean of the points
   std::optional<int> rigid_motions{};  ///< expected number of free ones (0 held, 6 free); only reported if left out
   double symmetry = 1e-9;              ///< largest |A − Aᵀ| over the largest |A|
-  double definiteness = 1e-9;          ///< least eigenvalue of a matrix scaled to a unit diagonal ≥ minus this
-  double rigid_motion = 1e-4;          ///< disagreement of the three sets, and of the mass along the axes
-  double grounding = 1e-6;             ///< yᵀKy / yᵀMy of a free rigid motion over λ of the lowest elastic mode
-  double effective_mass = 1e-6;        ///< closure of the sum over all modes
-  double reciprocity = 1e-9;           ///< |H − Hᵀ| over |H|
+  double definiteness = 1e-9;    ///< least eigenvalue of a matrix scaled to a unit diagonal ≥ minus this; what of
+                                 ///< K and M is smaller in a motion is neither stiffness nor mass
+  double rigid_motion = 1e-4;    ///< disagreement of the three sets, and of the mass along the axes
+  double grounding = 1e-6;       ///< yᵀKy / yᵀMy of a free rigid motion over λ of the lowest elastic mode
+  double effective_mass = 1e-6;  ///< closure of the sum over all modes
+  double reciprocity = 1e-9;     ///< |H − Hᵀ| over |H|
 };
 
 /// Symmetry and eigenvalues of a matrix, with rows and columns scaled to a unit diagonal. The diagonal of K is taken as

@@ -198,6 +198,42 @@ TEST(ModelReport, OfWhatHasNoFrequenciesGivesNoVerdictOnReceptances) {
   }
 }
 
+/// A full model of n points whose mass matrix is singular but for round-off in a motion that is no rigid one, as that
+/// of ten-node tetrahedra integrated at four points is: the sum over the modes, of which there are none, closes.
+TEST(ModelReport, AMassMatrixThatIsSingularToRoundOffClosesItsEffectiveMasses) {
+  constexpr int points = 9, n = 3 * points;
+  Positions places;
+  dynamics::DofTable dofs;
+  for (int i = 0; i < points; ++i) {
+    const std::string point = "N" + std::to_string(i);
+    places[point] = Eigen::Vector3d(i % 3, i / 3, (i * i) % 5);
+    for (const auto& dof : dynamics::translations(point)) dofs.push_back(dof);
+  }
+  Eigen::VectorXd massless(n);
+  for (int i = 0; i < n; ++i) massless(i) = i % 2 == 0 ? 1.0 : -1.0;
+  massless.normalize();
+  const MatrixXd M = MatrixXd::Identity(n, n) - (1.0 - 2e-15) * massless * massless.transpose();
+  const std::vector<int> rows = physical_rows(dofs);
+  const MatrixXd Y = rigid_motions_of(dofs, rows, places, Eigen::Vector3d::Zero());
+  const EffectiveMass found = effective_mass(MatrixXd::Identity(n, n), M, MatrixXd::Identity(n, n), Y);
+  ASSERT_TRUE(found.available);
+  EXPECT_LT(found.closure, 1e-12) << "through the inverse of M it is 8e-3";
+  EXPECT_LT((found.interface_own - found.total).norm(), 1e-12 * found.total.norm());
+}
+
+/// Two coordinates that are one: their difference has neither stiffness nor mass.
+TEST(ModelReport, WhatKAndMBothLackIsToldAsDependentCoordinates) {
+  MatrixXd K(2, 2), T(3, 2);
+  K << 2e6, -1e6, -1e6, 2e6;
+  T << 1.0, 0.0, 0.0, 0.6, 0.0, 0.4;  // the third and the second coordinate move as one
+  const dynamics::SpatialModel model{
+      T * T.transpose(), MatrixXd::Zero(3, 3), T * K * T.transpose(), {}, dynamics::translations("A")};
+  const ReducedModelReport found = report(model);
+  EXPECT_EQ(what_is_wrong(found), "motions without mass and stiffness, frequencies found") << text(found);
+  EXPECT_NE(text(found).find("K and M share a null space, in which A."), std::string::npos) << text(found);
+  EXPECT_EQ(text(found).find("missing, zero or singular"), std::string::npos) << text(found);
+}
+
 /// Nine coordinates with mass and as many without.
 TEST(ModelReport, OfFewModesBesideCoordinatesWithoutMass) {
   const ReducedModelReport found =
