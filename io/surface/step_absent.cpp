@@ -1,5 +1,6 @@
 // In place of step.cpp in a program that is built without Open CASCADE.
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "io/surface/step.hpp"
 
@@ -10,6 +11,7 @@ bool reads_step() {
 }
 
 StepSurface read_step(const std::filesystem::path& path, const StepOptions& /*options*/) {
+  (void)core::read_file(path);  // throws for a file that is not there: a reader would not help
   throw core::InputError("\"" + path.string() +
                          "\": this build has no STEP reader; install libocct-data-exchange-dev and build again, or "
                          "export the part as STL");

@@ -47,12 +47,6 @@ bool has(const std::string& text, const std::string& piece) {
 
 }  // namespace
 
-TEST(StepAbsent, SaysWhatToInstall) {
-  if (reads_step()) GTEST_SKIP() << "built with Open CASCADE";
-  const auto text = message_of<core::InputError>([] { (void)read_step(parts / "bracket.step"); });
-  EXPECT_TRUE(has(text, "libocct-data-exchange-dev")) << text;
-}
-
 // The bracket: legs of 70 and 50 mm, 60 mm wide, 2 mm thick, inner radius 3 mm, outer 5 mm, four holes of 9 mm and one
 // of 16 mm: (68 + 48 + 2) · 2 · 60 less the corner outside the bend, more that inside, less the holes.
 TEST_F(Step, ASolidHasTheVolumeOfItsClosedForm) {
