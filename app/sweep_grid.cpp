@@ -121,6 +121,14 @@ bool is_number(cases::Type type) {
          type == cases::Type::vector;
 }
 
+/// Throws UsageError for one of a list's values that is a range without a step.
+void require_no_range(const std::string& value, const std::string& key, const std::string& text) {
+  const auto range = core::range_ends(value);
+  if (!range) return;
+  throw UsageError("sweep of \"" + text + "\": \"" + value + "\" is a range without a step; write " + key + "=\"" +
+                   range->first + ":" + range->second + ":STEP\"");
+}
+
 }  // namespace
 
 std::string SweepAxis::title() const {
@@ -147,6 +155,7 @@ SweepAxis sweep_axis(const std::string& text) {
   }
   for (const auto& value : parts_between(values, ',')) {
     if (value.empty()) throw UsageError("sweep of \"" + text + "\": a value is missing between two commas; write it");
+    if (is_number(key.type)) require_no_range(value, axis.key, text);
     axis.values.push_back(without_quotes(value));
   }
   if (is_number(key.type)) read_numbers(axis, key);

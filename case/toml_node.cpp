@@ -25,11 +25,25 @@ std::string read_text(const toml::node& node) {
   return *node.value<std::string>();
 }
 
+/// The quantity that a text states; a range is told as what it is.
+double read_quantity_text(const std::string& text, const Key& key) {
+  try {
+    return core::parse_quantity(text, key.kind);
+  } catch (const InputError&) {
+    const auto ends = core::range_ends(text);
+    if (!ends) throw;
+    const bool one_of_many = key.path.find_first_of("[*") != std::string_view::npos;
+    throw InputError("\"" + text + "\" is a range, but one value is expected; for many write thinwall sweep CASE " +
+                     (one_of_many ? "KEY" : std::string(key.path)) + "=\"" + ends->first + ":" + ends->second +
+                     ":STEP\"");
+  }
+}
+
 double read_quantity(const toml::node& node, const Key& key) {
   double value = 0.0;
   if (const auto text = node.value_exact<std::string>()) {
     const bool infinite = key.bounds.infinity_allowed && (*text == "inf" || *text == "infinite");
-    value = infinite ? std::numeric_limits<double>::infinity() : core::parse_quantity(*text, key.kind);
+    value = infinite ? std::numeric_limits<double>::infinity() : read_quantity_text(*text, key);
   } else if (node.is_integer() || node.is_floating_point()) {
     value = *node.value<double>();
     if (!(key.bounds.infinity_allowed && value > 0.0 && std::isinf(value))) value = core::bare_number(value, key.kind);

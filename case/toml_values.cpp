@@ -11,6 +11,7 @@
 #include "case/toml_node.hpp"
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
+#include "core/synonyms.hpp"
 
 namespace thinwall::cases {
 
@@ -34,6 +35,12 @@ constexpr std::size_t most_tables = 1000;
 
 /// Problems beyond so many come without the key that was perhaps meant: they are counted, not shown.
 constexpr std::size_t most_suggestions = 10 * shown_problems;
+
+/// "[part.mesh]", "[[tool.modes]]".
+std::string table_title(std::string_view path) {
+  const std::string title = "[" + std::string(path.substr(0, path.size() - (path.ends_with("[]") ? 2 : 0))) + "]";
+  return path.ends_with("[]") ? "[" + title + "]" : title;
+}
 
 /// Walks the document along the schema and gathers values and problems.
 class Walk {
@@ -99,9 +106,13 @@ class Walk {
     return known->second;
   }
 
-  void report_unknown(const toml::key& name, const std::string& path, const std::vector<std::string>& known) {
+  void report_unknown(const toml::key& name, const std::string& path, const std::string& pattern,
+                      const std::vector<std::string>& known) {
     std::string hint;
-    if (problems.size() < most_suggestions) hint = core::did_you_mean(name.str(), known) + place_hint(name);
+    if (problems.size() < most_suggestions) {
+      if (core::meant_name(name.str(), known).empty()) hint = meant_elsewhere(name.str(), pattern);
+      if (hint.empty()) hint = core::did_you_mean(name.str(), known) + place_hint(name);
+    }
     report(name.source().begin, path, "unknown key" + hint);
   }
 
@@ -113,7 +124,7 @@ class Walk {
     if (named_by_user && !is_name(name.str())) {
       report(name.source().begin, child_path, "a name starts with a letter and goes on with letters, digits and _");
     } else if (!named_by_user && std::ranges::find(below, name.str()) == below.end()) {
-      report_unknown(name, child_path, below);
+      report_unknown(name, child_path, pattern, below);
     } else if (const Key* key = find_key(schema_, child)) {
       value(*key, node, child_path);
     } else if (find_section(schema_, child + "[]") != nullptr) {
@@ -126,6 +137,26 @@ class Walk {
     }
   }
 
+  /// " (did you mean "depth_limit" of [lobes]?)", with the synonym's remark, where another table has what a name means:
+  /// the first table below this one, else the only one.
+  [[nodiscard]] std::string meant_elsewhere(std::string_view name, const std::string& pattern) const {
+    for (const core::Synonym& row : core::meanings(name)) {
+      std::vector<std::string_view> tables;
+      bool below = false;
+      for (auto key = schema_.keys.begin(); key != schema_.keys.end() && !below; ++key) {
+        if (last_name(key->path) != row.meant || table_of(key->path).empty()) continue;
+        below = !pattern.empty() && key->path.starts_with(pattern + ".");
+        if (below) tables.clear();
+        tables.push_back(table_of(key->path));
+      }
+      if (tables.size() == 1) {
+        return " (did you mean \"" + std::string(row.meant) + "\" of " + table_title(tables.front()) + "?)" +
+               (row.remark.empty() ? "" : "; " + std::string(row.remark));
+      }
+    }
+    return "";
+  }
+
   /// "; it belongs to [part.mesh]" where exactly one other table knows the name.
   [[nodiscard]] std::string place_hint(const toml::key& name) const {
     std::vector<std::string> places;
@@ -135,7 +166,7 @@ class Walk {
         places.emplace_back(key.path.substr(0, dot));
       }
     }
-    return places.size() == 1 ? "; " + std::string(name.str()) + " belongs to [" + places.front() + "]" : "";
+    return places.size() == 1 ? "; " + std::string(name.str()) + " belongs to " + table_title(places.front()) : "";
   }
 
   static bool is_name(std::string_view name) {

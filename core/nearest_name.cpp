@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/synonyms.hpp"
+
 namespace thinwall::core {
 
 namespace {
@@ -27,7 +29,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
-  std::string best;
+  if (std::ranges::find(candidates, name) != candidates.end()) return std::string(name);
+  std::string best = meant_name(name, candidates);
+  if (!best.empty()) return best;
   std::size_t least = name.size() / 3 + 2;
   for (const auto& candidate : candidates) {
     const std::size_t distance = edit_distance(name, candidate);

@@ -1,5 +1,5 @@
 #pragma once
-// Suggestions for misspelt names: "did you mean …?"
+// Suggestions for names that are not known, by meaning and by spelling: "did you mean …?"
 
 #include <string>
 #include <string_view>
@@ -7,8 +7,8 @@
 
 namespace thinwall::core {
 
-/// The candidate with the smallest edit distance (Levenshtein 1966) to `name`; the first of equals. It is "" if the
-/// smallest distance exceeds a third of the length of `name` plus one.
+/// The candidate that `name` means (synonyms.hpp); else the one with the smallest edit distance (Levenshtein 1966) to
+/// it, the first of equals. It is "" if the smallest distance exceeds a third of the length of `name` plus one.
 [[nodiscard]] std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
 /// The text " (did you mean \"…\"?)" with nearest_name(), or "" if no candidate is near enough.

@@ -4,11 +4,11 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
+#include "core/synonyms.hpp"
 
 namespace thinwall::core {
 
@@ -73,6 +73,12 @@ constexpr std::array units{
     NamedUnit{"GiB", 1024.0 * 1024.0 * 1024.0, data},
 };
 
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
+}
+
 const NamedUnit& named_unit(std::string_view symbol, std::string_view whole) {
   for (const auto& unit : units) {
     if (unit.symbol == symbol) return unit;
@@ -80,8 +86,10 @@ const NamedUnit& named_unit(std::string_view symbol, std::string_view whole) {
   std::vector<std::string> known;
   known.reserve(units.size());
   for (const auto& unit : units) known.emplace_back(unit.symbol);
+  std::string meant = meant_unit(whole);
+  if (meant.empty()) meant = meant_unit(symbol);
   throw InputError("unknown unit \"" + std::string(symbol) + "\" in \"" + std::string(whole) + "\"" +
-                   did_you_mean(symbol, known) +
+                   (meant.empty() ? did_you_mean(symbol, known) : " (did you mean \"" + meant + "\"?)") +
                    "; units are made of m, kg, s, rad, N, Pa, Hz, rpm and their multiples");
 }
 
@@ -92,12 +100,6 @@ void multiply(Quantity& product, const NamedUnit& unit, int power) {
   product.dimension.time += power * unit.dimension.time;
   product.dimension.angle += power * unit.dimension.angle;
   product.dimension.data += power * unit.dimension.data;
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  return text;
 }
 
 /// Removes "^3", "³" or "²" from the end of a factor and returns the exponent.
@@ -188,6 +190,24 @@ Quantity kind_unit(const QuantityKind& kind) {
   return kind.unit.empty() ? Quantity{1.0, {}} : parse_unit(kind.unit);
 }
 
+/// "\"5000 rpm\"" of the text "5000 1/min" where a spindle speed is expected; else "for example" and the kind's own.
+std::string fitting_example(std::string_view text, std::string_view unit, const QuantityKind& kind) {
+  const std::string meant = meant_unit(unit);
+  if (!meant.empty() && parse_unit(meant).dimension == kind_unit(kind).dimension)
+    return "\"" + std::string(trimmed(text.substr(0, text.size() - unit.size()))) + " " + meant + "\"";
+  return "for example \"" + std::string(kind.example) + "\"";
+}
+
+/// True if the text is a number with or without a unit that is known.
+bool is_quantity(std::string_view text) {
+  try {
+    (void)parse_quantity(text);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 /// The units in which readable_text() writes a kind, largest first.
 std::vector<std::string_view> readable_units(const QuantityKind& kind) {
   if (kind.unit == "m") return {"m", "mm", "µm"};
@@ -203,7 +223,8 @@ Quantity parse_unit(std::string_view text) {
   constexpr std::size_t most_factors = 12;
   Quantity product{1.0, {}};
   std::vector<SymbolPower> factors;
-  std::string_view rest = trimmed(text);
+  text = trimmed(text);
+  std::string_view rest = text;
   int sign = 1;
   while (!rest.empty()) {
     if (factors.size() == most_factors)
@@ -251,12 +272,30 @@ double parse_quantity(std::string_view text, const QuantityKind& kind) {
   const Quantity unit = kind_unit(kind);
   if (quantity.dimension != unit.dimension) {
     throw InputError("\"" + std::string(text) + "\" is " + with_article(dimension_name(quantity.dimension)) + ", but " +
-                     with_article(std::string(kind.name)) + " is expected; write for example \"" +
-                     std::string(kind.example) + "\"");
+                     with_article(std::string(kind.name)) + " is expected; write " +
+                     fitting_example(trimmed(text), trimmed(rest), kind));
   }
   // The number is scaled once only, so that a quantity that is written in the kind's own unit is read to the last bit.
   std::string_view number = trimmed(text);
   return *take_number(number) * (parse_unit(rest).value / unit.value);
+}
+
+std::optional<std::pair<std::string, std::string>> range_ends(std::string_view text) {
+  constexpr std::size_t longest = 80;  // two quantities are shorter; every place is tried
+  if (text.size() > longest) return std::nullopt;
+  for (const std::string_view sign : {"...", "..", "…", "–", "—", " to ", "-"}) {
+    for (auto at = text.find(sign, 1); at != std::string_view::npos; at = text.find(sign, at + 1)) {
+      const std::string_view from = trimmed(text.substr(0, at)), to = trimmed(text.substr(at + sign.size()));
+      if (!is_quantity(from) || !is_quantity(to)) continue;
+      std::string_view number = from, unit = to;
+      (void)take_number(number);
+      (void)take_number(unit);
+      if (trimmed(unit).empty() && !trimmed(number).empty()) continue;              // "5000 min-1"
+      const std::string shared = trimmed(number).empty() ? std::string(unit) : "";  // "2-4 mm" begins at 2 mm
+      return std::pair(std::string(from) + shared, std::string(to));
+    }
+  }
+  return std::nullopt;
 }
 
 double bare_number(double value, const QuantityKind& kind) {

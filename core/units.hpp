@@ -4,8 +4,10 @@
 // A unit is a product of powers, written with spaces, dots, * or /; each / divides by the one factor that follows it:
 // "N s/m", "kg/m^3", "m/s^2/N". Numbers are read and written independently of the locale.
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace thinwall::core {
 
@@ -61,12 +63,16 @@ inline constexpr QuantityKind memory{"memory", "B", "4 GB"};
 }  // namespace kind
 
 /// The quantity that the text states, in base units. Throws InputError if the text does not start with a number, the
-/// number is not finite, or a unit is unknown (the nearest known one is named).
+/// number is not finite, or a unit is unknown (the one that is meant, or the nearest known one, is named).
 [[nodiscard]] Quantity parse_quantity(std::string_view text);
 
 /// The number in `kind.unit` that the text states; a bare number is taken in that unit if the kind allows it. Throws
 /// InputError that names the expected dimension, the one found, and an example.
 [[nodiscard]] double parse_quantity(std::string_view text, const QuantityKind& kind);
+
+/// The two ends of a text that states a range, "2 mm - 4 mm", "2-4 mm", "2 mm to 4 mm", "2..4 mm", each with its unit;
+/// none of any other text. It is asked of a text that is no quantity.
+[[nodiscard]] std::optional<std::pair<std::string, std::string>> range_ends(std::string_view text);
 
 /// The value of a number that was written without a unit, taken in `kind.unit`. Throws InputError if it is not finite
 /// or the kind needs a unit ("write \"1900 rpm\"").

@@ -64,6 +64,16 @@ TEST(SweepGrid, ListsAreTakenAsTheyStand) {
   EXPECT_EQ(sweep_axis("points.P.at=[1, 0.5, 0.9], [1, 0.5, 1]").values, (Texts{"[1, 0.5, 0.9]", "[1, 0.5, 1]"}));
 }
 
+TEST(SweepGrid, ARangeWithoutAStepIsAnsweredWithHowOneIsWritten) {
+  try {
+    (void)sweep_axis("part.thickness=2 mm - 4 mm");
+    FAIL() << "no error";
+  } catch (const core::UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("write part.thickness=\"2 mm:4 mm:STEP\""), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(SweepGrid, WhatMakesNoGridIsAUsageError) {
   for (const auto* text :
        {"part.thickness", "=1", "part.thickness=", "part.thicknes=1 mm", "part.thickness=1 mm:2 mm",

@@ -65,6 +65,18 @@ TEST(BadCase, AnUnknownKeyNamesTheNearestAndItsPlace) {
   expect_problem("[points.P]", "[points.\"P 1\"]\nat = [1.0, 0.5, 0.5]\n[points.P]", "a name starts with a letter");
 }
 
+TEST(BadCase, AWordOfTheFieldIsAnsweredWithTheKeyThatIsMeant) {
+  expect_problem("[cutting]", "[cutting]\nfz = \"0.1 mm\"",
+                 "cutting.fz: unknown key (did you mean \"feed_per_tooth\"?)");
+  expect_problem("[cutting]", "[cutting]\nap = \"1 mm\"",
+                 "cutting.ap: unknown key (did you mean \"depth_limit\" of [lobes]?); a chart finds the depth");
+  expect_problem("[part]", "[part]\nnu = 0.3",
+                 "part.nu: unknown key (did you mean \"poisson_ratio\" of [part.material]?)");
+  expect_problem("thickness = \"6 mm\"", "thickness = \"2 mm - 4 mm\"",
+                 "is a range, but one value is expected; for many write thinwall sweep CASE "
+                 "part.thickness=\"2 mm:4 mm:STEP\"");
+}
+
 TEST(BadCase, WrongTypesSayWhatIsExpected) {
   expect_problem("length = \"392 mm\"", "length = true", "got true or false, expected a length such as \"6 mm\"");
   expect_problem("element_size = \"12 mm\"", "element_size = \"12 mm\"\norder = 2.5", "expected a whole number");

@@ -10,6 +10,8 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/synonyms.hpp"
+#include "core/units.hpp"
 
 namespace thinwall::tests::schema_test {
 
@@ -103,14 +105,35 @@ TEST(Schema, TheDocumentedKeysAreTheKeysOfTheTable) {
   const std::string begin = "<!-- keys of case.toml, printed from case/schema/schema.cpp -->\n";
   const std::string joints = "<!-- keys of the file of joints, printed from case/schema/schema.cpp -->\n";
   const std::string middle = "<!-- keys of expected.toml, printed from case/schema/schema.cpp -->\n";
+  const std::string words = "<!-- synonyms, printed from core/synonyms.cpp -->\n";
   const std::string text = core::read_file(page);
   const auto start = text.find(begin);
   ASSERT_NE(start, std::string::npos);
-  const std::string expected = text.substr(0, start) + begin + "\n" + schema_markdown(case_schema()) +
-                               "## Keys of `robot.joints`\n\n" + joints + "\n" + schema_markdown(joints_schema()) +
-                               "## Keys of `expected.toml`\n\n" + middle + "\n" + schema_markdown(expectation_schema());
+  const std::string expected =
+      text.substr(0, start) + begin + "\n" + schema_markdown(case_schema()) + "## Keys of `robot.joints`\n\n" + joints +
+      "\n" + schema_markdown(joints_schema()) + "## Keys of `expected.toml`\n\n" + middle + "\n" +
+      schema_markdown(expectation_schema()) +
+      "## Words by other names\n\nWho writes one of the words on the left is asked whether the "
+      "one on the right is meant.\nLetters of another case (`RPM`, `kt`) and misspelt words are "
+      "recognised without a table.\n\n" +
+      words + "\n" + core::synonyms_markdown();
   if (std::getenv("THINWALL_WRITE_DOCS") != nullptr) core::write_file_atomically(page, expected);
   EXPECT_EQ(core::read_file(page), expected) << "run test_app with THINWALL_WRITE_DOCS=1";
+}
+
+// A synonym whose meaning was renamed would suggest a word that nobody knows.
+TEST(Schema, EverySynonymMeansAKeyAWordOrAUnitThatIsKnown) {
+  std::set<std::string> keys, words{"receptance", "mobility", "accelerance", "guyan"};
+  for (const Key& key : case_schema().keys) {
+    keys.insert(std::string(last_name(key.path)));
+    for (const std::string& choice : choices(key)) words.insert(choice);
+  }
+  for (const core::Synonym& row : core::synonyms()) {
+    const std::string meant(row.meant);
+    if (row.kind == core::WordKind::key) EXPECT_TRUE(keys.contains(meant)) << meant;
+    if (row.kind == core::WordKind::word) EXPECT_TRUE(words.contains(meant)) << meant;
+    if (row.kind == core::WordKind::unit) EXPECT_NO_THROW((void)core::parse_unit(meant)) << meant;
+  }
 }
 
 }  // namespace

@@ -102,6 +102,25 @@ TEST(Units, BadTextIsRefusedWithItsCause) {
   EXPECT_NE(message_of("", kind::length).find("does not start with a number"), std::string::npos);
 }
 
+TEST(Units, AUnitOfTheFieldIsAnsweredWithTheOneThatIsMeant) {
+  EXPECT_NE(message_of("5000 RPM", kind::spindle_speed).find("did you mean \"rpm\"?"), std::string::npos);
+  EXPECT_NE(message_of("5000 U/min", kind::spindle_speed).find("did you mean \"rpm\"?"), std::string::npos);
+  EXPECT_NE(message_of("5000 min-1", kind::spindle_speed).find("did you mean \"rpm\"?"), std::string::npos);
+  EXPECT_EQ(message_of("5000 1/min", kind::spindle_speed),
+            "\"5000 1/min\" is a frequency, but a spindle speed is expected; write \"5000 rpm\"");
+  EXPECT_NE(message_of("5 1/min", kind::length).find("write for example \"6 mm\""), std::string::npos);
+  EXPECT_NE(message_of("3 Nm", kind::torque).find("did you mean \"N m\"?"), std::string::npos);
+  EXPECT_NE(message_of("3 N/mm2", kind::stress).find("did you mean \"N/mm^2\"?"), std::string::npos);
+}
+
+TEST(Units, ARangeIsToldByItsEnds) {
+  const std::pair<std::string, std::string> ends("2 mm", "4 mm");
+  for (const auto* text : {"2 mm - 4 mm", "2-4 mm", "2 mm to 4 mm", "2..4 mm", "2 mm – 4 mm"})
+    EXPECT_EQ(range_ends(text), ends) << text;
+  EXPECT_EQ(range_ends("-2 mm - -1 mm"), std::pair(std::string("-2 mm"), std::string("-1 mm")));
+  for (const auto* text : {"5000 min-1", "1e-3 mmm", "mm", "-", "4 m-", ""}) EXPECT_FALSE(range_ends(text)) << text;
+}
+
 TEST(Units, TextOfAQuantityReadsBackToTheLastBit) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> mantissa(-10.0, 10.0), exponent(-12.0, 12.0);
