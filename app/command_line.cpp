@@ -251,10 +251,17 @@ ExitCode parse(CLI::App& app, int argc, const char* const* argv, std::ostream& o
   }
 }
 
+/// A problem by the option that gave the value, where one did: its place is no file.
+std::string line_of(const cases::CaseError& error, const cases::Problem& problem) {
+  if (problem.line < 0) return "--set " + problem.text;
+  if (problem.line == 0 && problem.text.starts_with("--")) return problem.text;  // an option of `lobes`
+  return cases::problem_line(error.source.name, problem);
+}
+
 /// The problems of a case with what they point at beneath; of very many the first.
 void report(std::ostream& err, const cases::CaseError& error) {
   for (std::size_t i = 0; i < std::min(error.problems.size(), cases::shown_problems); ++i) {
-    report(err, cases::problem_line(error.source.name, error.problems[i]));
+    report(err, line_of(error, error.problems[i]));
     err << cases::excerpt(error.source, error.problems[i]);
   }
   if (const std::string further = cases::further_problems(error.problems.size()); !further.empty())

@@ -10,6 +10,7 @@
 #include "case/urdf_arm.hpp"
 #include "core/error.hpp"
 #include "io/manifest.hpp"
+#include "io/urdf.hpp"
 #include "setup/contact_model.hpp"
 #include "setup/data_files.hpp"
 #include "setup/imported_part.hpp"
@@ -19,14 +20,21 @@ namespace thinwall::cases {
 
 namespace {
 
-/// Reads a file by `read`; what is wrong with it is reported, in one line, at the key.
+/// Reports an error in one line at the key.
+void report_error(const std::string& key, Findings& findings, const core::Error& error) {
+  std::string text = error.what();
+  for (auto end = text.find('\n'); end != std::string::npos; end = text.find('\n', end)) text.replace(end, 1, "; ");
+  findings.report(key, text);
+}
+
+/// Reads a file by `read`; what is wrong with it is reported at the key, or at the key of the chain's end that is.
 void read_or_report(const std::string& key, Findings& findings, const std::function<void()>& read) {
   try {
     read();
+  } catch (const io::UrdfEndError& error) {
+    report_error(key + (error.tip ? "_tip" : "_base"), findings, error);
   } catch (const core::Error& error) {
-    std::string text = error.what();
-    for (auto end = text.find('\n'); end != std::string::npos; end = text.find('\n', end)) text.replace(end, 1, "; ");
-    findings.report(key, text);
+    report_error(key, findings, error);
   }
 }
 

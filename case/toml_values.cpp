@@ -73,18 +73,50 @@ class Walk {
     return entries;
   }
 
-  /// The place of `path`: its place in the file; else in the last --set that is it, lies in it or holds it.
+  /// True if the key or table `inner` is `outer` or lies in it.
+  static bool within(const std::string& inner, const std::string& outer) {
+    return inner.starts_with(outer) &&
+           (inner.size() == outer.size() || inner[outer.size()] == '.' || inner[outer.size()] == '[');
+  }
+
+  /// The place of the --set of that number, at its value if its key is one.
+  [[nodiscard]] Problem place_of_option(std::size_t number) const {
+    const Override& option = overrides_[number];
+    const bool key = find_key(schema_, pattern_of(schema_, option.path)) != nullptr;
+    return {-static_cast<int>(number) - 1, key ? option.value_column : 1, ""};
+  }
+
+  /// The place of `path`: in the last --set that it lies in, whose own text a table counts its lines from; else in the
+  /// file; else in the last --set that lies in it.
   [[nodiscard]] Problem place_of(const toml::source_position& place, const std::string& path) const {
-    if (place.line > 0) return {static_cast<int>(place.line), static_cast<int>(place.column), ""};
-    const auto within = [](const std::string& inner, const std::string& outer) {
-      return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '.');
-    };
     for (auto i = overrides_.size(); i > 0; --i) {
-      const Override& option = overrides_[i - 1];
-      if (!within(option.path, path) && !within(path, option.path.substr(0, option.path.find('[')))) continue;
-      return {-static_cast<int>(i), find_key(schema_, pattern_of(schema_, option.path)) ? option.value_column : 1, ""};
+      if (within(path, overrides_[i - 1].path)) return place_of_option(i - 1);
+    }
+    if (place.line > 0) return {static_cast<int>(place.line), static_cast<int>(place.column), ""};
+    for (auto i = overrides_.size(); i > 0; --i) {
+      const std::string& option = overrides_[i - 1].path;
+      if (within(option, path) || within(path, option.substr(0, option.find('[')))) return place_of_option(i - 1);
     }
     return {};
+  }
+
+  /// The place of what is wrong with a list: in the last --set of an entry that is at fault by itself, else the list's.
+  [[nodiscard]] Problem place_in_list(const Key& key, const toml::node& node, const std::string& path,
+                                      const Problem& of_list) const {
+    const toml::array* list = node.as_array();
+    Key one = key;
+    if (key.type == Type::vector) one.type = Type::quantities;
+    for (auto i = overrides_.size(); list != nullptr && i > 0; --i) {
+      const std::string& option = overrides_[i - 1].path;
+      if (!option.starts_with(path + "[") || !option.ends_with(']')) continue;
+      const auto entry = std::stoul("0" + option.substr(path.size() + 1));
+      try {
+        if (entry < list->size()) (void)read_value(*list->get(entry), one);
+      } catch (const InputError&) {
+        return place_of_option(i - 1);
+      }
+    }
+    return of_list;
   }
 
   void report(const toml::source_position& place, const std::string& path, const std::string& text) {
@@ -197,7 +229,8 @@ class Walk {
       read.value = read_value(node, key);
     } catch (const InputError& error) {
       read.value = unread_value(key);
-      report(source, path, error.what());
+      problems.push_back(place_in_list(key, node, path, place));
+      problems.back().text = path + ": " + error.what();
     }
     values.push_back(std::move(read));
   }

@@ -105,12 +105,12 @@ urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& path) {
 }
 
 const urdf::Link& link_named(const urdf::ModelInterface& model, const std::filesystem::path& path,
-                             const std::string& name) {
+                             const std::string& name, bool tip) {
   const auto found = model.links_.find(name);
   if (found != model.links_.end()) return *found->second;
   std::vector<std::string> names;
   for (const auto& [known, link] : model.links_) names.push_back(known);
-  throw DataError(path.string() + ": there is no link \"" + name + "\"" + core::did_you_mean(name, names));
+  throw UrdfEndError(path.string() + ": there is no link \"" + name + "\"" + core::did_you_mean(name, names), tip);
 }
 
 /// The link at the end of the only chain that leaves `base`.
@@ -118,8 +118,11 @@ const urdf::Link& only_end(const urdf::Link& base, const std::filesystem::path& 
   const urdf::Link* link = &base;
   while (!link->child_links.empty()) {
     if (link->child_links.size() > 1) {
-      throw DataError(path.string() + ": link \"" + link->name +
-                      "\" carries several; name the link that is the robot's tip");
+      std::string names;
+      for (const auto& child : link->child_links) names += (names.empty() ? " (" : ", ") + child->name;
+      throw UrdfEndError(path.string() + ": link \"" + link->name + "\" carries several" + names +
+                             "); name the link that is the robot's tip",
+                         true);
     }
     link = link->child_links.front().get();
   }
@@ -131,7 +134,8 @@ std::vector<const urdf::Link*> way(const urdf::Link& base, const urdf::Link& tip
   std::vector<const urdf::Link*> links{&tip};
   while (links.back() != &base) {
     const auto parent = links.back()->getParent();
-    if (!parent) throw DataError(path.string() + ": link \"" + tip.name + "\" does not hang on \"" + base.name + "\"");
+    if (!parent)
+      throw UrdfEndError(path.string() + ": link \"" + tip.name + "\" does not hang on \"" + base.name + "\"", true);
     links.push_back(parent.get());
   }
   std::ranges::reverse(links);
@@ -206,8 +210,8 @@ void add_fixed(const urdf::Link& from, const urdf::Link* next, const Eigen::Isom
 
 UrdfChain read_urdf(const std::filesystem::path& path, const std::string& base, const std::string& tip) {
   const auto model = parse(path);
-  const urdf::Link& first = base.empty() ? *model->getRoot() : link_named(*model, path, base);
-  const auto links = way(first, tip.empty() ? only_end(first, path) : link_named(*model, path, tip), path);
+  const urdf::Link& first = base.empty() ? *model->getRoot() : link_named(*model, path, base, false);
+  const auto links = way(first, tip.empty() ? only_end(first, path) : link_named(*model, path, tip, true), path);
   UrdfChain chain;
   UrdfLink ground;  // bodies fixed to the base do not move
   for (std::size_t i = 0; i < links.size(); ++i) {

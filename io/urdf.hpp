@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
+
 namespace thinwall::io {
 
 /// A rigid body and the joint that carries it; bodies that fixed joints connect to it are part of it. At angle 0 its
@@ -27,12 +29,19 @@ struct UrdfChain {
   Eigen::Isometry3d tip = Eigen::Isometry3d::Identity();
 };
 
+/// The error of an end of the chain that is not told, or is no link that it can be.
+struct UrdfEndError : core::DataError {
+  UrdfEndError(const std::string& message, bool of_tip) : core::DataError(message), tip(of_tip) {}
+  bool tip;  ///< true of the tip, false of the base
+};
+
 /// Reads the chain between two links of the file; an empty `base` is the root, an empty `tip` the one link at the end
 /// of the only chain. Joints along the chain are revolute, continuous or fixed; branches off it must be fixed, and add
 /// their mass. A URDF contains neither stiffness nor rotor inertia; its damping and friction, which belong to a
-/// controller's model, are not read. Throws DataError that names the file and the fault: no XML, a link that does not
-/// exist, a joint of another kind (prismatic, planar, floating) or one that mimics another, joints that form a cycle or
-/// carry one link twice, more than 1000 joints, a mass or inertia that is not finite.
+/// controller's model, are not read. Throws DataError that names the file and the fault: no XML, a joint of another
+/// kind (prismatic, planar, floating) or one that mimics another, joints that form a cycle or carry one link twice, more
+/// than 1000 joints, a mass or inertia that is not finite; UrdfEndError for an end that does not exist, a tip that does
+/// not hang on the base, or an empty one where there are several.
 [[nodiscard]] UrdfChain read_urdf(const std::filesystem::path& path, const std::string& base = "",
                                   const std::string& tip = "");
 

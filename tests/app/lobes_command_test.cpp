@@ -276,9 +276,8 @@ TEST_F(LobesCommand, FilesThatAreMissingOrWrongAreRefused) {
   expect_refused(lobes({path("absent.toml")}), 3, "no case");
   expect_refused(lobes({path("tool.toml")}), 3, "a case holds a part");
   expect_refused(frf(path("tip.csv"), {}, "mobility", "m/N"), 3,
-                 "tool.toml: --unit: \"m/N\" is a unit of receptance, but");
-  expect_refused(frf(path("tip.csv"), {}, "flexibility", "m/N"), 3,
-                 "tool.toml: --quantity: \"flexibility\" is none of");
+                 "thinwall: --unit: \"m/N\" is a unit of receptance, but");
+  expect_refused(frf(path("tip.csv"), {}, "flexibility", "m/N"), 3, "thinwall: --quantity: \"flexibility\" is none of");
   expect_refused(frf(path("tip.csv"), {"y=" + path("tip.csv")}, "flexibility", "m/N"), 3, "--quantity: ");
   expect_refused(frf(path("tip.csv"), {"--frequency-unit", "rpm"}), 3, "--frequency-unit: \"rpm\" is none of");
   expect_refused(frf(path("tip.csv"), {"x=" + path("tip.csv")}), 3, "the same entry");

@@ -66,6 +66,32 @@ TEST(Excerpt, AnOverridePointsIntoTheOption) {
             "        | ^~~~~~~~~~~~~~~~~~~\n");
 }
 
+// A table in an option has lines of its own, which are none of the file.
+TEST(Excerpt, ATableInAnOptionIsPointedAtInTheOption) {
+  EXPECT_EQ(shown(plate_case(), {"points.Q={at = [1.0, 0.5, 0.95], ofset = 3}"}),
+            "  --set | points.Q={at = [1.0, 0.5, 0.95], ofset = 3}\n"
+            "        | ^~~~~~~~\n");
+  EXPECT_EQ(shown(plate_case(), {"robot.frequency=30 Hz",
+                                 "part.material={youngs_modulus = \"210 GPa\", poisson_ratio = 0.3, "
+                                 "density = \"7 kg\"}"})
+                .substr(0, 24),
+            "  --set | part.material=");
+  EXPECT_EQ(
+      shown(plate_case(), {"tool.modes=[{frequency = \"9 Hz\", damping_ratio = 0.1, stiffness = 1e6}]"}).substr(0, 22),
+      "  --set | tool.modes=[");
+}
+
+TEST(Excerpt, AnEntryOfAListIsPointedAtWhereItWasGiven) {
+  EXPECT_EQ(shown(plate_case(), {"damping.ratios[1]=5 mm"}),
+            "  --set | damping.ratios[1]=5 mm\n"
+            "        |                   ^~~~\n");
+  EXPECT_EQ(shown(plate_case(), {"points.P2.offset[0]=5 kg"}).substr(0, 8), "  --set ");
+  EXPECT_EQ(
+      shown(with(plate_case(), "ratios = [0.008,", "ratios = [\"8 mm\","), {"damping.ratios[1]=0.005"}).find("--set"),
+      std::string::npos)
+      << "the file is at fault";
+}
+
 TEST(Excerpt, WhatOnlyShowsBetweenKeysPointsAtTheOptionToo) {
   EXPECT_EQ(shown(plate_case(), {"cutting.at=\"Q\""}),
             "  --set | cutting.at=\"Q\"\n"

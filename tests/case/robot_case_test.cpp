@@ -216,5 +216,20 @@ TEST(RobotCase, UrdfAndItsJointsAreCheckedAgainstEachOther) {
   expect_problem(with(by_urdf, "joints = \"joints.toml\"\n", ""), "robot.urdf", "needs robot.joints", folder.path);
 }
 
+TEST(RobotCase, AnEndOfAUrdfThatIsNotToldIsReportedAtItsKey) {
+  const TemporaryFolder folder;
+  core::write_file_atomically(folder.path / "joints.toml", joints);
+  core::write_file_atomically(folder.path / "two.urdf",
+                              with(urdf, "</robot>",
+                                   "<link name=\"camera\"/><joint name=\"g\" type=\"fixed\"><parent link=\"b\"/><child "
+                                   "link=\"camera\"/></joint></robot>"));
+  expect_problem(by_urdf, "robot.urdf_tip", "link \"b\" carries several (", folder.path);
+  EXPECT_NO_THROW((void)parse_case(with(by_urdf, "urdf =", "urdf_tip = \"tool\"\nurdf ="), folder.path));
+  expect_problem(with(by_urdf, "urdf =", "urdf_tip = \"tol\"\nurdf ="), "robot.urdf_tip", "did you mean \"tool\"",
+                 folder.path);
+  expect_problem(with(by_urdf, "urdf =", "urdf_base = \"bse\"\nurdf_tip = \"tool\"\nurdf ="), "robot.urdf_base",
+                 "did you mean \"base\"", folder.path);
+}
+
 }  // namespace
 }  // namespace thinwall::tests::robot_case_test

@@ -94,7 +94,7 @@ TEST_F(Urdf, WhatAnArmCannotHaveIsRefusedByName) {
                  "\"j2\" is prismatic");
   expect_refused(with(two_links, "name=\"c\" type=\"fixed\"", "name=\"c\" type=\"continuous\""), "beside the chain");
   expect_refused(two_links, "there is no link \"flanges\" (did you mean \"flange\"?)", "flanges");
-  expect_refused(two_links, "carries several; name the link", "");
+  expect_refused(two_links, "carries several (", "");
   expect_refused(two_links.substr(0, two_links.find("<link name=\"shoulder")) + "</robot>", "no joint moves", "world");
   expect_refused(with(two_links, "mass value=\"40\"", "mass value=\"-40\""), "mass or inertia that no body has");
   expect_refused(with(two_links, "<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 1 0\"/><mimic joint=\"j1\"/>"), "mimics");
