@@ -236,6 +236,15 @@ void report(std::ostream& err, const std::string& message) {
   for (std::string line; std::getline(lines, line);) err << style.bad("thinwall:") << " " << line << '\n';
 }
 
+/// The answer to the program's name alone.
+constexpr auto first_steps =
+    "What a thin-walled part will do under the cutter, and which speeds and depths are stable. To begin:\n\n"
+    "  thinwall init my-part             a commented case of a plate with a robot behind it\n"
+    "  thinwall check my-part            every error of it, and how long it will take\n"
+    "  thinwall run my-part              computes it; report.html in results/my-part has the answer in pictures\n"
+    "  thinwall init my-tool --template lobes    a measured or known tool: only a stability chart\n\n"
+    "\"thinwall init --help\" names all templates, \"thinwall --help\" all commands.\n";
+
 /// CLI11 has exit codes of its own (105, 106, …): help and version are 0, all else is a usage error.
 ExitCode parse(CLI::App& app, int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
   try {
@@ -304,6 +313,10 @@ extern "C" void on_signal(int signal) {
 int run_command_line(int argc, const char* const* argv, const RunCase& run_case, std::ostream& out, std::ostream& err) {
   return guarded(
       [&] {
+        if (argc < 2) {
+          err << first_steps;
+          return ExitCode::usage;
+        }
         Arguments arguments;
         CLI::App app("What a thin-walled part will do under the cutter, and which speeds and depths are stable.",
                      "thinwall");

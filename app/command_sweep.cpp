@@ -34,7 +34,7 @@ void describe_sweep(CLI::App& app, SweepRequest& sweep, MergeRequest& merge) {
       ->type_name("auto|always|never");
   auto* merge_command = app.add_subcommand("merge", "the table of a sweep from the folders of its shards");
   merge_command->add_option("FOLDERS", merge.folders, "folders of the sweep's shards")->type_name("DIR")->required();
-  merge_command->add_option("--out", merge.out, "folder for the table (default: the first)")->type_name("DIR");
+  merge_command->add_option("-o,--out", merge.out, "folder for the table")->type_name("DIR")->required();
 }
 
 }  // namespace thinwall::app

@@ -258,10 +258,9 @@ ExitCode merge_sweeps(const std::vector<std::string>& folders, const fs::path& o
     });
     complete = complete && found;
   }
-  const fs::path target = out.empty() ? fs::path(folders.front()) : out;
-  make_sweep_folder(target);
-  write_tables(target, table);
-  text << sweep_text(table) << "\n  table: " << (target / "sweep.csv").string() << '\n';
+  make_sweep_folder(out);
+  write_tables(out, table);
+  text << sweep_text(table) << "\n  table: " << (out / "sweep.csv").string() << '\n';
   const ExitCode code = code_of(table);
   return code == ExitCode::done && !complete ? ExitCode::numerical : code;
 }

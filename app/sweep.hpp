@@ -32,7 +32,7 @@ struct SweepRequest {
 [[nodiscard]] core::ExitCode run_sweep(const SweepRequest& request, const RunCase& run_case, std::ostream& out);
 
 /// Collects the points of one sweep from the folders of its shards (which may be one folder) into the table and drawing
-/// of `out`, or of the first folder if `out` is empty; prints the table. A point that is in several is taken from the
+/// of `out`, and writes nowhere else; prints the table. A point that is in several is taken from the
 /// first. Returns as run_sweep(); numerical, if points are missing. Throws UsageError for folders of different sweeps,
 /// that is of other keys, values, cases, data, overrides or programs, DataError for a folder without a sweep or with
 /// damaged files.

@@ -70,8 +70,8 @@ TEST_F(CommandLine, HelpAndVersionEndWithZero) {
 }
 
 TEST_F(CommandLine, WrongUseEndsWithTwoAndOneLine) {
-  for (const auto& words : std::vector<std::vector<std::string>>{{},
-                                                                 {"run"},
+  for (const auto& words : std::vector<std::vector<std::string>>{{"run"},
+                                                                 {"merge", "a", "b"},
                                                                  {"fly"},
                                                                  {"run", "a", "b"},
                                                                  {"compare", "a"},
@@ -84,6 +84,41 @@ TEST_F(CommandLine, WrongUseEndsWithTwoAndOneLine) {
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     EXPECT_EQ(outcome.out, "");
   }
+}
+
+TEST_F(CommandLine, AnErrorOfAnOptionCitesTheOptionAndNoFile) {
+  const Outcome outcome = call({"check", plate(), "--set", "part.length=6 kg"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_TRUE(outcome.err.starts_with("thinwall: --set part.length: \"6 kg\" is a mass")) << outcome.err;
+}
+
+// Every command that is shown is one: what stands behind "thinwall" in each line is tried with --help.
+TEST_F(CommandLine, TheNameAloneShowsHowToBegin) {
+  const Outcome outcome = call({});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_LE(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 10) << outcome.err;
+  std::istringstream lines(outcome.err);
+  int shown = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string program, command;
+    words >> program >> command;
+    if (program != "thinwall") continue;
+    EXPECT_EQ(call({command, "--help"}).code, 0) << line;
+    ++shown;
+  }
+  EXPECT_GE(shown, 3);
+}
+
+TEST_F(CommandLine, AMergeSaysWhereItsTableGoes) {
+  const Outcome outcome = call({"merge", out()});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("--out is required"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(out()) / "sweep.csv"));
+}
+
+TEST_F(CommandLine, AWordThatMeansACommandIsAnsweredWithIt) {
+  EXPECT_NE(call({"simulate", "a"}).err.find("(did you mean \"run\"?)"), std::string::npos);
 }
 
 TEST_F(CommandLine, AWordThatIsNoCommandIsNamedWithTheNearestOne) {
