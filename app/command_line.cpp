@@ -28,6 +28,7 @@
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "report/compare.hpp"
+#include "report/compared_answers.hpp"
 #include "report/lobes_report.hpp"
 #include "report/page/page.hpp"
 #include "report/page/phases.hpp"
@@ -149,15 +150,19 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
   return ExitCode::done;
 }
 
+/// The answer of both results, the figures that matter most, and every difference where that is asked for.
 ExitCode compare(const Arguments& arguments, std::ostream& out) {
-  constexpr std::size_t shown = 20;
   const report::Comparison comparison = report::compare_results(arguments.left, arguments.right, arguments.tolerance);
-  for (std::size_t i = 0; i < std::min(shown, comparison.differences.size()); ++i) {
-    const auto& difference = comparison.differences[i];
-    out << difference.where << ": " << difference.left << " against " << difference.right << '\n';
+  out << report::answers_text(arguments.left, arguments.right) << '\n';
+  if (const std::string figures = report::main_figures_text(comparison); !figures.empty()) out << figures << '\n';
+  if (arguments.all) {
+    for (const report::Difference& difference : comparison.differences)
+      out << difference.where << ": " << difference.left << " against " << difference.right << '\n';
   }
-  if (comparison.differences.size() > shown) out << "and " << comparison.differences.size() - shown << " more\n";
-  out << comparison.numbers << " numbers compared, " << comparison.differences.size() << " differences\n";
+  out << comparison.numbers << " numbers compared, " << comparison.differences.size() << " differences";
+  if (!comparison.differences.empty())
+    out << ": " << report::differences_by_file(comparison) << (arguments.all ? "" : "; --all lists them");
+  out << '\n';
   if (!arguments.html.empty()) {
     report::write_page(arguments.html, {{arguments.left, arguments.right}, program_name()});
     out << "wrote " << arguments.html << '\n';

@@ -152,10 +152,12 @@ void describe(CLI::App& app, Arguments& arguments) {
   init->add_option("--template", arguments.template_name, "what to start from (default: plate)")
       ->type_name(alternatives(cases::template_names()));
   init->add_option("DIR", arguments.folder, "folder for the case (default: the template's name)")->type_name("DIR");
-  auto* compare_command = app.add_subcommand("compare", "compare two result folders, number by number");
+  auto* compare_command = app.add_subcommand(
+      "compare", "two result folders: the answers of both, the figures that matter most, and how many numbers differ");
   compare_command->add_option("A", arguments.left, "result folder")->type_name("DIR")->required();
   compare_command->add_option("B", arguments.right, "result folder")->type_name("DIR")->required();
   compare_command->add_option("--tolerance", arguments.tolerance, "relative tolerance, from 0 on (default: 1e-9)");
+  compare_command->add_flag("--all", arguments.all, "every difference, a line each");
   compare_command->add_option("--html", arguments.html, "both on one page, in this file; the exit code is 0 then")
       ->type_name("FILE");
   auto* report_command = app.add_subcommand("report", "make report.html of a result folder anew");

@@ -27,7 +27,7 @@ struct Arguments {
   report::PhasesRequest phases;
   SweepRequest sweep;
   MergeRequest merge;
-  bool fresh = false, quiet = false, verbose = false;
+  bool fresh = false, quiet = false, verbose = false, all = false;
   int threads = 0;
   double tolerance = 1e-9;
 };

@@ -34,13 +34,24 @@ bool not_compared(Kind kind) {
   return kind == Kind::run_time || kind == Kind::sentence;
 }
 
-constexpr auto in_summary = "summary.json: ";
+/// The text that an entry has under a key; empty if it has none.
+std::string text_at(const json& entry, const char* key) {
+  const auto found = entry.find(key);
+  return found != entry.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+/// The place of a value of the summary, and what an entry around it says of it.
+struct Place {
+  std::string path;
+  std::string quantity = {};  ///< the number that values of an entry about another number are of
+  std::string entry = {};     ///< the name of the outermost entry that has one: of the chart
+};
 
 struct Comparer {
   double tolerance;
   Comparison result;
 
-  void number(const std::string& where, double a, double b, double scale) {
+  void number(Difference at, double a, double b, double scale) {
     ++result.numbers;
     const double size = std::max({std::abs(a), std::abs(b), scale});
     if (a == b || (std::isnan(a) && std::isnan(b)) || std::abs(a - b) <= tolerance * size) return;
@@ -49,44 +60,58 @@ struct Comparer {
     right.precision(10);
     left << a;
     right << b;
-    result.differences.push_back({where, left.str(), right.str()});
+    at.left = left.str();
+    at.right = right.str();
+    at.numbers = std::pair(a, b);
+    result.differences.push_back(std::move(at));
   }
 
-  void text(const std::string& where, const std::string& a, const std::string& b) {
-    if (a != b) result.differences.push_back({where, a, b});
+  void text(Difference at, const std::string& a, const std::string& b) {
+    if (a == b) return;
+    at.left = a;
+    at.right = b;
+    result.differences.push_back(std::move(at));
   }
 
-  /// `path` is that in the summary; `quantity` names the number that values of an entry about another number are of.
-  void node(const std::string& path, const std::string& quantity, const json& a, const json& b) {
+  void node(const Place& place, const json& a, const json& b) {
     if (a.is_number() && b.is_number()) {
-      const Kind own = kind_at(path);
-      const Kind kind = own == Kind::of_quantity ? kind_at(quantity) : own;
-      return number(in_summary + path, a.get<double>(), b.get<double>(), stays_small(kind) ? 1.0 : 0.0);
+      const Kind own = kind_at(place.path);
+      const Kind kind = own == Kind::of_quantity ? kind_at(place.quantity) : own;
+      return number(in_summary(place), a.get<double>(), b.get<double>(), stays_small(kind) ? 1.0 : 0.0);
     }
-    if (a.is_object() && b.is_object()) return object(path, a, b);
-    if (a.is_array() && b.is_array() && a.size() == b.size()) {
-      for (std::size_t i = 0; i < a.size(); ++i) node(path + "[" + std::to_string(i) + "]", quantity, a[i], b[i]);
-      return;
+    if (a.is_object() && b.is_object()) return object(place, a, b);
+    if (a.is_array() && b.is_array()) {
+      Place entry = place;
+      for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+        entry.path = place.path + "[" + std::to_string(i) + "]";
+        node(entry, a[i], b[i]);
+      }
+      if (a.size() == b.size()) return;
     }
-    text(in_summary + path, shown_value(a), shown_value(b));
+    text(in_summary(place), shown_value(a), shown_value(b));
   }
 
-  void object(const std::string& path, const json& a, const json& b) {
+  void object(const Place& around, const json& a, const json& b) {
     std::set<std::string> names;
     for (const auto& [name, value] : a.items()) names.insert(name);
     for (const auto& [name, value] : b.items()) names.insert(name);
-    const auto of = a.find("quantity");
-    const std::string quantity = of != a.end() && of->is_string() ? of->get<std::string>() : "";
+    Place place{"", text_at(a, "quantity"), around.entry};
+    if (place.entry.empty() && !around.path.empty()) place.entry = text_at(a, "chart") + text_at(a, "name");
     for (const auto& name : names) {
-      const std::string place = path.empty() ? name : path + "." + name;
-      if (not_compared(kind_at(place))) continue;
+      place.path = around.path.empty() ? name : around.path + "." + name;
+      if (not_compared(kind_at(place.path))) continue;
       if (a.contains(name) && b.contains(name)) {
-        node(place, quantity, a[name], b[name]);
+        node(place, a[name], b[name]);
       } else {
-        text(in_summary + place, a.contains(name) ? shown_value(a[name]) : "absent",
+        text(in_summary(place), a.contains(name) ? shown_value(a[name]) : "absent",
              b.contains(name) ? shown_value(b[name]) : "absent");
       }
     }
+  }
+
+ private:
+  static Difference in_summary(const Place& place) {
+    return {"summary.json: " + place.path, {}, {}, place.path, place.entry};
   }
 };
 
@@ -134,22 +159,22 @@ std::vector<double> column_scales(const std::vector<Row>& rows) {
 
 void compare_csv(Comparer& comparer, const std::string& name, const std::vector<Row>& a, const std::vector<Row>& b) {
   if (a.size() != b.size()) {
-    return comparer.text(name + ": rows", std::to_string(a.size()), std::to_string(b.size()));
+    return comparer.text({name + ": rows"}, std::to_string(a.size()), std::to_string(b.size()));
   }
   const auto scales = column_scales(a);
   for (std::size_t i = 0; i < a.size(); ++i) {
     const std::string line = name + ": row " + std::to_string(i + 1);
     if (a[i].size() != b[i].size()) {
-      comparer.text(line + ", columns", std::to_string(a[i].size()), std::to_string(b[i].size()));
+      comparer.text({line + ", columns"}, std::to_string(a[i].size()), std::to_string(b[i].size()));
       continue;
     }
     for (std::size_t j = 0; j < a[i].size(); ++j) {
       const std::string where = line + ", column " + std::to_string(j + 1);
       const auto x = as_number(a[i][j]), y = as_number(b[i][j]);
       if (x && y) {
-        comparer.number(where, *x, *y, scales[j]);
+        comparer.number({where}, *x, *y, scales[j]);
       } else {
-        comparer.text(where, a[i][j], b[i][j]);
+        comparer.text({where}, a[i][j], b[i][j]);
       }
     }
   }
@@ -184,7 +209,7 @@ Comparison compare_results(const std::filesystem::path& left, const std::filesys
   if (!(tolerance >= 0.0) || std::isinf(tolerance))
     throw core::UsageError("the tolerance is a relative one, a number from 0 on, as 1e-6");
   Comparer comparer{tolerance, {}};
-  comparer.object("", read_summary(left), read_summary(right));
+  comparer.object({""}, read_summary(left), read_summary(right));
   const auto ours = csv_files(left), theirs = csv_files(right);
   std::set<std::string> names = ours;
   names.insert(theirs.begin(), theirs.end());
@@ -192,7 +217,7 @@ Comparison compare_results(const std::filesystem::path& left, const std::filesys
     if (ours.contains(name) && theirs.contains(name)) {
       compare_csv(comparer, name, read_rows(left / name), read_rows(right / name));
     } else {
-      comparer.text(name, ours.contains(name) ? "present" : "absent", theirs.contains(name) ? "present" : "absent");
+      comparer.text({name}, ours.contains(name) ? "present" : "absent", theirs.contains(name) ? "present" : "absent");
     }
   }
   return std::move(comparer.result);

@@ -145,6 +145,28 @@ bool is_known(const std::string& path) {
   return known_kind(path) != nullptr;
 }
 
+std::string meaning_at(const std::string& path) {
+  static const Json schema = summary_schema();
+  const Json* at = &schema;
+  std::string key;
+  for (const char c : without_indices(path) + ".") {  // "lobes[].minimum_depth_m."
+    if (c != '.' && c != '[' && c != ']') {
+      key += c;
+      continue;
+    }
+    const Json* below = at;
+    if (c == ']') {
+      below = at->contains("items") ? &(*at)["items"] : nullptr;
+    } else if (!key.empty()) {
+      below = at->contains("properties") && (*at)["properties"].contains(key) ? &(*at)["properties"][key] : nullptr;
+    }
+    if (below == nullptr) return "";
+    at = below;
+    key.clear();
+  }
+  return at->value("description", "");
+}
+
 Kind kind_at(const std::string& path) {
   const Kind* kind = known_kind(path);
   return kind == nullptr ? Kind::ratio : *kind;

@@ -20,6 +20,9 @@ namespace thinwall::report {
 /// True if the schema knows the path of a value, "lobes[0].minimum_depth_m".
 [[nodiscard]] bool is_known(const std::string& path);
 
+/// The meaning of the value at a path of a summary in words; empty where the path is not known.
+[[nodiscard]] std::string meaning_at(const std::string& path);
+
 /// The kind of the value at a path of a summary, "lobes[0].minimum_depth_m"; a ratio where the path is not known, as
 /// of a summary by another version.
 [[nodiscard]] Kind kind_at(const std::string& path);

@@ -365,6 +365,19 @@ TEST_F(Compare, OneNumberThatDiffersIsFoundAndNamed) {
   EXPECT_EQ(call({"compare", temporary.path / "a", temporary.path / "b", "--tolerance", "0.01"}).code, 0);
 }
 
+TEST_F(Compare, DifferencesAreCountedByFileAndListedOnRequest) {
+  write("b", 38.1, "1,2.6e-6");
+  const Outcome brief = call({"compare", temporary.path / "a", temporary.path / "b"});
+  EXPECT_EQ(brief.code, 6);
+  EXPECT_NE(brief.out.find("2 differences: 1 in summary.json, 1 in frf/part.csv; --all lists them\n"),
+            std::string::npos)
+      << brief.out;
+  EXPECT_EQ(brief.out.find("row 3"), std::string::npos) << brief.out;
+  const Outcome full = call({"compare", temporary.path / "a", temporary.path / "b", "--all"});
+  EXPECT_EQ(full.code, 6);
+  EXPECT_NE(full.out.find("frf/part.csv: row 3, column 2: 2.5e-06 against 2.6e-06\n"), std::string::npos) << full.out;
+}
+
 TEST_F(Compare, ACsvIsJudgedByTheScaleOfItsColumn) {
   write("b", 38.0, "1,2.6e-6");
   ASSERT_EQ(compare().differences.size(), 1U);

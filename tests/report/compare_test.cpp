@@ -72,6 +72,12 @@ TEST(Compare, AValueOfAnExpectationIsOfTheKindOfItsQuantity) {
   EXPECT_EQ(differences(check("lobes[0].minimum_depth_m", "1e-3"), check("lobes[0].minimum_depth_m", "2e-3")), 1U);
 }
 
+TEST(Compare, OfListsOfDifferentLengthsTheCommonEntriesAreCompared) {
+  const auto pockets = [](const std::string& depths) { return R"({"lobes": [{"best_pockets": [)" + depths + "]}]}"; };
+  EXPECT_EQ(differences(pockets(R"({"depth_m": 1e-3})"), pockets(R"({"depth_m": 1e-3}, {"depth_m": 5e-4})")), 1U);
+  EXPECT_EQ(differences(pockets(R"({"depth_m": 1e-3})"), pockets(R"({"depth_m": 2e-3}, {"depth_m": 5e-4})")), 2U);
+}
+
 TEST(Compare, RunTimesAndSentencesAreNotCompared) {
   EXPECT_EQ(differences(R"({"timings_s": {"total": 1.0, "mesh": 0.5}, "sentences": ["a", "b"]})",
                         R"({"timings_s": {"total": 2.0}, "sentences": ["c"]})"),
