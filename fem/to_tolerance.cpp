@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "fem/determined_motions.hpp"
+#include "fem/edge_exponent.hpp"
 #include "fem/interpolation.hpp"
 
 namespace thinwall::fem {
@@ -42,10 +43,14 @@ linalg::SparseMatrix point_loads(const Model& model, const std::vector<NamedPoin
   return W;
 }
 
+/// The materials of a part on a mesh.
+Materials materials_of(const SolidPart& part, const mesh::TetMesh& mesh) {
+  return part.materials ? part.materials(mesh) : Materials{{part.material}, {}};
+}
+
 /// The model and its factor, with the modes still to be found.
 Solution prepared(const SolidPart& part, const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
-  const Materials materials = part.materials ? part.materials(mesh) : Materials{{part.material}, {}};
-  Model model = supported_model(mesh, order, materials, part.supports, part.shape, part.attachments);
+  Model model = supported_model(mesh, order, materials_of(part, mesh), part.supports, part.shape, part.attachments);
   Factored factored = factorise(model, options.memory_limit_bytes);
   return {std::move(model), std::move(factored), {}, {}, {}};
 }
@@ -157,19 +162,53 @@ void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options) {
                          "; allow more, lower the first order, or simplify the part");
 }
 
-/// The ratio r of the error at `order` to the error at the order below it (docs/theory/elements.md): (1 − 1/order)^4λ
-/// beside a re-entrant edge, else 1/2. The law of the edge holds for high orders only; its values below 1/2 are not
-/// trusted.
-double error_ratio(int order, const ToleranceOptions& options) {
-  constexpr double edge_exponent = 0.544;  // λ of a 270° edge
-  return options.reentrant_edges ? std::max(0.5, std::pow((order - 1.0) / order, 4.0 * edge_exponent)) : 0.5;
+/// The least singular exponents of the part's edges, by which the errors of frequencies and of receptances fall; 1
+/// where all is regular.
+struct Exponents {
+  double frequency = 1.0, receptance = 1.0;
+};
+
+/// The exponents of a part: of its re-entrant edges, or else, for frequencies, of the edges of its clamps. Of several
+/// materials the largest Poisson's ratio counts.
+Exponents exponents(const SolidPart& part, const Materials& materials, const ToleranceOptions& options) {
+  if (options.reentrant_edges) return {reentrant_edge_exponent, reentrant_edge_exponent};
+  if (part.supports.empty() && part.attachments.clamps.empty()) return {};
+  double poisson_ratio = -1.0;
+  for (const Material& material : materials.list) poisson_ratio = std::max(poisson_ratio, material.poisson_ratio);
+  return {clamped_edge_exponent(poisson_ratio), 1.0};
 }
 
-/// The solution with `share` times the last changes as its estimated error.
-Refined finished(Solution&& s, Estimate&& estimate, double share) {
-  estimate.frequency = share * estimate.steps.back().frequency_change.value_or(0.0);
-  estimate.receptance = share * estimate.steps.back().receptance_change.value_or(0.0);
-  estimate.met = std::max(estimate.frequency, estimate.receptance) <= estimate.tolerance;
+/// The ratio r of the error at `order` to the error at the order below it (docs/theory/elements.md). Beside an edge of
+/// exponent λ the error is that of the squares of the coefficients above the order p, Σ_{k>p} k^(−4λ−1), which is (p +
+/// ½)^−4λ up to a factor. The law holds for high orders only; its values below 1/2 are not trusted.
+double error_ratio(int order, double exponent) {
+  return std::max(0.5, std::pow((order - 0.5) / (order + 0.5), 4.0 * exponent));
+}
+
+/// The estimated errors of a solution.
+struct Errors {
+  double frequency = 0.0, receptance = 0.0;
+  [[nodiscard]] double worst() const { return std::max(frequency, receptance); }
+};
+
+/// The errors of the lower one of the last two orders, d / (1 − r) with d the last changes.
+Errors errors_of_lower(const RefinementStep& last, const Exponents& exponent) {
+  return {last.frequency_change.value_or(0.0) / (1.0 - error_ratio(last.order, exponent.frequency)),
+          last.receptance_change.value_or(0.0) / (1.0 - error_ratio(last.order, exponent.receptance))};
+}
+
+/// The errors of the higher one, r d / (1 − r).
+Errors errors_of_higher(const RefinementStep& last, const Exponents& exponent) {
+  const Errors lower = errors_of_lower(last, exponent);
+  return {error_ratio(last.order, exponent.frequency) * lower.frequency,
+          error_ratio(last.order, exponent.receptance) * lower.receptance};
+}
+
+/// The solution with its estimated errors.
+Refined finished(Solution&& s, Estimate&& estimate, const Errors& errors) {
+  estimate.frequency = errors.frequency;
+  estimate.receptance = errors.receptance;
+  estimate.met = errors.worst() <= estimate.tolerance;
   return {std::move(s.model), std::move(s.factored), std::move(s.modes), std::move(estimate)};
 }
 
@@ -181,6 +220,7 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
   estimate.tolerance = options.tolerance;
   mesh::TetMesh mesh = part.mesh(0);
   require_fit(mesh, options);
+  const Exponents exponent = exponents(part, materials_of(part, mesh), options);
   for (int level = 0;; ++level) {
     bool last_level = level + 1 == options.levels;
     // The higher of the first two orders is solved first: the modes of the lower one, which only the estimate needs,
@@ -194,20 +234,19 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
       RefinementStep step{level, order, now.model.K.rows(), frequency_change(below.modes, now.modes), {}};
       if (!options.points.empty()) step.receptance_change = receptance_change(below, now);
       estimate.steps.push_back(step);
-      const double of_lower = 1.0 / (1.0 - error_ratio(order, options));
-      const double of_higher = of_lower - 1.0;
-      const double worst = std::max(*step.frequency_change, step.receptance_change.value_or(0.0));
-      if (of_lower * worst <= options.tolerance) {
+      const Errors of_lower = errors_of_lower(step, exponent);
+      const Errors of_higher = errors_of_higher(step, exponent);
+      if (of_lower.worst() <= options.tolerance) {
         // These modes are only as accurate as the estimate needs; as a result they are computed in full.
         if (order == options.first_order + 1) below.modes = modes(below.model, below.factored, options.modes);
         return finished(std::move(below), std::move(estimate), of_lower);
       }
-      if (of_higher * worst <= options.tolerance || (last_level && order == options.last_order))
+      if (of_higher.worst() <= options.tolerance || (last_level && order == options.last_order))
         return finished(std::move(now), std::move(estimate), of_higher);
       // The next level is taken if another order cannot reach the tolerance. Away from re-entrant edges one order
       // reduces the error by a factor of ten, at most thirty; beside them by the factor of error_ratio().
-      const double next = options.reentrant_edges ? of_higher * error_ratio(order + 1, options) : 1.0 / 30.0;
-      if (!last_level && (order == options.last_order || next * worst > options.tolerance)) {
+      const double next = options.reentrant_edges ? error_ratio(order + 1, reentrant_edge_exponent) : 1.0 / 30.0;
+      if (!last_level && (order == options.last_order || next * of_higher.worst() > options.tolerance)) {
         mesh::TetMesh finer = part.mesh(level + 1);
         if (fits(finer, options.first_order + 1, options)) {
           mesh = std::move(finer);

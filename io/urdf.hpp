@@ -39,9 +39,9 @@ struct UrdfEndError : core::DataError {
 /// of the only chain. Joints along the chain are revolute, continuous or fixed; branches off it must be fixed, and add
 /// their mass. A URDF contains neither stiffness nor rotor inertia; its damping and friction, which belong to a
 /// controller's model, are not read. Throws DataError that names the file and the fault: no XML, a joint of another
-/// kind (prismatic, planar, floating) or one that mimics another, joints that form a cycle or carry one link twice, more
-/// than 1000 joints, a mass or inertia that is not finite; UrdfEndError for an end that does not exist, a tip that does
-/// not hang on the base, or an empty one where there are several.
+/// kind (prismatic, planar, floating) or one that mimics another, joints that form a cycle or carry one link twice,
+/// more than 1000 joints, a mass or inertia that is not finite; UrdfEndError for an end that does not exist, a tip that
+/// does not hang on the base, or an empty one where there are several.
 [[nodiscard]] UrdfChain read_urdf(const std::filesystem::path& path, const std::string& base = "",
                                   const std::string& tip = "");
 

@@ -47,12 +47,14 @@ void expect_consistent(const fem::Refined& refined) {
     }
   }
   const double change = steps.back().frequency_change.value_or(-1.0);
+  const double p = steps.back().order - 1;
+  const double r = std::pow((p + 0.5) / (p + 1.5), 4.0 * 0.7112);  // λ of a clamp's edge for ν = 0.3
   if (refined.model.K.rows() == steps.back().dofs) {
-    EXPECT_EQ(refined.estimate.frequency, change);
+    EXPECT_NEAR(refined.estimate.frequency / (r * change / (1.0 - r)), 1.0, 1e-3);
   } else {
     ASSERT_GE(steps.size(), 2U);
     EXPECT_EQ(refined.model.K.rows(), steps[steps.size() - 2].dofs) << "the lower of the last two orders";
-    EXPECT_EQ(refined.estimate.frequency, 2.0 * change);
+    EXPECT_NEAR(refined.estimate.frequency / (change / (1.0 - r)), 1.0, 1e-3);
   }
 }
 
@@ -82,7 +84,7 @@ mesh::TetMesh rib_graded_all_around() {
   return block;
 }
 
-TEST(RefineToTolerance, IsTheTrueErrorBesideAReentrantEdge) {
+TEST(RefineToTolerance, IsALittleAboveTheTrueErrorBesideAReentrantEdge) {
   const mesh::Prism rib = rib_on_foot();
   ASSERT_TRUE(mesh::has_reentrant_edge(rib));
   fem::SolidPart part;
@@ -100,9 +102,8 @@ TEST(RefineToTolerance, IsTheTrueErrorBesideAReentrantEdge) {
     std::printf("rib on a foot, tolerance %.0e: %td DOFs, estimate %.1e, true error %.1e\n", tolerance,
                 refined.model.K.rows(), refined.estimate.frequency, error);
     EXPECT_TRUE(refined.estimate.met) << tolerance;
-    // The law of the edge is asymptotic: the estimate is the error itself, not a bound on it; the reference's own error
-    // and what is left of the exponential part are some hundredths of it.
-    EXPECT_NEAR(refined.estimate.frequency / error, 1.0, 0.1) << "tolerance " << tolerance;
+    EXPECT_GT(refined.estimate.frequency / error, 1.0) << "tolerance " << tolerance;
+    EXPECT_LT(refined.estimate.frequency / error, 1.25) << "the law of the edge leaves little to guess";
   }
 }
 
@@ -120,7 +121,7 @@ TEST(RefineToTolerance, SaysSoWhereTheLawOfTheEdgeLeavesTooMuch) {
   const double change = refined.estimate.steps.back().frequency_change.value_or(0.0);
   EXPECT_LT(change, options.tolerance);
   EXPECT_FALSE(refined.estimate.met);
-  EXPECT_NEAR(refined.estimate.frequency / change, 2.05, 0.01) << "(5/6)^2.176 / (1 − (5/6)^2.176)";
+  EXPECT_NEAR(refined.estimate.frequency / change, 2.28, 0.01) << "r / (1 − r) with r = (5.5/6.5)^2.176";
 }
 
 TEST(RefineToTolerance, TrueErrorIsBelowTheEstimateAndTheEstimateBelowTheTolerance) {
