@@ -272,7 +272,7 @@ constexpr Key case_keys[] = {
     Key{"tool.teeth", Type::integer, kind::number, "", {1, 100, false, false, false, ""}, "", "Number of teeth.", required},
     Key{"tool.diameter", Type::quantity, kind::length, "", positive, "", "Diameter.", required},
     Key{"tool.length", Type::quantity, kind::length, "", positive, "", "Length of the cutting edges: no deeper cut is possible.", required},
-    Key{"tool.pitches", Type::quantities, kind::angle, "", {0.0, 6.2831853072, true, false, false, "a full turn is 360 deg"}, "", "Angle from each tooth to the one ahead of it, at the tip; equal if not given. One a tooth, 360 deg together."},
+    Key{"tool.pitches", Type::quantities, kind::angle, "", {0.0, 6.2831853072, true, false, false, "a full turn is 360 deg"}, "", "Angle from each tooth to the one ahead of it, which cuts before it, at the tip: the j-th value leads from tooth j to tooth j − 1, the first from tooth 1 to the last. Equal if not given. One a tooth, 360 deg together."},
     Key{"tool.helices", Type::quantities, kind::angle, "", {0.0, 1.3962634016, false, false, false, "end mills have 30 to 45 deg"}, "", "Helix angle of each tooth, or one for all; none if not given."},
     Key{"tool.runout", Type::quantities, kind::length, "", any, "", "Radial offset of each tooth, outwards positive; changes the mean chip of a law that is not linear."},
     Key{"tool.end", Type::choice, kind::number, "\"flat\"", any, "flat|ball|bull_nose|general", "Shape of the tip; `general` is the envelope of seven parameters of Engin & Altintas 2001, with `diameter` and `length` its D and h."},
