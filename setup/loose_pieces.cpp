@@ -77,6 +77,7 @@ std::vector<MeshPiece> loose_pieces(const PartSetup& source) {
     for (const int corner : corners) found.place += 0.25 * solid->mesh.vertices[static_cast<std::size_t>(corner)];
   }
   std::vector<MeshPiece> list;
+  list.reserve(loose.size());
   for (const auto& [piece, found] : loose) list.push_back(found);
   return list;
 }

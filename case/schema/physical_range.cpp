@@ -19,9 +19,9 @@ constexpr PhysicalRange ranges[] = {
     {kind::frequency, 1e-3, 1e6},
     {kind::spindle_speed, 20.0, 1e6},  // lobes grow in number as speeds fall: at 10 rpm a row takes a minute
     {kind::velocity, 1e-9, 1e4},
-    {kind::stiffness, 1.0, 1e15},
-    {kind::torsional_stiffness, 1e-3, 1e15},
-    {kind::bed_stiffness, 1.0, 1e18},
+    {kind::stiffness, 1.0, 1e18},
+    {kind::torsional_stiffness, 1e-3, 1e18},
+    {kind::bed_stiffness, 1.0, 1e22},
     {kind::power, 1e-3, 1e8},
     {kind::torque, 1e-6, 1e7},
     {kind::force, 1e-6, 1e9},
