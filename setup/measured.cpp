@@ -112,12 +112,14 @@ io::MeasuredEntries read_file(const MeasuredFrf& measured) {
 }  // namespace
 
 FrfFileKind frf_file_kind(const std::filesystem::path& file) {
-  if (io::mat_version_of_file(file) != io::MatVersion::none) return FrfFileKind::mat;
   std::string extension = file.extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
   if (extension == ".frf") return FrfFileKind::cutpro;
   if (extension == ".uff" || extension == ".unv") return FrfFileKind::universal;
-  return extension == ".mat" ? FrfFileKind::mat : FrfFileKind::csv;
+  if (extension == ".mat") return FrfFileKind::mat;
+  // A file is opened only where its ending tells nothing.
+  const bool is_mat = extension != ".csv" && io::mat_version_of_file(file) != io::MatVersion::none;
+  return is_mat ? FrfFileKind::mat : FrfFileKind::csv;
 }
 
 FrfContent read_measured(const MeasuredFrf& measured, FrfFiles& files) {

@@ -16,8 +16,8 @@ namespace thinwall::setup {
 
 /// The kind of a file of FRFs.
 enum class FrfFileKind { csv, cutpro, universal, mat };
-/// The kind of a file of FRFs: MAT by its first bytes or its ending, otherwise by the ending .frf, .uff or .unv;
-/// anything else is a CSV.
+/// The kind of a file of FRFs by its ending .frf, .uff, .unv, .mat or .csv; a file of another ending is MAT by its
+/// first bytes, or else a CSV.
 [[nodiscard]] FrfFileKind frf_file_kind(const std::filesystem::path& file);
 
 /// The FRFs of files that were read, by the file and by what is stated of it.
