@@ -1,5 +1,5 @@
 #pragma once
-// What a case may say, and probably did not mean.
+// Doubts about values that a case may have, and probably did not mean.
 
 #include <string>
 #include <vector>

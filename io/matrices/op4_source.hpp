@@ -54,7 +54,7 @@ class Op4Text {
   [[nodiscard]] Op4Column column();
   /// The head of the next string of a column; `large`: it is two numbers instead of one.
   [[nodiscard]] Op4String string(bool large);
-  /// So many numbers.
+  /// Reads so many numbers into `values`.
   void numbers(std::int64_t count, std::vector<double>& values);
   /// Leaves the column.
   void end_column() {}
@@ -91,17 +91,27 @@ class Op4Bytes {
   /// True if the bytes begin with the record of a head.
   [[nodiscard]] static bool begins(std::string_view bytes);
 
+  /// The head of the next matrix; nothing at the end of the file.
   [[nodiscard]] std::optional<Op4Head> head();
+  /// The head of the next column.
   [[nodiscard]] Op4Column column();
+  /// The head of the next string of a column; `large`: it is two numbers instead of one.
   [[nodiscard]] Op4String string(bool large);
+  /// Reads so many numbers into `values`.
   void numbers(std::int64_t count, std::vector<double>& values);
+  /// Leaves the record of the column.
   void end_column();
+  /// Leaves the record of the column beyond the last one.
   void end_matrix() { at_ = end_ + 4; }
+  /// The words of a number of double precision.
   [[nodiscard]] int words_of_double() const { return wide_ ? 1 : 2; }
+  /// The numbers of a dense column that states so many words.
   [[nodiscard]] static std::int64_t dense_numbers(std::int64_t words, int words_of_number) {
     return words / words_of_number;
   }
+  /// No line: bytes have none.
   [[nodiscard]] static int line() { return 0; }
+  /// Throws DataError with the byte.
   [[noreturn]] void fail(const std::string& what) const;
 
  private:

@@ -21,7 +21,7 @@ double double_area(const EarCorners& corners) {
   return sum;
 }
 
-/// What is left of a polygon while ears are cut off.
+/// The rest of a polygon while ears are cut off.
 class Outline {
  public:
   explicit Outline(const EarCorners& corners) : x_(corners), flat_(1e-12 * double_area(corners)) {
