@@ -130,9 +130,9 @@ std::vector<double> compared_omega_squared(const Modes& modes, double sigma) {
 double receptance_change(const Solution& a, const Solution& b) {
   double worst = 0.0;
   for (const double place : compared_omega_squared(b.modes, b.factored.sigma)) {
-    // Each receptance is taken at the solution's own shift, because σ scales with the matrices, which differ a little
-    // between orders.
-    const Eigen::MatrixXd Ha = receptance(a, place == b.factored.sigma ? a.factored.sigma : place);
+    // Both at the same place: the shifts of a free part, which scale with the matrices, differ by half between orders,
+    // and its rigid motions have a receptance there that is inverse to it.
+    const Eigen::MatrixXd Ha = receptance(a, place);
     const Eigen::MatrixXd Hb = receptance(b, place);
     worst = std::max(worst, (Ha - Hb).cwiseAbs().maxCoeff() / magnitude(b, place));
   }
