@@ -148,8 +148,11 @@ void mesh(std::string& out, const MeshSummary& mesh) {
   out += fmt::format("  mesh        {} tetrahedra of order {}, {} degrees of freedom, lowest quality {:.2f}\n",
                      mesh.elements, mesh.order, mesh.dofs, mesh.min_quality);
   if (const auto& estimate = mesh.error_estimate)
-    out += fmt::format("    by estimate frequencies within {:.1e}, receptances within {:.1e}; asked for {:g}{}\n",
-                       estimate->max_relative_frequency_error, estimate->max_relative_receptance_error,
+    out += fmt::format("    by estimate frequencies within {:.1e}{}; asked for {:g}{}\n",
+                       estimate->max_relative_frequency_error,
+                       estimate->max_relative_receptance_error > 0.0
+                           ? fmt::format(", receptances within {:.1e}", estimate->max_relative_receptance_error)
+                           : "",  // no points
                        estimate->tolerance, estimate->met ? "" : ", NOT MET: see run.log");
 }
 

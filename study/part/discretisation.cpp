@@ -84,9 +84,10 @@ std::vector<fem::NamedPoint> watched_points(const PartInput& source) {
 
 void log_steps(const fem::Estimate& estimate) {
   for (const auto& step : estimate.steps) {
-    core::inform(fmt::format(
-        "level {}, order {}: {} degrees of freedom, frequencies changed by {:.2e}, receptances by {:.2e}", step.level,
-        step.order, step.dofs, step.frequency_change.value_or(0.0), step.receptance_change.value_or(0.0)));
+    std::string text = fmt::format("level {}, order {}: {} degrees of freedom", step.level, step.order, step.dofs);
+    if (step.frequency_change) text += fmt::format(", frequencies changed by {:.2e}", *step.frequency_change);
+    if (step.receptance_change) text += fmt::format(", receptances by {:.2e}", *step.receptance_change);
+    core::inform(text);
   }
   if (estimate.met) return;
   core::warn(
