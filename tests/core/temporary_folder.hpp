@@ -22,4 +22,10 @@ struct TemporaryFolder {
   std::filesystem::path path;
 };
 
+/// The folder of this process's temporary files, which goes with it: two processes share no name.
+inline const std::filesystem::path& temporary_files() {
+  static const TemporaryFolder folder;
+  return folder.path;
+}
+
 }  // namespace thinwall::tests

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <string>
 
+#include "tests/core/temporary_folder.hpp"
+
 namespace thinwall::report::compare_test {
 
 namespace {
@@ -17,7 +19,7 @@ namespace fs = std::filesystem;
 /// The number of differences between two summaries at a relative tolerance of 1e-3.
 std::size_t differences(const std::string& left, const std::string& right) {
   const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-  const fs::path folder = fs::temp_directory_path() / ("thinwall_compare_" + test);
+  const fs::path folder = tests::temporary_files() / test;
   for (const auto& [name, text] : {std::pair{"a", left}, std::pair{"b", right}}) {
     fs::create_directories(folder / name);
     std::ofstream(folder / name / "summary.json") << text;

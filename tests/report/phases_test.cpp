@@ -5,6 +5,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "io/results/vtp.hpp"
+#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::report::phases_test {
 namespace {
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 
 /// One triangle of diagonal 5 with one mode that moves its last corner along z by 2.
 fs::path results_of_a_triangle(const std::string& name) {
-  const fs::path folder = fs::path(::testing::TempDir()) / name;
+  const fs::path folder = tests::temporary_files() / name;
   fs::remove_all(folder);
   fs::create_directories(folder / "modes");
   mesh::LagrangeNodes nodes;

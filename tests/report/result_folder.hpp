@@ -11,12 +11,13 @@
 #include "dynamics/response_model.hpp"
 #include "io/frf/response_csv.hpp"
 #include "report/summary/summary_json.hpp"
+#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::report {
 
 /// An empty folder of that name among the test's temporary files, with a summary.json.
 inline std::filesystem::path result_folder(const std::string& name, const std::string& case_name = "small") {
-  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / name;
+  const std::filesystem::path folder = tests::temporary_files() / name;
   std::filesystem::remove_all(folder);
   for (const char* sub : {"frf", "modes", "lobes"}) std::filesystem::create_directories(folder / sub);
   Summary summary;

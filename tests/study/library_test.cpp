@@ -9,6 +9,7 @@
 #include "case/reader.hpp"
 #include "core/messages.hpp"
 #include "study/run.hpp"
+#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::library_test {
 
@@ -25,7 +26,7 @@ TEST(Library, GivesTheFiguresOfTheCommandLineToTheLastDigit) {
   const cases::Case source = default_case();
   study::Kept nothing;
   const study::Results results = study::run(source, cases::variation_of(source), nothing, {});
-  const fs::path out = fs::temp_directory_path() / "thinwall_library_test";
+  const fs::path out = tests::temporary_files() / "library";
   fs::remove_all(out);
   const app::RunResult run = app::run_case(source, {.out = out, .verbosity = -1, .stage_lines = false});
   fs::remove_all(out);

@@ -15,6 +15,7 @@
 #include "mesh/surface/shapes.hpp"
 #include "report/summary/summary_json.hpp"
 #include "report/terminal_report.hpp"
+#include "tests/core/temporary_folder.hpp"
 #include "tests/mesh/kuhn_box.hpp"
 
 namespace thinwall::tests::part_file_test {
@@ -54,7 +55,7 @@ nlohmann::json run(const std::string& part, const fs::path& folder, const std::s
 /// A wall of 60 x 100 x 4 mm as a box, and as the triangles of an STL in inches whose facets are turned and doubled:
 /// the meshers, the orders and the checks differ, the frequencies do not.
 TEST(PartFile, AnStlOfABoxHasTheModesOfTheBox) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "part_file";
+  const fs::path folder = tests::temporary_files() / "part_file";
   fs::remove_all(folder);
   fs::create_directories(folder);
   mesh::TriangleSoup soup = mesh::soup(mesh::triangulated(mesh::surface(mesh::Box{{0.06, 0.1, 0.004}})));
@@ -142,7 +143,7 @@ std::string with_place(const std::string& place, const std::string& damping, con
 /// A plate is reduced and written; the files, as a part of matrices without a shape, go through modes, a second
 /// reduction with all of their modes, coupling by both routes and lobes to the same results as the plate's own model.
 TEST(PartFile, MatricesOfAPartGoThroughThePipelineAsThePartDoes) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "part_matrices";
+  const fs::path folder = tests::temporary_files() / "part_matrices";
   fs::remove_all(folder);
   fs::create_directories(folder);
   const std::string plate =
@@ -185,7 +186,7 @@ const std::string block_material =
 
 /// A block of Gmsh held on its named group of faces: the modes of the same mesh through the library.
 TEST(PartFile, AMeshIsSolvedOnItsOwnNodesAndHeldByItsSets) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "part_mesh";
+  const fs::path folder = tests::temporary_files() / "part_mesh";
   fs::remove_all(folder);
   fs::create_directories(folder);
   const std::string source = std::string(THINWALL_SOURCE_DIR) + "/tests/io/data/box_41_binary.msh";
@@ -217,7 +218,7 @@ TEST(PartFile, AMeshIsSolvedOnItsOwnNodesAndHeldByItsSets) {
 
 /// Stiff elastic clamps hold as a support does, soft ones leave the part free; a mass lowers what it rides on.
 TEST(PartFile, ClampsGoFromFreeToHeldAndMassesCount) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "part_attached";
+  const fs::path folder = tests::temporary_files() / "part_attached";
   fs::remove_all(folder);
   fs::create_directories(folder);
   const std::string plate =
@@ -258,7 +259,7 @@ TEST(PartFile, ClampsGoFromFreeToHeldAndMassesCount) {
 /// A plate whose end is of steel from x = 60 mm on: the generated mesh, cut there, gives the modes of a regular mesh
 /// whose elements end there by themselves. Elements that lie across would be 1 % off.
 TEST(PartFile, ABoxOfAnotherMaterialEndsWhereItEnds) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "part_two_materials";
+  const fs::path folder = tests::temporary_files() / "part_two_materials";
   fs::remove_all(folder);
   fs::create_directories(folder);
   const auto summary =
@@ -292,7 +293,7 @@ TEST(PartFile, ABoxOfAnotherMaterialEndsWhereItEnds) {
 
 /// Matrices that nothing holds: their free motions are counted by themselves.
 TEST(PartFile, FreeMatricesAreFree) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "part_free_matrices";
+  const fs::path folder = tests::temporary_files() / "part_free_matrices";
   fs::remove_all(folder);
   fs::create_directories(folder);
   std::string plate = held_plate + with_place(
@@ -322,7 +323,7 @@ TEST(PartFile, FreeMatricesAreFree) {
 
 /// Two masses on springs have two modes; the usual counts of ten and thirty yield.
 TEST(PartFile, SmallMatricesGiveTheModesThatTheyHave) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "part_small";
+  const fs::path folder = tests::temporary_files() / "part_small";
   fs::remove_all(folder);
   fs::create_directories(folder);
   const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n";
@@ -346,7 +347,7 @@ TEST(PartFile, SmallMatricesGiveTheModesThatTheyHave) {
 
 /// A point of the curved surface of a file, to the digits that people give, with a patch and without.
 TEST(PartFile, APointOnACurvedSurfaceIsHeldToTheFileAndMovedToTheMesh) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "part_curved";
+  const fs::path folder = tests::temporary_files() / "part_curved";
   fs::remove_all(folder);
   fs::create_directories(folder);
   const auto text = [](const std::string& position, const std::string& more) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 
+#include "tests/core/temporary_folder.hpp"
 #include "tests/system/run_in_folder.hpp"
 
 namespace thinwall::tests::path_test {
@@ -184,7 +185,7 @@ TEST(Path, AtTheCasesSpeedTheWeakestPositionLimits) {
                          scratch("path_speed_chart"));
   for (const auto& chart : summary["path"]) {
     const auto name = chart["name"].get<std::string>();
-    const fs::path file = fs::path(::testing::TempDir()) / "path_speed_chart" / "lobes" / (name + "_path.csv");
+    const fs::path file = tests::temporary_files() / "path_speed_chart" / "lobes" / (name + "_path.csv");
     const auto depth = column(file, "limiting_depth_m"), position = column(file, "position");
     std::size_t weakest = 0;
     for (std::size_t row = 0; row < depth.size(); row += 2)

@@ -13,6 +13,7 @@
 #include "core/atomic_file.hpp"
 #include "io/matrices/mat.hpp"
 #include "report/model_files.hpp"
+#include "tests/core/temporary_folder.hpp"
 #include "tests/processor_time.hpp"
 
 namespace thinwall::tests::reduce_test {
@@ -64,7 +65,7 @@ to = "4000 Hz"
 }
 
 fs::path scratch(const std::string& name) {
-  const fs::path folder = fs::path(::testing::TempDir()) / name;
+  const fs::path folder = tests::temporary_files() / name;
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;

@@ -12,6 +12,7 @@
 #include "case/reader.hpp"
 #include "io/results/csv_table.hpp"
 #include "report/summary/summary_json.hpp"
+#include "tests/core/temporary_folder.hpp"
 #include "tests/system/published_schema.hpp"
 
 namespace thinwall::tests {
@@ -21,7 +22,7 @@ using namespace cases;
 
 /// An empty folder of that name among the test's temporary files.
 inline std::filesystem::path scratch(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / name;
+  const std::filesystem::path folder = tests::temporary_files() / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

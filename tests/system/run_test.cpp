@@ -16,6 +16,7 @@
 #include "io/frf/response_csv.hpp"
 #include "io/manifest.hpp"
 #include "report/page/document.hpp"
+#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::run_test {
 namespace {
@@ -27,7 +28,7 @@ const std::string wall = std::string(THINWALL_SOURCE_DIR) + "/cases/cantilever-w
 const std::string plate = std::string(THINWALL_SOURCE_DIR) + "/cases/barrios-2019";
 
 fs::path scratch(const std::string& name) {
-  const fs::path folder = fs::path(::testing::TempDir()) / name;
+  const fs::path folder = tests::temporary_files() / name;
   fs::remove_all(folder);
   return folder;
 }

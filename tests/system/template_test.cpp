@@ -12,6 +12,7 @@
 #include "io/frf/response_csv.hpp"
 #include "io/results/vtp.hpp"
 #include "report/summary/summary_json.hpp"
+#include "tests/core/temporary_folder.hpp"
 #include "tests/system/run_in_folder.hpp"
 
 namespace thinwall::tests::template_test {
@@ -86,11 +87,11 @@ TEST(Template, TheArmReachesThePlateAndHoldsIt) {
   EXPECT_EQ(summary["robot"]["model"], "flexible_joints");
   EXPECT_GT(depth_at_speed(summary, "supported"), 0.0);
   EXPECT_LT(summary["coupling"]["route_difference"]["max_relative"].get<double>(), 1e-9);
-  expect_plate_at_rest_in_the_first_mode(fs::path(::testing::TempDir()) / "template_robot" / "modes");
+  expect_plate_at_rest_in_the_first_mode(tests::temporary_files() / "template_robot" / "modes");
 }
 
 TEST(Template, MeasuredFilesAreJoinedAsTwoSpringsInSeriesWouldBe) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "template_frf-only";
+  const fs::path folder = tests::temporary_files() / "template_frf-only";
   (void)summary_of_template("frf-only");
   // At a rigid contact along one direction 1/G = 1/H + 1/R; H and R are the modes that the files name.
   const auto G = dynamics::entry(io::read_response(folder / "frf" / "coupled_receptance.csv"), "P.x", "P.x");
