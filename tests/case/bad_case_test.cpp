@@ -128,14 +128,6 @@ TEST(BadCase, ReferencesMustExist) {
   expect_problem("at = \"P\"", "at = \"X\"", "there is no point \"X\"");
 }
 
-TEST(BadCase, AFaceCarriesAPatchAndThePointLiesOnIt) {
-  const std::string at = "at = [1.0, 0.5, 0.95]";
-  expect_problem(at, at + "\npatch_radius = \"3 mm\"\nface = \"x_mix\"", "points.P.face: there is no face");
-  expect_problem(at, at + "\npatch_radius = \"3 mm\"\nface = \"z_max\"", "5 mm off the plane of \"z_max\"");
-  expect_problem(at, at + "\nface = \"x_max\"", "give points.P.patch_radius");
-  EXPECT_TRUE(problems_of(with(plate_case(), at, at + "\npatch_radius = \"3 mm\"\nface = \"x_max\"")).empty());
-}
-
 TEST(BadCase, PitchesAndHelicesAreOneAToothWithinTheirBounds) {
   const auto pitches = [](const std::string& list) { return "teeth = 6\npitches = " + list; };
   expect_problem("teeth = 6", pitches(R"(["60 deg", "60 deg"])"), "2 values for 6 teeth");
