@@ -50,9 +50,8 @@ struct RefinementStep {
 /// The estimated error of a solution (docs/theory/elements.md, Eq. 3-4). Two orders p and p + 1 on one mesh differ by
 /// d. If the error of the higher is r times that of the lower, the error of the lower is d / (1 − r) and that of the
 /// higher r d / (1 − r). At an edge of exponent λ where the elements are not graded from all sides the error falls as
-/// (p
-/// + ½)^−4λ (Babuska & Suri 1994): r = ((p + ½) / (p + 3/2))^4λ. Frequencies take λ of the edges of clamps
-/// (clamped_edge_exponent()): 0.56 from order 4 to 5 and 0.62 from 5 to 6 for steel. Beside a re-entrant edge λ is
+/// (p+½)^−4λ (Babuska & Suri 1994): r = ((p+½)/(p+3/2))^4λ. Frequencies take λ of the edges of clamps
+/// (clamped_edge_exponent()): 0.57 from order 4 to 5 and 0.62 from 5 to 6 for steel. Beside a re-entrant edge λ is
 /// 0.544 for receptances too: 0.65 and 0.70. Otherwise, and at least, r = 1/2, because the law does not hold at low
 /// orders; with elements graded to all edges r is smaller.
 struct Estimate {

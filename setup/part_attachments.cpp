@@ -22,8 +22,8 @@ fem::Attachments attachments_of(const PartSetup& source) {
     result.clamps.push_back({clamp.on, region_of(source, clamp.on), clamp.normal, clamp.tangential});
   for (const Point& point : source.points) {
     if (!point.rigid && !carries(part, point)) continue;
-    result.points.push_back(
-        {point.name, disc_of(source, point), point.rigid ? fem::Connection::rigid : fem::Connection::averaging});
+    result.points.push_back({point.name, fem::disc_of(named_point(source, point.name)),
+                             point.rigid ? fem::Connection::rigid : fem::Connection::averaging});
   }
   for (const PointMass& mass : part.masses)
     result.masses.push_back({mass.at, mass.mass, mass.inertia.asDiagonal(), mass.offset});

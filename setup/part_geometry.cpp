@@ -110,14 +110,10 @@ std::vector<Eigen::Vector3d> facing(const PartSetup& source, const Point& point)
   return {std::get<mesh::PlaneRegion>(region_of(source, point.face)).normal.normalized()};
 }
 
-mesh::Disc disc_of(const PartSetup& source, const Point& point) {
-  return {position(*source.part, point), point.patch_radius, off_surface(*source.part), facing(source, point)};
-}
-
 fem::NamedPoint named_point(const PartSetup& source, const std::string& name) {
   const Point& p = point(source, name);
-  const mesh::Disc disc = disc_of(source, p);
-  return {p.name, disc.centre_m, disc.radius_m, p.directions, {}, {}, disc.off_m, disc.facing};
+  return {p.name, position(*source.part, p), p.patch_radius,   p.directions, {},
+          {},     off_surface(*source.part), facing(source, p)};
 }
 
 fem::ModeOptions mode_options(const PartSetup& source) {

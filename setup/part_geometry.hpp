@@ -53,9 +53,6 @@ struct PlanarPart {
 /// point's directions.
 [[nodiscard]] std::vector<Eigen::Vector3d> facing(const PartSetup& source, const Point& point);
 
-/// The disc of a point's patch.
-[[nodiscard]] mesh::Disc disc_of(const PartSetup& source, const Point& point);
-
 /// The point of that name as the finite elements take it. Throws InputError with the nearest name if there is none.
 [[nodiscard]] fem::NamedPoint named_point(const PartSetup& source, const std::string& name);
 

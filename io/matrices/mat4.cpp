@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 
 #include "core/error.hpp"
+#include "io/number_at.hpp"
 
 namespace thinwall::io {
 
@@ -33,17 +32,6 @@ struct Mat4Head {
 constexpr std::size_t mat4_head_size = 20;
 constexpr std::array<std::size_t, 6> mat4_number_size{8, 4, 4, 2, 2, 1};
 
-/// The number of that type at a place that lies within the bytes.
-template <class Number>
-Number mat4_number(std::string_view bytes, std::size_t at, bool big_endian) {
-  std::array<char, sizeof(Number)> raw{};
-  std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), raw.size(), raw.begin());
-  if (big_endian != (std::endian::native == std::endian::big)) std::reverse(raw.begin(), raw.end());
-  Number value{};
-  std::memcpy(&value, raw.data(), sizeof value);
-  return value;
-}
-
 bool is_mat4_name(std::string_view text) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   return !text.empty() && is_letter(text.front()) &&
@@ -54,7 +42,7 @@ bool is_mat4_name(std::string_view text) {
 std::optional<Mat4Head> mat4_head_in(std::string_view bytes, std::size_t at, bool big_endian) {
   if (bytes.size() - at < mat4_head_size) return std::nullopt;
   std::array<std::int64_t, 5> field{};
-  for (std::size_t i = 0; i < 5; ++i) field[i] = mat4_number<std::int32_t>(bytes, at + 4 * i, big_endian);
+  for (std::size_t i = 0; i < 5; ++i) field[i] = number_at<std::int32_t>(bytes, at + 4 * i, big_endian);
   const auto [type, rows, columns, is_complex, name_length] = field;
   const bool sound = type >= 0 && type / 1000 == (big_endian ? 1 : 0) && type / 100 % 10 == 0 && type / 10 % 10 <= 5 &&
                      type % 10 <= 2 && rows >= 0 && columns >= 0 && (is_complex == 0 || is_complex == 1) &&
@@ -110,17 +98,17 @@ class Mat4Variable {
     const std::size_t at = head_.data + i * mat4_number_size[static_cast<std::size_t>(head_.number)];
     switch (head_.number) {
       case 0:
-        return mat4_number<double>(bytes_, at, head_.big_endian);
+        return number_at<double>(bytes_, at, head_.big_endian);
       case 1:
-        return mat4_number<float>(bytes_, at, head_.big_endian);
+        return number_at<float>(bytes_, at, head_.big_endian);
       case 2:
-        return mat4_number<std::int32_t>(bytes_, at, head_.big_endian);
+        return number_at<std::int32_t>(bytes_, at, head_.big_endian);
       case 3:
-        return mat4_number<std::int16_t>(bytes_, at, head_.big_endian);
+        return number_at<std::int16_t>(bytes_, at, head_.big_endian);
       case 4:
-        return mat4_number<std::uint16_t>(bytes_, at, head_.big_endian);
+        return number_at<std::uint16_t>(bytes_, at, head_.big_endian);
       default:
-        return mat4_number<std::uint8_t>(bytes_, at, head_.big_endian);
+        return number_at<std::uint8_t>(bytes_, at, head_.big_endian);
     }
   }
 

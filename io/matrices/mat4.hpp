@@ -15,7 +15,7 @@ namespace thinwall::io {
 /// True if the bytes begin with the head of a variable of version 4.
 [[nodiscard]] bool is_mat4(std::string_view bytes);
 
-/// Those of the named variables that the file contains: full arrays of any of its six kinds of numbers, and real sparse
+/// The named variables that the file contains: full arrays of any of its six kinds of numbers, and real sparse
 /// matrices. `path` is for messages. Throws DataError that names the file, and the variable if it is a text, complex
 /// and sparse, holds NaN or infinity, or an entry beyond its rows; for a truncated file, one in the number format of a
 /// VAX or a Cray, and a sparse matrix with more than 64 rows or columns for each byte of the file. Cost O(bytes).

@@ -1,12 +1,10 @@
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 
 #include "core/error.hpp"
 #include "io/matrices/op4_source.hpp"
 #include "io/mesh/inp_text.hpp"
+#include "io/number_at.hpp"
 
 namespace thinwall::io {
 
@@ -15,22 +13,11 @@ namespace {
 /// The lengths of the record of a head: four whole numbers and eight characters, in words of 4 or 8 bytes.
 constexpr std::int32_t narrow_head = 24, wide_head = 48;
 
-/// The number of that type at a place that lies within the bytes.
-template <class Number>
-Number op4_number(std::string_view bytes, std::size_t at, bool big_endian) {
-  std::array<char, sizeof(Number)> raw{};
-  std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), raw.size(), raw.begin());
-  if (big_endian != (std::endian::native == std::endian::big)) std::reverse(raw.begin(), raw.end());
-  Number value{};
-  std::memcpy(&value, raw.data(), sizeof value);
-  return value;
-}
-
 /// True if a record of that length begins and ends where it should.
 bool is_record(std::string_view bytes, std::int32_t length, bool big_endian) {
   const std::size_t end = 4 + static_cast<std::size_t>(length);
-  return bytes.size() >= end + 4 && op4_number<std::int32_t>(bytes, 0, big_endian) == length &&
-         op4_number<std::int32_t>(bytes, end, big_endian) == length;
+  return bytes.size() >= end + 4 && number_at<std::int32_t>(bytes, 0, big_endian) == length &&
+         number_at<std::int32_t>(bytes, end, big_endian) == length;
 }
 
 }  // namespace
@@ -49,12 +36,12 @@ Op4Bytes::Op4Bytes(std::string_view bytes, std::string path) : bytes_(bytes), pa
 
 void Op4Bytes::open_record() {
   if (bytes_.size() - at_ < 4) fail("the file ends within a matrix: export it again");
-  const auto length = op4_number<std::int32_t>(bytes_, at_, big_endian_);
+  const auto length = number_at<std::int32_t>(bytes_, at_, big_endian_);
   at_ += 4;
   if (length < 0 || bytes_.size() - at_ < 4 || bytes_.size() - at_ - 4 < static_cast<std::size_t>(length))
     fail("a record of " + std::to_string(length) + " bytes is not whole: export the file again");
   end_ = at_ + static_cast<std::size_t>(length);
-  if (op4_number<std::int32_t>(bytes_, end_, big_endian_) != length)
+  if (number_at<std::int32_t>(bytes_, end_, big_endian_) != length)
     fail("a record begins and ends with different lengths: export the file again");
 }
 
@@ -62,7 +49,7 @@ std::int64_t Op4Bytes::whole() {
   const std::size_t size = wide_ ? 8 : 4;
   if (end_ - at_ < size) fail("a record ends before its whole numbers do: export the file again");
   const std::int64_t value =
-      wide_ ? op4_number<std::int64_t>(bytes_, at_, big_endian_) : op4_number<std::int32_t>(bytes_, at_, big_endian_);
+      wide_ ? number_at<std::int64_t>(bytes_, at_, big_endian_) : number_at<std::int32_t>(bytes_, at_, big_endian_);
   at_ += size;
   if (value > most_in_op4 || value < -most_in_op4)
     fail(std::to_string(value) + " is no whole number that belongs here");
@@ -104,8 +91,7 @@ void Op4Bytes::numbers(std::int64_t count, std::vector<double>& values) {
   if (count < 0 || static_cast<std::size_t>(count) > (end_ - at_) / size)
     fail("more numbers are stated than the record holds: export the file again");
   for (std::int64_t i = 0; i < count; ++i) {
-    values.push_back(narrow ? op4_number<float>(bytes_, at_, big_endian_)
-                            : op4_number<double>(bytes_, at_, big_endian_));
+    values.push_back(narrow ? number_at<float>(bytes_, at_, big_endian_) : number_at<double>(bytes_, at_, big_endian_));
     if (!std::isfinite(values.back())) fail("a number is not finite");
     at_ += size;
   }

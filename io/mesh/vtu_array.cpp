@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "core/error.hpp"
+#include "io/number_at.hpp"
 #include "io/surface_text.hpp"
 
 namespace thinwall::io {
@@ -80,16 +81,6 @@ class Bytes {
   bool is_base64_;
   std::string group_;
 };
-
-template <class T>
-T number_at(const std::string& bytes, std::size_t at, bool big_endian) {
-  std::array<char, sizeof(T)> own{};
-  std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), sizeof(T), own.begin());
-  if (big_endian) std::reverse(own.begin(), own.end());
-  T value{};
-  std::memcpy(&value, own.data(), sizeof(T));
-  return value;
-}
 
 std::uint64_t header_number(const VtuEncoding& encoding, const VtuArray& array, Bytes& bytes) {
   const std::size_t size = encoding.wide_header ? 8 : 4;

@@ -216,13 +216,12 @@ void tell_chosen_faces(const setup::PartSetup& source, const mesh::TetMesh& mesh
   for (const std::string& name : source.reduction.interface) {
     const setup::Point& point = setup::point(source, name);
     if (point.patch_radius <= 0.0 || !point.face.empty()) continue;
-    const mesh::DiscFace face = mesh::disc_face(mesh, boundary, setup::disc_of(source, point));
+    const mesh::DiscFace face = mesh::disc_face(mesh, boundary, fem::disc_of(setup::named_point(source, name)));
     if (face.others.empty()) continue;
-    core::warn(
-        fmt::format("point \"{}\" lies where faces meet; its patch is on the one of outward normal {}, not {}, by the "
-                    "point's first "
-                    "direction; points.{}.face chooses another",
-                    name, direction_text(face.normal), direction_text(face.others.front()), name));
+    core::warn(fmt::format(
+        "point \"{}\" lies where faces meet; its patch is on the one of outward normal {}, not {}, as its directions "
+        "choose; points.{}.face names another",
+        name, direction_text(face.normal), direction_text(face.others.front()), name));
   }
 }
 

@@ -19,7 +19,7 @@ using namespace cases;
 
 namespace {
 
-/// What is said of a case with these options; "" if nothing is wrong.
+/// The messages about a case with these options; "" if nothing is wrong.
 std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {},
                     const std::filesystem::path& folder = ".") {
   EXPECT_FALSE(text.empty()) << "the replacement did not match";

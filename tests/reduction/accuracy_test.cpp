@@ -223,7 +223,7 @@ TEST(FullResponse, TellsTheErrorOfReceptancesWhereRoundOffFillsTheResidual) {
   EXPECT_LT(full.max_relative_error, 1e-3);
 }
 
-/// Where a mode is missing among the known ones, the estimate does not pass the answer.
+/// The estimate does not pass an answer from whose known modes one is missing.
 TEST(FullResponse, SaysALargeErrorWhereItsBasisIsTooSmall) {
   const ChainWithRigidLink chain(1.0, true);
   const linalg::SparseMatrix K(chain.K.sparseView());
