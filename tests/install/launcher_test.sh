@@ -28,6 +28,7 @@ set_up() {
   stand_in apt-get 'echo "apt-get $*" >>"$calls"; [[ -z ${no_network:-} ]] || exit 100
     for word; do printf "%s\n" "$word" >>"$installed"; done'
   stand_in cmake 'echo "cmake $*" >>"$calls"; [[ -z ${broken:-} ]] || exit 1
+    if [[ $* == *package* ]]; then mkdir -p build/package/packages; touch build/package/{build.ninja,packages/a.deb,packages/b.deb}; exit; fi
     mkdir -p build/release/app; touch build/release/build.ninja; cp "$tree/bin/program" build/release/app/thinwall'
   stand_in ctest 'echo "ctest $*" >>"$calls"; exit 8'
   stand_in program 'printf "<%s>" "$@"; exit "${program_exit:-0}"'
@@ -102,6 +103,30 @@ launch test -R Lobes
 expect_equal "ctest's exit code" 8 "$code"
 expect_contains "everything is built for the tests" "--target all" "$called"
 expect_contains "ctest's words" "ctest --preset release -R Lobes" "$called"
+
+# --- Debian packages
+THINWALL_DRY_RUN=1 launch install
+expect_equal "the plan of an installation" "install dpkg-dev
+make packages in build/package/packages, install them" "$out"
+echo dpkg-dev >>"$installed"
+launch install now
+expect_equal "install takes no words" 2 "$code"
+expect_equal "and does nothing then" "" "$called"
+mkdir -p "$tree/build/package/packages"
+touch "$tree/build/package/packages/old.deb"
+launch install
+expect_equal "installation's exit code" 0 "$code"
+expect_contains "packages are configured" "cmake --preset package" "$called"
+expect_contains "packages are made" "cmake --build --preset package" "$called"
+packed=$tree/build/package/packages
+expect_contains "all that were made now are installed" \
+  "apt-get install -y --no-install-recommends $packed/a.deb $packed/b.deb" "$called"
+expect_equal "and told" "$packed/a.deb $packed/b.deb" "$(xargs <<<"$out")"
+launch install
+expect_equal "they are configured once" "" "$(grep -- '--preset package$' <<<"$called" | grep -v build || true)"
+broken=1 launch install
+expect_equal "packages that cannot be made" 1 "$code"
+expect_equal "are not installed" "" "$(grep apt-get <<<"$called" || true)"
 
 # --- not root, then without network
 set_up
