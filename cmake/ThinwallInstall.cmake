@@ -24,6 +24,8 @@ target_link_libraries(thinwall_shared PRIVATE ${thinwall_archives} thinwall_flag
 target_compile_definitions(thinwall_shared INTERFACE ${THINWALL_EIGEN_ALIGNMENT})
 target_compile_features(thinwall_shared INTERFACE cxx_std_20)
 
+include(cmake/ThinwallBuiltFirst.cmake)
+thinwall_built_first(thinwall runtime)
 install(TARGETS thinwall RUNTIME COMPONENT runtime)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 
@@ -45,6 +47,8 @@ thinwall_prints(bash-completion/completions/thinwall completion bash)
 thinwall_prints(zsh/vendor-completions/_thinwall completion zsh)
 thinwall_prints(fish/vendor_completions.d/thinwall.fish completion fish)
 
+thinwall_built_first(thinwall_shared library)
+thinwall_built_first(thinwall_shared dev)
 install(TARGETS thinwall_shared EXPORT thinwall LIBRARY COMPONENT library NAMELINK_COMPONENT dev
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
