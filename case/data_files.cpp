@@ -61,9 +61,9 @@ void read_arm(Case& source, setup::JointedRobot& robot, Findings& findings) {
   if (!file_or_absent(robot.urdf) || !file_or_absent(robot.joints)) return;
   const Table table{source.values, "robot"};
   read_or_report("robot.urdf", findings, [&] {
-    source.urdf_arm = std::make_shared<const robot::SerialArm>(
+    source.urdf_arm = std::make_shared<const UrdfArm>(
         urdf_arm(robot.urdf, table.text("urdf_base"), table.text("urdf_tip"), robot.joints));
-    robot.arm = arm_in_place(table, *source.urdf_arm);
+    robot.arm = arm_in_place(table, source.urdf_arm->arm);
   });
 }
 
@@ -104,7 +104,7 @@ void share_data_files(Case& varied, const Case& read) {
   varied.data_files = read.data_files;
   varied.urdf_arm = read.urdf_arm;
   auto* robot = model_of<setup::JointedRobot>(varied);
-  if (robot != nullptr && varied.urdf_arm) robot->arm = arm_in_place({varied.values, "robot"}, *varied.urdf_arm);
+  if (robot != nullptr && varied.urdf_arm) robot->arm = arm_in_place({varied.values, "robot"}, varied.urdf_arm->arm);
 }
 
 }  // namespace thinwall::cases

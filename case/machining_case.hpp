@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "case/urdf_arm.hpp"
 #include "case/values.hpp"
 #include "setup/machining_setup.hpp"
 
@@ -28,7 +29,7 @@ struct Case : setup::Setup {
   std::string source;            ///< text of the file, as read
   CaseValues values;             ///< what all of the above was bound from, defaults included
   std::vector<DataFile> data_files;
-  std::shared_ptr<const robot::SerialArm> urdf_arm;  ///< as robot.urdf and robot.joints give it, upright at the origin
+  std::shared_ptr<const UrdfArm> urdf_arm;  ///< as robot.urdf and robot.joints give it, upright at the origin
 };
 
 /// The data files that a set-up names, besides the case file itself, with their sections and without checksums.

@@ -114,6 +114,7 @@ setup::PostureWish bind_posture(const Table& table) {
   if (table.has("approach")) wish.approach = table.direction("approach");
   wish.angle = table.number("angle");
   wish.start = table.numbers("start");
+  wish.slides = table.numbers("slides");
   return wish;
 }
 

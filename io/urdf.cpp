@@ -113,18 +113,62 @@ const urdf::Link& link_named(const urdf::ModelInterface& model, const std::files
   throw UrdfEndError(path.string() + ": there is no link \"" + name + "\"" + core::did_you_mean(name, names), tip);
 }
 
-/// The link at the end of the only chain that leaves `base`.
-const urdf::Link& only_end(const urdf::Link& base, const std::filesystem::path& path) {
+bool moves(const urdf::Joint& joint) {
+  return joint.type != urdf::Joint::FIXED;
+}
+
+/// True if a joint moves in the link's own joint or in those that it carries.
+bool carries_motion(const urdf::Link& link) {
+  return moves(*link.parent_joint) ||
+         std::ranges::any_of(link.child_links, [](const auto& child) { return carries_motion(*child); });
+}
+
+double fixed_mass(const urdf::Link& link) {
+  double mass = link.inertial ? link.inertial->mass : 0.0;
+  for (const auto& child : link.child_links) mass += moves(*child->parent_joint) ? 0.0 : fixed_mass(*child);
+  return mass;
+}
+
+/// The end that is probably meant: the link that carries no other, moves with some mass, and lies farthest from `base`
+/// along the links; null if there is none.
+const urdf::Link* likely_tip(const urdf::ModelInterface& model, const urdf::Link& base) {
+  const urdf::Link* best = nullptr;
+  double farthest = -1.0;
+  for (const auto& [name, leaf] : model.links_) {
+    if (!leaf->child_links.empty()) continue;
+    double length = 0.0;
+    const urdf::Link* moving = nullptr;  // the link that the last joint moves
+    const urdf::Link* link = leaf.get();
+    for (; link != &base && link->parent_joint; link = link->getParent().get()) {
+      length += frame(link->parent_joint->parent_to_joint_origin_transform).translation().norm();
+      if (moving == nullptr && moves(*link->parent_joint)) moving = link;
+    }
+    if (link != &base || moving == nullptr || !(fixed_mass(*moving) > 0.0) || !(length > farthest)) continue;
+    farthest = length;
+    best = leaf.get();
+  }
+  return best;
+}
+
+/// The link at the end of the only chain that leaves `base`; a branch without a joint that moves is none where another
+/// has one.
+const urdf::Link& only_end(const urdf::ModelInterface& model, const urdf::Link& base,
+                           const std::filesystem::path& path) {
   const urdf::Link* link = &base;
   while (!link->child_links.empty()) {
-    if (link->child_links.size() > 1) {
+    auto next = link->child_links;
+    if (std::ranges::any_of(next, [](const auto& child) { return carries_motion(*child); }))
+      std::erase_if(next, [](const auto& child) { return !carries_motion(*child); });
+    if (next.size() > 1) {
       std::string names;
-      for (const auto& child : link->child_links) names += (names.empty() ? " (" : ", ") + child->name;
+      for (const auto& child : next) names += (names.empty() ? " (" : ", ") + child->name;
+      const urdf::Link* likely = likely_tip(model, base);
       throw UrdfEndError(path.string() + ": link \"" + link->name + "\" carries several" + names +
-                             "); name the link that is the robot's tip",
+                             "); name the link that is the robot's tip" +
+                             (likely == nullptr ? "" : ": \"" + likely->name + "\" lies farthest from the base"),
                          true);
     }
-    link = link->child_links.front().get();
+    link = next.front().get();
   }
   return *link;
 }
@@ -161,16 +205,74 @@ std::string kind(const urdf::Joint& joint) {
   }
 }
 
-void require_supported(const urdf::Joint& joint, bool on_the_way, const std::filesystem::path& path) {
+bool slides(const urdf::Joint& joint) {
+  return joint.type == urdf::Joint::PRISMATIC;
+}
+
+bool turns(const urdf::Joint& joint) {
+  return joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
+}
+
+/// What a joint along the chain must be, unless it is held at a stated place.
+void require_supported(const urdf::Joint& joint, const std::filesystem::path& path) {
   const std::string what = path.string() + ": joint \"" + joint.name + "\" is " + kind(joint);
-  if (!on_the_way && joint.type != urdf::Joint::FIXED)
-    throw DataError(what +
-                    " and lies beside the chain; only what is fixed may hang there: make it fixed, or remove it");
-  const bool turns = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
-  if (!turns && joint.type != urdf::Joint::FIXED)
-    throw DataError(what + "; an arm's joints are revolute, continuous or fixed");
-  if (turns && joint.mimic)
-    throw DataError(what + " and mimics another; a linkage is no serial chain: give the joint its own angle");
+  if (!turns(joint) && !slides(joint) && joint.type != urdf::Joint::FIXED)
+    throw DataError(what + "; an arm's joints are revolute, continuous, prismatic or fixed");
+  if (moves(joint) && joint.mimic)
+    throw DataError(what + " and mimics another; a linkage is no serial chain: state where the joint stands");
+}
+
+Eigen::Vector3d axis_of(const urdf::Joint& joint, const std::filesystem::path& path) {
+  const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
+  if (!(axis.norm() > 1e-9))
+    throw DataError(path.string() + ": joint \"" + joint.name + "\" has an axis without direction");
+  return axis.normalized();
+}
+
+/// The model with the places of joints that the user has stated.
+struct Robot {
+  const urdf::ModelInterface& model;
+  const std::filesystem::path& path;
+  const UrdfPlaces& places;
+};
+
+/// Throws unless every stated place is that of a joint of the file, and of its kind.
+void require_joints(const Robot& robot) {
+  for (const auto& [name, place] : robot.places) {
+    const auto found = robot.model.joints_.find(name);
+    if (found == robot.model.joints_.end()) {
+      std::vector<std::string> names;
+      for (const auto& [known, joint] : robot.model.joints_) names.push_back(known);
+      throw DataError(robot.path.string() + ": there is no joint \"" + name + "\"" + core::did_you_mean(name, names));
+    }
+    const urdf::Joint& joint = *found->second;
+    if (place.slides ? !slides(joint) : !turns(joint))
+      throw DataError(robot.path.string() + ": joint \"" + name + "\" is " + kind(joint) + " and stands at no " +
+                      (place.slides ? "distance" : "angle"));
+  }
+}
+
+/// The place of a joint that is not followed: as stated, or as the joint that it mimics, or the one within its limits
+/// that is nearest to 0.
+double place_of(const Robot& robot, const urdf::Joint& joint) {
+  const auto stated = [&](const urdf::Joint& of) {
+    const auto found = robot.places.find(of.name);
+    if (found != robot.places.end()) return found->second.value;
+    return of.limits && of.limits->lower <= of.limits->upper ? std::clamp(0.0, of.limits->lower, of.limits->upper)
+                                                             : 0.0;
+  };
+  if (!joint.mimic || robot.places.contains(joint.name)) return stated(joint);
+  const auto leader = robot.model.joints_.find(joint.mimic->joint_name);
+  return leader == robot.model.joints_.end() ? stated(joint)
+                                             : joint.mimic->multiplier * stated(*leader->second) + joint.mimic->offset;
+}
+
+/// The frame of the link behind a joint that stands still, in that of the link before.
+Eigen::Isometry3d held(const Robot& robot, const urdf::Joint& joint) {
+  Eigen::Isometry3d T = frame(joint.parent_to_joint_origin_transform);
+  if (turns(joint)) T = T * Eigen::AngleAxisd(place_of(robot, joint), axis_of(joint, robot.path));
+  if (slides(joint)) T = T * Eigen::Translation3d(place_of(robot, joint) * axis_of(joint, robot.path));
+  return T;
 }
 
 /// Adds a rigid body to a link, both in the link's frame (Steiner).
@@ -195,40 +297,54 @@ void add_body(const urdf::Inertial& body, const Eigen::Isometry3d& at, const std
   link.centre = centre;
 }
 
-/// Adds the body of `from` and of all links that are fixed to it, except those beyond `next`.
-void add_fixed(const urdf::Link& from, const urdf::Link* next, const Eigen::Isometry3d& at,
-               const std::filesystem::path& path, UrdfLink& link) {
-  if (from.inertial) add_body(*from.inertial, at, from.name, path, link);
+/// Adds the body of `from` and of all links that it carries, except those beyond `next`; joints beside the chain stand
+/// still, and are listed in `frozen`.
+void add_carried(const Robot& robot, const urdf::Link& from, const urdf::Link* next, const Eigen::Isometry3d& at,
+                 UrdfLink& link, std::vector<UrdfFrozenJoint>& frozen) {
+  if (from.inertial) add_body(*from.inertial, at, from.name, robot.path, link);
   for (const auto& child : from.child_links) {
     if (child.get() == next) continue;
-    require_supported(*child->parent_joint, false, path);
-    add_fixed(*child, next, at * frame(child->parent_joint->parent_to_joint_origin_transform), path, link);
+    const urdf::Joint& joint = *child->parent_joint;
+    if (moves(joint))
+      frozen.push_back({joint.name, place_of(robot, joint), slides(joint), robot.places.contains(joint.name)});
+    add_carried(robot, *child, nullptr, at * held(robot, joint), link, frozen);
   }
+}
+
+/// Goes over a joint of the chain: one that moves begins a new link, another one shifts the frame.
+void step(const Robot& robot, const urdf::Joint& joint, UrdfChain& chain) {
+  if (robot.places.contains(joint.name)) {
+    chain.tip = chain.tip * held(robot, joint);
+    return;
+  }
+  require_supported(joint, robot.path);
+  chain.tip = chain.tip * frame(joint.parent_to_joint_origin_transform);
+  if (!moves(joint)) return;
+  UrdfLink link{.name = joint.child_link_name, .joint = joint.name, .placement = chain.tip};
+  link.axis = axis_of(joint, robot.path);
+  link.slides = slides(joint);
+  chain.links.push_back(link);
+  chain.tip.setIdentity();
 }
 
 }  // namespace
 
-UrdfChain read_urdf(const std::filesystem::path& path, const std::string& base, const std::string& tip) {
+UrdfChain read_urdf(const std::filesystem::path& path, const std::string& base, const std::string& tip,
+                    const UrdfPlaces& places) {
   const auto model = parse(path);
+  const Robot robot{*model, path, places};
+  require_joints(robot);
   const urdf::Link& first = base.empty() ? *model->getRoot() : link_named(*model, path, base, false);
-  const auto links = way(first, tip.empty() ? only_end(first, path) : link_named(*model, path, tip, true), path);
+  const auto links =
+      way(first, tip.empty() ? only_end(*model, first, path) : link_named(*model, path, tip, true), path);
   UrdfChain chain;
   UrdfLink ground;  // bodies fixed to the base do not move
+  std::vector<UrdfFrozenJoint> beside_ground;
   for (std::size_t i = 0; i < links.size(); ++i) {
-    if (i > 0) {
-      const urdf::Joint& joint = *links[i]->parent_joint;
-      require_supported(joint, true, path);
-      chain.tip = chain.tip * frame(joint.parent_to_joint_origin_transform);
-      if (joint.type != urdf::Joint::FIXED) {
-        const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
-        if (!(axis.norm() > 1e-9))
-          throw DataError(path.string() + ": joint \"" + joint.name + "\" has an axis without direction");
-        chain.links.push_back({links[i]->name, joint.name, chain.tip, axis.normalized()});
-        chain.tip.setIdentity();
-      }
-    }
-    add_fixed(*links[i], i + 1 < links.size() ? links[i + 1] : nullptr, chain.tip, path,
-              chain.links.empty() ? ground : chain.links.back());
+    if (i > 0) step(robot, *links[i]->parent_joint, chain);
+    const bool stands = chain.links.empty();
+    add_carried(robot, *links[i], i + 1 < links.size() ? links[i + 1] : nullptr, chain.tip,
+                stands ? ground : chain.links.back(), stands ? beside_ground : chain.frozen);
   }
   if (chain.links.empty())
     throw DataError(path.string() + ": no joint moves between \"" + first.name + "\" and \"" + links.back()->name +

@@ -65,8 +65,9 @@ io::Table columns(const study::RobotSurvey& survey) {
     table.push_back(column(survey, std::string("tip_") + "xyz"[i] + "_m",
                            [i](const study::TipReport& t) { return (*t.robot.tip)[i]; }));
   for (Eigen::Index i = 0; i < first.robot.posture.q.size(); ++i)
-    table.push_back(column(survey, fmt::format("joint_{}_rad", i + 1),
-                           [i](const study::TipReport& t) { return t.robot.posture.q(i); }));
+    table.push_back(
+        column(survey, fmt::format("joint_{}_{}", i + 1, first.robot.slides[static_cast<std::size_t>(i)] ? "m" : "rad"),
+               [i](const study::TipReport& t) { return t.robot.posture.q(i); }));
   if (first.robot.smallest_singular)
     table.push_back(column(survey, "smallest_singular_value",
                            [](const study::TipReport& t) { return *t.robot.smallest_singular; }));
@@ -144,9 +145,10 @@ std::string survey_text(const study::RobotSurvey& survey) {
   const study::TipReport& first = survey.tips.front();
   const auto joints = static_cast<std::size_t>(first.robot.posture.q.size());
   const std::size_t modes = std::min<std::size_t>(most_modes(survey), 4);
+  const bool slides = std::ranges::count(first.robot.slides, true) > 0;
   std::string text = fmt::format("  {:>4}", "no.");
   if (first.robot.tip) text += fmt::format("  {:>24}", "tip x, y, z (mm)");
-  if (joints > 0) text += fmt::format("  {:>{}}", "joints (deg)", 8 * joints);
+  if (joints > 0) text += fmt::format("  {:>{}}", slides ? "joints (deg, mm)" : "joints (deg)", 8 * joints);
   if (modes > 0) text += fmt::format("  {:>{}}", "modes (Hz)", 8 * modes);
   if (first.stiffness) text += fmt::format("  {:>24}  {:>8}  {}", "stiffness x, y, z (N/um)", "least", "along");
   text += '\n';
@@ -155,7 +157,9 @@ std::string survey_text(const study::RobotSurvey& survey) {
     text += fmt::format("  {:>4}", i + 1);
     if (tip.robot.tip) text += "  " + three(*tip.robot.tip, 1e3, "{:>8.1f}");
     if (joints > 0) text += "  ";
-    for (const double q : tip.robot.posture.q) text += fmt::format("{:>8.2f}", q * 180.0 / std::numbers::pi);
+    for (std::size_t j = 0; j < joints; ++j)
+      text += fmt::format("{:>8.2f}", tip.robot.posture.q(static_cast<Eigen::Index>(j)) *
+                                          (tip.robot.slides[j] ? 1e3 : 180.0 / std::numbers::pi));
     if (modes > 0) text += "  ";
     for (std::size_t k = 0; k < modes; ++k)
       text += k < tip.modes.size() ? fmt::format("{:>8.2f}", tip.modes[k].frequency_hz) : fmt::format("{:>8}", "-");

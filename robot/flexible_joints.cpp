@@ -27,10 +27,11 @@ void require_stable(const SerialArm& arm, const Eigen::MatrixXd& K) {
   if (eigen.eigenvalues()(0) > 1e-13 * eigen.eigenvalues().maxCoeff()) return;
   Index softest = 0;
   eigen.eigenvectors().col(0).head(arm.joints()).cwiseAbs().maxCoeff(&softest);
+  const char* unit = arm.links[static_cast<std::size_t>(softest)].slides ? "N/m" : "N m/rad";
   std::ostringstream text;
   text << "the arm does not stay in its posture: weight and preload outdo the joints (stiffness "
-       << eigen.eigenvalues()(0) << " N m/rad, most of it at " << joint_name(arm, softest)
-       << "): give that joint and its servo their stiffness in N m/rad, or lower the preload";
+       << eigen.eigenvalues()(0) << " " << unit << ", most of it at " << joint_name(arm, softest)
+       << "): give that joint and its servo their stiffness in " << unit << ", or lower the preload";
   throw core::InputError(text.str());
 }
 

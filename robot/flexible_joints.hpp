@@ -9,8 +9,8 @@
 
 namespace thinwall::robot {
 
-/// The spatial model of an arm over its joint angles δq and, for each motor that is not locked, the motor's angle δθ
-/// referred to the joint's side (Huynh 2017, Eq. 7-8; Spong 1987; linearised: docs/theory/robots.md):
+/// The spatial model of an arm over its joints' angles and distances δq and, for each motor that is not locked, the
+/// motor's angle δθ referred to the joint's side (Huynh 2017, Eq. 7-8; Spong 1987; linearised: docs/theory/robots.md):
 ///
 ///     M = [ M(q)  0 ; 0  r²J ],   C = [ d  −d ; −d  d + k_d ],
 ///     K = [ k + ∂(G + W)/∂q − ∂(J_tipᵀf)/∂q   −k ; −k   k + k_p ]

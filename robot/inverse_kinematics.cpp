@@ -31,11 +31,12 @@ Lengths four_axis_lengths(const SerialArm& arm) {
   bool fits = arm.links.size() == 4 && is_along_z(arm.tip);
   for (std::size_t i = 0; fits && i < 4; ++i) {
     const Vector3d axis = i == 0 ? Vector3d::UnitZ() : Vector3d::UnitY();
-    fits = is_along_z(arm.links[i].placement) && (arm.links[i].axis - axis).norm() <= 1e-12;
+    fits = is_along_z(arm.links[i].placement) && !arm.links[i].slides && (arm.links[i].axis - axis).norm() <= 1e-12;
   }
   if (!fits) {
     throw core::InputError(
-        "the closed form is for four joints, the first about z, the others about y, all above each other along z where "
+        "the closed form is for four joints that turn, the first about z, the others about y, all above each other "
+        "along z where "
         "all angles are zero: search numerically instead");
   }
   const auto z = [&](std::size_t i) { return arm.links[i].placement.translation().z(); };

@@ -17,9 +17,11 @@ void check(const Link& link, const std::string& where, core::Faults& faults) {
       "has a placement that is no frame: its axes must be of unit length, at right angles and right-handed, to "
       "nine digits");
   faults.require(std::abs(link.axis.norm() - 1.0) <= 1e-9, where, "has a joint axis that is not a unit vector");
-  faults.require_number(joint.stiffness, joint.stiffness > 0.0, where, "joint stiffness (N m/rad)",
+  faults.require_number(joint.stiffness, joint.stiffness > 0.0, where,
+                        link.slides ? "joint stiffness (N/m)" : "joint stiffness (N m/rad)",
                         "be positive (a joint that does not give is left out: join the two links)");
-  faults.require_number(joint.damping, joint.damping >= 0.0, where, "joint damping (N m s/rad)", "not be negative");
+  faults.require_number(joint.damping, joint.damping >= 0.0, where,
+                        link.slides ? "joint damping (N s/m)" : "joint damping (N m s/rad)", "not be negative");
   faults.require_number(joint.motor_inertia, joint.motor_inertia >= 0.0, where, "motor inertia (kg m^2)",
                         "not be negative");
   faults.require_number(joint.gear_ratio, joint.gear_ratio != 0.0, where, "gear ratio", "not be zero");

@@ -1,6 +1,6 @@
 #pragma once
-// The description of a serial arm with rigid links and flexible revolute joints, as given by a table, a data sheet or a
-// URDF.
+// The description of a serial arm with rigid links and flexible joints that turn or slide, as given by a table, a data
+// sheet or a URDF.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@ namespace thinwall::robot {
 
 /// The gearbox and motor of a joint, about the joint's axis (Spong 1987): the rotor is held by the servo's position
 /// loop and drives the link through the gearbox. All values but the rotor's inertia are referred to the side of the
-/// link.
+/// link. Of a joint that slides, read N/m, N s/m and radians of the rotor for one metre.
 struct Joint {
   double stiffness = 0.0;      ///< stiffness of gearbox and shaft, N m/rad, > 0
   double damping = 0.0;        ///< damping parallel to the stiffness, N m s/rad, ≥ 0
@@ -25,7 +25,8 @@ struct Joint {
   [[nodiscard]] bool motor_locked() const { return servo_stiffness == std::numeric_limits<double>::infinity(); }
 };
 
-/// A rigid link with the joint that carries it. At q = 0 the link's frame is the joint's; q rotates it about `axis`.
+/// A rigid link with the joint that carries it. At q = 0 the link's frame is the joint's; q (rad) turns it about
+/// `axis`, or (m) slides it along `axis`.
 struct Link {
   std::string name;
   Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();  ///< joint's frame in that of the link before, m
@@ -34,6 +35,7 @@ struct Link {
   double mass = 0.0;                                  ///< kg, ≥ 0
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< centre of mass in the link's frame, m
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre of mass, in the link's axes, kg m²
+  bool slides = false;                                ///< true of a joint that slides
 };
 
 /// A counterbalance, which is a spring or a gas cylinder between two points of the arm, straight and massless. It pulls

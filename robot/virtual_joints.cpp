@@ -341,10 +341,12 @@ Chain chain(const SerialArm& arm, const VectorXd& q) {
                              "gearbox in a row, k k_p / (k + k_p)");
     }
     result.elements.emplace_back(RigidLink{link.placement});
-    result.elements.emplace_back(VirtualJoint{.axis = link.axis,
-                                              .position = q(static_cast<Index>(i)),
-                                              .stiffness = link.joint.stiffness,
-                                              .damping = link.joint.damping});
+    result.elements.emplace_back(
+        VirtualJoint{.motion = link.slides ? VirtualJoint::Motion::translation : VirtualJoint::Motion::rotation,
+                     .axis = link.axis,
+                     .position = q(static_cast<Index>(i)),
+                     .stiffness = link.joint.stiffness,
+                     .damping = link.joint.damping});
     result.elements.emplace_back(dynamics::RigidBody{link.mass, link.centre, link.inertia});
   }
   result.elements.emplace_back(RigidLink{arm.tip});

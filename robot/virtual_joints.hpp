@@ -52,7 +52,7 @@ struct Chain {
   std::vector<ChainElement> elements;
 };
 
-/// The chain of the rigid links and flexible joints of a serial arm at the joint angles q (rad), without its weight.
+/// The chain of the rigid links and flexible joints of a serial arm at q (rad, m), without its weight.
 /// Throws InputError as pose() and require_valid() do, and for a motor that is not locked: its servo and gearbox must
 /// be combined in series.
 [[nodiscard]] Chain chain(const SerialArm& arm, const Eigen::VectorXd& q);

@@ -27,13 +27,14 @@ struct TipMode {
 /// The posture that is asked of an arm: by its joints, or by the place of its tip (in the part's axes) with a pitch or
 /// an approach.
 struct PostureWish {
-  std::vector<double> joints;               ///< rad; empty: by the place
+  std::vector<double> joints;               ///< rad, of the joints that turn; empty: by the place
   std::optional<Eigen::Vector3d> tip;       ///< m; none: the place of the first contact
   std::optional<double> pitch;              ///< rad
   bool elbow_up = true, ahead = true;       ///< of the postures for a pitch
   std::optional<Eigen::Vector3d> approach;  ///< unit vector
   double angle = 0.0;                       ///< rad, about it
-  std::vector<double> start;                ///< rad; empty: zeros
+  std::vector<double> start;                ///< rad, of the joints that turn; empty: zeros
+  std::vector<double> slides;               ///< m, of the joints that slide; empty: zeros
 };
 
 /// A tip of one mode: stiffness with frequency and damping ratio, or mass with stiffness and damping (or damping

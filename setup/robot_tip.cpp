@@ -108,17 +108,30 @@ Eigen::VectorXd searched_posture(const JointedRobot& robot, const Vector3d& plac
       place.x(), place.y(), place.z(), found.position_error, found.rotation_error * 180.0 / std::numbers::pi));
 }
 
+/// The angles of joints that turn and the distances of those that slide, in the order of the joints; an empty list is
+/// one of zeros.
+Eigen::VectorXd in_order(const robot::SerialArm& arm, const std::vector<double>& angles,
+                         const std::vector<double>& distances) {
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(arm.joints());
+  std::size_t turned = 0, slid = 0;
+  for (Eigen::Index i = 0; i < arm.joints(); ++i) {
+    const bool slides = arm.links[static_cast<std::size_t>(i)].slides;
+    const std::vector<double>& list = slides ? distances : angles;
+    std::size_t& next = slides ? slid : turned;
+    if (next < list.size()) q(i) = list[next++];
+  }
+  return q;
+}
+
 Eigen::VectorXd joints_of(const PartSetup& part, const SupportSetup& support, const JointedRobot& robot,
                           const std::optional<Eigen::VectorXd>& near) {
   const PostureWish& wish = robot.posture;
-  const auto as_vector = [](const std::vector<double>& list) -> Eigen::VectorXd {
-    return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
-  };
-  if (!wish.joints.empty()) return as_vector(wish.joints);
+  const bool by_slides = !wish.slides.empty() && !wish.pitch && !wish.approach;
+  if (!wish.joints.empty() || by_slides) return in_order(robot.arm, wish.joints, wish.slides);
   if (wish.pitch) return four_axis_posture(robot, wanted_place(part, support, wish));
   if (!wish.approach)
     throw core::InputError("how the robot stands is not known; give robot.posture by joints, pitch or approach");
-  const Eigen::VectorXd start = wish.start.empty() ? Eigen::VectorXd::Zero(robot.arm.joints()) : as_vector(wish.start);
+  const Eigen::VectorXd start = in_order(robot.arm, wish.start, wish.slides);
   return searched_posture(robot, wanted_place(part, support, wish), near.value_or(start));
 }
 
@@ -178,6 +191,7 @@ RobotPosture robot_posture(const PartSetup& part, const SupportSetup& support,
   result.posture.q = joints_of(part, support, *robot, near);
   const robot::ArmPose at = robot::pose(robot->arm, result.posture.q);
   result.tip = at.tip.translation();
+  result.slides = at.slides;
   result.smallest_singular = smallest_singular(at);
   for (const auto& origin : at.origins.colwise()) result.arm.emplace_back(origin);
   result.arm.push_back(*result.tip);

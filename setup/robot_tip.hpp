@@ -12,6 +12,7 @@ namespace thinwall::setup {
 /// The posture of the robot; what an arm's joints tell is empty for other models.
 struct RobotPosture {
   robot::Posture posture;
+  std::vector<bool> slides;                 ///< true of the joints whose q is a distance, m
   std::optional<Eigen::Vector3d> tip;       ///< m, part axes
   std::optional<double> smallest_singular;  ///< of the tip's Jacobian, 1 m a radian, over its largest
   std::vector<Eigen::Vector3d> arm;         ///< from joint to joint to the tip, m, part axes

@@ -74,6 +74,7 @@ std::vector<std::string> doubts_about(const Case& source) {
   ask_about_bare_lengths(source, doubts);
   ask_about_wall(source, doubts);
   ask_about_materials(source, doubts);
+  if (source.urdf_arm) doubts.insert(doubts.end(), source.urdf_arm->assumed.begin(), source.urdf_arm->assumed.end());
   return doubts;
 }
 

@@ -83,10 +83,20 @@ void check_counterbalances(const robot::SerialArm& arm, Findings& findings) {
   }
 }
 
+/// Checks that a list, where it is given, has a number for each of the joints that it is for.
+void require_one_each(const std::string& key, std::size_t given, const std::string& numbers, std::size_t joints,
+                      const std::string& motion, Findings& findings) {
+  if (!findings.given(key) || given == joints) return;
+  findings.report(key, std::to_string(given) + " " + numbers + " for " + std::to_string(joints) + " joints that " +
+                           motion + "; give one for each");
+}
+
 /// Checks the posture that is asked of the arm.
 void check_posture_keys(const setup::JointedRobot& robot, Findings& findings) {
   const setup::PostureWish& wish = robot.posture;
-  const int ways = (findings.given("robot.posture.joints") ? 1 : 0) + (wish.pitch ? 1 : 0) + (wish.approach ? 1 : 0);
+  const bool by_slides = findings.given("robot.posture.slides") && !wish.pitch && !wish.approach;
+  const int ways =
+      (findings.given("robot.posture.joints") || by_slides ? 1 : 0) + (wish.pitch ? 1 : 0) + (wish.approach ? 1 : 0);
   if (ways != 1) {
     findings.report("robot.posture", "give either joints, or pitch (four-axis arms), or approach (any arm)");
     return;
@@ -96,12 +106,11 @@ void check_posture_keys(const setup::JointedRobot& robot, Findings& findings) {
     findings.report("robot.workspace.counts", "must be three numbers, along x, y, z");
   if (counts != nullptr && !wish.joints.empty())
     findings.report("robot.workspace", "needs a posture by pitch or approach; joints hold the arm in one place");
-  for (const auto& [key, list] :
-       {std::pair{"robot.posture.joints", &wish.joints}, std::pair{"robot.posture.start", &wish.start}}) {
-    if (!findings.given(key) || list->size() == robot.arm.links.size()) continue;
-    findings.report(key, std::to_string(list->size()) + " angles for " + std::to_string(robot.arm.links.size()) +
-                             " joints; give one for each");
-  }
+  const auto sliding = static_cast<std::size_t>(std::ranges::count(robot.arm.links, true, &robot::Link::slides));
+  const std::size_t turning = robot.arm.links.size() - sliding;
+  require_one_each("robot.posture.joints", wish.joints.size(), "angles", turning, "turn", findings);
+  require_one_each("robot.posture.start", wish.start.size(), "angles", turning, "turn", findings);
+  require_one_each("robot.posture.slides", wish.slides.size(), "distances", sliding, "slide", findings);
 }
 
 /// True if the arm was read; a fault of its files was reported when they were.

@@ -12,12 +12,16 @@ using namespace bounds;
 
 // clang-format off
 constexpr Section joint_sections[] = {
-    Section{"joints[]", "What a URDF does not know of a joint that turns.", ""},
+    Section{"joints[]", "What a URDF does not know of a joint: the stiffness of one that moves between base and tip, or the place at which a joint stands still. Motors are of joints that turn.", ""},
 };
 constexpr Key joint_keys[] = {
     Key{"joints[].name", Type::text, kind::number, "", any, "", "Name of the joint in the URDF.", required},
-    Key{"joints[].stiffness", Type::quantity, kind::torsional_stiffness, "", positive, "", "Of the joint's gearbox.", required},
+    Key{"joints[].stiffness", Type::quantity, kind::torsional_stiffness, "", positive, "", "Of the gearbox of a joint that turns."},
     Key{"joints[].damping", Type::quantity, kind::torsional_damping, "0", not_negative, "", "Beside it."},
+    Key{"joints[].linear_stiffness", Type::quantity, kind::stiffness, "", positive, "", "Of the drive of a joint that slides."},
+    Key{"joints[].linear_damping", Type::quantity, kind::damping, "0", not_negative, "", "Beside it."},
+    Key{"joints[].angle", Type::quantity, kind::angle, "", any, "", "The joint stands still at this angle, on the chain or beside it. Joints beside the chain stand at 0, or at the limit nearest to it, if not given."},
+    Key{"joints[].distance", Type::quantity, kind::length, "", any, "", "The joint, which slides, stands still at this distance."},
     Key{"joints[].motor_inertia", Type::quantity, kind::inertia, "0", not_negative, "", "Of the rotor about its shaft."},
     Key{"joints[].gear_ratio", Type::quantity, kind::number, "1", any, "", "Turns of the rotor for one of the joint."},
     Key{"joints[].servo_stiffness", Type::quantity, kind::torsional_stiffness, "\"inf\"", {0.0, infinity, false, false, true, "\"inf\" for a locked motor"}, "", "Position gain at the joint; `inf` for a locked motor."},

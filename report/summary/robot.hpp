@@ -32,7 +32,7 @@ struct PostureSummary {
 template <class Visitor, Either<PostureSummary> Section>
 void fields(Visitor& visit, Section& posture) {
   visit(Field{"preload_n", Kind::force, "preload on the tip, part axes; absent: none"}, posture.preload_n);
-  visit(Field{"joints_rad", Kind::angle, "joint angles of an arm"}, posture.joints_rad);
+  visit(Field{"joints_rad", Kind::angle, "joint angles of an arm; m of a joint that slides"}, posture.joints_rad);
   visit(Field{"tip_m", Kind::length, "tip of an arm, part axes"}, posture.tip_m);
   visit(Field{"smallest_singular_value", Kind::ratio,
               "smallest singular value of the tip's Jacobian, 1 m a radian, over the largest"},

@@ -27,7 +27,7 @@ namespace thinwall::core {
 template <>
 inline constexpr std::size_t member_count<setup::Point> = 9;
 template <>
-inline constexpr std::size_t member_count<setup::PostureWish> = 8;
+inline constexpr std::size_t member_count<setup::PostureWish> = 9;
 
 }  // namespace thinwall::core
 

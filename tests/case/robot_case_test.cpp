@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "case/checks/doubts.hpp"
 #include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
@@ -208,12 +209,51 @@ TEST(RobotCase, UrdfAndItsJointsAreCheckedAgainstEachOther) {
     expect_problem(by_urdf, "robot.urdf", part, folder.path);
   };
   expect(with(joints, "\"j2\"", "\"j3\""), "nothing of joint \"j2\"");
-  expect(joints + "[[joints]]\nname = \"f\"\nstiffness = 1\n", "joint \"f\" does not turn");
+  expect(joints + "[[joints]]\nname = \"f\"\nstiffness = 1\n", "joint \"f\" does not move between");
   expect(joints + "[[joints]]\nname = \"j1\"\nstiffness = 1\n", "is there twice");
-  expect(with(joints, "stiffness = \"2e6 N m/rad\"\n", ""), "joints[0].stiffness: missing");
+  expect(with(joints, "stiffness = \"2e6 N m/rad\"\n", ""), "joint \"j1\" turns and needs its stiffness");
   core::write_file_atomically(folder.path / "joints.toml", joints);
   expect_problem(with(by_urdf, "two.urdf", "none.urdf"), "robot.urdf", "none.urdf", folder.path);
   expect_problem(with(by_urdf, "joints = \"joints.toml\"\n", ""), "robot.urdf", "needs robot.joints", folder.path);
+}
+
+// A column that slides by 0.2 m along z carries the arm of the test above; a finger beside the chain stands still.
+TEST(RobotCase, AUrdfsSlidesHaveAStiffnessAndJointsBesideItsChainAreTold) {
+  const TemporaryFolder folder;
+  const std::string limits = "<limit lower=\"0\" upper=\"1\" effort=\"1\" velocity=\"1\"/>";
+  const std::string sliding =
+      with(with(urdf, "type=\"continuous\"><parent link=\"base\"/><child link=\"a\"/><axis xyz=\"0 1 0\"/>",
+                "type=\"prismatic\"><parent link=\"base\"/><child link=\"a\"/><axis xyz=\"0 0 1\"/>" + limits),
+           "</robot>",
+           "<link name=\"finger\"/><joint name=\"g\" type=\"continuous\"><parent link=\"b\"/><child "
+           "link=\"finger\"/></joint></robot>");
+  const std::string stiff =
+      "[[joints]]\nname = \"j1\"\nlinear_stiffness = \"5 N/um\"\n[[joints]]\nname = \"j2\"\n"
+      "stiffness = \"1e6 N m/rad\"\n";
+  const std::string stands = with(with(by_urdf, "[0.3, 0.4]", "[\"0.4 rad\"]\nslides = [\"200 mm\"]"),
+                                  "urdf =", "urdf_tip = \"tool\"\nurdf =");
+  core::write_file_atomically(folder.path / "two.urdf", sliding);
+  core::write_file_atomically(folder.path / "joints.toml", stiff);
+  const Case source = parse_case(stands, folder.path);
+  const RobotPosture posture = posture_of(source);
+  EXPECT_NEAR(posture.tip->z(), 0.2 + 0.7 + 0.5 * std::cos(0.4), 1e-12);
+  const dynamics::SpatialModel model = matrices_of(source);
+  EXPECT_DOUBLE_EQ(model.K(0, 0), 5e6) << "a slide along the weight has its drive's stiffness only";
+  EXPECT_NEAR(model.M(0, 0), 40.0, 1e-12);
+  ASSERT_EQ(doubts_about(source).size(), 1U);
+  EXPECT_NE(doubts_about(source)[0].find("joint \"g\" of two.urdf"), std::string::npos) << doubts_about(source)[0];
+  expect_problem(with(stands, "\nslides = [\"200 mm\"]", "\nslides = [1, 2]"), "robot.posture.slides",
+                 "2 distances for 1 joints that slide", folder.path);
+
+  const auto expect = [&](const std::string& file, const std::string& part) {
+    core::write_file_atomically(folder.path / "joints.toml", file);
+    expect_problem(stands, "robot.urdf", part, folder.path);
+  };
+  expect(with(stiff, "linear_stiffness = \"5 N/um\"", "stiffness = 1"), "\"j1\" slides and needs its linear_stiffness");
+  expect(with(stiff, "linear_stiffness", "damping = 3\nlinear_stiffness"), "remove its motor, servo and damping");
+  expect(stiff + "[[joints]]\nname = \"g\"\ndistance = 1\n", "joint \"g\" is continuous and stands at no distance");
+  core::write_file_atomically(folder.path / "joints.toml", stiff + "[[joints]]\nname = \"g\"\nangle = \"20 deg\"\n");
+  EXPECT_TRUE(doubts_about(parse_case(stands, folder.path)).empty()) << "its place is stated";
 }
 
 TEST(RobotCase, AnEndOfAUrdfThatIsNotToldIsReportedAtItsKey) {

@@ -89,10 +89,7 @@ TEST_F(Urdf, WhatIsFixedToALinkIsPartOfIt) {
 
 TEST_F(Urdf, WhatAnArmCannotHaveIsRefusedByName) {
   expect_refused("not xml", "no robot in URDF");
-  expect_refused(with(two_links, "type=\"continuous\">",
-                      "type=\"prismatic\"><limit lower=\"0\" upper=\"1\" effort=\"1\" velocity=\"1\"/>"),
-                 "\"j2\" is prismatic");
-  expect_refused(with(two_links, "name=\"c\" type=\"fixed\"", "name=\"c\" type=\"continuous\""), "beside the chain");
+  expect_refused(with(two_links, "type=\"continuous\">", "type=\"planar\">"), "\"j2\" is planar");
   expect_refused(two_links, "there is no link \"flanges\" (did you mean \"flange\"?)", "flanges");
   expect_refused(two_links, "carries several (", "");
   expect_refused(two_links.substr(0, two_links.find("<link name=\"shoulder")) + "</robot>", "no joint moves", "world");
@@ -101,6 +98,77 @@ TEST_F(Urdf, WhatAnArmCannotHaveIsRefusedByName) {
   expect_refused(with(two_links, "xyz=\"0 0 2\"", "xyz=\"0 0 0\""), "j1");
   EXPECT_THROW((void)read_urdf(path("none.urdf")), core::DataError);
   EXPECT_THROW((void)read(two_links, "flange", "world"), core::DataError) << "the wrong way";
+}
+
+// The cable, 1 kg, hangs on a joint beside the chain: where that stands is where its mass is.
+TEST_F(Urdf, JointsBesideTheChainStandStillAtTheStatedPlace) {
+  const std::string limits = "\"><limit lower=\"0.2\" upper=\"1\" effort=\"1\" velocity=\"1\"/><axis xyz=\"0 0 3\"/>";
+  const std::string turning = with(two_links, "name=\"c\" type=\"fixed\">", "name=\"c\" type=\"revolute" + limits);
+  const std::string sliding = with(two_links, "name=\"c\" type=\"fixed\">", "name=\"c\" type=\"prismatic" + limits);
+  const auto cable = [&](const std::string& text, const UrdfPlaces& places) -> Eigen::Vector3d {
+    const UrdfChain chain = (core::write_file_atomically(file, with(text, "<mass value=\"1\"/>",
+                                                                    "<origin xyz=\"0.5 0 0\"/><mass value=\"1\"/>")),
+                             read_urdf(file, "world", "flange", places));
+    EXPECT_EQ(chain.frozen.size(), 1U);
+    EXPECT_EQ(chain.frozen[0].stated, !places.empty());
+    return 16.0 * chain.links[1].centre - 10.0 * Eigen::Vector3d(0.2, 0, 0) - 5.0 * Eigen::Vector3d(0.4, 0, 0.1);
+  };
+  const double right_angle = std::numbers::pi / 2;
+  EXPECT_LT((cable(turning, {{"c", {right_angle, false}}}) - Eigen::Vector3d(0, 1.5, 0)).norm(), 1e-12);
+  EXPECT_LT((cable(turning, {}) - Eigen::Vector3d(0.5 * std::cos(0.2), 1 + 0.5 * std::sin(0.2), 0)).norm(), 1e-12)
+      << "0 is outside the limits";
+  EXPECT_LT((cable(sliding, {{"c", {0.7, true}}}) - Eigen::Vector3d(0.5, 1, 0.7)).norm(), 1e-12);
+  EXPECT_THROW((void)cable(sliding, {{"c", {0.7, false}}}), core::DataError) << "an angle of a joint that slides";
+  EXPECT_THROW((void)cable(sliding, {{"cc", {0.7, true}}}), core::DataError) << "no such joint";
+  const std::string mimics = with(turning, "</robot>",
+                                  "<link name=\"d\"/><joint name=\"g\" type=\"continuous\"><parent "
+                                  "link=\"arm\"/><child link=\"d\"/><axis xyz=\"0 0 "
+                                  "1\"/><mimic joint=\"c\" multiplier=\"-2\" offset=\"0.1\"/></joint></robot>");
+  core::write_file_atomically(file, mimics);
+  const UrdfChain chain = read_urdf(file, "world", "flange", {{"c", {0.3, false}}});
+  ASSERT_EQ(chain.frozen.size(), 2U);
+  EXPECT_NEAR(chain.frozen[chain.frozen[0].name == "g" ? 0 : 1].value, -0.5, 1e-15);
+}
+
+TEST_F(Urdf, AJointOfTheChainWithAStatedPlaceIsFixedThere) {
+  core::write_file_atomically(file, two_links);
+  const UrdfChain chain = read_urdf(file, "world", "flange", {{"j2", {std::numbers::pi / 2, false}}});
+  ASSERT_EQ(chain.links.size(), 1U);
+  EXPECT_DOUBLE_EQ(chain.links[0].mass, 56.0);
+  // The flange's x is turned down by j2's frame, and back by a quarter turn about y less: it points to -x of the
+  // shoulder's frame.
+  EXPECT_LT((chain.tip.translation() - Eigen::Vector3d(-0.4, 0, 0.6)).norm(), 1e-12);
+}
+
+TEST_F(Urdf, AJointOfTheChainMaySlide) {
+  const UrdfChain chain = read(with(two_links, "type=\"continuous\">",
+                                    "type=\"prismatic\"><limit lower=\"0\" upper=\"1\" effort=\"1\" velocity=\"1\"/>"),
+                               "world", "flange");
+  ASSERT_EQ(chain.links.size(), 2U);
+  EXPECT_FALSE(chain.links[0].slides);
+  EXPECT_TRUE(chain.links[1].slides);
+}
+
+// A frame beside the foot is no tip; of two fingers and a tool's frame the last lies farthest from the base.
+TEST_F(Urdf, ATipIsProposedAndAFrameBesideTheChainIsNone) {
+  const auto fixed = [](const std::string& name, const std::string& parent, const std::string& z) {
+    return "<link name=\"" + name + "\"/><joint name=\"to_" + name + "\" type=\"fixed\"><parent link=\"" + parent +
+           "\"/><child link=\"" + name + "\"/><origin xyz=\"0 0 " + z + "\"/></joint>";
+  };
+  const auto finger = [](const std::string& name) {
+    return "<link name=\"" + name + "\"/><joint name=\"to_" + name +
+           "\" type=\"continuous\"><parent link=\"flange\"/>" + "<child link=\"" + name +
+           "\"/><origin xyz=\"0 0 0.05\"/></joint>";
+  };
+  std::string one_chain = with(two_links, "<joint name=\"c\" type=\"fixed\"><parent link=\"arm\"/>",
+                               "<joint name=\"c\" type=\"fixed\"><parent link=\"flange\"/>");
+  one_chain = with(one_chain, "</robot>", fixed("base", "world", "9") + "</robot>");
+  EXPECT_EQ(read(one_chain, "", "").links.size(), 2U);
+  expect_refused(with(one_chain, "</robot>", fixed("tool0", "flange", "2") + "</robot>"),
+                 "(cable, tool0); name the link that is the robot's tip: \"tool0\" lies farthest", "");
+  expect_refused(
+      with(one_chain, "</robot>", finger("left") + finger("right") + fixed("tool0", "flange", "2") + "</robot>"),
+      "(left, right); name the link that is the robot's tip: \"tool0\" lies farthest", "");
 }
 
 std::string links(int count, const std::string& joints) {

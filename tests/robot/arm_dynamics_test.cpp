@@ -29,8 +29,9 @@ TEST(MassMatrix, FirstEntryOfTheStretchedArmIsTheOneByHand) {
 // The kinetic energy ½ q'ᵀ M q' against Σ ½ m v² + ½ ωᵀ I ω with velocities by finite differences of the poses.
 TEST(MassMatrix, IsThatOfTheKineticEnergy) {
   std::mt19937_64 random(5);
-  for (int joints = 1; joints <= 7; ++joints) {
-    const SerialArm arm = random_arm(random, joints);
+  for (int trial = 2; trial <= 15; ++trial) {
+    const int joints = trial / 2;
+    const SerialArm arm = trial % 2 == 0 ? random_arm(random, joints) : random_sliding_arm(random, joints);
     const VectorXd q = random_posture(random, joints);
     const VectorXd speed = random_posture(random, joints);
     double energy = 0.0;
@@ -56,23 +57,25 @@ TEST(MassMatrix, IsThatOfTheKineticEnergy) {
 
 TEST(TipJacobian, IsTheDerivativeOfTheTip) {
   std::mt19937_64 random(6);
-  const SerialArm arm = random_arm(random, 6);
-  const VectorXd q = random_posture(random, 6);
-  const ArmPose at = pose(arm, q);
-  const MatrixXd translation =
-      derivative([&](const VectorXd& angles) -> VectorXd { return pose(arm, angles).tip.translation(); }, q);
-  EXPECT_LT((tip_jacobian(at).topRows<3>() - translation).cwiseAbs().maxCoeff(), 1e-8);
-  const MatrixXd turns =
-      derivative([&](const VectorXd& angles) -> VectorXd { return pose(arm, angles).tip.linear().reshaped(); }, q);
-  for (Index i = 0; i < 6; ++i) {
-    const Eigen::Matrix3d W = turns.col(i).reshaped(3, 3) * at.tip.linear().transpose();
-    EXPECT_LT((tip_jacobian(at).col(i).tail<3>() - Vector3d(W(2, 1), W(0, 2), W(1, 0))).norm(), 1e-8) << i;
+  for (const SerialArm& arm : {random_arm(random, 6), random_sliding_arm(random, 6)}) {
+    const VectorXd q = random_posture(random, 6);
+    const ArmPose at = pose(arm, q);
+    const MatrixXd translation =
+        derivative([&](const VectorXd& angles) -> VectorXd { return pose(arm, angles).tip.translation(); }, q);
+    EXPECT_LT((tip_jacobian(at).topRows<3>() - translation).cwiseAbs().maxCoeff(), 1e-8);
+    const MatrixXd turns =
+        derivative([&](const VectorXd& angles) -> VectorXd { return pose(arm, angles).tip.linear().reshaped(); }, q);
+    for (Index i = 0; i < 6; ++i) {
+      const Eigen::Matrix3d W = turns.col(i).reshaped(3, 3) * at.tip.linear().transpose();
+      EXPECT_LT((tip_jacobian(at).col(i).tail<3>() - Vector3d(W(2, 1), W(0, 2), W(1, 0))).norm(), 1e-8) << i;
+    }
   }
 }
 
 TEST(Gravity, TorqueIsTheDerivativeOfTheHeightAndItsStiffnessThatOfTheTorque) {
   std::mt19937_64 random(7);
-  for (const SerialArm& arm : {huynh_arm(), random_arm(random, 3), random_arm(random, 6)}) {
+  for (const SerialArm& arm :
+       {huynh_arm(), random_arm(random, 3), random_arm(random, 6), random_sliding_arm(random, 6)}) {
     const VectorXd q = random_posture(random, arm.joints());
     const auto potential = [&](const VectorXd& angles) -> VectorXd {
       const ArmPose at = pose(arm, angles);
@@ -93,7 +96,8 @@ TEST(Gravity, TorqueIsTheDerivativeOfTheHeightAndItsStiffnessThatOfTheTorque) {
 
 TEST(Preload, StiffnessIsTheDerivativeOfItsTorque) {
   std::mt19937_64 random(8);
-  for (const SerialArm& arm : {huynh_arm(), random_arm(random, 2), random_arm(random, 6)}) {
+  for (const SerialArm& arm :
+       {huynh_arm(), random_arm(random, 2), random_arm(random, 6), random_sliding_arm(random, 5)}) {
     const VectorXd q = random_posture(random, arm.joints());
     const Vector3d force = 500.0 * random_vector(random);
     const MatrixXd K = load_stiffness(pose(arm, q), force);

@@ -76,6 +76,13 @@ inline SerialArm random_arm(std::mt19937_64& random, int joints) {
   return arm;
 }
 
+/// A random arm of which every second joint slides, from the first on.
+inline SerialArm random_sliding_arm(std::mt19937_64& random, int joints) {
+  SerialArm arm = random_arm(random, joints);
+  for (std::size_t i = 0; i < arm.links.size(); i += 2) arm.links[i].slides = true;
+  return arm;
+}
+
 inline Eigen::VectorXd random_posture(std::mt19937_64& random, Eigen::Index joints) {
   Eigen::VectorXd q(joints);
   for (double& angle : q) angle = uniform(random, -3, 3);

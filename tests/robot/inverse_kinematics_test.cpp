@@ -58,7 +58,8 @@ TEST(Reach, FindsThePostureOfSixAndSevenJointsAgain) {
   std::mt19937_64 random(23);
   int singular = 0;
   for (int trial = 0; trial < 40; ++trial) {
-    const SerialArm arm = random_arm(random, 6 + trial % 2);
+    SerialArm arm = random_arm(random, 6 + trial % 2);
+    arm.links[static_cast<std::size_t>(trial % 6)].slides = trial % 3 == 2;
     const Eigen::VectorXd q = random_posture(random, arm.joints());
     const Eigen::Isometry3d target = pose(arm, q).tip;
     const Reached found = reach(arm, target, q + 0.1 * random_posture(random, arm.joints()));

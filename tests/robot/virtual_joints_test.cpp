@@ -48,8 +48,9 @@ double largest_difference(const MatrixXd& a, const MatrixXd& b) {
 // The four-axis arm in joint angles and reduced to what its tip can do, four motions of six: one and the same.
 TEST(VirtualJoints, OfRigidLinksAreTheArmOfFlexibleJoints) {
   std::mt19937_64 random(4);
-  for (const int joints : {1, 4, 6}) {
+  for (const int joints : {1, 4, 5, 6}) {
     SerialArm arm = joints == 4 ? huynh_arm() : random_arm(random, joints);
+    if (joints == 5) arm.links[1].slides = arm.links[4].slides = true;
     arm.gravity.setZero();
     const VectorXd q = joints == 4 ? huynh_posture() : random_posture(random, joints);
     const ReducedTip tip = reduced_tip({chain(arm, q)});
