@@ -16,6 +16,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dynamics/dof.hpp"
@@ -95,6 +96,19 @@ py::object sparse_view(const linalg::SparseMatrix& matrix, const py::object& own
 dynamics::Dof dof_from_name(const std::string& text);
 std::vector<std::string> names(const dynamics::DofTable& dofs);
 
+/// A list of values; Python may give one of them in its place.
+template <typename Value>
+struct OneOrMore {
+  std::vector<Value> values;
+};
+
+/// "6 DOFs: P.x, P.y, P.z, …", for what represents an object to a reader.
+std::string listed(const std::string& of, const std::vector<std::string>& names);
+
+/// The DOFs as Python keeps them when it pickles: (point, direction, kind) each.
+py::list state_of(const dynamics::DofTable& dofs);
+dynamics::DofTable dofs_of(const py::list& state);
+
 /// The unit vectors given by letters ("x", "xyz") or by one or several vectors. Throws InputError for anything else.
 std::vector<Eigen::Vector3d> directions(const py::object& words);
 
@@ -102,3 +116,32 @@ std::vector<Eigen::Vector3d> directions(const py::object& words);
 mesh::Region region_on(const mesh::TetMesh& mesh, const py::object& region);
 
 }  // namespace thinwall::python
+
+namespace pybind11::detail {
+
+/// Takes a list, or one value of it, as a list.
+template <typename Value>
+struct type_caster<thinwall::python::OneOrMore<Value>> {
+  using List = make_caster<std::vector<Value>>;
+  PYBIND11_TYPE_CASTER(thinwall::python::OneOrMore<Value>, const_name("Union[") + make_caster<Value>::name +
+                                                               const_name(", ") + List::name + const_name("]"));
+
+  bool load(handle source, bool convert) {
+    List list;
+    const bool is_one = isinstance<array>(source) && reinterpret_borrow<array>(source).ndim() == 0;
+    if (!is_one && list.load(source, convert)) {
+      value.values = cast_op<std::vector<Value>>(std::move(list));
+      return true;
+    }
+    make_caster<Value> one;
+    if (!one.load(source, convert)) return false;
+    value.values = {cast_op<Value>(one)};
+    return true;
+  }
+
+  static handle cast(const thinwall::python::OneOrMore<Value>& from, return_value_policy policy, handle parent) {
+    return List::cast(from.values, policy, parent);
+  }
+};
+
+}  // namespace pybind11::detail

@@ -34,6 +34,23 @@ std::string status(const CoupledResponse& coupled) {
   return "regularised";
 }
 
+py::tuple members_of(const Contact& contact) {
+  py::list springs;
+  for (const auto& s : contact.springs)
+    springs.append(py::make_tuple(s.direction, s.stiffness, s.damping, s.loss_factor, static_cast<int>(s.kind)));
+  return py::make_tuple(contact.point_a, contact.point_b, springs);
+}
+
+Contact contact_of(const py::tuple& members) {
+  Contact result{members[0].cast<std::string>(), members[1].cast<std::string>(), {}};
+  for (const auto& each : members[2].cast<py::list>()) {
+    const auto s = each.cast<py::tuple>();
+    result.springs.push_back({s[0].cast<Eigen::Vector3d>(), s[1].cast<double>(), s[2].cast<double>(),
+                              s[3].cast<double>(), static_cast<dynamics::DofKind>(s[4].cast<int>())});
+  }
+  return result;
+}
+
 }  // namespace
 
 void bind_coupling(py::module_& module) {
@@ -44,24 +61,48 @@ void bind_coupling(py::module_& module) {
            "directions, turns: letters or unit vectors, along which and about which a spring joins both points (N/m,\n"
            "N s/m; N m/rad about them); with infinite stiffness they move as one.")
       .def_readonly("point_a", &Contact::point_a, "The name of the point of the first component.")
-      .def_readonly("point_b", &Contact::point_b, "The name of the point of the second component.");
+      .def_readonly("point_b", &Contact::point_b, "The name of the point of the second component.")
+      .def("__repr__",
+           [](const Contact& c) {
+             return "<Contact of " + c.point_a + " with " + c.point_b + " along " + std::to_string(c.springs.size()) +
+                    " directions>";
+           })
+      .def(py::pickle(&members_of, &contact_of));
   py::class_<CoupledResponse>(module, "CoupledResponse", "A coupled response with the condition of its solution.")
       .def_readonly("response", &CoupledResponse::response, "The Response between all DOFs of the components.")
       .def_readonly("kernel_condition", &CoupledResponse::kernel_condition,
                     "The Skeel condition of the kernel at each line; a view.")
       .def_property_readonly("status", status,
-                             "\"well_conditioned\", or \"ill_conditioned\" if half of the digits are lost.");
+                             "\"well_conditioned\", or \"ill_conditioned\" if half of the digits are lost.")
+      .def("__repr__",
+           [](const CoupledResponse& c) {
+             return "<CoupledResponse, " + status(c) + ", " + std::to_string(c.response.axis.hz.size()) + " lines, " +
+                    listed("DOFs", names(c.response.responses)) + ">";
+           })
+      .def(py::pickle(
+          [](const CoupledResponse& c) {
+            return py::make_tuple(c.response, c.kernel_condition, static_cast<int>(c.status), c.dropped,
+                                  c.compatibility_residual, c.error);
+          },
+          [](const py::tuple& t) {
+            return CoupledResponse{t[0].cast<dynamics::ResponseModel>(),
+                                   t[1].cast<Eigen::VectorXd>(),
+                                   static_cast<coupling::KernelStatus>(t[2].cast<int>()),
+                                   t[3].cast<Eigen::VectorXi>(),
+                                   t[4].cast<Eigen::VectorXd>(),
+                                   t[5].cast<std::vector<Eigen::MatrixXd>>()};
+          }));
   module.def(
       "couple",
-      [](const std::vector<dynamics::SpatialModel>& components, const std::vector<Contact>& contacts) {
-        return coupling::couple(components, contacts);
+      [](const std::vector<dynamics::SpatialModel>& components, const OneOrMore<Contact>& contacts) {
+        return coupling::couple(components, contacts.values);
       },
       "components"_a, "contacts"_a, LongCallGuard(),
       "The SpatialModel of several, whose matrices are assembled at the contacts.");
   module.def(
       "couple",
-      [](const std::vector<dynamics::ResponseModel>& components, const std::vector<Contact>& contacts) {
-        return coupling::couple(components, contacts);
+      [](const std::vector<dynamics::ResponseModel>& components, const OneOrMore<Contact>& contacts) {
+        return coupling::couple(components, contacts.values);
       },
       "components"_a, "contacts"_a, LongCallGuard(),
       "The CoupledResponse of several Responses on equal axes, by receptance coupling.");

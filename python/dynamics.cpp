@@ -1,9 +1,11 @@
 // Bindings of the three kinds of models and the conversions between them.
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "dynamics/conversion.hpp"
 #include "python/bindings.hpp"
 
@@ -21,14 +23,16 @@ dynamics::DofTable table(const std::vector<std::string>& names) {
   return dofs;
 }
 
-SpatialModel spatial_model(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const std::vector<std::string>& dofs,
+SpatialModel spatial_model(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const OneOrMore<std::string>& dofs,
                            const std::optional<Eigen::MatrixXd>& C) {
-  SpatialModel model{M, C.value_or(Eigen::MatrixXd::Zero(M.rows(), M.cols())), K, {}, table(dofs)};
+  SpatialModel model{M, C.value_or(Eigen::MatrixXd::Zero(M.rows(), M.cols())), K, {}, table(dofs.values)};
   dynamics::require_consistent(model);
   return model;
 }
 
-dynamics::FrequencyAxis axis_of(const Eigen::VectorXd& hz) {
+dynamics::FrequencyAxis axis_of(const OneOrMore<double>& frequencies) {
+  const Eigen::VectorXd hz = Eigen::Map<const Eigen::VectorXd>(frequencies.values.data(),
+                                                               static_cast<Eigen::Index>(frequencies.values.size()));
   for (Eigen::Index i = 0; i < hz.size(); ++i) {
     if (!std::isfinite(hz(i)) || hz(i) < 0.0 || (i > 0 && hz(i) <= hz(i - 1)))
       throw core::InputError("frequencies must rise strictly from 0 Hz or above; number " + std::to_string(i) +
@@ -52,17 +56,25 @@ Eigen::VectorXd of_modes(const ModalModel& model, double dynamics::ModeSummary::
 
 using Cube = py::array_t<std::complex<double>, py::array::c_style | py::array::forcecast>;
 
-ResponseModel response(const Eigen::VectorXd& hz, const Cube& H, const std::vector<std::string>& responses,
-                       const std::optional<std::vector<std::string>>& forces) {
-  const std::vector<std::string>& columns = forces ? *forces : responses;
-  const auto rows = static_cast<py::ssize_t>(responses.size()), width = static_cast<py::ssize_t>(columns.size());
-  const bool fits = H.ndim() == 3 ? H.shape(1) == rows && H.shape(2) == width : H.ndim() == 1 && rows * width == 1;
-  if (!fits || H.shape(0) != hz.size())
-    throw core::InputError("H must be (lines, responses, forces), or (lines,) of a single entry");
-  ResponseModel model{axis_of(hz), table(responses), table(columns), {}};
+/// The lines of a contiguous array (lines, rows, columns).
+std::vector<Eigen::MatrixXcd> lines_of(const Cube& H, py::ssize_t lines, py::ssize_t rows, py::ssize_t columns) {
   using Line = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  for (py::ssize_t line = 0; line < hz.size(); ++line)
-    model.H.emplace_back(Eigen::Map<const Line>(H.data() + line * rows * width, rows, width));
+  std::vector<Eigen::MatrixXcd> list;
+  for (py::ssize_t line = 0; line < lines; ++line)
+    list.emplace_back(Eigen::Map<const Line>(H.data() + line * rows * columns, rows, columns));
+  return list;
+}
+
+ResponseModel response(const OneOrMore<double>& frequencies, const Cube& H, const OneOrMore<std::string>& responses,
+                       const std::optional<OneOrMore<std::string>>& forces) {
+  ResponseModel model{axis_of(frequencies), table(responses.values), table((forces ? *forces : responses).values), {}};
+  const auto lines = static_cast<py::ssize_t>(model.axis.hz.size());
+  const auto rows = static_cast<py::ssize_t>(model.responses.size());
+  const auto width = static_cast<py::ssize_t>(model.forces.size());
+  const bool fits = H.ndim() == 3 ? H.shape(1) == rows && H.shape(2) == width : H.ndim() <= 1 && rows * width == 1;
+  if (!fits || (H.ndim() == 0 ? 1 : H.shape(0)) != lines)
+    throw core::InputError("H must be (lines, responses, forces), or (lines,) of a single entry");
+  model.H = lines_of(H, lines, rows, width);
   dynamics::require_complete(model);
   return model;
 }
@@ -88,6 +100,33 @@ py::object values(const py::object& self) {
   return kept["_H"];
 }
 
+std::string band(const dynamics::FrequencyAxis& axis) {
+  if (axis.hz.size() == 0) return "no line";
+  return std::to_string(axis.hz.size()) + " lines, " + core::number_text(axis.hz(0), 6) + " to " +
+         core::number_text(axis.hz(axis.hz.size() - 1), 6) + " Hz";
+}
+
+py::tuple members_of(const ResponseModel& model) {
+  return py::make_tuple(model.axis.hz, one_piece(model), state_of(model.responses), state_of(model.forces));
+}
+
+ResponseModel response_of(const py::tuple& members) {
+  ResponseModel model{{members[0].cast<Eigen::VectorXd>()}, dofs_of(members[2]), dofs_of(members[3]), {}};
+  model.H = lines_of(members[1].cast<Cube>(), model.axis.hz.size(), static_cast<py::ssize_t>(model.responses.size()),
+                     static_cast<py::ssize_t>(model.forces.size()));
+  return model;
+}
+
+SpatialModel spatial_of(const py::tuple& members) {
+  const auto matrix = [&members](std::size_t i) { return members[i].cast<Eigen::MatrixXd>(); };
+  return {matrix(0), matrix(1), matrix(2), matrix(3), dofs_of(members[4]), matrix(5)};
+}
+
+ModalModel modal_of(const py::tuple& members) {
+  return {members[0].cast<Eigen::VectorXcd>(), members[1].cast<Eigen::MatrixXcd>(), members[2].cast<Eigen::MatrixXcd>(),
+          members[3].cast<Eigen::VectorXcd>(), members[4].cast<Eigen::MatrixXd>(),  dofs_of(members[5])};
+}
+
 void bind_spatial(py::module_& module) {
   py::class_<SpatialModel>(module, "SpatialModel",
                            "A model M y'' + C y' + (K + iD) y = Tᵀ f, x = T y, with named DOFs.")
@@ -100,7 +139,14 @@ void bind_spatial(py::module_& module) {
       .def_readonly("T", &SpatialModel::T,
                     "The matrix that gives DOFs from coordinates, (0, 0) if they are equal; a view.")
       .def_property_readonly(
-          "dofs", [](const SpatialModel& model) { return names(model.dofs); }, "The names of the DOFs.");
+          "dofs", [](const SpatialModel& model) { return names(model.dofs); }, "The names of the DOFs.")
+      .def("__repr__",
+           [](const SpatialModel& m) {
+             return "<SpatialModel of " + std::to_string(m.size()) + " coordinates, " + listed("DOFs", names(m.dofs)) +
+                    ">";
+           })
+      .def(py::pickle([](const SpatialModel& m) { return py::make_tuple(m.M, m.C, m.K, m.D, state_of(m.dofs), m.T); },
+                      &spatial_of));
 }
 
 void bind_modal(py::module_& module) {
@@ -117,7 +163,17 @@ void bind_modal(py::module_& module) {
           "The frequency |λ|/2π of each oscillating mode, ascending.")
       .def_property_readonly(
           "damping_ratio", [](const ModalModel& m) { return of_modes(m, &dynamics::ModeSummary::damping_ratio); },
-          "The damping ratio −Re λ/|λ| of each oscillating mode, by ascending frequency.");
+          "The damping ratio −Re λ/|λ| of each oscillating mode, by ascending frequency.")
+      .def("__repr__",
+           [](const ModalModel& m) {
+             return "<ModalModel of " + std::to_string(m.poles.size()) + " poles, " + listed("DOFs", names(m.dofs)) +
+                    ">";
+           })
+      .def(py::pickle(
+          [](const ModalModel& m) {
+            return py::make_tuple(m.poles, m.right, m.left, m.scaling, m.residual, state_of(m.dofs));
+          },
+          &modal_of));
 }
 
 void bind_response(py::module_& module) {
@@ -136,10 +192,38 @@ void bind_response(py::module_& module) {
       .def_property_readonly(
           "forces", [](const ResponseModel& model) { return names(model.forces); }, "The names of the columns' DOFs.")
       .def("entry", dynamics::entry, "response"_a, "force"_a,
-           "The entry of two DOFs, given by their names, over frequency.");
+           "The entry of two DOFs, given by their names, over frequency.")
+      .def("__repr__",
+           [](const ResponseModel& m) {
+             return "<Response at " + band(m.axis) + "; " + listed("responses", names(m.responses)) + "; " +
+                    listed("forces", names(m.forces)) + ">";
+           })
+      .def(py::pickle(&members_of, &response_of));
 }
 
 }  // namespace
+
+std::string listed(const std::string& of, const std::vector<std::string>& names) {
+  std::string text = std::to_string(names.size()) + " " + of;
+  for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 6); ++i) text += (i == 0 ? ": " : ", ") + names[i];
+  return names.size() > 6 ? text + ", …" : text;
+}
+
+py::list state_of(const dynamics::DofTable& dofs) {
+  py::list list;
+  for (const auto& dof : dofs) list.append(py::make_tuple(dof.point, dof.direction, static_cast<int>(dof.kind)));
+  return list;
+}
+
+dynamics::DofTable dofs_of(const py::list& state) {
+  dynamics::DofTable dofs;
+  for (const auto& each : state) {
+    const auto dof = each.cast<py::tuple>();
+    dofs.push_back({dof[0].cast<std::string>(), dof[1].cast<Eigen::Vector3d>(),
+                    static_cast<dynamics::DofKind>(dof[2].cast<int>())});
+  }
+  return dofs;
+}
 
 dynamics::Dof dof_from_name(const std::string& text) {
   if (text.rfind("mode ", 0) == 0) return {text, Eigen::Vector3d::Zero(), dynamics::DofKind::modal};
@@ -199,14 +283,14 @@ void bind_dynamics(py::module_& module) {
              "The ModalModel with all poles. Structural damping becomes viscous with equal loss at each mode.");
   module.def(
       "receptances",
-      [](const SpatialModel& model, const Eigen::VectorXd& hz) {
+      [](const SpatialModel& model, const OneOrMore<double>& hz) {
         return dynamics::direct_response(model, axis_of(hz));
       },
       "model"_a, "frequency_hz"_a, LongCallGuard(),
       "The receptances of a SpatialModel, by one factorisation for each line.");
   module.def(
       "receptances",
-      [](const ModalModel& model, const Eigen::VectorXd& hz) { return dynamics::to_response(model, axis_of(hz)); },
+      [](const ModalModel& model, const OneOrMore<double>& hz) { return dynamics::to_response(model, axis_of(hz)); },
       "model"_a, "frequency_hz"_a, LongCallGuard(), "The receptances of a ModalModel, as the sum over its poles.");
 }
 

@@ -1,6 +1,7 @@
 // Bindings of finite elements: assembly and modes of the full model of a part.
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "fem/mode_check.hpp"
 #include "fem/modes.hpp"
 #include "fem/supports.hpp"
@@ -37,12 +38,12 @@ fem::Model model_of(const Mesh& mesh, int order, const fem::Material& material,
   return fem::build_model(mesh.tets, *mesh.nodes, material, fixed);
 }
 
-std::unique_ptr<Part> assemble(const Mesh& mesh, const fem::Material& material, const std::vector<py::object>& fixed,
+std::unique_ptr<Part> assemble(const Mesh& mesh, const fem::Material& material, const OneOrMore<py::object>& fixed,
                                std::optional<int> order) {
   if (mesh.nodes && order.value_or(2) != 2)
     throw core::InputError("the file's mesh has nodes in the middles of its edges: its order is 2");
   std::vector<fem::Support> supports;
-  for (const py::object& words : fixed) supports.push_back(support_on(mesh.tets, words));
+  for (const py::object& words : fixed.values) supports.push_back(support_on(mesh.tets, words));
   return std::make_unique<Part>(model_of(mesh, order.value_or(4), material, supports));
 }
 
@@ -86,6 +87,12 @@ void bind_model(py::module_& module) {
       .def_property_readonly(
           "rigid_motions", [](const Part& part) { return part.model.rigid_motions; },
           "The number of free rigid motions: 0 for a held part, 6 for a free one.")
+      .def("__repr__",
+           [](const Part& part) {
+             return "<Model of " + std::to_string(part.model.K.rows()) + " free rows, " +
+                    core::number_text(part.model.mass.mass_kg, 4) + " kg, " + std::to_string(part.model.rigid_motions) +
+                    " rigid motions>";
+           })
       .def("displacements", displacements, "values"_a,
            "The displacements of all nodes, (n, 3), from values of the free rows; held ones are zero.");
 }
@@ -105,7 +112,18 @@ void bind_fem(py::module_& module) {
            "youngs_modulus_Pa"_a, "poisson_ratio"_a, "density_kg_m3"_a)
       .def_readonly("youngs_modulus_Pa", &fem::Material::youngs_modulus_Pa, "Young's modulus, Pa.")
       .def_readonly("poisson_ratio", &fem::Material::poisson_ratio, "Poisson's ratio.")
-      .def_readonly("density_kg_m3", &fem::Material::density_kg_m3, "The density, kg/m³.");
+      .def_readonly("density_kg_m3", &fem::Material::density_kg_m3, "The density, kg/m³.")
+      .def("__repr__",
+           [](const fem::Material& m) {
+             return "Material(youngs_modulus_Pa=" + core::number_text(m.youngs_modulus_Pa) +
+                    ", poisson_ratio=" + core::number_text(m.poisson_ratio) +
+                    ", density_kg_m3=" + core::number_text(m.density_kg_m3) + ")";
+           })
+      .def(py::pickle(
+          [](const fem::Material& m) { return py::make_tuple(m.youngs_modulus_Pa, m.poisson_ratio, m.density_kg_m3); },
+          [](const py::tuple& t) {
+            return fem::Material{t[0].cast<double>(), t[1].cast<double>(), t[2].cast<double>()};
+          }));
   bind_model(module);
   py::class_<fem::Modes>(module, "Modes", "Natural modes in ascending order, rigid-body modes first.")
       .def_readonly("frequency_hz", &fem::Modes::frequency_hz, "The frequencies, 0 for rigid-body modes; a view.")
@@ -117,9 +135,16 @@ void bind_fem(py::module_& module) {
                     "The relative residual ‖Kφ − λMφ‖ / (λ ‖Mφ‖) of each mode; a view.")
       .def_readonly("rigid_motions", &fem::Modes::rigid_motions, "The number of rigid-body modes.")
       .def_readonly("round_off", &fem::Modes::round_off,
-                    "The relative change of the lowest frequency that round-off in K may cause.");
+                    "The relative change of the lowest frequency that round-off in K may cause.")
+      .def("__repr__", [](const fem::Modes& modes) {
+        const Eigen::VectorXd& hz = modes.frequency_hz;
+        return "<Modes: " + std::to_string(hz.size()) +
+               (hz.size() > 0
+                    ? " from " + core::number_text(hz(0), 6) + " to " + core::number_text(hz(hz.size() - 1), 6) + " Hz>"
+                    : std::string(">"));
+      });
   module.def(
-      "assemble", assemble, "mesh"_a, "material"_a, "fixed"_a = std::vector<py::object>{}, "order"_a = py::none(),
+      "assemble", assemble, "mesh"_a, "material"_a, "fixed"_a = OneOrMore<py::object>{}, "order"_a = py::none(),
       "The part's Model with Lagrange tetrahedra of order 1 to 6 (by default 4, or 2 for a file of order 2).\n\n"
       "fixed: regions that cannot move, \"x_min\" … \"z_max\" (the mesh's outermost plane), Plane, Block, Ball,\n"
       "or (region, \"xz\") for some axes only. Raises InputError for a region without a face.");

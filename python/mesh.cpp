@@ -1,6 +1,7 @@
 // Bindings of meshes: boxes, prisms, files, and the regions that select their faces.
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "io/mesh/mesh_file.hpp"
 #include "mesh/planar/box_mesh.hpp"
 #include "mesh/solid/quality.hpp"
@@ -48,6 +49,32 @@ py::array tets(const py::object& self) {
   return view(tets.data()->data(), {static_cast<py::ssize_t>(tets.size()), 4}, self);
 }
 
+/// "(0, 0.1, 0.2)".
+std::string text(const Eigen::Vector3d& v) {
+  return "(" + core::number_text(v.x()) + ", " + core::number_text(v.y()) + ", " + core::number_text(v.z()) + ")";
+}
+
+std::string represented(const Mesh& mesh) {
+  return "<Mesh of " + std::to_string(mesh.tets.tets.size()) + " tetrahedra of order " +
+         std::to_string(mesh.nodes ? mesh.nodes->order : 1) + ", " + std::to_string(mesh.tets.vertices.size()) +
+         " corners>";
+}
+
+py::tuple members_of(const Mesh& mesh) {
+  py::object nodes = py::none();
+  if (mesh.nodes) nodes = py::make_tuple(mesh.nodes->order, mesh.nodes->positions, mesh.nodes->elements);
+  return py::make_tuple(mesh.tets.vertices, mesh.tets.tets, nodes);
+}
+
+Mesh mesh_of(const py::tuple& members) {
+  Mesh mesh{{members[0].cast<std::vector<Eigen::Vector3d>>(), members[1].cast<std::vector<std::array<int, 4>>>()}};
+  if (members[2].is_none()) return mesh;
+  const py::tuple nodes = members[2];
+  mesh.nodes = {nodes[0].cast<int>(), nodes[1].cast<decltype(mesh::LagrangeNodes::positions)>(),
+                nodes[2].cast<decltype(mesh::LagrangeNodes::elements)>()};
+  return mesh;
+}
+
 mesh::Region outermost(const mesh::TetMesh& mesh, const std::string& name) {
   Eigen::Vector3d low = mesh.vertices.front(), high = low;
   for (const auto& v : mesh.vertices) {
@@ -63,15 +90,37 @@ void bind_regions(py::module_& module) {
   py::class_<mesh::PlaneRegion>(module, "Plane", "All faces of a mesh in the plane through `point` (m).")
       .def(py::init<Eigen::Vector3d, Eigen::Vector3d>(), "point"_a, "normal"_a)
       .def_readonly("point", &mesh::PlaneRegion::point, "A point of the plane, m.")
-      .def_readonly("normal", &mesh::PlaneRegion::normal, "The normal of the plane.");
+      .def_readonly("normal", &mesh::PlaneRegion::normal, "The normal of the plane.")
+      .def("__repr__",
+           [](const mesh::PlaneRegion& r) {
+             return "Plane(point=" + text(r.point) + ", normal=" + text(r.normal) + ")";
+           })
+      .def(py::pickle([](const mesh::PlaneRegion& r) { return py::make_tuple(r.point, r.normal); },
+                      [](const py::tuple& t) {
+                        return mesh::PlaneRegion{t[0].cast<Eigen::Vector3d>(), t[1].cast<Eigen::Vector3d>()};
+                      }));
   py::class_<mesh::BoxRegion>(module, "Block", "All faces of a mesh inside the block from `min` to `max` (m).")
       .def(py::init<Eigen::Vector3d, Eigen::Vector3d>(), "min"_a, "max"_a)
       .def_readonly("min", &mesh::BoxRegion::min, "The lowest corner, m.")
-      .def_readonly("max", &mesh::BoxRegion::max, "The highest corner, m.");
+      .def_readonly("max", &mesh::BoxRegion::max, "The highest corner, m.")
+      .def("__repr__",
+           [](const mesh::BoxRegion& r) { return "Block(min=" + text(r.min) + ", max=" + text(r.max) + ")"; })
+      .def(py::pickle([](const mesh::BoxRegion& r) { return py::make_tuple(r.min, r.max); },
+                      [](const py::tuple& t) {
+                        return mesh::BoxRegion{t[0].cast<Eigen::Vector3d>(), t[1].cast<Eigen::Vector3d>()};
+                      }));
   py::class_<mesh::SphereRegion>(module, "Ball", "All faces of a mesh inside a ball (m).")
       .def(py::init<Eigen::Vector3d, double>(), "centre"_a, "radius"_a)
       .def_readonly("centre", &mesh::SphereRegion::centre, "The centre, m.")
-      .def_readonly("radius", &mesh::SphereRegion::radius, "The radius, m.");
+      .def_readonly("radius", &mesh::SphereRegion::radius, "The radius, m.")
+      .def("__repr__",
+           [](const mesh::SphereRegion& r) {
+             return "Ball(centre=" + text(r.centre) + ", radius=" + core::number_text(r.radius) + ")";
+           })
+      .def(py::pickle([](const mesh::SphereRegion& r) { return py::make_tuple(r.centre, r.radius); },
+                      [](const py::tuple& t) {
+                        return mesh::SphereRegion{t[0].cast<Eigen::Vector3d>(), t[1].cast<double>()};
+                      }));
 }
 
 }  // namespace
@@ -97,7 +146,9 @@ void bind_mesh(py::module_& module) {
           "The order: 1, or 2 for a file with nodes in the middles of edges.")
       .def_property_readonly(
           "aspect_ratio", [](const Mesh& mesh) { return mesh::quality(mesh.tets).aspect_ratio; },
-          "The longest edge over the smallest height of the worst tetrahedron.");
+          "The longest edge over the smallest height of the worst tetrahedron.")
+      .def("__repr__", represented)
+      .def(py::pickle(&members_of, &mesh_of));
   module.def(
       "box_mesh", box_mesh, "size"_a, "element_size"_a, "layers"_a = 1,
       "spots"_a = std::vector<std::pair<Eigen::Vector2d, double>>{}, LongCallGuard(),

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/units.hpp"
 #include "dynamics/conversion.hpp"
 #include "milling/chart/lobes.hpp"
 #include "milling/chart/sampled_stability.hpp"
@@ -25,10 +26,12 @@ using Structure = std::variant<dynamics::SpatialModel, dynamics::ModalModel, dyn
 MillingProcess process(int teeth, double diameter_m, double K_t, double K_r, double K_a,
                        std::optional<double> radial_depth_m, const std::string& direction,
                        std::optional<std::pair<double, double>> arc_rad, const Eigen::Vector3d& feed,
-                       const Eigen::Vector3d& axis, const std::vector<double>& helices_rad,
-                       const std::vector<double>& pitches_rad) {
+                       const Eigen::Vector3d& axis, OneOrMore<double> helices_rad,
+                       const OneOrMore<double>& pitches_rad) {
+  if (helices_rad.values.size() == 1 && teeth > 1)
+    helices_rad.values.assign(static_cast<std::size_t>(teeth), helices_rad.values.front());
   MillingProcess result;
-  result.cutter = {teeth, diameter_m, pitches_rad, helices_rad, {}, {}};
+  result.cutter = {teeth, diameter_m, pitches_rad.values, helices_rad.values, {}, {}};
   result.coefficients = {.K_t = K_t, .K_r = K_r, .K_a = K_a};
   result.frame = {feed, axis};
   if (radial_depth_m.has_value() == arc_rad.has_value())
@@ -90,9 +93,10 @@ Chart chart_of(const Structure& structure, const MillingProcess& process, const 
   return [by](const std::vector<double>& speeds) { return milling::stability_lobes(*by, speeds); };
 }
 
-Lobes lobes(const Structure& structure, const MillingProcess& process, const std::vector<double>& speeds,
+Lobes lobes(const Structure& structure, const MillingProcess& process, const OneOrMore<double>& spindle_speeds,
             const std::optional<std::string>& at, double depth_limit_m, double error_tolerance,
             const std::string& method, const std::function<void(std::size_t, std::size_t)>& progress) {
+  const std::vector<double>& speeds = spindle_speeds.values;
   const auto chart = [&] {
     const LongCall guard;
     return chart_of(structure, process, at, {.depth_limit_m = depth_limit_m, .error_tolerance = error_tolerance},
@@ -143,6 +147,76 @@ std::vector<std::string> words(const Lobes& lobes, Member milling::LobeRow::*mem
   return result;
 }
 
+py::tuple members_of(const milling::LobeRow& row) {
+  py::list crossings;
+  for (const auto& point : row.crossings)
+    crossings.append(py::make_tuple(point.depth_m, point.chatter_frequency_hz, static_cast<int>(point.kind),
+                                    point.unstable_change, point.error_estimate));
+  return py::make_tuple(row.spindle_speed_rpm, row.limiting_depth_m, row.at_limit, row.chatter_frequency_hz,
+                        static_cast<int>(row.kind), row.error_estimate, row.searched_m, crossings, row.nodes,
+                        static_cast<int>(row.status));
+}
+
+milling::LobeRow row_of(const py::tuple& t) {
+  milling::LobeRow row{.spindle_speed_rpm = t[0].cast<double>(),
+                       .limiting_depth_m = t[1].cast<double>(),
+                       .at_limit = t[2].cast<bool>(),
+                       .chatter_frequency_hz = t[3].cast<double>(),
+                       .kind = static_cast<milling::Bifurcation>(t[4].cast<int>()),
+                       .error_estimate = t[5].cast<double>(),
+                       .searched_m = t[6].cast<double>(),
+                       .crossings = {},
+                       .nodes = t[8].cast<int>(),
+                       .status = static_cast<milling::StabilityStatus>(t[9].cast<int>())};
+  for (const auto& each : t[7].cast<py::list>()) {
+    const auto p = each.cast<py::tuple>();
+    row.crossings.push_back({p[0].cast<double>(), p[1].cast<double>(),
+                             static_cast<milling::Bifurcation>(p[2].cast<int>()), p[3].cast<int>(),
+                             p[4].cast<double>()});
+  }
+  return row;
+}
+
+py::tuple members_of_chart(const Lobes& lobes) {
+  py::list rows;
+  for (const auto& row : lobes.rows) rows.append(members_of(row));
+  return py::make_tuple(lobes.method, lobes.residual_share, rows);
+}
+
+Lobes chart_from(const py::tuple& members) {
+  std::vector<milling::LobeRow> rows;
+  for (const auto& row : members[2].cast<py::list>()) rows.push_back(row_of(row.cast<py::tuple>()));
+  Lobes lobes = milling::lobes_of(std::move(rows), members[0].cast<std::string>());
+  lobes.residual_share = members[1].cast<double>();
+  return lobes;
+}
+
+std::string represented(const Lobes& lobes) {
+  return "<Lobes at " + std::to_string(lobes.rows.size()) + " speeds, least depth " +
+         core::readable_text(lobes.minimum_depth_m, core::kind::length) + " at " +
+         core::number_text(lobes.at_spindle_speed_rpm, 6) + " rpm>";
+}
+
+py::tuple members_of_process(const MillingProcess& p) {
+  return py::make_tuple(p.cutter.teeth, p.cutter.diameter_m, p.coefficients.K_t, p.coefficients.K_r, p.coefficients.K_a,
+                        std::pair(p.engagement.entry_rad, p.engagement.exit_rad), p.frame.feed, p.frame.axis,
+                        p.cutter.helices_rad, p.cutter.pitches_rad);
+}
+
+MillingProcess process_of(const py::tuple& t) {
+  const auto numbers = [&t](std::size_t i) { return OneOrMore<double>{t[i].cast<std::vector<double>>()}; };
+  return process(t[0].cast<int>(), t[1].cast<double>(), t[2].cast<double>(), t[3].cast<double>(), t[4].cast<double>(),
+                 {}, "down", t[5].cast<std::pair<double, double>>(), t[6].cast<Eigen::Vector3d>(),
+                 t[7].cast<Eigen::Vector3d>(), numbers(8), numbers(9));
+}
+
+std::string represented(const MillingProcess& p) {
+  return "<MillingProcess of " + std::to_string(p.cutter.teeth) + " teeth, diameter " +
+         core::readable_text(p.cutter.diameter_m, core::kind::length) + ", K_t " +
+         core::readable_text(p.coefficients.K_t, core::kind::stress) + ", arc " +
+         core::number_text(p.engagement.entry_rad, 4) + " to " + core::number_text(p.engagement.exit_rad, 4) + " rad>";
+}
+
 void bind_lobes(py::module_& module) {
   using milling::LobeRow;
   py::class_<Lobes>(module, "Lobes", "A stability chart with one value for each spindle speed.")
@@ -173,13 +247,35 @@ void bind_lobes(py::module_& module) {
           "The kind of the instability: hopf, flip or fold.")
       .def_property_readonly(
           "status", [](const Lobes& l) { return words(l, &LobeRow::status); },
-          "\"converged\", or the reason why it is not.");
+          "\"converged\", or the reason why it is not.")
+      .def("__repr__", [](const Lobes& lobes) { return represented(lobes); })
+      .def(py::pickle(&members_of_chart, &chart_from));
   py::class_<milling::Multiplier>(module, "Multiplier", "The dominant Floquet multiplier of a cut.")
       .def_readonly("value", &milling::Multiplier::value, "The multiplier μ, with Im μ ≥ 0.")
       .def_readonly("modulus", &milling::Multiplier::modulus, "The modulus |μ|; the cut is stable below 1.")
       .def_readonly("error_estimate", &milling::Multiplier::error_estimate,
                     "The estimated relative error of the modulus.")
-      .def_readonly("chatter_frequency_hz", &milling::Multiplier::chatter_frequency_hz, "The frequency of the motion.");
+      .def_readonly("chatter_frequency_hz", &milling::Multiplier::chatter_frequency_hz, "The frequency of the motion.")
+      .def("__repr__",
+           [](const milling::Multiplier& m) {
+             return "<Multiplier of modulus " + core::number_text(m.modulus, 6) + ", " +
+                    (m.modulus < 1.0 ? "stable" : "unstable") + ", " + core::number_text(m.chatter_frequency_hz, 6) +
+                    " Hz>";
+           })
+      .def(py::pickle(
+          [](const milling::Multiplier& m) {
+            return py::make_tuple(m.value, m.modulus, m.error_estimate, m.chatter_frequency_hz,
+                                  static_cast<int>(m.kind), m.nodes, static_cast<int>(m.status));
+          },
+          [](const py::tuple& t) {
+            return milling::Multiplier{t[0].cast<std::complex<double>>(),
+                                       t[1].cast<double>(),
+                                       t[2].cast<double>(),
+                                       t[3].cast<double>(),
+                                       static_cast<milling::Bifurcation>(t[4].cast<int>()),
+                                       t[5].cast<int>(),
+                                       static_cast<milling::StabilityStatus>(t[6].cast<int>())};
+          }));
 }
 
 }  // namespace
@@ -190,10 +286,12 @@ void bind_milling(py::module_& module) {
       .def(py::init(&process), py::kw_only(), "teeth"_a, "diameter_m"_a, "K_t"_a, "K_r"_a, "K_a"_a = 0.0,
            "radial_depth_m"_a = py::none(), "direction"_a = "down", "arc_rad"_a = py::none(),
            "feed"_a = Eigen::Vector3d(1, 0, 0), "axis"_a = Eigen::Vector3d(0, 0, 1),
-           "helices_rad"_a = std::vector<double>{}, "pitches_rad"_a = std::vector<double>{},
+           "helices_rad"_a = OneOrMore<double>{}, "pitches_rad"_a = OneOrMore<double>{},
            "K_t, K_r, K_a: cutting coefficients, N/m². radial_depth_m with direction \"up\" or \"down\", or arc_rad =\n"
            "(entry, exit). feed, axis: unit vectors in the structure's axes, tool against part, tip to spindle.\n"
-           "helices_rad, pitches_rad: one value for each tooth.");
+           "helices_rad, pitches_rad: one value for each tooth; one helix stands for all.")
+      .def("__repr__", [](const MillingProcess& p) { return represented(p); })
+      .def(py::pickle(&members_of_process, &process_of));
   bind_lobes(module);
   module.def("lobes", lobes, "structure"_a, "process"_a, "spindle_speeds_rpm"_a, py::kw_only(), "at"_a = py::none(),
              "depth_limit_m"_a = 0.02, "error_tolerance"_a = 1e-4, "method"_a = "direct", "progress"_a = py::none(),

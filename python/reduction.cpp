@@ -1,6 +1,7 @@
 // Bindings of reduction: from a full model to a small one that keeps its points.
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "fem/modes.hpp"
 #include "fem/points.hpp"
 #include "linalg/sparse_cholesky.hpp"
@@ -68,16 +69,16 @@ reduction::CraigBampton reduced(Part& part, const reduction::Interface& interfac
   return reduction::craig_bampton(model.K, model.M, inverse, interface, options);
 }
 
-reduction::CraigBampton craig_bampton(Part& part, const std::vector<Point>& points, int modes,
+reduction::CraigBampton craig_bampton(Part& part, const OneOrMore<Point>& points, int modes,
                                       std::optional<double> up_to_hz) {
-  auto result = reduced(part, interface_of(part.model, points), {modes, up_to_hz});
+  auto result = reduced(part, interface_of(part.model, points.values), {modes, up_to_hz});
   require_converged(result.status);
   return result;
 }
 
-reduction::ReducedModel reduce(Part& part, const std::vector<Point>& points, const std::string& method, int modes,
+reduction::ReducedModel reduce(Part& part, const OneOrMore<Point>& points, const std::string& method, int modes,
                                double damping_ratio) {
-  const auto interface = interface_of(part.model, points);
+  const auto interface = interface_of(part.model, points.values);
   const LongCall guard;
   const fem::Model& model = part.model;
   reduction::FullModel full{model.K, model.M, model.node_of_row, {}};
@@ -99,10 +100,10 @@ py::list identified(const Eigen::VectorXd& hz, const Eigen::VectorXcd& H) {
 void bind_damping(py::module_& module) {
   module.def(
       "with_modal_damping",
-      [](const SpatialModel& model, double ratio, const std::vector<double>& ratios) {
-        return reduction::with_modal_damping(model, ratios, ratio);
+      [](const SpatialModel& model, double ratio, const OneOrMore<double>& ratios) {
+        return reduction::with_modal_damping(model, ratios.values, ratio);
       },
-      "model"_a, "ratio"_a, "ratios"_a = std::vector<double>{}, LongCallGuard(),
+      "model"_a, "ratio"_a, "ratios"_a = OneOrMore<double>{}, LongCallGuard(),
       "The model with a damping ratio for every elastic mode; `ratios` are those of the first ones.");
   module.def("with_rayleigh_damping", reduction::with_rayleigh_damping, "model"_a, "alpha_per_s"_a, "beta_s"_a,
              "The model with C = α M + β K.");
@@ -125,14 +126,38 @@ void bind_reduction(py::module_& module) {
           "name", [](const Point& point) { return point.point.name; },
           "The name of the point in the DOFs of the reduced model.")
       .def_property_readonly(
-          "position", [](const Point& point) { return point.point.position_m; }, "The position, m.");
+          "position", [](const Point& point) { return point.point.position_m; }, "The position, m.")
+      .def("__repr__",
+           [](const Point& p) {
+             const Eigen::Vector3d& at = p.point.position_m;
+             return "<Point " + p.point.name + " at (" + core::number_text(at.x()) + ", " + core::number_text(at.y()) +
+                    ", " + core::number_text(at.z()) + ") m, " +
+                    std::to_string(p.point.directions.size() + p.point.turns.size()) + " DOFs>";
+           })
+      .def(py::pickle(
+          [](const Point& p) {
+            return py::make_tuple(p.point.name, p.point.position_m, p.point.directions, p.point.patch_radius_m,
+                                  p.point.turns, p.region);
+          },
+          [](const py::tuple& t) {
+            return Point{{.name = t[0].cast<std::string>(),
+                          .position_m = t[1].cast<Eigen::Vector3d>(),
+                          .patch_radius_m = t[3].cast<double>(),
+                          .directions = t[2].cast<std::vector<Eigen::Vector3d>>(),
+                          .turns = t[4].cast<std::vector<Eigen::Vector3d>>()},
+                         t[5]};
+          }));
   py::class_<reduction::CraigBampton>(module, "CraigBampton",
                                       "A reduced model and its expansion u = T q to the full one.")
       .def_readonly("model", &reduction::CraigBampton::model, "The undamped SpatialModel, with the points' DOFs first.")
       .def_readonly("T", &reduction::CraigBampton::T,
                     "The constraint and fixed-interface modes, (free rows, coordinates); a view.")
       .def_readonly("fixed_interface_hz", &reduction::CraigBampton::fixed_interface_hz,
-                    "The frequencies of the kept modes, with the points held; a view.");
+                    "The frequencies of the kept modes, with the points held; a view.")
+      .def("__repr__", [](const reduction::CraigBampton& r) {
+        return "<CraigBampton of " + std::to_string(r.T.rows()) + " free rows to " + std::to_string(r.T.cols()) +
+               " coordinates, " + listed("DOFs", names(r.model.dofs)) + ">";
+      });
   module.def("craig_bampton", craig_bampton, "model"_a, "points"_a, "modes"_a = 30, "up_to_hz"_a = py::none(),
              "Reduces a part to its points and some modes with them held (Craig & Bampton 1968).\n\n"
              "modes: their number; up_to_hz: all modes below a frequency instead.");

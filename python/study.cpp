@@ -30,13 +30,13 @@ LoadedCase read_again(const LoadedCase& loaded, std::vector<std::string> overrid
   return {loaded.path, std::move(overrides), std::move(value)};
 }
 
-LoadedCase load(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  return {path, overrides, cases::read_case(path, overrides)};
+LoadedCase load(const std::filesystem::path& path, const OneOrMore<std::string>& overrides) {
+  return {path, overrides.values, cases::read_case(path, overrides.values)};
 }
 
 LoadedCase parse(const std::string& text, const std::filesystem::path& folder,
-                 const std::vector<std::string>& overrides) {
-  return {{}, overrides, cases::parse_case(text, folder, "case.toml", overrides)};
+                 const OneOrMore<std::string>& overrides) {
+  return {{}, overrides.values, cases::parse_case(text, folder, "case.toml", overrides.values)};
 }
 
 /// "part.thickness" and 0.003 or "3 mm" as an override of the command line; a bare number is in SI.
@@ -50,9 +50,9 @@ LoadedCase with(const LoadedCase& loaded, const std::string& key, const py::obje
   return read_again(loaded, std::move(overrides));
 }
 
-std::vector<std::string> check(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+std::vector<std::string> check(const std::filesystem::path& path, const OneOrMore<std::string>& overrides) {
   try {
-    (void)cases::read_case(path, overrides);
+    (void)cases::read_case(path, overrides.values);
     return {};
   } catch (const cases::CaseError& error) {
     std::vector<std::string> lines;
@@ -60,6 +60,19 @@ std::vector<std::string> check(const std::filesystem::path& path, const std::vec
       lines.push_back(cases::problem_line(error.source.name, problem));
     return lines;
   }
+}
+
+/// A case from a file is read again where it is unpickled; one from text is its text.
+py::tuple members_of(const LoadedCase& loaded) {
+  const bool is_file = !loaded.path.empty();
+  return py::make_tuple(is_file, is_file ? std::filesystem::absolute(loaded.path).string() : loaded.value.source,
+                        std::filesystem::absolute(loaded.value.folder).string(), loaded.overrides);
+}
+
+LoadedCase case_of(const py::tuple& members) {
+  const OneOrMore<std::string> overrides{members[3].cast<std::vector<std::string>>()};
+  const auto text = members[1].cast<std::string>();
+  return members[0].cast<bool>() ? load(text, overrides) : parse(text, members[2].cast<std::string>(), overrides);
 }
 
 study::Results run(const LoadedCase& loaded, const std::function<void(const std::string&)>& progress) {
@@ -98,10 +111,10 @@ std::map<std::string, dynamics::ResponseModel> responses(const study::Results& r
 
 void bind_study(py::module_& module) {
   py::class_<LoadedCase>(module, "Case", "A case, as read from its file.")
-      .def_static("load", load, "path"_a, "overrides"_a = std::vector<std::string>{},
+      .def_static("load", load, "path"_a, "overrides"_a = OneOrMore<std::string>{},
                   "A case from its folder or its file. overrides: \"key=value\" as on the command line. Raises\n"
                   "InputError with every problem of the case.")
-      .def_static("parse", parse, "text"_a, "folder"_a = ".", "overrides"_a = std::vector<std::string>{},
+      .def_static("parse", parse, "text"_a, "folder"_a = ".", "overrides"_a = OneOrMore<std::string>{},
                   "A case from its text; files that it names are relative to `folder`.")
       .def("with_", with, "key"_a, "value"_a,
            "A copy of the case with one value changed, a number in SI or a text with its unit: "
@@ -113,15 +126,28 @@ void bind_study(py::module_& module) {
       .def_property_readonly(
           "name", [](const LoadedCase& c) { return c.value.name; }, "The name of the case's folder.")
       .def_property_readonly(
-          "title", [](const LoadedCase& c) { return c.value.title; }, "The title of the case.");
+          "title", [](const LoadedCase& c) { return c.value.title; }, "The title of the case.")
+      .def("__repr__",
+           [](const LoadedCase& c) {
+             const std::string& name = c.value.name.empty() ? "from text" : c.value.name;
+             return "<Case " + name + (c.value.title.empty() ? "" : ": " + c.value.title) +
+                    (c.overrides.empty() ? "" : "; " + listed("overrides", c.overrides)) + ">";
+           })
+      .def(py::pickle(&members_of, &case_of));
   py::class_<study::Results>(module, "StudyResults", "All results of a run, in memory.")
       .def_property_readonly(
           "summary", [](const study::Results& r) { return py::module_::import("json").attr("loads")(summary_text(r)); },
           "The figures of summary.json, as a dict.")
       .def_property_readonly("lobes", charts, "The stability charts by their names: part, supported, tool.")
       .def_property_readonly("frf", responses,
-                             "The receptances by their names: part, robot, coupled_receptance, coupled_spatial.");
-  module.def("check", check, "path"_a, "overrides"_a = std::vector<std::string>{},
+                             "The receptances by their names: part, robot, coupled_receptance, coupled_spatial.")
+      .def("__repr__", [](const study::Results& r) {
+        std::vector<std::string> frf, lobes;
+        for (const auto& [name, response] : responses(r)) frf.push_back(name);
+        for (const auto& [name, chart] : charts(r)) lobes.push_back(name);
+        return "<StudyResults: " + listed("charts", lobes) + "; " + listed("responses", frf) + ">";
+      });
+  module.def("check", check, "path"_a, "overrides"_a = OneOrMore<std::string>{},
              "Every problem of a case, one line each with its place; empty if there is none. Nothing is computed.");
   module.def("run", run, "case"_a, "progress"_a = py::none(),
              "Computes all that the case asks for, without files. progress(stage): called when each stage begins;\n"
