@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <set>
@@ -40,13 +41,18 @@ class GmshReader {
   void read_format() {
     SurfaceText& text = in_.text();
     while (text.rest().starts_with("$Comments")) pass_section("$Comments");
-    if (text.word() != "$MeshFormat") in_.fail("the file does not begin with $MeshFormat: no mesh of Gmsh, or MSH 1");
+    if (text.rest().starts_with("$NOD")) {  // MSH 1, which has no head
+      is_2_ = mesh_.repeated_cells_are_one = true;
+      return;
+    }
+    if (text.word() != "$MeshFormat") in_.fail("the file does not begin with $MeshFormat: no mesh of Gmsh");
     const std::string version(text.word());
     const bool is_binary = text.whole_number("the file type, 0 or 1,", 0, 1) == 1;
     if (text.whole_number("the size of a real", 1, 1000) != 8) in_.fail("reals of other than 8 bytes are not read");
     is_2_ = version.starts_with("2");
+    is_3_ = version.starts_with("3");
     is_40_ = version == "4" || version == "4.0";
-    if (!is_2_ && !is_40_ && version != "4.1")
+    if (!is_2_ && !is_3_ && !is_40_ && version != "4.1")
       in_.fail("MSH version " + io::quoted(version) + " is not read; save the mesh as version 2.2 or 4.1");
     if (is_40_ && is_binary) in_.fail("MSH 4.0 is read as text only; save the mesh as version 4.1");
     text.skip_line();
@@ -57,8 +63,8 @@ class GmshReader {
 
   void require_end(const std::string& section) {
     const std::string_view found = in_.text().word();
-    if (found != "$End" + section.substr(1))
-      in_.fail(io::quoted(found) + " where $End" + section.substr(1) + " belongs: the section's counts do not fit");
+    const std::string end = (section == "$NOD" || section == "$ELM" ? "$END" : "$End") + section.substr(1);
+    if (found != end) in_.fail(io::quoted(found) + " where " + end + " belongs: the section's counts do not fit");
     in_.text().skip_line();
   }
 
@@ -67,11 +73,13 @@ class GmshReader {
       read_names();
     } else if (name == "$Entities" && !is_2_) {
       in_.text().skip_line();
-      read_entities();
-    } else if (name == "$Nodes" || (name == "$ParametricNodes" && is_2_)) {
-      is_2_ ? read_nodes_2(name == "$ParametricNodes") : read_nodes_4();
+      is_3_ ? read_entities_3() : read_entities();
+    } else if (name == "$Nodes" || name == "$NOD" || (name == "$ParametricNodes" && is_2_)) {
+      is_3_ ? read_nodes_3() : is_2_ ? read_nodes_2(name == "$ParametricNodes") : read_nodes_4();
     } else if (name == "$Elements") {
-      is_2_ ? read_elements_2() : read_elements_4();
+      is_3_ ? read_elements_3() : is_2_ ? read_elements_2() : read_elements_4();
+    } else if (name == "$ELM") {
+      read_elements_1();
     } else if (name.starts_with("$")) {
       if (name == "$PartitionedEntities")
         mesh_.notices.emplace_back("the mesh is partitioned: its physical groups are not read");
@@ -128,6 +136,23 @@ class GmshReader {
     for (std::int64_t p = 0; p < parts; ++p) static_cast<void>(in_.integer("a bounding entity", -any, any));
   }
 
+  /// Reads the physical groups of each entity, which are text in binary files, too.
+  void read_entities_3() {
+    SurfaceText& text = in_.text();
+    std::array<std::int64_t, 4> counts{};
+    for (auto& count : counts) count = text.whole_number("a number of entities", 0, any);
+    for (std::int64_t dimension = 0; dimension < 4; ++dimension) {
+      for (std::int64_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) {
+        const auto tag = text.whole_number("the number of an entity", -any, any);
+        const auto parts = dimension == 0 ? 0 : text.whole_number("a number of bounding entities", 0, any);
+        for (std::int64_t p = 0; p < parts; ++p) static_cast<void>(text.whole_number("a bounding entity", -any, any));
+        const auto groups = text.whole_number("a number of physical groups", 0, most_groups);
+        for (std::int64_t g = 0; g < groups; ++g)
+          groups_of_entity_[{dimension, tag}].insert(std::abs(text.whole_number("the number of a group", -any, any)));
+      }
+    }
+  }
+
   Eigen::Vector3d position() {
     Eigen::Vector3d x;
     for (Eigen::Index k = 0; k < 3; ++k) x(k) = metres_per_unit_ * in_.real("a coordinate");
@@ -143,6 +168,20 @@ class GmshReader {
       const auto line = in_.line();
       mesh_.nodes.push_back({label, line, position()});
       if (parametric) in_.text().skip_line();
+    }
+  }
+
+  /// Reads nodes with the entity on which each lies, 0 for none, its dimension and as many parameters.
+  void read_nodes_3() {
+    const auto count = in_.text().whole_number("the number of nodes", 0, any);
+    in_.text().skip_line();
+    for (std::int64_t i = 0; i < count; ++i) {
+      const auto label = in_.integer("the number of a node", 1, any);
+      const auto line = in_.line();
+      mesh_.nodes.push_back({label, line, position()});
+      if (in_.integer("the entity of a node", -any, any) == 0) continue;
+      const auto parameters = in_.integer("the dimension of a node's entity", 0, 3);
+      for (std::int64_t k = 0; k < parameters; ++k) static_cast<void>(in_.real("a parameter of a node"));
     }
   }
 
@@ -216,6 +255,44 @@ class GmshReader {
     }
   }
 
+  /// Reads the elements of MSH 1, each with its physical group, 0 for none, its entity and its count of nodes.
+  void read_elements_1() {
+    const auto count = in_.text().whole_number("the number of elements", 0, any);
+    for (std::int64_t i = 0; i < count; ++i) {
+      const auto label = in_.integer("the number of an element", 1, any);
+      const GmshElement& element = element_of_type(in_.integer("the type of an element", 1, any));
+      const auto group = in_.integer("the physical group of an element", -any, any);
+      static_cast<void>(in_.integer("the entity of an element", -any, any));
+      require_nodes(element, in_.integer("a number of nodes", 0, any), true);
+      read_element_nodes(label, element, group == 0 ? std::set<std::int64_t>{} : std::set{std::abs(group)}, false);
+    }
+  }
+
+  /// Reads the elements of MSH 3, each with its entity and the count of what follows: nodes, and perhaps its parent and
+  /// parts of a partition.
+  void read_elements_3() {
+    const auto count = in_.text().whole_number("the number of elements", 0, any);
+    in_.text().skip_line();
+    for (std::int64_t i = 0; i < count; ++i) {
+      const auto label = in_.integer("the number of an element", 1, any);
+      const GmshElement& element = element_of_type(in_.integer("the type of an element", 1, any));
+      const auto entity = in_.integer("the entity of an element", -any, any);
+      const auto data = in_.integer("a number of nodes", 0, any);
+      require_nodes(element, data, false);
+      const auto groups = groups_of_entity_.find({element.dimension, entity});
+      read_element_nodes(label, element, groups == groups_of_entity_.end() ? std::set<std::int64_t>{} : groups->second,
+                         false);
+      for (auto k = static_cast<std::int64_t>(element.nodes); k < data; ++k)
+        static_cast<void>(in_.integer("what follows the nodes of an element", -any, any));
+    }
+  }
+
+  void require_nodes(const GmshElement& element, std::int64_t found, bool exactly) const {
+    const auto wanted = static_cast<std::int64_t>(element.nodes);
+    if (found == wanted || (!exactly && found > wanted)) return;
+    in_.fail("an element of " + std::to_string(wanted) + " nodes has " + std::to_string(found));
+  }
+
   /// Reads an element of MSH 2, whose first tag is the physical group, 0 for none.
   void read_element_2(std::int64_t label, const GmshElement& element, std::int64_t tags) {
     std::set<std::int64_t> groups;
@@ -273,7 +350,8 @@ class GmshReader {
 
   GmshNumbers in_;
   double metres_per_unit_;
-  bool is_2_ = false;
+  bool is_2_ = false;  ///< or MSH 1, which differs by its sections
+  bool is_3_ = false;
   bool is_40_ = false;
   mesh::LabelledMesh mesh_;
   std::map<Group, std::string> names_;

@@ -1,7 +1,8 @@
 #pragma once
-// Meshes of Gmsh: MSH 2 and 4.1 in text and binary form, MSH 4.0 in text form.
+// Meshes of Gmsh: MSH 2, 3 and 4.1 in text and binary form, MSH 1 and 4.0 in text form.
 //
-// Layout: Geuzaine & Remacle, Gmsh Reference Manual 4.8, "MSH file format" and "Legacy formats".
+// Layout: Geuzaine & Remacle, Gmsh Reference Manual 4.8, "MSH file format" and "Legacy formats"; MSH 3, which the
+// manual leaves out, as Gmsh writes it.
 
 #include <filesystem>
 #include <string>

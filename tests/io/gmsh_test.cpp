@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <numbers>
+#include <set>
+#include <sstream>
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "io/mesh/mesh_file.hpp"
 #include "mesh_bytes.hpp"
@@ -40,6 +44,124 @@ TEST(GmshFiles, OfAllVersionsAreTheSameMesh) {
   for (const int node : mesh::node_set(first, "clamped", "").nodes)
     EXPECT_NEAR(first.nodes.positions(node, 0), 0.0, 1e-15);
   EXPECT_EQ(mesh::node_set(first, "point_7", "").nodes.size(), 1U) << "a physical group without a name";
+}
+
+/// The lines of the section between $name and $Endname, without the count.
+std::vector<std::string> section(const std::string& text, const std::string& name) {
+  const std::size_t begin = text.find('\n', text.find("$" + name + "\n")) + 1;
+  std::istringstream in(text.substr(begin, text.find("$End" + name) - begin));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  lines.erase(lines.begin());
+  return lines;
+}
+
+/// An element line of MSH 2: number, type, tags (physical group, entity), nodes.
+struct Msh2Element {
+  std::vector<int> words{};
+  int number() const { return words.at(0); }
+  int type() const { return words.at(1); }
+  int group() const { return words.at(3); }
+  int entity() const { return words.at(4); }
+  std::vector<int> nodes() const { return {words.begin() + 3 + words.at(2), words.end()}; }
+};
+
+std::vector<Msh2Element> elements_of(const std::string& msh2) {
+  std::vector<Msh2Element> elements;
+  for (const std::string& line : section(msh2, "Elements")) {
+    std::istringstream in(line);
+    elements.emplace_back();
+    for (int word = 0; in >> word;) elements.back().words.push_back(word);
+  }
+  return elements;
+}
+
+std::string words(const std::vector<int>& numbers) {
+  std::string text;
+  for (const int number : numbers) text += " " + std::to_string(number);
+  return text;
+}
+
+/// The box as MSH 1: $NOD and $ELM, element: number, type, group, entity, count of nodes, nodes (manual, "MSH file
+/// format version 1 (Legacy)").
+std::string as_msh_1(const std::string& msh2) {
+  const auto nodes = section(msh2, "Nodes");
+  const auto elements = elements_of(msh2);
+  std::string text = "$NOD\n" + std::to_string(nodes.size()) + "\n";
+  for (const std::string& node : nodes) text += node + "\n";
+  text += "$ENDNOD\n$ELM\n" + std::to_string(elements.size()) + "\n";
+  for (const Msh2Element& e : elements)
+    text += std::to_string(e.number()) + words({e.type(), e.group(), e.entity(), static_cast<int>(e.nodes().size())}) +
+            words(e.nodes()) + "\n";
+  return text + "$ENDELM\n";
+}
+
+/// The box as MSH 3: nodes with an entity, its dimension and parameters; elements with entity and count of data.
+std::string as_msh_3(const std::string& msh2) {
+  const auto nodes = section(msh2, "Nodes");
+  std::map<std::pair<int, int>, std::set<int>> groups;  // dimension and entity
+  std::vector<Msh2Element> once;
+  std::set<int> known;
+  for (const Msh2Element& e : elements_of(msh2)) {
+    const int dimension = e.type() == 15 ? 0 : e.type() == 8 ? 1 : e.type() == 9 ? 2 : 3;
+    groups[{dimension, e.entity()}].insert(e.group());
+    if (known.insert(e.number()).second) once.push_back(e);
+  }
+  std::string entities, counts;
+  for (int dimension = 0; dimension < 4; ++dimension) {
+    int count = 0;
+    for (const auto& [entity, of] : groups) {
+      if (entity.first != dimension) continue;
+      ++count;
+      entities += std::to_string(entity.second) + (dimension == 0 ? "" : " 2 7 -8") +
+                  words({static_cast<int>(of.size())}) + words({of.begin(), of.end()}) + " \n";
+    }
+    counts += std::to_string(count) + " ";
+  }
+  std::string text = "$MeshFormat\n3 0 8\n$EndMeshFormat\n$PhysicalNames\n";
+  const auto names = section(msh2, "PhysicalNames");
+  text += std::to_string(names.size()) + "\n";
+  for (const std::string& name : names) text += name + "\n";
+  text += "$EndPhysicalNames\n$Entities\n" + counts + "\n" + entities + "$EndEntities\n$Nodes\n" +
+          std::to_string(nodes.size()) + "\n";
+  const char* on[] = {" 0", " 4 0", " 4 1 0.5", " 4 2 0.5 0.25", " 4 3 0.1 0.2 0.3"};
+  for (std::size_t i = 0; i < nodes.size(); ++i) text += nodes[i] + on[i % 5] + "\n";
+  text += "$EndNodes\n$Elements\n" + std::to_string(once.size()) + "\n";
+  for (const Msh2Element& e : once) {
+    const auto of = e.nodes();
+    const bool parted = e.number() % 2 == 0;  // with a part behind the nodes
+    text += std::to_string(e.number()) + words({e.type(), e.entity(), static_cast<int>(of.size()) + (parted ? 1 : 0)}) +
+            words(of) + (parted ? " 1" : "") + "\n";
+  }
+  return text + "$EndElements\n";
+}
+
+// No program at hand writes them; they are made from the box in MSH 2 by the manual and by what Gmsh's own reader
+// takes.
+TEST(GmshFiles, OfVersionsOneAndThreeAreTheSameMesh) {
+  const std::string two = core::read_file(data_file("box_22_ascii.msh"));
+  const mesh::SolidMesh first = read_mm("box_22_ascii.msh");
+  const auto expect_same = [&](const std::string& text, const std::string& clamped) {
+    const mesh::SolidMesh solid = mesh::solid_mesh(gmsh_mesh(text, "box.msh", 1e-3));
+    ASSERT_EQ(solid.nodes.elements.rows(), first.nodes.elements.rows());
+    EXPECT_TRUE(solid.nodes.elements == first.nodes.elements);
+    EXPECT_TRUE(solid.nodes.positions == first.nodes.positions);
+    EXPECT_EQ(mesh::node_set(solid, clamped, "").nodes, mesh::node_set(first, "clamped", "").nodes);
+  };
+  int clamped = 0;
+  for (const std::string& name : section(two, "PhysicalNames")) {
+    if (name.find("clamped") != std::string::npos) clamped = std::stoi(name.substr(2));
+  }
+  expect_same(as_msh_1(two), "surface_" + std::to_string(clamped));
+  expect_same(as_msh_3(two), "clamped");
+  for (const std::string& text : {as_msh_1(two), as_msh_3(two)}) {
+    EXPECT_THROW((void)gmsh_mesh(text.substr(0, text.size() / 2), "box.msh", 1e-3), core::DataError);
+  }
+  const std::string one = "$NOD\n1\n1 0 0 0\n$ENDNOD\n$ELM\n1\n1 4 0 1 3 1 1 1\n$ENDELM\n";
+  EXPECT_NE(test::message_of<core::DataError>([&] {
+              (void)gmsh_mesh(one, "box.msh", 1.0);
+            }).find("an element of 4 nodes has 3"),
+            std::string::npos);
 }
 
 struct Kind {
@@ -189,7 +311,7 @@ INSTANTIATE_TEST_SUITE_P(
     Files, BadGmsh,
     ::testing::Values(
         BadFile{"Empty", "", {"bad.msh:1:", "$MeshFormat"}},
-        BadFile{"Version3", "$MeshFormat\n3 0 8\n", {"bad.msh:2:", "\"3\"", "2.2 or 4.1"}},
+        BadFile{"Version5", "$MeshFormat\n5 0 8\n", {"bad.msh:2:", "\"5\"", "2.2 or 4.1"}},
         BadFile{"Binary40", "$MeshFormat\n4 1 8\n", {"4.0", "4.1"}}, BadFile{"HeadingOnly", heading, {"$Nodes"}},
         BadFile{"NodesOnly", heading + nodes, {"no solid element"}},
         BadFile{"CutInNodes", heading + nodes.substr(0, 30), {"bad.msh:", "truncated"}},
