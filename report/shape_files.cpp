@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
+#include <utility>
 
 #include "dynamics/mac.hpp"
 #include "io/results/csv_table.hpp"
@@ -14,6 +14,7 @@
 #include "io/results/vtu.hpp"
 #include "mesh/solid/tessellation.hpp"
 #include "report/coupled_shapes.hpp"
+#include "report/test_shapes.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/part_geometry.hpp"
 #include "study/part/discretisation.hpp"
@@ -25,19 +26,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The factor by which a viewer may show displacements whose largest is 1, such as ParaView's Warp By Vector: a
+/// twentieth of the part's diagonal, m.
+io::FieldNumber warp_factor(const fem::Model& model) {
+  const auto& places = model.nodes.positions;
+  return {"warp_factor", 0.05 * (places.colwise().maxCoeff() - places.colwise().minCoeff()).norm()};
+}
+
 /// One shape a file, and the collection that names them in order.
 struct ShapeSeries {
   fs::path folder;
   std::string stem;  ///< "part_mode", "coupled_mode"
   std::vector<io::PvdEntry> entries;
 
-  /// `shape` is over the free rows of the model, computed when its file is written.
+  /// `shape` is over the free rows of the model, computed when its file is written; `values` are written with it.
   void add(FileTasks& files, const fem::Model& model, const std::function<Eigen::VectorXd()>& shape,
-           double frequency_hz, double damping_ratio) {
+           std::vector<io::FieldNumber> values) {
     const std::size_t number = entries.size() + 1;
     const std::string name = fmt::format("{}_{:02}.vtu", stem, number);
-    std::vector<io::FieldNumber> values{{"frequency_hz", frequency_hz}};
-    if (!std::isnan(damping_ratio)) values.push_back({"damping_ratio", damping_ratio});
+    std::erase_if(values, [](const io::FieldNumber& value) { return std::isnan(value.value); });
+    values.push_back(warp_factor(model));
     files.emplace_back([path = folder / name, &model, shape, values] {
       io::write_vtu(path, model.nodes, {{"displacement", fem::displacements(model, shape())}}, values);
     });
@@ -111,7 +119,7 @@ void write_surface(const fs::path& file, const study::PartResult& part, const Ei
                        fem::displacements(model, shapes.col(static_cast<Eigen::Index>(k)))});
   const Triangles triangles = mesh::surface_triangles(model.nodes, mesh::boundary(model.mesh));
   const auto numbers = fields_of != nullptr ? fields(*fields_of, part, triangles) : std::vector<io::TriangleNumbers>{};
-  io::write_vtp(file, model.nodes, triangles, vectors, numbers);
+  io::write_vtp(file, model.nodes, triangles, vectors, numbers, {warp_factor(model)});
 }
 
 /// A matrix of likenesses as a table: a row for each mode of the part.
@@ -128,25 +136,49 @@ void write_mac(const fs::path& file, const Eigen::MatrixXd& values, const std::s
                  "robot in which the part is at rest"});
 }
 
+/// Mass-normalised shapes in the scale in which they are drawn: the largest entry of each is 1.
+Eigen::MatrixXd drawn(Eigen::MatrixXd shapes) {
+  for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
+    const double largest = shapes.col(k).cwiseAbs().maxCoeff();
+    if (largest > 0.0) shapes.col(k) /= largest;
+  }
+  return shapes;
+}
+
+/// The modal mass of a mass-normalised shape in the scale in which it is drawn, kg.
+double modal_mass(const Eigen::VectorXd& shape) {
+  const double largest = shape.cwiseAbs().maxCoeff();
+  return largest > 0.0 ? 1.0 / (largest * largest) : 0.0;
+}
+
 void write_part_modes(FileTasks& files, const fs::path& folder, const setup::Setup& source,
                       const study::Results& results) {
   const study::PartResult& part = *results.finite_elements;
   const bool meshed = !part.model.mesh.tets.empty();
   ShapeSeries series{folder, "part_mode", {}};
+  const auto shapes = std::make_shared<const Eigen::MatrixXd>(drawn(part.modes.pairs.Phi));
   const std::vector<double> damping = study::part_damping_ratios(results);
-  std::vector<double> number, frequency, residual;
+  std::vector<double> number, frequency, residual, mass;
   for (Eigen::Index k = 0; k < part.modes.frequency_hz.size(); ++k) {
     const double zeta = damping[static_cast<std::size_t>(k)];
-    const auto shape = [&part, k]() -> Eigen::VectorXd { return part.modes.pairs.Phi.col(k); };
-    if (meshed) series.add(files, part.model, shape, part.modes.frequency_hz(k), zeta);
+    const auto shape = [shapes, k]() -> Eigen::VectorXd { return shapes->col(k); };
+    mass.push_back(modal_mass(part.modes.pairs.Phi.col(k)));
+    if (meshed) {
+      series.add(
+          files, part.model, shape,
+          {{"frequency_hz", part.modes.frequency_hz(k)}, {"damping_ratio", zeta}, {"modal_mass_kg", mass.back()}});
+    }
     number.push_back(static_cast<double>(k + 1));
     frequency.push_back(part.modes.frequency_hz(k));
     residual.push_back(part.modes.residual(k));
   }
   if (meshed) {
     io::write_pvd(folder / "part.pvd", series.entries);
-    files.emplace_back([path = folder / "part_surface.vtp", &source, &part, frequency] {
-      write_surface(path, part, part.modes.pairs.Phi, frequency, &source);
+    files.emplace_back([path = folder / "part_surface.vtp", &source, &part, shapes, frequency] {
+      write_surface(path, part, *shapes, frequency, &source);
+    });
+    files.emplace_back([path = folder / "part.uff", &part, shapes, frequency, damping, mass] {
+      write_test_shapes(path, part, *shapes, {frequency, damping, mass});
     });
   }
   io::write_csv(folder / "modes.csv", {{"mode", number},
@@ -168,7 +200,10 @@ void write_coupled_modes(FileTasks& files, const fs::path& folder, const setup::
   auto& number = std::get<std::vector<double>>(table.front().values);
   for (std::size_t k = 0; k < shapes->frequency_hz.size(); ++k) {
     const auto shape = [shapes, k]() -> Eigen::VectorXd { return shapes->part.col(static_cast<Eigen::Index>(k)); };
-    if (meshed) series.add(files, part.model, shape, shapes->frequency_hz[k], shapes->damping_ratio[k]);
+    if (meshed) {
+      series.add(files, part.model, shape,
+                 {{"frequency_hz", shapes->frequency_hz[k]}, {"damping_ratio", shapes->damping_ratio[k]}});
+    }
     number.push_back(static_cast<double>(k + 1));
   }
   for (int axis = 0; axis < 3; ++axis) {
@@ -179,6 +214,9 @@ void write_coupled_modes(FileTasks& files, const fs::path& folder, const setup::
     io::write_pvd(folder / "coupled.pvd", series.entries);
     files.emplace_back([path = folder / "coupled_surface.vtp", &part, shapes] {
       write_surface(path, part, shapes->part, shapes->frequency_hz, nullptr);
+    });
+    files.emplace_back([path = folder / "coupled.uff", &part, shapes] {
+      write_test_shapes(path, part, shapes->part, {shapes->frequency_hz, shapes->damping_ratio});
     });
   }
   io::write_csv(folder / "coupled_modes.csv", table,

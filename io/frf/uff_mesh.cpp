@@ -89,6 +89,17 @@ std::string nodes_text(const UffMesh& mesh) {
   return text + closed();
 }
 
+/// The nodes in the format 4I10,1P3E13.5.
+std::string old_nodes_text(const UffMesh& mesh) {
+  std::string text = opened(15);
+  for (const UffNode& node : mesh.nodes) {
+    text += integer_field(node.label, 10) + integer_field(0, 10) + integer_field(0, 10) + integer_field(color, 10);
+    for (const double coordinate : node.position) add_real_field(text, coordinate, 13, 5);
+    text += "\n";
+  }
+  return text + closed();
+}
+
 /// The elements in the format 6I10: label, descriptor, physical and material table, colour, number of nodes.
 std::string elements_text(const UffMesh& mesh) {
   std::string text = opened(2412);
@@ -201,6 +212,13 @@ void write_uff_mesh(const std::filesystem::path& path, const UffMesh& mesh) {
   if (!mesh.elements.empty()) text += elements_text(mesh);
   for (const UffTraceLine& line : mesh.lines) text += line_text(line);
   core::write_file_atomically(path, text);
+}
+
+std::string test_geometry_text(const UffMesh& mesh) {
+  require_writable(mesh);
+  std::string text = old_nodes_text(mesh);
+  for (const UffTraceLine& line : mesh.lines) text += line_text(line);
+  return text;
 }
 
 UffMesh uff_mesh(std::string_view bytes, const std::string& source, std::optional<double> unit_in_m) {

@@ -57,6 +57,10 @@ struct UffMesh {
 /// be written.
 void write_uff_mesh(const std::filesystem::path& path, const UffMesh& mesh);
 
+/// The data sets of a test's geometry: nodes as data set 15 (positions with six digits), which every program of modal
+/// tests reads, and the trace lines. Throws as write_uff_mesh().
+[[nodiscard]] std::string test_geometry_text(const UffMesh& mesh);
+
 /// Reads nodes (2411, and 15, their older form with six digits), elements and trace lines of a file; positions in m by
 /// data set 164, or times `unit_in_m` if it is given. Elements or lines that refer to unknown nodes, and trace lines of
 /// another length than stated, are noted. Throws DataError with file and line for a file without nodes or without a

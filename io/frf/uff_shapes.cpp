@@ -210,8 +210,9 @@ std::vector<UffShape> shapes_of(const ModalModel& model, const std::map<std::str
   return shapes;
 }
 
-void write_uff_shapes(const std::filesystem::path& path, const std::vector<UffShape>& shapes) {
+void write_uff_shapes(const std::filesystem::path& path, const std::vector<UffShape>& shapes, const UffMesh& geometry) {
   std::string text = header_sets("thinwall modes", "mode shapes");
+  if (!geometry.nodes.empty()) text += test_geometry_text(geometry);
   for (const UffShape& shape : shapes) text += shape_text(shape);
   core::write_file_atomically(path, text);
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "dynamics/modal_model.hpp"
+#include "io/frf/uff_mesh.hpp"
 #include "io/frf/universal_file.hpp"
 
 namespace thinwall::io {
@@ -43,10 +44,12 @@ struct UffShapes {
 [[nodiscard]] std::vector<UffShape> shapes_of(const dynamics::ModalModel& model,
                                               const std::map<std::string, long>& nodes);
 
-/// Writes data sets 151, 164 (SI) and one data set 55 for each shape: displacement (8) in six digits, E13.5; modal B is
-/// −λa. The file is written in one step. Throws InputError if labels and displacements disagree in number,
+/// Writes data sets 151, 164 (SI), the test's geometry where there are nodes (test_geometry_text()), and one data set
+/// 55 for each shape: displacement (8) in six digits, E13.5; modal B is −λa. The file is written in one step. Throws
+/// InputError if labels and displacements disagree in number,
 /// NumericalError if a value is not finite, DataError if the file cannot be written.
-void write_uff_shapes(const std::filesystem::path& path, const std::vector<UffShape>& shapes);
+void write_uff_shapes(const std::filesystem::path& path, const std::vector<UffShape>& shapes,
+                      const UffMesh& geometry = {});
 
 /// Reads the normal and complex modes of a file, with three or six values at a node. Other data sets 55 are skipped and
 /// noted; a missing data set 164 is noted. Throws DataError with file and line for a file without shapes, fields that

@@ -3,6 +3,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
@@ -69,6 +70,14 @@ void write(const std::filesystem::path& path, vtkPolyData& surface) {
   core::write_file_atomically(path, writer->GetOutputString());
 }
 
+vtkNew<vtkDoubleArray> of_whole(const FieldNumber& number) {
+  if (!std::isfinite(number.value)) throw core::NumericalError("the field value \"" + number.name + "\" is not finite");
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(number.name.c_str());
+  array->InsertNextValue(number.value);
+  return array;
+}
+
 vtkNew<vtkDoubleArray> on_triangles(const TriangleNumbers& field, std::size_t triangles) {
   if (field.values.size() != triangles) {
     throw core::InputError("the field \"" + field.name + "\" has " + std::to_string(field.values.size()) +
@@ -86,7 +95,7 @@ vtkNew<vtkDoubleArray> on_triangles(const TriangleNumbers& field, std::size_t tr
 
 void write_vtp(const std::filesystem::path& path, const mesh::LagrangeNodes& nodes,
                const std::vector<std::array<int, 3>>& triangles, const std::vector<NodeVectors>& vectors,
-               const std::vector<TriangleNumbers>& numbers) {
+               const std::vector<TriangleNumbers>& numbers, const std::vector<FieldNumber>& of_file) {
   const UsedNodes used = used_by(triangles, nodes.positions.rows());
   vtkNew<vtkPolyData> surface;
   vtkNew<vtkPoints> points;
@@ -105,6 +114,7 @@ void write_vtp(const std::filesystem::path& path, const mesh::LagrangeNodes& nod
   if (!vectors.empty()) surface->GetPointData()->SetActiveVectors(vectors.front().name.c_str());
   for (const TriangleNumbers& field : numbers)
     surface->GetCellData()->AddArray(on_triangles(field, triangles.size()).Get());
+  for (const FieldNumber& number : of_file) surface->GetFieldData()->AddArray(of_whole(number).Get());
   write(path, *surface);
 }
 
@@ -167,7 +177,7 @@ SurfaceFields read_vtp(const std::filesystem::path& path) {
   if (reader->GetErrorCode() != 0 || reader->GetOutput() == nullptr || reader->GetOutput()->GetNumberOfPolys() == 0)
     no_surface(path, "VTK cannot read it");
   vtkPolyData& data = *reader->GetOutput();
-  SurfaceFields fields{triangles_of(data, path), {}, {}};
+  SurfaceFields fields{triangles_of(data, path), {}, {}, {}};
   const auto vertices = static_cast<vtkIdType>(fields.surface.vertices.size());
   const auto triangles = static_cast<vtkIdType>(fields.surface.triangles.size());
   for (int i = 0; i < data.GetPointData()->GetNumberOfArrays(); ++i) {
@@ -184,6 +194,11 @@ SurfaceFields read_vtp(const std::filesystem::path& path) {
     TriangleNumbers field{name_of(*array), {}};
     for (vtkIdType t = 0; t < triangles; ++t) field.values.push_back(array->GetTuple1(t));
     fields.numbers.push_back(std::move(field));
+  }
+  for (int i = 0; i < data.GetFieldData()->GetNumberOfArrays(); ++i) {
+    vtkDataArray* array = data.GetFieldData()->GetArray(i);
+    if (array != nullptr && array->GetNumberOfValues() == 1)
+      fields.of_file.push_back({name_of(*array), array->GetTuple1(0)});
   }
   return fields;
 }

@@ -21,11 +21,11 @@ struct TriangleNumbers {
 /// Writes flat triangles between nodes (mesh::surface_triangles()) with vectors at the nodes that they use, in single
 /// precision, and numbers on the triangles, compressed. All vectors are in one file, so that a viewer can change
 /// between modes without opening another. nodes and vectors (nodes × 3) are those of the whole mesh; nodes that the
-/// triangles do not use are left out. The file is written in one step. Throws as write_vtu() does, and InputError if
-/// there are not as many numbers as triangles.
+/// triangles do not use are left out. `of_file` are numbers of the whole file. The file is written in one step. Throws
+/// as write_vtu() does, and InputError if there are not as many numbers as triangles.
 void write_vtp(const std::filesystem::path& path, const mesh::LagrangeNodes& nodes,
                const std::vector<std::array<int, 3>>& triangles, const std::vector<NodeVectors>& vectors,
-               const std::vector<TriangleNumbers>& numbers = {});
+               const std::vector<TriangleNumbers>& numbers = {}, const std::vector<FieldNumber>& of_file = {});
 
 /// Writes a surface, positions in single precision, with numbers on its triangles in double precision. The file is
 /// written in one step. Throws InputError if there are not as many numbers as triangles, NumericalError if one is not
@@ -33,11 +33,12 @@ void write_vtp(const std::filesystem::path& path, const mesh::LagrangeNodes& nod
 void write_vtp(const std::filesystem::path& path, const mesh::TriangleSurface& surface,
                const std::vector<TriangleNumbers>& numbers);
 
-/// A surface with vectors at its vertices (vertices × 3) and numbers on its triangles.
+/// A surface with vectors at its vertices (vertices × 3), numbers on its triangles, and numbers of the whole file.
 struct SurfaceFields {
   mesh::TriangleSurface surface;
   std::vector<NodeVectors> vectors;
   std::vector<TriangleNumbers> numbers;
+  std::vector<FieldNumber> of_file{};
 };
 
 /// Reads a file of write_vtp(); arrays of other shapes are skipped. Throws DataError, with the file, if it cannot be

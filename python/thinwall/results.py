@@ -6,6 +6,7 @@ import base64
 import contextlib
 import csv
 import json
+import math
 import os
 import pathlib
 import xml.etree.ElementTree as ElementTree
@@ -99,8 +100,10 @@ class Shape:
     points: np.ndarray
     """Positions of the nodes, (n, 3) in m."""
     displacement: np.ndarray
-    """Displacements of the nodes, (n, 3). Those of the part are mass-normalised, kg^-1/2; those of the assembly have the
-    largest entry 1."""
+    """Displacements of the nodes, (n, 3), with the largest entry 1; of the assembly the robot's end may have it."""
+    modal_mass_kg: float = math.nan
+    """The modal mass of the shape in this scale: displacement / sqrt(modal_mass_kg) is mass-normalised. NaN of the
+    assembly, where it is not known."""
 
 
 class _Files(Mapping[str, Any]):
@@ -144,7 +147,7 @@ class Results:
         self.robot: Mapping[str, Table] = _Files(list(self.folder.glob("robot/*.csv")), read_table)
 
     def shapes(self, name: str = "part") -> list[Shape]:
-        """The mode shapes of "part", or of "coupled", in the order of their modes."""
+        """The mode shapes of "part", or of "coupled", in the order of their modes; the largest entry of each is 1."""
         return [_shape(path) for path in sorted(self.folder.glob(f"modes/{name}_mode_*.vtu"))]
 
     def _json(self, name: str) -> dict[str, Any]:
@@ -164,8 +167,8 @@ class Results:
 def _shape(path: pathlib.Path) -> Shape:
     arrays = read_vtu(path)
     with _reading(path):
-        ratio = float(arrays["damping_ratio"]) if "damping_ratio" in arrays else float("nan")
-        return Shape(float(arrays["frequency_hz"]), ratio, arrays["Points"], arrays["displacement"])
+        ratio, mass = (float(arrays.get(name, math.nan)) for name in ("damping_ratio", "modal_mass_kg"))
+        return Shape(float(arrays["frequency_hz"]), ratio, arrays["Points"], arrays["displacement"], mass)
 
 
 def read_results(folder: str | os.PathLike[str]) -> Results:

@@ -130,6 +130,30 @@ TEST_F(UniversalShapes, HaveEveryFieldInItsColumns) {
             std::string::npos);
 }
 
+// By hand from the FORMAT statement of data set 15, 4I10,1P3E13.5.
+TEST_F(UniversalShapes, HaveTheGeometryThatTestsAreDrawnWith) {
+  UffShape shape;
+  shape.nodes = {5, 6};
+  shape.displacement = Eigen::MatrixXcd::Ones(2, 3);
+  UffMesh geometry;
+  geometry.nodes = {{5, {0.0, 0.25, -1.5}}, {6, {1.0, 0.0, 0.0}}};
+  geometry.lines = {{1, "edge", {5, 6}}};
+  write_uff_shapes(path("modes.unv"), {shape}, geometry);
+  const std::string text = core::read_file(path("modes.unv"));
+  EXPECT_NE(text.find("    -1\n    15\n"
+                      "         5         0         0         7  0.00000E+00  2.50000E-01 -1.50000E+00\n"
+                      "         6         0         0         7  1.00000E+00  0.00000E+00  0.00000E+00\n"
+                      "    -1\n    -1\n    82\n         1         2         7\nedge"),
+            std::string::npos)
+      << text;
+  const UffMesh back = read_uff_mesh(path("modes.unv"));
+  EXPECT_EQ(back.nodes.at(0).position, geometry.nodes[0].position);
+  EXPECT_EQ(back.lines.at(0).nodes, geometry.lines[0].nodes);
+  EXPECT_EQ(read_uff_shapes(path("modes.unv")).shapes.size(), 1U);
+  geometry.lines = {{1, "edge", {5, 7}}};
+  EXPECT_THROW(write_uff_shapes(path("modes.unv"), {shape}, geometry), core::InputError) << "node 7 is none";
+}
+
 TEST_F(UniversalShapes, OfOtherAnalysesOrUnitsAreNotedOrRefused) {
   UffShape shape;
   shape.nodes = {5};

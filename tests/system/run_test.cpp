@@ -4,17 +4,22 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "core/atomic_file.hpp"
 #include "io/frf/response_csv.hpp"
+#include "io/frf/uff_mesh.hpp"
+#include "io/frf/uff_shapes.hpp"
 #include "io/manifest.hpp"
+#include "io/results/vtp.hpp"
 #include "report/page/document.hpp"
 #include "tests/core/temporary_folder.hpp"
 
@@ -115,19 +120,69 @@ void expect_whole_manifest(const fs::path& out) {
   EXPECT_EQ(manifest["program"].value("commit", "").size() >= 7, repository);
 }
 
+/// Shapes of which the largest entry is 1 at most (the robot's end may hold it), the factor to show them by, and the
+/// same shapes on the corners of the surface for programs of modal tests.
+void expect_shapes_in_one_scale(const fs::path& modes, const std::string& of) {
+  const io::SurfaceFields surface = io::read_vtp(modes / (of + "_surface.vtp"));
+  Eigen::AlignedBox3d box;
+  for (const auto& x : surface.surface.vertices) box.extend(x);
+  ASSERT_EQ(surface.of_file.size(), 1U);
+  EXPECT_EQ(surface.of_file[0].name, "warp_factor");
+  EXPECT_NEAR(surface.of_file[0].value, 0.05 * box.diagonal().norm(), 1e-6 * box.diagonal().norm());
+  const io::UffShapes test = io::read_uff_shapes(modes / (of + ".uff"));
+  const io::UffMesh geometry = io::read_uff_mesh(modes / (of + ".uff"));
+  EXPECT_TRUE(test.notes.empty() && geometry.notes.empty());
+  ASSERT_EQ(test.shapes.size(), surface.vectors.size());
+  std::set<std::pair<long, long>> drawn;
+  for (const io::UffTraceLine& line : geometry.lines) {
+    for (std::size_t i = 1; i < line.nodes.size(); ++i) {
+      if (line.nodes[i - 1] != 0 && line.nodes[i] != 0)
+        EXPECT_TRUE(drawn.insert(std::minmax(line.nodes[i - 1], line.nodes[i])).second) << "an edge is drawn twice";
+    }
+  }
+  EXPECT_EQ(drawn.size(), 3 * (geometry.nodes.size() - 2)) << "edges of a closed surface of triangles without holes";
+  for (std::size_t k = 0; k < test.shapes.size(); ++k) {
+    const double largest = surface.vectors[k].values.cwiseAbs().maxCoeff();
+    EXPECT_LE(largest, 1.0 + 1e-6);
+    if (of == "part") EXPECT_NEAR(largest, 1.0, 0.02) << "mode " << k + 1;
+    if (of == "part") EXPECT_GT(test.shapes[k].modal_mass, 0.0);
+    EXPECT_EQ(test.shapes[k].nodes.size(), geometry.nodes.size());
+    const double on_corners = test.shapes[k].displacement.cwiseAbs().maxCoeff();
+    EXPECT_LE(on_corners, largest + 1e-5);
+    EXPECT_GE(on_corners, 0.5 * largest) << "mode " << k + 1;
+  }
+}
+
 TEST(Run, LeavesEveryFileOfAResultFolder) {
   const fs::path out = scratch("run_plate");
   const fs::path table = scratch("run_plate.txt");
   const int code = run(words("run", plate, out, quick), table);
   EXPECT_TRUE(code == 0 || code == 6) << code;
-  for (const char* name :
-       {"summary.json", "manifest.json", "case.toml", "case.resolved.toml", "run.log", "modes/part.pvd",
-        "modes/part_mode_01.vtu", "modes/coupled.pvd", "modes/coupled_mode_01.vtu", "modes/modes.csv", "frf/part.csv",
-        "frf/part.uff", "frf/robot.csv", "frf/coupled_receptance.csv", "frf/coupled_spatial.csv", "lobes/part.csv",
-        "lobes/supported.csv", "models/part.mat"}) {
+  for (const char* name : {"summary.json",
+                           "manifest.json",
+                           "case.toml",
+                           "case.resolved.toml",
+                           "run.log",
+                           "modes/part.pvd",
+                           "modes/part_mode_01.vtu",
+                           "modes/coupled.pvd",
+                           "modes/coupled_mode_01.vtu",
+                           "modes/modes.csv",
+                           "frf/part.csv",
+                           "modes/part.uff",
+                           "modes/coupled.uff",
+                           "frf/part.uff",
+                           "frf/robot.csv",
+                           "frf/coupled_receptance.csv",
+                           "frf/coupled_spatial.csv",
+                           "lobes/part.csv",
+                           "lobes/supported.csv",
+                           "models/part.mat"}) {
     EXPECT_TRUE(fs::exists(out / name)) << name;
   }
   EXPECT_TRUE(unfinished(out).empty());
+  expect_shapes_in_one_scale(out / "modes", "part");
+  expect_shapes_in_one_scale(out / "modes", "coupled");
   expect_whole_manifest(out);
   const auto summary = summary_in(out);
   EXPECT_LE(summary["coupling"]["route_difference"]["max_relative"].get<double>(), 1e-9);
