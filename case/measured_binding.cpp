@@ -18,6 +18,8 @@ setup::MeasuredFrf bind_measured(const Table& table, const std::filesystem::path
           .frequency_unit = table.text("frequency_unit"),
           .record = integer("record"),
           .noise = table.optional("noise"),
+          .variable = table.text("variable"),
+          .frequency_variable = table.text("frequency_variable"),
           .averages = integer("averages")};
 }
 

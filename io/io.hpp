@@ -9,6 +9,7 @@
 #include "io/base64.hpp"
 #include "io/frf/frf_csv.hpp"
 #include "io/frf/frf_cutpro.hpp"
+#include "io/frf/frf_lvm.hpp"
 #include "io/frf/frf_quantity.hpp"
 #include "io/frf/mat_response.hpp"
 #include "io/frf/measured_response.hpp"

@@ -14,6 +14,7 @@
 #include "dynamics/frf_checks.hpp"
 #include "io/frf/frf_csv.hpp"
 #include "io/frf/frf_cutpro.hpp"
+#include "io/frf/frf_lvm.hpp"
 #include "io/frf/mat_response.hpp"
 #include "io/frf/resample.hpp"
 #include "io/frf/uff.hpp"
@@ -26,7 +27,7 @@ namespace thinwall::setup {
 namespace {
 
 bool holds_one_frf(FrfFileKind kind) {
-  return kind == FrfFileKind::csv || kind == FrfFileKind::cutpro;
+  return kind == FrfFileKind::csv || kind == FrfFileKind::lvm || kind == FrfFileKind::cutpro;
 }
 
 std::optional<io::FrfFormat> stated_format(const MeasuredFrf& measured) {
@@ -77,7 +78,7 @@ void turn_to_named_axes(const io::MeasuredEntry& entry, const MeasuredFrf& measu
 
 /// The FRF of a file that the case names.
 const io::MeasuredEntry& record_of(const io::MeasuredEntries& file, const MeasuredFrf& measured) {
-  if (holds_one_frf(frf_file_kind(measured.file))) return file.entries.front();
+  if (holds_one_frf(frf_file_kind(measured.file)) || !measured.variable.empty()) return file.entries.front();
   const std::size_t count = file.entries.size();
   const auto wanted = static_cast<std::size_t>(measured.record.value_or(1));
   if (wanted <= count && (measured.record || count == 1)) return file.entries[wanted - 1];
@@ -93,9 +94,23 @@ const io::MeasuredEntry& record_of(const io::MeasuredEntries& file, const Measur
                          "): say which one by record");
 }
 
+/// The FRF of another program's MAT file, in the variable that the case names.
+io::MeasuredEntries entry_of_variable(const MeasuredFrf& measured, const std::optional<io::FrfFormat>& stated) {
+  const std::string what = "\"" + measured.file.string() + "\": ";
+  if (measured.variable.empty() || measured.frequency_variable.empty())
+    throw core::InputError(what + "variable and frequency_variable belong together; give both or neither");
+  if (frf_file_kind(measured.file) != FrfFileKind::mat)
+    throw core::InputError(what + "variable is of a MAT file, which this is not; remove it");
+  if (!stated) throw core::InputError(what + "a variable does not say what it holds: give quantity and unit");
+  if (measured.record)
+    throw core::InputError(what + "record is of the FRFs of a file; the entry of an array is told by variable");
+  return io::read_mat_entry(measured.file, {measured.frequency_variable, measured.variable}, *stated);
+}
+
 /// All FRFs of the file; of a file that tells no DOFs, one without directions.
 io::MeasuredEntries read_file(const MeasuredFrf& measured) {
   const std::optional<io::FrfFormat> stated = stated_format(measured);
+  if (!measured.variable.empty() || !measured.frequency_variable.empty()) return entry_of_variable(measured, stated);
   const FrfFileKind kind = frf_file_kind(measured.file);
   const dynamics::Dof untold{"", Eigen::Vector3d::Zero(), dynamics::DofKind::translation};
   if (kind == FrfFileKind::cutpro) return {{{untold, untold, io::read_cutpro_frf(measured.file, stated)}}, {}};
@@ -106,6 +121,7 @@ io::MeasuredEntries read_file(const MeasuredFrf& measured) {
   if (kind == FrfFileKind::mat) return entries_of(io::read_mat_response(measured.file), measured);
   if (!stated)
     throw core::InputError("\"" + measured.file.string() + "\" does not say what it holds: give quantity and unit");
+  if (kind == FrfFileKind::lvm) return {{{untold, untold, io::read_lvm_frf(measured.file, *stated)}}, {}};
   return {{{untold, untold, io::read_frf(measured.file, *stated)}}, {}};
 }
 
@@ -115,6 +131,7 @@ FrfFileKind frf_file_kind(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
   if (extension == ".frf") return FrfFileKind::cutpro;
+  if (extension == ".lvm") return FrfFileKind::lvm;
   if (extension == ".uff" || extension == ".unv") return FrfFileKind::universal;
   if (extension == ".mat") return FrfFileKind::mat;
   // A file is opened only where its ending tells nothing.
@@ -123,9 +140,9 @@ FrfFileKind frf_file_kind(const std::filesystem::path& file) {
 }
 
 FrfContent read_measured(const MeasuredFrf& measured, FrfFiles& files) {
-  const std::string key =
-      fmt::format("{}\n{}\n{}\n{}", measured.file.string(), measured.quantity ? core::word_of(*measured.quantity) : "",
-                  measured.unit, measured.frequency_unit);
+  const std::string key = fmt::format("{}\n{}\n{}\n{}\n{}\n{}", measured.file.string(),
+                                      measured.quantity ? core::word_of(*measured.quantity) : "", measured.unit,
+                                      measured.frequency_unit, measured.variable, measured.frequency_variable);
   auto file = files.find(key);
   if (file == files.end()) file = files.emplace(key, read_file(measured)).first;
   const io::MeasuredEntry& entry = record_of(file->second, measured);

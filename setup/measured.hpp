@@ -15,10 +15,15 @@
 namespace thinwall::setup {
 
 /// The kind of a file of FRFs.
-enum class FrfFileKind { csv, cutpro, universal, mat };
-/// The kind of a file of FRFs by its ending .frf, .uff, .unv, .mat or .csv; a file of another ending is MAT by its
-/// first bytes, or else a CSV.
+enum class FrfFileKind { csv, lvm, cutpro, universal, mat };
+/// The kind of a file of FRFs by its ending .frf, .lvm, .uff, .unv, .mat or .csv; a file of another ending is MAT by
+/// its first bytes, or else a CSV.
 [[nodiscard]] FrfFileKind frf_file_kind(const std::filesystem::path& file);
+
+/// True if a file of this kind says what was measured, and in which unit.
+[[nodiscard]] inline bool tells_quantity(FrfFileKind kind) {
+  return kind != FrfFileKind::csv && kind != FrfFileKind::lvm;
+}
 
 /// The FRFs of files that were read, by the file and by what is stated of it.
 using FrfFiles = std::map<std::string, io::MeasuredEntries>;

@@ -31,7 +31,9 @@ struct MeasuredFrf {
   std::string frequency_unit;               ///< "Hz", "rad/s"
   std::optional<int> record;                ///< number of the FRF in the file, from 1; none: its only one
   std::optional<double> noise{};            ///< standard deviation of real and imaginary part alike, relative to |H|
-  std::optional<int> averages{};            ///< that the file's coherence belongs to, in place of `noise`
+  std::string variable{};            ///< of another program's MAT file, "H(2,1,:)"; empty: the file is one of ours
+  std::string frequency_variable{};  ///< beside it
+  std::optional<int> averages{};     ///< that the file's coherence belongs to, in place of `noise`
   std::shared_ptr<const FrfContent> content = {};  ///< what the file holds, once it is read (setup/data_files.hpp)
 };
 

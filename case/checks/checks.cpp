@@ -92,7 +92,11 @@ std::string fault_of_unit(io::FrfQuantity quantity, const std::string& unit) {
 }
 
 void check_measured(const std::string& key, const setup::MeasuredFrf& frf, Findings& findings) {
-  const bool tells_itself = setup::frf_file_kind(frf.file) != setup::FrfFileKind::csv;
+  const bool tells_itself = setup::tells_quantity(setup::frf_file_kind(frf.file)) && frf.variable.empty();
+  if (frf.variable.empty() != frf.frequency_variable.empty())
+    findings.report(key + (frf.variable.empty() ? ".variable" : ".frequency_variable"),
+                    "missing; variable and frequency_variable together tell where a MAT file of another program has "
+                    "its FRF");
   if (!frf.quantity && !findings.given(key + ".quantity") && !tells_itself)
     findings.report(key + ".quantity", "missing; say what was measured: receptance, mobility or accelerance");
   if (frf.unit.empty() && !findings.given(key + ".unit") && !tells_itself)

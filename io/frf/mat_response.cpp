@@ -1,8 +1,11 @@
 #include "io/frf/mat_response.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
@@ -189,7 +192,125 @@ MeasuredResponse read_arrays(const std::filesystem::path& path, const MatFrfName
   return measured;
 }
 
+/// A variable, and where in it an FRF lies: an index from 0 for each dimension, of which `lines` is the dimension of
+/// the lines; no indices for a variable that is the FRF itself.
+struct EntryOfVariable {
+  std::string name;
+  std::vector<std::size_t> indices{};
+  std::size_t lines = 0;
+};
+
+[[noreturn]] void no_entry(const std::string& text) {
+  throw core::InputError(
+      "\"" + text +
+      "\" is no variable, \"H00\", nor an entry of an array, \"H(2,1,:)\", with indices from 1 and one "
+      "colon for the lines");
+}
+
+EntryOfVariable entry_of_variable(const std::string& text) {
+  const std::size_t open = text.find('(');
+  EntryOfVariable entry{text.substr(0, open)};
+  if (entry.name.empty()) no_entry(text);
+  if (open == std::string::npos) return entry;
+  if (text.back() != ')') no_entry(text);
+  std::string_view left = std::string_view(text).substr(open + 1, text.size() - open - 2);
+  std::size_t colons = 0;
+  while (true) {
+    const std::size_t comma = left.find(',');
+    std::string_view word = left.substr(0, comma);
+    while (word.starts_with(' ')) word.remove_prefix(1);
+    while (word.ends_with(' ')) word.remove_suffix(1);
+    std::size_t index = 1;
+    if (word == ":") {
+      entry.lines = entry.indices.size();
+      ++colons;
+    } else {
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
+      if (error != std::errc() || end != word.data() + word.size() || index == 0) no_entry(text);
+    }
+    entry.indices.push_back(index - 1);
+    if (comma == std::string_view::npos) break;
+    left.remove_prefix(comma + 1);
+  }
+  if (colons != 1) no_entry(text);
+  return entry;
+}
+
+std::string size_text(const MatVariable& array) {
+  std::string text;
+  for (const std::size_t length : array.size) text += (text.empty() ? "" : " x ") + std::to_string(length);
+  return text;
+}
+
+/// The place of the first line in the array, and the distance to the next.
+struct LinesOfEntry {
+  std::size_t first = 0, step = 1;
+};
+
+LinesOfEntry lines_of(const MatVariable& array, const EntryOfVariable& entry, std::size_t lines,
+                      const std::filesystem::path& path) {
+  const std::string what = "the variable " + array.name + " is " + size_text(array);
+  if (entry.indices.empty()) {
+    if (array.re.size() != lines)
+      fail_in(path, what + " for " + std::to_string(lines) + " frequencies; of an array write the entry, \"" +
+                        array.name + "(1,1,:)\"");
+    return {};
+  }
+  if (entry.indices.size() != array.size.size())
+    fail_in(path, what + " and has " + std::to_string(array.size.size()) + " indices, not " +
+                      std::to_string(entry.indices.size()));
+  LinesOfEntry place;
+  std::size_t step = 1;
+  for (std::size_t k = 0; k < array.size.size(); ++k) {
+    const std::size_t length = array.size[k];
+    if (k == entry.lines && length != lines)
+      fail_in(path, what + " with " + std::to_string(length) + " lines for " + std::to_string(lines) + " frequencies");
+    if (k != entry.lines && entry.indices[k] >= length)
+      fail_in(path, what + "; index " + std::to_string(entry.indices[k] + 1) + " lies beyond");
+    if (k == entry.lines) place.step = step;
+    else place.first += entry.indices[k] * step;
+    step *= length;
+  }
+  return place;
+}
+
+/// Tells how to read a file that this program did not write.
+[[noreturn]] void refuse_foreign(const std::filesystem::path& path) {
+  std::string names;
+  for (const std::string& name : mat_variable_names(path)) names += (names.empty() ? "" : ", ") + name;
+  fail_in(path, "has not the variables of a file of this program (H, response_name …)" +
+                    (names.empty() ? std::string() : "; it holds " + names) +
+                    ": name the one with the FRF and the one with the frequencies (variable, frequency_variable)");
+}
+
 }  // namespace
+
+MeasuredEntries read_mat_entry(const std::filesystem::path& path, const MatEntryNames& names, const FrfFormat& format) {
+  const EntryOfVariable entry = entry_of_variable(names.frf);
+  const MatVariables variables = read_mat_variables(path, {names.frequency, entry.name});
+  const std::vector<double> hz = frequencies(variable(variables, names.frequency, path), format.unit_in_hz, path);
+  const MatVariable& array = variable(variables, entry.name, path);
+  if (array.re.empty()) fail_in(path, "the variable " + array.name + " holds no array of numbers");
+  const LinesOfEntry place = lines_of(array, entry, hz.size(), path);
+  const std::size_t first = hz.front() == 0.0 && format.quantity != FrfQuantity::receptance ? 1 : 0;
+  if (first == hz.size()) fail_in(path, "has no line above 0 Hz");
+  MeasuredFrf frf{.axis = {}, .H = {}, .source = path.string()};
+  const auto lines = static_cast<Eigen::Index>(hz.size() - first);
+  frf.axis.hz = Eigen::Map<const Eigen::VectorXd>(hz.data() + first, lines);
+  frf.H.resize(lines);
+  for (std::size_t line = first; line < hz.size(); ++line) {
+    const std::size_t at = place.first + line * place.step;
+    const std::complex<double> value(array.re[at], array.im.empty() ? 0.0 : array.im[at]);
+    const auto receptance = to_receptance(value, 2.0 * std::numbers::pi * hz[line], format);
+    if (!std::isfinite(std::abs(receptance)))
+      fail_in(path, "the variable " + array.name + " holds a receptance beyond the range of a double");
+    frf.H(static_cast<Eigen::Index>(line - first)) = receptance;
+  }
+  const dynamics::Dof untold{"", Eigen::Vector3d::Zero(), dynamics::DofKind::translation};
+  MeasuredEntries result{{{untold, untold, frf}}, {}};
+  if (first == 1) result.notes.push_back("the line at 0 Hz has no receptance and is left out");
+  return result;
+}
 
 void write_mat_response(const std::filesystem::path& path, const MeasuredResponse& measured) {
   require_consistent(measured);
@@ -215,6 +336,9 @@ MeasuredResponse read_mat_response(const std::filesystem::path& path) {
     for (const std::string& name : dof_variable_names(prefix)) names.push_back(name);
   }
   const MatVariables variables = read_mat_variables(path, names);
+  const bool named = std::ranges::any_of(dof_variable_names("response"),
+                                         [&](const std::string& name) { return variables.contains(name); });
+  if (!variables.contains("H") || !named) refuse_foreign(path);
   const std::vector<std::size_t> size = padded(variable(variables, "H", path).size);
   const auto responses = dofs_of(variables, "response", static_cast<Eigen::Index>(size[0]), path);
   const auto forces = dofs_of(variables, "force", static_cast<Eigen::Index>(size[1]), path);

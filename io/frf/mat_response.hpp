@@ -38,4 +38,19 @@ struct MatFrfNames {
                                             const FrfFormat& format, const dynamics::DofTable& responses,
                                             const dynamics::DofTable& forces);
 
+/// One FRF of a MAT file of any program: `frequency` names a real vector, `frf` a vector with as many numbers ("H00"),
+/// or an entry of an array with the place of its lines as a colon and the other indices from 1, as MATLAB writes it
+/// ("H(2,1,:)", "FRF(:,3)").
+struct MatEntryNames {
+  std::string frequency;
+  std::string frf;
+};
+
+/// Reads one FRF and converts it to receptance. A line at 0 Hz of a mobility or accelerance is left out and noted.
+/// Throws InputError for a text that is neither a name nor an entry; DataError that names file and variable for one
+/// that is missing, has other dimensions than indices or another number of lines than there are frequencies, for an
+/// index beyond its dimension, and for frequencies that do not rise.
+[[nodiscard]] MeasuredEntries read_mat_entry(const std::filesystem::path& path, const MatEntryNames& names,
+                                             const FrfFormat& format);
+
 }  // namespace thinwall::io

@@ -321,6 +321,17 @@ MatVariables read_mat_variables(const std::filesystem::path& path, const std::ve
   });
 }
 
+std::vector<std::string> mat_variable_names(const std::filesystem::path& path) {
+  if (mat_version_of_file(path) != MatVersion::five) return {};
+  return in_memory(path, [&] {
+    (void)require_whole_mat5(core::read_file(path), path);
+    const MatFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
+    std::size_t count = 0;
+    char** const directory = file ? Mat_GetDir(file.get(), &count) : nullptr;
+    return directory == nullptr ? std::vector<std::string>() : std::vector<std::string>(directory, directory + count);
+  });
+}
+
 const MatVariable& variable(const MatVariables& variables, const std::string& name, const std::filesystem::path& path) {
   const auto found = variables.find(name);
   if (found == variables.end()) fail_in(path, "has no variable " + name);

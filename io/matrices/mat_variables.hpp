@@ -57,6 +57,9 @@ void write_mat_variables(const std::filesystem::path& path, const std::string& t
 /// entries than the file can contain; and for a file of version 7.3 (HDF5) or a truncated one.
 [[nodiscard]] MatVariables read_mat_variables(const std::filesystem::path& path, const std::vector<std::string>& names);
 
+/// The names of the variables of a file of version 5, in their order, for messages; none of other files.
+[[nodiscard]] std::vector<std::string> mat_variable_names(const std::filesystem::path& path);
+
 /// The variable of that name. Throws DataError "path: has no variable name" if there is none.
 [[nodiscard]] const MatVariable& variable(const MatVariables& variables, const std::string& name,
                                           const std::filesystem::path& path);

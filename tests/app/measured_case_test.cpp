@@ -18,6 +18,7 @@
 #include "core/atomic_file.hpp"
 #include "dynamics/conversion.hpp"
 #include "io/frf/uff.hpp"
+#include "io/matrices/mat_variables.hpp"
 #include "setup/measured.hpp"
 #include "setup/measured_layout.hpp"
 #include "setup/robot_tip.hpp"
@@ -295,6 +296,41 @@ TEST(MeasuredCase, AFileIsNotReadAsSomethingElseThanItSays) {
   const std::string text = "[robot]\nmodel = \"measured\"\n" + lines +
                            entry("robot", "R.x", "R.x", "tip.uff", "record = 1\nfrequency_unit = \"rad/s\"\n");
   expect_problem(text, "robot.measured[0].frequency_unit", "beside quantity and unit only", folder.path);
+}
+
+// One resonance of a single mode, in a vector and in an array of another program's file.
+TEST(MeasuredCase, VariablesOfAnotherProgramsMatFileAreNamedByKeys) {
+  const TemporaryFolder folder;
+  io::MatVariable tip{"H00", {12, 1}, {}}, array{"FRF", {12, 2}, {}};
+  Eigen::VectorXd hz = Eigen::VectorXd::LinSpaced(12, 20.0, 130.0);
+  for (int column = 0; column < 2; ++column) {
+    for (const double f : hz) {
+      const Complex H = 1.0 / Complex(1.0 - std::pow(f / 80.0, 2), 0.04 * f / 80.0);
+      array.re.push_back((column + 1) * H.real());
+      array.im.push_back((column + 1) * H.imag());
+    }
+  }
+  tip.re.assign(array.re.begin(), array.re.begin() + 12);
+  tip.im.assign(array.im.begin(), array.im.begin() + 12);
+  io::write_mat_variables(folder.path / "rig.mat", "of a rig", {io::mat_matrix("freq", hz), tip, array});
+  const auto with_keys = [&](const std::string& keys) {
+    return "[robot]\nmodel = \"measured\"\n[response]\nfrom = \"20 Hz\"\nto = \"130 Hz\"\nlines = 23\n" +
+           entry("robot", "R.x", "R.x", "rig.mat", keys);
+  };
+  const std::string stated = "quantity = \"receptance\"\nunit = \"um/N\"\n";
+  const auto read = [&](const std::string& keys) {
+    const Case source = parse_case(with_keys(keys), folder.path);
+    return read_measured(std::get<MeasuredRobot>(source.robot->model).measured.at(0)).frf.H;
+  };
+  const Eigen::VectorXcd one = read(stated + "variable = \"H00\"\nfrequency_variable = \"freq\"\n");
+  ASSERT_EQ(one.size(), 12);
+  EXPECT_NEAR(one(6).imag(), 1e-6 * tip.im[6], 1e-18);
+  const Eigen::VectorXcd two = read(stated + "variable = \"FRF(:,2)\"\nfrequency_variable = \"freq\"\n");
+  EXPECT_LT((two - 2.0 * one).norm(), 1e-15 * one.norm());
+  const std::string key = "robot.measured[0]";
+  expect_problem(with_keys("unit = \"um/N\"\nvariable = \"H00\"\nfrequency_variable = \"freq\"\n"), key + ".quantity",
+                 "missing", folder.path);
+  expect_problem(with_keys(stated + "variable = \"H00\"\n"), key + ".frequency_variable", "together tell", folder.path);
 }
 
 TEST(MeasuredCase, ARobotsFilesAreReadOnceInARun) {

@@ -38,6 +38,23 @@ MeasuredResponse random_response(bool with_coherence) {
   return measured;
 }
 
+/// Frequencies f, a vector H21 and an array FRF of 2 x 3 x 4 whose every number tells its place.
+void write_foreign(const std::filesystem::path& file, double first_hz) {
+  MatVariable frf{"FRF", {2, 3, 4}, {}}, vector{"H21", {4, 1}, {}};
+  for (int line = 0; line < 4; ++line) {
+    for (int column = 0; column < 3; ++column) {
+      for (int row = 0; row < 2; ++row) {
+        frf.re.push_back(100.0 * (row + 1) + 10.0 * (column + 1) + line);
+        frf.im.push_back(-1.0);
+      }
+    }
+    vector.re.push_back(line + 0.5);
+    vector.im.push_back(0.25);
+  }
+  write_mat_variables(file, "of another program",
+                      {mat_matrix("f", Eigen::Vector4d(first_hz, 1.0, 2.0, 3.0)), frf, vector});
+}
+
 // ---- MAT files by hand ("MAT-File Format", MathWorks): 128 bytes of header, then elements of type, bytes, data ----
 
 std::string word(std::uint32_t value) {
@@ -202,6 +219,44 @@ TEST_F(MatResponse, IsNotWrittenWithHoles) {
   measured.response.H.pop_back();
   EXPECT_THROW(write_mat_response(path("frf.mat"), measured), core::InputError);
   EXPECT_TRUE(is_empty());
+}
+
+TEST_F(MatResponse, AnEntryOfAnotherProgramsArrayIsReadByItsIndices) {
+  write_foreign(path("rig.mat"), 0.5);
+  const FrfFormat format = frf_format(FrfQuantity::receptance, "um/N", "Hz");
+  const auto frf = [&](const std::string& name) {
+    return read_mat_entry(path("rig.mat"), {"f", name}, format).entries.at(0).frf;
+  };
+  EXPECT_EQ(frf("H21").axis.hz, Eigen::Vector4d(0.5, 1.0, 2.0, 3.0));
+  EXPECT_LT(std::abs(frf("H21").H(2) - Complex(2.5e-6, 0.25e-6)), 1e-20);
+  for (const char* name : {"FRF(2,3,:)", "FRF( 2, 3, : )"}) {
+    const Eigen::VectorXcd H = frf(name).H;
+    for (int line = 0; line < 4; ++line)
+      EXPECT_LT(std::abs(H(line) - Complex(1e-6 * (230.0 + line), -1e-6)), 1e-18) << name;
+  }
+  const auto refused = [&](const std::string& name) {
+    return message_of<core::DataError>([&] { (void)read_mat_entry(path("rig.mat"), {"f", name}, format); });
+  };
+  EXPECT_NE(refused("FRF").find("2 x 3 x 4 for 4 frequencies; of an array write the entry"), std::string::npos);
+  EXPECT_NE(refused("FRF(3,1,:)").find("index 3 lies beyond"), std::string::npos);
+  EXPECT_NE(refused("FRF(1,:,1)").find("3 lines for 4 frequencies"), std::string::npos);
+  EXPECT_NE(refused("FRF(1,:)").find("has 3 indices, not 2"), std::string::npos);
+  EXPECT_NE(refused("H22").find("has no variable H22"), std::string::npos);
+  for (const char* name : {"", "(1,:)", "FRF(1,1,1)", "FRF(:,1,:)", "FRF(0,1,:)", "FRF(1,1,:", "FRF(1,x,:)", "FRF()"})
+    EXPECT_THROW((void)read_mat_entry(path("rig.mat"), {"f", name}, format), core::InputError) << name;
+  EXPECT_NE(
+      message_of<core::DataError>([&] { (void)read_mat_response(path("rig.mat")); }).find("it holds f, FRF, H21: name"),
+      std::string::npos);
+}
+
+TEST_F(MatResponse, AnEntryAtZeroHertzOfAnAccelerometerIsLeftOut) {
+  write_foreign(path("rig.mat"), 0.0);
+  const FrfFormat format = frf_format(FrfQuantity::accelerance, "m/s^2/N", "Hz");
+  const MeasuredEntries read = read_mat_entry(path("rig.mat"), {"f", "H21"}, format);
+  EXPECT_EQ(read.notes.size(), 1U);
+  ASSERT_EQ(read.entries[0].frf.H.size(), 3);
+  const double omega = 2.0 * std::numbers::pi * 1.0;
+  EXPECT_LT(std::abs(read.entries[0].frf.H(0) + Complex(1.5, 0.25) / (omega * omega)), 1e-15);
 }
 
 }  // namespace thinwall::io::test::mat_response_test
