@@ -3,7 +3,7 @@
 // Internal: csv_text, ear_clipping, gmsh_element, gmsh_numbers, inp_text, json_file, mat4, mat5_layout, mat_variables,
 // mat_version, matrix_entries, matrix_names, nastran_cards, number_at, op4_source, ply_heading, program_id,
 // step_triangles, surface_facets, surface_text, surface_unit, uff_fields, uff_meaning, uff_units, universal_file,
-// vtu_array, vtu_reader.
+// vtu_array, vtu_reader, zip_archive.
 
 #include "core/eigen_alignment.hpp"
 #include "io/base64.hpp"
@@ -45,5 +45,6 @@
 #include "io/surface/step.hpp"
 #include "io/surface/stl.hpp"
 #include "io/surface/surface_file.hpp"
+#include "io/surface/three_mf.hpp"
 #include "io/urdf.hpp"
 #include "io/xml_text.hpp"
