@@ -305,8 +305,10 @@ void add_carried(const Robot& robot, const urdf::Link& from, const urdf::Link* n
   for (const auto& child : from.child_links) {
     if (child.get() == next) continue;
     const urdf::Joint& joint = *child->parent_joint;
+    const bool follows = joint.mimic && robot.places.contains(joint.mimic->joint_name);
     if (moves(joint))
-      frozen.push_back({joint.name, place_of(robot, joint), slides(joint), robot.places.contains(joint.name)});
+      frozen.push_back(
+          {joint.name, place_of(robot, joint), slides(joint), follows || robot.places.contains(joint.name)});
     add_carried(robot, *child, nullptr, at * held(robot, joint), link, frozen);
   }
 }

@@ -39,7 +39,7 @@ struct UrdfFrozenJoint {
   std::string name;
   double value = 0.0;   ///< rad, m
   bool slides = false;  ///< true if the value is a distance
-  bool stated = false;  ///< true if the user has stated it
+  bool stated = false;  ///< true if the user has stated it, or that of the joint which this one mimics
 };
 
 /// The links from `base` to `tip`. The frame `tip` is relative to that of the last link. `frozen` are the joints beside

@@ -127,6 +127,7 @@ TEST_F(Urdf, JointsBesideTheChainStandStillAtTheStatedPlace) {
   core::write_file_atomically(file, mimics);
   const UrdfChain chain = read_urdf(file, "world", "flange", {{"c", {0.3, false}}});
   ASSERT_EQ(chain.frozen.size(), 2U);
+  EXPECT_TRUE(chain.frozen[0].stated && chain.frozen[1].stated) << "a joint that mimics a stated one is stated";
   EXPECT_NEAR(chain.frozen[chain.frozen[0].name == "g" ? 0 : 1].value, -0.5, 1e-15);
 }
 
