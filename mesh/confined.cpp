@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -46,6 +47,15 @@ void limit_resources(double time_limit_s, double memory_limit_bytes) {
   setrlimit(RLIMIT_AS, &memory);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
+}
+
+/// Lets this process end with the one that forked it, and hold none of its files but `out`: a lock that the parent has
+/// on a folder would last beyond its death.
+void belong_to(pid_t parent, int out) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(threw);  // it died before this process had asked for the signal
+  if (out > STDERR_FILENO + 1) close_range(STDERR_FILENO + 1, static_cast<unsigned int>(out) - 1, 0);
+  close_range(static_cast<unsigned int>(out) + 1, ~0U, 0);
 }
 
 /// The forked process: does the work, writes the bytes to `out` and exits.
@@ -176,10 +186,11 @@ std::vector<char> run_confined(const std::function<std::vector<char>()>& work, d
                                double memory_limit_bytes) {
   int ends[2];
   if (pipe(ends) != 0) throw core::NumericalError("the mesher could not be started: no pipe");
+  const pid_t parent = getpid();
   const pid_t pid = fork();
   if (pid < 0) throw core::NumericalError("the mesher could not be started: no process");
   if (pid == 0) {
-    close(ends[0]);
+    belong_to(parent, ends[1]);
     child(work, ends[1], time_limit_s, memory_limit_bytes);
   }
   close(ends[1]);

@@ -1,17 +1,23 @@
 #include "mesh/volume/tetgen.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <Eigen/Geometry>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <numeric>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "mesh/box.hpp"
+#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::mesh::tetgen_test {
 namespace {
@@ -176,6 +182,46 @@ TEST(ConfinedProcess, AnInterruptionEndsItAtOnce) {
                core::Interrupted);
   core::clear_interrupt();
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 60.0);
+}
+
+/// True if the process is gone, or waits for nothing but that somebody asks how it ended.
+bool has_ended(pid_t process) {
+  std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
+  std::string number, name, state;
+  return !(stat >> number >> name >> state) || state == "Z";
+}
+
+/// A process that takes a lock on the folder and is killed while the confined process in it, whose number it leaves in
+/// a file, hangs. Returns that number.
+pid_t killed_while_confined(const std::filesystem::path& folder) {
+  const pid_t locking = fork();
+  if (locking == 0) {
+    if (::flock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC), LOCK_EX) != 0) _exit(1);
+    (void)run_confined(
+        [&]() -> Bytes {
+          std::ofstream(folder / "unnamed") << getpid() << '\n';
+          std::filesystem::rename(folder / "unnamed", folder / "number");
+          for (;;) sleep(1);
+        },
+        600.0, 2e8);
+    _exit(1);
+  }
+  while (!std::filesystem::exists(folder / "number")) usleep(1000);
+  kill(locking, SIGKILL);
+  waitpid(locking, nullptr, 0);
+  pid_t confined = 0;
+  std::ifstream(folder / "number") >> confined;
+  return confined;
+}
+
+TEST(ConfinedProcess, EndsWithItsParentAndKeepsNoLockOfIt) {
+  const tests::TemporaryFolder temporary;
+  const pid_t confined = killed_while_confined(temporary.path);
+  const int descriptor = ::open(temporary.path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  EXPECT_EQ(::flock(descriptor, LOCK_EX | LOCK_NB), 0) << "the folder is free for the next run";
+  ::close(descriptor);
+  for (int i = 0; i < 6000 && !has_ended(confined); ++i) usleep(10000);
+  EXPECT_TRUE(has_ended(confined));
 }
 
 }  // namespace
