@@ -4,6 +4,8 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <cstdio>
+
 #include "core/error.hpp"
 #include "core/messages.hpp"
 
@@ -24,6 +26,10 @@ void log_to_file(const std::filesystem::path& file) {
     sink->set_pattern("%Y-%m-%dT%H:%M:%S%z %l %v");
     spdlog::default_logger()->sinks().push_back(sink);
     spdlog::default_logger()->flush_on(spdlog::level::info);
+    spdlog::default_logger()->set_error_handler([name = file.string(), told = false](const std::string& cause) mutable {
+      if (!told) std::fprintf(stderr, "thinwall: messages are missing in \"%s\": %s\n", name.c_str(), cause.c_str());
+      told = true;
+    });
   } catch (const spdlog::spdlog_ex& error) {
     throw core::DataError("cannot write \"" + file.string() + "\": " + error.what() +
                           "; choose another folder with --out");

@@ -134,9 +134,28 @@ Variable encoded_numbers(MatVariable variable) {  // a copy: matio's interface i
                                 MAT_F_COMPLEX));
 }
 
+bool is_same(const MatVariable& a, const MatVariable& b) {
+  return a.size == b.size && a.re == b.re && a.im == b.im && a.texts == b.texts && a.is_sparse == b.is_sparse &&
+         (!a.is_sparse || Eigen::SparseMatrix<double>(a.sparse - b.sparse).norm() == 0.0);
+}
+
 Variable encoded(const MatVariable& variable) {
   if (variable.is_sparse) return encoded_sparse(variable);
   return variable.texts.empty() ? encoded_numbers(variable) : encoded_texts(variable);
+}
+
+/// Reads again what matio wrote into memory, because it does not notice a write that fails. Throws DataError.
+void require_written(const std::string& path, const std::string& header, const std::vector<MatVariable>& variables) {
+  std::vector<std::string> names(variables.size());
+  std::ranges::transform(variables, names.begin(), &MatVariable::name);
+  bool whole = core::read_file(path).starts_with(header);
+  try {
+    const MatVariables read = read_mat_variables(path, names);
+    for (const MatVariable& variable : variables) whole = whole && is_same(read.at(variable.name), variable);
+  } catch (const std::exception&) {
+    whole = false;
+  }
+  if (!whole) throw core::DataError("no memory to write a MAT file");
 }
 
 // ---- Reading ----
@@ -285,8 +304,8 @@ void fail_in(const std::filesystem::path& path, const std::string& cause) {
 void write_mat_variables(const std::filesystem::path& path, const std::string& title,
                          const std::vector<MatVariable>& variables) {
   const MemoryFile memory;
+  const std::string header = "MATLAB 5.0 MAT-file, " + title;
   {
-    const std::string header = "MATLAB 5.0 MAT-file, " + title;
     const MatFile file(Mat_CreateVer(memory.path().c_str(), header.c_str(), MAT_FT_MAT5));
     if (!file) throw core::DataError("matio cannot create a MAT file in memory");
     for (const MatVariable& variable : variables) {
@@ -297,6 +316,7 @@ void write_mat_variables(const std::filesystem::path& path, const std::string& t
       }
     }
   }
+  require_written(memory.path(), header, variables);
   core::write_file_atomically(path, core::read_file(memory.path()));
 }
 
