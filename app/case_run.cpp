@@ -19,6 +19,7 @@
 #include "core/messages.hpp"
 #include "report/kept_files.hpp"
 #include "report/page/page.hpp"
+#include "report/publish.hpp"
 #include "report/result_files.hpp"
 #include "report/summary.hpp"
 #include "study/kept/stage_keys.hpp"
@@ -109,7 +110,11 @@ RunResult run_case(const cases::Case& source, const RunOptions& options) {
   for (const auto& [stage, seconds] : stages.timings_s())
     run.summary.timings_s[stage] = stage == "total" ? total + seconds : seconds;
   report::write_summary(staging, run.summary, manifest);
-  report::publish(staging, options.out);
+  if (options.held != nullptr) {
+    options.held->publish(staging);
+  } else {
+    report::publish(staging, options.out);
+  }
   return run;
 }
 

@@ -7,6 +7,7 @@
 
 #include "case/machining_case.hpp"
 #include "milling/chart/operating_point.hpp"
+#include "report/result_folder.hpp"
 #include "report/summary/summary.hpp"
 
 namespace thinwall::app {
@@ -19,6 +20,7 @@ struct RunOptions {
   std::vector<milling::OperatingPoint> points = {};  ///< of which the charts are asked
   bool stage_lines = true;                           ///< without `progress`: the same as lines of the log
   std::filesystem::path parts = {};  ///< where parts are kept for several runs, by key; empty: in `out`, the last one
+  report::ResultFolder* held = nullptr;  ///< `out` as this process holds it; null: nobody else writes there
 };
 
 struct RunResult {

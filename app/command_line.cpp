@@ -72,12 +72,17 @@ ExitCode compute(const Arguments& arguments, const cases::Case& source, const Ru
   const ProgressDisplay display = start_log(arguments);
   if (arguments.threads > 0) core::set_thread_count(arguments.threads);
   const std::vector<milling::OperatingPoint> points = operating_points(arguments);
-  const report::ResultFolder folder(arguments.out.empty() ? report::default_result_folder(source.name)
-                                                          : std::filesystem::path(arguments.out));
+  report::ResultFolder folder(arguments.out.empty() ? report::default_result_folder(source.name)
+                                                    : std::filesystem::path(arguments.out));
   log_to_file(folder.path() / "run.log");
-  const RunResult result =
-      run_case(source, {folder.path(), arguments.fresh, verbosity, display == ProgressDisplay::line, points,
-                        display == ProgressDisplay::lines});
+  const RunResult result = run_case(source, {folder.path(),
+                                             arguments.fresh,
+                                             verbosity,
+                                             display == ProgressDisplay::line,
+                                             points,
+                                             display == ProgressDisplay::lines,
+                                             {},
+                                             &folder});
   out << coloured(report(result.summary, folder.path().string()), style_for(out));
   return result.expectations_hold ? ExitCode::done : ExitCode::expectation;
 }

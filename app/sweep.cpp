@@ -114,7 +114,7 @@ fs::path shared_parts(const fs::path& sweep) {
 
 void run_point(const fs::path& folder, const SweepRequest& request, const cases::Case& source, const RunCase& run_case,
                SweepRow& row) {
-  const report::ResultFolder results(folder);
+  report::ResultFolder results(folder);
   fs::remove(folder / "point.json");
   const ProgressDisplay display = stage_display(request);
   log_to_terminal(request.verbosity > 0               ? 1
@@ -124,6 +124,7 @@ void run_point(const fs::path& folder, const SweepRequest& request, const cases:
   log_to_file(folder / "run.log");
   RunOptions options{folder, request.fresh, request.verbosity, display == ProgressDisplay::line, {}};
   options.parts = shared_parts(folder.parent_path());
+  options.held = &results;
   const RunResult found = run_case(source, options);
   row.status = found.summary.status;
   row.exit_code = static_cast<int>(found.expectations_hold ? ExitCode::done : ExitCode::expectation);

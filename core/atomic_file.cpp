@@ -50,7 +50,7 @@ void write_all(int descriptor, std::string_view content, const std::filesystem::
   while (!content.empty()) {
     const ssize_t written = ::write(descriptor, content.data(), content.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail_to_write(target, errno);
+    if (written <= 0) fail_to_write(target, written < 0 ? errno : ENOSPC);
     content.remove_prefix(static_cast<std::size_t>(written));
   }
 }
@@ -92,6 +92,14 @@ void PartialFile::commit() {
 bool is_partial_name(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
   return name.starts_with('.') && name.find(partial_mark) != std::string::npos;
+}
+
+bool is_partial_name_of(const std::filesystem::path& path, const std::filesystem::path& target) {
+  const std::string name = path.filename().string(), end = target.extension().string();
+  const std::string beginning = "." + target.stem().string() + std::string(partial_mark);
+  if (!name.starts_with(beginning) || !name.ends_with(end) || name.size() < beginning.size() + end.size()) return false;
+  const std::string numbers = name.substr(beginning.size(), name.size() - beginning.size() - end.size());
+  return numbers.find_first_not_of("0123456789-") == std::string::npos;
 }
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view content) {

@@ -39,6 +39,9 @@ class PartialFile {
 /// recognised and removed.
 [[nodiscard]] bool is_partial_name(const std::filesystem::path& path);
 
+/// True for a name that partial_path() gives for this target.
+[[nodiscard]] bool is_partial_name_of(const std::filesystem::path& path, const std::filesystem::path& target);
+
 /// Writes `content` to `path`, replacing an earlier file in one step: a reader sees the old file or the new one, never
 /// a part. Throws DataError (full disk, read-only folder, missing folder) and then leaves the earlier file as it was.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);

@@ -6,7 +6,6 @@
 #include <array>
 #include <functional>
 
-#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "io/frf/mat_response.hpp"
@@ -20,7 +19,6 @@
 #include "mesh/surface/wall_thickness.hpp"
 #include "report/error_summary.hpp"
 #include "report/lobes_files.hpp"
-#include "report/result_folder.hpp"
 #include "report/robot_report.hpp"
 #include "report/shape_files.hpp"
 #include "report/summary/summary_json.hpp"
@@ -120,30 +118,6 @@ void write_cuts(const fs::path& folder, const setup::Setup& source, const study:
   fs::create_directories(folder / "lobes");
   for (const auto& lobes : results.lobes) write_lobes(folder / "lobes", lobes);
   for (const auto& path : results.path) write_path(folder / "lobes", source, path);
-}
-
-void publish(const fs::path& staging, const fs::path& folder) {
-  const fs::path earlier = core::partial_path(folder / "earlier");
-  try {
-    fs::create_directory(earlier);
-    for (const char* name : result_subfolders) {
-      if (fs::exists(folder / name)) fs::rename(folder / name, earlier / name);
-      if (fs::exists(staging / name)) fs::rename(staging / name, folder / name);
-    }
-    // The summary comes last but one: where it is, everything it speaks of is there.
-    for (const char* name :
-         {"case.toml", "case.resolved.toml", "case.fitted.toml", "report.html", "summary.json", "manifest.json"}) {
-      if (fs::exists(staging / name)) {
-        fs::rename(staging / name, folder / name);
-      } else {
-        fs::remove(folder / name);
-      }
-    }
-    fs::remove_all(staging);
-    fs::remove_all(earlier);
-  } catch (const fs::filesystem_error& error) {
-    throw core::DataError(std::string("cannot replace the results of an earlier run: ") + error.what());
-  }
 }
 
 void write_summary(const fs::path& folder, const Summary& summary, nlohmann::json manifest) {

@@ -17,10 +17,6 @@ void write_structure(const std::filesystem::path& folder, const setup::Setup& so
 /// lobes/ below `folder`. Throws DataError as above.
 void write_cuts(const std::filesystem::path& folder, const setup::Setup& source, const study::Results& results);
 
-/// Moves a complete result from `staging` into the result folder, in place of an earlier run's, the summary and the
-/// manifest last: until then an interrupted run changes nothing there.
-void publish(const std::filesystem::path& staging, const std::filesystem::path& folder);
-
 /// Writes summary.json and manifest.json, the last files of a result folder: `manifest` with the summary's times and
 /// the SHA-256 of every file, of which the page must be there already. Cost: of hashing the files. Throws DataError as
 /// above.

@@ -1,16 +1,16 @@
 #include "report/result_folder.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
-#include <cerrno>
+#include <algorithm>
+#include <chrono>
+#include <optional>
 #include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "report/publish.hpp"
 
 namespace thinwall::report {
 
@@ -41,14 +41,28 @@ void refuse_foreign_content(const std::filesystem::path& folder) {
   }
 }
 
-/// A lock on the folder itself: it goes with the process, however that ends, and leaves no file behind.
-int lock_folder(const std::filesystem::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) refuse(folder, std::generic_category().message(errno));
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
-  const int error = errno;
-  ::close(descriptor);
-  refuse(folder, error == EWOULDBLOCK ? "another run is writing there" : std::generic_category().message(error));
+/// The lock of the folder. A run that was killed may take a moment to be gone, with all of its memory, and a run that
+/// ends puts another folder in its place; so it is asked for a second long.
+FolderLock lock_folder(const std::filesystem::path& folder) {
+  using namespace std::chrono_literals;
+  for (int tries = 0; tries < 20; ++tries) {
+    if (tries > 0) std::this_thread::sleep_for(50ms);
+    if (std::optional<FolderLock> lock = FolderLock::of(folder)) return std::move(*lock);
+  }
+  refuse(folder, "another run is writing there");
+}
+
+/// Removes what a killed run may have left of the folder beside it, unless the run that ends just now still has it.
+void remove_earlier_folders(const std::filesystem::path& folder) {
+  const std::filesystem::path place = std::filesystem::canonical(folder);
+  std::vector<std::filesystem::path> left;
+  for (const auto& entry : std::filesystem::directory_iterator(place.parent_path())) {
+    if (entry.is_directory() && !entry.is_symlink() && core::is_partial_name_of(entry.path(), place))
+      left.push_back(entry.path());
+  }
+  for (const auto& path : left) {
+    if (FolderLock::of(path)) std::filesystem::remove_all(path);
+  }
 }
 
 /// More than a block, so that a full disk shows.
@@ -67,13 +81,13 @@ ResultFolder::ResultFolder(std::filesystem::path folder) : path_(std::move(folde
   make_folder(path_);
   refuse_foreign_content(path_);
   lock_ = lock_folder(path_);
+  remove_unfinished_files(path_);
   try {
-    remove_unfinished_files(path_);
-    try_to_write(path_);
-  } catch (...) {
-    ::close(lock_);
-    throw;
+    remove_earlier_folders(path_);
+  } catch (const std::filesystem::filesystem_error&) {
+    // The folder around this one may not be listed or changed: then nothing was left there.
   }
+  try_to_write(path_);
 }
 
 ResultFolder::~ResultFolder() {
@@ -82,7 +96,11 @@ ResultFolder::~ResultFolder() {
   } catch (const std::exception&) {
     // The next run removes what remains; the results themselves are whole.
   }
-  ::close(lock_);
+}
+
+void ResultFolder::publish(const std::filesystem::path& staging) {
+  std::optional<FolderLock> next = FolderLock::of(staging);
+  if (report::publish(staging, path_) == Published::by_exchange && next) lock_ = std::move(*next);
 }
 
 void remove_unfinished_files(const std::filesystem::path& folder) {

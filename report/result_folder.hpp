@@ -4,12 +4,10 @@
 #include <array>
 #include <filesystem>
 
+#include "report/folder_lock.hpp"
 #include "setup/machining_setup.hpp"
 
 namespace thinwall::report {
-
-/// Folders of a result folder, which a run replaces whole.
-inline constexpr std::array result_subfolders{"modes", "frf", "robot", "lobes", "models"};
 
 /// results/<case>/ below the working directory.
 [[nodiscard]] std::filesystem::path default_result_folder(const std::string& case_name);
@@ -17,9 +15,9 @@ inline constexpr std::array result_subfolders{"modes", "frf", "robot", "lobes", 
 /// A result folder held by this process alone for as long as the object lives.
 class ResultFolder {
  public:
-  /// Makes the folder if need be, takes an advisory lock (flock) on it, removes unfinished files of a killed run, and
-  /// writes a trial file, all before anything is computed. Throws DataError: not a folder, not writable, disk full, or
-  /// in use by another run.
+  /// Makes the folder if need be, takes an advisory lock (FolderLock) on it, removes unfinished files of a killed run
+  /// in it and beside it, and writes a trial file, all before anything is computed. Throws DataError: not a folder, not
+  /// writable, disk full, or in use by another run.
   explicit ResultFolder(std::filesystem::path folder);
   ~ResultFolder();
   ResultFolder(const ResultFolder&) = delete;
@@ -27,9 +25,12 @@ class ResultFolder {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
+  /// Publishes `staging` here as publish() does; the folder stays locked.
+  void publish(const std::filesystem::path& staging);
+
  private:
   std::filesystem::path path_;
-  int lock_ = -1;
+  FolderLock lock_;
 };
 
 /// Removes unfinished files (core::is_partial_name) anywhere below `folder`.

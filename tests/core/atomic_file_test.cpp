@@ -62,6 +62,16 @@ TEST_F(AtomicFile, APartialFileThatIsNotCommittedDisappears) {
   EXPECT_FALSE(is_partial_name("modes.vtu"));
 }
 
+TEST_F(AtomicFile, APartialNameIsThatOfItsTargetOnly) {
+  for (const char* target : {"out", "out.1", "case.toml"}) {
+    EXPECT_TRUE(is_partial_name_of(partial_path(folder / target), folder / target)) << target;
+    EXPECT_FALSE(is_partial_name_of(partial_path(folder / target), folder / "other")) << target;
+  }
+  EXPECT_FALSE(is_partial_name_of(partial_path(folder / "out"), folder / "out.1"));
+  EXPECT_FALSE(is_partial_name_of(partial_path(folder / "out.1"), folder / "out"));
+  EXPECT_FALSE(is_partial_name_of(folder / ".out.partial-1-0.txt", folder / "out"));
+}
+
 TEST_F(AtomicFile, RefusesWhatIsNotAPlainFileOrHasNoFolder) {
   EXPECT_THROW(write_file_atomically(folder, "x"), DataError);
   EXPECT_THROW(write_file_atomically("/dev/full", "x"), DataError);

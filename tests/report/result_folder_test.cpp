@@ -5,11 +5,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "report/publish.hpp"
 #include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::result_folder_test {
@@ -99,6 +101,96 @@ TEST(ResultFolder, RemainsOfAKilledRunAreRemovedAndResultsKept) {
   { const ResultFolder held(temporary.path); }
   EXPECT_TRUE(std::filesystem::is_empty(temporary.path / "modes"));
   EXPECT_TRUE(std::filesystem::exists(temporary.path / "summary.json"));
+}
+
+/// A folder with results of an earlier run and what a user put there, and a finished result within it.
+struct Earlier {
+  Earlier() {
+    for (const auto& below : {folder / "modes", staging / "modes", staging / "lobes", folder / "photos"})
+      std::filesystem::create_directories(below);
+    for (const char* name : {"modes/old.csv", "case.fitted.toml", "manifest.json", "notes.txt", "photos/first.txt"})
+      std::ofstream(folder / name) << "earlier";
+    std::filesystem::create_symlink("notes.txt", folder / "link");
+    for (const char* name : {"modes/new.csv", "lobes/part.csv", "manifest.json"})
+      std::ofstream(staging / name) << "new";
+  }
+
+  TemporaryFolder temporary;
+  std::filesystem::path folder = temporary.path / "out", staging = folder / ".results.partial-1-0";
+};
+
+std::vector<std::string> names_below(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!entry.is_directory()) names.push_back(entry.path().lexically_relative(folder));
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void expect_new_results_and_notes(const std::filesystem::path& folder) {
+  EXPECT_EQ(names_below(folder), (std::vector<std::string>{"link", "lobes/part.csv", "manifest.json", "modes/new.csv",
+                                                           "notes.txt", "photos/first.txt"}));
+  EXPECT_EQ(core::read_file(folder / "manifest.json"), "new");
+  EXPECT_EQ(core::read_file(folder / "link"), "earlier");
+}
+
+TEST(Publish, ExchangesTheFolderAndKeepsWhatIsNotARunsOwn) {
+  const Earlier earlier;
+  std::filesystem::permissions(earlier.folder, std::filesystem::perms(0750));
+  EXPECT_EQ(publish(earlier.staging, earlier.folder), Published::by_exchange);
+  expect_new_results_and_notes(earlier.folder);
+  EXPECT_EQ(names_below(earlier.temporary.path).size(), names_below(earlier.folder).size()) << "nothing beside it";
+  EXPECT_EQ(std::filesystem::status(earlier.folder).permissions(), std::filesystem::perms(0750));
+}
+
+TEST(Publish, MovesResultsOneByOneWhereTheWorkingDirectoryIsTheFolder) {
+  const Earlier earlier;
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(earlier.folder);
+  const Published published = publish(".results.partial-1-0", ".");
+  expect_new_results_and_notes(".");
+  std::filesystem::current_path(before);
+  EXPECT_EQ(published, Published::by_moves) << "a shell in there would be in a folder that is gone";
+}
+
+TEST(ResultFolder, StaysLockedWhenItsResultsArePublished) {
+  const Earlier earlier;
+  {
+    ResultFolder held(earlier.folder);
+    std::filesystem::create_directories(earlier.staging / "modes");  // what was there was unfinished
+    std::ofstream(earlier.staging / "manifest.json") << "new";
+    held.publish(earlier.staging);
+    EXPECT_NE(refusal(earlier.folder).find("another run is writing there"), std::string::npos);
+  }
+  EXPECT_EQ(refusal(earlier.folder), "");
+}
+
+TEST(ResultFolder, WhatAKilledRunLeftBesideItIsRemovedUnlessThatRunStillHasIt) {
+  const TemporaryFolder temporary;
+  const auto left = temporary.path / ".out.partial-1-0", another = temporary.path / ".other.partial-1-0";
+  for (const auto& folder : {left, another}) std::filesystem::create_directories(folder);
+  {
+    const auto lock = FolderLock::of(left);
+    const ResultFolder held(temporary.path / "out");
+    EXPECT_TRUE(std::filesystem::exists(left));
+  }
+  { const ResultFolder held(temporary.path / "out"); }
+  EXPECT_FALSE(std::filesystem::exists(left));
+  EXPECT_TRUE(std::filesystem::exists(another)) << "is of another folder";
+}
+
+/// A lock on a folder is that of the folder that is there now, not of one that was there.
+TEST(FolderLock, OfAFolderThatWasReplacedIsNotGiven) {
+  const TemporaryFolder temporary;
+  std::filesystem::create_directories(temporary.path / "a");
+  const auto lock = FolderLock::of(temporary.path / "a");
+  ASSERT_TRUE(lock);
+  EXPECT_FALSE(FolderLock::of(temporary.path / "a"));
+  std::filesystem::rename(temporary.path / "a", temporary.path / "b");
+  std::filesystem::create_directories(temporary.path / "a");
+  EXPECT_TRUE(FolderLock::of(temporary.path / "a"));
+  EXPECT_FALSE(FolderLock::of(temporary.path / "b")) << "the lock went with the folder";
 }
 
 }  // namespace
