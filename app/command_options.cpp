@@ -4,6 +4,7 @@
 
 #include "app/completion.hpp"
 #include "app/doctor.hpp"
+#include "app/memory_option.hpp"
 #include "case/templates.hpp"
 
 namespace thinwall::app {
@@ -48,6 +49,7 @@ void add_run_arguments(CLI::App& command, Arguments& arguments) {
       ->allow_extra_args(false);
   add_log_arguments(command, arguments);
   command.add_option("--threads", arguments.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
+  add_memory_option(command);
 }
 
 void describe_lobes(CLI::App& app, Arguments& arguments) {
@@ -88,6 +90,7 @@ void describe_reduce(CLI::App& app, Arguments& arguments) {
   command->add_option("--characteristic", reduce.characteristic, "amplitudes of a reduced interface")
       ->check(CLI::Range(1, 2000));
   command->add_flag("--compare", reduce.compare, "a table of all methods at this size");
+  add_memory_option(*command);
   add_log_arguments(*command, arguments);
 }
 

@@ -1,5 +1,6 @@
 #include "app/command_sweep.hpp"
 
+#include "app/memory_option.hpp"
 #include "core/parallel.hpp"
 
 namespace thinwall::app {
@@ -22,6 +23,7 @@ void describe_sweep(CLI::App& app, SweepRequest& sweep, MergeRequest& merge) {
   command->add_flag("--fresh", sweep.fresh, "compute the points that are there already, too");
   command->add_option_function<int>("--threads", core::set_thread_count, "threads to use (default: all)")
       ->check(CLI::Range(1, 1024));
+  add_memory_option(*command);
   auto* quiet = command->add_flag_callback(
       "-q,--quiet", [&sweep] { sweep.verbosity = -1; }, "log warnings only");
   command

@@ -4,6 +4,7 @@
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/memory.hpp"
 #include "core/parallel.hpp"
 #include "dynamics/conversion.hpp"
 
@@ -30,6 +31,9 @@ ResponseModel empty_response(const DofTable& dofs, const std::vector<int>& rows,
   DofTable table;
   for (const int row : rows) table.push_back(dofs[static_cast<std::size_t>(row)]);
   const auto size = static_cast<Eigen::Index>(rows.size());
+  core::require_memory(16.0 * static_cast<double>(axis.size() * size * size),
+                       "a response of " + std::to_string(axis.size()) + " lines between " + std::to_string(size) +
+                           " degrees of freedom");
   return {axis, table, table,
           std::vector<Eigen::MatrixXcd>(static_cast<std::size_t>(axis.size()), Eigen::MatrixXcd(size, size))};
 }

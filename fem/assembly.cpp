@@ -128,6 +128,9 @@ void reserve(const Lists& graph, const Numbering& rows, Assembled& result) {
     throw core::NumericalError("the stiffness matrix would have " + std::to_string(9 * graph.start.back()) +
                                " entries, more than 32-bit indices hold: use larger elements or a lower order");
   }
+  // K has blocks of nine entries, M of three, the mass of nodes one; an entry is a number and an index.
+  core::require_memory(12.0 * 13.0 * static_cast<double>(graph.start.back()),
+                       "the stiffness matrix of " + std::to_string(free) + " degrees of freedom");
   result.K.resize(free, free);
   result.M.resize(free, free);
   result.node_mass.resize(nodes, nodes);

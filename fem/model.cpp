@@ -110,11 +110,12 @@ namespace {
 [[noreturn]] void too_large(const Model& model, const linalg::MemoryLimitError& error) {
   const double fitting = std::pow(error.limit_bytes / error.needed_bytes, 0.75);
   const auto rounded = [](double x) { return std::to_string(static_cast<long>(std::lround(x))); };
-  throw linalg::MemoryLimitError(
-      std::string(error.what()) + ": about " + rounded(fitting * static_cast<double>(model.K.rows())) + " of these " +
-          std::to_string(model.K.rows()) + " degrees of freedom fit; make the elements " +
-          rounded(std::ceil(100.0 * (std::cbrt(1.0 / fitting) - 1.0))) + " % larger, or lower the order",
-      error.needed_bytes, error.limit_bytes);
+  throw linalg::MemoryLimitError(std::string(error.what()) + ": about " +
+                                     rounded(fitting * static_cast<double>(model.K.rows())) + " of these " +
+                                     std::to_string(model.K.rows()) + " degrees of freedom fit; make the elements " +
+                                     rounded(std::ceil(100.0 * (std::cbrt(1.0 / fitting) - 1.0))) +
+                                     " % larger, lower the order, or give more by --memory",
+                                 error.needed_bytes, error.limit_bytes);
 }
 
 /// The rows 3·node + axis that supports hold: those that are neither free nor part of a rigid patch.

@@ -10,6 +10,7 @@
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/memory.hpp"
 #include "linalg/inverse_iteration.hpp"
 #include "linalg/tall.hpp"
 
@@ -65,9 +66,17 @@ struct Krylov {
 
   [[nodiscard]] auto basis() const { return V.leftCols(columns); }
 
+  /// Makes room for so many columns, for which both the old and the new basis are held.
+  void widen(Index capacity) {
+    core::require_memory(8.0 * static_cast<double>(M.rows() * capacity), "a basis of " + std::to_string(capacity) +
+                                                                             " vectors of " + std::to_string(M.rows()) +
+                                                                             " entries for the modes");
+    V.conservativeResize(Eigen::NoChange, capacity);
+  }
+
   void append(const Block& block) {
     const Index after = columns + block.Q.cols();
-    if (after > V.cols()) V.conservativeResize(Eigen::NoChange, std::max(2 * V.cols(), after));
+    if (after > V.cols()) widen(std::max(2 * V.cols(), after));
     V.middleCols(columns, block.Q.cols()) = block.Q;
     columns = after;
     recent[0] = std::exchange(recent[1], block.MQ);

@@ -5,7 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "core/memory.hpp"
 #include "core/parallel.hpp"
+#include "core/units.hpp"
 #include "linalg/large_array.hpp"
 #include "linalg/minimum_fill.hpp"
 #include "linalg/ordering.hpp"
@@ -35,10 +37,13 @@ double seconds_since(Clock::time_point start) {
 }
 
 void require_memory(double needed, double limit, Eigen::Index rows) {
+  const bool of_process = limit <= 0.0;
+  if (of_process) limit = core::memory_left_bytes();
   if (limit <= 0.0 || needed <= limit) return;
   throw MemoryLimitError("the factor of a matrix of " + std::to_string(rows) + " rows needs " +
-                             std::to_string(needed * 1e-9) + " GB, more than the limit of " +
-                             std::to_string(limit * 1e-9) + " GB",
+                             core::readable_text(needed, core::kind::memory) + ", " +
+                             (of_process ? "and " + core::memory_left_text()
+                                         : "more than the limit of " + core::readable_text(limit, core::kind::memory)),
                          needed, limit);
 }
 

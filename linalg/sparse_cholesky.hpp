@@ -12,7 +12,8 @@ namespace thinwall::linalg {
 
 /// Limits of a factorisation.
 struct FactorOptions {
-  double memory_limit_bytes = 0.0;  ///< 0: none; compared with the symbolic factor before the numeric one is allocated
+  /// Compared with the symbolic factor before the numeric one is allocated; 0: core::memory_left_bytes().
+  double memory_limit_bytes = 0.0;
 };
 
 /// Size of a factor and cost of its factorisation.

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -19,6 +20,7 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/memory.hpp"
 #include "mesh/curve_order.hpp"
 
 namespace thinwall::mesh {
@@ -70,7 +72,8 @@ void belong_to(pid_t parent, int out) {
     dup2(null, STDOUT_FILENO);
     dup2(null, STDERR_FILENO);
   }
-  limit_resources(time_limit_s, memory_limit_bytes);
+  const double left = core::memory_left_bytes();
+  limit_resources(time_limit_s, left > 0.0 ? std::min(left, memory_limit_bytes) : memory_limit_bytes);
   int status = threw;
   try {
     const std::vector<char> bytes = work();

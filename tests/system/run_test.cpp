@@ -1,6 +1,7 @@
 // The program as a user runs it: a process, its exit code, what it leaves.
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -295,6 +296,35 @@ TEST(Run, InterruptionAtAnyStageLeavesTheEarlierResultsAlone) {
     EXPECT_TRUE(code == -1 || unfinished(out).empty());
   }
   EXPECT_GE(interrupted, 2);
+}
+
+/// Runs with a limit of memory; the exit code, and the most that the process ever held, bytes.
+std::pair<int, double> run_within(const std::string& memory, const fs::path& out) {
+  std::vector<std::string> all = words("run", plate, out, {"--fresh", "-q", "--memory", memory});
+  all.insert(all.end(), {"--set", "lobes.count=4"});
+  const pid_t pid = start(all, "/dev/null");
+  int status = 0;
+  rusage used{};
+  wait4(pid, &status, 0, &used);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, 1024.0 * static_cast<double>(used.ru_maxrss)};
+}
+
+/// Of a part that takes some 0.8 GB: what is beyond the limit is refused or ended, and what is within goes through.
+TEST(Run, TheProcessStaysWithinItsMemory) {
+  const fs::path out = scratch("run_memory");
+  const std::vector<std::pair<std::string, double>> limits{{"150 MB", 1.5e8}, {"250 MB", 2.5e8}, {"500 MB", 5e8}};
+  for (const auto& [text, bytes] : limits) {
+    const auto [code, most] = run_within(text, out);
+    std::printf("memory %s: exit code %d, at most %.0f MB\n", text.c_str(), code, most * 1e-6);
+    EXPECT_EQ(code, 5) << text;
+    EXPECT_LE(most, bytes) << text;
+    EXPECT_FALSE(fs::exists(out / "summary.json"));
+  }
+  const auto [code, most] = run_within("4 GB", out);
+  EXPECT_TRUE(code == 0 || code == 6) << code;
+  EXPECT_GT(most, 5e8) << "the limits above are too little";
+  EXPECT_EQ(run_within("4 apples", out).first, 3);
+  EXPECT_EQ(run_within("4 MB", out).first, 3);
 }
 
 TEST(Run, TwoRunsDoNotMeetInOneFolder) {
