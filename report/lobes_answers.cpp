@@ -84,7 +84,8 @@ std::string pockets_text(const std::vector<PocketSummary>& pockets, std::string 
     text += fmt::format("    {:<13} {} at {:.0f} rpm", std::exchange(label, ""),
                         depth_text(pocket.depth_m, pocket.at_depth_limit), pocket.spindle_speed_rpm);
     if (pocket.removal_rate_cm3_per_min) text += fmt::format(", {:.3g} cm3/min", *pocket.removal_rate_cm3_per_min);
-    text += fmt::format(", limited by {}\n", sensitivity_in_words(pocket.limited_by));
+    text += fmt::format(", limited by {}, nine tenths at {}{}\n", sensitivity_in_words(pocket.limited_by),
+                        width_text(pocket), pocket.at_chart_edge ? "; edge of the chart" : "");
   }
   return text;
 }

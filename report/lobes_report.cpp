@@ -26,7 +26,10 @@ std::string chart_text(const LobesSummary& chart) {
                                  chart_title(chart.name), depth_text(chart.minimum_depth_m, all),
                                  all ? "at every speed" : fmt::format("at {:.0f} rpm", chart.at_spindle_speed_rpm),
                                  estimate_text(chart.error_estimate_relative));
-  text += pockets_text(chart.best_pockets, "best pockets") + asked_text(chart);
+  text += pockets_text(chart.best_pockets, "pockets") + asked_text(chart);
+  if (const auto& best = chart.best_pocket)
+    text += fmt::format("    {}: {} at {:.0f} rpm\n", best_pocket_title(chart),
+                        depth_text(best->depth_m, best->at_depth_limit), best->spindle_speed_rpm);
   if (const auto& row = chart.at_case_speed) {
     text += fmt::format("    at {:.0f} rpm {}\n", row->spindle_speed_rpm,
                         depth_text(row->limiting_depth_m, row->at_depth_limit));

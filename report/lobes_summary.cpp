@@ -56,6 +56,9 @@ std::vector<PocketSummary> pockets_summary(const setup::Setup& source, const std
     list.push_back(
         {pocket.spindle_speed_rpm, pocket.depth_m, pocket.at_limit, limit_name(source, pocket.limited_by), {}});
     if (const auto& rate = pocket.removal_rate_m3_s) list.back().removal_rate_cm3_per_min = *rate * 60e6;
+    list.back().from_spindle_speed_rpm = pocket.from_rpm;
+    list.back().to_spindle_speed_rpm = pocket.to_rpm;
+    list.back().at_chart_edge = pocket.at_chart_edge;
   }
   return list;
 }

@@ -14,6 +14,12 @@ namespace thinwall::report {
 /// The title of a chart: "part alone", "with the robot", "tool".
 [[nodiscard]] std::string chart_title(study::ChartOf chart);
 
+/// What `best_pocket` of a chart is: "best pocket", "best robust pocket"; "edge of the chart" where it is one.
+[[nodiscard]] std::string best_pocket_title(const LobesSummary& chart);
+
+/// Where nine tenths of a pocket's depth can be cut: "8310 to 8500 rpm".
+[[nodiscard]] std::string width_text(const PocketSummary& pocket);
+
 /// The time of the whole run, s; 0 where it was not taken.
 [[nodiscard]] double total_seconds(const Summary& summary);
 

@@ -196,6 +196,8 @@ LobesSummary lobes_of(const setup::Setup& source, const study::StructureLobes& n
   result.main_modes_hz = named.main_modes_hz;
   result.best_pockets = pockets_summary(source, named.pockets);
   add_what_was_asked(result, source, named);
+  const auto& pockets = result.robust ? result.robust->best_pockets : result.best_pockets;
+  if (!pockets.empty()) result.best_pocket = pockets.front();
   result.error_budget = chart_errors_summary(named);
   if (named.at_spindle_speed) result.at_case_speed = case_speed_of(source, named);
   return result;

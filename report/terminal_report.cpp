@@ -10,6 +10,7 @@
 #include "report/lobes_answers.hpp"
 #include "report/lobes_report.hpp"
 #include "report/lobes_words.hpp"
+#include "report/page/limit_text.hpp"
 #include "report/path_report.hpp"
 
 namespace thinwall::report {
@@ -29,6 +30,14 @@ std::string minimum(const LobesSummary& lobes) {
   if (lobes.speeds_stable_to_depth_limit == lobes.speeds)
     return fmt::format("over {:.1f} mm at every speed of the chart", mm);
   return fmt::format("{:.2f} mm at {:.0f} rpm", mm, lobes.at_spindle_speed_rpm);
+}
+
+std::string best(const LobesSummary& lobes) {
+  if (!lobes.best_pocket) return "none";
+  const double mm = lobes.best_pocket->depth_m * 1e3;
+  const std::string depth =
+      lobes.best_pocket->at_depth_limit ? fmt::format("over {:.1f}", mm) : fmt::format("{:.2f}", mm);
+  return fmt::format("{} mm at {:.0f} rpm", depth, lobes.best_pocket->spindle_speed_rpm);
 }
 
 void answer(std::string& out, const Summary& summary) {
@@ -99,12 +108,14 @@ void coupled_modes(std::string& out, const CouplingSummary& coupling) {
 
 void charts(std::string& out, const Summary& summary) {
   if (summary.lobes.empty()) return;
-  out += "\n  stability chart        least depth anywhere                   deepest pocket            error est.\n";
+  out += "\n  stability chart        least depth anywhere                   best pocket               error est.\n";
   for (const LobesSummary& lobes : summary.lobes) {
     const auto& error = lobes.error_estimate_relative;
-    out += fmt::format("  {:<22} {:<38} {:<25} {}\n", chart_title(lobes.name), minimum(lobes),
-                       fmt::format("{} at {:.0f} rpm", depth(lobes.maximum), lobes.maximum.spindle_speed_rpm),
+    out += fmt::format("  {:<22} {:<38} {:<25} {}\n", chart_title(lobes.name), minimum(lobes), best(lobes),
                        error ? fmt::format("{:.2f} %", *error * 100.0) : "unknown");
+    if (const auto& pocket = lobes.best_pocket)
+      out += fmt::format("    {}: nine tenths of its depth at {}, limited by {}\n", best_pocket_title(lobes),
+                         width_text(*pocket), in_words(pocket->limited_by));
     out += asked_text(lobes);
   }
 }

@@ -11,6 +11,9 @@ namespace {
 /// Rates that differ by less are one: along a bound of power the rate is constant but for round-off.
 constexpr double same = 1.0 + 1e-9;
 
+/// Of a pocket's depth: what must be left of it within its width.
+constexpr double share_of_depth = 0.9;
+
 double rate(const Pocket& cut) {
   return cut.spindle_speed_rpm * cut.depth_m;
 }
@@ -28,6 +31,26 @@ Pocket deepest_cut(const LobeRow& row, const MachineLimits& machine, const std::
   bound(depth_for_power(*load, machine, cut.spindle_speed_rpm), PocketLimit::power);
   cut.removal_rate_m3_s = rate(cut) * load->removal_per_depth_turn_m2 / 60.0;
   return cut;
+}
+
+/// The speed from cut i towards `step` up to which `least_m` of depth can be cut.
+double end_of_depth(const std::vector<Pocket>& cuts, std::size_t i, int step, double least_m) {
+  double end = cuts[i].spindle_speed_rpm;
+  for (auto j = static_cast<std::ptrdiff_t>(i) + step; j >= 0 && j < std::ssize(cuts); j += step) {
+    const Pocket& next = cuts[static_cast<std::size_t>(j)];
+    const Pocket& before = cuts[static_cast<std::size_t>(j - step)];
+    if (next.depth_m < least_m) {
+      const double share = (before.depth_m - least_m) / (before.depth_m - next.depth_m);
+      return before.spindle_speed_rpm + share * (next.spindle_speed_rpm - before.spindle_speed_rpm);
+    }
+    end = next.spindle_speed_rpm;
+  }
+  return end;
+}
+
+bool is_better(const Pocket& a, const Pocket& b) {
+  if (a.at_chart_edge != b.at_chart_edge) return b.at_chart_edge;
+  return a.depth_m != b.depth_m ? a.depth_m > b.depth_m : a.spindle_speed_rpm > b.spindle_speed_rpm;
 }
 
 }  // namespace
@@ -81,9 +104,13 @@ std::vector<Pocket> best_pockets(const std::vector<LobeRow>& rows, const Machine
     if (!within_after && beaten_by(i + 1, same))
       top.limited_by = fastest < machine.max_spindle_speed_rpm ? PocketLimit::feed_rate : PocketLimit::spindle_speed;
     if (!within_before && beaten_by(before, same)) top.limited_by = PocketLimit::spindle_speed;
+    top.from_rpm = std::max(machine.min_spindle_speed_rpm, end_of_depth(cuts, i, -1, share_of_depth * top.depth_m));
+    top.to_rpm =
+        std::min({fastest, machine.max_spindle_speed_rpm, end_of_depth(cuts, i, 1, share_of_depth * top.depth_m)});
+    top.at_chart_edge = i == 0 || i + 1 == cuts.size();
     tops.push_back(top);
   }
-  std::stable_sort(tops.begin(), tops.end(), [](const Pocket& a, const Pocket& b) { return rate(a) > rate(b); });
+  std::stable_sort(tops.begin(), tops.end(), is_better);
   tops.resize(std::min(tops.size(), most));
   return tops;
 }

@@ -32,9 +32,13 @@ struct Pocket {
   bool at_limit = false;  ///< stable up to the depth limit
   PocketLimit limited_by = PocketLimit::stability;
   std::optional<double> removal_rate_m3_s = {};  ///< where the feed is known
+  /// Speeds between which nine tenths of this depth can be cut, linear between the rows.
+  double from_rpm = 0.0, to_rpm = 0.0;
+  bool at_chart_edge = false;  ///< at the first or last speed of the chart, beyond which it may be deeper still
 };
 
-/// The best `most` pockets, highest speed times depth first. `rows` by rising speed. Cost O(rows log rows).
+/// The best `most` pockets: the deepest first, of two as deep the one of the higher speed; those at an edge of the
+/// chart, which may be no pockets, come last. `rows` by rising speed. Cost O(rows log rows).
 [[nodiscard]] std::vector<Pocket> best_pockets(const std::vector<LobeRow>& rows, std::size_t most);
 
 /// The best pockets within the machine's speeds, with every depth cut to what power and torque allow under `load`,

@@ -105,10 +105,12 @@ std::string sentence(const std::string& subject, const std::vector<Answer>& list
 }
 
 std::string pocket_text(const LobesSummary& chart) {
-  if (chart.best_pockets.empty()) return "";
-  const PocketSummary& pocket = chart.best_pockets.front();
-  std::string text = fmt::format("best pocket {} at {:.0f} rpm", millimetres(pocket.depth_m), pocket.spindle_speed_rpm);
+  if (!chart.best_pocket) return "";
+  const PocketSummary& pocket = *chart.best_pocket;
+  std::string text = fmt::format("{} {} at {:.0f} rpm", best_pocket_title(chart), millimetres(pocket.depth_m),
+                                 pocket.spindle_speed_rpm);
   if (!pocket.limited_by.empty()) text += " (" + in_words(pocket.limited_by) + ")";
+  text += ", nine tenths of it at " + width_text(pocket);
   if (pocket.removal_rate_cm3_per_min) text += fmt::format(", {:.3g} cm³/min", *pocket.removal_rate_cm3_per_min);
   return text;
 }

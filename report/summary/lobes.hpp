@@ -103,6 +103,8 @@ struct PocketSummary {
   bool at_depth_limit = false;
   std::string limited_by;
   std::optional<double> removal_rate_cm3_per_min;
+  double from_spindle_speed_rpm = 0.0, to_spindle_speed_rpm = 0.0;
+  bool at_chart_edge = false;
 };
 
 template <class Visitor, Either<PocketSummary> Section>
@@ -114,6 +116,12 @@ void fields(Visitor& visit, Section& pocket) {
   visit(Field{"limited_by", Kind::text, "what bounds the depth: stability, the tool, the machine"}, pocket.limited_by);
   visit(Field{"removal_rate_cm3_per_min", Kind::removal_rate, "removal rate; null without a feed", Presence::or_null},
         pocket.removal_rate_cm3_per_min);
+  visit(Field{"from_spindle_speed_rpm", Kind::spindle_speed, "lowest speed at which nine tenths of the depth are left"},
+        pocket.from_spindle_speed_rpm);
+  visit(Field{"to_spindle_speed_rpm", Kind::spindle_speed, "highest speed at which nine tenths of the depth are left"},
+        pocket.to_spindle_speed_rpm);
+  visit(Field{"at_chart_edge", Kind::truth, "true if the chart ends there: no pocket, it may be deeper beyond"},
+        pocket.at_chart_edge);
 }
 
 /// The limit at the case's own speed, with all that is told of it.
@@ -212,6 +220,7 @@ struct LobesSummary {
   long speeds = 0;
   int speeds_stable_to_depth_limit = 0, speeds_not_converged = 0;
   std::vector<double> main_modes_hz;
+  std::optional<PocketSummary> best_pocket;
   std::vector<PocketSummary> best_pockets;
   std::vector<ComparedSummary> compared;
   std::optional<MapSummary> map;
@@ -239,6 +248,11 @@ void fields(Visitor& visit, Section& chart) {
   visit(Field{"speeds_not_converged", Kind::count, "speeds that did not reach the tolerance"},
         chart.speeds_not_converged);
   visit(Field{"main_modes_hz", Kind::frequency, "frequencies that the cut feels most, ascending"}, chart.main_modes_hz);
+  visit(
+      Field{"best_pocket", Kind::section,
+            "deepest pocket within the machine's limits, of the robust limits where there are some; at an edge of the "
+            "chart only if there is no other"},
+      chart.best_pocket);
   visit(Field{"best_pockets", Kind::section, "deepest cuts within the machine's limits, best first"},
         chart.best_pockets);
   visit(Field{"compared", Kind::section, "charts by other methods (lobes.compare)", Presence::if_any}, chart.compared);

@@ -141,7 +141,7 @@ std::vector<LobeRow> chart(const std::vector<std::pair<double, double>>& points,
 const std::vector<std::pair<double, double>> two_pockets{{3000, 2e-3}, {3500, 4e-3}, {4000, 6e-3}, {4500, 3e-3},
                                                          {5000, 2e-3}, {5500, 5e-3}, {6000, 8e-3}, {6500, 4e-3}};
 
-TEST(PocketsOfAMachine, RankByWhatIsRemoved) {
+TEST(PocketsOfAMachine, RankByDepthAndSayTheirWidth) {
   const CutLoad load = cut_load(cut(5e-3, MillingDirection::down), feed);
   const auto pockets = best_pockets(chart(two_pockets, 7.5e-3), {}, load, 5);
   ASSERT_EQ(pockets.size(), 2u);
@@ -152,6 +152,20 @@ TEST(PocketsOfAMachine, RankByWhatIsRemoved) {
   const auto without_feed = best_pockets(chart(two_pockets), {}, {}, 5);
   ASSERT_EQ(without_feed.size(), 2u);
   EXPECT_FALSE(without_feed[0].removal_rate_m3_s.has_value());
+}
+
+TEST(PocketsOfAMachine, OfAnEdgeOfTheChartComeLast) {
+  std::vector<std::pair<double, double>> rising = two_pockets;
+  rising.emplace_back(7000.0, 20e-3);
+  const auto pockets = best_pockets(chart(rising), {}, {}, 5);
+  ASSERT_EQ(pockets.size(), 3u);
+  EXPECT_EQ(pockets[0].spindle_speed_rpm, 6000.0);
+  EXPECT_FALSE(pockets[0].at_chart_edge);
+  EXPECT_EQ(pockets[2].spindle_speed_rpm, 7000.0) << "the deepest of all";
+  EXPECT_TRUE(pockets[2].at_chart_edge);
+  // 8 mm at 6000 rpm beside 5 and 4 mm: 7.2 mm are left 500·0.8/3 below and 500·0.8/4 above.
+  EXPECT_NEAR(pockets[0].from_rpm, 6000.0 - 500.0 * 0.8 / 3.0, 1e-9);
+  EXPECT_NEAR(pockets[0].to_rpm, 6000.0 + 500.0 * 0.8 / 4.0, 1e-9);
 }
 
 TEST(PocketsOfAMachine, TorqueCutsDepthAndPowerMakesAPlateau) {
@@ -167,8 +181,8 @@ TEST(PocketsOfAMachine, TorqueCutsDepthAndPowerMakesAPlateau) {
   machine.max_power_W = 2.0 * pi * 5500.0 / 60.0 * 5e-3 * load.torque_per_depth_N;
   pockets = best_pockets(chart(two_pockets), machine, load, 5);
   ASSERT_EQ(pockets.size(), 2u) << "a plateau of constant power is one pocket";
-  EXPECT_EQ(pockets[0].limited_by, PocketLimit::stability) << "the power is just enough at 5500 rpm";
-  EXPECT_EQ(pockets[0].spindle_speed_rpm, 5500.0);
+  EXPECT_EQ(pockets[1].limited_by, PocketLimit::stability) << "the power is just enough at 5500 rpm";
+  EXPECT_EQ(pockets[1].spindle_speed_rpm, 5500.0);
   machine.max_power_W *= 0.8;
   pockets = best_pockets(chart(two_pockets), machine, load, 5);
   EXPECT_EQ(pockets[0].limited_by, PocketLimit::power);
@@ -181,9 +195,9 @@ TEST(PocketsOfAMachine, EndWhereItsSpeedsEnd) {
   machine.max_spindle_speed_rpm = 5600.0;
   auto pockets = best_pockets(chart(two_pockets), machine, load, 5);
   ASSERT_EQ(pockets.size(), 2u);
-  EXPECT_EQ(pockets[0].spindle_speed_rpm, 5500.0);
-  EXPECT_EQ(pockets[0].limited_by, PocketLimit::spindle_speed);
-  EXPECT_EQ(pockets[1].limited_by, PocketLimit::stability);
+  EXPECT_EQ(pockets[1].spindle_speed_rpm, 5500.0);
+  EXPECT_EQ(pockets[1].limited_by, PocketLimit::spindle_speed);
+  EXPECT_EQ(pockets[0].limited_by, PocketLimit::stability) << "deeper, though less is removed";
   machine.max_feed_rate_m_s = 3.0 * feed * 5100.0 / 60.0;
   machine.min_spindle_speed_rpm = 4400.0;
   pockets = best_pockets(chart(two_pockets), machine, load, 5);

@@ -13,7 +13,7 @@ LobesSummary chart(ChartOf name, double depth_m, bool at_limit) {
   chart.minimum_depth_m = 0.001;
   chart.speeds = 10;
   chart.error_estimate_relative = 1e-4;
-  chart.best_pockets = {{2250.0, 0.02, true, "tool_length", {}}};
+  chart.best_pocket = {2250.0, 0.02, true, "tool_length", {}, 2190.0, 2260.0, false};
   CaseSpeedSummary& row = chart.at_case_speed.emplace();
   row.at_depth_limit = at_limit;
   row.limiting_depth_m = depth_m;
@@ -53,9 +53,19 @@ TEST(Headline, SaysTheAnswerFirstAndTheSupportedPartBeforeTheBareOne) {
   const auto text = headline(summary);
   ASSERT_EQ(text.size(), 2U);
   EXPECT_EQ(text[0], "With the robot at P: stable up to 20 mm at 1900 rpm (tool length); without: 1.7 mm.");
-  EXPECT_EQ(text[1],
-            "Best pocket 20 mm at 2250 rpm (tool length); margin at 1900 rpm and 2 mm: at least 18 mm; estimated error "
-            "0.01 %.");
+  EXPECT_EQ(
+      text[1],
+      "Best pocket 20 mm at 2250 rpm (tool length), nine tenths of it at 2190 to 2260 rpm; margin at 1900 rpm and "
+      "2 mm: at least 18 mm; estimated error 0.01 %.");
+}
+
+TEST(Headline, NamesAnEdgeOfTheChartAndARobustPocketAsSuch) {
+  Summary summary = both("P", "P");
+  summary.lobes[1].robust.emplace();
+  EXPECT_EQ(headline(summary)[1].find("Best robust pocket 20 mm at 2250 rpm"), 0U);
+  summary.lobes[1].best_pocket->at_chart_edge = true;
+  EXPECT_EQ(headline(summary)[1].find("Edge of the chart 20 mm at 2250 rpm"), 0U);
+  EXPECT_EQ(headline(summary)[1].find("est pocket"), std::string::npos);
 }
 
 TEST(Headline, TellsTheCutFromTheContactAndADepthLimitThatIsNotTheTool) {

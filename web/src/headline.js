@@ -72,10 +72,12 @@ function ofCharts(summary) {
   const unlimited = main.speeds > 0 && main.speeds_stable_to_depth_limit === main.speeds;
   result.push([`Lowest limit, ${who}`, `${unlimited ? '≥ ' : ''}${millimetres(main.minimum_depth_m)}`,
     other ? `alone ${millimetres(other.minimum_depth_m)}: ${number(main.minimum_depth_m / other.minimum_depth_m, 3)} times` : `at ${rpm(main.at_spindle_speed_rpm)}`]);
-  const best = main.best_pockets?.[0];
+  const best = main.best_pocket;
   if (best) {
-    result.push([`Best pocket, ${who}`, rpm(best.spindle_speed_rpm),
-      millimetres(best.depth_m) + (isNumber(best.removal_rate_cm3_per_min) ? `, ${number(best.removal_rate_cm3_per_min, 3)} cm³/min` : '')]);
+    const title = best.at_chart_edge ? 'Edge of the chart' : main.robust ? 'Best robust pocket' : 'Best pocket';
+    result.push([`${title}, ${who}`, rpm(best.spindle_speed_rpm),
+      millimetres(best.depth_m) + (isNumber(best.removal_rate_cm3_per_min) ? `, ${number(best.removal_rate_cm3_per_min, 3)} cm³/min` : '')
+      + `; nine tenths at ${number(best.from_spindle_speed_rpm, 5)} to ${rpm(best.to_spindle_speed_rpm)}`]);
   }
   return result;
 }

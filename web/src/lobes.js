@@ -169,7 +169,7 @@ function band({ lobe, depth, error, truncation, noise }, x, colour, group) {
 /** The best pockets that are some: the list is filled up with what is hardly deeper than the rest. */
 function starred(run, lobe) {
   const chart = run.summary.lobes?.find((l) => l.name === lobe.name);
-  return (chart?.best_pockets ?? []).filter((p) => p.depth_m > worthAStar * chart.minimum_depth_m);
+  return (chart?.robust?.best_pockets ?? chart?.best_pockets ?? []).filter((p) => p.depth_m > worthAStar * chart.minimum_depth_m);
 }
 
 function pockets(curve, runs, colours) {
@@ -179,7 +179,7 @@ function pockets(curve, runs, colours) {
   const note = (p) => `${number(p.spindle_speed_rpm, 5)} rpm, ${number(p.depth_m * 1e3, 3)} mm${isNumber(p.removal_rate_cm3_per_min) ? `, ${number(p.removal_rate_cm3_per_min, 3)} cm³/min` : ''}`;
   const star = curve.i % 2 ? 'hexagram' : 'star';
   return [{ name: `${label(curve, runs)}, best pocket`, x: best.map((p) => p.spindle_speed_rpm), y: best.map((p) => p.depth_m * 1e3), mode: 'markers+text',
-    text: best.map((p, k) => (k || curve.i ? '' : 'best ')), textposition: 'bottom left', showlegend: false, legendgroup: `${curve.i} ${curve.lobe.name}`, textfont: { color: colour, size: 11 }, cliponaxis: false,
+    text: best.map((p, k) => (k || curve.i || p.at_chart_edge ? '' : 'best ')), textposition: 'bottom left', showlegend: false, legendgroup: `${curve.i} ${curve.lobe.name}`, textfont: { color: colour, size: 11 }, cliponaxis: false,
     marker: { symbol: best.map((p, k) => (k ? `${star}-open` : star)), size: 11, color: colour, line: { width: 1.2, color: colour } },
     customdata: best.map(note), hovertemplate: '%{customdata}', meta: `pockets ${curve.i} ${curve.lobe.name}` }];
 }
