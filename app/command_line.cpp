@@ -150,7 +150,9 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
     for (const std::string& warning : setup::unreachable_tolerances(source)) out << "  warning   " << warning << '\n';
   }
   for (const std::string& doubt : cases::doubts_about(source)) out << "  warning   " << doubt << '\n';
-  if (source.lobes) out << "  lobes     " << source.lobes->count << " speeds\n";
+  if (source.lobes)
+    out << "  lobes     " << source.lobes->count << " speeds, and up to " << setup::most_added(*source.lobes)
+        << " between them where the line needs them\n";
   if (!expectations.empty()) out << "  expected  " << expectations.size() << " figures\n";
   return ExitCode::done;
 }

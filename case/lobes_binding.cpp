@@ -7,6 +7,7 @@ setup::LobesOptions bind_lobes(const Table& table, const std::optional<setup::To
   lobes.from_rpm = table.number("from");
   lobes.to_rpm = table.number("to");
   lobes.count = table.integer("count");
+  lobes.line_tolerance = table.number("line_tolerance");
   lobes.depth_limit = table.optional("depth_limit").value_or(tool ? tool->length : NAN);
   lobes.tolerance = table.number("tolerance");
   lobes.modes_up_to_hz = table.optional("modes_up_to");
@@ -19,6 +20,7 @@ setup::LobesOptions bind_lobes(const Table& table, const std::optional<setup::To
   lobes.steps_per_period = integer("steps_per_period");
   lobes.harmonics = integer("harmonics");
   lobes.map_depths = integer("map_depths");
+  lobes.most_added = integer("most_added");
   lobes.noise_samples = integer("noise_samples");
   lobes.seed = table.integer("seed");
   if (const Table u = table.table("uncertainty"); u.exists()) {

@@ -5,12 +5,14 @@
 // row_search, sampled_peak, step_coefficients, uniform_step_map, uniform_step_stability, vanishing_powers.
 
 #include "core/eigen_alignment.hpp"
+#include "milling/chart/line_error.hpp"
 #include "milling/chart/lobe_field.hpp"
 #include "milling/chart/lobe_method.hpp"
 #include "milling/chart/lobes.hpp"
 #include "milling/chart/machine_limits.hpp"
 #include "milling/chart/operating_point.hpp"
 #include "milling/chart/pockets.hpp"
+#include "milling/chart/refined_lobes.hpp"
 #include "milling/chart/robust_lobes.hpp"
 #include "milling/chart/sampled_stability.hpp"
 #include "milling/chart/sampled_uncertainty.hpp"

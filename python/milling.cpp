@@ -9,6 +9,7 @@
 #include "core/units.hpp"
 #include "dynamics/conversion.hpp"
 #include "milling/chart/lobes.hpp"
+#include "milling/chart/refined_lobes.hpp"
 #include "milling/chart/sampled_stability.hpp"
 #include "milling/chart/stability_map.hpp"
 #include "python/bindings.hpp"
@@ -74,39 +75,55 @@ milling::SampledStructure samples(const dynamics::ResponseModel& model, const st
   return result;
 }
 
-/// The rows of a chart for the given speeds.
-using Chart = std::function<Lobes(const std::vector<double>&)>;
+/// A chart for the given speeds, and the row of any speed.
+struct Chart {
+  std::function<Lobes(const std::vector<double>&)> at;
+  milling::RowAt row_at;
+};
 
 Chart chart_of(const Structure& structure, const MillingProcess& process, const std::optional<std::string>& at,
                const milling::StabilityOptions& options, const std::string& method) {
   if (const auto* response = std::get_if<dynamics::ResponseModel>(&structure)) {
     if (method != "direct") throw core::InputError("from receptances the method is \"direct\", not \"" + method + "\"");
     const auto felt = milling::fitted_structure(samples(*response, at, process.frame), process.frame);
-    return [felt, process, options](const std::vector<double>& speeds) {
-      return milling::stability_lobes(felt, process, speeds, options);
-    };
+    return {[felt, process, options](const std::vector<double>& speeds) {
+              return milling::stability_lobes(felt, process, speeds, options);
+            },
+            [felt, process](double rpm, const milling::StabilityOptions& with) {
+              return milling::limiting_depth(felt, process, rpm, with);
+            }};
   }
   const auto* modal = std::get_if<dynamics::ModalModel>(&structure);
   const auto felt = modal ? poles(*modal, at) : poles(std::get<dynamics::SpatialModel>(structure), at);
   const std::shared_ptr<milling::LobeMethod> by =
       milling::lobe_method(milling::method_named(method), felt, process, {.stability = options});
-  return [by](const std::vector<double>& speeds) { return milling::stability_lobes(*by, speeds); };
+  return {[by](const std::vector<double>& speeds) { return milling::stability_lobes(*by, speeds); },
+          [by](double rpm, const milling::StabilityOptions& with) {
+            return by->limiting_depth(rpm, with.expected_depth_m);
+          }};
 }
 
 Lobes lobes(const Structure& structure, const MillingProcess& process, const OneOrMore<double>& spindle_speeds,
             const std::optional<std::string>& at, double depth_limit_m, double error_tolerance,
-            const std::string& method, const std::function<void(std::size_t, std::size_t)>& progress) {
+            const std::string& method, const std::function<void(std::size_t, std::size_t)>& progress,
+            std::optional<double> line_tolerance, std::optional<int> most_added) {
   const std::vector<double>& speeds = spindle_speeds.values;
+  const milling::StabilityOptions options{.depth_limit_m = depth_limit_m, .error_tolerance = error_tolerance};
   const auto chart = [&] {
     const LongCall guard;
-    return chart_of(structure, process, at, {.depth_limit_m = depth_limit_m, .error_tolerance = error_tolerance},
-                    method);
+    return chart_of(structure, process, at, options, method);
   }();
   const auto part = [&chart](const std::vector<double>& some) {
     const LongCall guard;
-    return chart(some);
+    return chart.at(some);
   };
-  if (!progress) return part(speeds);
+  const auto with_line = [&](Lobes whole) {
+    if (!line_tolerance) return whole;
+    const LongCall guard;
+    return milling::refined(std::move(whole), chart.row_at, process, options,
+                            {*line_tolerance, most_added.value_or(2 * static_cast<int>(speeds.size()))});
+  };
+  if (!progress) return with_line(part(speeds));
   const std::size_t at_once = 8 * static_cast<std::size_t>(core::thread_count());
   Lobes result;
   for (std::size_t from = 0; from < speeds.size(); from += at_once) {
@@ -120,7 +137,7 @@ Lobes lobes(const Structure& structure, const MillingProcess& process, const One
   }
   Lobes whole = milling::lobes_of(std::move(result.rows), result.method);
   whole.residual_share = result.residual_share;
-  return whole;
+  return with_line(std::move(whole));
 }
 
 milling::Multiplier multiplier(const Structure& structure, const MillingProcess& process, double speed_rpm,
@@ -228,6 +245,13 @@ void bind_lobes(py::module_& module) {
       .def_readonly("rows_not_converged", &Lobes::rows_not_converged,
                     "The number of speeds whose error estimate exceeds the tolerance.")
       .def_property_readonly(
+          "line_error", [](const Lobes& l) { return l.line ? std::optional(l.line->error_estimate) : std::nullopt; },
+          "The largest estimated distance of the line between the speeds from the boundary, relative; inf where it is\n"
+          "not known, None of a chart without added speeds.")
+      .def_property_readonly(
+          "speeds_added", [](const Lobes& l) { return l.line ? l.line->speeds_added : 0; },
+          "The number of speeds that were added for the line's sake.")
+      .def_property_readonly(
           "spindle_speed_rpm", [](const Lobes& l) { return column(l, &LobeRow::spindle_speed_rpm); },
           "The spindle speeds.")
       .def_property_readonly(
@@ -295,11 +319,14 @@ void bind_milling(py::module_& module) {
   bind_lobes(module);
   module.def("lobes", lobes, "structure"_a, "process"_a, "spindle_speeds_rpm"_a, py::kw_only(), "at"_a = py::none(),
              "depth_limit_m"_a = 0.02, "error_tolerance"_a = 1e-4, "method"_a = "direct", "progress"_a = py::none(),
+             "line_tolerance"_a = py::none(), "most_added"_a = py::none(),
              "The limiting depth at every speed, which is a stability lobe diagram.\n\n"
              "structure: SpatialModel, ModalModel, or Response (measured receptances, without a fit). at: the point\n"
              "of the cut, if the structure has several. method: direct (exact, with its error), zeroth_order,\n"
              "multi_frequency, semi_discretization_0 … 2, full_discretization_1 … 3. progress(done, of): called after\n"
-             "every few speeds; an exception that it raises ends the call.");
+             "every few of the given speeds; an exception that it raises ends the call. line_tolerance: speeds are\n"
+             "added, at most most_added (twice as many as given), until the line between them is within this share of\n"
+             "the boundary; None: the given speeds alone. They must rise.");
   module.def("multiplier", multiplier, "structure"_a, "process"_a, "spindle_speed_rpm"_a, "depth_m"_a,
              "at"_a = py::none(), LongCallGuard(), "The dominant Floquet multiplier at one speed and depth.");
 }

@@ -49,6 +49,20 @@ void add_error_budget(std::vector<std::string>& notes, const DepthErrorsSummary&
                                 *errors.noise_deviation_m / least_depth_m * 100.0));
 }
 
+/// The text on the line between the speeds, which is told where it is not the boundary to the last digit.
+void add_line(std::vector<std::string>& notes, const LineSummary& line, long speeds) {
+  if (line.error_estimate_relative == 0.0) return;
+  const std::string off = line.error_estimate_relative ? fmt::format("{:.2g} %", *line.error_estimate_relative * 100.0)
+                                                       : "more than its points tell";
+  notes.push_back(
+      line.met
+          ? fmt::format("between its {} speeds, {} of them added, the line is within {} of the boundary (estimate)",
+                        speeds, line.speeds_added, off)
+          : fmt::format("between its {} speeds, {} of them added, the line is off by {} near {:.0f} rpm (estimate); "
+                        "a larger lobes.most_added brings it to {:g} %",
+                        speeds, line.speeds_added, off, line.at_spindle_speed_rpm, line.tolerance * 100.0));
+}
+
 std::string indented(const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) text += "    " + line + '\n';
@@ -98,6 +112,7 @@ std::vector<std::string> chart_notes(const LobesSummary& chart) {
   std::vector<std::string> notes;
   if (chart.error_budget && chart.error_budget->at_minimum)
     add_error_budget(notes, *chart.error_budget->at_minimum, chart.minimum_depth_m);
+  if (chart.line) add_line(notes, *chart.line, chart.speeds);
   for (const ComparedSummary& other : chart.compared) {
     notes.push_back(fmt::format("{}: differs by up to {:.2g} % (at {:.0f} rpm)", sensitivity_in_words(other.name),
                                 other.largest_relative_difference * 100.0, other.at_spindle_speed_rpm));

@@ -36,6 +36,14 @@ MapSummary map_summary(const milling::StabilityMap& map) {
           .speeds_not_converged = map.speeds_not_converged};
 }
 
+LineSummary line_summary(const milling::DrawnLine& line) {
+  return {.tolerance = line.tolerance,
+          .error_estimate_relative = finite(line.error_estimate),
+          .at_spindle_speed_rpm = line.at_spindle_speed_rpm,
+          .speeds_added = line.speeds_added,
+          .met = line.met};
+}
+
 }  // namespace
 
 CuttingSummary cutting_summary(const setup::Setup& source) {
@@ -70,6 +78,7 @@ std::vector<SensitivitySummary> sensitivities_summary(const std::vector<study::P
 }
 
 void add_what_was_asked(LobesSummary& chart, const setup::Setup& source, const study::StructureLobes& named) {
+  if (named.lobes.line) chart.line = line_summary(*named.lobes.line);
   for (const study::ComparedLobes& other : named.compared) chart.compared.push_back(compared_summary(other));
   if (named.map) chart.map = map_summary(*named.map);
   if (!named.robust) return;

@@ -360,7 +360,9 @@ constexpr Key case_keys[] = {
 
     Key{"lobes.from", Type::quantity, kind::spindle_speed, "", positive, "", "Lowest speed.", required},
     Key{"lobes.to", Type::quantity, kind::spindle_speed, "", positive, "", "Highest speed.", required},
-    Key{"lobes.count", Type::integer, kind::number, "400", {2, 1e5, false, false, false, ""}, "", "Number of speeds."},
+    Key{"lobes.count", Type::integer, kind::number, "400", {2, 1e5, false, false, false, ""}, "", "Number of speeds, evenly spaced: the least, see `line_tolerance`."},
+    Key{"lobes.line_tolerance", Type::quantity, kind::number, "0.02", {1e-4, 1.0, false, true, false, ""}, "", "Bound on the estimated relative error of the chart's line between its speeds: where it is larger, on steep flanks and where lobes meet, speeds are added."},
+    Key{"lobes.most_added", Type::integer, kind::number, "", {0, 1e5, false, false, false, ""}, "", "Number of speeds that may be added for that; twice `count` if not given, 0 for none."},
     Key{"lobes.depth_limit", Type::quantity, kind::length, "", positive, "", "Deepest cut that is asked; `tool.length` if not given."},
     Key{"lobes.tolerance", Type::quantity, kind::number, "1e-4", {1e-9, 0.5, false, false, false, ""}, "", "Bound on the estimated relative error of the depth."},
     Key{"lobes.modes_up_to", Type::quantity, kind::frequency, "", positive, "", "Only modes up to this frequency; those above act by their static compliance alone, whose share is reported as static_share."},

@@ -35,6 +35,7 @@ LobeRow row_from(const LobeMethod& method, double rpm, FoundCrossings found, con
   row.chatter_frequency_hz = mu.chatter_frequency_hz;
   row.kind = mu.kind;
   row.error_estimate = mu.error_estimate;
+  row.modulus_at_limit = mu.modulus;
   const bool inside = mu.status == StabilityStatus::converged || mu.modulus + mu.error_estimate < 1.0;
   row.status = inside ? StabilityStatus::stable_to_depth_limit : mu.status;
   if (mu.modulus >= 1.0) row.status = StabilityStatus::crossing_missed;

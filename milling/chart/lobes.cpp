@@ -72,6 +72,26 @@ std::vector<LobeRow> rows_by_blocks(const std::vector<double>& spindle_speeds_rp
   return rows;
 }
 
+std::vector<LobeRow> separate_rows(const std::vector<double>& spindle_speeds_rpm,
+                                   const std::function<LobeRow(std::size_t)>& at, std::size_t first,
+                                   const KeptRows& kept) {
+  std::vector<LobeRow> rows(spindle_speeds_rpm.size());
+  std::mutex adding;
+  core::Progress progress("speeds between", rows.size());
+  core::parallel_for(rows.size(), [&](std::size_t i) {
+    const std::vector<LobeRow> found = kept.find ? kept.find(first + i) : std::vector<LobeRow>{};
+    if (found.size() == 1 && found.front().spindle_speed_rpm == spindle_speeds_rpm[i]) {
+      rows[i] = found.front();
+    } else {
+      rows[i] = at(i);
+      const std::lock_guard lock(adding);
+      if (kept.add) kept.add(first + i, {rows[i]});
+    }
+    progress.step();
+  });
+  return rows;
+}
+
 Lobes stability_lobes(const LobeMethod& method, const std::vector<double>& spindle_speeds_rpm, const KeptRows& kept) {
   const auto at = [&method](double rpm, std::optional<double> expected) {
     return method.limiting_depth(rpm, expected);

@@ -82,6 +82,7 @@ struct LobeRow {
   double chatter_frequency_hz = 0.0;  ///< at the crossing, or of the least damped motion at the limit
   Bifurcation kind = Bifurcation::hopf;
   double error_estimate = 0.0;       ///< relative, of the depth; at the limit of |μ|
+  double modulus_at_limit = 0.0;     ///< |μ| at the depth limit, if `at_limit`; 0: not known
   double searched_m = 0.0;           ///< the depth up to which crossings are known: they add up to the multipliers
                                      ///< that are unstable there. Less than was wanted if deeper ones do not
   std::vector<LobePoint> crossings;  ///< all up to there, ascending: islands and gaps too. Those that bound a

@@ -101,6 +101,7 @@ void describe_depth_limit(LobeRow& row, const CutAtSpeed& cut, const StabilityOp
   row.chatter_frequency_hz = mu.chatter_frequency_hz;
   row.kind = mu.kind;
   row.error_estimate = mu.error_estimate;
+  row.modulus_at_limit = mu.modulus;
   if (row.status == StabilityStatus::converged) {
     row.status = mu.status == StabilityStatus::converged ? StabilityStatus::stable_to_depth_limit : mu.status;
   }

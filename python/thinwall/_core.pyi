@@ -217,6 +217,10 @@ class Lobes:
     @property
     def rows_not_converged(self) -> int: ...
     @property
+    def line_error(self) -> float | None: ...
+    @property
+    def speeds_added(self) -> int: ...
+    @property
     def spindle_speed_rpm(self) -> _Floats: ...
     @property
     def limiting_depth_m(self) -> _Floats: ...
@@ -294,6 +298,8 @@ def lobes(
     error_tolerance: float = 1e-4,
     method: str = "direct",
     progress: Callable[[int, int], object] | None = None,
+    line_tolerance: float | None = None,
+    most_added: int | None = None,
 ) -> Lobes: ...
 def multiplier(
     structure: _Structure,

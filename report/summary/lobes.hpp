@@ -210,6 +210,28 @@ void fields(Visitor& visit, Section& robust) {
   visit(Field{"best_pockets", Kind::section, "deepest robust cuts, best first"}, robust.best_pockets);
 }
 
+/// The line of a chart between its speeds, against the boundary that it stands for.
+struct LineSummary {
+  double tolerance = 0.0;
+  std::optional<double> error_estimate_relative;
+  double at_spindle_speed_rpm = 0.0;
+  int speeds_added = 0;
+  bool met = false;
+};
+
+template <class Visitor, Either<LineSummary> Section>
+void fields(Visitor& visit, Section& line) {
+  visit(Field{"tolerance", Kind::ratio, "bound that was asked for (lobes.line_tolerance)"}, line.tolerance);
+  visit(Field{"error_estimate_relative", Kind::error_estimate,
+              "largest estimated distance of the line from the boundary, relative; null: not known", Presence::or_null},
+        line.error_estimate_relative);
+  visit(Field{"at_spindle_speed_rpm", Kind::spindle_speed, "amid the two speeds between which that is"},
+        line.at_spindle_speed_rpm);
+  visit(Field{"speeds_added", Kind::count, "speeds added for the line's sake"}, line.speeds_added);
+  visit(Field{"met", Kind::truth, "true if no speed that might be added would bring the line nearer than the bound"},
+        line.met);
+}
+
 /// A stability chart.
 struct LobesSummary {
   study::ChartOf name = study::ChartOf::part;
@@ -223,6 +245,7 @@ struct LobesSummary {
   std::optional<PocketSummary> best_pocket;
   std::vector<PocketSummary> best_pockets;
   std::vector<ComparedSummary> compared;
+  std::optional<LineSummary> line;
   std::optional<MapSummary> map;
   std::optional<RobustSummary> robust;
   std::optional<ChartErrorsSummary> error_budget;
@@ -255,6 +278,7 @@ void fields(Visitor& visit, Section& chart) {
       chart.best_pocket);
   visit(Field{"best_pockets", Kind::section, "deepest cuts within the machine's limits, best first"},
         chart.best_pockets);
+  visit(Field{"line", Kind::section, "the line between the speeds"}, chart.line);
   visit(Field{"compared", Kind::section, "charts by other methods (lobes.compare)", Presence::if_any}, chart.compared);
   visit(Field{"map", Kind::section, "map of the largest multiplier (lobes.map_depths)"}, chart.map);
   visit(Field{"robust", Kind::section, "limits in spite of uncertain data (lobes.robust)"}, chart.robust);

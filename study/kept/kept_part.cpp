@@ -90,7 +90,7 @@ void serialize(Archive& archive, LobePoint& p) {
 template <class Archive>
 void serialize(Archive& archive, LobeRow& r) {
   archive(r.spindle_speed_rpm, r.limiting_depth_m, r.at_limit, r.chatter_frequency_hz, r.kind, r.error_estimate,
-          r.searched_m, r.crossings, r.nodes, r.status);
+          r.modulus_at_limit, r.searched_m, r.crossings, r.nodes, r.status);
 }
 }  // namespace milling
 

@@ -12,6 +12,7 @@
 #include "core/messages.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "milling/chart/refined_lobes.hpp"
 #include "milling/chart/sampled_stability.hpp"
 #include "milling/direct/stability.hpp"
 #include "setup/milling_process.hpp"
@@ -37,13 +38,13 @@ struct Chart {
   CutStructure structure;
   milling::MillingProcess process;
   milling::MethodOptions options;
-  std::vector<double> speeds_rpm;
   bool direct = true;
 
   [[nodiscard]] const milling::RelativeStructure* poles() const {
     return std::get_if<milling::RelativeStructure>(&structure);
   }
-  [[nodiscard]] milling::Lobes by(milling::Method method, const milling::KeptRows& kept = {}) const {
+  [[nodiscard]] milling::Lobes by(milling::Method method, const std::vector<double>& speeds_rpm,
+                                  const milling::KeptRows& kept = {}) const {
     if (const auto* sampled = std::get_if<milling::FittedStructure>(&structure))
       return milling::stability_lobes(*sampled, process, speeds_rpm, options.stability, kept);
     return milling::stability_lobes(*milling::lobe_method(method, *poles(), process, options), speeds_rpm, kept);
@@ -63,6 +64,28 @@ struct Chart {
     return parameter_sensitivities(*poles(), process, rpm, point, options.stability);
   }
 };
+
+std::vector<double> even_speeds(const setup::LobesOptions& wanted) {
+  return milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count);
+}
+
+std::vector<double> speeds_of(const milling::Lobes& lobes) {
+  std::vector<double> speeds(lobes.rows.size());
+  std::ranges::transform(lobes.rows, speeds.begin(), &milling::LobeRow::spindle_speed_rpm);
+  return speeds;
+}
+
+/// The chart, its line refined; the case's own speed and those of the points lie on it.
+milling::Lobes refined_chart(const setup::CutSetup& source, const Chart& chart,
+                             const std::vector<milling::OperatingPoint>& points, const milling::KeptRows& kept) {
+  const setup::LobesOptions& wanted = *source.lobes;
+  std::vector<double> asked;
+  if (const auto rpm = source.cutting->spindle_speed_rpm) asked.push_back(*rpm);
+  for (const auto& point : points) asked.push_back(point.spindle_speed_rpm);
+  return milling::refined(chart.by(wanted.method, even_speeds(wanted), kept), chart.row_at(wanted.method),
+                          chart.process, chart.options.stability, {wanted.line_tolerance, setup::most_added(wanted)},
+                          asked, kept);
+}
 
 /// Errors of the limiting depths, and at the case's own speed; the rows share out among the threads.
 void add_errors(const setup::CutSetup& source, const Chart& chart, const StructureErrors& errors,
@@ -130,7 +153,7 @@ PointStability stability_of(const milling::OperatingPoint& point, const Chart& c
 }
 
 ComparedLobes compared(const Chart& chart, const milling::Lobes& reference, milling::Method method) {
-  ComparedLobes result{milling::name(method), chart.by(method)};
+  ComparedLobes result{milling::name(method), chart.by(method, speeds_of(reference))};
   for (std::size_t i = 0; i < reference.rows.size(); ++i) {
     const milling::LobeRow& row = reference.rows[i];
     const double difference = std::abs(result.lobes.rows[i].limiting_depth_m / row.limiting_depth_m - 1.0);
@@ -152,12 +175,13 @@ void add_compared(const Chart& chart, milling::Method method, StructureLobes& re
   }
 }
 
-milling::StabilityMap map_of(const Chart& chart, const milling::Lobes& lobes, int count) {
+milling::StabilityMap map_of(const Chart& chart, const std::vector<double>& speeds_rpm, const milling::Lobes& lobes,
+                             int count) {
   double deepest = 0.0;
   for (const milling::LobeRow& row : lobes.rows) deepest = std::max(deepest, row.limiting_depth_m);
   std::vector<double> depths(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < depths.size(); ++i) depths[i] = deepest * static_cast<double>(i + 1) / count;
-  return milling::stability_map(*chart.poles(), chart.process, chart.speeds_rpm, depths, chart.options.stability);
+  return milling::stability_map(*chart.poles(), chart.process, speeds_rpm, depths, chart.options.stability);
 }
 
 /// The rows with the robust depths in place of the limits.
@@ -195,13 +219,11 @@ StructureLobes compute_lobes(const setup::CutSetup& source, ChartOf of, CutStruc
                              Checkpoint& kept) {
   const setup::LobesOptions& wanted = *source.lobes;
   const milling::MillingProcess process = setup::milling_process(source);
-  const Chart chart{std::move(structure), process, options_of(wanted),
-                    milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count),
-                    wanted.method == milling::Method::direct};
+  const Chart chart{std::move(structure), process, options_of(wanted), wanted.method == milling::Method::direct};
   StructureLobes result;
   result.of = of;
   result.main_modes_hz = main_modes_hz(chart.structure);
-  result.lobes = chart.by(wanted.method, kept_rows(kept, core::word_of(of)));
+  result.lobes = refined_chart(source, chart, points, kept_rows(kept, core::word_of(of)));
   if (const auto rpm = source.cutting->spindle_speed_rpm) {
     result.at_spindle_speed = chart.row_at(wanted.method)(*rpm, chart.options.stability);
     if (!result.at_spindle_speed->crossings.empty())
@@ -218,9 +240,9 @@ StructureLobes compute_lobes(const setup::CutSetup& source, ChartOf of, CutStruc
     return result;
   }
   for (const milling::Method method : wanted.compare) add_compared(chart, method, result);
-  if (wanted.map_depths) result.map = map_of(chart, result.lobes, *wanted.map_depths);
+  if (wanted.map_depths) result.map = map_of(chart, even_speeds(wanted), result.lobes, *wanted.map_depths);
   if (wanted.robust) {
-    result.robust = milling::robust_lobes(*chart.poles(), process, chart.speeds_rpm, chart.options.stability,
+    result.robust = milling::robust_lobes(*chart.poles(), process, speeds_of(result.lobes), chart.options.stability,
                                           wanted.robust->uncertainty, wanted.robust->confidence);
   }
   add_pockets(source, process, result);

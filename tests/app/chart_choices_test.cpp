@@ -107,7 +107,7 @@ TEST_F(ChartChoices, TheChartComesFromItsMethodAndIsComparedWithOthers) {
 }
 
 TEST_F(ChartChoices, TheMapPassesOneWhereTheChartDoes) {
-  (void)run(mill("", "", "map_depths = 60\n"));
+  (void)run(mill("", "", "map_depths = 60\nmost_added = 0\n"));  // the map has the even speeds
   const auto& map = summary["lobes"][0]["map"];
   EXPECT_EQ(map["speeds_not_converged"], 0);
   EXPECT_LE(map["error_estimate"].get<double>(), 1e-4);

@@ -5,59 +5,18 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
-#include <random>
 #include <string>
 
 #include "core/parallel.hpp"
 #include "milling/chart/lobes.hpp"
 #include "milling/direct/cut_at_speed.hpp"
+#include "tests/milling/random_cut.hpp"
 
 namespace thinwall::milling::islands_test {
 namespace {
 
-struct RandomCut {
-  RelativeStructure structure;
-  MillingProcess process;
-  double slowest_rpm = 0.0;
-  double fastest_rpm = 0.0;
-  double deepest_m = 0.0;
-};
-
-/// One to three modes in the plane of the cut, teeth, immersion and coefficients at random; speeds from a sixth of the
-/// lowest natural frequency to three times the highest a tooth; depths to forty times one that is surely stable.
-RandomCut random_cut(unsigned seed) {
-  std::mt19937 generator(seed);
-  const auto between = [&](double a, double b) {
-    return a + (b - a) * static_cast<double>(generator()) / static_cast<double>(std::mt19937::max());
-  };
-  RandomCut cut;
-  const int modes = 1 + static_cast<int>(between(0.0, 2.999));
-  cut.structure.poles.resize(modes);
-  cut.structure.phi.resize(3, modes);
-  cut.structure.b.resize(3, modes);
-  double lowest_hz = 1e9, highest_hz = 0.0;
-  for (int k = 0; k < modes; ++k) {
-    const double hz = 300.0 * std::pow(6.0, between(0.0, 1.0));
-    lowest_hz = std::min(lowest_hz, hz);
-    highest_hz = std::max(highest_hz, hz);
-    const double omega = 2.0 * std::numbers::pi * hz;
-    const double zeta = 0.005 * std::pow(10.0, between(0.0, 1.0));
-    cut.structure.poles(k) = {-zeta * omega, omega * std::sqrt(1.0 - zeta * zeta)};
-    const double angle = between(0.0, std::numbers::pi);
-    const Eigen::Vector3d shape(std::cos(angle), std::sin(angle), 0.0);
-    cut.structure.phi.col(k) = shape.cast<std::complex<double>>();
-    cut.structure.b.col(k) = shape / std::complex<double>(0.0, 2.0 * cut.structure.poles(k).imag());  // 1 kg
-  }
-  cut.process.cutter = {1 + static_cast<int>(between(0.0, 3.999)), 0.01};
-  cut.process.coefficients = {6e8, 6e8 * between(0.1, 0.8), 0.0, 0.0, 0.0, 0.0};
-  const auto direction = between(0.0, 1.0) < 0.5 ? MillingDirection::up : MillingDirection::down;
-  cut.process.engagement = engagement_of(cut.process.cutter, 0.01 * std::pow(0.03, between(0.0, 1.0)), direction);
-  cut.slowest_rpm = 60.0 * lowest_hz / 6.0 / cut.process.cutter.teeth;
-  cut.fastest_rpm = 60.0 * highest_hz * 3.0 / cut.process.cutter.teeth;
-  cut.deepest_m = 40.0 * surely_stable_depth_m(cut_at_speed(cut.structure, cut.process, cut.fastest_rpm));
-  return cut;
-}
+using testing::random_cut;
+using testing::RandomCut;
 
 /// Points of one speed where crossings and multipliers disagree, other than within 1 % of a crossing.
 int disagreements(const RandomCut& cut, double rpm, int depths, std::string& where) {

@@ -1,0 +1,138 @@
+#include "milling/chart/line_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace thinwall::milling {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::infinity();
+constexpr double safety = 2.0;
+constexpr double unseen = 0.2;  // of the rise over a corner's gap: lobes may end there otherwise than they seem to
+
+/// True if the boundary runs smoothly from one row to the other; of two rows at the depth limit, if it is one motion
+/// that decays least.
+bool on_one_lobe(const LobeRow& a, const LobeRow& b, double periods_per_turn) {
+  constexpr double step = 0.05;
+  if (a.at_limit != b.at_limit) return false;
+  const auto lobe = [&](const LobeRow& row) {
+    const double periods = 60.0 * row.chatter_frequency_hz / (periods_per_turn * row.spindle_speed_rpm);
+    return row.kind == Bifurcation::fold ? std::round(periods) : std::floor(periods);  // of a fold it is a whole number
+  };
+  const double f = a.chatter_frequency_hz, g = b.chatter_frequency_hz;
+  return a.kind == b.kind && lobe(a) == lobe(b) && std::abs(f - g) <= step * std::max(f, g);
+}
+
+using Value = double (*)(const LobeRow&);
+
+double depth(const LobeRow& row) {
+  return row.limiting_depth_m;
+}
+
+/// Nearly straight over the speed on a lobe's flank, where the depth is not.
+double inverse_depth(const LobeRow& row) {
+  return 1.0 / row.limiting_depth_m;
+}
+
+/// The growth of the least stable motion at the depth limit, below 0.
+double growth(const LobeRow& row) {
+  return std::log(row.modulus_at_limit);
+}
+
+double slope(const LobeRow& a, const LobeRow& b, Value value = depth) {
+  return (value(b) - value(a)) / (b.spindle_speed_rpm - a.spindle_speed_rpm);
+}
+
+/// The second divided difference of three rows.
+double curvature(const LobeRow& a, const LobeRow& b, const LobeRow& c, Value value) {
+  return (slope(b, c, value) - slope(a, b, value)) / (c.spindle_speed_rpm - a.spindle_speed_rpm);
+}
+
+/// The rows around a gap; null where the lobe has none beside it.
+struct Around {
+  const LobeRow* before = nullptr;
+  const LobeRow* left = nullptr;
+  const LobeRow* right = nullptr;
+  const LobeRow* after = nullptr;
+};
+
+double width(const Around& at) {
+  return at.right->spindle_speed_rpm - at.left->spindle_speed_rpm;
+}
+
+/// The largest distance of a smooth curve from its chord over the gap, by the rows beside it.
+double distance_from_chord(const Around& at, Value value) {
+  if (at.before == nullptr && at.after == nullptr) return unknown;
+  double bend = 0.0;
+  if (at.before != nullptr) bend = std::abs(curvature(*at.before, *at.left, *at.right, value));
+  if (at.after != nullptr) bend = std::max(bend, std::abs(curvature(*at.left, *at.right, *at.after, value)));
+  return safety * bend * width(at) * width(at) / 4.0;
+}
+
+double smooth_error(const Around& at) {
+  return distance_from_chord(at, depth) / std::sqrt(depth(*at.left) * depth(*at.right));
+}
+
+/// Between two rows that are stable to the depth limit a lobe may be hidden if the growth of motions there, as far as
+/// it can have risen, passes 0.
+bool may_hide_lobe(const Around& at, bool one_motion) {
+  if (at.left->modulus_at_limit <= 0.0 || at.right->modulus_at_limit <= 0.0) return false;
+  const double left = growth(*at.left), right = growth(*at.right);
+  if (one_motion) {
+    // A parabola over a chord that rises by more than four times its height has no top between the ends; twice that.
+    const double bump = distance_from_chord(at, growth);
+    return std::abs(right - left) < 8.0 * bump && std::max(left, right) + bump > 0.0;
+  }
+  if (at.before == nullptr || at.after == nullptr) return true;
+  const double h = width(at);
+  return std::max(left + h * std::max(0.0, slope(*at.before, *at.left, growth)),
+                  right - h * std::min(0.0, slope(*at.right, *at.after, growth))) > 0.0;
+}
+
+/// The corner where the continuations of both lobes meet, and what the line is off there.
+void add_corner(const Around& at, LineGap& gap) {
+  gap.error = unknown;
+  const bool known = (at.before != nullptr || at.left->at_limit) && (at.after != nullptr || at.right->at_limit);
+  if (!known) return;
+  const double h = width(at);
+  const double before = at.left->at_limit ? 0.0 : slope(*at.before, *at.left, inverse_depth);
+  const double after = at.right->at_limit ? 0.0 : slope(*at.right, *at.after, inverse_depth);
+  const double chord = slope(*at.left, *at.right, inverse_depth);
+  // The lower of both lobes is the boundary only if the left one is the lower at the left end, and the right at the
+  // right end.
+  if (!(before <= chord && chord <= after && before < after)) return;
+  const double x = h * (after - chord) / (after - before);
+  const double top = 1.0 / (inverse_depth(*at.left) + before * x);
+  if (!(top > 0.0)) return;
+  gap.error = safety * std::abs(1.0 - (depth(*at.left) + slope(*at.left, *at.right) * x) / top);
+  const double rise = std::abs(std::log(depth(*at.left) / depth(*at.right)));
+  if (unseen * rise > gap.error) gap.error = unseen * rise;
+  else gap.corner_rpm = at.left->spindle_speed_rpm + std::clamp(x / h, 0.1, 0.9) * h;
+}
+
+}  // namespace
+
+std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingProcess& process) {
+  const double periods = process.cutter.pitches_rad.empty() ? process.cutter.teeth : 1.0;
+  std::vector<LineGap> gaps(rows.empty() ? 0 : rows.size() - 1);
+  std::vector<bool> joined(gaps.size());
+  for (std::size_t i = 0; i < gaps.size(); ++i) joined[i] = on_one_lobe(rows[i], rows[i + 1], periods);
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    LineGap& gap = gaps[i];
+    const LobeRow &left = rows[i], &right = rows[i + 1];
+    gap.row_error = std::max(left.error_estimate, right.error_estimate);
+    gap.corner_rpm = 0.5 * (left.spindle_speed_rpm + right.spindle_speed_rpm);
+    gap.corner = !joined[i];
+    if (right.spindle_speed_rpm <= left.spindle_speed_rpm * (1.0 + narrow_gap)) continue;
+    const Around at{i > 0 && joined[i - 1] ? &rows[i - 1] : nullptr, &left, &right,
+                    i + 1 < gaps.size() && joined[i + 1] ? &rows[i + 2] : nullptr};
+    if (left.at_limit && right.at_limit) gap.error = may_hide_lobe(at, joined[i]) ? unknown : 0.0;
+    else if (gap.corner) add_corner(at, gap);
+    else gap.error = smooth_error(at);
+  }
+  return gaps;
+}
+
+}  // namespace thinwall::milling

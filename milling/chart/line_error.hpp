@@ -1,0 +1,33 @@
+#pragma once
+// The distance of a chart's line, which is straight between its speeds, from the boundary that it stands for.
+
+#include <vector>
+
+#include "milling/cut/process.hpp"
+#include "milling/direct/lobe_row.hpp"
+
+namespace thinwall::milling {
+
+/// The gap between two neighbouring speeds of a chart, as far as the rows around it tell of the boundary within.
+struct LineGap {
+  double error = 0.0;       ///< relative, of the line between the two; infinite: the rows do not tell
+  bool corner = false;      ///< two lobes meet within
+  double corner_rpm = 0.0;  ///< where, as far as is known; else the middle
+  double row_error = 0.0;   ///< the larger estimate of the two rows, relative: what no speed between them can mend
+};
+
+/// A gap is narrow where its speeds differ by this share: a step of the boundary within is drawn as one.
+constexpr double narrow_gap = 1e-5;
+
+/// The gaps of a chart. Where both rows lie on one lobe (the kind of the instability and ⌊f_c T⌋ are equal and f_c
+/// hardly differs; T the period of the cut) the boundary within is smooth, and a chord of width h is off by
+///
+///     e = 2 |w[n_i−1, n_i, n_i+1]| h²/4 / √(w_i w_i+1)
+///
+/// with the larger of the divided differences of both sides, doubled for what it changes within the gap. Where two
+/// lobes meet the boundary is the lower of them, and each is continued by its chord before the gap. A gap beside which
+/// a lobe has one row only tells nothing: the error is infinite. It is 0 of a narrow gap. `rows` by rising speed. Cost
+/// O(rows).
+[[nodiscard]] std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingProcess& process);
+
+}  // namespace thinwall::milling

@@ -1,0 +1,249 @@
+// The line of a chart against the boundary between its speeds.
+// With THINWALL_SLOW=1 in the environment twenty times as many speeds of the random cuts are looked at.
+
+#include "milling/chart/refined_lobes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
+#include <map>
+#include <random>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "milling/direct/stability.hpp"
+#include "tests/milling/benchmark.hpp"
+#include "tests/milling/random_cut.hpp"
+
+namespace thinwall::milling::refined_lobes_test {
+namespace {
+
+using testing::random_cut;
+using testing::RandomCut;
+
+constexpr double step_rpm = 7654.321;
+
+/// A boundary in closed form: lobes k = 1 … 30 of two teeth, each least at n_k = 18000/k rpm and steeper the higher k,
+/// the lowest of them counts; half as deep again above step_rpm; up to a depth limit of 20 mm.
+LobeRow row_in_closed_form(double rpm, const StabilityOptions& options) {
+  LobeRow row;
+  row.spindle_speed_rpm = rpm;
+  row.limiting_depth_m = HUGE_VAL;
+  for (int k = 1; k <= 30; ++k) {
+    const double u = k * std::log(rpm * k / 18000.0);
+    const double depth = 1e-3 * (std::cosh(9.0 * u) + 0.3 * k) * (rpm > step_rpm ? 1.5 : 1.0);
+    if (depth >= row.limiting_depth_m) continue;
+    row.limiting_depth_m = depth;
+    row.chatter_frequency_hz = (k + 0.5 + 0.2 * std::tanh(u)) * rpm / 30.0;
+  }
+  row.at_limit = row.limiting_depth_m >= options.depth_limit_m;
+  if (row.at_limit) row.modulus_at_limit = options.depth_limit_m / row.limiting_depth_m;
+  row.limiting_depth_m = std::min(row.limiting_depth_m, options.depth_limit_m);
+  row.status = row.at_limit ? StabilityStatus::stable_to_depth_limit : StabilityStatus::converged;
+  return row;
+}
+
+MillingProcess two_teeth() {
+  MillingProcess process;
+  process.cutter = {2, 0.01};
+  return process;
+}
+
+Lobes even_chart(double from_rpm, double to_rpm, int count, const RowAt& row_at, const StabilityOptions& options) {
+  std::vector<LobeRow> rows;
+  for (const double rpm : spindle_speeds(from_rpm, to_rpm, count)) rows.push_back(row_at(rpm, options));
+  return lobes_of(std::move(rows), "test");
+}
+
+Lobes closed_form_chart(const LineOptions& line, const std::vector<double>& asked = {}, const KeptRows& kept = {}) {
+  const StabilityOptions options;
+  return refined(even_chart(3000.0, 18000.0, 40, row_in_closed_form, options), row_in_closed_form, two_teeth(), options,
+                 line, asked, kept);
+}
+
+double line_at(const Lobes& chart, double rpm) {
+  const auto right = std::ranges::lower_bound(chart.rows, rpm, {}, &LobeRow::spindle_speed_rpm);
+  const LobeRow &b = *right, &a = *std::prev(right);
+  const double share = (rpm - a.spindle_speed_rpm) / (b.spindle_speed_rpm - a.spindle_speed_rpm);
+  return a.limiting_depth_m + share * (b.limiting_depth_m - a.limiting_depth_m);
+}
+
+/// Of every speed the line's distance from the boundary, relative.
+std::vector<double> distances(const Lobes& chart, const RowAt& row_at, const StabilityOptions& options,
+                              const std::vector<double>& rpm) {
+  std::vector<double> distance(rpm.size());
+  core::parallel_for(rpm.size(), [&](std::size_t i) {
+    distance[i] = std::abs(line_at(chart, rpm[i]) / row_at(rpm[i], options).limiting_depth_m - 1.0);
+  });
+  return distance;
+}
+
+double worst_of_closed_form(const Lobes& chart) {
+  std::vector<double> rpm = spindle_speeds(3000.001, 17999.999, 100000);
+  std::erase_if(rpm, [](double n) { return std::abs(n - step_rpm) < 2e-5 * step_rpm; });
+  return std::ranges::max(distances(chart, row_in_closed_form, {}, rpm));
+}
+
+TEST(RefinedLine, KeepsWithinItsToleranceOfABoundaryInClosedForm) {
+  for (const double tolerance : {0.1, 0.02, 0.002}) {
+    const Lobes chart = closed_form_chart({tolerance, 20000});
+    ASSERT_TRUE(chart.line);
+    EXPECT_TRUE(chart.line->met);
+    EXPECT_LE(chart.line->error_estimate, tolerance);
+    EXPECT_LE(worst_of_closed_form(chart), tolerance) << "the estimate is on the safe side";
+    EXPECT_EQ(std::ssize(chart.rows), 40 + chart.line->speeds_added);
+    EXPECT_TRUE(std::ranges::is_sorted(chart.rows, {}, &LobeRow::spindle_speed_rpm));
+    const int count = static_cast<int>(chart.rows.size());
+    const Lobes even = even_chart(3000.0, 18000.0, count, row_in_closed_form, {});
+    EXPECT_GT(worst_of_closed_form(even), 2.0 * tolerance) << "as many speeds, evenly spaced";
+  }
+}
+
+TEST(RefinedLine, TellsWhatIsOffWhenNoMoreSpeedsMayBeAdded) {
+  const Lobes full = closed_form_chart({0.02, 20000});
+  const Lobes some = closed_form_chart({0.02, 12});
+  EXPECT_EQ(some.line->speeds_added, 12);
+  EXPECT_FALSE(some.line->met);
+  EXPECT_GT(some.line->error_estimate, 0.02);
+  EXPECT_GT(full.line->speeds_added, 12);
+  const Lobes none = closed_form_chart({0.02, 0});
+  EXPECT_EQ(none.rows.size(), 40U);
+  EXPECT_FALSE(none.line->met);
+}
+
+TEST(RefinedLine, GoesThroughTheSpeedsThatAreAsked) {
+  const Lobes without = closed_form_chart({});
+  const double within = without.rows[7].spindle_speed_rpm + 1.0;
+  const Lobes with = closed_form_chart({}, {within, 6000.25, 6000.25, 2000.0, 18000.0, 19000.0});
+  const auto has = [&](double rpm) { return std::ranges::count(with.rows, rpm, &LobeRow::spindle_speed_rpm); };
+  EXPECT_EQ(has(within), 1);
+  EXPECT_EQ(has(6000.25), 1);
+  EXPECT_EQ(has(18000.0), 1);
+  EXPECT_EQ(has(2000.0) + has(19000.0), 0) << "beyond the chart";
+  EXPECT_EQ(line_at(with, 6000.25), row_in_closed_form(6000.25, {}).limiting_depth_m);
+  for (const LobeRow& row : without.rows) EXPECT_EQ(has(row.spindle_speed_rpm), 1) << "the rows stay";
+}
+
+TEST(RefinedLine, TakesKeptRowsOfTheSameSpeedOnly) {
+  std::map<std::size_t, std::vector<LobeRow>> pieces;
+  std::atomic<int> found = 0;
+  const KeptRows kept{[&](std::size_t first) {
+                        const auto piece = pieces.find(first);
+                        if (piece == pieces.end()) return std::vector<LobeRow>{};
+                        ++found;
+                        return piece->second;
+                      },
+                      [&](std::size_t first, const std::vector<LobeRow>& rows) { pieces[first] = rows; }};
+  const Lobes once = closed_form_chart({}, {}, kept);
+  EXPECT_EQ(std::ssize(pieces), once.line->speeds_added);
+  pieces.begin()->second.front().spindle_speed_rpm += 1.0;
+  for (auto& [first, rows] : pieces) rows.front().nodes = 7;
+  const Lobes again = closed_form_chart({}, {}, kept);
+  EXPECT_EQ(found, once.line->speeds_added);
+  ASSERT_EQ(again.rows.size(), once.rows.size());
+  EXPECT_EQ(std::ranges::count(again.rows, 7, &LobeRow::nodes), once.line->speeds_added - 1);
+  for (std::size_t i = 0; i < once.rows.size(); ++i)
+    EXPECT_EQ(again.rows[i].spindle_speed_rpm, once.rows[i].spindle_speed_rpm);
+}
+
+TEST(RefinedLine, NeedsNoSpeedsWhereNothingBends) {
+  const RowAt flat = [](double rpm, const StabilityOptions& options) {
+    LobeRow row;
+    row.spindle_speed_rpm = rpm;
+    row.limiting_depth_m = options.depth_limit_m;
+    row.at_limit = true;
+    row.chatter_frequency_hz = 500.0;
+    row.modulus_at_limit = 0.5;
+    row.status = StabilityStatus::stable_to_depth_limit;
+    return row;
+  };
+  const StabilityOptions options;
+  const Lobes chart = refined(even_chart(9000.0, 9100.0, 10, flat, options), flat, two_teeth(), options, {});
+  EXPECT_EQ(chart.rows.size(), 10U);
+  EXPECT_EQ(chart.line->error_estimate, 0.0);
+  EXPECT_TRUE(chart.line->met);
+}
+
+TEST(RefinedLine, DoesNotChaseErrorsOfTheRowsThemselves) {
+  const RowAt rough = [](double rpm, const StabilityOptions& options) {
+    LobeRow row = row_in_closed_form(rpm, options);
+    row.limiting_depth_m *= 1.0 + 0.05 * std::sin(1e4 * rpm);
+    row.error_estimate = 0.05;
+    return row;
+  };
+  const StabilityOptions options;
+  const Lobes chart =
+      refined(even_chart(15000.0, 18000.0, 40, rough, options), rough, two_teeth(), options, {0.002, 20000});
+  EXPECT_LT(chart.line->speeds_added, 2000) << "without regard to their errors all 20000 are taken";
+}
+
+TEST(RefinedLine, RefusesWhatIsNoChartOrNoTolerance) {
+  const StabilityOptions options;
+  const Lobes chart = even_chart(9000.0, 9100.0, 2, row_in_closed_form, options);
+  Lobes one = chart;
+  one.rows.pop_back();
+  EXPECT_THROW((void)refined(one, row_in_closed_form, two_teeth(), options, {}), core::InputError);
+  for (const LineOptions bad :
+       {LineOptions{0.0, 10}, LineOptions{1.0, 10}, LineOptions{NAN, 10}, LineOptions{0.02, -1}})
+    EXPECT_THROW((void)refined(chart, row_in_closed_form, two_teeth(), options, bad), core::InputError);
+}
+
+/// The refined chart of a random cut by the direct method, 400 even speeds at least.
+Lobes chart_of(const RandomCut& cut, const RowAt& row_at, const StabilityOptions& options) {
+  const Lobes even =
+      stability_lobes(cut.structure, cut.process, spindle_speeds(cut.slowest_rpm, cut.fastest_rpm, 400), options);
+  return refined(even, row_at, cut.process, options, {0.02, 4000});
+}
+
+class LineOfARandomCut : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(LineOfARandomCut, IsTheBoundaryBetweenItsSpeeds) {
+  const int looked_at = std::getenv("THINWALL_SLOW") != nullptr ? 4000 : 200;
+  const RandomCut cut = random_cut(GetParam());
+  StabilityOptions options;
+  options.depth_limit_m = cut.deepest_m;
+  const RowAt row_at = [&](double rpm, const StabilityOptions& with) {
+    return limiting_depth(cut.structure, cut.process, rpm, with);
+  };
+  const Lobes chart = chart_of(cut, row_at, options);
+  EXPECT_TRUE(chart.line->met);
+  std::mt19937 generator(5);
+  std::vector<double> rpm;
+  for (int i = 0; i < looked_at; ++i)
+    rpm.push_back(cut.slowest_rpm + (cut.fastest_rpm - cut.slowest_rpm) * (generator() + 0.5) / 4294967296.0);
+  options.follow = 1.0;
+  const auto distance = distances(chart, row_at, options, rpm);
+  const auto beyond = std::ranges::count_if(distance, [](double d) { return d > 0.03; });
+  // A lobe that lies between two of the even speeds as a whole is not seen: two of these twenty charts have one.
+  EXPECT_LE(beyond, looked_at / 500);
+}
+
+INSTANTIATE_TEST_SUITE_P(RandomSystems, LineOfARandomCut, ::testing::Range(1U, 21U));
+
+TEST(RefinedLine, DoesNotDependOnTheNumberOfThreads) {
+  const MillingProcess process = testing::benchmark_process(0.1);
+  const StabilityOptions options;
+  const RowAt row_at = [&](double rpm, const StabilityOptions& with) {
+    return limiting_depth(testing::benchmark_structure(), process, rpm, with);
+  };
+  const int threads = core::thread_count();
+  std::vector<Lobes> charts;
+  for (const int count : {1, 3}) {
+    core::set_thread_count(count);
+    charts.push_back(
+        refined(stability_lobes(testing::benchmark_structure(), process, spindle_speeds(7000.0, 12000.0, 12), options),
+                row_at, process, options, {}));
+  }
+  core::set_thread_count(threads);
+  ASSERT_EQ(charts[0].rows.size(), charts[1].rows.size());
+  EXPECT_GT(charts[0].line->speeds_added, 5);
+  for (std::size_t i = 0; i < charts[0].rows.size(); ++i)
+    EXPECT_EQ(charts[0].rows[i].limiting_depth_m, charts[1].rows[i].limiting_depth_m);
+}
+
+}  // namespace
+}  // namespace thinwall::milling::refined_lobes_test
