@@ -87,7 +87,8 @@ spindle_speed = "9000 rpm"
 from = "5000 rpm"
 to = "12000 rpm"
 modes_up_to = "8 kHz"
-)" + ("count = " + std::to_string(count) + "\ntolerance = " + tolerance + "\n");
+)" + ("count = " + std::to_string(count) + "\nmost_added = 0\ntolerance = " + tolerance +
+      "\n");  // the same speeds in every run
 }
 
 const std::string one_mode_robot = R"([robot]

@@ -80,7 +80,7 @@ modes_up_to = "10 kHz"
 }
 
 const std::string coarse = "element_size = \"20 mm\"\n";
-const std::string exact_rows = "count = 3\ntolerance = 1e-8\n";
+const std::string exact_rows = "count = 3\nmost_added = 0\ntolerance = 1e-8\n";
 
 std::string path(double from_mm, double to_mm, int positions, const std::string& support) {
   return "[path]\nfrom = " + at("1 mm", from_mm, "40 mm") + "\nto = " + at("1 mm", to_mm, "40 mm") +

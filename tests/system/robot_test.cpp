@@ -127,7 +127,7 @@ Kr = "180 N/mm^2"
          more;
 }
 
-const std::string rows = "[lobes]\nfrom = \"9000 rpm\"\nto = \"14000 rpm\"\ncount = 2\n";
+const std::string rows = "[lobes]\nfrom = \"9000 rpm\"\nto = \"14000 rpm\"\ncount = 2\nmost_added = 0\n";
 
 /// The arm in front of the wall's back, its tip where the contact is.
 const std::string arm_behind_the_wall = huynh_arm + "[robot.base]\nposition = [\"-1.2 m\", \"40 mm\", \"-1.1 m\"]\n";
