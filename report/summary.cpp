@@ -172,10 +172,11 @@ CrossingSummary crossing_of(const milling::LobePoint& point) {
 }
 
 CaseSpeedSummary case_speed_of(const setup::Setup& source, const study::StructureLobes& named) {
-  CaseSpeedSummary row{row_of(*named.at_spindle_speed), {}, sensitivities_summary(named.sensitivities), {}};
+  CaseSpeedSummary row{row_of(*named.at_spindle_speed), {}, sensitivities_summary(named.sensitivities), {}, {}};
   for (const auto& point : named.at_spindle_speed->crossings) row.crossings.push_back(crossing_of(point));
   if (named.error_at_spindle_speed)
     row.error_budget = row_errors_summary(*named.error_at_spindle_speed, named.scatter, source.lobes->seed);
+  if (const auto& contact = named.contact) row.contact = {contact->preload_n, contact->lost_above_m};
   return row;
 }
 

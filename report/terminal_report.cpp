@@ -37,7 +37,8 @@ std::string best(const LobesSummary& lobes) {
   const double mm = lobes.best_pocket->depth_m * 1e3;
   const std::string depth =
       lobes.best_pocket->at_depth_limit ? fmt::format("over {:.1f}", mm) : fmt::format("{:.2f}", mm);
-  return fmt::format("{} mm at {:.0f} rpm", depth, lobes.best_pocket->spindle_speed_rpm);
+  return fmt::format("{} mm at {:.0f} rpm{}", depth, lobes.best_pocket->spindle_speed_rpm,
+                     lobes.best_pocket->at_chart_edge ? " (edge)" : "");
 }
 
 void answer(std::string& out, const Summary& summary) {
@@ -49,7 +50,11 @@ void answer(std::string& out, const Summary& summary) {
     if (!row.at_depth_limit)
       out +=
           fmt::format(", chatter at {:.1f} Hz ({})", row.chatter_frequency_hz.value_or(not_a_number), row.bifurcation);
-    out += '\n' + sensitivities_text(row.sensitivities);
+    out += '\n';
+    if (row.contact && row.contact->lost_above_m)
+      out += fmt::format("    if the contact holds; it is lost above {:.3g} mm ({:.4g} N of preload)\n",
+                         *row.contact->lost_above_m * 1e3, row.contact->preload_n);
+    out += sensitivities_text(row.sensitivities);
   }
   if (summary.coupling) {
     for (const AmplitudeReductionSummary& r : summary.coupling->reductions) {

@@ -153,6 +153,12 @@ struct ContactForce {
   bool lost = false;  ///< least_n < 0: the contact opens, and what is linear here no longer holds
 };
 
+/// Up to which depth of the cut at the case's own speed a contact with a preload holds.
+struct ContactLimit {
+  double preload_n = 0.0;
+  std::optional<double> lost_above_m;  ///< none: it holds up to the limiting depth
+};
+
 /// The answer of a chart for one operating point.
 struct PointStability {
   milling::OperatingPoint point;
@@ -179,6 +185,7 @@ struct StructureLobes {
   ChartOf of = ChartOf::part;
   milling::Lobes lobes;
   std::optional<milling::LobeRow> at_spindle_speed;  ///< at the case's own speed
+  std::optional<ContactLimit> contact;               ///< there, of a supported part with a preload, poles and a feed
   std::vector<PointStability> points;                ///< that were asked for
   std::vector<ParameterSensitivity> sensitivities;   ///< at the case's own speed, largest first
   std::vector<double> main_modes_hz;                 ///< that the cut feels most, ascending

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "core/error.hpp"
@@ -175,14 +176,48 @@ void add_sampled_chart(const setup::CutSetup& work, const milling::ToolFrame& fr
   }
 }
 
-/// Computes the force on the contact at the operating points of the supported part; not told of a regularised kernel.
+/// Looks for the depth at which the contact is lost at the case's own speed, up to the limit. What the library does not
+/// model is told and left out.
+void find_contact_limit(const setup::Setup& work, const milling::MillingProcess& process, Results& results,
+                        const std::function<ContactForce(const milling::ForcedVibration&)>& force_of) {
+  StructureLobes& chart = results.lobes.back();
+  const auto feed = setup::feed_per_tooth(work);
+  if (!chart.at_spindle_speed || !feed || !results.coupled->modal || work.tool->swap || !work.tool->measured.empty() ||
+      !(chart.at_spindle_speed->limiting_depth_m > 0.0))
+    return;
+  const auto poles = cut_poles(work, &*results.coupled->modal);
+  ContactLimit limit;
+  try {
+    limit.lost_above_m = depth_of_lost_contact(
+        [&](double depth_m) {
+          const ContactForce force = force_of(
+              milling::forced_vibration(*poles, process, chart.at_spindle_speed->spindle_speed_rpm, depth_m, *feed));
+          limit.preload_n = force.preload_n;
+          return force;
+        },
+        chart.at_spindle_speed->limiting_depth_m);
+    chart.contact = limit;
+  } catch (const core::InputError& error) {
+    core::warn(fmt::format("whether the contact holds is not known: {}", error.what()));
+  } catch (const core::NumericalError& error) {
+    core::warn(fmt::format("whether the contact holds is not known: {}", error.what()));
+  }
+}
+
+/// Computes the force on the contact of the supported part at its operating points, and up to which depth it holds at
+/// the case's own speed; not told of a regularised kernel.
 void flag_contacts(const setup::Setup& work, Results& results) {
   if (work.coupling.regularisation != coupling::Regularisation::none) return;
-  const CutPlace place{work.cutting->at, setup::milling_process(work).frame.rotation()};
+  if (results.lobes.back().of != ChartOf::supported) return;
+  const milling::MillingProcess process = setup::milling_process(work);
+  const CutPlace place{work.cutting->at, process.frame.rotation()};
+  const auto force_of = [&](const milling::ForcedVibration& forced) {
+    return contact_force(work, contacts_of(results.contacts), place, *results.part, *results.robot, forced);
+  };
+  find_contact_limit(work, process, results, force_of);
   for (PointStability& point : results.lobes.back().points) {
-    if (results.lobes.back().of != ChartOf::supported || !point.forced) continue;
-    point.contact =
-        contact_force(work, contacts_of(results.contacts), place, *results.part, *results.robot, *point.forced);
+    if (!point.forced) continue;
+    point.contact = force_of(*point.forced);
     if (!point.contact->lost) continue;
     core::warn(
         fmt::format("at {:.0f} rpm the cut pulls the contact open: its force falls to {:.3g} N of {:.3g} N preload",

@@ -49,7 +49,7 @@ bool is_sound(const std::string& status) {
 
 std::string text_of(const Limit& limit) {
   return (limit.converged ? "stable up to " : "not converged: ") + millimetres(limit.depth_m) + limit.at +
-         remarks(limit);
+         remarks(limit) + limit.provided;
 }
 
 std::string short_text_of(const Limit& limit) {
@@ -57,7 +57,12 @@ std::string short_text_of(const Limit& limit) {
 }
 
 Limit limit_of_chart(const LobesSummary& chart, const std::optional<CuttingSummary>& cutting) {
-  if (chart.at_case_speed) return at_speed(*chart.at_case_speed, cutting);
+  if (const auto& row = chart.at_case_speed) {
+    Limit limit = at_speed(*row, cutting);
+    if (row->contact && row->contact->lost_above_m)
+      limit.provided = " if the contact holds; it is lost above " + millimetres(*row->contact->lost_above_m);
+    return limit;
+  }
   Limit limit{chart.minimum_depth_m, " at every speed", chart.speeds_not_converged == 0, "", ""};
   if (chart.speeds_stable_to_depth_limit == chart.speeds) limit.of_depth_limit = depth_limit_in_words(cutting);
   if (!limit.converged)

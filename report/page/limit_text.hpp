@@ -28,6 +28,7 @@ struct Limit {
   bool converged = true;
   std::string of_depth_limit;  ///< what the depth limit is, where the depth is no more than that: "tool length"
   std::string more;            ///< "weakest at position 6 of 7"
+  std::string provided = {};   ///< " if the contact holds; it is lost above 0.31 mm"
 };
 
 /// "stable up to 20 mm at 1900 rpm (tool length)", "not converged: 13.7 mm at 1900 rpm".

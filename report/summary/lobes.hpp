@@ -124,11 +124,29 @@ void fields(Visitor& visit, Section& pocket) {
         pocket.at_chart_edge);
 }
 
+/// Whether the contact with the robot holds while the cutter cuts.
+struct ContactLimitSummary {
+  double preload_n = 0.0;
+  std::optional<double> lost_above_m;
+};
+
+template <class Visitor, Either<ContactLimitSummary> Section>
+void fields(Visitor& visit, Section& contact) {
+  visit(Field{"preload_n", Kind::force, "force without the cut"}, contact.preload_n);
+  visit(
+      Field{"lost_above_m", Kind::length,
+            "depth of cut above which the cut pulls the contact open, so that the limit does not hold; null: it holds "
+            "up to the limit",
+            Presence::or_null},
+      contact.lost_above_m);
+}
+
 /// The limit at the case's own speed, with all that is told of it.
 struct CaseSpeedSummary : RowSummary {
   std::vector<CrossingSummary> crossings;
   std::vector<SensitivitySummary> sensitivities;
   std::optional<DepthErrorsSummary> error_budget;
+  std::optional<ContactLimitSummary> contact;
 };
 
 template <class Visitor, Either<CaseSpeedSummary> Section>
@@ -142,6 +160,8 @@ void fields(Visitor& visit, Section& row) {
   visit(Field{"sensitivities", Kind::section, "what moves the limit, largest first"}, row.sensitivities);
   visit(Field{"error_budget", Kind::section, "errors of the depth by errors of the structure; absent: none is known"},
         row.error_budget);
+  visit(Field{"contact", Kind::section, "up to which depth a contact with a preload holds; absent: not known"},
+        row.contact);
 }
 
 /// A chart of the same cut by another method.

@@ -95,4 +95,20 @@ ContactForce contact_force(const setup::SupportSetup& support, const std::vector
   return result;
 }
 
+std::optional<double> depth_of_lost_contact(const std::function<ContactForce(double depth_m)>& force_at,
+                                            double deepest_m) {
+  constexpr int depths = 8;
+  double holds = 0.0, lost = 0.0;
+  for (int i = 1; i <= depths && lost == 0.0; ++i) {
+    const double depth_m = deepest_m * i / depths;
+    (force_at(depth_m).lost ? lost : holds) = depth_m;
+  }
+  if (lost == 0.0) return std::nullopt;
+  for (int i = 0; i < 30 && lost - holds > 0.01 * lost; ++i) {
+    const double middle = 0.5 * (holds + lost);
+    (force_at(middle).lost ? lost : holds) = middle;
+  }
+  return holds;
+}
+
 }  // namespace thinwall::study

@@ -1,6 +1,8 @@
 #pragma once
 // Does the robot stay in touch while the cutter cuts?
 
+#include <functional>
+
 #include "setup/machining_setup.hpp"
 #include "study/results.hpp"
 
@@ -25,5 +27,10 @@ struct CutPlace {
                                          const std::vector<coupling::Contact>& contacts, const CutPlace& place,
                                          const Component& part, const Component& tip,
                                          const milling::ForcedVibration& cut);
+
+/// The depth of cut up to which the contact holds, m: the least depth at which `force_at` loses it, to 1 %, sought at
+/// eight depths up to `deepest_m` > 0 and bisected; none if it holds at all of them. Cost: up to fifteen calls.
+[[nodiscard]] std::optional<double> depth_of_lost_contact(const std::function<ContactForce(double depth_m)>& force_at,
+                                                          double deepest_m);
 
 }  // namespace thinwall::study

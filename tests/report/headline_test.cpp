@@ -59,6 +59,16 @@ TEST(Headline, SaysTheAnswerFirstAndTheSupportedPartBeforeTheBareOne) {
       "2 mm: at least 18 mm; estimated error 0.01 %.");
 }
 
+TEST(Headline, SaysAboveWhichDepthTheContactIsLost) {
+  Summary summary = both("P", "P");
+  summary.lobes[1].at_case_speed->contact = {60.0, {}};
+  EXPECT_EQ(headline(summary)[0].find("contact"), std::string::npos) << "it holds";
+  summary.lobes[1].at_case_speed->contact = {60.0, 0.00031};
+  EXPECT_EQ(headline(summary)[0],
+            "With the robot at P: stable up to 20 mm at 1900 rpm (tool length) if the contact holds; it is lost above "
+            "0.31 mm; without: 1.7 mm.");
+}
+
 TEST(Headline, NamesAnEdgeOfTheChartAndARobustPocketAsSuch) {
   Summary summary = both("P", "P");
   summary.lobes[1].robust.emplace();

@@ -111,5 +111,21 @@ TEST(ContactForce, IsLostWhereTheCutPullsHarderThanTheRobotPresses) {
   EXPECT_THROW((void)at(0.0), core::InputError);
 }
 
+/// A force that falls in proportion to the depth, of 60 N of preload.
+ContactForce falling(double depth_m, double newtons_per_metre) {
+  const double least = 60.0 - newtons_per_metre * depth_m;
+  return {60.0, least, 60.0, least < 0.0};
+}
+
+TEST(ContactForce, IsLostAtTheDepthWhereThePreloadIsUsedUp) {
+  for (const double lost_at : {1e-5, 0.3e-3, 4e-3, 9.9e-3}) {
+    const auto found = depth_of_lost_contact([&](double depth) { return falling(depth, 60.0 / lost_at); }, 10e-3);
+    ASSERT_TRUE(found);
+    EXPECT_LE(*found, lost_at);
+    EXPECT_NEAR(*found, lost_at, 0.011 * lost_at);
+  }
+  EXPECT_FALSE(depth_of_lost_contact([](double depth) { return falling(depth, 60.0 / 11e-3); }, 10e-3));
+}
+
 }  // namespace
 }  // namespace thinwall::tests::contact_force_test

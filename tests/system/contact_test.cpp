@@ -7,6 +7,7 @@
 #include <complex>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -216,6 +217,32 @@ TEST(Contact, APressedBallIsHertzsInTheRunAndItsReport) {
   std::snprintf(stiffness, sizeof stiffness, "stiffness = \"%.17g N/m\"\n", k);
   (void)run(wall + robot + contact(stiffness), same);
   EXPECT_LT(difference(same, out, "P.x"), 1e-9) << "and couples as a spring of that stiffness";
+}
+
+/// The depth above which the contact is lost at the case's own speed, by the summary of a run with this preload.
+double lost_above(const std::string& newtons, const fs::path& out) {
+  const std::string cut =
+      "[tool]\nteeth = 4\ndiameter = \"16 mm\"\nlength = \"20 mm\"\n[cutting]\nat = \"Q\"\nradial_depth = \"1 mm\"\n"
+      "feed_per_tooth = \"0.1 mm\"\nKt = \"800 MPa\"\nKr = \"240 MPa\"\nspindle_speed = \"7000 rpm\"\n"
+      "[lobes]\nfrom = \"6000 rpm\"\nto = \"8000 rpm\"\ncount = 4\n";
+  const auto summary = run(wall + robot + "preload = [\"-" + newtons + " N\", 0, 0]\n" + contact("") + cut, out);
+  const nlohmann::json& row = summary["lobes"][1]["at_case_speed"];
+  EXPECT_DOUBLE_EQ(row["contact"]["preload_n"].get<double>(), std::stod(newtons));
+  const nlohmann::json& lost = row["contact"]["lost_above_m"];
+  const std::string report = terminal_report(summary_from(summary, "summary.json"), "r");
+  EXPECT_EQ(report.find("if the contact holds; it is lost above") == std::string::npos, lost.is_null()) << report;
+  if (lost.is_null()) return std::numeric_limits<double>::infinity();
+  EXPECT_LE(lost.get<double>(), row["limiting_depth_m"].get<double>());
+  return lost.get<double>();
+}
+
+// Of equal teeth without helix the force goes with the depth of cut, so that twice the preload holds twice the depth.
+TEST(Contact, IsLostAtADepthInProportionToItsPreload) {
+  const fs::path out = scratch("contact_lost");
+  const double once = lost_above("0.05", out), twice = lost_above("0.1", out);
+  EXPECT_TRUE(std::isfinite(twice));
+  EXPECT_NEAR(twice / once, 2.0, 0.03) << "each to 1 %";
+  EXPECT_TRUE(std::isinf(lost_above("100000", out)));
 }
 
 // The same rigid contact twice: the kernel has rank one of two. Left out is what the second repeats.
