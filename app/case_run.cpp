@@ -9,6 +9,7 @@
 #include "app/doctor.hpp"
 #include "app/expectation_checks.hpp"
 #include "app/log.hpp"
+#include "app/signals.hpp"
 #include "app/stage_display.hpp"
 #include "case/checks/doubts.hpp"
 #include "case/expectation.hpp"
@@ -110,6 +111,7 @@ RunResult run_case(const cases::Case& source, const RunOptions& options) {
   for (const auto& [stage, seconds] : stages.timings_s())
     run.summary.timings_s[stage] = stage == "total" ? total + seconds : seconds;
   report::write_summary(staging, run.summary, manifest);
+  const Undisturbed publishing;
   if (options.held != nullptr) {
     options.held->publish(staging);
   } else {

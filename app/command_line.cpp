@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <filesystem>
 #include <new>
 #include <sstream>
@@ -24,7 +23,6 @@
 #include "case/reader.hpp"
 #include "case/schema/json_schema.hpp"
 #include "case/templates.hpp"
-#include "core/interrupt.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "report/compare.hpp"
@@ -315,11 +313,6 @@ int guarded(const std::function<ExitCode()>& command, std::ostream& err) {
   }
 }
 
-extern "C" void on_signal(int signal) {
-  core::request_interrupt();
-  std::signal(signal, SIG_DFL);
-}
-
 }  // namespace
 
 int run_command_line(int argc, const char* const* argv, const RunCase& run_case, std::ostream& out, std::ostream& err) {
@@ -340,11 +333,6 @@ int run_command_line(int argc, const char* const* argv, const RunCase& run_case,
         return code;
       },
       err);
-}
-
-void install_signal_handlers() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
 }
 
 }  // namespace thinwall::app

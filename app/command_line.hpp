@@ -12,7 +12,4 @@ namespace thinwall::app {
 /// (for `compare`: the results differ), 130 interrupted. Throws nothing.
 int run_command_line(int argc, const char* const* argv, const RunCase& run, std::ostream& out, std::ostream& err);
 
-/// SIGINT and SIGTERM ask the computation to stop; a second signal ends the program at once.
-void install_signal_handlers();
-
 }  // namespace thinwall::app

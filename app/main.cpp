@@ -2,6 +2,7 @@
 
 #include "app/case_run.hpp"
 #include "app/command_line.hpp"
+#include "app/signals.hpp"
 #include "core/memory.hpp"
 
 int main(int argc, char** argv) {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "app/log.hpp"
+#include "app/signals.hpp"
 #include "app/stage_display.hpp"
 #include "app/sweep_record.hpp"
 #include "app/sweep_table.hpp"
@@ -226,6 +227,7 @@ ExitCode run_sweep(const SweepRequest& request, const RunCase& run_case, std::os
   const auto mine = static_cast<std::size_t>(
       std::ranges::count_if(table.rows, [&](const SweepRow& row) { return shard.holds(row.number); }));
   std::exception_ptr stopped;
+  std::optional<Undisturbed> writing;  // the table of what is done, after an interruption
   for (SweepRow& row : table.rows) {
     const fs::path there = point_folder(folder, row.number, table.rows.size());
     if (!shard.holds(row.number) || stopped) {
@@ -239,6 +241,7 @@ ExitCode run_sweep(const SweepRequest& request, const RunCase& run_case, std::os
       compute_point(there, request, plan, run_case, row);
       ++done;
     } catch (const core::Interrupted&) {
+      writing.emplace();
       stopped = std::current_exception();
     }
   }

@@ -6,9 +6,11 @@
 #include <atomic>
 #include <cerrno>
 #include <fstream>
+#include <mutex>
 #include <sstream>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -55,6 +57,18 @@ void write_all(int descriptor, std::string_view content, const std::filesystem::
   }
 }
 
+/// The names that partial_path() has given out: some tens a run.
+struct GivenNames {
+  std::mutex mutex;
+  std::vector<std::filesystem::path> paths;
+};
+
+/// The names of this process. They are never destroyed, because a thread that ends the process may still read them.
+GivenNames& given_names() {
+  static auto* const names = new GivenNames;
+  return *names;
+}
+
 }  // namespace
 
 std::filesystem::path partial_path(const std::filesystem::path& target) {
@@ -62,7 +76,21 @@ std::filesystem::path partial_path(const std::filesystem::path& target) {
   std::ostringstream name;
   name << '.' << target.stem().string() << partial_mark << ::getpid() << '-' << counter++
        << target.extension().string();
-  return target.parent_path() / name.str();
+  std::filesystem::path path = target.parent_path() / name.str();
+  const std::scoped_lock lock(given_names().mutex);
+  given_names().paths.push_back(std::filesystem::absolute(path));
+  return path;
+}
+
+void remove_partial_paths() noexcept {
+  constexpr int tries = 3;  // a folder into which another thread writes meanwhile is not empty at once
+  const std::scoped_lock lock(given_names().mutex);
+  for (int i = 0; i < tries; ++i) {
+    for (const std::filesystem::path& path : given_names().paths) {
+      std::error_code ignored;
+      std::filesystem::remove_all(path, ignored);
+    }
+  }
 }
 
 PartialFile::PartialFile(std::filesystem::path target) : target_(std::move(target)), partial_(partial_path(target_)) {

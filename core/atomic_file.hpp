@@ -42,6 +42,10 @@ class PartialFile {
 /// True for a name that partial_path() gives for this target.
 [[nodiscard]] bool is_partial_name_of(const std::filesystem::path& path, const std::filesystem::path& target);
 
+/// Removes every file and folder that this process has under a name of partial_path() and has not renamed. It serves
+/// a process that ends at once, whose destructors will not run; other threads may be writing meanwhile. Throws nothing.
+void remove_partial_paths() noexcept;
+
 /// Writes `content` to `path`, replacing an earlier file in one step: a reader sees the old file or the new one, never
 /// a part. Throws DataError (full disk, read-only folder, missing folder) and then leaves the earlier file as it was.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/interrupt.hpp"
+
 namespace thinwall::linalg {
 
 namespace {
@@ -26,6 +28,7 @@ double size(complex<double> a) {
 void to_hessenberg(Eigen::MatrixXcd& H) {
   const Index n = H.rows();
   for (Index m = 1; m + 1 < n; ++m) {
+    core::check_interrupt();
     Index pivot = m;
     for (Index i = m + 1; i < n; ++i) {
       if (size(H(i, m - 1)) > size(H(pivot, m - 1))) pivot = i;
@@ -124,6 +127,7 @@ std::optional<Eigen::VectorXcd> complex_eigenvalues(const Eigen::MatrixXcd& A) {
       continue;
     }
     if (++steps > most_steps) return std::nullopt;
+    core::check_interrupt();
     // Now and then another shift, out of a circle that Wilkinson's may run in.
     const complex<double> shift = steps % 10 == 0 ? H(last, last) + size(H(last, last - 1)) : wilkinson_shift(H, last);
     qr_step(H, first, last, shift, rotations);

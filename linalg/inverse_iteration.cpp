@@ -2,6 +2,7 @@
 
 #include "core/dense_eigenvalues.hpp"
 #include "core/dense_factorisations.hpp"
+#include "core/interrupt.hpp"
 #include "core/mode_signs.hpp"
 #include "linalg/tall.hpp"
 
@@ -17,7 +18,9 @@ using Eigen::VectorXd;
 
 bool inverse_iteration(const SparseMatrix& M, const ShiftedInverse& inverse, Eigenpairs& pairs) {
   const MatrixXd MPhi = symmetric_product(M, pairs.Phi);
+  core::check_interrupt();
   const MatrixXd Y = inverse.apply(MPhi);
+  core::check_interrupt();
   const VectorXd shifted = pairs.lambda.array() - inverse.sigma;
   MatrixXd R = pairs.Phi;
   tall_subtract(R, Y, shifted.asDiagonal());

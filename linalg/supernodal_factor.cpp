@@ -10,6 +10,7 @@
 #include <mutex>
 #include <vector>
 
+#include "core/interrupt.hpp"
 #include "core/parallel.hpp"
 #include "linalg/large_array.hpp"
 #include "linalg/library_threads.hpp"
@@ -316,6 +317,7 @@ struct Multifrontal {
   Place walk(const std::vector<int>& supernodes, Workspace& work) {
     work.used = {};
     for (const int s : supernodes) {
+      core::check_interrupt();
       const Place failed = eliminate<Threads>(s, work);
       if (failed >= 0) return failed;
     }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "mesh/surface/triangle_tree.hpp"
 
 namespace thinwall::mesh {
@@ -18,6 +19,7 @@ double one_sided_distance(const TriangleSurface& a, const TriangleSurface& b, do
   const TriangleTree tree(b);
   double farthest = 0.0;
   for (const auto& t : a.triangles) {
+    core::check_interrupt();
     const auto corner = [&](std::size_t k) -> const Eigen::Vector3d& {
       return a.vertices[static_cast<std::size_t>(t[k])];
     };

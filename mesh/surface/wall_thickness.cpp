@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 
 namespace thinwall::mesh {
 
@@ -42,8 +43,10 @@ double thickness_beneath(const TriangleSurface& surface, const TriangleTree& tre
 std::vector<double> wall_thickness(const TriangleSurface& surface, const TriangleTree& tree) {
   std::vector<double> result;
   result.reserve(surface.triangles.size());
-  for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t)
+  for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+    core::check_interrupt();
     result.push_back(thickness_beneath(surface, tree, t));
+  }
   return result;
 }
 

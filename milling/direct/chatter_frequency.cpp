@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/gauss_rule.hpp"
+#include "core/interrupt.hpp"
 
 namespace thinwall::milling {
 
@@ -28,6 +29,7 @@ double chatter_frequency_hz(const ContactGrid& grid, double period_s, const Rece
   const Eigen::VectorXcd step = turn_of(spacing);
   Eigen::VectorXcd turn = turn_of(theta_rad / period_s - reach * spacing);
   for (int k = -reach; k <= reach; ++k, turn = turn.cwiseProduct(step)) {
+    core::check_interrupt();
     const double omega = theta_rad / period_s + k * spacing;
     const double motion = (receptance(omega) * (force * turn)).norm();
     if (motion <= largest) continue;

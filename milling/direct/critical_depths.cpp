@@ -9,6 +9,7 @@
 
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "linalg/complex_eigenvalues.hpp"
 
 namespace thinwall::milling {
@@ -152,6 +153,7 @@ CriticalDepths::CriticalDepths(GainOnCircle gain) : gain_(std::move(gain)) {
 }
 
 CriticalDepths::Stop& CriticalDepths::at(double theta_rad) {
+  core::check_interrupt();
   const auto [place, is_new] = stops_.try_emplace(theta_rad);
   Stop& stop = place->second;
   if (is_new) {

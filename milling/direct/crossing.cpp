@@ -7,6 +7,7 @@
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 
 namespace thinwall::milling {
 
@@ -28,6 +29,7 @@ Eigenpair started_at(Index n, complex<double> nu) {
 /// Inverse iterations on both sides with the shift ν, `solves` of them, then the Rayleigh quotients of Z and dZ/dθ: an
 /// error ε of the vectors leaves one of ε² in ν. False if a vector overflows.
 bool improve(const GainOnCircle& gain, double theta, int solves, Eigenpair& pair) {
+  core::check_interrupt();
   const Eigen::MatrixXcd Z = gain.Z(theta);
   Eigen::MatrixXcd shifted = -Z;
   // Off by round-off, so that nothing is divided by an exact zero.

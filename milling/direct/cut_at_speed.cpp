@@ -8,6 +8,7 @@
 #include "core/dense_eigenvalues.hpp"
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "milling/cut/edge.hpp"
 #include "milling/direct/chatter_frequency.hpp"
 #include "milling/direct/vanishing_powers.hpp"
@@ -91,6 +92,7 @@ double surely_stable_depth_m(const CutAtSpeed& cut) {
 }
 
 Eigen::VectorXcd multipliers(const DiscreteCut& d, double depth_m) {
+  core::check_interrupt();
   // A count over NaN would call the cut stable.
   const Eigen::MatrixXd map = period_map(d.loop, depth_m);
   const Eigen::EigenSolver<Eigen::MatrixXd> eigen(map.allFinite() ? map : Eigen::MatrixXd::Zero(1, 1), false);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/interrupt.hpp"
 #include "milling/cut/product_rule.hpp"
 
 namespace thinwall::milling {
@@ -39,6 +40,7 @@ class Harmonics {
     const int first = static_cast<int>(std::ceil((-highest_ * period - theta) / (2.0 * pi)));
     const complex<double> period_ago = theta == pi ? complex<double>(-1.0) : std::polar(1.0, -theta);
     for (int k = first; k <= last; ++k) {
+      core::check_interrupt();
       const double omega = (theta + 2.0 * pi * k) / period;
       const Eigen::VectorXcd moments = node_moments(omega);
       for (Index j = 0; j < contacts; ++j) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/interrupt.hpp"
+
 namespace thinwall::milling {
 
 namespace {
@@ -30,6 +32,7 @@ bool powers_vanish(Eigen::MatrixXd M) {
   balance(M);
   Eigen::MatrixXd square(M.rows(), M.cols());
   for (int i = 0; i < most_squarings; ++i) {
+    core::check_interrupt();
     const double norm = M.norm();
     if (norm < 0.9) return true;
     if (!(norm <= largest)) return false;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/dense_factorisations.hpp"
+#include "core/interrupt.hpp"
 #include "milling/cut/product_rule.hpp"
 
 namespace thinwall::milling {
@@ -221,6 +222,7 @@ RegenerativeLoop regenerative_loop(const RelativeStructure& structure, const Con
   // Node by node, since the motion of all modes at a node serves all contacts that look at it.
   const ChipTerms terms = chip_terms(grid);
   for (int node = 0; node < static_cast<int>(grid.node_rad.size()); ++node) {
+    core::check_interrupt();
     const Eigen::VectorXcd flow = history.flow(grid.node_rad(node));
     const Eigen::MatrixXcd forced = forced_by_contacts(history.at_node(node));
     const auto i = static_cast<std::size_t>(node);

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/messages.hpp"
 #include "core/parallel.hpp"
+#include "core/progress.hpp"
 #include "core/units.hpp"
 #include "milling/chart/refined_lobes.hpp"
 #include "milling/chart/sampled_stability.hpp"
@@ -97,7 +98,11 @@ void add_errors(const setup::CutSetup& source, const Chart& chart, const Structu
                        chart.options.stability);
   };
   result.errors.resize(result.lobes.rows.size());
-  core::parallel_for(result.errors.size(), [&](std::size_t i) { result.errors[i] = at(result.lobes.rows[i]); });
+  core::Progress progress("errors of limits", result.errors.size());
+  core::parallel_for(result.errors.size(), [&](std::size_t i) {
+    result.errors[i] = at(result.lobes.rows[i]);
+    progress.step();
+  });
   if (!result.at_spindle_speed) return;
   result.error_at_spindle_speed = at(*result.at_spindle_speed);
   const auto* sampled = std::get_if<milling::FittedStructure>(&chart.structure);

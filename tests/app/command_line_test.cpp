@@ -7,11 +7,13 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
 #include "app/self_test.hpp"
+#include "app/signals.hpp"
 #include "case/reader.hpp"
 #include "case/templates.hpp"
 #include "core/atomic_file.hpp"
@@ -297,35 +299,44 @@ TEST_F(CommandLine, AFullStandardOutputIsAnError) {
   EXPECT_EQ(run_command_line(2, argv, {}, out_stream, err_stream), 4);
 }
 
-TEST_F(CommandLine, ASignalEndsTheRunWith130AndLeavesNoUnfinishedFile) {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    const pid_t child = fork();
-    if (child == 0) {
-      install_signal_handlers();
-      const Outcome outcome = call({"run", plate(), "--out", out(), "-q"}, [](const Case&, const RunOptions& options) {
-        core::PartialFile file(options.out / "frf.csv");
-        core::write_file_atomically(options.out / "started", "");
-        while (true) {
-          core::check_interrupt();
-          std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        }
-        return empty_result(true);
-      });
-      _exit(outcome.code);
-    }
-    for (int i = 0; i < 2000 && !std::filesystem::exists(out() + "/started"); ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    ::kill(child, signal);
-    int status = 0;
-    waitpid(child, &status, 0);
-    ASSERT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 130);
-    for (const auto& entry : std::filesystem::directory_iterator(out())) {
-      EXPECT_FALSE(core::is_partial_name(entry.path())) << entry.path();
-    }
-    std::filesystem::remove_all(out());
+/// Runs `piece` over and over within a run, in a process that gets a signal once the run has begun; without one the
+/// process ends with 0 after a minute.
+void expect_ended_by(int signal, const std::string& plate, const std::string& out, const std::function<void()>& piece) {
+  using Clock = std::chrono::steady_clock;
+  const pid_t child = fork();
+  if (child == 0) {
+    install_signal_handlers();
+    const Outcome outcome = call({"run", plate, "--out", out, "-q"}, [&](const Case&, const RunOptions& options) {
+      core::write_file_atomically(core::partial_path(options.out / "staging"), "");
+      core::PartialFile file(options.out / "frf.csv");
+      core::write_file_atomically(options.out / "started", "");
+      for (const auto end = Clock::now() + std::chrono::minutes(1); Clock::now() < end;) {
+        piece();
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      }
+      return empty_result(true);
+    });
+    _exit(outcome.code);
   }
+  for (int i = 0; i < 4000 && !std::filesystem::exists(out + "/started"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ::kill(child, signal);
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  for (const auto& entry : std::filesystem::directory_iterator(out)) {
+    EXPECT_FALSE(core::is_partial_name(entry.path())) << entry.path();
+  }
+  std::filesystem::remove_all(out);
+}
+
+TEST_F(CommandLine, ASignalEndsTheRunWith130AndLeavesNoUnfinishedFile) {
+  for (const int signal : {SIGINT, SIGTERM}) expect_ended_by(signal, plate(), out(), [] { core::check_interrupt(); });
+}
+
+TEST_F(CommandLine, ASignalEndsAlsoARunThatDoesNotLookAtIt) {
+  for (const int signal : {SIGINT, SIGTERM}) expect_ended_by(signal, plate(), out(), [] {});
 }
 
 class Compare : public testing::Test {

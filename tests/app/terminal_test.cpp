@@ -139,6 +139,30 @@ TEST_F(OnATerminal, OneLineWithStageAndCountIsOverwritten) {
   EXPECT_NE(text.find("\033[1mCutter\033[0m"), std::string::npos) << text;
 }
 
+TEST(StageDisplay, AStageWithoutALoopIsToldOfAgainWhileItGoesOn) {
+  int ends[2] = {-1, -1};
+  ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::dup2(ends[1], STDERR_FILENO);
+    StageDisplay display(ProgressDisplay::line);
+    display.listener()("factorisation");
+    ::pause();
+  }
+  ::close(ends[1]);
+  const std::regex twice("factorisation …[^]*factorisation …");
+  std::string text;
+  char buffer[256];
+  for (ssize_t got = 1; got > 0 && !std::regex_search(text, twice);) {
+    got = ::read(ends[0], buffer, sizeof buffer);
+    if (got > 0) text.append(buffer, got);
+  }
+  EXPECT_TRUE(std::regex_search(text, twice)) << text;
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+  ::close(ends[0]);
+}
+
 TEST_F(OnATerminal, NoColorLeavesTheLineAndTakesTheMarks) {
   const std::string text = run(true, {}, "1").text;
   EXPECT_EQ(text.find("\033[1m"), std::string::npos);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "mesh/surface/shapes.hpp"
 #include "mesh/surface/surface_features.hpp"
 
@@ -34,6 +36,14 @@ TEST(WallThickness, OfAPlateIsExactOnBothFaces) {
   EXPECT_LT(worst(block_surface({0.15, 0.1, 0.003}, 0.01),
                   [](const auto&, const auto& normal) { return std::abs(normal(2)) > 0.9 ? 0.003 : 0.0; }),
             1e-12);
+}
+
+TEST(WallThickness, CanBeInterrupted) {
+  const TriangleSurface surface = block_surface({0.15, 0.1, 0.003}, 0.01);
+  const TriangleTree tree(surface);
+  core::request_interrupt();
+  EXPECT_THROW((void)wall_thickness(surface, tree), core::Interrupted);
+  core::clear_interrupt();
 }
 
 TEST(WallThickness, OfACylinderSectorIsFoundToOnePercent) {
