@@ -159,7 +159,7 @@ TEST(OperatingPoint, ARowReachesToItsDepthHoweverFarAboveTheFirstCrossing) {
   EXPECT_THROW((void)row_to(row_at, {0.0, 1e-3}, options), core::InputError);
 }
 
-TEST(Pockets, AreLocalMaximaBySpeedTimesDepth) {
+TEST(Pockets, AreLocalMaximaBySpeedTimesDepthTheDeepestFirst) {
   const auto row = [](double rpm, double depth, bool at_limit = false) {
     LobeRow made;
     made.spindle_speed_rpm = rpm;
@@ -171,9 +171,10 @@ TEST(Pockets, AreLocalMaximaBySpeedTimesDepth) {
                                   row(2000, 3e-3), row(2100, 3e-3, true), row(3000, 1e-3)};
   const std::vector<Pocket> pockets = best_pockets(rows, 5);
   ASSERT_EQ(pockets.size(), 2u);
-  EXPECT_EQ(pockets[0].spindle_speed_rpm, 2100.0);
-  EXPECT_TRUE(pockets[0].at_limit);
-  EXPECT_EQ(pockets[1].spindle_speed_rpm, 1100.0);
+  EXPECT_EQ(pockets[0].spindle_speed_rpm, 1100.0) << "5 mm, although 3 mm at 2100 rpm remove more";
+  EXPECT_FALSE(pockets[0].at_limit);
+  EXPECT_EQ(pockets[1].spindle_speed_rpm, 2100.0);
+  EXPECT_TRUE(pockets[1].at_limit);
   EXPECT_EQ(best_pockets(rows, 1).size(), 1u);
 }
 

@@ -248,6 +248,7 @@ void InputKeyOfFiles::expect_contents_in_keys(setup::Setup& source, std::size_t 
     frf->quantity = io::FrfQuantity::receptance;
     frf->unit = "m/N";
     frf->frequency_unit = "Hz";
+    frf->variable = frf->frequency_variable = "";  // of MAT files only
   }
   if (auto* contact = tabled_contact(source))
     name_one(contact->table, "preload_n,stiffness_n_per_m,damping_n_s_per_m\n1,1e-6,0\n2,2e-6,0\n");
