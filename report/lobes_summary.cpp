@@ -73,6 +73,7 @@ std::vector<PocketSummary> pockets_summary(const setup::Setup& source, const std
 
 std::vector<SensitivitySummary> sensitivities_summary(const std::vector<study::ParameterSensitivity>& list) {
   std::vector<SensitivitySummary> entries;
+  entries.reserve(list.size());
   for (const auto& entry : list) entries.push_back({entry.parameter, entry.mode_frequency_hz, entry.value});
   return entries;
 }

@@ -101,7 +101,7 @@ for (const file of reports) {
         close(least, lobe.minimum_depth_m * 1e3);
         assert.ok(limit.x.some((x, i) => limit.y[i] === least && Math.abs(x - lobe.at_spindle_speed_rpm) < 1e-6 * x));
         const best = shown.find((t) => t.meta === `pockets 0 ${lobe.name}`);
-        const deep = (lobe.best_pockets ?? []).filter((p) => p.depth_m > 1.3 * lobe.minimum_depth_m);
+        const deep = (lobe.robust?.best_pockets ?? lobe.best_pockets ?? []).filter((p) => p.depth_m > 1.3 * lobe.minimum_depth_m);
         assert.equal(best?.x.length ?? 0, deep.length);
         deep.forEach((p, i) => { close(best.x[i], p.spindle_speed_rpm); close(best.y[i], p.depth_m * 1e3); });
       }
