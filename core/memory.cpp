@@ -28,7 +28,7 @@ double number_in(const char* path) {
   return file >> number ? number : std::numeric_limits<double>::infinity();
 }
 
-/// What the control group of a container leaves; infinity where there is none.
+/// The memory that the control group of a container leaves, bytes; infinity where there is none.
 double left_by_control_group() {
   const double most = number_in("/sys/fs/cgroup/memory.max"), now = number_in("/sys/fs/cgroup/memory.current");
   return std::isfinite(most) && std::isfinite(now) ? std::max(1.0, most - now) : most;

@@ -23,7 +23,7 @@ void set_memory_limit(double bytes);
 /// machine has free; with what the allocator holds unused. 0 if that is not known. Cost: some ten microseconds.
 [[nodiscard]] double memory_left_bytes();
 
-/// What is left, in words: "0.8 GB are left of the 2 GB of --memory", "3.1 GB are free".
+/// The memory that is left, in words: "0.8 GB are left of the 2 GB of --memory", "3.1 GB are free".
 [[nodiscard]] std::string memory_left_text();
 
 /// Throws NumericalError if a stage needs more bytes than are left; nothing is thrown where that is not known. `stage`

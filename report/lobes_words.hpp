@@ -14,10 +14,10 @@ namespace thinwall::report {
 /// The title of a chart: "part alone", "with the robot", "tool".
 [[nodiscard]] std::string chart_title(study::ChartOf chart);
 
-/// What `best_pocket` of a chart is: "best pocket", "best robust pocket"; "edge of the chart" where it is one.
+/// The title of a chart's `best_pocket`: "best pocket", "best robust pocket", or "edge of the chart".
 [[nodiscard]] std::string best_pocket_title(const LobesSummary& chart);
 
-/// Where nine tenths of a pocket's depth can be cut: "8310 to 8500 rpm".
+/// The speeds between which nine tenths of a pocket's depth can be cut: "8310 to 8500 rpm".
 [[nodiscard]] std::string width_text(const PocketSummary& pocket);
 
 /// The time of the whole run, s; 0 where it was not taken.

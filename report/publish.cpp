@@ -48,7 +48,7 @@ void make_alike(const fs::path& folder, const fs::path& model) {
   throw fs::filesystem_error("make alike", folder, {errno, std::generic_category()});
 }
 
-/// The same file, folder or link under a second name: files by hard links, folders anew. Throws filesystem_error.
+/// Gives a file, folder or link a second name: files by hard links, folders anew. Throws filesystem_error.
 void link_entry(const fs::path& from, const fs::path& to) {
   if (!fs::is_directory(fs::symlink_status(from))) return fs::create_hard_link(from, to);
   fs::create_directory(to);

@@ -11,7 +11,7 @@ namespace {
 /// Rates that differ by less are one: along a bound of power the rate is constant but for round-off.
 constexpr double same = 1.0 + 1e-9;
 
-/// Of a pocket's depth: what must be left of it within its width.
+/// The share of a pocket's depth that must be left within its width.
 constexpr double share_of_depth = 0.9;
 
 double rate(const Pocket& cut) {

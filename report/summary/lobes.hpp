@@ -124,7 +124,7 @@ void fields(Visitor& visit, Section& pocket) {
         pocket.at_chart_edge);
 }
 
-/// Whether the contact with the robot holds while the cutter cuts.
+/// The depth up to which the contact with the robot holds while the cutter cuts.
 struct ContactLimitSummary {
   double preload_n = 0.0;
   std::optional<double> lost_above_m;
