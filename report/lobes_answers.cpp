@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "report/lobes_words.hpp"
@@ -137,15 +138,19 @@ std::string asked_text(const LobesSummary& chart) {
   return (chart.robust ? robust_text(*chart.robust) : "") + indented(chart_notes(chart));
 }
 
+std::vector<std::string> sensitivity_sentences(const LobesSummary& chart) {
+  std::vector<std::string> list;
+  if (!chart.at_case_speed) return list;
+  for (const std::string& line : sensitivity_lines(chart.at_case_speed->sensitivities))
+    list.push_back(as_sentence(chart_title(chart.name), line));
+  return list;
+}
+
 std::vector<std::string> answer_sentences(const Summary& summary) {
   std::vector<std::string> list;
   for (const LobesSummary& chart : summary.lobes) {
-    const std::string title = chart_title(chart.name);
-    if (chart.at_case_speed) {
-      for (const std::string& line : sensitivity_lines(chart.at_case_speed->sensitivities))
-        list.push_back(as_sentence(title, line));
-    }
-    for (const std::string& line : chart_notes(chart)) list.push_back(as_sentence(title, line));
+    std::ranges::move(sensitivity_sentences(chart), std::back_inserter(list));
+    for (const std::string& line : chart_notes(chart)) list.push_back(as_sentence(chart_title(chart.name), line));
   }
   for (const PathSummary& path : summary.path) {
     if (path.rows_not_converged == 0) continue;

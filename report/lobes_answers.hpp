@@ -23,6 +23,10 @@ namespace thinwall::report {
 /// `robust` of a chart and its notes, lines indented by four; empty if it has none of them.
 [[nodiscard]] std::string asked_text(const LobesSummary& chart);
 
+/// What moves a chart's limit at the case's speed most, as sentences: "Part alone: 1 % more K_t lowers the limit by
+/// 1.00 %." Empty where nothing is known.
+[[nodiscard]] std::vector<std::string> sensitivity_sentences(const LobesSummary& chart);
+
 /// The text of a page below its first line, from a summary: sensitivities at the case's speed and notes of every chart,
 /// as sentences.
 [[nodiscard]] std::vector<std::string> answer_sentences(const Summary& summary);

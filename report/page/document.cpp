@@ -78,10 +78,20 @@ json document_of(const Summary& summary) {
   return json::parse(io::json_text(summary_json(summary)));
 }
 
+/// Keys of the case with every default and their values; names of files are the user's own affair.
+json case_values(const fs::path& folder) {
+  json values = json::object();
+  for (const auto& [key, value] : values_of_case(text_in(folder / "case.resolved.toml"))) {
+    if (!key.ends_with("file")) values[key] = value;
+  }
+  return values;
+}
+
 json run_of(const fs::path& folder, const RunAtHand& at_hand, const KeptSections& kept, std::size_t share) {
   const Summary& summary = at_hand.summary;
   json run = {{"summary", document_of(summary)}, {"manifest", at_hand.manifest}};
   run["case"] = text_in(folder / "case.toml");
+  run["case_values"] = case_values(folder);
   const FrfChoice choice{.points_first = chief_points(summary), .most_bytes = 4000000 / share};
   std::string frf = "frf";
   for (const std::string& point : choice.points_first) frf += " " + point;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "report/lobes_answers.hpp"
 #include "report/lobes_words.hpp"
 #include "report/page/limit_text.hpp"
 
@@ -203,10 +205,13 @@ std::string point_sentence(const OperatingPointSummary& point) {
   return text + ".";
 }
 
-std::string routes_sentence(const Summary& summary) {
-  if (!summary.coupling || !summary.coupling->route_difference) return "";
-  return fmt::format("The two routes to the coupled receptance differ by {:.1e}.",
-                     summary.coupling->route_difference->max_relative);
+/// The run's own sentences but those on sensitivities, of which the page has a table.
+std::vector<std::string> remarks(const Summary& summary) {
+  std::vector<std::string> list = summary.sentences;
+  for (const LobesSummary& chart : summary.lobes) {
+    for (const std::string& sentence : sensitivity_sentences(chart)) std::erase(list, sentence);
+  }
+  return list;
 }
 
 }  // namespace
@@ -235,8 +240,7 @@ std::vector<std::string> sentences(const Summary& summary) {
     list.push_back(sentence(subject(summary.lobes[charts.front().number], summary), charts));
   }
   for (const OperatingPointSummary& point : summary.operating_points) list.push_back(point_sentence(point));
-  list.insert(list.end(), summary.sentences.begin(), summary.sentences.end());
-  if (const std::string routes = routes_sentence(summary); !routes.empty()) list.push_back(routes);
+  std::ranges::move(remarks(summary), std::back_inserter(list));
   return list;
 }
 

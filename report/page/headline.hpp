@@ -14,8 +14,8 @@ namespace thinwall::report {
 /// limit that did not converge is not called stable. Plain text, not escaped.
 [[nodiscard]] std::vector<std::string> headline(const Summary& summary);
 
-/// Sentences below the main answer: operating points, the chart at the cut point of a run with a path, how both routes
-/// agree, and what the run itself said of its charts (`sentences` of summary.json).
+/// Sentences below the main answer: operating points, the chart at the cut point of a run with a path, and what the run
+/// itself said of its charts (`sentences` of summary.json) but for sensitivities, which are a table of their own.
 [[nodiscard]] std::vector<std::string> sentences(const Summary& summary);
 
 }  // namespace thinwall::report

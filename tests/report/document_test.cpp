@@ -67,6 +67,16 @@ TEST(Document, NamesTheProgramThatMakesThePageAndThatOfTheRun) {
   EXPECT_FALSE(made["runs"][0]["manifest"].contains("outputs"));
 }
 
+TEST(Document, HasTheValuesOfTheCaseWithoutNamesOfFiles) {
+  const fs::path folder = result_folder("document_case");
+  EXPECT_EQ(run_in(folder)["case_values"], json::object());
+  core::write_file_atomically(folder / "case.resolved.toml",
+                              "[tool]\nteeth = 4\ndiameter = \"0.02 m\"\n\n[[tool.measured]]\n"
+                              "response = \"x\"\nfile = \"/home/somebody/tip.csv\"\n");
+  EXPECT_EQ(run_in(folder)["case_values"],
+            (json{{"tool.teeth", "4"}, {"tool.diameter", "0.02 m"}, {"tool.measured[0].response", "x"}}));
+}
+
 TEST(Document, RunsOfOneCaseAreToldApartByTheirFolders) {
   const fs::path a = result_folder("label_a"), b = result_folder("label_b"), other = result_folder("label_c", "big");
   const auto labels = [](const std::vector<fs::path>& folders) {

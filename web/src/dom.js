@@ -23,6 +23,12 @@ function set(node, attributes) {
   }
 }
 
+// Drawn by hand, since common fonts lack the characters.
+const icons = { play: 'M 3 1 L 15 8 L 3 15 Z', back: 'M 13 1 L 1 8 L 13 15 Z', pause: 'M 2 1 H 6 V 15 H 2 Z M 10 1 H 14 V 15 H 10 Z', half: 'M 8 1 A 7 7 0 0 0 8 15 Z M 8 0 A 8 8 0 0 1 8 16 A 8 8 0 0 1 8 0 M 8 1.5 A 6.5 6.5 0 0 0 8 14.5 A 6.5 6.5 0 0 0 8 1.5' };
+
+/** A small picture for a button: "play", "back", "pause", "half". */
+export const icon = (name) => svg('svg', { class: 'icon', viewBox: '0 0 16 16', 'aria-hidden': 'true' }, svg('path', { d: icons[name], 'fill-rule': 'evenodd' }));
+
 /** A labelled choice: options are [value, text] or { group, options } of such; change is called with the value. */
 export function choice(label, options, value, change) {
   const option = ([v, text]) => el('option', { value: v, selected: String(v) === String(value) }, text);

@@ -1,10 +1,12 @@
-// The answer: the headline, what else there is to say in plain sentences, and the few figures behind it.
+// The answer: the headline, one sentence on the cut, three figures, and the other figures of the verdict as a strip.
 
 import { el, table } from './dom.js';
 import { hertz, isNumber, millimetres, number, percent, rpm } from './format.js';
+import { cutSentence } from './cut.js';
 import { lobeTitle } from './lobes.js';
+import { sentencesOf } from './remarks.js';
 
-const openly = 5; // sentences that are shown without being asked for
+const cards = 3; // figures that stand large; the others are a strip beneath them
 const openlyDifferent = 8;
 
 export function headline(data) {
@@ -20,20 +22,11 @@ export function headline(data) {
 }
 
 /** The headline's first line; of a comparison what it says of no single run, and the first line of every run, which begins with its label. */
-function firstLines({ headline: lines = [], runs }) {
+export function firstLines({ headline: lines = [], runs }) {
   if (runs.length === 1) return [lines[0] ?? ''];
   const of = (run) => lines.filter((line) => line.startsWith(`${run.label}: `));
   const single = new Set(runs.flatMap(of));
   return [...new Set([...lines.filter((line) => !single.has(line)), ...runs.map((run) => of(run)[0]).filter(Boolean)])];
-}
-
-/** What is left to say of a run: of the headline and of its own sentences, each once. */
-function sentencesOf({ headline: lines = [], runs }, i, answers) {
-  const { label, sentences = [] } = runs[i];
-  const prefix = runs.length > 1 ? `${label}: ` : '';
-  const bare = (line) => (line.startsWith(prefix) ? line.slice(prefix.length) : line);
-  const said = new Set(answers.map(bare));
-  return [...new Set([...lines.filter((line) => line.startsWith(prefix)).map(bare), ...sentences])].filter((sentence) => !said.has(sentence));
 }
 
 /** Where the cases of several runs differ: [[key, value of the first, value of the second, …]]. */
@@ -47,12 +40,27 @@ function differences({ differences: list = [], runs }) {
 }
 
 function ofRun(run, sentences, labelled) {
-  const figures = [...(run.summary.path?.length ? ofPath(run.summary.path) : ofCharts(run.summary)), ...error(run.summary, sentences), ...frequencies(run.summary), ...checks(run.summary)];
-  const list = (some) => el('ul', { class: 'sentences' }, some.map((sentence) => el('li', {}, sentence)));
-  return [labelled && el('h2', { class: 'run' }, run.label),
-    sentences.length ? list(sentences.slice(0, openly)) : null,
-    sentences.length > openly && el('details', {}, el('summary', {}, `${sentences.length - openly} more`), list(sentences.slice(openly))),
-    figures.length ? el('dl', { class: 'tiles' }, figures.map(([name, value, note]) => el('div', {}, el('dt', {}, name), el('dd', {}, value), el('dd', { class: 'note' }, note)))) : null];
+  const { summary } = run;
+  const figures = [...(summary.path?.length ? ofPath(summary.path) : ofCharts(summary)), ...verdict(summary), ...error(summary, sentences), ...frequencies(summary), ...checks(summary)];
+  const list = (name, some) => (some.length ? el('dl', { class: name }, some.map(([title, value, note, mark]) => el('div', {}, el('dt', {}, title), el('dd', { class: mark }, value), el('dd', { class: 'note' }, note)))) : null);
+  const cut = cutSentence(run);
+  return [labelled && el('h2', { class: 'run' }, run.label), cut && el('p', { class: 'cutting' }, cut), list('tiles', figures.slice(0, cards)), list('tiles strip', figures.slice(cards))];
+}
+
+/** Of the first operating point of the chart that counts: margin, contact, power, surface; and the depth that is robust. */
+function verdict(summary) {
+  const { main } = charts(summary.lobes);
+  const point = (summary.operating_points ?? []).find((p) => p.chart === main?.name);
+  const result = point && isNumber(point.depth_margin_m) ? [[`Margin at ${rpm(point.spindle_speed_rpm)} and ${millimetres(point.depth_m)}`,
+    `${point.depth_margin_at_limit ? '≥ ' : ''}${millimetres(point.depth_margin_m)}`, point.stable ? 'stable' : 'chatter', point.stable ? 'good' : 'bad']] : [];
+  const { contact, forced_vibration: forced } = point ?? {};
+  const holds = main?.at_case_speed?.contact;
+  if (contact) result.push(['Contact force', `${number(contact.least_force_n, 3)} to ${number(contact.largest_force_n, 3)} N`, contact.lost ? 'the cut pulls the contact open' : `preload ${number(contact.preload_n, 3)} N`, contact.lost ? 'bad' : undefined]);
+  else if (holds) result.push(['Contact', isNumber(holds.lost_above_m) ? `lost above ${millimetres(holds.lost_above_m)}` : 'holds', `preload ${number(holds.preload_n, 3)} N`, isNumber(holds.lost_above_m) ? 'bad' : 'good']);
+  if (isNumber(forced?.mean_power_w)) result.push(['Mean power', `${number(forced.mean_power_w, 3)} W`, `peak force ${number(forced.peak_force_n, 3)} N`]);
+  if (isNumber(forced?.surface_location_error_m)) result.push(['Surface location error', `${number(forced.surface_location_error_m * 1e6, 3)} µm`, forced.surface_location_error_m > 0 ? 'overcut' : 'undercut']);
+  if (main?.robust) result.push(['Robust depth', millimetres(main.robust.minimum_depth_m), `at every speed, ${number(main.robust.confidence, 3)} standard deviations`]);
+  return result;
 }
 
 /** The chart that counts, with the robot if there is one, and the part's own beside it. */
@@ -75,9 +83,9 @@ function ofCharts(summary) {
   const best = main.best_pocket;
   if (best) {
     const title = best.at_chart_edge ? 'Edge of the chart' : main.robust ? 'Best robust pocket' : 'Best pocket';
-    result.push([`${title}, ${who}`, rpm(best.spindle_speed_rpm),
-      millimetres(best.depth_m) + (isNumber(best.removal_rate_cm3_per_min) ? `, ${number(best.removal_rate_cm3_per_min, 3)} cm³/min` : '')
-      + `; nine tenths at ${number(best.from_spindle_speed_rpm, 5)} to ${rpm(best.to_spindle_speed_rpm)}`]);
+    result.push([`${title}, ${who}`, `${best.at_depth_limit ? '≥ ' : ''}${millimetres(best.depth_m)} at ${rpm(best.spindle_speed_rpm)}`,
+      (isNumber(best.removal_rate_cm3_per_min) ? `${number(best.removal_rate_cm3_per_min, 3)} cm³/min; ` : '')
+      + `nine tenths at ${number(best.from_spindle_speed_rpm, 4)} to ${rpm(best.to_spindle_speed_rpm)}`]);
   }
   return result;
 }

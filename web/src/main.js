@@ -1,15 +1,17 @@
 // The page: its sections in order, from the data document.
 
 import './csp.js';
-import { button, el } from './dom.js';
+import { button, el, icon } from './dom.js';
 import { readDocument } from './decode.js';
 import { toggleTheme } from './colours.js';
 import { drawWaiting, later } from './plot.js';
-import { headline } from './headline.js';
+import { whatWasCut } from './cut.js';
+import { firstLines, headline } from './headline.js';
+import { remarks } from './remarks.js';
 import { lobes, lobesLead } from './lobes.js';
 import { paths } from './paths.js';
 import { receptances, receptancesLead } from './receptances.js';
-import { checkTable, fitTables, modesLead, modeTables } from './tables.js';
+import { checkTable, fitTables, routesNote, modesLead, modeTables } from './tables.js';
 import { macPlot } from './mac.js';
 import { modes3d } from './modes3d.js';
 import { quality } from './reduction.js';
@@ -50,12 +52,14 @@ function build(data) {
   const sections = [
     section('lobes', 'Stability lobes', () => lobesLead(runs), [charts.lobes?.content]),
     section('path', 'Along the path', () => 'The limiting depth by position and speed; the lower panel gives the depth that is stable at every position.', [charts.path?.content]),
+    section('cut', 'What was cut', () => 'Cutter, engagement, coefficients, material and fixture, as the case has them with every default.', [whatWasCut(runs)]),
+    section('remarks', 'Remarks', () => 'What the run has to say of its limits and of their errors.', [remarks(data, firstLines(data))]),
     section('receptances', 'Receptances', () => receptancesLead(runs), [charts.frf?.content]),
     section('modes', 'Modes', () => modesLead(runs), [sideBySide(runs, modeTables), macBlocks.length ? el('h3', { id: 'mac' }, 'Likeness of the shapes (MAC)') : null, macBlocks.length ? el('p', { class: 'lead' }, macLead(runs)) : null, macBlocks]),
     section('shapes', 'Mode shapes', () => 'Drag to turn; click, then scroll to zoom. The motion is drawn much enlarged.', [charts.shapes?.content]),
     section('fits', 'Fitted parameters', () => 'Values of the case that the run changed so that it gives what was measured.', [sideBySide(runs, fitTables)]),
     section('quality', charts.quality?.title, () => charts.quality.lead, [charts.quality?.content]),
-    section('checks', 'Checks', () => 'Values that the case expects, with where the expectation comes from.', [runs.map((run) => [runs.length > 1 && checkTable(run) && el('h3', {}, run.label), checkTable(run)])]),
+    section('checks', 'Checks', () => 'Values that the case expects, with where the expectation comes from.', [runs.map((run) => [runs.length > 1 && checkTable(run) && el('h3', {}, run.label), checkTable(run), routesNote(run, runs.length > 1)])]),
     section('provenance', 'Provenance', () => 'What was computed, from what, by which program.', [provenance(data)]),
   ].filter(Boolean);
   return { charts, sections };
@@ -69,7 +73,7 @@ function main() {
     const links = [['answer', 'Answer'], ...sections.map((s) => [s.id, s.title])];
     page.replaceChildren(
       el('nav', { 'aria-label': 'Contents' }, el('div', { class: 'links' }, links.map(([id, title]) => el('a', { href: `#${id}` }, title))),
-        button('◐', 'Light or dark', toggleTheme)),
+        button(icon('half'), 'Light or dark', toggleTheme)),
       el('main', {}, headline(data), sections, el('footer', {}, `Made by ${data.program}. This file holds all that it shows and fetches nothing.`)));
     charts.lobes?.chart.draw();
     charts.shapes?.start();

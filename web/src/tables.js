@@ -74,6 +74,13 @@ export function checkTable(run) {
     { text: c.ok ? '✓ yes' : '✗ no', class: c.ok ? 'good' : 'bad' }]), true);
 }
 
+/** How far the two routes to the coupled receptances are apart; null where there is one. */
+export function routesNote({ label, summary }, labelled) {
+  const apart = summary.coupling?.route_difference;
+  if (!apart) return null;
+  return el('p', { class: 'note' }, `${labelled ? `${label}: t` : 'T'}he two routes to the coupled receptance, by matrices and by receptances, differ by ${number(apart.max_relative, 2)} at ${number(apart.at_frequency_hz, 4)} Hz, relative to the largest entry.`);
+}
+
 const withUnit = (x, [unit, factor], digits, more = '') => (isNumber(x) ? `${number(x * factor, digits)}${more}${unit}` : '–');
 
 // The end of a quantity's name: its unit as it is shown, and the factor from SI to that. The first that fits counts.

@@ -29,6 +29,7 @@ async function shown(data, see, options) {
   }
 }
 
+// Of cards and strip alike.
 const tiles = (page) => page.locator('.tiles > div').evaluateAll((list) => Object.fromEntries(list.map((d) => [d.querySelector('dt').textContent, [...d.querySelectorAll('dd')].map((x) => x.textContent).join(' | ')])));
 const pick = (page, label, value) => page.locator('#shapes label.control', { has: page.locator('span', { hasText: new RegExp(`^${label}$`) }) }).locator('select').selectOption(value);
 const lead = (page, id) => page.locator(`#${id} .lead`).first().textContent();
@@ -38,7 +39,7 @@ describe('the answer', () => {
   test('sentences stand once, five of them openly, and give the error alone', () => shown(oneRun(), async (page) => {
     const data = oneRun();
     const expected = [data.headline[1], ...data.runs[0].sentences];
-    assert.deepEqual(await page.locator('.sentences li').allTextContents(), expected);
+    assert.deepEqual(await page.locator('#remarks .sentences li').allTextContents(), expected);
     assert.deepEqual(await page.locator('.sentences li:visible').allTextContents(), expected.slice(0, 5));
     assert.ok('Estimated error of the limits' in await tiles(page));
   }));
@@ -67,8 +68,84 @@ describe('the answer', () => {
     assert.deepEqual(await page.locator('.answer').allTextContents(), ['first: 2 mm.', 'second: 3 mm.']);
     assert.deepEqual(await rows(page, 'What differs'), [[['Key', 'first', 'second'], ['part.length', '0.39', '0.4'], ['robot.model', 'one_mode', '–']]]);
     const sentences = await page.locator('.sentences li').allTextContents();
+    assert.deepEqual(await page.locator('#remarks h3').allTextContents(), ['first', 'second']);
     assert.deepEqual(sentences, ['an error.', ...twoRuns().runs[0].sentences, ...twoRuns().runs[1].sentences]);
   }));
+});
+
+describe('the first screen', () => {
+  const asked = () => {
+    const data = oneRun();
+    const { summary } = data.runs[0];
+    const chart = summary.lobes.find((l) => l.name === 'supported');
+    chart.at_case_speed = { spindle_speed_rpm: 1900, limiting_depth_m: 0.003, contact: { preload_n: 50, lost_above_m: 0.001 },
+      sensitivities: [{ parameter: 'damping_ratio', mode_frequency_hz: 250.1, sensitivity: 0.8 }, { parameter: 'K_r', mode_frequency_hz: null, sensitivity: -0.5 }, { parameter: 'K_a', mode_frequency_hz: null, sensitivity: 0.001 }] };
+    chart.robust = { confidence: 2, minimum_depth_m: 0.0016, at_spindle_speed_rpm: 1000 };
+    Object.assign(summary.operating_points[1], { forced_vibration: { mean_power_w: 120, peak_force_n: 300, surface_location_error_m: -12e-6 }, contact: { preload_n: 50, least_force_n: -3, largest_force_n: 110, lost: true } });
+    return data;
+  };
+
+  test('says the cut in one sentence, and has three cards, of which the chart follows', () => shown(asked(), async (page) => {
+    assert.equal(await page.textContent('.cutting'), 'Cut at P: down milling, 5 mm radially, by a flat end mill of 20 mm with 4 teeth; Kt 600 N/mm².');
+    assert.equal(await page.locator('.tiles:not(.strip) > div').count(), 3);
+    assert.equal(await page.locator('header .sentences').count(), 0);
+    assert.equal(await page.evaluate(() => document.querySelector('header').nextElementSibling.id), 'lobes');
+    const top = await page.evaluate(() => document.getElementById('plot-lobes').getBoundingClientRect().top);
+    assert.ok(top < 800, `the chart begins at ${top} px`);
+  }));
+
+  test('the strip has margin, contact force, power, surface error and robust depth', () => shown(asked(), async (page) => {
+    const list = await tiles(page);
+    assert.equal(list['Margin at 1500 rpm and 1 mm'], '1 mm | stable');
+    assert.equal(list['Contact force'], '−3 to 110 N | the cut pulls the contact open');
+    assert.equal(list['Mean power'], '120 W | peak force 300 N');
+    assert.equal(list['Surface location error'], '−12 µm | undercut');
+    assert.equal(list['Robust depth'], '1.6 mm | at every speed, 2 standard deviations');
+  }));
+
+  test('what the limit hinges on is a folded table of what matters', () => shown(asked(), async (page) => {
+    assert.equal(await page.locator('.hinges table:visible').count(), 0);
+    await page.click('.hinges summary');
+    const [table] = await rows(page, 'Change of the limit at 1900 rpm by 1 % more of a parameter');
+    assert.deepEqual(table.slice(1), [['damping of the mode at 250.1 Hz', 'with robot', '+0.8 %'], ['Kr', 'with robot', '−0.5 %']].map((r) => [r[0].replace('Kr', 'K_r'), ...r.slice(1)]));
+  }));
+
+  test('headline and chart are on the first page of a print', () => shown(asked(), async (page) => {
+    await page.emulateMedia({ media: 'print' });
+    await page.waitForFunction(() => document.getElementById('plot-lobes').layout.width === 660);
+    const bottom = await page.evaluate(() => document.getElementById('plot-lobes').getBoundingClientRect().bottom);
+    assert.ok(bottom < (297 - 28) / 25.4 * 96, `the chart ends at ${bottom} px`);
+  }, { viewport: { width: 688, height: 1017 } }));
+
+  test('what was cut: table and sketch in the first third', () => shown(oneRun(), async (page) => {
+    const [table] = await rows(page, 'What was cut');
+    const cells = Object.fromEntries(table);
+    assert.equal(cells.Cutter, 'flat end mill of 20 mm, edges 20 mm long');
+    assert.equal(cells.Helix, '30°');
+    assert.equal(cells.Engagement, 'down milling, radial depth 5 mm (25 % of the diameter); teeth cut from 120° to 180°'); // acos(1 − 2·5/20) = 60° before 180°
+    assert.equal(cells['Cutting coefficients'], 'linear: Kt 600 N/mm², Kr 200 N/mm², Kte 17.9 N/mm');
+    assert.equal(cells['Their origin'], '7075, P');
+    assert.equal(cells.Material, 'E 70 GPa, ν 0.33, density 2810 kg/m³');
+    assert.equal(cells.Fixture, 'held at y_min');
+    assert.match(await page.getAttribute('.sketch svg', 'aria-label'), /120° to 180°/);
+    const { top, height } = await page.evaluate(() => ({ top: document.getElementById('cut').offsetTop, height: document.body.scrollHeight }));
+    assert.ok(top < height / 3, `${top} of ${height}`);
+  }));
+
+  test('the sector of the sketch ends where the wall of the part is', async () => {
+    const box = (page, name) => page.evaluate((of) => { const b = document.querySelector(`.sketch .${of}`).getBBox(); return { left: b.x, right: b.x + b.width, top: b.y, bottom: b.y + b.height }; }, name);
+    for (const mode of ['down', 'up']) {
+      const data = oneRun();
+      data.runs[0].case_values['cutting.mode'] = mode;
+      await shown(data, async (page) => {
+        const [sector, part, cutter] = [await box(page, 'engaged'), await box(page, 'stock'), await box(page, 'cutter')];
+        assert.ok(Math.abs(sector.right - Math.sin(Math.PI / 3) * cutter.right) < 0.05 && sector.left > -0.05, JSON.stringify(sector));
+        const [edge, reach] = mode === 'down' ? [part.top, sector.bottom] : [-part.bottom, -sector.top];
+        assert.ok(Math.abs(edge - cutter.bottom / 2) < 0.05, 'a quarter of the diameter stands ahead');
+        assert.ok(Math.abs(reach - cutter.bottom) < 0.05);
+      });
+    }
+  });
 });
 
 describe('sentences and sections by what there is', () => {
@@ -92,7 +169,7 @@ describe('sentences and sections by what there is', () => {
   }));
 
   test('measured receptances: the main modes, and no empty section', () => shown(measured(), async (page) => {
-    assert.deepEqual(await page.locator('main section').evaluateAll((list) => list.map((s) => s.id)), ['receptances', 'modes', 'provenance']);
+    assert.deepEqual(await page.locator('main section').evaluateAll((list) => list.map((s) => s.id)), ['remarks', 'receptances', 'modes', 'provenance']);
     assert.deepEqual((await rows(page, 'Part with robot: main modes of the receptance'))[0][1], ['1', '36.328', '1.64']);
     assert.doesNotMatch(await lead(page, 'receptances'), /lower panel/);
   }));
