@@ -1,6 +1,6 @@
 // The moving mode shapes: choice, sliders, legend and labels around a view (WebGL, or a still picture without it).
 
-import { button, choice, el, slider, svg, tick } from './dom.js';
+import { button, choice, el, icon, slider, svg, tick } from './dom.js';
 import { isPrinting, onColours, viridis } from './colours.js';
 import { hertz, number, percent } from './format.js';
 import { save } from './plot.js';
@@ -17,7 +17,7 @@ export function modes3d(runs) {
   const entries = runs.flatMap((run) => (run.shapes?.modes ?? []).map((mode) => ({ run, mode })));
   if (!entries.length) return null;
   const parts = elements();
-  const state = { at: firstMode(entries), amplitude: 0.6, phase: 0, playing: false, colour: 'displacement', view: 'all', outline: true, seen: false };
+  const state = { at: firstMode(entries), amplitude: 0.6, phase: 0, playing: false, colour: 'displacement', view: 'part', outline: true, seen: false };
   const viewer = { entries, parts, state, several: runs.length > 1 };
   const content = layout(viewer);
   return { content, start: () => start(viewer) };
@@ -49,7 +49,7 @@ function options({ entries, several }) {
 function layout(viewer) {
   const { parts, state, entries } = viewer;
   const change = (key, then) => (value) => { state[key] = value; then(viewer); };
-  parts.play = button('▶ Play', 'Play or pause the motion', () => play(viewer, !state.playing));
+  parts.play = button([icon('play'), ' Play'], 'Play or pause the motion', () => play(viewer, !state.playing));
   parts.phase = slider('Phase', { min: 0, max: 360, step: 1, value: 0 }, (v) => { play(viewer, false); state.phase = v; draw(viewer); });
   const mode = choice('Mode', options(viewer), state.at, (v) => { state.at = Number(v); showMode(viewer); });
   const step = (d) => { state.at = (state.at + d + entries.length) % entries.length; mode.querySelector('select').value = state.at; showMode(viewer); };
@@ -57,9 +57,9 @@ function layout(viewer) {
   const arm = entries.some(({ run, mode }) => run.shapes.robot_arm && mode.robot);
   parts.canvas.addEventListener('keydown', (event) => key(viewer, event));
   return [
-    el('div', { class: 'controls' }, mode, el('span', { class: 'pair' }, button('◀', 'Previous mode', () => step(-1)), button('▶', 'Next mode', () => step(1))),
+    el('div', { class: 'controls' }, mode, el('span', { class: 'pair' }, button(icon('back'), 'Previous mode', () => step(-1)), button(icon('play'), 'Next mode', () => step(1))),
       thick && choice('Colour', [['displacement', 'displacement'], ['thickness', 'wall thickness']], 'displacement', change('colour', showMode)),
-      arm && choice('View', [['all', 'part and robot'], ['part', 'part']], 'all', change('view', showMode)),
+      arm && choice('View', [['part', 'part'], ['all', 'part and robot']], 'part', change('view', showMode)),
       slider('Amplitude', { min: 0, max: 1, step: 0.01, value: state.amplitude }, change('amplitude', draw)), parts.phase, parts.play,
       tick('undeformed edges', true, (on) => { viewer.view?.outline(on); draw(viewer); })),
     parts.warning,
@@ -102,7 +102,7 @@ function showMode(viewer) {
   const { run, mode } = entries[state.at];
   const body = surface(run.shapes);
   const shape = shapeOf(mode);
-  const whole = Boolean(shape.robot) && state.view === 'all';
+  const whole = Boolean(shape.robot) && (!body.arm || state.view === 'all' || shape.reach > onlyRobot); // the symbol of a robot without an arm is small
   const moved = viewer.body !== body || viewer.whole !== whole;
   if (viewer.body !== body) { view.show(body); viewer.body = body; nameLabels(viewer); }
   const levels = levelsOf(viewer, shape);
@@ -152,7 +152,7 @@ function draw(viewer) {
 function play(viewer, on) {
   const { state, parts } = viewer;
   state.playing = on;
-  parts.play.textContent = on ? '⏸ Pause' : '▶ Play';
+  parts.play.replaceChildren(icon(on ? 'pause' : 'play'), on ? ' Pause' : ' Play');
   if (!on || viewer.running) return;
   viewer.running = true;
   let before = null;

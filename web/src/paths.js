@@ -1,10 +1,10 @@
-// Along a path: the limiting depth over position and spindle speed, and beneath it what holds at every position.
+// Along a path: the limiting depth over position and spindle speed, as a map or a line for each position, and beneath it what holds at every position.
 
 import { choice, el, tick } from './dom.js';
 import { numbers } from './decode.js';
-import { viridisScale } from './colours.js';
+import { viridis, viridisScale } from './colours.js';
 import { number, plain, scaled } from './format.js';
-import { logTicks, plot } from './plot.js';
+import { decades, logTicks, plot } from './plot.js';
 import { lobeTitle } from './lobes.js';
 
 export function paths(runs) {
@@ -17,7 +17,7 @@ export function paths(runs) {
   const chart = plot({ name: 'path', label: 'Depth along the path', build: (colours, narrow) => build(maps, state, title, colours, narrow), columns: () => columns(maps[state.at].path) });
   return { chart, content: [el('div', { class: 'controls' },
     choice('Map of', maps.map((m, i) => [i, title(m)]), state.at, (v) => { state.at = Number(v); chart.draw(); }),
-    tick('logarithmic colours', state.log, (on) => { state.log = on; chart.draw(); })), chart.figure] };
+    maps.some(({ path }) => !few(path)) && tick('logarithmic colours', state.log, (on) => { state.log = on; chart.draw(); })), chart.figure] };
 }
 
 /** Length along the path to each position, in mm. */
@@ -34,6 +34,8 @@ function rows(path) {
 }
 
 const least = (map) => map[0].map((_, j) => map.reduce((m, row) => (row[j] === null ? m : Math.min(m, row[j])), Infinity)).map((v) => (Number.isFinite(v) ? v : null));
+
+const few = (path) => path.positions.shape[0] <= 6; // so many positions are lines, not a map
 
 function build(maps, state, title, colours, narrow) {
   const { run, path } = maps[state.at];
@@ -53,14 +55,26 @@ function build(maps, state, title, colours, narrow) {
       hovertemplate: 'deepest everywhere: %{y:.4~g} mm at %{x:.5~g} rpm<extra></extra>', meta: `deepest ${name}` }] : [];
   });
   const n = run.cutting?.spindle_speed_rpm;
-  return { data: [map, ...curves, ...best], layout: {
+  const length = y.at(-1);
+  const data = few(path) ? perPosition(x, y, z, bar) : [map];
+  return { data: [...data, ...curves, ...best], layout: {
     height: narrow ? 500 : 560, hovermode: 'closest', uirevision: `path ${state.at}`, margin: { l: narrow ? 50 : 64, r: narrow ? 8 : 16, t: 12, b: 46 },
-    xaxis: { title: 'Spindle speed (rpm)', anchor: 'y2', ticks: '' },
-    yaxis: { title: narrow ? 'Position (mm)' : 'Position along the path (mm)', domain: [0.4, 1] },
+    xaxis: { title: 'Spindle speed (rpm)', anchor: 'y2', ticks: '', range: [x[0], x.at(-1)] },
+    yaxis: { domain: [0.4, 1], ...(few(path) ? { title: narrow ? 'Depth (mm)' : 'Depth, each position (mm)', type: 'log', ...decades(all) } : { title: narrow ? 'Position (mm)' : 'Position along the path (mm)', ...(length > 0 ? { range: [0, length] } : {}) }) },
     yaxis2: { title: narrow ? 'Depth (mm)' : 'Depth, all positions (mm)', domain: [0, 0.32], type: 'log', dtick: 1 },
     legend: { orientation: 'h', x: 0, y: 0.325, xanchor: 'left', yanchor: 'bottom', font: { size: 11 } },
     shapes: n ? [{ type: 'line', x0: n, x1: n, y0: 0, y1: 1, yref: 'paper', line: { color: colours.ink, width: 1.2, dash: 'dash' } }] : [],
   } };
+}
+
+/** A line for each position, coloured by its place along the path, which the bar tells. */
+function perPosition(x, y, z, bar) {
+  const length = y.at(-1) || 1;
+  const colour = (s) => `rgb(${viridis((0.9 * s) / length).join(',')})`; // the brightest tenth is not to be read on paper
+  const scale = viridisScale.map(([t]) => [t, `rgb(${viridis(0.9 * t).join(',')})`]);
+  const lines = z.map((depth, i) => ({ name: `at ${number(y[i], 4)} mm`, x, y: depth, mode: 'lines', showlegend: false, line: { simplify: false, color: colour(y[i]), width: 1.8 },
+    hovertemplate: `%{x:.5~g} rpm<br>${number(y[i], 4)} mm along the path<br>depth %{y:.4~g} mm<extra></extra>`, meta: `position ${i}` }));
+  return [...lines, { x: [null], y: [null], mode: 'markers', showlegend: false, hoverinfo: 'skip', marker: { color: [0], cmin: 0, cmax: length, colorscale: scale, showscale: true, colorbar: { ...bar, tickvals: y, ticktext: y.map((s) => number(s, 4)) } }, meta: 'scale' }];
 }
 
 function columns(path) {

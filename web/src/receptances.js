@@ -33,12 +33,27 @@ export function receptances(runs) {
     tick('logarithmic frequency', false, set('logFrequency'))), chart.figure, leftOut(runs)] };
 }
 
-/** The entry to begin with: where the case's cut or its contact is, as far as the document says. */
+/** The entry to begin with: the point of the cut, where the run says how far the robot reduces its motion or along its softest direction; else what is reduced. */
 function first(all) {
-  const wanted = all[0].run.summary.coupling?.reductions?.[0]?.dof;
-  const frf = (all.find((a) => a.frf.name !== 'robot') ?? all[0]).frf;
+  const { run, frf } = all.find((a) => a.frf.name !== 'robot') ?? all[0];
+  const reduced = run.summary.coupling?.reductions?.[0]?.dof;
+  const cut = frf.responses.filter((dof) => frf.forces.includes(dof) && dof.slice(0, dof.lastIndexOf('.')) === run.cutting?.at);
+  const wanted = !cut.length || cut.includes(reduced) ? reduced : softest(frf, cut);
   const pick = (list) => (list.includes(wanted) ? wanted : list[0]);
   return { response: pick(frf.responses), force: pick(frf.forces) };
+}
+
+/** The degree of freedom whose receptance has the highest peak. */
+function softest(frf, list) {
+  if (list.length === 1) return list[0];
+  const [H, n] = [numbers(frf.H), frf.hz.shape[0]];
+  const peak = (dof) => {
+    const at = (frf.responses.indexOf(dof) * frf.forces.length + frf.forces.indexOf(dof)) * n * 2;
+    let largest = 0;
+    for (let k = at; k < at + 2 * n; k += 2) largest = Math.max(largest, Math.hypot(H[k], H[k + 1]) || 0);
+    return largest;
+  };
+  return list.reduce((a, b) => (peak(b) > peak(a) ? b : a));
 }
 
 /** The row or column of a name; the robot's end stands for the point that it touches. */

@@ -204,6 +204,30 @@ describe('the charts', () => {
     });
   });
 
+  test('few positions of a path are lines, many a map over the path and not beyond', async () => {
+    const look = (page) => page.evaluate(() => { const { data, layout } = document.getElementById('plot-path'); return { kinds: data.map((t) => t.meta), range: layout.yaxis.range, colours: data.filter((t) => t.meta?.startsWith('position')).map((t) => t.line.color) }; });
+    await shown(oneRun(), async (page) => {
+      const { kinds, colours: drawnIn } = await look(page);
+      assert.ok(!kinds.includes('map') && kinds.filter((k) => k?.startsWith('position')).length === 5);
+      assert.equal(new Set(drawnIn).size, 5);
+    });
+    const data = oneRun();
+    for (const path of data.runs[0].paths) Object.assign(path, { positions: pack('f64', [9, 3], Array.from({ length: 27 }, (_, i) => (i % 3 === 1 ? 0.01 * Math.floor(i / 3) : 0))), depth_m: pack('f32', [9, 20], Array.from({ length: 180 }, (_, i) => 1e-3 * (1 + (i % 7)))) });
+    await shown(data, async (page) => {
+      const { kinds, range } = await look(page);
+      assert.ok(kinds.includes('map') && !kinds.some((k) => k?.startsWith('position')));
+      assert.ok(Math.abs(range[0]) < 1e-9 && Math.abs(range[1] - 80) < 1e-6, range.join());
+    });
+  });
+
+  test('receptances open on the point of the cut, along its softest direction', async () => {
+    const data = oneRun();
+    const [r] = data.runs;
+    delete r.summary.coupling.reductions;
+    r.cutting.at = 'Q';
+    await shown(data, async (page) => assert.equal(await page.locator('#receptances select').first().inputValue(), 'Q.x'));
+  });
+
   test('two runs are told apart in every trace', () => shown(twoRuns(), async (page) => {
     const look = (id) => page.evaluate((name) => document.getElementById(name).data.map((t) => ({ meta: t.meta, name: t.name, dash: t.line?.dash, symbol: t.marker?.symbol, size: t.marker?.size })), id);
     const lobes = await look('plot-lobes');
@@ -282,11 +306,15 @@ describe('the moving shapes', () => {
   }));
 
   test('the arm is wholly in the picture, and out of it for the part alone', () => shown(oneRun(), async (page) => {
+    const first = await robot(page);
+    await pick(page, 'View', 'all');
     const seen = await robot(page);
     assert.ok(seen.count > 300 && !seen.atBorder, JSON.stringify(seen));
     const whole = seen.height;
     await pick(page, 'View', 'part');
-    assert.ok((await robot(page)).height > 1.2 * whole || (await robot(page)).atBorder);
+    const near = await robot(page);
+    assert.ok(near.height > 1.2 * whole || near.atBorder);
+    assert.deepEqual(near, first, 'the view begins on the part');
     await pick(page, 'Mode', { label: 'part 1: 200.1 Hz' });
     assert.equal((await robot(page)).count, 0);
   }));
@@ -295,6 +323,7 @@ describe('the moving shapes', () => {
     const data = oneRun();
     for (const m of data.runs[0].shapes.modes) if (m.robot) m.robot = [0, 40, 0];
     await shown(data, async (page) => {
+      await pick(page, 'View', 'all');
       await slide(page, 'Amplitude', 1);
       await slide(page, 'Phase', 0);
       const seen = await robot(page);

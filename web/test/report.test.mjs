@@ -54,6 +54,14 @@ async function loaded(file) {
   return { ready, thread: end - start };
 }
 
+/** What is drawn of a path, as a map or as lines: { x, depth: a list for each position }. */
+const pathDepths = (page) => page.evaluate(() => {
+  const { data } = document.getElementById('plot-path');
+  const map = data.find((t) => t.type === 'heatmap');
+  const lines = data.filter((t) => t.meta?.startsWith('position'));
+  return { x: Array.from((map ?? lines[0]).x), depth: map ? map.customdata.map((row) => Array.from(row)) : lines.map((t) => Array.from(t.y)) };
+});
+
 for (const file of reports) {
   describe(path.relative(process.cwd(), file), () => {
     const data = documentOf(file);
@@ -136,7 +144,7 @@ for (const file of reports) {
 
     test('the path map is that of the document', { skip: !has.paths }, async () => {
       const depth = numbers(data.runs[0].paths.find((p) => p.name === 'supported')?.depth_m ?? data.runs[0].paths[0].depth_m);
-      const shown = await page.evaluate(() => document.getElementById('plot-path').data.find((t) => t.type === 'heatmap').customdata.flat());
+      const shown = (await pathDepths(page)).depth.flat();
       depth.forEach((d, i) => (Number.isFinite(d) ? close(shown[i], d * 1e3) : assert.equal(shown[i], null)));
     });
 
@@ -145,7 +153,7 @@ for (const file of reports) {
       const start = await select.inputValue();
       for (const [i, { name }] of data.runs[0].paths.entries()) {
         await select.selectOption(String(i));
-        const map = await page.evaluate(() => { const t = document.getElementById('plot-path').data.find((d) => d.type === 'heatmap'); return { x: Array.from(t.x), depth: t.customdata.map((row) => Array.from(row)) }; });
+        const map = await pathDepths(page);
         const rows = table(csv('lobes', `${name}_path`));
         assert.equal(rows.length, map.x.length * map.depth.length);
         for (const row of rows) close(map.depth[row.position - 1][map.x.findIndex((x) => Math.abs(x - row.spindle_speed_rpm) < 1e-6 * x)], row.limiting_depth_m * 1e3, rounded);
@@ -291,7 +299,10 @@ for (const file of reports) {
       const moving = await open(browser, file, { reducedMotion: 'no-preference' });
       await moving.locator('canvas.shape').scrollIntoViewIfNeeded();
       await moving.waitForFunction(() => document.querySelector('#shapes label.control:has(+ button) input').value !== '0');
-      await moving.click('#shapes button[aria-label="Play or pause the motion"]');
+      const play = moving.locator('#shapes button[aria-label="Play or pause the motion"]');
+      assert.equal((await play.textContent()).trim(), 'Pause');
+      assert.equal(await play.locator('svg path').count(), 1, 'the sign is drawn, since fonts lack it');
+      await play.click();
       const stopped = await phase(moving);
       await moving.waitForTimeout(200);
       assert.equal(await phase(moving), stopped);
