@@ -22,6 +22,7 @@
 #include "report/robot_report.hpp"
 #include "report/shape_files.hpp"
 #include "report/summary/summary_json.hpp"
+#include "report/tool_files.hpp"
 #include "setup/imported_part.hpp"
 #include "study/support/robot_survey.hpp"
 
@@ -117,6 +118,7 @@ void write_cuts(const fs::path& folder, const setup::Setup& source, const study:
   if (results.lobes.empty() && results.path.empty()) return;
   fs::create_directories(folder / "lobes");
   for (const auto& lobes : results.lobes) write_lobes(folder / "lobes", lobes);
+  if (source.tool) write_tool_frf(folder / "lobes" / "tool_frf.csv", *source.tool);
   for (const auto& path : results.path) write_path(folder / "lobes", source, path);
 }
 

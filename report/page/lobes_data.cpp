@@ -12,6 +12,7 @@
 #include "io/results/csv_table.hpp"
 #include "report/page/arrays.hpp"
 #include "report/page/limit_text.hpp"
+#include "report/page/tool_frf_data.hpp"
 #include "report/summary/write_json.hpp"
 
 namespace thinwall::report {
@@ -142,6 +143,7 @@ json lobes_data(const fs::path& results, const Summary& summary) {
       run["paths"].push_back(path_of(path, name));
   }
   run["cutting"] = cutting_of(summary);
+  if (json tool = tool_frf_data(folder / "tool_frf.csv"); !tool.is_null()) run["tool_frf"] = std::move(tool);
   return run;
 }
 

@@ -8,8 +8,8 @@
 
 namespace thinwall::report {
 
-/// "lobes", "paths" and "cutting" of a run (web/document.md) from lobes/*.csv and the run's summary. Throws DataError
-/// for a file that cannot be read.
+/// "lobes", "paths", "cutting" and "tool_frf" of a run (web/document.md) from lobes/*.csv and the run's summary. Throws
+/// DataError for a file that cannot be read.
 [[nodiscard]] nlohmann::json lobes_data(const std::filesystem::path& results, const Summary& summary);
 
 }  // namespace thinwall::report

@@ -6,8 +6,8 @@ import { faint } from './colours.js';
 import { number, plain } from './format.js';
 import { between, decades, plot } from './plot.js';
 
-const names = { part: 'part', robot: 'robot', coupled_receptance: 'coupled, receptances', coupled_spatial: 'coupled, matrices' };
-const colour = { part: 'part', robot: 'robot', coupled_receptance: 'supported', coupled_spatial: 'spatial' };
+const names = { tool: 'tool', part: 'part', robot: 'robot', coupled_receptance: 'coupled, receptances', coupled_spatial: 'coupled, matrices' };
+const colour = { tool: 'robot', part: 'part', robot: 'robot', coupled_receptance: 'supported', coupled_spatial: 'spatial' };
 
 // What is drawn of re + i im (m/N), its axis, and whether an error band (of the modulus) belongs to it.
 const displays = {
@@ -20,8 +20,10 @@ const displays = {
   nyquist: { title: 'Nyquist' },
 };
 
+const frfsOf = (run) => [...(run.frf ?? []), ...(run.tool_frf ? [run.tool_frf] : [])];
+
 export function receptances(runs) {
-  const all = runs.flatMap((run, i) => (run.frf ?? []).map((frf) => ({ run, i, frf })));
+  const all = runs.flatMap((run, i) => frfsOf(run).map((frf) => ({ run, i, frf })));
   if (!all.length) return null;
   const state = { ...first(all), display: 'log', logFrequency: false };
   const chart = plot({ name: 'receptance', label: 'Receptances', build: (colours, narrow) => build(all, runs, state, colours, narrow), columns: () => columns(all, runs, state) });
@@ -75,21 +77,27 @@ function entry({ run, frf }, { response, force }) {
   if (Number.isNaN(H[at() * n * 2])) [r, f] = [frf.responses.indexOf(frf.forces[f]), frf.forces.indexOf(frf.responses[r])];
   if (r < 0 || f < 0) return null;
   const values = H.subarray(at() * n * 2, (at() + 1) * n * 2);
-  return { hz, re: values.filter((_, k) => k % 2 === 0), im: values.filter((_, k) => k % 2 === 1), deviation: deviation?.subarray(at() * n, (at() + 1) * n) };
+  const coherence = numbers(frf.coherence)?.subarray(at() * n, (at() + 1) * n);
+  return { hz, coherence, re: values.filter((_, k) => k % 2 === 0), im: values.filter((_, k) => k % 2 === 1), deviation: deviation?.subarray(at() * n, (at() + 1) * n) };
 }
+
+const stiff = (runs) => {
+  const all = runs.flatMap((run) => run.frf ?? []);
+  return all.some((f) => f.name !== 'robot') ? 'part' : all.length ? 'robot' : 'tool';
+};
 
 /** What there is to see, and what is not shown of what was computed. */
 export function receptancesLead(runs) {
   const apart = runs.filter((run) => run.route_difference).map((run) => numbers(run.route_difference).reduce((a, b) => (b > a ? b : a), 0));
   const of = apart.length ? ` The two ways of coupling differ by at most ${number(Math.max(...apart), 2)}, relative to the largest entry of their frequency (lower panel).` : '';
-  return `How far a point moves by a force, over frequency: a lower peak is a stiffer, better damped ${runs.some((run) => run.frf?.some((f) => f.name !== 'robot')) ? 'part' : 'robot'}.${of}`;
+  return `How far a point moves by a force, over frequency: a lower peak is a stiffer, better damped ${stiff(runs)}.${of}${runs.some((run) => run.tool_frf?.coherence) && !of ? ' Where the coherence (lower panel) falls below 1, noise or what is not linear makes the measurement uncertain.' : ''}`;
 }
 
 /** What the page leaves out: degrees of freedom, and lines between those that it draws. */
 function leftOut(runs) {
   return runs.flatMap((run) => {
     const of = runs.length > 1 ? `${run.label}: ` : '';
-    const thinned = (run.frf ?? []).filter((frf) => frf.thinned);
+    const thinned = frfsOf(run).filter((frf) => frf.thinned);
     const lines = [...new Set(thinned.map(({ thinned: t }) => `${t.to} of ${t.from} lines`))].join(', ');
     return [...(run.frf_left_out?.length ? [`${of}Left out of this page, in the result folder: ${run.frf_left_out.join(', ')}.`] : []),
       ...(thinned.length ? [`${of}Drawn here: ${lines}; all of them are in the result folder.`] : [])];
@@ -122,12 +130,14 @@ function overFrequency(shown, runs, state, note, margin, colours, narrow) {
     return [...(display.band && e.deviation && one.frf.name !== 'coupled_spatial' ? errorBand(x, y, e.deviation, line.color) : []),
       { name: plain(label(one, runs)), x, y, mode: 'lines', line, hovertemplate: `%{y:.4~g} ${display.unit ?? 'µm/N'}`, meta: `${one.i} ${one.frf.name}` }];
   });
-  const routes = runs.flatMap((run, i) => difference(run, i, runs, colours));
+  const apart = runs.flatMap((run, i) => difference(run, i, runs, colours));
+  const coherent = apart.length ? [] : shown.flatMap(({ one, e }) => coherenceOf(one, e, runs, colours));
+  const routes = [...apart, ...coherent];
   return { data: [...data, ...routes], layout: {
     height: narrow ? 480 : 580, hovermode: 'x unified', hoversubplots: 'axis', uirevision: `${state.display} ${state.logFrequency}`, margin, annotations: [note],
     xaxis: { title: 'Frequency (Hz)', anchor: routes.length ? 'y2' : 'y', ticks: '', unifiedhovertitle: { text: '%{x:.5~g} Hz' }, type: state.logFrequency ? 'log' : 'linear', dtick: state.logFrequency ? (narrow ? 1 : 'D2') : undefined },
     yaxis: { title: display.axis, domain: [routes.length ? 0.34 : 0, 1], type: display.type ?? 'linear', dtick: display.type === 'log' ? 1 : state.display === 'phase' ? 90 : undefined },
-    ...(routes.length ? { yaxis2: { title: narrow ? 'Difference' : 'Difference of routes', domain: [0, 0.26], type: 'log', ...decades(routes.flatMap((r) => r.y), 0.01) } } : {}),
+    ...(routes.length ? { yaxis2: { domain: [0, 0.26], ...(coherent.length ? { title: 'Coherence', range: [0, 1.03] } : { title: narrow ? 'Difference' : 'Difference of routes', type: 'log', ...decades(routes.flatMap((r) => r.y), 0.01) }) } } : {}),
   } };
 }
 
@@ -144,6 +154,13 @@ function difference(run, i, runs, colours) {
     line: { color: colours.mark, width: 1.2, dash: i ? 'dash' : 'solid' }, hovertemplate: '%{y:.2~e}', meta: `${i} difference` }];
 }
 
+/** The coherence of a measured entry, where its file has one. */
+function coherenceOf(one, { hz, coherence }, runs, colours) {
+  if (!coherence || !coherence.some(Number.isFinite)) return [];
+  return [{ name: plain(`${label(one, runs)}: coherence`), x: Array.from(hz), y: Array.from(coherence, (v) => (Number.isFinite(v) ? v : null)), yaxis: 'y2', mode: 'lines',
+    line: { color: colours.mark, width: 1.2, dash: one.i ? 'dash' : 'solid' }, hovertemplate: '%{y:.3~g}', meta: `${one.i} coherence` }];
+}
+
 function nyquist(shown, runs, note, margin, colours, narrow) {
   const data = shown.map(({ one, e }) => ({ name: plain(label(one, runs)), x: Array.from(e.re, (v) => v * 1e6), y: Array.from(e.im, (v) => v * 1e6), customdata: Array.from(e.hz), mode: 'lines', line: style(one, colours),
     hovertemplate: '%{customdata:.5~g} Hz: %{x:.4~g}, %{y:.4~g} µm/N', meta: `${one.i} ${one.frf.name}` }));
@@ -152,10 +169,10 @@ function nyquist(shown, runs, note, margin, colours, narrow) {
 }
 
 function columns(all, runs, state) {
-  const of = `${state.response}/${state.force}`;
   return all.flatMap((one) => {
     const e = entry(one, state);
     const name = `${one.run.label}, ${names[one.frf.name] ?? one.frf.name}`;
-    return e ? [{ name: `${name}: frequency (Hz)`, values: Array.from(e.hz) }, { name: `${name}: Re ${of} (m/N)`, values: Array.from(e.re) }, { name: `${name}: Im ${of} (m/N)`, values: Array.from(e.im) }] : [];
+    return e ? [{ name: `${name}: frequency (Hz)`, values: Array.from(e.hz) }, { name: `${name}: Re ${of} (m/N)`, values: Array.from(e.re) }, { name: `${name}: Im ${of} (m/N)`, values: Array.from(e.im) },
+      ...(e.coherence ? [{ name: `${name}: coherence ${of}`, values: Array.from(e.coherence) }] : [])] : [];
   }).concat(runs.flatMap((run) => (run.route_difference ? [{ name: `${run.label}: difference of the routes (relative)`, values: Array.from(numbers(run.route_difference)) }] : [])));
 }

@@ -8,7 +8,7 @@ import { after, before, describe, test } from 'node:test';
 import { extent, shapeOf, surface } from '../src/shapes.js';
 import { colours, drawn, launch, open, slide, traces } from './browser.mjs';
 import { compose } from './compose.mjs';
-import { alongPath, measured, noArm, oneRun, pack, partAlone, robust, toolOnly, twoRuns } from './synthetic.mjs';
+import { alongPath, measured, noArm, oneRun, pack, partAlone, robust, toolMeasured, toolOnly, twoRuns } from './synthetic.mjs';
 
 const folder = mkdtempSync(path.join(os.tmpdir(), 'thinwall-content-'));
 let browser;
@@ -166,6 +166,17 @@ describe('sentences and sections by what there is', () => {
 
   test('a tool alone has no empty section', () => shown(toolOnly(), async (page) => {
     assert.deepEqual(await page.locator('main section').evaluateAll((list) => list.map((s) => s.id)), ['lobes', 'provenance']);
+  }));
+
+  test('a measured tool shows its receptances with their coherence', () => shown(toolMeasured(), async (page) => {
+    assert.match(await lead(page, 'receptances'), /better damped tool\. Where the coherence \(lower panel\)/);
+    const list = await traces(page, 'receptance');
+    const coherence = list.find((t) => t.meta === '0 coherence');
+    assert.ok(list.some((t) => t.meta === '0 tool') && coherence);
+    coherence.y.forEach((y, k) => assert.ok(Math.abs(y - (1 - 0.004 * k)) < 1e-6));
+    await page.locator('#receptances select').first().selectOption('y');
+    await page.locator('#receptances select').nth(1).selectOption('y');
+    assert.ok(!(await traces(page, 'receptance')).some((t) => t.meta === '0 coherence'), 'y/y has none');
   }));
 
   test('measured receptances: the main modes, and no empty section', () => shown(measured(), async (page) => {

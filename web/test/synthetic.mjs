@@ -123,6 +123,16 @@ export function toolOnly() {
     manifest: {}, case: '', frf: [], paths: [], lobes: [chart], cutting: { teeth: 4, depth_limit_m: 0.02, spindle_speed_rpm: 1900 } }]);
 }
 
+/** Measured receptances of the tool's tip, with the coherence of the first. */
+export function toolMeasured() {
+  const data = toolOnly();
+  const hz = range(50).map((i) => 100 + 10 * i);
+  const tip = frf('tool', ['x', 'y'], hz, 300, 2e6);
+  tip.coherence = pack('f32', [2, 2, 50], range(200).map((i) => (i < 50 ? 1 - 0.004 * i : NaN)));
+  data.runs[0].tool_frf = tip;
+  return data;
+}
+
 /** A part without a robot: nothing coupled, no path. */
 export function partAlone() {
   const data = oneRun();
