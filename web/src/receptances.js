@@ -1,5 +1,6 @@
 // Receptances: one entry of the matrices of part, robot and the coupled system, and how far the two routes differ.
 
+import { cmif } from './cmif.js';
 import { choice, el, tick } from './dom.js';
 import { numbers } from './decode.js';
 import { faint } from './colours.js';
@@ -18,6 +19,7 @@ const displays = {
   imaginary: { title: 'Imaginary part', axis: 'Im H (µm/N)', of: (re, im) => im * 1e6 },
   phase: { title: 'Phase', axis: 'Phase (°)', of: (re, im) => (Math.atan2(im, re) * 180) / Math.PI, unit: '°' },
   nyquist: { title: 'Nyquist' },
+  cmif: { title: 'Mode indicator (CMIF)' },
 };
 
 const frfsOf = (run) => [...(run.frf ?? []), ...(run.tool_frf ? [run.tool_frf] : [])];
@@ -118,6 +120,7 @@ function build(all, runs, state, colours, narrow) {
   const title = `${plain(state.response)} by a force at ${plain(state.force)}`;
   const note = { text: title, xref: 'paper', yref: 'paper', x: 0.995, y: 0.99, xanchor: 'right', yanchor: 'top', showarrow: false, font: { size: 12 }, bgcolor: faint(colours.paper, 0.75) };
   const margin = { l: narrow ? 54 : 70, r: narrow ? 10 : 18, t: 12, b: 46 };
+  if (state.display === 'cmif') return indicator(all, runs, state, margin, colours, narrow);
   return state.display === 'nyquist' ? nyquist(shown, runs, note, margin, colours, narrow) : overFrequency(shown, runs, state, note, margin, colours, narrow);
 }
 
@@ -168,7 +171,25 @@ function nyquist(shown, runs, note, margin, colours, narrow) {
     xaxis: { title: 'Re H (µm/N)', zeroline: true }, yaxis: { title: 'Im H (µm/N)', scaleanchor: 'x', zeroline: true } } };
 }
 
+/** Singular values of the whole matrices: the first strong, the others thin, of every FRF with more than one degree of freedom. */
+function indicator(all, runs, state, margin, colours, narrow) {
+  const data = all.flatMap((one) => {
+    if (one.frf.name === 'coupled_spatial') return []; // lies upon that of the receptances
+    const found = cmif(one.frf);
+    const line = style(one, colours);
+    return (found?.values ?? []).map((values, k) => ({ name: plain(`${label(one, runs)}${k ? `, singular value ${k + 1}` : ''}`), showlegend: k === 0, legendgroup: `${one.i} ${one.frf.name}`, x: Array.from(found.hz), y: Array.from(values, (v) => (v > 0 ? v * 1e6 : null)),
+      mode: 'lines', line: { ...line, width: k ? 0.9 : 2, color: k ? faint(line.color, 0.7) : line.color }, hovertemplate: '%{y:.4~g} µm/N', meta: `${one.i} ${one.frf.name} cmif ${k}` }));
+  });
+  return { data, layout: { height: narrow ? 480 : 580, hovermode: 'x unified', uirevision: `cmif ${state.logFrequency}`, margin,
+    xaxis: { title: 'Frequency (Hz)', unifiedhovertitle: { text: '%{x:.5~g} Hz' }, type: state.logFrequency ? 'log' : 'linear' }, yaxis: { title: 'Singular values of H (µm/N)', type: 'log', dtick: 1 } } };
+}
+
 function columns(all, runs, state) {
+  if (state.display === 'cmif') {
+    return all.flatMap((one) => { const found = cmif(one.frf); const name = `${one.run.label}, ${names[one.frf.name] ?? one.frf.name}`;
+      return found ? [{ name: `${name}: frequency (Hz)`, values: Array.from(found.hz) }, ...found.values.map((v, k) => ({ name: `${name}: singular value ${k + 1} (m/N)`, values: Array.from(v) }))] : []; });
+  }
+  const of = `${state.response}/${state.force}`;
   return all.flatMap((one) => {
     const e = entry(one, state);
     const name = `${one.run.label}, ${names[one.frf.name] ?? one.frf.name}`;

@@ -5,6 +5,7 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { after, before, describe, test } from 'node:test';
+import { cmif, singularValues } from '../src/cmif.js';
 import { extent, shapeOf, surface } from '../src/shapes.js';
 import { colours, drawn, launch, open, slide, traces } from './browser.mjs';
 import { compose } from './compose.mjs';
@@ -228,6 +229,28 @@ describe('the charts', () => {
       const { kinds, range } = await look(page);
       assert.ok(kinds.includes('map') && !kinds.some((k) => k?.startsWith('position')));
       assert.ok(Math.abs(range[0]) < 1e-9 && Math.abs(range[1] - 80) < 1e-6, range.join());
+    });
+  });
+
+  test('mode indicator: the singular values of the whole matrix', async () => {
+    const close = (a, b) => assert.ok(Math.abs(a - b) < 1e-9 * Math.abs(b) + 1e-15, `${a} is not ${b}`);
+    // U diag(5, 2) Vᴴ with rotations and phases has the singular values 5 and 2; a matrix of rank one has one.
+    const [c, s] = [Math.cos(0.7), Math.sin(0.7)];
+    const turned = [[[5 * c * 0.6 + 2 * s * 0.8, 0], [0, 5 * c * 0.8 - 2 * s * 0.6]], [[0, 5 * s * 0.6 - 2 * c * 0.8], [-(5 * s * 0.8 + 2 * c * 0.6), 0]]];
+    const [first, second] = singularValues(turned);
+    close(first, 5);
+    close(second, 2);
+    const [one, none] = singularValues([[[1, 1], [2, 2]], [[2, 2], [4, 4]]]);
+    close(one, 5 * Math.SQRT2);
+    assert.ok(none < 1e-12);
+    const turning = { hz: pack('f64', [1], [10]), responses: ['R.x', 'R.rz'], forces: ['R.x', 'R.rz'], H: pack('f32', [2, 2, 1, 2], [3, 4, 0, 0, 0, 0, 1e6, 0]) };
+    assert.deepEqual(cmif(turning).values.map((v) => v[0]), [5], 'rad and m are not mixed');
+    await shown(oneRun(), async (page) => {
+      await page.locator('#receptances label.control', { hasText: 'Show' }).locator('select').selectOption('cmif');
+      const list = await traces(page, 'receptance');
+      const [largest, next] = [0, 1].map((k) => list.find((t) => t.meta === `0 part cmif ${k}`));
+      assert.ok(largest.y.every((y, i) => y >= next.y[i]));
+      assert.ok(list.some((t) => t.meta === '0 robot cmif 0') && !list.some((t) => t.meta === '0 robot cmif 1'), 'one degree of freedom has one singular value');
     });
   });
 
