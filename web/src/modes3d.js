@@ -1,5 +1,6 @@
 // The moving mode shapes: choice, sliders, legend and labels around a view (WebGL, or a still picture without it).
 
+import { comac } from './comac.js';
 import { button, choice, el, icon, slider, svg, tick } from './dom.js';
 import { isPrinting, onColours, viridis } from './colours.js';
 import { hertz, number, percent } from './format.js';
@@ -54,11 +55,12 @@ function layout(viewer) {
   const mode = choice('Mode', options(viewer), state.at, (v) => { state.at = Number(v); showMode(viewer); });
   const step = (d) => { state.at = (state.at + d + entries.length) % entries.length; mode.querySelector('select').value = state.at; showMode(viewer); };
   const thick = entries.some(({ run }) => run.shapes.thickness_m);
+  const paired = entries.some(({ run }) => run.mac);
   const arm = entries.some(({ run, mode }) => run.shapes.robot_arm && mode.robot);
   parts.canvas.addEventListener('keydown', (event) => key(viewer, event));
   return [
     el('div', { class: 'controls' }, mode, el('span', { class: 'pair' }, button(icon('back'), 'Previous mode', () => step(-1)), button(icon('play'), 'Next mode', () => step(1))),
-      thick && choice('Colour', [['displacement', 'displacement'], ['thickness', 'wall thickness']], 'displacement', change('colour', showMode)),
+      (thick || paired) && choice('Colour', [['displacement', 'displacement'], ...(thick ? [['thickness', 'wall thickness']] : []), ...(paired ? [['comac', 'likeness alone and with robot']] : [])], 'displacement', change('colour', showMode)),
       arm && choice('View', [['part', 'part'], ['all', 'part and robot']], 'part', change('view', showMode)),
       slider('Amplitude', { min: 0, max: 1, step: 0.01, value: state.amplitude }, change('amplitude', draw)), parts.phase, parts.play,
       tick('undeformed edges', true, (on) => { viewer.view?.outline(on); draw(viewer); })),
@@ -116,8 +118,10 @@ function showMode(viewer) {
 }
 
 /** The colours: how far each place moves as a share of the part's largest, or the wall's thickness; and what they stand for in words. */
-function levelsOf({ body, state }, shape) {
+function levelsOf({ body, state, entries }, shape) {
   const { thickness } = body;
+  const like = state.colour === 'comac' && comac(entries[state.at].run);
+  if (like) return { values: like, flat: false, title: 'part alone against with robot (COMAC)', from: '0', to: '1' };
   if (state.colour !== 'thickness' || !thickness) {
     const values = shape.reach > onlyRobot ? new Float32Array(shape.lengths.length) : shape.lengths;
     return { values, flat: false, title: 'displacement', from: '0', to: 'largest' };

@@ -5,6 +5,7 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { after, before, describe, test } from 'node:test';
+import { comac, likeness } from '../src/comac.js';
 import { cmif, singularValues } from '../src/cmif.js';
 import { extent, shapeOf, surface } from '../src/shapes.js';
 import { colours, drawn, launch, open, slide, traces } from './browser.mjs';
@@ -390,6 +391,18 @@ describe('the moving shapes', () => {
     const data = oneRun();
     data.runs[0].shapes.points.forEach((p) => { delete p.joined; });
     await shown(data, async (page) => { await select(page); assert.ok((await orange(page)).count < 0.8 * joined); assert.doesNotMatch(await legend(page), /arrows/); });
+  });
+
+  test('likeness of the shapes at each place: 1 where they move alike, 0 across, whatever their size and sign', async () => {
+    const one = { vectors: Float32Array.of(1, 0, 0, 0, 2, 0), scale: 1 };
+    const other = { vectors: Float32Array.of(-3, 0, 0, 0, 0, 1), scale: 0.5 };
+    assert.deepEqual(Array.from(likeness([[one, other]])), [1, 0]);
+    const second = [{ vectors: Float32Array.of(0, 1, 0, 0, 1, 0), scale: 1 }, { vectors: Float32Array.of(0, 0, 1, 0, 1, 0), scale: 1 }];
+    const [mixed] = likeness([[one, other], second]); // (1·1.5)² / ((1 + 1)(1.5² + 1))
+    assert.ok(Math.abs(mixed - 2.25 / 6.5) < 1e-6);
+    const { values } = { values: comac(oneRun().runs[0]) };
+    assert.ok(values.length === oneRun().runs[0].shapes.vertices.shape[0] && values.every((x) => x >= 0 && x < 1.00001));
+    await shown(oneRun(), async (page) => { await pick(page, 'Colour', 'comac'); assert.match(await page.textContent('#shapes .legend'), /COMAC.*0.*1/); });
   });
 
   test('what is to be seen holds part and robot', () => {
