@@ -1,5 +1,7 @@
 #include "report/page/tool_frf_data.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -70,12 +72,13 @@ json tool_frf_data(const std::filesystem::path& file, std::size_t most) {
   const std::vector<std::size_t> lines = lines_of(table, file, most);
   const auto [responses, forces] = directions(table);
   std::vector<double> hz;
+  hz.reserve(lines.size());
   for (const std::size_t line : lines) hz.push_back(all_hz[line]);
   std::vector<float> H, coherence;
   bool coherent = false;
   for (const std::string& r : responses) {
     for (const std::string& f : forces) {
-      const std::string entry = r + "/" + f;
+      const std::string entry = fmt::format("{}/{}", r, f);
       const auto column = [&](const std::string& name) {
         return has(table, name) ? &io::numbers(table, name, file) : nullptr;
       };
