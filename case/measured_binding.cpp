@@ -20,7 +20,9 @@ setup::MeasuredFrf bind_measured(const Table& table, const std::filesystem::path
           .noise = table.optional("noise"),
           .variable = table.text("variable"),
           .frequency_variable = table.text("frequency_variable"),
-          .averages = integer("averages")};
+          .averages = integer("averages"),
+          .from_hz = table.optional("from"),
+          .to_hz = table.optional("to")};
 }
 
 std::vector<setup::MeasuredFrf> bind_all_measured(const std::vector<Table>& tables,

@@ -4,6 +4,7 @@
 
 #include "core/eigen_alignment.hpp"
 #include "dynamics/beam_element.hpp"
+#include "dynamics/believable_band.hpp"
 #include "dynamics/conversion.hpp"
 #include "dynamics/dof.hpp"
 #include "dynamics/frequency_axis.hpp"

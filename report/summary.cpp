@@ -201,6 +201,8 @@ LobesSummary lobes_of(const setup::Setup& source, const study::StructureLobes& n
   if (!pockets.empty()) result.best_pocket = pockets.front();
   result.error_budget = chart_errors_summary(named);
   if (named.at_spindle_speed) result.at_case_speed = case_speed_of(source, named);
+  if (const auto& doubtful = named.doubtful)
+    result.below_first_resonance = {doubtful->chatter_frequency_hz, doubtful->first_resonance_hz};
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "core/messages.hpp"
+#include "setup/believed_lines.hpp"
 #include "setup/contact_model.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/measured.hpp"
@@ -43,6 +44,17 @@ auto* tabled_robot(Source& source) {
   return source.robot ? std::get_if<TabledRobot>(&source.robot->model) : nullptr;
 }
 
+/// True for an FRF of the tool or the robot, which stand on something; a part may hang freely.
+bool is_of_held_structure(const Setup& source, const MeasuredFrf* frf) {
+  const auto among = [frf](const std::vector<MeasuredFrf>& files) {
+    return std::ranges::any_of(files, [frf](const MeasuredFrf& file) { return &file == frf; });
+  };
+  if (source.tool && (among(source.tool->measured) || (source.tool->swap && among(source.tool->swap->measured))))
+    return true;
+  const auto* robot = source.robot ? std::get_if<MeasuredRobot>(&source.robot->model) : nullptr;
+  return robot != nullptr && among(robot->measured);
+}
+
 }  // namespace
 
 std::vector<MeasuredFrf*> measured_frfs(Setup& source) {
@@ -56,7 +68,9 @@ std::vector<const MeasuredFrf*> measured_frfs(const Setup& source) {
 void read_data_files(Setup& source) {
   FrfFiles files;
   for (MeasuredFrf* frf : measured_frfs(source)) {
-    if (!frf->content) frf->content = std::make_shared<const FrfContent>(read_measured(*frf, files));
+    if (frf->content) continue;
+    frf->content = std::make_shared<const FrfContent>(
+        with_believed_lines(read_measured(*frf, files), *frf, is_of_held_structure(source, frf)));
   }
   for (SupportContact& contact : source.contacts) {
     if (auto* tabled = std::get_if<TabledContact>(&contact.model); tabled != nullptr && !tabled->rows)

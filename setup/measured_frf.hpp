@@ -18,7 +18,8 @@ namespace thinwall::setup {
 struct FrfContent {
   io::MeasuredFrf frf;                ///< receptance on its own axis
   std::vector<std::string> notes;     ///< what was odd in the file, was filled in, or turned
-  std::vector<std::string> warnings;  ///< where file and set-up disagree
+  std::vector<std::string> warnings;  ///< where file and set-up disagree, and which lines are not believed
+  bool lines_left_out = false;        ///< lines of the file are not in `frf` (setup/believed_lines.hpp)
 };
 
 /// One measured FRF in a file, converted by io/ to receptance.
@@ -34,6 +35,7 @@ struct MeasuredFrf {
   std::string variable{};            ///< of another program's MAT file, "H(2,1,:)"; empty: the file is one of ours
   std::string frequency_variable{};  ///< beside it
   std::optional<int> averages{};     ///< that the file's coherence belongs to, in place of `noise`
+  std::optional<double> from_hz{}, to_hz{};        ///< bounds of its lines; none: where they are believed
   std::shared_ptr<const FrfContent> content = {};  ///< what the file holds, once it is read (setup/data_files.hpp)
 };
 

@@ -3,6 +3,7 @@
 // Internal: matrix_faults.
 
 #include "core/eigen_alignment.hpp"
+#include "setup/believed_lines.hpp"
 #include "setup/chart.hpp"
 #include "setup/contact.hpp"
 #include "setup/contact_model.hpp"

@@ -180,11 +180,19 @@ struct ComparedLobes {
   double at_spindle_speed_rpm = 0.0;
 };
 
+/// A limit that hangs on lines below the first resonance, which hold hardly more than noise, an offset or the drift of
+/// a sensor.
+struct LimitBelowResonance {
+  double chatter_frequency_hz = 0.0;
+  double first_resonance_hz = 0.0;
+};
+
 /// The stability chart of a structure, with all that was asked of it.
 struct StructureLobes {
   ChartOf of = ChartOf::part;
   milling::Lobes lobes;
   std::optional<milling::LobeRow> at_spindle_speed;  ///< at the case's own speed
+  std::optional<LimitBelowResonance> doubtful;       ///< there, else at the least depth; none of a limit that is sound
   std::optional<ContactLimit> contact;               ///< there, of a supported part with a preload, poles and a feed
   std::vector<PointStability> points;                ///< that were asked for
   std::vector<ParameterSensitivity> sensitivities;   ///< at the case's own speed, largest first

@@ -139,7 +139,7 @@ void run_responses(Checkpoint& kept, const setup::Setup& work, Results& results,
   const bool part = reduced || !work.measured_part.empty();
   if (!part && !work.robot) return;
   stages.begin("receptances");
-  const dynamics::FrequencyAxis axis = frequency_axis(work.response);
+  const dynamics::FrequencyAxis axis = frequency_axis(work.response, work, work);
   if (part) results.part = reduced ? component(*results.finite_elements->damped, axis) : measured_part(work, axis);
   if (work.robot) {
     results.robot_posture = setup::robot_posture(work, work);

@@ -11,6 +11,7 @@
 #include "study/lobes/cut_structure.hpp"
 #include "study/lobes/lobe_sensitivity.hpp"
 #include "study/lobes/lobes_stage.hpp"
+#include "study/lobes/low_limit.hpp"
 #include "study/lobes/main_modes.hpp"
 #include "study/lobes/path_stage.hpp"
 #include "study/lobes/structure_errors.hpp"

@@ -111,6 +111,8 @@ void check_measured(const std::string& key, const setup::MeasuredFrf& frf, Findi
       findings.report(key + ".unit", fault);
   }
   if (frf.noise && frf.averages) findings.report(key + ".averages", "the noise is given; keep one of the two");
+  if (frf.from_hz && frf.to_hz && *frf.from_hz >= *frf.to_hz)
+    findings.report(key + ".from", "the first line must lie below the last (" + key + ".to)");
   require_direction(key + ".response", frf.response, findings);
   require_direction(key + ".force", frf.force, findings);
   std::error_code ignored;

@@ -87,6 +87,8 @@ constexpr Key case_keys[] = {
     Key{"part.measured[].frequency_variable", Type::text, kind::number, "", any, "", "Beside `variable`: the one with the frequencies, in `frequency_unit`."},
     Key{"part.measured[].noise", Type::quantity, kind::number, "", uncertainty, "", "Standard deviation of its real and imaginary part, relative to its size: what the error budget starts from."},
     Key{"part.measured[].averages", Type::integer, kind::number, "", {1, 1e6, false, false, false, "an average is of one measurement or more"}, "", "In place of `noise`: the number of averages behind the file's coherence, from which the noise follows."},
+    Key{"part.measured[].from", Type::quantity, kind::frequency, "", not_negative, "", "First line that is used; if not given the first that is believed (docs/theory/measured-frfs.md)."},
+    Key{"part.measured[].to", Type::quantity, kind::frequency, "", positive, "", "Last line that is used; if not given the last that is believed."},
     Key{"part.sensors[].at", Type::name, kind::number, "", any, "", "Measured point, `P`: excited as well as measured.", required},
     Key{"part.sensors[].mass", Type::quantity, kind::mass, "", sensor_mass, "", "Its mass, with what holds it on and moves with it.", required},
 
@@ -130,6 +132,8 @@ constexpr Key case_keys[] = {
     Key{"damping.from_frf.unit", Type::text, kind::number, "", any, "", "Unit of the FRF."},
     Key{"damping.from_frf.frequency_unit", Type::choice, kind::number, "\"Hz\"", any, "Hz|rad/s", "Unit of the first column."},
     Key{"damping.from_frf.record", Type::integer, kind::number, "", {1, 1e6, false, false, false, "FRFs are numbered from 1"}, "", "Of a file with several FRFs: which one, in their order; not needed where one is there."},
+    Key{"damping.from_frf.from", Type::quantity, kind::frequency, "", not_negative, "", "First line that is used; if not given the first that is believed (docs/theory/measured-frfs.md)."},
+    Key{"damping.from_frf.to", Type::quantity, kind::frequency, "", positive, "", "Last line that is used; if not given the last that is believed."},
 
     Key{"robot.model", Type::choice, kind::number, "\"one_mode\"", any, "one_mode|modes|measured|modal_table|flexible_joints|virtual_joints", "How the tip is known."},
     Key{"robot.point", Type::text, kind::number, "\"R\"", any, "", "Name of the tip."},
@@ -222,6 +226,8 @@ constexpr Key case_keys[] = {
     Key{"robot.measured[].frequency_variable", Type::text, kind::number, "", any, "", "Beside `variable`: the one with the frequencies, in `frequency_unit`."},
     Key{"robot.measured[].noise", Type::quantity, kind::number, "", uncertainty, "", "Standard deviation of its real and imaginary part, relative to its size: what the error budget starts from."},
     Key{"robot.measured[].averages", Type::integer, kind::number, "", {1, 1e6, false, false, false, "an average is of one measurement or more"}, "", "In place of `noise`: the number of averages behind the file's coherence, from which the noise follows."},
+    Key{"robot.measured[].from", Type::quantity, kind::frequency, "", not_negative, "", "First line that is used; if not given the first that is believed (docs/theory/measured-frfs.md)."},
+    Key{"robot.measured[].to", Type::quantity, kind::frequency, "", positive, "", "Last line that is used; if not given the last that is believed."},
     Key{"robot.sensors[].at", Type::name, kind::number, "", any, "", "Measured point, `R`.", required},
     Key{"robot.sensors[].mass", Type::quantity, kind::mass, "", sensor_mass, "", "Its mass, with what holds it on and moves with it.", required},
 
@@ -253,6 +259,8 @@ constexpr Key case_keys[] = {
     Key{"contacts[].measured[].record", Type::integer, kind::number, "", {1, 1e6, false, false, false, "FRFs are numbered from 1"}, "", "Of a file with several FRFs: which one, in their order; not needed where one is there."},
     Key{"contacts[].measured[].variable", Type::text, kind::number, "", any, "", "Of another program's MAT file: the variable with the FRF, `H00`, or an entry of an array, `H(2,1,:)`, with a colon where its lines are."},
     Key{"contacts[].measured[].frequency_variable", Type::text, kind::number, "", any, "", "Beside `variable`: the one with the frequencies, in `frequency_unit`."},
+    Key{"contacts[].measured[].from", Type::quantity, kind::frequency, "", not_negative, "", "First line that is used; if not given the first that is believed (docs/theory/measured-frfs.md)."},
+    Key{"contacts[].measured[].to", Type::quantity, kind::frequency, "", positive, "", "Last line that is used; if not given the last that is believed."},
 
     Key{"coupling.regularisation", Type::choice, kind::number, "\"none\"", any, "none|truncated|tikhonov", "What becomes of small singular values of the kernel (docs/theory/coupling.md, Eq. 8). `none`: a singular kernel is an error. The spatial route knows no regularisation: the routes then differ where it acts."},
     Key{"coupling.threshold", Type::quantity, kind::number, "1e-10", {0.0, 1.0, true, true, false, "a share of the largest singular value"}, "", "Of the largest singular value: those below are left out (`truncated`) or damped (`tikhonov`)."},
@@ -304,6 +312,8 @@ constexpr Key case_keys[] = {
     Key{"tool.measured[].frequency_variable", Type::text, kind::number, "", any, "", "Beside `variable`: the one with the frequencies, in `frequency_unit`."},
     Key{"tool.measured[].noise", Type::quantity, kind::number, "", uncertainty, "", "Standard deviation of its real and imaginary part, relative to its size: what the error budget starts from."},
     Key{"tool.measured[].averages", Type::integer, kind::number, "", {1, 1e6, false, false, false, "an average is of one measurement or more"}, "", "In place of `noise`: the number of averages behind the file's coherence, from which the noise follows."},
+    Key{"tool.measured[].from", Type::quantity, kind::frequency, "", not_negative, "", "First line that is used; if not given the first that is believed (docs/theory/measured-frfs.md)."},
+    Key{"tool.measured[].to", Type::quantity, kind::frequency, "", positive, "", "Last line that is used; if not given the last that is believed."},
 
     Key{"tool.swap.tip", Type::text, kind::number, "\"1\"", any, "", "Name of the tip in the measured FRFs."},
     Key{"tool.swap.up", Type::text, kind::number, "\"1a\"", any, "", "Name of the point up the tool."},
@@ -318,6 +328,8 @@ constexpr Key case_keys[] = {
     Key{"tool.swap.measured[].record", Type::integer, kind::number, "", {1, 1e6, false, false, false, "FRFs are numbered from 1"}, "", "Of a file with several FRFs: which one, in their order."},
     Key{"tool.swap.measured[].variable", Type::text, kind::number, "", any, "", "Of another program's MAT file: the variable with the FRF, `H00`, or an entry of an array, `H(2,1,:)`, with a colon where its lines are."},
     Key{"tool.swap.measured[].frequency_variable", Type::text, kind::number, "", any, "", "Beside `variable`: the one with the frequencies, in `frequency_unit`."},
+    Key{"tool.swap.measured[].from", Type::quantity, kind::frequency, "", not_negative, "", "First line that is used; if not given the first that is believed (docs/theory/measured-frfs.md)."},
+    Key{"tool.swap.measured[].to", Type::quantity, kind::frequency, "", positive, "", "Last line that is used; if not given the last that is believed."},
     Key{"tool.swap.reference[].length", Type::quantity, kind::length, "", positive, "", "Length; of the last one up to the holder.", required},
     Key{"tool.swap.reference[].outer_diameter", Type::quantity, kind::length, "", positive, "", "Diameter; of a fluted part about 0.8 of the cutter's.", required},
     Key{"tool.swap.reference[].inner_diameter", Type::quantity, kind::length, "0", not_negative, "", "Of a bore."},

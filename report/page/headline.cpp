@@ -117,6 +117,14 @@ std::string pocket_text(const LobesSummary& chart) {
   return text;
 }
 
+std::string doubt_text(const LobesSummary& chart) {
+  if (!chart.below_first_resonance) return "";
+  return fmt::format(
+      "To be doubted: the limit hangs on measured lines below the first resonance (chatter at {:.4g} Hz, first "
+      "resonance at {:.4g} Hz).",
+      chart.below_first_resonance->chatter_frequency_hz, chart.below_first_resonance->first_resonance_hz);
+}
+
 /// The speed at which the whole path allows the most.
 std::string best_speed_text(const PathSummary& path, const std::optional<CuttingSummary>& cutting) {
   const EverywhereSummary& best = path.deepest_everywhere;
@@ -230,6 +238,8 @@ std::vector<std::string> headline(const Summary& summary) {
   std::vector<std::string> sentences{
       sentence(path ? path_subject(summary.path[first]) : subject(summary.lobes[first], summary), list)};
   if (!second.empty()) sentences.push_back(capital(second) + ".");
+  if (const std::string doubt = path ? "" : doubt_text(summary.lobes[first]); !doubt.empty())
+    sentences.insert(sentences.begin() + 1, doubt);
   return sentences;
 }
 

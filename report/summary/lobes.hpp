@@ -252,6 +252,18 @@ void fields(Visitor& visit, Section& line) {
         line.met);
 }
 
+/// A limit that hangs on lines below the first resonance.
+struct DoubtfulLimitSummary {
+  double chatter_frequency_hz = 0.0, first_resonance_hz = 0.0;
+};
+
+template <class Visitor, Either<DoubtfulLimitSummary> Section>
+void fields(Visitor& visit, Section& limit) {
+  visit(Field{"chatter_frequency_hz", Kind::frequency, "chatter frequency"}, limit.chatter_frequency_hz);
+  visit(Field{"first_resonance_hz", Kind::frequency, "lowest resonance of what was measured"},
+        limit.first_resonance_hz);
+}
+
 /// A stability chart.
 struct LobesSummary {
   study::ChartOf name = study::ChartOf::part;
@@ -270,6 +282,7 @@ struct LobesSummary {
   std::optional<RobustSummary> robust;
   std::optional<ChartErrorsSummary> error_budget;
   std::optional<CaseSpeedSummary> at_case_speed;
+  std::optional<DoubtfulLimitSummary> below_first_resonance;
 };
 
 template <class Visitor, Either<LobesSummary> Section>
@@ -306,6 +319,10 @@ void fields(Visitor& visit, Section& chart) {
               Presence::or_null},
         chart.error_budget);
   visit(Field{"at_case_speed", Kind::section, "the row at the case's own speed"}, chart.at_case_speed);
+  visit(Field{"below_first_resonance", Kind::section,
+              "the limit at the case's own speed, else the least, where measured lines below the first resonance make "
+              "it, which is to be doubted; absent: they do not"},
+        chart.below_first_resonance);
 }
 
 }  // namespace thinwall::report

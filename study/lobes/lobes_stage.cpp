@@ -20,6 +20,7 @@
 #include "study/kept/kept_part.hpp"
 #include "study/lobes/cut_structure.hpp"
 #include "study/lobes/lobe_sensitivity.hpp"
+#include "study/lobes/low_limit.hpp"
 #include "study/lobes/main_modes.hpp"
 
 namespace thinwall::study {
@@ -198,6 +199,18 @@ std::vector<milling::LobeRow> robust_rows(std::vector<milling::LobeRow> rows, co
   return rows;
 }
 
+const milling::LobeRow& least_row(const milling::Lobes& lobes) {
+  return *std::ranges::min_element(lobes.rows, {}, &milling::LobeRow::limiting_depth_m);
+}
+
+void tell_of_doubt(const StructureLobes& chart) {
+  if (!chart.doubtful) return;
+  core::warn(
+      fmt::format("the limit hangs on lines below the first resonance (chatter at {:.1f} Hz, first resonance at {:.1f} "
+                  "Hz): look at the measured FRFs there, and bound their band by from",
+                  chart.doubtful->chatter_frequency_hz, chart.doubtful->first_resonance_hz));
+}
+
 void add_pockets(const setup::CutSetup& source, const milling::MillingProcess& process, StructureLobes& result) {
   constexpr std::size_t most = 5;
   const milling::MachineLimits machine = source.machine.value_or(milling::MachineLimits{});
@@ -234,6 +247,9 @@ StructureLobes compute_lobes(const setup::CutSetup& source, ChartOf of, CutStruc
     if (!result.at_spindle_speed->crossings.empty())
       result.sensitivities = chart.sensitivities(*rpm, result.at_spindle_speed->crossings.front());
   }
+  result.doubtful = limit_below_resonance(chart.structure,
+                                          result.at_spindle_speed ? *result.at_spindle_speed : least_row(result.lobes));
+  tell_of_doubt(result);
   add_errors(source, chart, errors, result);
   for (const auto& point : points) {
     result.points.push_back(stability_of(point, chart, wanted.method, result.lobes));

@@ -46,7 +46,8 @@ TipReport report_at(const setup::PartSetup& part, const setup::SupportSetup& sup
   const bool measured = std::holds_alternative<setup::MeasuredRobot>(support.robot->model);
   const dynamics::FrequencyAxis one_line{Eigen::VectorXd::Ones(1)};  // modes and stiffness need no more
   return tip_report(
-      robot, robot_component(*support.robot, measured ? frequency_axis(part.response) : one_line, robot.posture));
+      robot,
+      robot_component(*support.robot, measured ? frequency_axis(part.response, {}, support) : one_line, robot.posture));
 }
 
 /// Adds the robot at that place, or why it cannot stand so.

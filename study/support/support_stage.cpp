@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
+#include "setup/believed_lines.hpp"
 #include "setup/contact_model.hpp"
 #include "setup/measured.hpp"
 #include "setup/sensor_mass.hpp"
@@ -76,6 +77,13 @@ void add_spatial_route(const Component& part, const Component& robot, const std:
 dynamics::FrequencyAxis frequency_axis(const setup::ResponseOptions& r) {
   return r.logarithmic ? dynamics::logarithmic_axis(r.from_hz, r.to_hz, r.lines)
                        : dynamics::linear_axis(r.from_hz, r.to_hz, r.lines);
+}
+
+dynamics::FrequencyAxis frequency_axis(const setup::ResponseOptions& options, const setup::MeasuredPart& part,
+                                       const setup::SupportSetup& support) {
+  const dynamics::FrequencyAxis axis = setup::within_lines_of(part.measured_part, frequency_axis(options));
+  const auto* robot = support.robot ? std::get_if<setup::MeasuredRobot>(&support.robot->model) : nullptr;
+  return robot != nullptr ? setup::within_lines_of(robot->measured, axis) : axis;
 }
 
 Component component(dynamics::SpatialModel model, const dynamics::FrequencyAxis& axis) {

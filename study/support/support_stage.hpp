@@ -9,6 +9,11 @@ namespace thinwall::study {
 /// The axis of [response].
 [[nodiscard]] dynamics::FrequencyAxis frequency_axis(const setup::ResponseOptions& options);
 
+/// That axis as far as measured FRFs of part and robot have lines where some are left out (setup/believed_lines.hpp).
+[[nodiscard]] dynamics::FrequencyAxis frequency_axis(const setup::ResponseOptions& options,
+                                                     const setup::MeasuredPart& part,
+                                                     const setup::SupportSetup& support);
+
 /// A component from its matrices: poles (structural damping taken as equivalent viscous) and receptances; with
 /// structural damping the receptances come from the matrices directly.
 [[nodiscard]] Component component(dynamics::SpatialModel model, const dynamics::FrequencyAxis& axis);

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <random>
 #include <sstream>
+#include <tuple>
 
 #include "app/command_line.hpp"
 #include "app/lobes_input.hpp"
@@ -67,6 +69,22 @@ class LobesCommand : public testing::Test {
     }
     write(name, text.str());
   }
+  /// A tool's receptance from 0 Hz, as integrated from an accelerometer whose noise hides it below some 10 Hz.
+  void write_integrated(const std::string& name, double from_hz) const {
+    std::mt19937_64 random(5);
+    std::normal_distribution<double> normal(0.0, std::pow(2.0 * std::numbers::pi * 10.0, 2) / 2e7);
+    std::ostringstream text;
+    text.precision(17);
+    for (double hz = 0.0; hz <= 2400.0; hz += 1.0) {
+      const double r = hz / 620.0, q = hz / 1340.0, omega = 2.0 * std::numbers::pi * std::max(hz, 1.0);
+      const double real = normal(random), imaginary = normal(random);
+      const std::complex<double> H = 1.0 / (2e7 * std::complex<double>(1.0 - r * r, 0.06 * r)) +
+                                     1.0 / (5e7 * std::complex<double>(1.0 - q * q, 0.05 * q)) +
+                                     std::complex<double>(real, imaginary) / (omega * omega);
+      if (hz >= from_hz) text << hz << ',' << H.real() << ',' << H.imag() << '\n';
+    }
+    write(name, text.str());
+  }
   [[nodiscard]] std::string path(const std::string& name) const { return (temporary.path / name).string(); }
   [[nodiscard]] nlohmann::json summary() const {
     return nlohmann::json::parse(core::read_file(temporary.path / "results" / "summary.json"));
@@ -118,6 +136,46 @@ TEST_F(LobesCommand, ACaseATableOfModesAndFrfsOfEveryQuantityGiveOneChart) {
   write_frf("mobility.csv", 1, 1.0);
   ASSERT_EQ(frf("x=" + path("mobility.csv"), {}, "mobility", "m/s/N").code, 0);
   EXPECT_NEAR(summary()["lobes"][0]["minimum_depth_m"].get<double>() / depth, 1.0, 2e-4);
+}
+
+/// An FRF whose lowest lines are an integrator's noise gives the chart of the band in which it is worth something.
+TEST_F(LobesCommand, LinesOfAnIntegratorsNoiseAreLeftOutAndTold) {
+  write_integrated("whole.csv", 0.0);
+  write_integrated("band.csv", 100.0);
+  const std::vector<std::string> few{"--set", "lobes.count=8", "--set", "lobes.most_added=0"};
+  ASSERT_EQ(frf(path("band.csv"), few).code, 0);
+  const auto band = summary()["lobes"][0];
+  ASSERT_EQ(frf(path("whole.csv"), few).code, 0);
+  const auto whole = summary()["lobes"][0];
+  EXPECT_NEAR(whole["minimum_depth_m"].get<double>() / band["minimum_depth_m"].get<double>(), 1.0, 2e-3);
+  EXPECT_LT(whole["error_estimate_relative"].get<double>(), 0.02);
+  EXPECT_FALSE(whole.contains("below_first_resonance"));
+}
+
+TEST_F(LobesCommand, TheBandOfAMeasuredFrfIsBoundedByItsKeys) {
+  write_integrated("whole.csv", 0.0);
+  const auto lines_of = [&](const std::vector<std::string>& overrides) {
+    const Case source = lobes_case({{path("whole.csv")}, path("tool.toml"), overrides, "receptance", "m/N", ""});
+    const setup::FrfContent& content = *source.tool->measured.at(0).content;
+    return std::tuple(content.frf.axis.hz(0), content.frf.axis.hz(content.frf.axis.size() - 1),
+                      content.warnings.empty() ? "" : content.warnings.at(0));
+  };
+  const auto [believed, highest, left_out] = lines_of({});
+  EXPECT_GT(believed, 10.0);
+  EXPECT_LT(believed, 50.0);
+  EXPECT_EQ(highest, 2400.0);
+  EXPECT_NE(left_out.find("are left out, for neighbouring lines scatter"), std::string::npos) << left_out;
+  const auto [from, to, told] = lines_of({"tool.measured[0].from=150 Hz", "tool.measured[0].to=2 kHz"});
+  EXPECT_EQ(from, 150.0);
+  EXPECT_EQ(to, 2000.0);
+  EXPECT_EQ(told, "") << "what is not believed lies beyond the bound";
+  const auto [first, last, doubt] = lines_of({"tool.measured[0].from=0 Hz"});
+  EXPECT_EQ(first, 0.0) << "the user knows better";
+  EXPECT_EQ(last, 2400.0);
+  EXPECT_NE(doubt.find("are used, but hardly to be believed"), std::string::npos) << doubt;
+  expect_refused(frf(path("whole.csv"), {"--set", "tool.measured[0].from=9 kHz"}), 3, "no line");
+  expect_refused(frf(path("whole.csv"), {"--set", "tool.measured[0].from=9 Hz", "--set", "tool.measured[0].to=8 Hz"}),
+                 3, "must lie below the last");
 }
 
 TEST_F(LobesCommand, TheResolvedCaseOfAnFrfCanBeRunAgain) {

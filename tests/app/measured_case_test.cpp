@@ -19,6 +19,7 @@
 #include "dynamics/conversion.hpp"
 #include "io/frf/uff.hpp"
 #include "io/matrices/mat_variables.hpp"
+#include "setup/believed_lines.hpp"
 #include "setup/measured.hpp"
 #include "setup/measured_layout.hpp"
 #include "setup/robot_tip.hpp"
@@ -253,6 +254,42 @@ TEST(MeasuredCase, AnEntryThatNoFileGivesIsSeenBeforeAnythingIsComputed) {
     expect_problem(text + frf(x, y) + frf(turned, x) + frf(turned, y) + frf(turned, turned), key,
                    x + " and " + turned + " are along one line", folder.path);
   }
+}
+
+TEST(MeasuredCase, LinesThatAreLeftOutOfARobotsFrfAreNoneOfTheRun) {
+  const TemporaryFolder folder;
+  const Eigen::VectorXcd H = one_mass(measured_axis(), 2.0);
+  write_csv(folder.path / "tip.csv", measured_axis(), H);
+  const std::string format = "quantity = \"receptance\"\nunit = \"m/N\"\n";
+  const auto robot = [&](const std::string& bounds) {
+    return parse_case(
+        "[robot]\nmodel = \"measured\"\n" + entry("robot", "R.x", "R.x", "tip.csv", format + bounds) + lines,
+        folder.path);
+  };
+  const Case whole = robot("");
+  EXPECT_EQ(frequency_axis(whole.response, whole, whole).hz, measured_axis().hz);
+  const Case part = robot("from = \"101 Hz\"\nto = \"300 Hz\"\n");
+  const dynamics::FrequencyAxis axis = frequency_axis(part.response, part, part);
+  EXPECT_EQ(axis.hz(0), 102.0);
+  EXPECT_EQ(axis.hz(axis.size() - 1), 300.0);
+  const auto tip = robot_component(*part.robot, axis, {}).response;
+  EXPECT_EQ(tip.H.front()(0, 0), H(41));
+  const Case one_line = robot("from = \"101 Hz\"\nto = \"103 Hz\"\n");
+  EXPECT_THROW((void)frequency_axis(one_line.response, one_line, one_line), core::InputError);
+}
+
+TEST(MeasuredCase, FilesOfAToolAreTakenWhereAllHaveLines) {
+  const TemporaryFolder folder;
+  write_csv(folder.path / "tip.csv", measured_axis(), one_mass(measured_axis(), 2.0));
+  std::vector<MeasuredFrf> files(2);
+  for (MeasuredFrf& file : files) {
+    file = {"tool.x", "tool.x", folder.path / "tip.csv", io::FrfQuantity::receptance, "m/N", "Hz", {}};
+    file.content = std::make_shared<const FrfContent>(with_believed_lines(read_measured(file), file, true));
+  }
+  EXPECT_EQ(common_lines(files).hz, measured_axis().hz);
+  files[1].from_hz = 57.0;
+  files[1].content = std::make_shared<const FrfContent>(with_believed_lines(read_measured(files[1]), files[1], true));
+  EXPECT_EQ(common_lines(files).hz, measured_axis().hz.tail(222)) << "from 58 Hz on, also of the first";
 }
 
 TEST(MeasuredCase, TheCheckAndTheMatrixSayTheSame) {

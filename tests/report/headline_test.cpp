@@ -59,6 +59,16 @@ TEST(Headline, SaysTheAnswerFirstAndTheSupportedPartBeforeTheBareOne) {
       "2 mm: at least 18 mm; estimated error 0.01 %.");
 }
 
+TEST(Headline, DoubtsALimitThatHangsOnLinesBelowTheFirstResonance) {
+  Summary summary = both("P", "P");
+  summary.lobes[1].below_first_resonance = {2.0, 620.0};
+  const auto text = headline(summary);
+  ASSERT_EQ(text.size(), 3U);
+  EXPECT_EQ(text[1],
+            "To be doubted: the limit hangs on measured lines below the first resonance (chatter at 2 Hz, first "
+            "resonance at 620 Hz).");
+}
+
 TEST(Headline, SaysAboveWhichDepthTheContactIsLost) {
   Summary summary = both("P", "P");
   summary.lobes[1].at_case_speed->contact = {60.0, {}};
