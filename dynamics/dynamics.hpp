@@ -15,6 +15,7 @@
 #include "dynamics/rational_fit.hpp"
 #include "dynamics/response_model.hpp"
 #include "dynamics/rigid_body.hpp"
+#include "dynamics/round_circles.hpp"
 #include "dynamics/sparse_model.hpp"
 #include "dynamics/sparse_spatial.hpp"
 #include "dynamics/spatial_model.hpp"

@@ -94,6 +94,15 @@ void write_structure(const fs::path& folder, const setup::Setup& source, const s
     add_frf("coupled_receptance", results.coupled->receptance.response);
     if (results.coupled->spatial_response) add_frf("coupled_spatial", *results.coupled->spatial_response);
   }
+  const auto add_lines = [&](const std::string& name, const std::optional<dynamics::ResponseModel>& lines) {
+    if (!lines) return;
+    files.emplace_back([&, name] {
+      io::write_response(folder / "frf" / (name + "_added.csv"), at_points(*lines, source.response.points));
+    });
+  };
+  add_lines("part", results.added.part);
+  add_lines("coupled_receptance", results.added.coupled);
+  add_lines("coupled_spatial", results.added.coupled_spatial);
   const auto add_errors = [&](const std::string& name, const dynamics::ResponseModel& response,
                               const study::ResponseErrors& errors) {
     if (errors.noise.empty() && errors.truncation.empty()) return;
@@ -105,6 +114,8 @@ void write_structure(const fs::path& folder, const setup::Setup& source, const s
   if (results.robot) add_errors("robot", results.robot->response, results.errors.robot);
   if (results.coupled) add_errors("coupled", results.coupled->receptance.response, results.errors.coupled);
   if (results.robot) files.emplace_back([&] { write_frf(folder / "frf", "robot", results.robot->response); });
+  if (const auto& lines = results.added.robot)
+    files.emplace_back([&] { io::write_response(folder / "frf" / "robot_added.csv", *lines); });
   if (results.survey) files.emplace_back([&] { write_survey(folder, source, *results.survey); });
   const std::size_t done = files.empty() ? 0 : 1;
   if (done > 0) files.front()();  // alone: VTK's first objects set up what all share

@@ -111,6 +111,11 @@ struct CouplingResult {
   std::string no_spatial_route;  ///< why matrices that are known were not joined; empty: nothing hindered it
 };
 
+/// Responses at further lines for plots, ascending; none of what has none (support/added_lines.hpp).
+struct AddedLines {
+  std::optional<dynamics::ResponseModel> part, robot, coupled, coupled_spatial;
+};
+
 /// The error of a response, in its shape, one matrix a line; empty where nothing is known to be wrong.
 struct ResponseErrors {
   coupling::Deviations noise{};                ///< standard deviation of real and imaginary part alike
@@ -249,6 +254,7 @@ struct Results {
   std::optional<ContactIdentification> identification;  ///< of the only contact, where it was asked for
   std::vector<setup::JoinedContact> contacts;           ///< in the order of the case
   std::optional<CouplingResult> coupled;
+  AddedLines added;  ///< between those of part, robot and both
   std::vector<AmplitudeReduction> reductions;
   ErrorBudget errors;
   std::vector<StructureLobes> lobes;

@@ -19,6 +19,7 @@
 #include "study/lobes/path_stage.hpp"
 #include "study/part/part_damping.hpp"
 #include "study/part/part_stage.hpp"
+#include "study/support/added_lines.hpp"
 #include "study/support/contact_force.hpp"
 #include "study/support/contact_identification.hpp"
 #include "study/support/robot_survey.hpp"
@@ -152,6 +153,7 @@ void run_responses(Checkpoint& kept, const setup::Setup& work, Results& results,
   if (work.robot && std::holds_alternative<setup::MeasuredRobot>(work.robot->model))
     setup::warn_if_implausible(results.robot->response, "the robot's");
   if (part && work.robot && !work.contacts.empty()) run_coupling(kept, work, results, stages);
+  results.added = added_lines(coupling_options(work.coupling), results);
   stages.begin("error budget");
   try {
     results.errors = error_budget(budget_input(work), results);

@@ -28,6 +28,7 @@
 #include "study/results.hpp"
 #include "study/run.hpp"
 #include "study/stages.hpp"
+#include "study/support/added_lines.hpp"
 #include "study/support/contact_force.hpp"
 #include "study/support/contact_identification.hpp"
 #include "study/support/robot_survey.hpp"

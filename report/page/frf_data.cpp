@@ -66,14 +66,41 @@ bool mirrors(const dynamics::ResponseModel& response, Eigen::Index i, Eigen::Ind
   return difference <= 1e-6 * size;
 }
 
-/// Standard deviations or truncation of the modulus from the file of errors, where it knows the entry.
+/// The response with the lines that were added at its resonances, where there is a file of them.
+dynamics::ResponseModel with_added_lines(dynamics::ResponseModel response, const fs::path& file) {
+  if (!fs::exists(file)) return response;
+  dynamics::ResponseModel added = io::read_response(file);
+  std::map<double, Eigen::MatrixXcd*> lines;
+  for (dynamics::ResponseModel* of : {&response, &added}) {
+    for (Eigen::Index line = 0; line < of->axis.size(); ++line) lines[of->axis.hz(line)] = &of->H[index(line)];
+  }
+  dynamics::ResponseModel all{{Eigen::VectorXd(std::ssize(lines))}, response.responses, response.forces, {}};
+  for (const auto& [hz, H] : lines) {
+    all.axis.hz(std::ssize(all.H)) = hz;
+    all.H.push_back(std::move(*H));
+  }
+  return all;
+}
+
+/// Values of a file's lines at a frequency: its own, or between its neighbours in proportion.
+double value_at(const std::vector<double>& hz, const std::vector<double>& values, double at_hz) {
+  const auto above = index(std::ranges::lower_bound(hz, at_hz) - hz.begin());
+  if (above == hz.size()) return values.back();
+  if (above == 0 || hz[above] == at_hz) return values[above];
+  const double share = (at_hz - hz[above - 1]) / (hz[above] - hz[above - 1]);
+  return (1.0 - share) * values[above - 1] + share * values[above];
+}
+
+/// Standard deviations or truncation of the modulus from the file of errors, where it knows the entry; at lines that
+/// were added between those of its neighbours.
 std::vector<float> deviations(const fs::path& file, const dynamics::ResponseModel& response, const Lines& lines) {
   std::map<std::string, const std::vector<double>*> columns;
   const io::Table table = io::read_csv(file);
   for (const io::Column& column : table) {
     const auto* values = std::get_if<std::vector<double>>(&column.values);
-    if (values != nullptr && values->size() == response.H.size()) columns[column.name] = values;
+    if (values != nullptr) columns[column.name] = values;
   }
+  const auto frequencies = columns.find("frequency_hz");
   std::vector<float> result;
   for (const auto& r : response.responses) {
     for (const auto& f : response.forces) {
@@ -83,9 +110,11 @@ std::vector<float> deviations(const fs::path& file, const dynamics::ResponseMode
         bool known = false;
         for (const char* kind : {"noise_deviation ", "truncation "}) {
           const auto column = columns.find(kind + entry);
-          if (column == columns.end()) continue;
+          if (column == columns.end() || frequencies == columns.end()) continue;
           known = true;
-          sum += (*column->second)[line] * (*column->second)[line];
+          const double value =
+              value_at(*frequencies->second, *column->second, response.axis.hz(static_cast<Eigen::Index>(line)));
+          sum += value * value;
         }
         result.push_back(known ? for_picture(std::sqrt(sum), 7) : nothing);
       }
@@ -143,7 +172,8 @@ Responses read(const fs::path& folder, const FrfChoice& choice, std::set<std::st
   std::optional<dynamics::ResponseModel> receptance;
   for (const std::string name : {"part", "robot", "coupled_receptance", "coupled_spatial"}) {
     if (!fs::exists(folder / (name + ".csv"))) continue;
-    dynamics::ResponseModel all = io::read_response(folder / (name + ".csv"));
+    dynamics::ResponseModel all =
+        with_added_lines(io::read_response(folder / (name + ".csv")), folder / (name + "_added.csv"));
     found.list.emplace_back(name, first(all, choice, left_out));
     if (name == "coupled_spatial" && receptance && receptance->H.size() == all.H.size() &&
         receptance->responses.size() == all.responses.size())

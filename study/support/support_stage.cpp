@@ -140,6 +140,20 @@ dynamics::ModalModel modes_of(const dynamics::SpatialModel& model) {
   return dynamics::to_modal(model.has_structural_damping() ? dynamics::equivalent_viscous(model) : model);
 }
 
+CoupledResponses coupled_responses(const std::vector<coupling::Contact>& contacts,
+                                   const coupling::CouplingOptions& options, const Component& part,
+                                   const Component& robot) {
+  CoupledResponses both{coupling::couple(part.response, robot.response, contacts, options).response, {}};
+  CouplingResult spatial;
+  try {
+    add_spatial_route(part, robot, contacts, part.response.axis, spatial);
+  } catch (const core::InputError&) {
+    return both;  // couple() tells why
+  }
+  both.spatial = std::move(spatial.spatial_response);
+  return both;
+}
+
 CouplingResult couple(const std::vector<coupling::Contact>& contacts, const coupling::CouplingOptions& options,
                       const Component& part, const Component& robot) {
   const dynamics::FrequencyAxis& axis = part.response.axis;

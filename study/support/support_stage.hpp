@@ -34,6 +34,17 @@ namespace thinwall::study {
 /// Modes of a component's matrices, structural damping taken as equivalent viscous. Errors as dynamics::to_modal.
 [[nodiscard]] dynamics::ModalModel modes_of(const dynamics::SpatialModel& model);
 
+/// The receptances of part and robot together: by the receptance route, and by the spatial one between the part's DOFs.
+struct CoupledResponses {
+  dynamics::ResponseModel receptance;
+  std::optional<dynamics::ResponseModel> spatial;  ///< none where the part has no matrices or they cannot be joined
+};
+
+/// Both routes on the axis of the components' responses, as couple() has them. Errors as coupling::couple().
+[[nodiscard]] CoupledResponses coupled_responses(const std::vector<coupling::Contact>& contacts,
+                                                 const coupling::CouplingOptions& options, const Component& part,
+                                                 const Component& robot);
+
 /// Both routes and their difference. Throws NumericalError if the kernel cannot be solved. With a regularised kernel a
 /// spatial model that cannot be assembled, as of rigid directions that depend on each other, is left out with its
 /// reason; without one it is an error.

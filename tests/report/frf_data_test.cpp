@@ -1,5 +1,6 @@
 #include "report/page/frf_data.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,6 +37,33 @@ TEST(FrfData, TheArrayIsTheFile) {
         ASSERT_EQ(hz[line], response.axis.hz(static_cast<Eigen::Index>(line)));
       }
     }
+  }
+}
+
+/// The picture has the lines that were added between those of the response, and the band of errors goes on there.
+TEST(FrfData, HoldsTheLinesThatWereAdded) {
+  const fs::path folder = result_folder("frf_added");
+  const auto all = response_of({"P"}, 50, false);
+  dynamics::ResponseModel own{{}, all.responses, all.forces, {}}, added = own;
+  for (Eigen::Index line = 0; line < 50; ++line) {
+    dynamics::ResponseModel& one = line % 7 == 3 ? added : own;
+    one.axis.hz.conservativeResize(one.axis.size() + 1);
+    one.axis.hz(one.axis.size() - 1) = all.axis.hz(line);
+    one.H.push_back(all.H[static_cast<std::size_t>(line)]);
+  }
+  io::write_response(folder / "frf" / "part.csv", own);
+  io::write_response(folder / "frf" / "part_added.csv", added);
+  std::string errors = "frequency_hz,truncation P.x/P.x\n";
+  for (const double hz : own.axis.hz) errors += fmt::format("{:.17g},{:.17g}\n", hz, 2.0 * hz);
+  core::write_file_atomically(folder / "frf" / "part_error.csv", errors);
+  const json entry = frf_data(folder)["frf"][0];
+  const auto hz = unpacked<double>(entry["hz"]);
+  const auto H = unpacked<float>(entry["H"]), deviation = unpacked<float>(entry["deviation"]);
+  ASSERT_EQ(hz.size(), 50U);
+  for (std::size_t line = 0; line < 50; ++line) {
+    EXPECT_EQ(hz[line], all.axis.hz(static_cast<Eigen::Index>(line)));
+    EXPECT_NEAR(H[2 * line], all.H[line](0, 0).real(), 2e-5 * std::abs(all.H[line](0, 0)));
+    EXPECT_NEAR(deviation[line], 2.0 * hz[line], 0.02 * hz[line]) << "a straight line, at 7 bits";
   }
 }
 
