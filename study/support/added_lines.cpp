@@ -34,9 +34,8 @@ AddedLines responses_at(const coupling::CouplingOptions& options, const Results&
   if (is_model(results.part)) at.part = response_at(*results.part, axis);
   if (is_model(results.robot)) at.robot = response_at(*results.robot, axis);
   if (!results.coupled || !at.part || !at.robot) return at;
-  Component part = *results.part, robot = *results.robot;
-  part.response = *at.part;
-  robot.response = *at.robot;
+  const Component part{results.part->spatial, results.part->modal, *at.part};
+  const Component robot{results.robot->spatial, results.robot->modal, *at.robot};
   CoupledResponses both = coupled_responses(contacts_of(results.contacts), options, part, robot);
   at.coupled = std::move(both.receptance);
   at.coupled_spatial = std::move(both.spatial);
@@ -155,7 +154,7 @@ AddedLines added_lines(const coupling::CouplingOptions& options, const Results& 
   const auto known = list_of(results);
   if (known.empty() || known.front()->axis.size() < 3) return added;
   Curves curves = curves_of(known);
-  const Index most = 2 * curves.hz.size();
+  const Index most = curves.hz.size() + curves.hz.size() / 2;
   std::vector<double> wanted;
   for (const auto* component : {&results.part, &results.robot}) {
     if (is_model(*component)) add_missed_poles((*component)->modal, curves.hz, wanted);

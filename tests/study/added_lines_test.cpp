@@ -43,7 +43,7 @@ TEST(AddedLines, HaveTheResponsesOfTheModelsAndLieBetweenTheOthers) {
   ASSERT_TRUE(added.part && added.robot && added.coupled && added.coupled_spatial);
   const Eigen::VectorXd& hz = added.part->axis.hz;
   EXPECT_GT(hz.size(), 50);
-  EXPECT_LE(hz.size(), 500);
+  EXPECT_LE(hz.size(), 250);
   EXPECT_TRUE(std::ranges::is_sorted(hz));
   for (const double line : hz) EXPECT_FALSE(std::ranges::binary_search(axis.hz, line)) << line;
   for (const auto* response : {&added.robot, &added.coupled, &added.coupled_spatial}) {
