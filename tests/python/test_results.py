@@ -12,7 +12,8 @@ def test_a_result_folder_as_arrays(run_case):
     summary = results.summary
     assert summary == json.loads((results.folder / "summary.json").read_text(encoding="utf-8"))
     assert "summary.json" in json.dumps(results.manifest)
-    assert set(results.frf) == {"part", "robot", "coupled_receptance", "coupled_spatial"}
+    names = ("part", "robot", "coupled_receptance", "coupled_spatial")
+    assert set(results.frf) == {*names, *(f"{name}_added" for name in names)}  # further lines at resonances
     assert {"part", "supported", "part_crossings"} <= set(results.lobes)
     hz = [mode["frequency_hz"] for mode in summary["part"]["modes"]]
     assert results.modes["modes"]["frequency_hz"] == pytest.approx(hz, rel=1e-12)

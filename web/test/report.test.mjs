@@ -165,7 +165,8 @@ for (const file of reports) {
       const [response, force, show] = await page.$$('#receptances select');
       await show.selectOption('linear');
       for (const frf of data.runs[0].frf.filter((f) => f.name !== 'robot' || data.runs[0].frf.length === 1)) {
-        const rows = table(csv('frf', frf.name));
+        const added = csv('frf', `${frf.name}_added`); // further lines at resonances, in a file of their own
+        const rows = [...table(csv('frf', frf.name)), ...(added ? table(added) : [])].sort((a, b) => a.frequency_hz - b.frequency_hz);
         for (const [to, from] of [[frf.responses.at(-1), frf.forces[0]], [frf.responses[0], frf.forces[0]]]) {
           await response.selectOption(to);
           await force.selectOption(from);
