@@ -187,7 +187,16 @@ struct Fit {
   double weighed = INFINITY;  ///< ‖W (fit − H)‖ / ‖W H‖
   double plain = INFINITY;    ///< ‖fit − H‖ / ‖H‖
   Eigen::VectorXd rest;       ///< ‖W (fit − H)‖ of each line
+  double common = 1.0;  ///< correlation of the weighed rests of neighbouring lines: 0 of noise, 1 of what lines resolve
 };
+
+/// Re Σ rᵢᴴ rᵢ₊₁ / Σ ‖rᵢ‖² of the rows rᵢ.
+double correlation_of_neighbours(const Eigen::MatrixXcd& rows) {
+  const Index count = rows.rows();
+  const double squares = rows.topRows(count - 1).squaredNorm();
+  const double products = rows.topRows(count - 1).conjugate().cwiseProduct(rows.bottomRows(count - 1)).sum().real();
+  return squares > 0.0 ? products / squares : 0.0;
+}
 
 /// The coefficients for given poles.
 Fit with_poles(const Lines& lines, const Eigen::VectorXcd& poles) {
@@ -195,8 +204,13 @@ Fit with_poles(const Lines& lines, const Eigen::VectorXcd& poles) {
   const Eigen::MatrixXcd weighed = lines.weight.asDiagonal() * lines.entries;
   const Eigen::MatrixXd x = least_squares(stacked(lines.weight.asDiagonal() * B), stacked(weighed));
   const Eigen::MatrixXcd left = B * x - lines.entries;
-  const Eigen::VectorXd rest = (lines.weight.asDiagonal() * left).rowwise().norm();
-  return {poles, x, rest.norm() / weighed.norm(), left.norm() / lines.entries.norm(), rest};
+  const Eigen::MatrixXcd rest = lines.weight.asDiagonal() * left;
+  return {poles,
+          x,
+          rest.norm() / weighed.norm(),
+          left.norm() / lines.entries.norm(),
+          rest.rowwise().norm(),
+          correlation_of_neighbours(rest)};
 }
 
 /// The distance between the lines about a frequency, scaled as they are.
@@ -310,11 +324,15 @@ PartialFractions rational_fit(const Eigen::VectorXd& hz, const std::vector<Eigen
   // Poles are looked for among two thousand of the lines at most, which show how many there are, and then brought to
   // where all lines have them.
   const Lines some = every(lines, 1 + (lines.s.size() - 1) / 2000);
-  constexpr double enough = 1e-9;
-  constexpr int most = 40, steps_of_a_try = 6;
+  // Where many modes are of one size, a pair more explains little of what is left, as it does of noise. What is left of
+  // modes, however, neighbouring lines have in common, and then pairs are added until there are as many as there may
+  // be.
+  constexpr double enough = 1e-9, common_to_modes = 0.3;
+  constexpr int most = 40, steps_of_a_try = 6, tries_in_noise = 4;
   Fit best, last;
   last.rest = (some.weight.asDiagonal() * some.entries).rowwise().norm();
-  for (int pairs = 1, tries = 0; pairs <= most && tries < 4; pairs += 1 + pairs / 8, ++tries) {
+  for (int pairs = 1, tries = 0; pairs <= most && (tries < tries_in_noise || last.common > common_to_modes);
+       pairs += 1 + pairs / 8, ++tries) {
     if (pairs > 1 && 4 * (2 * pairs + 1) >= some.s.size()) break;
     last = fit(some, with_more(last, some, std::max<Index>(1, pairs - last.poles.size())), steps_of_a_try);
     if (!(last.weighed < 0.7 * best.weighed) && !(last.plain < 0.7 * best.plain)) continue;
