@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "milling/direct/critical_depths.hpp"
 #include "milling/direct/cut_at_speed.hpp"
 #include "milling/direct/fitted_receptance.hpp"
 #include "milling/direct/harmonic_gain.hpp"
@@ -52,7 +53,13 @@ class CrossingGrid {
 
   [[nodiscard]] const ContactGrid& grid() const { return discrete_.grid; }
   [[nodiscard]] double spindle_speed_rpm() const { return cut_.spindle_speed_rpm; }
+  [[nodiscard]] double period_s() const { return discrete_.loop.period_s; }
 
+  /// A crossing on this grid as a point of a row, with no more known of it than that it is there.
+  [[nodiscard]] LobePoint point(const Crossing& crossing) const {
+    const double hz = chatter_frequency_hz(cut_, discrete_, crossing.theta_rad, crossing.mode);
+    return {crossing.depth_m, hz, bifurcation_at(crossing.theta_rad), crossing.unstable_change, 1.0};
+  }
   /// A point of a row as a guess on this grid.
   [[nodiscard]] Crossing crossing(const LobePoint& point) const {
     return {point.depth_m, multiplier_angle_rad(point, discrete_.loop.period_s), 0, {}};
@@ -158,6 +165,49 @@ void compare_at_limit(const FittedStructure& structure, const MillingProcess& pr
   row.error_estimate += 2.0 * open;
 }
 
+/// True if the poles leave more than a tenth of the lines somewhere, measured by the largest line of twenty-one.
+bool leave_much(const FittedStructure& structure) {
+  constexpr std::size_t beside = 10;
+  constexpr double much = 0.1;
+  const std::vector<Eigen::Matrix3cd>&rest = structure.all.remainder.H, &lines = structure.lines.samples.H;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const double left = rest[i].norm();
+    const auto from = lines.begin() + static_cast<std::ptrdiff_t>(i - std::min(i, beside));
+    const auto to = lines.begin() + static_cast<std::ptrdiff_t>(std::min(i + beside + 1, lines.size()));
+    if (std::none_of(from, to, [&](const Eigen::Matrix3cd& H) { return left <= much * H.norm(); })) return true;
+  }
+  return false;
+}
+
+/// The angles of a search with those at which the peaks of a receptance are met, and half its width beside.
+std::vector<double> with_peaks(std::vector<double> stops, const SampledReceptance& receptance, double period_s) {
+  for (const Resonance& peak : resonances(receptance)) {
+    for (const double widths : {-1.0, 0.0, 1.0}) {
+      const double hz = peak.frequency_hz + widths * peak.half_width_hz;
+      stops.push_back(std::abs(std::remainder(2.0 * pi * hz * period_s, 2.0 * pi)));
+    }
+  }
+  std::ranges::sort(stops);
+  return stops;
+}
+
+/// Adds the first crossing that poles and remainder together have below the limit of a row from the poles, if there is
+/// one: a remainder as large as a mode has crossings of its own, and the poles' row alone would call unstable cuts
+/// stable.
+void add_crossing_of_remainder(const FittedStructure& structure, const CutAtSpeed& cut, double limit_m, LobeRow& row) {
+  constexpr double clearly_below = 0.99;
+  const CrossingGrid grid(cut, limit_m);
+  GainOnCircle gain = grid.gain(structure.all.remainder);
+  gain.stops = with_peaks(grid.gain().stops, structure.all.remainder, grid.period_s());
+  for (const Crossing& found : CriticalDepths(gain).up_to(clearly_below * limit_m)) {
+    if (found.unstable_change < 0) continue;
+    row.crossings.insert(row.crossings.begin(), grid.point(found));
+    row.at_limit = false;
+    row.status = StabilityStatus::converged;  // up to what the lines leave open, which is all of it
+    return take_limit_from_crossings(row);
+  }
+}
+
 }  // namespace
 
 FittedStructure fitted_structure(const SampledStructure& structure, const ToolFrame& frame) {
@@ -174,7 +224,9 @@ LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& p
   require_range(structure.lines.samples, process, spindle_speed_rpm);
   LobeRow row = limiting_depth(structure.all.poles, process, spindle_speed_rpm, options);
   if (row.status == StabilityStatus::crossing_missed) return row;
-  const CutAtSpeed cut = cut_at_speed(structure.all.poles, process, spindle_speed_rpm);
+  const bool much_left = leave_much(structure);
+  CutAtSpeed cut = cut_at_speed(structure.all.poles, process, spindle_speed_rpm);
+  if (much_left) cut.yielding = Eigen::Matrix3d::Identity();  // the remainder may move where the poles do not
   // A crossing while other multipliers are outside changes no limit, and stays where the poles have it.
   int outside = 0;
   for (LobePoint& point : row.crossings) {
@@ -185,6 +237,7 @@ LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& p
   std::ranges::stable_sort(row.crossings, {}, &LobePoint::depth_m);
   if (row.at_limit) compare_at_limit(structure, process, options, row);
   take_limit_from_crossings(row);
+  if (much_left) add_crossing_of_remainder(structure, cut, row.limiting_depth_m, row);
   // An estimate that is no number meets no tolerance.
   if (row.status == StabilityStatus::converged && !(row.error_estimate <= options.error_tolerance)) {
     constexpr double answers_to = 0.1;

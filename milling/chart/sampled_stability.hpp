@@ -49,7 +49,9 @@ struct FittedStructure {
 ///    that of the depth before.
 ///
 /// A row that misses the tolerance for it is `data_limited`, beyond a tenth of the depth `data_insufficient`. A row
-/// that is stable up to the depth limit has the change of |μ| there in its estimate. Any cutter will do. Throws
+/// that is stable up to the depth limit has the change of |μ| there in its estimate. Where the remainder is more than a
+/// tenth of the lines, as of a fit that missed modes, CriticalDepths looks for a crossing of poles and remainder below
+/// the row's limit; one that is found is the limit, with an estimate of 1. Any cutter will do. Throws
 /// InputError for a bad process, option or speed, and as require_range(); NumericalError if an eigen-solution fails.
 /// Cost: a row from poles, and for each crossing some ten sums over the harmonics within the lines, each O(harmonics
 /// contacts²).

@@ -135,6 +135,48 @@ TEST(SampledStability, AgreesWithThePolesForThreeByThreeReceptances) {
   EXPECT_GE(compared, 6);
 }
 
+/// The fit with the modes near a frequency left to the remainder, as of a fit that missed them.
+FittedStructure without_modes_near(FittedStructure structure, double hz, const ToolFrame& frame) {
+  for (FittedStructure::Fit* fit : {&structure.all, &structure.even, &structure.odd, &structure.within}) {
+    RelativeStructure& s = fit->poles;
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index k = 0; k < s.poles.size(); ++k) {
+      if (std::abs(s.poles(k).imag() / (2.0 * std::numbers::pi) - hz) > 20.0) kept.push_back(k);
+    }
+    s = {s.poles(kept).eval(), s.phi(Eigen::all, kept).eval(), s.b(Eigen::all, kept).eval(), s.R};
+  }
+  SampledReceptance& rest = structure.all.remainder;
+  rest = structure.lines.samples;
+  const RelativeStructure left = in_tool_axes(structure.all.poles, frame);
+  for (std::size_t i = 0; i < rest.H.size(); ++i)
+    rest.H[i] -= receptance(left, 2.0 * std::numbers::pi * rest.frequency_hz(static_cast<Eigen::Index>(i)));
+  return structure;
+}
+
+TEST(SampledStability, ModesThatTheFitMissedAreFoundAmongTheLinesAndNeverCalledStable) {
+  const MillingProcess process = skewed_cut();
+  const SampledReceptance lines =
+      sampled(relative_structure(testing::modal_model(skewed), "P"), process.frame, 0.0, 8000.0, 2.0);
+  const FittedStructure whole = fitted_structure({lines, {}}, process.frame);
+  StabilityOptions options;
+  options.follow = 1.0;
+  int missed = 0;
+  for (const double missing_hz : {420.0, 660.0}) {
+    const FittedStructure damaged = without_modes_near(whole, missing_hz, process.frame);
+    ASSERT_LT(damaged.all.poles.poles.size(), whole.all.poles.poles.size());
+    for (const double rpm : {2300.0, 4100.0, 5600.0, 7300.0, 9700.0}) {
+      SCOPED_TRACE(std::to_string(missing_hz) + " Hz missing, " + std::to_string(rpm) + " rpm");
+      const double true_m = limiting_depth(whole, process, rpm, options).limiting_depth_m;
+      const LobeRow row = limiting_depth(damaged, process, rpm, options);
+      if (row.status == StabilityStatus::data_insufficient) ++missed;
+      EXPECT_LE(std::abs(row.limiting_depth_m - true_m), row.error_estimate * row.limiting_depth_m + 1e-3 * true_m);
+      EXPECT_LT(row.limiting_depth_m, 1.02 * true_m);
+      EXPECT_FALSE(row.at_limit && true_m < options.depth_limit_m);
+    }
+  }
+  EXPECT_GE(missed, 3) << "the test leaves out modes that matter";
+}
+
 /// A tool from lines to 3 kHz, a part that has a mode at 5.2 kHz besides.
 TEST(SampledStability, APartKeepsItsModesBeyondTheLinesOfTheTool) {
   const RelativeStructure tool = relative_structure(testing::modal_model(skewed), "P");
