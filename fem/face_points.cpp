@@ -6,7 +6,6 @@
 #include <map>
 #include <utility>
 
-#include "fem/quadrature.hpp"
 #include "fem/reference_element.hpp"
 
 namespace thinwall::fem {
@@ -24,7 +23,7 @@ struct FaceReference {
 };
 
 /// The reference values of the face whose corners are these vertices of the element, in their order.
-FaceReference face_reference(int order, const std::array<int, 3>& corners, int points) {
+FaceReference face_reference(int order, const std::array<int, 3>& corners, const TriangleQuadrature& rule) {
   const auto alphas = mesh::lattice(order);
   FaceReference face;
   for (std::size_t a = 0; a < alphas.size(); ++a) {
@@ -39,7 +38,6 @@ FaceReference face_reference(int order, const std::array<int, 3>& corners, int p
           double(alphas[static_cast<std::size_t>(face.local[k])][static_cast<std::size_t>(corners[c])]) / order;
     }
   }
-  const TriangleQuadrature rule = triangle_quadrature(points);
   face.weight = rule.weight;
   face.values.resize(face.lattice.rows(), rule.weight.size());
   for (auto& slope : face.slopes) slope.resize(face.lattice.rows(), rule.weight.size());
@@ -65,6 +63,13 @@ std::array<int, 3> local_corners(const mesh::TetMesh& mesh, const mesh::Boundary
   for (std::size_t c = 0; c < 3; ++c)
     corners[c] = static_cast<int>(std::find(tet.begin(), tet.end(), triangle.vertices[c]) - tet.begin());
   return corners;
+}
+
+/// The nodes of a face.
+std::vector<int> nodes_of(const mesh::LagrangeNodes& nodes, int tet, const FaceReference& reference) {
+  std::vector<int> of_face;
+  for (const int a : reference.local) of_face.push_back(nodes.elements(tet, a));
+  return of_face;
 }
 
 /// The positions of the chosen nodes, 3 × nodes.
@@ -99,15 +104,16 @@ std::vector<FacePoints> face_points(const mesh::TetMesh& mesh, const mesh::Lagra
     const auto found = references.find({corners, curved});
     if (found != references.end()) return found->second;
     const int points = curved ? 2 * nodes.order + 1 : nodes.order + 1;
-    return references.emplace(std::pair{corners, curved}, face_reference(nodes.order, corners, points)).first->second;
+    return references
+        .emplace(std::pair{corners, curved}, face_reference(nodes.order, corners, triangle_quadrature(points)))
+        .first->second;
   };
   std::vector<FacePoints> faces;
   faces.reserve(triangles.size());
   for (const mesh::BoundaryTriangle& triangle : triangles) {
     const std::array<int, 3> corners = local_corners(mesh, triangle);
     const FaceReference& straight = reference(corners, false);
-    std::vector<int> of_face;
-    for (const int a : straight.local) of_face.push_back(nodes.elements(triangle.tet, a));
+    std::vector<int> of_face = nodes_of(nodes, triangle.tet, straight);
     const Eigen::Matrix3Xd x = positions_of(nodes, of_face);
     const Eigen::Matrix3d vertices =
         positions_of(nodes, {nodes.elements(triangle.tet, corners[0]), nodes.elements(triangle.tet, corners[1]),
@@ -118,6 +124,14 @@ std::vector<FacePoints> face_points(const mesh::TetMesh& mesh, const mesh::Lagra
     faces.push_back(at_points(curved ? reference(corners, true) : straight, x, std::move(of_face)));
   }
   return faces;
+}
+
+FacePoints face_points(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes,
+                       const mesh::BoundaryTriangle& triangle, const TriangleQuadrature& rule) {
+  const FaceReference reference = face_reference(nodes.order, local_corners(mesh, triangle), rule);
+  std::vector<int> of_face = nodes_of(nodes, triangle.tet, reference);
+  const Eigen::Matrix3Xd x = positions_of(nodes, of_face);
+  return at_points(reference, x, std::move(of_face));
 }
 
 }  // namespace thinwall::fem

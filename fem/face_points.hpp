@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "fem/quadrature.hpp"
 #include "mesh/lagrange_nodes.hpp"
 #include "mesh/tet_mesh.hpp"
 
@@ -29,5 +30,10 @@ struct FacePoints {
 /// O(nodes of an element · points) for each face.
 [[nodiscard]] std::vector<FacePoints> face_points(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes,
                                                   const std::vector<mesh::BoundaryTriangle>& triangles);
+
+/// The values on one of those triangles at the points of a rule, whose coordinates λ are among the corners in the order
+/// of triangle.vertices, for a rule over a piece of the triangle. Cost O(nodes of an element · points).
+[[nodiscard]] FacePoints face_points(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes,
+                                     const mesh::BoundaryTriangle& triangle, const TriangleQuadrature& rule);
 
 }  // namespace thinwall::fem

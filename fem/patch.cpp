@@ -1,10 +1,13 @@
 #include "fem/patch.hpp"
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <map>
 #include <sstream>
 
 #include "core/dense_eigenvalues.hpp"
 #include "core/error.hpp"
+#include "fem/disc_quadrature.hpp"
 #include "fem/face_points.hpp"
 #include "fem/reference_element.hpp"
 
@@ -42,15 +45,43 @@ struct Sums {
   }
 };
 
-/// Adds the samples of a disc to the sums.
+/// Adds the place of a disc of no radius to the sums.
+void add_place(const mesh::LagrangeNodes& nodes, const mesh::Location& place, Sums& sums) {
+  const Eigen::VectorXd N = shape_functions(nodes.order, place.lambda);
+  const Eigen::VectorXi row = nodes.elements.row(place.tet);
+  const std::vector<int> of_element(row.begin(), row.end());
+  sums.add(nodes.positions(of_element, Eigen::all).transpose() * N, 1.0, of_element, N);
+}
+
+/// The corners of a triangle from the centre of a disc, in its frame [e₁ e₂ n], columns.
+Eigen::Matrix3d corners_from(const mesh::DiscFace& face, const mesh::TetMesh& mesh,
+                             const mesh::BoundaryTriangle& triangle) {
+  const Eigen::Vector3d e1 = face.normal.unitOrthogonal();
+  Eigen::Matrix3d frame, corners;
+  frame << e1, face.normal.cross(e1), face.normal;
+  for (std::size_t c = 0; c < 3; ++c) {
+    corners.col(static_cast<Eigen::Index>(c)) =
+        frame.transpose() * (mesh.vertices[static_cast<std::size_t>(triangle.vertices[c])] - face.centre_m);
+  }
+  return corners;
+}
+
+/// Adds the quadrature points of the parts of the faces that lie in a disc to the sums. On a curved surface the disc
+/// lies in the plane of its centre, and the surface under it counts down to its depth.
 void add_samples(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes, const Disc& disc, const std::string&,
                  Sums& sums) {
-  for (const mesh::PatchSample& sample : mesh::patch_samples(mesh, mesh::boundary(mesh), disc)) {
-    const Eigen::VectorXd N = shape_functions(nodes.order, sample.location.lambda);
-    const Eigen::VectorXi row = nodes.elements.row(sample.location.tet);
-    const std::vector<int> of_element(row.begin(), row.end());
-    const Eigen::Vector3d x = nodes.positions(of_element, Eigen::all).transpose() * N;
-    sums.add(x, sample.weight, of_element, N);
+  const auto boundary = mesh::boundary(mesh);
+  if (disc.radius_m <= 0.0) return add_place(nodes, mesh::locate_on(mesh, boundary, disc), sums);
+  const mesh::DiscFace face = mesh::disc_face(mesh, boundary, disc);
+  for (const mesh::BoundaryTriangle& triangle : face.triangles) {
+    const Eigen::Matrix3d corners = corners_from(face, mesh, triangle);
+    const TriangleQuadrature rule = disc_quadrature(corners.topRows<2>(), disc.radius_m, nodes.order + 1);
+    if (rule.weight.size() == 0) continue;
+    const Eigen::RowVectorXd depth = (corners.row(2) * rule.lambda).cwiseAbs();
+    const FacePoints points = face_points(mesh, nodes, triangle, rule);
+    for (Eigen::Index q = 0; q < depth.size(); ++q)
+      if (depth(q) <= face.depth_m)
+        sums.add(points.positions_m.col(q), points.areas_m2(q), points.nodes, points.values.col(q));
   }
 }
 

@@ -29,8 +29,9 @@ struct PatchAverage {
   Eigen::Matrix3d spread_m2 = Eigen::Matrix3d::Zero();  ///< J = ∫ (r·r I − r rᵀ) dA / A
 };
 
-/// The averages over a patch: over a disc by its samples (mesh::patch_samples), over a region by face_points(). Throws
-/// InputError, with `name`, if the disc lies off the part or the region holds no face. Cost O(tets) to find the patch.
+/// The averages over a patch, of a disc over the parts of its faces (mesh::disc_face()) that lie in it, exact for
+/// straight faces, and of a region over its faces. A disc of no radius is the place itself. Throws InputError, with
+/// `name`, if the disc lies off the part or the region holds no face. Cost O(tets) to find the patch.
 [[nodiscard]] PatchAverage patch_average(const mesh::TetMesh& mesh, const mesh::LagrangeNodes& nodes,
                                          const Patch& patch, const std::string& name);
 

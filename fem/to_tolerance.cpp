@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "dynamics/dof.hpp"
 #include "fem/determined_motions.hpp"
 #include "fem/edge_exponent.hpp"
 #include "fem/interpolation.hpp"
@@ -101,16 +102,19 @@ Eigen::MatrixXd receptance(const Solution& s, double omega_squared) {
   return s.flexibility + s.amplitudes * share.asDiagonal() * s.amplitudes.transpose();
 }
 
-/// The scale for errors of a receptance: the largest entry of Σ |a| |a|ᵀ / |λ − ω²| plus the magnitude of the other
-/// modes' contribution, which is the receptance that the modes' contributions would add up to if none cancelled. At an
-/// antiresonance they do cancel, and an error relative to the remainder would say nothing about the model.
-double magnitude(const Solution& s, double omega_squared) {
+/// The scale for the error of every entry of a receptance. The diagonal of B = Σ |a| |a|ᵀ / |λ − ω²|, plus the
+/// magnitude of the other modes' contribution, is the receptance that the modes' contributions would add up to if none
+/// cancelled. At an antiresonance they do cancel, and an error relative to the remainder would say nothing about the
+/// model. The entry (i, j) has the scale √(B_ii B_jj), which bounds it (Cauchy-Schwarz) and leaves one that vanishes by
+/// symmetry a scale.
+Eigen::MatrixXd magnitudes(const Solution& s, double omega_squared) {
   const Eigen::ArrayXd lambda = s.modes.pairs.lambda.array();
   const Eigen::VectorXd share = (lambda - omega_squared).inverse().abs();
   const Eigen::VectorXd at_shift = (lambda - s.factored.sigma).inverse();
-  const Eigen::MatrixXd rest = s.flexibility - s.amplitudes * at_shift.asDiagonal() * s.amplitudes.transpose();
-  const Eigen::MatrixXd sizes = s.amplitudes.cwiseAbs();
-  return (rest.cwiseAbs() + sizes * share.asDiagonal() * sizes.transpose()).maxCoeff();
+  const Eigen::MatrixXd squares = s.amplitudes.cwiseAbs2();
+  const Eigen::VectorXd rest = (s.flexibility.diagonal() - squares * at_shift).cwiseAbs();
+  const Eigen::VectorXd root = (rest + squares * share).cwiseSqrt();
+  return root * root.transpose();
 }
 
 /// Values of ω² at which receptances are compared: the shift, then up to five places midway between frequencies at
@@ -126,17 +130,49 @@ std::vector<double> compared_omega_squared(const Modes& modes, double sigma) {
   return places;
 }
 
-/// The largest change of a receptance between two solutions, relative to the magnitude() of the second one.
-double receptance_change(const Solution& a, const Solution& b) {
-  double worst = 0.0;
+/// The largest change of a receptance between the points: relative to the largest magnitude, and relative to the
+/// entry's own, with the entry.
+struct ReceptanceChange {
+  double of_largest = 0.0, of_own = 0.0;
+  Eigen::Index row = 0, column = 0;
+};
+
+ReceptanceChange receptance_change(const Solution& a, const Solution& b) {
+  ReceptanceChange worst;
   for (const double place : compared_omega_squared(b.modes, b.factored.sigma)) {
     // Both at the same place: the shifts of a free part, which scale with the matrices, differ by half between orders,
     // and its rigid motions have a receptance there that is inverse to it.
-    const Eigen::MatrixXd Ha = receptance(a, place);
-    const Eigen::MatrixXd Hb = receptance(b, place);
-    worst = std::max(worst, (Ha - Hb).cwiseAbs().maxCoeff() / magnitude(b, place));
+    const Eigen::MatrixXd change = (receptance(a, place) - receptance(b, place)).cwiseAbs();
+    const Eigen::MatrixXd magnitude = magnitudes(b, place);
+    worst.of_largest = std::max(worst.of_largest, change.maxCoeff() / magnitude.maxCoeff());
+    Eigen::Index row = 0, column = 0;
+    const double of_own = change.cwiseQuotient(magnitude).maxCoeff(&row, &column);
+    if (of_own > worst.of_own) worst = {worst.of_largest, of_own, row, column};
   }
   return worst;
+}
+
+/// The name of a receptance between two columns of point_loads(): "P.x", or "P.x to Q.z".
+std::string receptance_name(const std::vector<NamedPoint>& points, Eigen::Index row, Eigen::Index column) {
+  std::vector<std::string> names;
+  for (const NamedPoint& point : points) {
+    for (const auto& d : point.directions) names.push_back(dynamics::name({point.name, d}));
+    for (const auto& d : point.turns) names.push_back(dynamics::name({point.name, d, dynamics::DofKind::rotation}));
+  }
+  const std::string& to = names[static_cast<std::size_t>(row)];
+  return row == column ? to : names[static_cast<std::size_t>(column)] + " to " + to;
+}
+
+/// The step from one solution to the next on the same mesh.
+RefinementStep step_between(const Solution& below, const Solution& now, int level,
+                            const std::vector<NamedPoint>& points) {
+  RefinementStep step{level, now.model.nodes.order, now.model.K.rows(), frequency_change(below.modes, now.modes), {}};
+  if (points.empty()) return step;
+  const ReceptanceChange change = receptance_change(below, now);
+  step.receptance_change = change.of_largest;
+  step.entry_change = change.of_own;
+  step.worst_receptance = receptance_name(points, change.row, change.column);
+  return step;
 }
 
 void validate(const ToleranceOptions& o) {
@@ -185,29 +221,35 @@ double error_ratio(int order, double exponent) {
   return std::max(0.5, std::pow((order - 0.5) / (order + 0.5), 4.0 * exponent));
 }
 
-/// The estimated errors of a solution.
+/// The estimated errors of a solution. That of an entry by its own magnitude is told, and held to no tolerance: a stiff
+/// direction may be thousands of times stiffer than the one that chatters, and its error falls slowly, for it comes
+/// from the edge of the loaded disc, which no edge of an element follows.
 struct Errors {
-  double frequency = 0.0, receptance = 0.0;
+  double frequency = 0.0, receptance = 0.0, entry = 0.0;
   [[nodiscard]] double worst() const { return std::max(frequency, receptance); }
 };
 
 /// The errors of the lower one of the last two orders, d / (1 − r) with d the last changes.
 Errors errors_of_lower(const RefinementStep& last, const Exponents& exponent) {
+  const double receptance = 1.0 / (1.0 - error_ratio(last.order, exponent.receptance));
   return {last.frequency_change.value_or(0.0) / (1.0 - error_ratio(last.order, exponent.frequency)),
-          last.receptance_change.value_or(0.0) / (1.0 - error_ratio(last.order, exponent.receptance))};
+          last.receptance_change.value_or(0.0) * receptance, last.entry_change.value_or(0.0) * receptance};
 }
 
 /// The errors of the higher one, r d / (1 − r).
 Errors errors_of_higher(const RefinementStep& last, const Exponents& exponent) {
   const Errors lower = errors_of_lower(last, exponent);
-  return {error_ratio(last.order, exponent.frequency) * lower.frequency,
-          error_ratio(last.order, exponent.receptance) * lower.receptance};
+  const double receptance = error_ratio(last.order, exponent.receptance);
+  return {error_ratio(last.order, exponent.frequency) * lower.frequency, receptance * lower.receptance,
+          receptance * lower.entry};
 }
 
 /// The solution with its estimated errors.
 Refined finished(Solution&& s, Estimate&& estimate, const Errors& errors) {
   estimate.frequency = errors.frequency;
   estimate.receptance = errors.receptance;
+  estimate.entry = errors.entry;
+  estimate.worst_receptance = estimate.steps.back().worst_receptance;
   estimate.met = errors.worst() <= estimate.tolerance;
   return {std::move(s.model), std::move(s.factored), std::move(s.modes), std::move(estimate)};
 }
@@ -231,8 +273,7 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
     Solution below = solve_below(part, now, options);
     estimate.steps.push_back({level, options.first_order, below.model.K.rows(), {}, {}});
     for (int order = options.first_order + 1;; ++order) {
-      RefinementStep step{level, order, now.model.K.rows(), frequency_change(below.modes, now.modes), {}};
-      if (!options.points.empty()) step.receptance_change = receptance_change(below, now);
+      const RefinementStep step = step_between(below, now, level, options.points);
       estimate.steps.push_back(step);
       const Errors of_lower = errors_of_lower(step, exponent);
       const Errors of_higher = errors_of_higher(step, exponent);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fem/modes.hpp"
@@ -44,7 +45,9 @@ struct RefinementStep {
   int order = 0;
   Eigen::Index dofs = 0;
   std::optional<double> frequency_change;   ///< largest relative; none for the first order of a level
-  std::optional<double> receptance_change;  ///< likewise; none without points
+  std::optional<double> receptance_change;  ///< likewise, by the largest magnitude of all entries; none without points
+  std::optional<double> entry_change{};     ///< largest change of an entry by its own magnitude; none without points
+  std::string worst_receptance{};           ///< name of that entry, "P.x" or "P.x to Q.z"
 };
 
 /// The estimated error of a solution (docs/theory/elements.md, Eq. 3-4). Two orders p and p + 1 on one mesh differ by
@@ -55,8 +58,10 @@ struct RefinementStep {
 /// 0.544 for receptances too: 0.65 and 0.70. Otherwise, and at least, r = 1/2, because the law does not hold at low
 /// orders; with elements graded to all edges r is smaller.
 struct Estimate {
-  double frequency = 0.0;   ///< largest relative error
-  double receptance = 0.0;  ///< largest error over the sum of the modes' magnitudes at its frequency; 0 without points
+  double frequency = 0.0;          ///< largest relative error
+  double receptance = 0.0;         ///< largest error of a receptance by the largest magnitude; 0 without points
+  double entry = 0.0;              ///< largest error of a receptance by its own magnitude; held to no tolerance
+  std::string worst_receptance{};  ///< name of the receptance of that error, "P.x" or "P.x to Q.z"
   double tolerance = 0.0;
   bool met = false;        ///< false if all levels were used or the next solution would exceed largest_dofs
   bool held_back = false;  ///< true if largest_dofs ended the refinement
@@ -76,11 +81,13 @@ struct [[nodiscard]] Refined {
 /// those of the next order (modes_near()) to a hundredth of the tolerance, and computed anew if they are returned. If
 /// the estimate is still above the tolerance at last_order, or too far above it for an order to help, the next level is
 /// taken (Babuska & Guo 1992: convergence is exponential with elements graded to edges and rising order). Receptances
-/// between the points are compared at zero (or at the shift of a free part) and midway between resonances more than a
-/// quarter apart; nearer to a resonance the error of its frequency would be magnified. Throws InputError for options
-/// out of range, for largest_dofs below the size of the first two orders on the first level, for points that do not
-/// determine the rigid motions although they must, and what the steps throw. Cost: that of the last step, and about a
-/// third more for those before.
+/// between the points are compared entry by entry, relative to the largest √(B_ii B_jj), which is held to the
+/// tolerance, and relative to each entry's own, where B_ii is the sum of the magnitudes of all modes' contributions to
+/// the direct receptance; at zero (or at the shift of a free part) and midway between resonances more than a quarter
+/// apart, for nearer to a resonance the error of its frequency would be magnified. Throws InputError for options out of
+/// range, for largest_dofs below the size of the first two orders on the first level, for points that do not determine
+/// the rigid motions although they must, and what the steps throw. Cost: that of the last step, and about a third more
+/// for those before.
 Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& options);
 
 }  // namespace thinwall::fem

@@ -29,6 +29,8 @@ std::optional<MeshEstimateSummary> estimate_of(const study::PartResult& part) {
                              .met = part.estimate->met,
                              .max_relative_frequency_error = part.estimate->frequency,
                              .max_relative_receptance_error = part.estimate->receptance,
+                             .max_relative_entry_error = part.estimate->entry,
+                             .worst_receptance = part.estimate->worst_receptance,
                              .steps = {}};
   for (const auto& step : part.estimate->steps) {
     result.steps.push_back({.level = step.level,

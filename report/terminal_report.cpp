@@ -167,7 +167,9 @@ void mesh(std::string& out, const MeshSummary& mesh) {
     out += fmt::format("    by estimate frequencies within {:.1e}{}; asked for {:g}{}\n",
                        estimate->max_relative_frequency_error,
                        estimate->max_relative_receptance_error > 0.0
-                           ? fmt::format(", receptances within {:.1e}", estimate->max_relative_receptance_error)
+                           ? fmt::format(", receptances within {:.1e} of the largest ({} within {:.1e} of itself)",
+                                         estimate->max_relative_receptance_error, estimate->worst_receptance,
+                                         estimate->max_relative_entry_error)
                            : "",  // no points
                        estimate->tolerance, estimate->met ? "" : ", NOT MET: see run.log");
 }

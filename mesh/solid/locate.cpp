@@ -158,41 +158,13 @@ DiscFace disc_face(const TetMesh& mesh, const std::vector<BoundaryTriangle>& bou
   return face;
 }
 
-std::vector<PatchSample> patch_samples(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary,
-                                       const Disc& disc) {
+Location locate_on(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary, const Disc& disc) {
   const double tolerance = 1e-6 * diagonal(mesh);
-  const Eigen::Vector3d& x = disc.centre_m;
-  if (disc.radius_m <= 0.0) {
-    const Located found = locate(mesh, x);
-    if (found.distance_m <= tolerance) return {{found.location, 1.0}};
-    const OnBoundary moved = nearest(mesh, boundary, x);  // locate() moves x by more than its distance
-    if (moved.distance_m > tolerance + disc.off_m) off_the_part(x, moved.distance_m, "the part");
-    return {{location_of(mesh, moved), 1.0}};
-  }
-  const DiscFace face = disc_face(mesh, boundary, disc);
-  const auto& v = face.triangles.front().vertices;
-  const Eigen::Vector3d e1 = (vertex(mesh, v[1]) - vertex(mesh, v[0])).normalized();
-  const Eigen::Vector3d e2 = face.normal.cross(e1);
-  constexpr int rings = 8;
-  constexpr int sectors = 24;
-  std::vector<PatchSample> samples;
-  for (int ring = 0; ring < rings; ++ring) {
-    const double r = disc.radius_m * std::sqrt((ring + 0.5) / rings);
-    for (int sector = 0; sector < sectors; ++sector) {
-      // The angles are offset by a quarter of a sector. Without offset, or with half a sector, some samples would lie
-      // exactly on an edge of the part along e1 and count as a whole on one side of it.
-      const double angle = 2.0 * std::numbers::pi * (sector + 0.25 + 0.5 * (ring % 2)) / sectors;
-      const Eigen::Vector3d wanted = face.centre_m + r * (std::cos(angle) * e1 + std::sin(angle) * e2);
-      const OnBoundary found = nearest(mesh, face.triangles, wanted);
-      const Eigen::Vector3d moved = found.point - wanted;
-      const double fall = std::abs(moved.dot(face.normal));
-      const double aside = (moved - moved.dot(face.normal) * face.normal).norm();
-      if (fall <= face.depth_m && aside <= tolerance + fall) samples.push_back({location_of(mesh, found), 1.0});
-    }
-  }
-  if (samples.empty()) off_the_part(x, disc.radius_m, "the part's surface, where a patch must lie");
-  for (auto& sample : samples) sample.weight = 1.0 / static_cast<double>(samples.size());
-  return samples;
+  const Located found = locate(mesh, disc.centre_m);
+  if (found.distance_m <= tolerance) return found.location;
+  const OnBoundary moved = nearest(mesh, boundary, disc.centre_m);  // locate() moves it by more than its distance
+  if (moved.distance_m > tolerance + disc.off_m) off_the_part(disc.centre_m, moved.distance_m, "the part");
+  return location_of(mesh, moved);
 }
 
 }  // namespace thinwall::mesh

@@ -1,5 +1,5 @@
 #pragma once
-// The place of a point in a mesh, and the sample points of a contact patch.
+// The place of a point in a mesh, and the faces under a disc on its surface.
 
 #include <Eigen/Core>
 #include <vector>
@@ -54,21 +54,9 @@ struct DiscFace {
 /// Cost O(boundary triangles).
 [[nodiscard]] DiscFace disc_face(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary, const Disc& disc);
 
-/// A sample of a patch and its share of the patch's area; shares sum to one.
-struct PatchSample {
-  Location location;
-  double weight = 0.0;
-};
-
-/// Weighted samples of equal area over a disc, for the area-weighted average ∫ u dA / ∫ dA. The disc lies in the plane
-/// of its face (disc_face()). Samples lie on 8 rings × 24 sectors, at the midpoints in area; the average of a quadratic
-/// field then has an error of 1 % of its variation over the disc. For radius 0 the only sample is the centre.
-///
-/// With `off_m` the centre is moved to the mesh, and samples are projected onto the faces of the disc; those that the
-/// projection moves more along the disc than towards it are left out. Throws InputError if the centre lies more than
-/// 1e-6 of the part's diagonal and off_m off the part, or (radius > 0) off its surface. Cost O(tets + samples ×
-/// triangles of the face).
-[[nodiscard]] std::vector<PatchSample> patch_samples(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary,
-                                                     const Disc& disc);
+/// The place of the centre of a disc of no radius: itself, anywhere in the part, or else, within off_m, the surface's
+/// point nearest to it. Throws InputError if it lies more than 1e-6 of the part's diagonal and off_m off the part. Cost
+/// O(tets).
+[[nodiscard]] Location locate_on(const TetMesh& mesh, const std::vector<BoundaryTriangle>& boundary, const Disc& disc);
 
 }  // namespace thinwall::mesh

@@ -59,7 +59,8 @@ void fields(Visitor& visit, Section& step) {
               "largest relative change of a frequency from the mesh before; null: there is none", Presence::or_null},
         step.frequency_change_relative);
   visit(Field{"receptance_change_relative", Kind::error_estimate,
-              "the change of the points' static receptances from the mesh before; null: not known", Presence::or_null},
+              "largest change of a receptance of the points, relative to the largest of them; null: not known",
+              Presence::or_null},
         step.receptance_change_relative);
 }
 
@@ -67,7 +68,8 @@ void fields(Visitor& visit, Section& step) {
 struct MeshEstimateSummary {
   double tolerance = 0.0;
   bool met = false;
-  double max_relative_frequency_error = 0.0, max_relative_receptance_error = 0.0;
+  double max_relative_frequency_error = 0.0, max_relative_receptance_error = 0.0, max_relative_entry_error = 0.0;
+  std::string worst_receptance;
   std::vector<EstimateStepSummary> steps;
 };
 
@@ -78,8 +80,13 @@ void fields(Visitor& visit, Section& estimate) {
   visit(Field{"max_relative_frequency_error", Kind::error_estimate, "estimated largest relative error of a frequency"},
         estimate.max_relative_frequency_error);
   visit(Field{"max_relative_receptance_error", Kind::error_estimate,
-              "estimated largest relative error of a receptance of the points"},
+              "estimated largest error of a receptance of the points, relative to the largest of them"},
         estimate.max_relative_receptance_error);
+  visit(Field{"max_relative_entry_error", Kind::error_estimate,
+              "estimated largest error of a receptance of the points, relative to itself"},
+        estimate.max_relative_entry_error);
+  visit(Field{"worst_receptance", Kind::text, "name of the receptance of that error: P.x, or P.x to Q.z"},
+        estimate.worst_receptance);
   visit(Field{"steps", Kind::section, "meshes that were compared"}, estimate.steps);
 }
 

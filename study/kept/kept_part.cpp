@@ -54,12 +54,12 @@ void serialize(Archive& archive, Modes& m) {
 template <class Archive>
 void serialize(Archive& archive, RefinementStep& s) {
   auto dofs = static_cast<std::int64_t>(s.dofs);
-  archive(s.level, s.order, dofs, s.frequency_change, s.receptance_change);
+  archive(s.level, s.order, dofs, s.frequency_change, s.receptance_change, s.entry_change, s.worst_receptance);
   s.dofs = dofs;
 }
 template <class Archive>
 void serialize(Archive& archive, Estimate& e) {
-  archive(e.frequency, e.receptance, e.tolerance, e.met, e.held_back, e.steps);
+  archive(e.frequency, e.receptance, e.entry, e.worst_receptance, e.tolerance, e.met, e.held_back, e.steps);
 }
 }  // namespace fem
 

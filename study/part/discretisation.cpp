@@ -86,7 +86,9 @@ void log_steps(const fem::Estimate& estimate) {
   for (const auto& step : estimate.steps) {
     std::string text = fmt::format("level {}, order {}: {} degrees of freedom", step.level, step.order, step.dofs);
     if (step.frequency_change) text += fmt::format(", frequencies changed by {:.2e}", *step.frequency_change);
-    if (step.receptance_change) text += fmt::format(", receptances by {:.2e}", *step.receptance_change);
+    if (step.receptance_change)
+      text += fmt::format(", receptances by {:.2e} ({} by {:.2e} of itself)", *step.receptance_change,
+                          step.worst_receptance, *step.entry_change);
     core::inform(text);
   }
   if (estimate.met) return;
