@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -111,11 +112,27 @@ Lines lines_of(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H
   return lines;
 }
 
-/// Every n-th of the lines, and the last.
-Lines every(const Lines& lines, Index n) {
+/// Two thousand of the lines, evenly, with the last, and of the others the thousand that a straight line between these
+/// misses most: even lines alone would miss a peak that is sharper than they are close.
+Lines telling(const Lines& lines) {
+  constexpr Index even = 2000, more = 1000;
+  const Index count = lines.s.size(), step = 1 + (count - 1) / even;
   std::vector<Index> kept;
-  for (Index i = 0; i < lines.s.size(); i += n) kept.push_back(i);
-  if (kept.back() != lines.s.size() - 1) kept.push_back(lines.s.size() - 1);
+  std::vector<std::pair<double, Index>> missed;
+  for (Index from = 0; from < count; from += step) {
+    kept.push_back(from);
+    const Index to = std::min(from + step, count - 1);
+    for (Index i = from + 1; i < to; ++i) {
+      const double share = (lines.s(i) - lines.s(from)).imag() / (lines.s(to) - lines.s(from)).imag();
+      const auto straight = (1.0 - share) * lines.entries.row(from) + share * lines.entries.row(to);
+      missed.emplace_back(lines.weight(i).real() * (lines.entries.row(i) - straight).norm(), i);
+    }
+  }
+  if (kept.back() != count - 1) kept.push_back(count - 1);
+  const auto most = missed.begin() + std::min<std::ptrdiff_t>(more, std::ssize(missed));
+  std::ranges::partial_sort(missed, most, std::greater{});
+  for (auto at = missed.begin(); at != most; ++at) kept.push_back(at->second);
+  std::ranges::sort(kept);
   return {lines.s(kept), lines.weight(kept), lines.entries(kept, Eigen::all), lines.combined(kept, Eigen::all),
           lines.scale,   lines.omega};
 }
@@ -321,9 +338,9 @@ PartialFractions vector_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::
 
 PartialFractions rational_fit(const Eigen::VectorXd& hz, const std::vector<Eigen::MatrixXcd>& H) {
   const Lines lines = lines_of(hz, H);
-  // Poles are looked for among two thousand of the lines at most, which show how many there are, and then brought to
-  // where all lines have them.
-  const Lines some = every(lines, 1 + (lines.s.size() - 1) / 2000);
+  // Poles are looked for among some of the lines, which show how many there are, and then brought to where all lines
+  // have them.
+  const Lines some = telling(lines);
   // Where many modes are of one size, a pair more explains little of what is left, as it does of noise. What is left of
   // modes, however, neighbouring lines have in common, and then pairs are added until there are as many as there may
   // be.

@@ -148,7 +148,7 @@ TriangleQuadrature disc_quadrature(const Corners& corners, double radius, int po
   Corners turned = corners;
   if (cross(corners.col(1) - corners.col(0), corners.col(2) - corners.col(0)) < 0.0) turned.col(1).swap(turned.col(2));
   const Boundary boundary = boundary_of(turned, radius);
-  const TriangleQuadrature straight = triangle_quadrature(points);
+  TriangleQuadrature straight = triangle_quadrature(points);
   if (!boundary.cut) return straight;
   Samples samples;
   for (const Segment& edge : boundary.segments) add_triangle(boundary.inside, edge, straight, samples);

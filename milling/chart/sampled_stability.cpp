@@ -94,15 +94,28 @@ class CrossingGrid {
   DiscreteCut discrete_;
 };
 
-/// depth_gradient() at a crossing of a gain.
-std::vector<Eigen::Matrix3cd> gradient_at(const CrossingGrid& grid, const GainOnCircle& gain,
-                                          const SampledReceptance& lines, const Crossing& crossing) {
+/// A change of the gain changes the depth of a crossing by dw = Re (factor · lᵀ dZ r) (depth_gradient()).
+struct DepthChange {
+  Eigen::VectorXcd l, r;
+  complex<double> factor;
+};
+
+DepthChange depth_change(const GainOnCircle& gain, const Crossing& crossing) {
   const double theta = crossing.theta_rad, w = crossing.depth_m;
   const Eigenpair pair = eigenpair_near(gain, theta, 1.0 / w);
   const bool at_end = theta == 0.0 || theta == pi;
   const complex<double> along(1.0, at_end ? 0.0 : pair.slope.real() / pair.slope.imag());
-  const complex<double> factor = w * w * along / (pair.left.transpose() * pair.right).value();
-  return gain_gradient(lines, grid.grid(), grid.spindle_speed_rpm(), theta, pair.left, pair.right, factor);
+  return {pair.left, pair.right, w * w * along / (pair.left.transpose() * pair.right).value()};
+}
+
+/// The root mean square of the depth's change by modes above the lines, relative.
+double change_by_unseen(const CrossingGrid& grid, const FittedStructure& structure, const Crossing& crossing) {
+  if (structure.unseen.isZero(0.0)) return 0.0;
+  const Eigen::VectorXd& hz = structure.lines.samples.frequency_hz;
+  const auto [l, r, factor] = depth_change(grid.gain(structure.all.remainder), crossing);
+  return gain_deviation(structure.unseen, hz(hz.size() - 1), grid.grid(), grid.spindle_speed_rpm(), crossing.theta_rad,
+                        l, r, factor) /
+         crossing.depth_m;
 }
 
 /// The largest relative change of a depth by any of some fits; 1 if the crossing is lost.
@@ -147,7 +160,8 @@ void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, Lo
   const double change = by_lines.depth_m / by_poles.depth_m;
   point.depth_m *= change;
   point.error_estimate += 2.0 * largest_change<2>(grid, by_lines, {&structure.even, &structure.odd}) +
-                          largest_change<1>(grid, by_lines, {&structure.within}) +
+                          std::max(largest_change<1>(grid, by_lines, {&structure.within}),
+                                   2.0 * change_by_unseen(grid, structure, by_lines)) +
                           deviations * deviation(grid, by_lines, structure.without);
   if (cut.process.cutter.depends_on_depth()) point.error_estimate += std::abs(change - 1.0);
 }
@@ -214,7 +228,8 @@ FittedStructure fitted_structure(const SampledStructure& structure, const ToolFr
   const SampledReceptance& samples = structure.samples;
   FittedLines fits = fitted(samples);
   const auto of = [&](FittedReceptance& fit) { return fit_in_part_axes(std::move(fit), structure, frame); };
-  FittedStructure result{structure, of(fits.all), of(fits.even), of(fits.odd), of(fits.within), {}, fits.growing};
+  FittedStructure result{structure,       of(fits.all), of(fits.even), of(fits.odd),
+                         of(fits.within), {},           fits.growing,  fits.unseen};
   for (FittedReceptance& fit : fits.without) result.without.push_back(of(fit));
   return result;
 }
@@ -269,7 +284,8 @@ std::vector<Eigen::Matrix3cd> depth_gradient(const FittedStructure& structure, c
          << " rpm; give a crossing of the same structure and process";
     throw core::NumericalError(text.str());
   }
-  return gradient_at(grid, gain, structure.lines.samples, found);
+  const auto [l, r, factor] = depth_change(gain, found);
+  return gain_gradient(structure.lines.samples, grid.grid(), spindle_speed_rpm, found.theta_rad, l, r, factor);
 }
 
 void require_range(const SampledReceptance& receptance, const MillingProcess& process, double spindle_speed_rpm) {

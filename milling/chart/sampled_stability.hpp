@@ -29,8 +29,9 @@ struct FittedStructure {
   };
   SampledStructure lines;  ///< as they were given
   Fit all, even, odd, within;
-  std::vector<Fit> without;                     ///< each without every tenth line, where there is noise
-  std::optional<std::complex<double>> growing;  ///< a pole of the samples that no passive structure has, rad/s
+  std::vector<Fit> without;                          ///< each without every tenth line, where there is noise
+  std::optional<std::complex<double>> growing;       ///< a pole of the samples that no passive structure has, rad/s
+  Eigen::Matrix3d unseen = Eigen::Matrix3d::Zero();  ///< tool axes, m/N, as that of FittedLines
 };
 
 /// The fits of a structure whose samples are in the tool axes of `frame`. Throws InputError as fitted(). Cost: that of
@@ -43,7 +44,9 @@ struct FittedStructure {
 /// crossing adds
 ///
 ///  - twice the larger change of the depth if every second line alone is known: what their spacing leaves open;
-///  - its change if the poles above the last line are static: what the range of the lines leaves open;
+///  - its change if the poles above the last line are static, or if larger twice its root mean square by modes above
+///  the
+///    lines that are as those of their last third (gain_deviation()): what the range of the lines leaves open;
 ///  - five standard deviations by the scatter of ten fits, each without every tenth line (jackknife): the noise;
 ///  - the change by the remainder itself where the shape of the cut changes with the depth, because the grid is then
 ///    that of the depth before.

@@ -163,6 +163,20 @@ FittedReceptance split(const SampledReceptance& samples, const dynamics::Partial
   return result;
 }
 
+/// FittedLines::unseen from the fit of all lines.
+Eigen::Matrix3d unseen_rms(const RelativeStructure& modes, double last_rad_s) {
+  const double first = 2.0 / 3.0 * last_rad_s;
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (Index k = 0; k < modes.poles.size(); ++k) {
+    const double size = std::abs(modes.poles(k));
+    if (size < first || size > last_rad_s) continue;
+    const Eigen::Matrix3d residue = modes.phi.col(k).cwiseAbs() * modes.b.col(k).cwiseAbs().transpose();
+    squares += pi / (std::abs(modes.poles(k).real()) * (last_rad_s - first)) * std::pow(size / last_rad_s, 3) *
+               residue.cwiseAbs2();
+  }
+  return squares.cwiseSqrt();
+}
+
 /// The lines without every tenth, the first of which is `from`.
 SampledReceptance without_every_tenth(const SampledReceptance& samples, Index from) {
   std::vector<Index> kept;
@@ -193,6 +207,7 @@ FittedLines fitted(const SampledReceptance& samples) {
                      split(samples, within(all_sum, last)),
                      {},
                      growing_pole(all_sum, {&even_sum, &odd_sum}, samples)};
+  result.unseen = unseen_rms(result.all.poles, last);
   constexpr double negligible = 1e-6;  // single precision has a tenth of that
   if (result.all.noise <= negligible) return result;
   result.without.resize(10);

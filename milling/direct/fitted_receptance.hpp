@@ -31,6 +31,8 @@ struct FittedLines {
                                                 ///< below 1e-6
   std::optional<std::complex<double>> growing;  ///< rad/s: the pole among the lines with Re > 0 that all fits have and
                                                 ///< that is largest; a passive structure has none
+  Eigen::Matrix3d unseen = Eigen::Matrix3d::Zero();  ///< tool axes, m/N: root mean square at the last line of modes
+                                                     ///< above it that are as those of the last third of the lines
 };
 
 /// The samples by dynamics::rational_fit(). A residue is taken apart by its singular values into at most three modes

@@ -19,10 +19,8 @@ using std::numbers::pi;
 ///     Z = (1/T) Σ seen H(ω) force
 class Harmonics {
  public:
-  Harmonics(const SampledReceptance& receptance, const ContactGrid& grid, double spindle_speed_rpm)
-      : grid_(grid),
-        seconds_per_rad_(30.0 / (pi * spindle_speed_rpm)),
-        highest_(2.0 * pi * receptance.frequency_hz(receptance.frequency_hz.size() - 1)) {
+  Harmonics(double highest_hz, const ContactGrid& grid, double spindle_speed_rpm)
+      : grid_(grid), seconds_per_rad_(30.0 / (pi * spindle_speed_rpm)), highest_(2.0 * pi * highest_hz) {
     for (const CutElement& e : grid.elements)
       rules_.emplace_back(e.nodes, highest_ * (e.to_rad - e.from_rad) * seconds_per_rad_);
   }
@@ -80,11 +78,15 @@ class Harmonics {
   std::vector<ProductRule> rules_;
 };
 
+double last_hz(const SampledReceptance& receptance) {
+  return receptance.frequency_hz(receptance.frequency_hz.size() - 1);
+}
+
 }  // namespace
 
 GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGrid& grid, double spindle_speed_rpm) {
   require_usable(receptance);
-  const Harmonics harmonics(receptance, grid, spindle_speed_rpm);
+  const Harmonics harmonics(last_hz(receptance), grid, spindle_speed_rpm);
   const auto contacts = static_cast<Index>(grid.contacts.size());
   const auto gain = [&receptance, harmonics, contacts](double theta) {
     Eigen::MatrixXcd Z = Eigen::MatrixXcd::Zero(contacts, contacts);
@@ -104,7 +106,7 @@ std::vector<Eigen::Matrix3cd> gain_gradient(const SampledReceptance& receptance,
                                             double spindle_speed_rpm, double theta_rad, const Eigen::VectorXcd& l,
                                             const Eigen::VectorXcd& r, complex<double> factor) {
   require_usable(receptance);
-  const Harmonics harmonics(receptance, grid, spindle_speed_rpm);
+  const Harmonics harmonics(last_hz(receptance), grid, spindle_speed_rpm);
   std::vector<Eigen::Matrix3cd> gradient(receptance.H.size(), Eigen::Matrix3cd::Zero());
   harmonics.at(theta_rad, [&](double omega, const Eigen::MatrixX3cd& seen, const Eigen::Matrix3Xcd& force) {
     const LineWeights of = line_weights(receptance, std::abs(omega) / (2.0 * pi));
@@ -113,6 +115,20 @@ std::vector<Eigen::Matrix3cd> gain_gradient(const SampledReceptance& receptance,
     for (Index i = 0; i < of.weight.size(); ++i) gradient[static_cast<std::size_t>(of.first + i)] += of.weight(i) * g;
   });
   return gradient;
+}
+
+double gain_deviation(const Eigen::Matrix3d& rms, double from_hz, const ContactGrid& grid, double spindle_speed_rpm,
+                      double theta_rad, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r, complex<double> factor) {
+  const Harmonics harmonics(2.0 * from_hz, grid, spindle_speed_rpm);
+  double squares = 0.0;
+  harmonics.at(theta_rad, [&](double omega, const Eigen::MatrixX3cd& seen, const Eigen::Matrix3Xcd& force) {
+    const double share = 2.0 * pi * from_hz / std::abs(omega);
+    if (share >= 1.0) return;
+    const Eigen::Vector3d along = (seen.transpose() * l).cwiseAbs(), across = (force * r).cwiseAbs();
+    const double change = std::abs(factor) / harmonics.period_s() * along.dot(rms * across);
+    squares += change * change * share * share * share;
+  });
+  return std::sqrt(squares);
 }
 
 }  // namespace thinwall::milling

@@ -35,4 +35,15 @@ namespace thinwall::milling {
                                                           const Eigen::VectorXcd& l, const Eigen::VectorXcd& r,
                                                           std::complex<double> factor);
 
+/// The root mean square of Re (factor · lᵀ dZ(e^{iθ}) r) by changes dH of the receptance at the harmonics from
+/// `from_hz` to twice that, independent from one harmonic to the next and as 1/f^{3/2}, with the entries' root mean
+/// squares `rms` (m/N) at from_hz. Entries of one harmonic change together, as by one mode:
+///
+///     √ Σ_k ( Σ_ij |g_ij(ω_k)| rms_ij )² (from/f_k)³,      g = factor/T (sᵀ l)(F r)ᵀ as in gain_gradient()
+///
+/// Cost: harmonics × contacts.
+[[nodiscard]] double gain_deviation(const Eigen::Matrix3d& rms, double from_hz, const ContactGrid& grid,
+                                    double spindle_speed_rpm, double theta_rad, const Eigen::VectorXcd& l,
+                                    const Eigen::VectorXcd& r, std::complex<double> factor);
+
 }  // namespace thinwall::milling

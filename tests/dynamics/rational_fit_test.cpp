@@ -113,6 +113,21 @@ TEST(RationalFit, FindsManyModesOfOneSize) {
   EXPECT_LT(off.largest, 1e-5);
 }
 
+/// Not all of many lines are looked at to see how many modes there are. Here every fifth alone would be 5 Hz apart,
+/// where the half widths of the lowest modes are from 0.15 to 0.9 Hz.
+TEST(RationalFit, FindsSharpModesAmongManyLines) {
+  std::mt19937_64 random(8);
+  constexpr int wide = 24, sharp = 9, count = wide + sharp;
+  Modes modes = random_modes(random, count);
+  modes.hz << Eigen::VectorXd::LinSpaced(sharp, 10.3, 60.7), Eigen::VectorXd::LinSpaced(wide, 300.0, 9900.0);
+  modes.damping.setConstant(0.015);
+  modes.mass = modes.hz.array().square().inverse() * 1e4;  // peaks of one height
+  const Eigen::VectorXd hz = Eigen::VectorXd::LinSpaced(9999, 2.0, 10000.0);
+  const Error off = error(rational_fit(hz, lines_of(modes, hz)), modes, 2.0, 100.0);
+  std::printf("sharp modes among many lines: off by %.1e at most\n", off.largest);
+  EXPECT_LT(off.largest, 1e-3);
+}
+
 TEST(RationalFit, FindsAModeBeyondTheLines) {
   std::mt19937_64 random(3);
   Modes modes = random_modes(random, 3);

@@ -146,6 +146,39 @@ TEST(SampledLines, NoDepthIsFurtherOffThanClaimedWhereTheBandEndsEarly) {
   EXPECT_EQ(tally.beyond, 0);
 }
 
+/// Twenty to forty modes at equal distances but for a fifth, as of a plate, up to four times the end of the lines.
+Structure random_plate(Draws& draw, double last_hz) {
+  std::vector<testing::Mode> modes(static_cast<std::size_t>(draw.uniform(20.0, 41.0)));
+  const double spacing_hz = 4.0 * last_hz / static_cast<double>(modes.size()), damping = draw.logarithmic(0.005, 0.02);
+  Structure result;
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const double angle = draw.uniform(0.0, std::numbers::pi);
+    const double hz = (static_cast<double>(i + 1) + draw.uniform(-0.2, 0.2)) * spacing_hz;
+    modes[i] = {hz, damping, draw.logarithmic(0.5, 2.0), Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0)};
+    result.lowest_hz = std::min(result.lowest_hz, hz);
+    result.half_width_hz = std::min(result.half_width_hz, damping * hz);
+  }
+  result.poles = relative_structure(testing::modal_model(modes), "P");
+  return result;
+}
+
+TEST(SampledLines, NoDepthIsFurtherOffThanClaimedWhereManyModesLieAboveTheLines) {
+  Draws draw(4);
+  Tally tally;
+  for (int i = 0; i < structures / 4; ++i) {
+    const double last_hz = draw.logarithmic(1000.0, 4000.0);
+    const Structure structure = random_plate(draw, last_hz);
+    const MillingProcess process = random_cut(draw);
+    const double rpm = draw.uniform(2000.0, 15000.0);
+    const SampledReceptance lines =
+        lines_of(structure.poles, 0.3 * structure.lowest_hz, last_hz, 0.5 * structure.half_width_hz);
+    compare(lines, structure.poles, process, rpm, tally);
+  }
+  tally.print("modes above");
+  EXPECT_GE(tally.rows, structures / 8);
+  EXPECT_EQ(tally.beyond, 0);
+}
+
 TEST(SampledLines, NoiseIsInTheEstimate) {
   Draws draw(3);
   Tally tally;
