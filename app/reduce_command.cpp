@@ -100,7 +100,7 @@ reduction::FullModel full_model(const study::Solution& part) {
 }
 
 void require_solved(const reduction::BandTruth& truth) {
-  if (truth.max_relative_error < reduction::small_residual) return;
+  if (truth.max_relative_error < reduction::small_error) return;
   if (truth.max_relative_error < 1e-4) {
     core::warn(
         fmt::format("the receptances of the full model are known to {:.0e} only, because of round-off: smaller "

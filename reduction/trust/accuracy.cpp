@@ -55,13 +55,9 @@ std::vector<FullReceptance> full_receptances(const linalg::SparseMatrix& K, cons
     const linalg::SparseMatrix Z = linalg::combine(1.0, K, -omega * omega, M);
     const auto solution = linalg::SparseIndefinite(Z, node_of_row).solve(W);
     const Eigen::MatrixXd H = interface.W.transpose() * solution.X;
-    double error = solution.relative_residual;
-    if (!(error < small_residual)) {
-      const Eigen::MatrixXd R = linalg::symmetric_product(Z, solution.X) - W;
-      const Eigen::MatrixXd wrong =
-          (solution.X.transpose() * R).cwiseAbs() + residual_round_off(Z.cwiseAbs(), solution.X);
-      error = wrong.maxCoeff<Eigen::PropagateNaN>() / H.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    }
+    const Eigen::MatrixXd R = linalg::symmetric_product(Z, solution.X) - W;
+    const Eigen::MatrixXd wrong = (solution.X.transpose() * R).cwiseAbs() + residual_round_off(K, M, omega, solution.X);
+    const double error = wrong.maxCoeff<Eigen::PropagateNaN>() / H.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     result.push_back({hz, H, solution.relative_residual, error});
   }
   return result;

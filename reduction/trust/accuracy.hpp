@@ -33,8 +33,8 @@ struct [[nodiscard]] FullReceptance {
   double frequency_hz = 0.0;
   Eigen::MatrixXd H;               ///< interface × interface, undamped, m/N
   double relative_residual = 0.0;  ///< residual of the sparse solve
-  /// The residual where it is below small_residual (receptance_sum.hpp); beyond it the error of the receptances by it
-  /// to first order, max|XᵀR| / max|H|.
+  /// The error of the receptances to first order, max|XᵀR| / max|H| with the round-off of XᵀR. The residual itself
+  /// bounds no error: it may be far larger or, with displacements that are large against those of the loads, smaller.
   double relative_error = 0.0;
 };
 

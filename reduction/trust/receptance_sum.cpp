@@ -111,10 +111,19 @@ Solution solution(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M, 
   return result;
 }
 
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Adds factor |A| X to the terms; A is symmetric, both triangles stored, and X ≥ 0.
+void add_magnitudes(const linalg::SparseMatrix& A, double factor, const RowMajor& X, RowMajor& terms) {
+  for (Eigen::Index j = 0; j < A.outerSize(); ++j)
+    for (linalg::SparseMatrix::InnerIterator it(A, j); it; ++it)
+      terms.row(j) += factor * std::abs(it.value()) * X.row(it.index());
+}
+
 /// The estimate of the receptances' error at the highest frequency, by XᵀR − Rᵀ Z⁻¹ R with Z = K − ω²M and the
 /// round-off of XᵀR: in the known modes Z⁻¹ is Φ (λ − ω²)⁻¹ Φᵀ, and beyond them at most K⁻¹/(1−q). An entry counts
 /// relative to √(d_i d_j), d the sum of the magnitudes of its terms.
-double error_estimate(const ReceptanceSum& sum, const Solution& solved, const linalg::SparseMatrix& absolute,
+double error_estimate(const ReceptanceSum& sum, const Solution& solved, const MatrixXd& round_off,
                       const linalg::ShiftedInverse& inverse, const MatrixXd& Phi, double omega, double quotient) {
   const VectorXd weight = (sum.lambda.array() - omega * omega).abs().inverse();
   const VectorXd size = sum.amplitude.cwiseAbs2() * weight;
@@ -123,7 +132,7 @@ double error_estimate(const ReceptanceSum& sum, const Solution& solved, const li
     const MatrixXd flexible = inverse.apply(solved.R);
     second += solved.R.cwiseProduct(flexible).colwise().sum().cwiseAbs().transpose() / (1.0 - quotient);
   }
-  const MatrixXd error = linalg::tall_gram(solved.X, solved.R).cwiseAbs() + residual_round_off(absolute, solved.X) +
+  const MatrixXd error = linalg::tall_gram(solved.X, solved.R).cwiseAbs() + round_off +
                          second.cwiseSqrt() * second.cwiseSqrt().transpose();
   const VectorXd scale = size.cwiseSqrt().cwiseInverse();
   return (scale.asDiagonal() * error * scale.asDiagonal()).eval().maxCoeff<Eigen::PropagateNaN>();
@@ -152,18 +161,19 @@ ReceptanceSum receptance_sum(const linalg::SparseMatrix& K, const linalg::Sparse
   sum.amplitude << interface.W.transpose() * pairs.Phi, interface.W.transpose() * rest.Phi;
   const Solution solved = solution(K, M, pairs, rest, W, omega_max_rad_s);
   sum.max_relative_residual = (solved.R.colwise().norm().array() / W.colwise().norm().array()).maxCoeff();
-  sum.max_relative_error = sum.max_relative_residual;
-  if (!(sum.max_relative_residual < small_residual))
-    sum.max_relative_error =
-        error_estimate(sum, solved, linalg::combine(1.0, K.cwiseAbs(), omega_max_rad_s * omega_max_rad_s, M.cwiseAbs()),
-                       inverse, pairs.Phi, omega_max_rad_s, quotient);
+  sum.max_relative_error = error_estimate(sum, solved, residual_round_off(K, M, omega_max_rad_s, solved.X), inverse,
+                                          pairs.Phi, omega_max_rad_s, quotient);
   return sum;
 }
 
-Eigen::MatrixXd residual_round_off(const linalg::SparseMatrix& absolute, const Eigen::MatrixXd& X) {
+Eigen::MatrixXd residual_round_off(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M, double omega_rad_s,
+                                   const Eigen::MatrixXd& X) {
   constexpr double share = 4.0 * std::numeric_limits<double>::epsilon();
-  const MatrixXd terms = linalg::symmetric_product(absolute, X.cwiseAbs());
-  return share * (X.cwiseAbs2().transpose() * terms.cwiseAbs2()).cwiseSqrt();
+  const RowMajor sizes = X.cwiseAbs();
+  RowMajor terms = RowMajor::Zero(X.rows(), X.cols());
+  add_magnitudes(K, 1.0, sizes, terms);
+  add_magnitudes(M, omega_rad_s * omega_rad_s, sizes, terms);
+  return share * (sizes.cwiseAbs2().transpose() * terms.cwiseAbs2()).cwiseSqrt();
 }
 
 Eigen::MatrixXcd receptance_at(const ReceptanceSum& sum, std::complex<double> z) {

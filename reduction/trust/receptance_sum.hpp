@@ -16,14 +16,13 @@ struct [[nodiscard]] ReceptanceSum {
   Eigen::MatrixXd amplitude;  ///< interface × terms
   Eigen::Index modes = 0;
   double max_relative_residual = 0.0;  ///< ‖(K − ω²M) x − w‖ / ‖w‖ of the undamped solution at the highest frequency
-  /// The residual where it is below small_residual; an estimate of the receptances' relative error beyond it.
+  /// An estimate of the receptances' relative error, for which the residual is no measure: where stiffnesses differ by
+  /// many orders, as in elements of a bad shape or with nearly rigid links, it contains the round-off of the largest.
   double max_relative_error = 0.0;
 };
 
-/// The relative residual below which no better measure of the error is asked for. A larger one need not mean a larger
-/// error: where stiffnesses differ by many orders, as in elements of a bad shape or with nearly rigid links, the
-/// residual contains the round-off of the largest ones.
-inline constexpr double small_residual = 1e-6;
+/// The relative error of receptances below which nothing is said of it.
+inline constexpr double small_error = 1e-6;
 
 /// The receptance as a sum of known modes and, for the rest of the model, of Ritz pairs of a Krylov space that begins
 /// with the static deflections (Su & Craig 1991): V is an M-orthonormal basis of {X, AX, A²X …}, A = K⁻¹M, X = K⁻¹W,
@@ -39,10 +38,11 @@ ReceptanceSum receptance_sum(const linalg::SparseMatrix& K, const linalg::Sparse
                              const linalg::ShiftedInverse& inverse, const linalg::Eigenpairs& pairs,
                              const Interface& interface, double omega_max_rad_s);
 
-/// The round-off of XᵀR, where R is the residual of X in equations whose entries have the magnitudes `absolute`: 4ε
-/// times the root of the sum of squares of x_i (|Z||x|)_i, since the errors of the rows are independent. The rounding
-/// of the entries themselves changes XᵀZX by as much.
-[[nodiscard]] Eigen::MatrixXd residual_round_off(const linalg::SparseMatrix& absolute, const Eigen::MatrixXd& X);
+/// The round-off of XᵀR, where R = (K − ω²M) X − W is the residual of X: 4ε times the root of the sum of squares of
+/// x_i (|K||x| + ω²|M||x|)_i, since the errors of the rows are independent. The rounding of the entries themselves
+/// changes XᵀZX by as much.
+[[nodiscard]] Eigen::MatrixXd residual_round_off(const linalg::SparseMatrix& K, const linalg::SparseMatrix& M,
+                                                 double omega_rad_s, const Eigen::MatrixXd& X);
 
 /// The receptance H(z), interface × interface.
 [[nodiscard]] Eigen::MatrixXcd receptance_at(const ReceptanceSum& sum, std::complex<double> z);

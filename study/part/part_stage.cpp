@@ -42,7 +42,7 @@ namespace {
 /// The full model's receptances, with which the reduced ones are compared, must be known to `most`. Round-off limits
 /// them where the stiffnesses of the part differ by many orders.
 void require_solved(double relative_error, double most, const char* remedy) {
-  if (relative_error < reduction::small_residual) return;
+  if (relative_error < reduction::small_error) return;
   if (relative_error < most) {
     core::warn(
         fmt::format("the receptances of the full model are known to {:.0e} only, because of round-off: the check "
@@ -68,7 +68,7 @@ void reduce_to_tolerance(const setup::PartSetup& source, PartResult& part) {
   const reduction::FullModel full{part.model.K, part.model.M, part.model.node_of_row,
                                   part.modes.pairs.Phi.leftCols(part.modes.rigid_motions)};
   const auto truth = reduction::band_truth(full, part.interface, band);
-  require_solved(truth.max_relative_error, std::max(reduction::small_residual, 0.1 * *source.reduction.tolerance),
+  require_solved(truth.max_relative_error, std::max(reduction::small_error, 0.1 * *source.reduction.tolerance),
                  "or take a larger reduction.tolerance");
   auto chosen = reduction::modes_for_tolerance(full, part.interface,
                                                {.tolerance = *source.reduction.tolerance, .band = band}, truth);

@@ -13,6 +13,7 @@
 #include "fem/modes.hpp"
 #include "reduction/damping.hpp"
 #include "reduction/trust/full_response.hpp"
+#include "reduction/trust/receptance_sum.hpp"
 #include "reduction/worst.hpp"
 #include "tests/reduction/solid_part.hpp"
 
@@ -200,27 +201,37 @@ struct ChainWithRigidLink {
   }
 };
 
-/// A residual far above 1e-6 that is round-off does not mean receptances that are as wrong.
-TEST(FullResponse, TellsTheErrorOfReceptancesWhereRoundOffFillsTheResidual) {
-  const ChainWithRigidLink chain(1e10, true);
-  const linalg::SparseMatrix K(chain.K.sparseView());
-  const linalg::SparseMatrix M(Eigen::MatrixXd(Eigen::MatrixXd::Identity(chain.n, chain.n)).sparseView());
-  linalg::Eigenpairs pairs = linalg::dense_eigenpairs(K, M, {});
-  pairs.lambda.conservativeResize(6);
-  pairs.Phi.conservativeResize(Eigen::NoChange, 6);
-  const Eigen::LDLT<Eigen::MatrixXd> factor(chain.K);
-  const linalg::ShiftedInverse action{
-      [&](const Eigen::Ref<const Eigen::MatrixXd>& B) -> Eigen::MatrixXd { return factor.solve(B); }, 0.0};
-  const double hz = 0.7 * std::sqrt(pairs.lambda(5)) / (2.0 * std::numbers::pi);
-  const auto full =
-      full_response(K, M, action, pairs, {}, 0.0, chain.interface, dynamics::linear_axis(0.5 * hz, hz, 2));
-  const Eigen::MatrixXd expected = chain.receptance(full.response.axis.omega_rad_s(1));
-  const double error = (full.response.H[1].real() - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
-  std::printf("residual %.1e, receptances off by %.1e, said %.1e\n", full.max_relative_residual, error,
-              full.max_relative_error);
-  EXPECT_GT(full.max_relative_residual, 1e-6) << "the case is one that was refused";
-  EXPECT_LT(error, full.max_relative_error);
-  EXPECT_LT(full.max_relative_error, 1e-3);
+/// The largest error of a receptance against another, relative to its largest entry.
+double largest_error(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
+  return (found - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
+}
+
+/// The residual is no measure: with stiff links it is round-off that hardly moves the receptances. An entry counts
+/// relative to the magnitudes of its terms, as the estimate says.
+TEST(ReceptanceSum, TellsItsErrorFromSoftToNearlyRigidLinks) {
+  for (const double link : {1e2, 1e4, 1e6, 1e7, 1e8, 1e9, 1e10}) {
+    const ChainWithRigidLink chain(link, true);
+    const linalg::SparseMatrix K(chain.K.sparseView());
+    const linalg::SparseMatrix M(Eigen::MatrixXd(Eigen::MatrixXd::Identity(chain.n, chain.n)).sparseView());
+    linalg::Eigenpairs pairs = linalg::dense_eigenpairs(K, M, {});
+    pairs.lambda.conservativeResize(6);
+    pairs.Phi.conservativeResize(Eigen::NoChange, 6);
+    const Eigen::LDLT<Eigen::MatrixXd> factor(chain.K);
+    const linalg::ShiftedInverse action{
+        [&](const Eigen::Ref<const Eigen::MatrixXd>& B) -> Eigen::MatrixXd { return factor.solve(B); }, 0.0};
+    const double omega = 0.7 * std::sqrt(pairs.lambda(5));
+    const auto sum = receptance_sum(K, M, action, pairs, chain.interface, omega);
+    const Eigen::VectorXd size =
+        sum.amplitude.cwiseAbs2() * (sum.lambda.array() - omega * omega).abs().inverse().matrix();
+    const Eigen::MatrixXd off = (receptance_at(sum, omega * omega).real() - chain.receptance(omega))
+                                    .cwiseAbs()
+                                    .cwiseQuotient((size * size.transpose()).cwiseSqrt());
+    std::printf("link %.0e: residual %.1e, receptances off by %.1e, said %.1e\n", link, sum.max_relative_residual,
+                off.maxCoeff(), sum.max_relative_error);
+    // The estimate takes round-off for independent from row to row: 3 leaves room for what it adds up to by chance.
+    EXPECT_LT(off.maxCoeff(), 3.0 * sum.max_relative_error) << "link " << link;
+    EXPECT_LT(sum.max_relative_error, 1e-3) << "link " << link;
+  }
 }
 
 /// The estimate does not pass an answer from whose known modes one is missing.
@@ -241,21 +252,27 @@ TEST(FullResponse, SaysALargeErrorWhereItsBasisIsTooSmall) {
   EXPECT_GT(full.max_relative_error, 1e-3);
 }
 
-TEST(FullReceptances, TellTheirErrorWhereRoundOffFillsTheResidual) {
-  const ChainWithRigidLink chain(1e9, false);
-  const linalg::SparseMatrix K(chain.K.sparseView());
-  const linalg::SparseMatrix M(Eigen::MatrixXd(Eigen::MatrixXd::Identity(chain.n, chain.n)).sparseView());
-  std::vector<int> nodes(chain.n);
-  for (int i = 0; i < chain.n; ++i) nodes[static_cast<std::size_t>(i)] = i;
-  const double hz = 0.021 / (2.0 * std::numbers::pi);  // below the first elastic mode
-  const auto lines = full_receptances(K, M, nodes, chain.interface, {hz});
-  const Eigen::MatrixXd expected = chain.receptance(2.0 * std::numbers::pi * hz);
-  const double error = (lines[0].H - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
-  std::printf("residual %.1e, receptances off by %.1e, said %.1e\n", lines[0].relative_residual, error,
-              lines[0].relative_error);
-  EXPECT_GT(lines[0].relative_residual, 1e-6);
-  EXPECT_LT(error, lines[0].relative_error);
-  EXPECT_LT(lines[0].relative_error, 1e-3);
+/// Near the rigid motion of a free chain displacements are far larger than those of the load, and so is the error that
+/// a small residual makes: at some of these links it exceeds the residual, whatever the compiler. At others the
+/// residual is round-off that hardly moves the receptances.
+TEST(FullReceptances, TellTheirErrorWhateverTheResidual) {
+  for (const double link : {1.0, 1e4, 1e6, 1e7, 1e8, 1e9}) {
+    const ChainWithRigidLink chain(link, false);
+    const linalg::SparseMatrix K(chain.K.sparseView());
+    const linalg::SparseMatrix M(Eigen::MatrixXd(Eigen::MatrixXd::Identity(chain.n, chain.n)).sparseView());
+    std::vector<int> nodes(chain.n);
+    for (int i = 0; i < chain.n; ++i) nodes[static_cast<std::size_t>(i)] = i;
+    const double first = std::numbers::pi / chain.n;  // rad/s, the first elastic mode of a chain of even links
+    for (const double omega : {0.2 * first, 0.4 * first, 0.6 * first}) {
+      const double hz = omega / (2.0 * std::numbers::pi);
+      const auto lines = full_receptances(K, M, nodes, chain.interface, {hz});
+      const double error = largest_error(lines[0].H, chain.receptance(2.0 * std::numbers::pi * hz));
+      std::printf("link %.0e, %.3f rad/s: residual %.1e, receptances off by %.1e, said %.1e\n", link, omega,
+                  lines[0].relative_residual, error, lines[0].relative_error);
+      EXPECT_LT(error, lines[0].relative_error) << "link " << link << ", " << omega << " rad/s";
+      EXPECT_LT(lines[0].relative_error, 1e-3) << "link " << link << ", " << omega << " rad/s";
+    }
+  }
 }
 
 }  // namespace
