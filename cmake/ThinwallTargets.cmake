@@ -25,7 +25,9 @@ if(THINWALL_NATIVE)
   # OpenBLAS's, which chooses its kernels at run time.
   target_compile_options(thinwall_flags INTERFACE -march=native -mno-avx512f)
 endif()
+set(THINWALL_SUITE_TIMEOUT 1800)  # seconds
 if(THINWALL_SANITIZE)
+  set(THINWALL_SUITE_TIMEOUT 10800)  # the longest suites take more than half an hour, where others take minutes
   target_compile_options(thinwall_flags INTERFACE -fsanitize=${THINWALL_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(thinwall_flags INTERFACE -fsanitize=${THINWALL_SANITIZE})
 endif()
@@ -128,7 +130,8 @@ function(thinwall_test name)
   set(suites ${CMAKE_CURRENT_BINARY_DIR}/test_${name}_suites.cmake)
   add_custom_command(TARGET test_${name} POST_BUILD VERBATIM BYPRODUCTS ${suites}
     COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:test_${name}> -DLABEL=${name} -DFILE=${suites}
-            -DSECONDS=${PROJECT_SOURCE_DIR}/tests/seconds.txt -P ${PROJECT_SOURCE_DIR}/cmake/list_suites.cmake)
+            -DSECONDS=${PROJECT_SOURCE_DIR}/tests/seconds.txt -DTIMEOUT=${THINWALL_SUITE_TIMEOUT}
+            -P ${PROJECT_SOURCE_DIR}/cmake/list_suites.cmake)
   file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/test_${name}.cmake "if(EXISTS \"${suites}\")
   include(\"${suites}\")
 else()

@@ -1,7 +1,9 @@
-# cmake -DPROGRAM=... -DLABEL=... -DFILE=... -DSECONDS=... -P list_suites.cmake     the ctest entries of a GoogleTest program
+# cmake -DPROGRAM=... -DLABEL=... -DFILE=... -DSECONDS=... -DTIMEOUT=... -P list_suites.cmake
+# writes the ctest entries of a GoogleTest program.
 #
-# An entry runs a suite, with all values of its parameters. Suites that are named in SECONDS, a file of lines "suite
-# seconds", begin in that order, the longest first, because a long suite that begins late leaves the other cores idle at the end.
+# An entry runs a suite, with all values of its parameters, for TIMEOUT seconds at most. Suites that are named in SECONDS,
+# a file of lines "suite seconds", begin in that order, the longest first, because a long suite that begins late leaves
+# the other cores idle at the end.
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listed COMMAND_ERROR_IS_FATAL ANY)
 # The line "Running main() from ..." of the output is no suite; it contains blanks.
 string(REGEX MATCHALL "(^|\n)[^ \n]+\\." lines "${listed}")
@@ -23,7 +25,7 @@ foreach(suite IN LISTS suites)
   endforeach()
   set(filter "${suite}.*:*/${suite}.*:${suite}/*.*:*/${suite}/*.*")
   string(APPEND text "add_test([=[${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${filter}]=])\n"
-         "set_tests_properties([=[${suite}]=] PROPERTIES LABELS ${LABEL} TIMEOUT 1800 COST ${cost}\n"
+         "set_tests_properties([=[${suite}]=] PROPERTIES LABELS ${LABEL} TIMEOUT ${TIMEOUT} COST ${cost}\n"
          "  FAIL_REGULAR_EXPRESSION [=[Running 0 tests]=]\n"
          "  SKIP_REGULAR_EXPRESSION [=[0 tests\\.\n(\\[  SKIPPED [^\n]*\n)+$]=])\n")
 endforeach()
