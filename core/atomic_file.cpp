@@ -7,10 +7,10 @@
 #include <cerrno>
 #include <fstream>
 #include <mutex>
+#include <set>
 #include <sstream>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "core/error.hpp"
 
@@ -57,10 +57,10 @@ void write_all(int descriptor, std::string_view content, const std::filesystem::
   }
 }
 
-/// The names that partial_path() has given out: some tens a run.
+/// The names that partial_path() has given out, but for those of files that are no longer unfinished.
 struct GivenNames {
   std::mutex mutex;
-  std::vector<std::filesystem::path> paths;
+  std::set<std::filesystem::path> paths;
 };
 
 /// The names of this process. They are never destroyed, because a thread that ends the process may still read them.
@@ -78,7 +78,7 @@ std::filesystem::path partial_path(const std::filesystem::path& target) {
        << target.extension().string();
   std::filesystem::path path = target.parent_path() / name.str();
   const std::scoped_lock lock(given_names().mutex);
-  given_names().paths.push_back(std::filesystem::absolute(path));
+  given_names().paths.insert(std::filesystem::absolute(path));
   return path;
 }
 
@@ -93,7 +93,7 @@ void remove_partial_paths() noexcept {
   }
 }
 
-PartialFile::PartialFile(std::filesystem::path target) : target_(std::move(target)), partial_(partial_path(target_)) {
+PartialFile::PartialFile(std::filesystem::path target) : target_(std::move(target)) {
   std::error_code error;
   const auto folder = target_.has_parent_path() ? target_.parent_path() : std::filesystem::path(".");
   if (!std::filesystem::is_directory(folder, error)) fail_to_write(target_, error ? error.value() : ENOTDIR);
@@ -101,11 +101,14 @@ PartialFile::PartialFile(std::filesystem::path target) : target_(std::move(targe
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     throw DataError("cannot write \"" + target_.string() + "\": it exists and is not a plain file; remove it first");
   }
+  partial_ = partial_path(target_);
 }
 
 PartialFile::~PartialFile() {
   std::error_code ignored;
   std::filesystem::remove(partial_, ignored);
+  const std::scoped_lock lock(given_names().mutex);
+  given_names().paths.erase(std::filesystem::absolute(partial_, ignored));
 }
 
 void PartialFile::commit() {

@@ -62,6 +62,20 @@ TEST_F(AtomicFile, APartialFileThatIsNotCommittedDisappears) {
   EXPECT_FALSE(is_partial_name("modes.vtu"));
 }
 
+/// A long sweep writes many thousands of files, whose names would be kept for ever.
+TEST_F(AtomicFile, TheNameOfAFileThatIsWrittenIsForgotten) {
+  std::filesystem::path name;
+  {
+    PartialFile file(folder / "a.csv");
+    name = file.partial();
+    std::ofstream(name) << "x";
+    file.commit();
+  }
+  std::ofstream(name) << "of another writer";
+  remove_partial_paths();
+  EXPECT_TRUE(std::filesystem::exists(name));
+}
+
 TEST_F(AtomicFile, APartialNameIsThatOfItsTargetOnly) {
   for (const char* target : {"out", "out.1", "case.toml"}) {
     EXPECT_TRUE(is_partial_name_of(partial_path(folder / target), folder / target)) << target;
