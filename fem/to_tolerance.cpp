@@ -189,15 +189,6 @@ bool fits(const mesh::TetMesh& mesh, int order, const ToleranceOptions& options)
   return options.largest_dofs == 0 || 3 * mesh::lagrange_node_count(mesh, order) <= options.largest_dofs;
 }
 
-void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options) {
-  const int order = options.first_order + 1;
-  if (fits(mesh, order, options)) return;
-  throw core::InputError("the coarsest mesh has " + std::to_string(3 * mesh::lagrange_node_count(mesh, order)) +
-                         " degrees of freedom at order " + std::to_string(order) + ", more than the bound of " +
-                         std::to_string(options.largest_dofs) +
-                         "; allow more, lower the first order, or simplify the part");
-}
-
 /// The least singular exponents of the part's edges, by which the errors of frequencies and of receptances fall; 1
 /// where all is regular.
 struct Exponents {
@@ -244,6 +235,23 @@ Errors errors_of_higher(const RefinementStep& last, const Exponents& exponent) {
           receptance * lower.entry};
 }
 
+/// The factor by which the levels left reduce an error at best, q²ⁿ with q ≤ 1 the ratio of the last change to that of
+/// the same order on the level before; 0, for all is open, if that order was not solved there.
+double factor_of_levels(const std::vector<RefinementStep>& steps, std::optional<double> RefinementStep::*change,
+                        int left) {
+  const RefinementStep& last = steps.back();
+  const auto before = std::ranges::find_if(
+      steps, [&](const RefinementStep& s) { return s.level == last.level - 1 && s.order == last.order && s.*change; });
+  if (before == steps.end() || !(last.*change)) return 0.0;
+  return std::pow(std::min(1.0, *(last.*change) / *((*before).*change)), 2 * left);
+}
+
+/// The larger of the errors to which the levels left reduce these.
+double error_after(int left, const Errors& errors, const std::vector<RefinementStep>& steps) {
+  return std::max(errors.frequency * factor_of_levels(steps, &RefinementStep::frequency_change, left),
+                  errors.receptance * factor_of_levels(steps, &RefinementStep::receptance_change, left));
+}
+
 /// The solution with its estimated errors.
 Refined finished(Solution&& s, Estimate&& estimate, const Errors& errors) {
   estimate.frequency = errors.frequency;
@@ -255,6 +263,15 @@ Refined finished(Solution&& s, Estimate&& estimate, const Errors& errors) {
 }
 
 }  // namespace
+
+void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options) {
+  const int order = options.first_order + 1;
+  if (fits(mesh, order, options)) return;
+  throw core::InputError("the coarsest mesh has " + std::to_string(3 * mesh::lagrange_node_count(mesh, order)) +
+                         " degrees of freedom at order " + std::to_string(order) + ", more than the bound of " +
+                         std::to_string(options.largest_dofs) +
+                         "; allow more, lower the first order, or simplify the part");
+}
 
 Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& options) {
   validate(options);
@@ -288,6 +305,11 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
       // reduces the error by a factor of ten, at most thirty; beside them by the factor of error_ratio().
       const double next = options.reentrant_edges ? error_ratio(order + 1, reentrant_edge_exponent) : 1.0 / 30.0;
       if (!last_level && (order == options.last_order || next * of_higher.worst() > options.tolerance)) {
+        const double reach = error_after(options.levels - 1 - level, of_higher, estimate.steps);
+        if (reach > 2.0 * options.tolerance) {
+          estimate.within_reach = reach;
+          return finished(std::move(now), std::move(estimate), of_higher);
+        }
         mesh::TetMesh finer = part.mesh(level + 1);
         if (fits(finer, options.first_order + 1, options)) {
           mesh = std::move(finer);

@@ -65,6 +65,9 @@ struct Estimate {
   double tolerance = 0.0;
   bool met = false;        ///< false if all levels were used or the next solution would exceed largest_dofs
   bool held_back = false;  ///< true if largest_dofs ended the refinement
+  /// The error to which all levels would have come at best, where the refinement was ended because that is more than
+  /// twice the tolerance; otherwise 0.
+  double within_reach = 0.0;
   std::vector<RefinementStep> steps;
 };
 
@@ -77,17 +80,22 @@ struct [[nodiscard]] Refined {
   Estimate estimate;
 };
 
+/// Throws InputError if the first two orders on the coarsest mesh exceed options.largest_dofs.
+void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options);
+
 /// Solves a part to a tolerance. The order is raised on a mesh, beginning with first_order, whose modes are made from
 /// those of the next order (modes_near()) to a hundredth of the tolerance, and computed anew if they are returned. If
 /// the estimate is still above the tolerance at last_order, or too far above it for an order to help, the next level is
-/// taken (Babuska & Guo 1992: convergence is exponential with elements graded to edges and rising order). Receptances
-/// between the points are compared entry by entry, relative to the largest √(B_ii B_jj), which is held to the
-/// tolerance, and relative to each entry's own, where B_ii is the sum of the magnitudes of all modes' contributions to
-/// the direct receptance; at zero (or at the shift of a free part) and midway between resonances more than a quarter
-/// apart, for nearer to a resonance the error of its frequency would be magnified. Throws InputError for options out of
-/// range, for largest_dofs below the size of the first two orders on the first level, for points that do not determine
-/// the rigid motions although they must, and what the steps throw. Cost: that of the last step, and about a third more
-/// for those before.
+/// taken (Babuska & Guo 1992: convergence is exponential with elements graded to edges and rising order). It is not if
+/// it would be in vain: the changes of one order on two successive levels have the ratio q, at most 1, and an error e
+/// is at best e q²ⁿ after the n levels left, for convergence may become faster; more than twice the tolerance ends the
+/// refinement. Receptances between the points are compared entry by entry, relative to the largest √(B_ii B_jj), which
+/// is held to the tolerance, and relative to each entry's own, where B_ii is the sum of the magnitudes of all modes'
+/// contributions to the direct receptance; at zero (or at the shift of a free part) and midway between resonances more
+/// than a quarter apart, for nearer to a resonance the error of its frequency would be magnified. Throws InputError for
+/// options out of range, for largest_dofs below the size of the first two orders on the first level, for points that do
+/// not determine the rigid motions although they must, and what the steps throw. Cost: that of the last step, and about
+/// a third more for those before.
 Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& options);
 
 }  // namespace thinwall::fem

@@ -92,10 +92,17 @@ void log_steps(const fem::Estimate& estimate) {
     core::inform(text);
   }
   if (estimate.met) return;
-  core::warn(
-      fmt::format("the tolerance of {} was not met{}: frequencies are right to about {:.1e}, receptances to {:.1e}",
-                  estimate.tolerance, estimate.held_back ? ", for the next model would be too large" : "",
-                  estimate.frequency, estimate.receptance));
+  const std::string reached = fmt::format("frequencies are right to about {:.1e}, receptances to {:.1e}",
+                                          estimate.frequency, estimate.receptance);
+  if (estimate.within_reach > 0.0) {
+    core::warn(fmt::format(
+        "the tolerance of {} is out of reach, and finer meshes were left out: {}, and all of them would have come to "
+        "{:.1e} at best; take a larger part.mesh.tolerance, or a larger patch_radius of the points",
+        estimate.tolerance, reached, estimate.within_reach));
+    return;
+  }
+  core::warn(fmt::format("the tolerance of {} was not met{}: {}", estimate.tolerance,
+                         estimate.held_back ? ", for the next model would be too large" : "", reached));
 }
 
 /// Says what spheres of another material cost; returns their share of the part.

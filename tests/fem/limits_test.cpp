@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <random>
 #include <string>
@@ -224,6 +225,42 @@ TEST(ToleranceOptions, OutOfRangeAreRefusedBeforeAnythingIsMeshed) {
 
 // A thousand times the rounding of K's entries, made on purpose, moves the lowest eigenvalue by a thousand times what
 // is said of double precision, within the chance of random signs.
+/// A cantilever whose mesh has 1, 2, 4 … cells across it as `cells` says for a level; the levels asked for are kept.
+SolidPart divided(std::vector<int>& meshed, const std::function<int(int level)>& cells) {
+  return {[&meshed, cells](int level) {
+            meshed.push_back(level);
+            return mesh::kuhn_box(box.size, {2 * cells(level), cells(level), cells(level)});
+          },
+          {},
+          steel,
+          {face("x_min")}};
+}
+
+/// Levels whose meshes are all the same bring nothing. Where each halves the elements, a tolerance that only the last
+/// of them meets is met.
+TEST(Refinement, EndsWhereFurtherLevelsAreInVainAndNotWhereTheyReachTheTolerance) {
+  std::vector<int> meshed;
+  ToleranceOptions options;
+  options.modes = modes_wanted(2);
+  options.first_order = 1;
+  options.last_order = 2;
+  options.tolerance = 1e-3;
+  const Refined in_vain = refine_to_tolerance(divided(meshed, [](int) { return 1; }), options);
+  EXPECT_FALSE(in_vain.estimate.met);
+  EXPECT_NEAR(in_vain.estimate.within_reach, in_vain.estimate.frequency, 1e-3 * in_vain.estimate.frequency);
+  EXPECT_EQ(meshed, (std::vector<int>{0, 1})) << "two more would be the same";
+
+  options.levels = 1;
+  const Refined last = refine_to_tolerance(divided(meshed, [](int) { return 8; }), options);
+  ASSERT_FALSE(last.estimate.met);
+  meshed.clear();
+  options.levels = 4;
+  options.tolerance = 1.01 * last.estimate.frequency;
+  const Refined reached = refine_to_tolerance(divided(meshed, [](int level) { return 1 << level; }), options);
+  EXPECT_TRUE(reached.estimate.met);
+  EXPECT_EQ(meshed, (std::vector<int>{0, 1, 2, 3}));
+}
+
 TEST(RoundOff, OfTheLowestFrequencyIsWhatRoundingTheEntriesDoes) {
   for (const double thickness : {0.01, 0.002}) {
     const mesh::Box plate{{0.4, 0.4, thickness}};
