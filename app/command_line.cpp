@@ -30,13 +30,14 @@
 #include "report/lobes_report.hpp"
 #include "report/page/page.hpp"
 #include "report/page/phases.hpp"
+#include "report/publish.hpp"
 #include "report/result_folder.hpp"
 #include "report/robot_report.hpp"
 #include "report/summary/summary_schema.hpp"
 #include "report/terminal_report.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/part_geometry.hpp"
-#include "study/part/discretisation.hpp"
+#include "study/part/part_forecast.hpp"
 #include "study/support/robot_survey.hpp"
 
 namespace thinwall::app {
@@ -123,9 +124,32 @@ ExitCode inspect(const Arguments& arguments, std::ostream& out) {
   return inspection.trustworthy ? ExitCode::done : ExitCode::expectation;
 }
 
+/// The size of the part's mesh and the time that it takes: from the first mesh of a part from a file, else by estimate.
+cases::SizeEstimate size_of(const cases::Case& source) {
+  study::require_points_hold(source);
+  if (const auto first = study::forecast(study::part_input(source)))
+    return {first->order, first->elements, 0.0, first->dofs, first->seconds};
+  return cases::estimate_size(source);
+}
+
+void tell_size(const cases::Case& source, const cases::SizeEstimate& size, std::ostream& out) {
+  const auto rounded = [](double value) { return core::readable_text(value, core::kind::number); };
+  if (size.elements > 0.0)
+    out << "  elements  about " << rounded(size.elements) << " of order " << size.order << ", "
+        << (setup::kind(*source.part) == setup::ShapeKind::mesh ? "as the file has them"
+            : source.part->mesh.element_size
+                ? "size " + core::readable_text(*source.part->mesh.element_size, core::kind::length)
+                : "size and order from the tolerance of " + rounded(source.part->mesh.tolerance))
+        << '\n';
+  out << "  DOFs      about " << rounded(size.dofs) << '\n'
+      << "  time      about " << core::readable_text(std::max(1.0, size.seconds), core::kind::time)
+      << " for mesh, modes and reduction on two cores\n";
+}
+
 ExitCode check(const Arguments& arguments, std::ostream& out) {
   const cases::Case source = cases::read_case(arguments.case_path, arguments.overrides);
   const auto expectations = cases::read_expectations(source.file);
+  const cases::SizeEstimate size = source.part ? size_of(source) : cases::SizeEstimate{};
   out << source.file.string() << ": no errors\n";
   if (!source.title.empty()) out << "  " << source.title << '\n';
   if (source.part && source.part->imported) {
@@ -133,18 +157,7 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
     for (const auto& note : source.part->imported->notes) out << "            " << note << '\n';
   }
   if (source.part) {
-    const cases::SizeEstimate size = cases::estimate_size(source);
-    const auto rounded = [](double value) { return core::readable_text(value, core::kind::number); };
-    if (size.elements > 0.0)
-      out << "  elements  about " << rounded(size.elements) << " of order " << size.order << ", "
-          << (setup::kind(*source.part) == setup::ShapeKind::mesh ? "as the file has them"
-              : source.part->mesh.element_size
-                  ? "size " + core::readable_text(*source.part->mesh.element_size, core::kind::length)
-                  : "size and order from the tolerance of " + rounded(source.part->mesh.tolerance))
-          << '\n';
-    out << "  DOFs      about " << rounded(size.dofs) << '\n'
-        << "  time      about " << core::readable_text(std::max(1.0, size.seconds), core::kind::time)
-        << " for mesh, modes and reduction on two cores\n";
+    tell_size(source, size, out);
     for (const std::string& warning : setup::unreachable_tolerances(source)) out << "  warning   " << warning << '\n';
   }
   for (const std::string& doubt : cases::doubts_about(source)) out << "  warning   " << doubt << '\n';

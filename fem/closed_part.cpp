@@ -96,9 +96,10 @@ bool has_reentrant_edge(const mesh::TriangleSurface& surface) {
   });
 }
 
-ClosedPart refine_closed_part(const mesh::TriangleSurface& surface, const Material& material,
-                              const ClosedPartOptions& options) {
-  validate(options);
+namespace {
+
+/// The options of the refinement; its share of the tolerance is what the surface leaves.
+ToleranceOptions steps_of(const mesh::TriangleSurface& surface, const ClosedPartOptions& options) {
   ToleranceOptions steps;
   steps.tolerance = (1.0 - share_of_surface) * options.tolerance;
   steps.modes = options.modes;
@@ -110,6 +111,23 @@ ClosedPart refine_closed_part(const mesh::TriangleSurface& surface, const Materi
   steps.reentrant_edges = has_reentrant_edge(surface);
   steps.memory_limit_bytes = options.memory_limit_bytes;
   steps.largest_dofs = options.largest_dofs;
+  return steps;
+}
+
+}  // namespace
+
+mesh::TetMesh coarsest_mesh(const mesh::TriangleSurface& surface, const ClosedPartOptions& options) {
+  validate(options);
+  std::vector<SurfaceFit> fits;
+  mesh::TetMesh mesh = solid_part(surface, {}, options, fits).mesh(0);
+  require_fit(mesh, steps_of(surface, options));
+  return mesh;
+}
+
+ClosedPart refine_closed_part(const mesh::TriangleSurface& surface, const Material& material,
+                              const ClosedPartOptions& options) {
+  validate(options);
+  const ToleranceOptions steps = steps_of(surface, options);
   std::vector<SurfaceFit> fits;
   Refined refined = refine_to_tolerance(solid_part(surface, material, options, fits), steps);
   ClosedPart result{std::move(refined), std::move(fits), 0.0, false};

@@ -68,6 +68,9 @@ struct [[nodiscard]] ClosedPart {
 /// True if two faces meet at a re-entrant edge, which turns inwards by more than 30°.
 [[nodiscard]] bool has_reentrant_edge(const mesh::TriangleSurface& surface);
 
+/// The first mesh of refine_closed_part(), which solves nothing. Throws what that throws for options, surface and mesh.
+[[nodiscard]] mesh::TetMesh coarsest_mesh(const mesh::TriangleSurface& surface, const ClosedPartOptions& options);
+
 /// Meshes, solves and refines a part (refine_to_tolerance()) until the tolerance is met, or levels or degrees of
 /// freedom are exhausted. Throws InputError for options out of range, a surface that is not closed
 /// (mesh::require_closed; repair it with mesh::repaired_surface) or a part whose coarsest mesh exceeds largest_dofs;

@@ -20,6 +20,7 @@
 #include "study/part/matrix_part.hpp"
 #include "study/part/part_damping.hpp"
 #include "study/part/part_evaluation.hpp"
+#include "study/part/part_forecast.hpp"
 #include "study/part/part_input.hpp"
 #include "study/part/part_model.hpp"
 #include "study/part/part_stage.hpp"

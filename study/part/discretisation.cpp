@@ -135,8 +135,8 @@ std::function<fem::Materials(const mesh::TetMesh&)> several_materials(const setu
   return [&source](const mesh::TetMesh& mesh) { return setup::materials_on(source, mesh); };
 }
 
-/// The closed surface of a file, by its walls.
-Discretisation refined_surface(const PartInput& source) {
+/// The options by which the closed surface of a file is solved.
+fem::ClosedPartOptions closed_part_options(const PartInput& source) {
   const setup::MeshOptions& wanted = source.part->mesh;
   fem::ClosedPartOptions options;
   options.tolerance = wanted.tolerance;
@@ -154,6 +154,12 @@ Discretisation refined_surface(const PartInput& source) {
     options.last_order = std::max(2, *wanted.order);
     options.first_order = options.last_order - 1;
   }
+  return options;
+}
+
+/// The closed surface of a file, by its walls.
+Discretisation refined_surface(const PartInput& source) {
+  const fem::ClosedPartOptions options = closed_part_options(source);
   fem::ClosedPart part =
       fem::refine_closed_part(source.part->imported->surface->surface, setup::material_of(*source.part), options);
   for (const auto& fit : part.fits) {
@@ -195,6 +201,13 @@ Discretisation refined_to_tolerance(const PartInput& source) {
 }
 
 }  // namespace
+
+mesh::TetMesh coarsest_mesh(const PartInput& source) {
+  const setup::Part& part = *source.part;
+  if (setup::kind(part) == setup::ShapeKind::mesh) return part.imported->mesh->solid.mesh;
+  if (part.mesh.element_size) return setup::cut_at_materials(source, surface_mesh(source));
+  return fem::coarsest_mesh(part.imported->surface->surface, closed_part_options(source));
+}
 
 Discretisation discretise(const PartInput& source) {
   const setup::Part& part = *source.part;

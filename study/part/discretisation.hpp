@@ -24,6 +24,11 @@ struct Discretisation {
   std::optional<Solution> solved;         ///< what a tolerance or a fit has left, until the part is changed
 };
 
+/// The first mesh of a part whose surface or mesh a file holds, as discretise() makes it. Throws what that throws
+/// before it solves anything, InputError for a mesh of more degrees of freedom than are solved among it. Cost: some
+/// tenths of a second, seconds for a curved surface, and minutes for one that no mesher can fill.
+[[nodiscard]] mesh::TetMesh coarsest_mesh(const PartInput& source);
+
 /// Mesh and order: from the tolerance (fem::refine_to_tolerance), or as the case gives them.
 [[nodiscard]] Discretisation discretise(const PartInput& source);
 

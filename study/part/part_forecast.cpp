@@ -1,0 +1,105 @@
+#include "study/part/part_forecast.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/dense_factorisations.hpp"
+#include "core/error.hpp"
+#include "fem/closed_part.hpp"
+#include "mesh/lagrange_nodes.hpp"
+#include "mesh/selection.hpp"
+#include "setup/imported_part.hpp"
+#include "setup/part_attachments.hpp"
+#include "setup/part_geometry.hpp"
+#include "study/part/discretisation.hpp"
+
+namespace thinwall::study {
+
+namespace {
+
+double dofs(const mesh::TetMesh& mesh, int order) {
+  return 3.0 * static_cast<double>(mesh::lagrange_node_count(mesh, order));
+}
+
+/// The time of one solution; a part is bulky if its diagonal is less than twenty mean wall thicknesses.
+double solve_s(double dofs, bool bulky) {
+  return (bulky ? 4.0 : 2.0) * std::pow(dofs / 4e4, 1.3);
+}
+
+/// The diagonal of a part in mean wall thicknesses 2 V / A of its surface.
+double slenderness(const setup::ImportedPart& part) {
+  const mesh::TriangleSurface& surface = part.surface->surface;
+  double area = 0.0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    area += mesh::area_vector(surface, static_cast<int>(t)).norm();
+  return part.box.diagonal().norm() * area / (2.0 * part.surface->volume_m3);
+}
+
+/// The time of the solutions that a tolerance usually takes, from the first order on.
+double refinement_s(const setup::Part& part, const mesh::TetMesh& mesh, int first_order, int last_order) {
+  const bool bulky = slenderness(*part.imported) < 20.0, loose = part.mesh.tolerance >= 0.05;
+  const bool reentrant = fem::has_reentrant_edge(part.imported->surface->surface);
+  double level = 0.0;
+  for (int order = first_order; order <= last_order; ++order) {
+    const double share = bulky || order < first_order + 2 ? 1.0 : order == first_order + 2 && !loose ? 0.5 : 0.0;
+    level += share * solve_s(dofs(mesh, order), bulky);
+  }
+  return reentrant ? level * (1.0 + (loose ? 0.25 : 1.0) * std::pow(3.5, 1.3)) : level;
+}
+
+void require_faces(const PartInput& source, const mesh::TetMesh& mesh) {
+  const auto boundary = mesh::boundary(mesh);
+  for (const fem::Support& support : setup::supports_of(source))
+    (void)mesh::select(mesh, boundary, support.region, support.name);
+  for (const fem::ElasticClamp& clamp : setup::attachments_of(source).clamps)
+    (void)mesh::select(mesh, boundary, clamp.region, clamp.name);
+}
+
+}  // namespace
+
+std::optional<PartForecast> forecast(const PartInput& source) {
+  const setup::Part& part = *source.part;
+  const setup::ShapeKind kind = setup::kind(part);
+  if (kind != setup::ShapeKind::surface && kind != setup::ShapeKind::mesh) return {};
+  const mesh::TetMesh mesh = coarsest_mesh(source);
+  require_faces(source, mesh);
+  PartForecast result;
+  result.elements = static_cast<double>(mesh.tets.size());
+  const bool to_tolerance = kind == setup::ShapeKind::surface && !part.mesh.element_size;
+  const int usual = to_tolerance                     ? fem::ClosedPartOptions{}.first_order + 1
+                    : kind == setup::ShapeKind::mesh ? part.imported->mesh->solid.nodes.order
+                                                     : 2;
+  result.order = std::max(to_tolerance ? 2 : 1, part.mesh.order.value_or(std::max(2, usual)));
+  result.dofs = dofs(mesh, result.order);
+  const int last = part.mesh.order ? result.order : fem::ClosedPartOptions{}.last_order;
+  result.seconds = to_tolerance ? refinement_s(part, mesh, result.order - 1, last) : solve_s(result.dofs, false);
+  return result;
+}
+
+void require_points_hold(const setup::PartSetup& source) {
+  const setup::Part& part = *source.part;
+  if (setup::may_be_held(part) || source.reduction.interface.empty()) return;
+  const Eigen::AlignedBox3d box = setup::bounds(part);
+  std::vector<Eigen::Matrix<double, 6, 1>> seen;
+  for (const std::string& name : source.reduction.interface) {
+    const setup::Point& point = setup::point(source, name);
+    const Eigen::Vector3d arm = (setup::position(part, point) - box.center()) / box.diagonal().norm();
+    for (const Eigen::Vector3d& d : point.directions) {
+      seen.emplace_back();
+      seen.back() << d, arm.cross(d);
+    }
+  }
+  Eigen::MatrixXd motions(6, static_cast<Eigen::Index>(seen.size()));
+  for (std::size_t i = 0; i < seen.size(); ++i) motions.col(static_cast<Eigen::Index>(i)) = seen[i];
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd(motions);
+  svd.setThreshold(1e-6);
+  if (svd.rank() == 6) return;
+  throw core::InputError("nothing holds the part, and its points see " + std::to_string(svd.rank()) +
+                         " of its 6 rigid motions: add a support, or a point off the line of the others; without "
+                         "points, modes alone are computed");
+}
+
+}  // namespace thinwall::study
