@@ -23,6 +23,7 @@
 #include "case/reader.hpp"
 #include "case/schema/json_schema.hpp"
 #include "case/templates.hpp"
+#include "core/atomic_file.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "report/compare.hpp"
@@ -103,7 +104,10 @@ ExitCode robot(const Arguments& arguments, std::ostream& out) {
   const report::ResultFolder folder(arguments.out.empty() ? report::default_result_folder(source.name)
                                                           : std::filesystem::path(arguments.out));
   log_to_file(folder.path() / "run.log");  // marks the folder as ours
-  report::write_survey(folder.path(), source, found);
+  const auto staging = core::partial_path(folder.path() / "survey");
+  report::write_survey(staging, source, found);
+  report::publish_folder(staging / "robot", folder.path() / "robot");
+  std::filesystem::remove(staging);
   if (found.tips.empty())
     throw core::InputError("the robot reaches none of the places; at the first, " + found.out_of_reach.front().reason);
   if (!source.title.empty()) out << source.title << '\n';

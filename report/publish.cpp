@@ -157,6 +157,19 @@ void replace_one_by_one(const fs::path& staging, const fs::path& folder) {
   remove_or_tell(earlier);
 }
 
+void move_over(const fs::path& complete, const fs::path& folder) {
+  const fs::path earlier = core::partial_path(folder);
+  Moves moves;
+  try {
+    moves.move_if_there(folder, earlier);
+    fs::rename(complete, folder);
+  } catch (const fs::filesystem_error&) {
+    moves.take_back();
+    throw;
+  }
+  remove_or_tell(earlier);
+}
+
 }  // namespace
 
 Published publish(const fs::path& staging, const fs::path& folder) {
@@ -167,6 +180,15 @@ Published publish(const fs::path& staging, const fs::path& folder) {
     return Published::by_moves;
   } catch (const fs::filesystem_error& error) {
     throw core::DataError(std::string("cannot replace the results of an earlier run: ") + error.what());
+  }
+}
+
+void publish_folder(const fs::path& complete, const fs::path& folder) {
+  try {
+    if (!change_places(complete, folder)) return move_over(complete, folder);
+    remove_or_tell(complete);
+  } catch (const fs::filesystem_error& error) {
+    throw core::DataError("cannot replace \"" + folder.string() + "\": " + error.what());
   }
 }
 

@@ -33,4 +33,9 @@ enum class Published {
 /// the folder.
 Published publish(const std::filesystem::path& staging, const std::filesystem::path& folder);
 
+/// Puts a folder that is complete in place of an earlier one, which is removed, or where none was: in one step, or,
+/// where the file system has no exchange, in two, the earlier one away first and back if the second fails. Throws
+/// DataError if it cannot be replaced; it is then the earlier one.
+void publish_folder(const std::filesystem::path& complete, const std::filesystem::path& folder);
+
 }  // namespace thinwall::report

@@ -154,6 +154,21 @@ TEST(Publish, MovesResultsOneByOneWhereTheWorkingDirectoryIsTheFolder) {
   EXPECT_EQ(published, Published::by_moves) << "a shell in there would be in a folder that is gone";
 }
 
+/// Tables of the robot are written aside, so that those of an earlier survey are there until the new ones are whole.
+TEST(Publish, PutsOneFolderInPlaceOfAnEarlierOne) {
+  const TemporaryFolder temporary;
+  const auto folder = temporary.path / "robot", complete = temporary.path / "new";
+  EXPECT_THROW(publish_folder(complete, folder), core::DataError) << "nothing is complete";
+  for (const char* text : {"first", "second"}) {
+    std::filesystem::create_directories(complete);
+    std::ofstream(complete / (std::string(text) + ".csv")) << text;
+    publish_folder(complete, folder);
+    EXPECT_EQ(names_below(temporary.path), (std::vector<std::string>{"robot/" + std::string(text) + ".csv"}));
+  }
+  EXPECT_THROW(publish_folder(complete, folder), core::DataError);
+  EXPECT_EQ(names_below(temporary.path), (std::vector<std::string>{"robot/second.csv"})) << "the earlier one stays";
+}
+
 TEST(ResultFolder, StaysLockedWhenItsResultsArePublished) {
   const Earlier earlier;
   {
