@@ -26,38 +26,70 @@ Eigenpair started_at(Index n, complex<double> nu) {
   return pair;
 }
 
-/// Inverse iterations on both sides with the shift ν, `solves` of them, then the Rayleigh quotients of Z and dZ/dθ: an
-/// error ε of the vectors leaves one of ε² in ν. False if a vector overflows.
-bool improve(const GainOnCircle& gain, double theta, int solves, Eigenpair& pair) {
+/// LU of −Z − ν.
+Eigen::PartialPivLU<Eigen::MatrixXcd> factored(const Eigen::MatrixXcd& Z, complex<double> nu) {
   core::check_interrupt();
-  const Eigen::MatrixXcd Z = gain.Z(theta);
   Eigen::MatrixXcd shifted = -Z;
   // Off by round-off, so that nothing is divided by an exact zero.
-  shifted.diagonal().array() -= pair.nu + 1e-14 * std::abs(pair.nu);
-  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(shifted);
+  shifted.diagonal().array() -= nu + 1e-14 * std::abs(nu);
+  return Eigen::PartialPivLU<Eigen::MatrixXcd>(shifted);
+}
+
+/// −lᵀ Z r / lᵀ r: an error ε of the vectors leaves one of ε² in ν.
+complex<double> rayleigh(const Eigenpair& pair, const Eigen::MatrixXcd& Z) {
+  return -(pair.left.transpose() * Z * pair.right).value() / (pair.left.transpose() * pair.right).value();
+}
+
+/// One inverse iteration on both sides. False if a vector overflows.
+bool improve(const Eigen::MatrixXcd& Z, const Eigen::PartialPivLU<Eigen::MatrixXcd>& lu, Eigenpair& pair) {
+  pair.right = lu.solve(pair.right).normalized().eval();
+  pair.left = lu.transpose().solve(pair.left).normalized().eval();
+  pair.nu = rayleigh(pair, Z);
+  return pair.right.allFinite() && pair.left.allFinite() && std::isfinite(std::abs(pair.nu));
+}
+
+/// Inverse iterations on both sides with the shift ν, `solves` of them, then the Rayleigh quotients of Z and dZ/dθ.
+/// False if a vector overflows.
+bool improve(const GainOnCircle& gain, double theta, int solves, Eigenpair& pair) {
+  const Eigen::MatrixXcd Z = gain.Z(theta);
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu = factored(Z, pair.nu);
   for (int i = 0; i < solves; ++i) {
-    pair.right = lu.solve(pair.right).normalized().eval();
-    pair.left = lu.transpose().solve(pair.left).normalized().eval();
+    if (!improve(Z, lu, pair)) return false;
   }
-  const complex<double> scale = -1.0 / (pair.left.transpose() * pair.right).value();
-  pair.nu = scale * (pair.left.transpose() * Z * pair.right).value();
-  pair.slope = scale * (pair.left.transpose() * gain.slope(theta) * pair.right).value();
-  return pair.right.allFinite() && pair.left.allFinite() && std::isfinite(std::abs(pair.nu)) &&
-         std::isfinite(std::abs(pair.slope));
+  pair.slope = rayleigh(pair, gain.slope(theta));
+  return std::isfinite(std::abs(pair.slope));
+}
+
+core::NumericalError not_found() {
+  return core::NumericalError(
+      "stability: an eigenvalue of the loop's gain was not found from where it should be near; "
+      "check the structure at the cut");
 }
 
 }  // namespace
 
 Eigenpair eigenpair_near(const GainOnCircle& gain, double theta, complex<double> guess) {
+  // Near a crossing the guess is so good that one factorisation serves: each solve then gains the square of the ratio
+  // of the distances from the guess to the eigenvalue and to the next one.
+  constexpr int most_factorisations = 12, solves_of_each = 8;
+  const Eigen::MatrixXcd Z = gain.Z(theta);
   Eigenpair pair = started_at(gain.size, guess);
-  for (int i = 0; i < 12; ++i) {
-    const complex<double> before = pair.nu;
-    if (!improve(gain, theta, i == 0 ? 3 : 1, pair)) break;
-    if (i > 0 && std::abs(pair.nu - before) <= 1e-12 * std::abs(pair.nu)) return pair;
+  complex<double> before = INFINITY;
+  for (int factorisation = 0; factorisation < most_factorisations; ++factorisation) {
+    const Eigen::PartialPivLU<Eigen::MatrixXcd> lu = factored(Z, pair.nu);
+    for (int solve = 0; solve < solves_of_each; ++solve) {
+      if (!improve(Z, lu, pair)) throw not_found();
+      if (std::abs(std::exchange(before, pair.nu) - pair.nu) > 1e-12 * std::abs(pair.nu)) continue;
+      pair.slope = rayleigh(pair, gain.slope(theta));
+      if (!std::isfinite(std::abs(pair.slope))) throw not_found();
+      return pair;
+    }
   }
-  throw core::NumericalError(
-      "stability: an eigenvalue of the loop's gain was not found from where it should be near; "
-      "check the structure at the cut");
+  throw not_found();
+}
+
+complex<double> first_order_change(const Eigenpair& pair, const Eigen::MatrixXcd& change_of_Z) {
+  return rayleigh(pair, change_of_Z);
 }
 
 bool to_axis(const GainOnCircle& gain, complex<double> nu, Crossing& crossing) {

@@ -33,8 +33,12 @@ struct Eigenpair {
 };
 
 /// The eigenvalue nearest to a guess at a fixed angle, by inverse iterations on both sides. Throws NumericalError if
-/// they do not converge. Cost: some four factorisations of the size of Z.
+/// they do not converge. Cost: a factorisation of the size of Z, more where the guess is no better than the distance to
+/// the next eigenvalue.
 [[nodiscard]] Eigenpair eigenpair_near(const GainOnCircle& gain, double theta_rad, std::complex<double> guess);
+
+/// The change of ν as Z changes to that of another gain of the same contacts, to first order: −lᵀ ΔZ r / lᵀ r.
+[[nodiscard]] std::complex<double> first_order_change(const Eigenpair& pair, const Eigen::MatrixXcd& change_of_Z);
 
 /// Brings a crossing to the axis: on the boundary det(I + w Z(e^{iθ})) = 0, so that 1/w is a real positive eigenvalue
 /// ν(θ) of −Z. With its vectors l and r on both sides, from inverse iterations,

@@ -32,7 +32,9 @@ struct PairAtDepth {
 
 PairAtDepth pair_at(const CutAtSpeed& cut, Resolution resolution, double depth_m, double theta) {
   const DiscreteCut d = discrete(cut, resolution, depth_m);
-  PairAtDepth result{eigenpair_near(gain_of(d), theta, 1.0 / depth_m), INFINITY};
+  const GainOnCircle gain = gain_of(d);
+  PairAtDepth result{eigenpair_near(gain, theta, 1.0 / depth_m), INFINITY};
+  const Eigen::MatrixXcd Z = gain.Z(theta);
   // The eigenvalue ν jumps by the error of the grid where a stretch of the cut appears with the depth, so the
   // difference is one-sided there.
   const double above = std::min(1e-6 * depth_m, cut.process.cutter.envelope.height_m - depth_m);
@@ -40,7 +42,11 @@ PairAtDepth pair_at(const CutAtSpeed& cut, Resolution resolution, double depth_m
     // ν ~ 1/w changes with the depth by about 1/w². A hundred times as much is a jump, and the other side is tried.
     if (step_m == 0.0 || std::abs(result.by_depth) * depth_m * depth_m < 100.0) continue;
     const DiscreteCut beside = discrete(cut, resolution, depth_m + step_m);
-    const complex<double> change = eigenpair_near(gain_of(beside), theta, result.pair.nu).nu - result.pair.nu;
+    const GainOnCircle gain_beside = gain_of(beside);
+    // With as many contacts the grid is the same but for the small step: another factorisation would tell no more.
+    const complex<double> change = gain_beside.size == gain.size
+                                       ? first_order_change(result.pair, gain_beside.Z(theta) - Z)
+                                       : eigenpair_near(gain_beside, theta, result.pair.nu).nu - result.pair.nu;
     if (std::abs(change / step_m) < std::abs(result.by_depth)) result.by_depth = change / step_m;
   }
   return result;
