@@ -89,15 +89,14 @@ complex<double> wilkinson_shift(const Eigen::MatrixXcd& H, Index last) {
   return size(sum) > 0.0 ? H(last, last) - product / sum : H(last, last);
 }
 
-/// H − σ = QR, H ← RQ + σ, on rows and columns first to last.
+/// H − σ = QR, H ← RQ + σ, on rows and columns first to last. Each rotation turns all columns to its right at once,
+/// which do not wait for one another.
 void qr_step(Eigen::MatrixXcd& H, Index first, Index last, complex<double> shift, std::vector<Rotation>& rotations) {
   rotations.clear();
-  for (Index j = first; j <= last; ++j) {
-    H(j, j) -= shift;
-    for (Index k = first; k < j; ++k) rotations[static_cast<std::size_t>(k - first)].turn(H(k, j), H(k + 1, j));
-    if (j == last) break;
-    rotations.emplace_back(H(j, j), H(j + 1, j));
-    rotations.back().turn(H(j, j), H(j + 1, j));
+  for (Index j = first; j <= last; ++j) H(j, j) -= shift;
+  for (Index k = first; k < last; ++k) {
+    const Rotation rotation = rotations.emplace_back(H(k, k), H(k + 1, k));
+    for (Index j = k; j <= last; ++j) rotation.turn(H(k, j), H(k + 1, j));
   }
   for (Index k = first; k < last; ++k) {
     const Rotation from_right = rotations[static_cast<std::size_t>(k - first)].conjugate();
