@@ -110,6 +110,16 @@ struct Probe {
   std::vector<Crossing> guesses;  ///< where crossings of other depths may lie
 };
 
+/// True if a multiplier is that of a mode which the cut hardly moves, in a direction that the teeth do not feel: such a
+/// mode decays slowly, near the circle, but leads to no crossing.
+bool is_free(complex<double> mu, const Eigen::VectorXcd& flow) {
+  constexpr double hardly = 0.01;  // of the way to the circle
+  return std::ranges::any_of(flow, [&](complex<double> free) {
+    const double distance = std::min(std::abs(mu - free), std::abs(mu - std::conj(free)));
+    return distance <= hardly * (1.0 - std::abs(free));
+  });
+}
+
 /// The search for the crossings of a speed on grids of one resolution, so many times finer than is needed.
 class HelicalSearch {
  public:
@@ -131,7 +141,7 @@ class HelicalSearch {
     return probe;
   }
 
-  /// The multipliers at this depth, those nearest to the circle for guesses.
+  /// The multipliers at this depth, those nearest to the circle among the ones that the cut moves for guesses.
   [[nodiscard]] Probe counted(double depth_m) const {
     constexpr std::size_t most = 6;
     const DiscreteCut d = discrete(cut_, resolution(depth_m), depth_m);
@@ -140,7 +150,7 @@ class HelicalSearch {
     for (const complex<double> mu : multipliers(d, depth_m)) {
       probe.unstable += std::abs(mu) > 1.0 ? 1 : 0;
       // Of conjugate pairs one, and none that is near zero: the nodes' share of the past decays within a period.
-      if (mu.imag() >= 0.0 && std::abs(mu) > 0.2) near.push_back(mu);
+      if (mu.imag() >= 0.0 && std::abs(mu) > 0.2 && !is_free(mu, d.loop.flow)) near.push_back(mu);
     }
     // ln|μ| is 0 on the circle and changes in proportion to a small change of the depth: the least are the nearest.
     std::ranges::sort(near, {}, [](complex<double> mu) { return std::abs(std::log(std::abs(mu))); });
@@ -187,8 +197,10 @@ class HelicalSearch {
   [[nodiscard]] bool between(const Probe& low, const Probe& high, int halvings, CoarseCrossings& scan) const {
     std::vector<Crossing> inside;
     int change = 0;
+    const auto explained = [&] { return change == high.unstable - low.unstable; };
     const auto add_from = [&](const std::vector<Crossing>& guesses) {
       for (const Crossing& guess : guesses) {
+        if (low.unstable > 0 && explained()) return;
         Crossing c = guess;
         if (!settle(cut_, resolution(high.depth_m), 0.9 * low.depth_m, 1.1 * high.depth_m, c)) continue;
         if (c.depth_m <= low.depth_m || c.depth_m > high.depth_m || is_known(c, inside)) continue;
@@ -196,13 +208,13 @@ class HelicalSearch {
         inside.push_back(std::move(c));
       }
     };
-    // Deep in an unstable range with an unchanged count nothing is looked for: what cancels there changes no limit. The
-    // guesses of the upper depth come first, since crossings lie below it; those of the lower one only if they are
+    // Deep in an unstable range nothing is looked for once the count is explained: what cancels there changes no limit.
+    // The guesses of the upper depth come first, since crossings lie below it; those of the lower one only if they are
     // needed.
-    if (low.unstable == 0 || high.unstable != low.unstable) add_from(high.guesses);
-    if (change != high.unstable - low.unstable) add_from(low.guesses);
+    add_from(high.guesses);
+    if (!explained()) add_from(low.guesses);
     // The crossings between two depths are all if their changes add up to that of the count.
-    if (change == high.unstable - low.unstable) {
+    if (explained()) {
       std::move(inside.begin(), inside.end(), std::back_inserter(scan.found));
       scan.searched_m = high.depth_m;
       return true;

@@ -206,6 +206,28 @@ TEST(Helix, CrossingsThatAppearWithTheShapeOfTheCutAreFound) {
   }
 }
 
+TEST(Helix, ModesThatTheTeethDoNotFeelHideNoCrossing) {
+  // Eight sharp modes along the axis, whose multipliers lie nearer to the circle than those that cross it.
+  std::vector<testing::Mode> felt{{600.0, 0.02, 0.1407, Eigen::Vector3d::UnitX()},
+                                  {950.0, 0.02, 0.0842, Eigen::Vector3d::UnitY()}};
+  const RelativeStructure plain = relative_structure(testing::modal_model(felt), "P");
+  for (int i = 0; i < 8; ++i) felt.push_back({300.0 + 70.0 * i, 5e-4, 1.0, Eigen::Vector3d::UnitZ()});
+  const RelativeStructure with_axial = relative_structure(testing::modal_model(felt), "P");
+  MillingProcess process = process_with({4, 0.012, {}, std::vector<double>(4, 30.0 * degree)}, 0.0, 0.0);
+  process.engagement = engagement_of(process.cutter, 2e-3, MillingDirection::down);
+  StabilityOptions options;
+  options.depth_limit_m = 0.02;
+  for (const double rpm : {3000.0, 6500.0}) {
+    const LobeRow expected = limiting_depth(plain, process, rpm, options);
+    const LobeRow row = limiting_depth(with_axial, process, rpm, options);
+    EXPECT_NEAR(row.searched_m, expected.searched_m, 1e-9) << rpm;
+    ASSERT_EQ(row.crossings.size(), expected.crossings.size()) << rpm;
+    EXPECT_GE(row.crossings.size(), 4u) << rpm;
+    for (std::size_t i = 0; i < row.crossings.size(); ++i)
+      EXPECT_NEAR(row.crossings[i].depth_m / expected.crossings[i].depth_m, 1.0, 1e-6) << rpm;
+  }
+}
+
 TEST(Cutter, RefusesPitchesThatAreNoTurnAndHelicesTooSteep) {
   EXPECT_EQ(validate(Cutter{2, 0.01, {1.0, 2.0}}).size(), 1u);
   EXPECT_EQ(validate(Cutter{2, 0.01, {-1.0, 1.0 + 2.0 * std::numbers::pi}}).size(), 1u);
