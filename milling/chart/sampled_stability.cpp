@@ -70,6 +70,10 @@ class CrossingGrid {
   [[nodiscard]] GainOnCircle gain(const SampledReceptance& remainder) const {
     return with_remainder(gain(), remainder);
   }
+  /// A fit in tool axes.
+  [[nodiscard]] Fit in_tool(const Fit& fit) const {
+    return {in_tool_axes(fit.poles, cut_.process.frame), fit.remainder};
+  }
   /// The depth at which a crossing lies by another fit; none if it is lost.
   [[nodiscard]] std::optional<double> depth_by(const Fit& fit, Crossing crossing) const {
     CutAtSpeed other{in_tool_axes(fit.poles, cut_.process.frame), cut_.process, cut_.yielding, cut_.spindle_speed_rpm};
@@ -94,28 +98,42 @@ class CrossingGrid {
   DiscreteCut discrete_;
 };
 
-/// A change of the gain changes the depth of a crossing by dw = Re (factor · lᵀ dZ r) (depth_gradient()).
-struct DepthChange {
-  Eigen::VectorXcd l, r;
-  complex<double> factor;
-};
-
-DepthChange depth_change(const GainOnCircle& gain, const Crossing& crossing) {
-  const double theta = crossing.theta_rad, w = crossing.depth_m;
-  const Eigenpair pair = eigenpair_near(gain, theta, 1.0 / w);
+/// 1 + i Re ν_θ/Im ν_θ, which takes the change of ν at one angle to that of 1/w, its real part; 1 at a flip, where the
+/// angle stays.
+complex<double> depth_along(const Eigenpair& pair, double theta) {
   const bool at_end = theta == 0.0 || theta == pi;
-  const complex<double> along(1.0, at_end ? 0.0 : pair.slope.real() / pair.slope.imag());
-  return {pair.left, pair.right, w * w * along / (pair.left.transpose() * pair.right).value()};
+  return {1.0, at_end ? 0.0 : pair.slope.real() / pair.slope.imag()};
 }
 
-/// The root mean square of the depth's change by modes above the lines, relative.
+/// The root mean square of a depth's change by modes above the lines, relative: by FittedStructure::unseen, which falls
+/// as 1/f^{3/2}, at each harmonic up to twice the last line, independent from one to the next. With the weights g of
+/// gain_weights() a change dH moves the depth by dw = w² Re (1 + i Re ν_θ/Im ν_θ) Σ_ij g_ij dH_ij / lᵀ r
+/// (depth_gradient()); entries of one harmonic change together, as by one mode.
 double change_by_unseen(const CrossingGrid& grid, const FittedStructure& structure, const Crossing& crossing) {
   if (structure.unseen.isZero(0.0)) return 0.0;
+  const double theta = crossing.theta_rad, w = crossing.depth_m;
+  const Eigenpair pair = eigenpair_near(grid.gain(structure.all.remainder), theta, 1.0 / w);
+  const double factor = w * std::abs(depth_along(pair, theta) / (pair.left.transpose() * pair.right).value());
   const Eigen::VectorXd& hz = structure.lines.samples.frequency_hz;
-  const auto [l, r, factor] = depth_change(grid.gain(structure.all.remainder), crossing);
-  return gain_deviation(structure.unseen, hz(hz.size() - 1), grid.grid(), grid.spindle_speed_rpm(), crossing.theta_rad,
-                        l, r, factor) /
-         crossing.depth_m;
+  const double last_rad_s = 2.0 * pi * hz(hz.size() - 1);
+  double squares = 0.0;
+  for (const auto& [omega, weight] :
+       gain_weights(2.0 * last_rad_s, grid.grid(), grid.spindle_speed_rpm(), theta, pair.left, pair.right)) {
+    const double share = last_rad_s / std::abs(omega);
+    if (share >= 1.0) continue;
+    const double change = factor * weight.cwiseAbs().cwiseProduct(structure.unseen).sum();
+    squares += change * change * share * share * share;
+  }
+  return std::sqrt(squares);
+}
+
+/// depth_gradient() at a crossing of a gain.
+std::vector<Eigen::Matrix3cd> gradient_at(const CrossingGrid& grid, const GainOnCircle& gain,
+                                          const SampledReceptance& lines, const Crossing& crossing) {
+  const double theta = crossing.theta_rad, w = crossing.depth_m;
+  const Eigenpair pair = eigenpair_near(gain, theta, 1.0 / w);
+  const complex<double> factor = w * w * depth_along(pair, theta) / (pair.left.transpose() * pair.right).value();
+  return gain_gradient(lines, grid.grid(), grid.spindle_speed_rpm(), theta, pair.left, pair.right, factor);
 }
 
 /// The largest relative change of a depth by any of some fits; 1 if the crossing is lost.
@@ -130,19 +148,77 @@ double largest_change(const CrossingGrid& grid, const Crossing& crossing, const 
   return largest;
 }
 
+/// G(ω) of a fit in tool axes, poles and remainder.
+Eigen::Matrix3cd receptance_of(const Fit& fit, double omega) {
+  const Eigen::Matrix3cd by_poles = receptance(fit.poles, omega);
+  return fit.remainder.H.empty() ? by_poles : by_poles + interpolated(fit.remainder, omega);
+}
+
+/// The relative changes of a depth by other fits, to first order in what they change of the receptance: with the
+/// weights W of the receptance in lᵀ Z r,
+///
+///     Δν = −(Σ_k W_k : (ΔG(ω_k) − ΔR) + W_static : ΔR) / lᵀ r,      Δw/w = −w Re [(1 + i Re ν_θ/Im ν_θ) Δν]
+///
+/// Harmonics beyond one and a half of the last line are left out, where the fits differ little from ΔR.
+Eigen::ArrayXd first_order_changes(const CrossingGrid& grid, const Crossing& crossing,
+                                   const FittedStructure& structure) {
+  const double theta = crossing.theta_rad, w = crossing.depth_m;
+  const Eigenpair pair = eigenpair_near(grid.gain(structure.all.remainder), theta, 1.0 / w);
+  const complex<double> factor = w * depth_along(pair, theta) / (pair.left.transpose() * pair.right).value();
+  const Eigen::VectorXd& hz = structure.lines.samples.frequency_hz;
+  const auto weights = gain_weights(1.5 * 2.0 * pi * hz(hz.size() - 1), grid.grid(), grid.spindle_speed_rpm(), theta,
+                                    pair.left, pair.right);
+  const Eigen::Matrix3cd of_static = static_weight(grid.grid(), theta, pair.left, pair.right);
+  const Fit all = grid.in_tool(structure.all);
+  std::vector<Eigen::Matrix3cd> by_all;
+  by_all.reserve(weights.size());
+  for (const auto& [omega, weight] : weights) by_all.push_back(receptance_of(all, omega));
+  Eigen::ArrayXd changes(static_cast<Eigen::Index>(structure.without.size()));
+  for (Eigen::Index i = 0; i < changes.size(); ++i) {
+    const Fit fit = grid.in_tool(structure.without[static_cast<std::size_t>(i)]);
+    const Eigen::Matrix3cd rigid = (fit.poles.R - all.poles.R).cast<complex<double>>();
+    complex<double> sum = of_static.cwiseProduct(rigid).sum();
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      const Eigen::Matrix3cd change = receptance_of(fit, weights[k].omega_rad_s) - by_all[k] - rigid;
+      sum += weights[k].weight.cwiseProduct(change).sum();
+    }
+    changes(i) = (factor * sum).real();
+  }
+  return changes;
+}
+
+/// True if the changes are so small that the error of the first order, their square, does not matter.
+bool small_changes(const Eigen::ArrayXd& changes) {
+  constexpr double small = 0.03;
+  return (changes.abs() <= small).all();
+}
+
+/// The relative changes of a depth by the fits that each leave out a part of the lines, to first order while that will
+/// do, else by following the crossing to each fit. None if it is lost.
+std::optional<Eigen::ArrayXd> changes_without_lines(const CrossingGrid& grid, const Crossing& crossing,
+                                                    const FittedStructure& structure) {
+  Eigen::ArrayXd changes(static_cast<Eigen::Index>(structure.without.size()));
+  try {
+    changes = first_order_changes(grid, crossing, structure);
+    if (small_changes(changes)) return changes;
+  } catch (const core::NumericalError&) {  // an eigenvalue of ill condition, which following may yet reach
+  }
+  for (Eigen::Index i = 0; i < changes.size(); ++i) {
+    const std::optional<double> at = grid.depth_by(structure.without[static_cast<std::size_t>(i)], crossing);
+    if (!at) return std::nullopt;
+    changes(i) = *at / crossing.depth_m - 1.0;
+  }
+  return changes;
+}
+
 /// The standard deviation of a depth by noise, relative: the jackknife's, from fits that each leave out a part of the
 /// lines (Efron 1982, Eq. 3.3), σ² = (g − 1)/g Σ (w_i − mean)². 1 if a crossing is lost.
-double deviation(const CrossingGrid& grid, const Crossing& crossing, const std::vector<Fit>& without) {
-  if (without.empty()) return 0.0;
-  const auto count = static_cast<Eigen::Index>(without.size());
-  Eigen::ArrayXd depth_m(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const std::optional<double> at = grid.depth_by(without[static_cast<std::size_t>(i)], crossing);
-    if (!at) return 1.0;
-    depth_m(i) = *at;
-  }
-  const double squares = (depth_m - depth_m.mean()).square().sum();
-  return std::sqrt(squares * static_cast<double>(count - 1) / static_cast<double>(count)) / crossing.depth_m;
+double deviation(const CrossingGrid& grid, const Crossing& crossing, const FittedStructure& structure) {
+  if (structure.without.empty()) return 0.0;
+  const std::optional<Eigen::ArrayXd> changes = changes_without_lines(grid, crossing, structure);
+  if (!changes) return 1.0;
+  const auto count = static_cast<double>(changes->size());
+  return std::sqrt((*changes - changes->mean()).square().sum() * (count - 1.0) / count);
 }
 
 /// Moves a crossing of the fit's poles to where it lies by the lines, and adds what the lines leave open.
@@ -162,7 +238,7 @@ void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, Lo
   point.error_estimate += 2.0 * largest_change<2>(grid, by_lines, {&structure.even, &structure.odd}) +
                           std::max(largest_change<1>(grid, by_lines, {&structure.within}),
                                    2.0 * change_by_unseen(grid, structure, by_lines)) +
-                          deviations * deviation(grid, by_lines, structure.without);
+                          deviations * deviation(grid, by_lines, structure);
   if (cut.process.cutter.depends_on_depth()) point.error_estimate += std::abs(change - 1.0);
 }
 
@@ -284,8 +360,7 @@ std::vector<Eigen::Matrix3cd> depth_gradient(const FittedStructure& structure, c
          << " rpm; give a crossing of the same structure and process";
     throw core::NumericalError(text.str());
   }
-  const auto [l, r, factor] = depth_change(gain, found);
-  return gain_gradient(structure.lines.samples, grid.grid(), spindle_speed_rpm, found.theta_rad, l, r, factor);
+  return gradient_at(grid, gain, structure.lines.samples, found);
 }
 
 void require_range(const SampledReceptance& receptance, const MillingProcess& process, double spindle_speed_rpm) {

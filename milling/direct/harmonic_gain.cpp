@@ -14,13 +14,18 @@ using Eigen::Index;
 using std::complex;
 using std::numbers::pi;
 
+/// e^{−iθ}, exact at a flip.
+complex<double> a_period_ago(double theta) {
+  return theta == pi ? complex<double>(-1.0) : std::polar(1.0, -theta);
+}
+
 /// The sum over the harmonics at one angle: visit(ω, seen, force) for each, so that
 ///
 ///     Z = (1/T) Σ seen H(ω) force
 class Harmonics {
  public:
-  Harmonics(double highest_hz, const ContactGrid& grid, double spindle_speed_rpm)
-      : grid_(grid), seconds_per_rad_(30.0 / (pi * spindle_speed_rpm)), highest_(2.0 * pi * highest_hz) {
+  Harmonics(double highest_rad_s, const ContactGrid& grid, double spindle_speed_rpm)
+      : grid_(grid), seconds_per_rad_(30.0 / (pi * spindle_speed_rpm)), highest_(highest_rad_s) {
     for (const CutElement& e : grid.elements)
       rules_.emplace_back(e.nodes, highest_ * (e.to_rad - e.from_rad) * seconds_per_rad_);
   }
@@ -36,7 +41,7 @@ class Harmonics {
     const int last = static_cast<int>(std::floor((highest_ * period - theta) / (2.0 * pi)));
     // As many on the negative side, so that the sum is real where it has to be.
     const int first = static_cast<int>(std::ceil((-highest_ * period - theta) / (2.0 * pi)));
-    const complex<double> period_ago = theta == pi ? complex<double>(-1.0) : std::polar(1.0, -theta);
+    const complex<double> period_ago = a_period_ago(theta);
     for (int k = first; k <= last; ++k) {
       core::check_interrupt();
       const double omega = (theta + 2.0 * pi * k) / period;
@@ -78,15 +83,15 @@ class Harmonics {
   std::vector<ProductRule> rules_;
 };
 
-double last_hz(const SampledReceptance& receptance) {
-  return receptance.frequency_hz(receptance.frequency_hz.size() - 1);
+double last_line_rad_s(const SampledReceptance& receptance) {
+  return 2.0 * pi * receptance.frequency_hz(receptance.frequency_hz.size() - 1);
 }
 
 }  // namespace
 
 GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGrid& grid, double spindle_speed_rpm) {
   require_usable(receptance);
-  const Harmonics harmonics(last_hz(receptance), grid, spindle_speed_rpm);
+  const Harmonics harmonics(last_line_rad_s(receptance), grid, spindle_speed_rpm);
   const auto contacts = static_cast<Index>(grid.contacts.size());
   const auto gain = [&receptance, harmonics, contacts](double theta) {
     Eigen::MatrixXcd Z = Eigen::MatrixXcd::Zero(contacts, contacts);
@@ -102,33 +107,47 @@ GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGri
   return {contacts, gain, slope, {}};
 }
 
+std::vector<HarmonicWeight> gain_weights(double highest_rad_s, const ContactGrid& grid, double spindle_speed_rpm,
+                                         double theta_rad, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r) {
+  const Harmonics harmonics(highest_rad_s, grid, spindle_speed_rpm);
+  std::vector<HarmonicWeight> weights;
+  harmonics.at(theta_rad, [&](double omega, const Eigen::MatrixX3cd& seen, const Eigen::Matrix3Xcd& force) {
+    weights.push_back({omega, (seen.transpose() * l) * (force * r).transpose() / harmonics.period_s()});
+  });
+  return weights;
+}
+
+Eigen::Matrix3cd static_weight(const ContactGrid& grid, double theta_rad, const Eigen::VectorXcd& l,
+                               const Eigen::VectorXcd& r) {
+  const complex<double> period_ago = a_period_ago(theta_rad);
+  const Index nodes = grid.node_rad.size();
+  Eigen::Matrix3Xcd seen = Eigen::Matrix3Xcd::Zero(3, nodes), force = Eigen::Matrix3Xcd::Zero(3, nodes);
+  for (std::size_t i = 0; i < grid.contacts.size(); ++i) {
+    const EdgeContact& c = grid.contacts[i];
+    const auto at = static_cast<Index>(i);
+    force.col(c.node) += c.force * r(at);
+    seen.col(c.node) += c.chip * l(at);
+    for (const Past& past : c.past) {
+      const complex<double> then = past.previous_period ? period_ago : 1.0;
+      seen.col(past.node) -= past.chip * (then * l(at));
+    }
+  }
+  return seen * force.transpose();
+}
+
 std::vector<Eigen::Matrix3cd> gain_gradient(const SampledReceptance& receptance, const ContactGrid& grid,
                                             double spindle_speed_rpm, double theta_rad, const Eigen::VectorXcd& l,
                                             const Eigen::VectorXcd& r, complex<double> factor) {
   require_usable(receptance);
-  const Harmonics harmonics(last_hz(receptance), grid, spindle_speed_rpm);
   std::vector<Eigen::Matrix3cd> gradient(receptance.H.size(), Eigen::Matrix3cd::Zero());
-  harmonics.at(theta_rad, [&](double omega, const Eigen::MatrixX3cd& seen, const Eigen::Matrix3Xcd& force) {
+  for (const auto& [omega, weight] :
+       gain_weights(last_line_rad_s(receptance), grid, spindle_speed_rpm, theta_rad, l, r)) {
     const LineWeights of = line_weights(receptance, std::abs(omega) / (2.0 * pi));
-    Eigen::Matrix3cd g = factor / harmonics.period_s() * (seen.transpose() * l) * (force * r).transpose();
+    Eigen::Matrix3cd g = factor * weight;
     if (omega < 0.0) g = g.conjugate().eval();  // Re(z̄) = Re(z)
     for (Index i = 0; i < of.weight.size(); ++i) gradient[static_cast<std::size_t>(of.first + i)] += of.weight(i) * g;
-  });
+  }
   return gradient;
-}
-
-double gain_deviation(const Eigen::Matrix3d& rms, double from_hz, const ContactGrid& grid, double spindle_speed_rpm,
-                      double theta_rad, const Eigen::VectorXcd& l, const Eigen::VectorXcd& r, complex<double> factor) {
-  const Harmonics harmonics(2.0 * from_hz, grid, spindle_speed_rpm);
-  double squares = 0.0;
-  harmonics.at(theta_rad, [&](double omega, const Eigen::MatrixX3cd& seen, const Eigen::Matrix3Xcd& force) {
-    const double share = 2.0 * pi * from_hz / std::abs(omega);
-    if (share >= 1.0) return;
-    const Eigen::Vector3d along = (seen.transpose() * l).cwiseAbs(), across = (force * r).cwiseAbs();
-    const double change = std::abs(factor) / harmonics.period_s() * along.dot(rms * across);
-    squares += change * change * share * share * share;
-  });
-  return std::sqrt(squares);
 }
 
 }  // namespace thinwall::milling

@@ -24,6 +24,27 @@ namespace thinwall::milling {
 [[nodiscard]] GainOnCircle harmonic_gain(const SampledReceptance& receptance, const ContactGrid& grid,
                                          double spindle_speed_rpm);
 
+/// The weight of a receptance at one harmonic in a value of the gain.
+struct HarmonicWeight {
+  double omega_rad_s = 0.0;
+  Eigen::Matrix3cd weight;  ///< N/m², tool axes
+};
+
+/// The weights W_k of a receptance in a value of the gain, lᵀ Z(e^{iθ}) r = Σ_k Σ_ij W_k,ij H_ij(ω_k), for all
+/// harmonics up to ±highest_rad_s:
+///
+///     W_k = (1/T) (Σ_i l_i s_i(ω_k)) (Σ_j r_j g_j ∫ e^{−iω_k s} ℓ_j(s) ds)ᵀ
+///
+/// Cost: harmonics × contacts.
+[[nodiscard]] std::vector<HarmonicWeight> gain_weights(double highest_rad_s, const ContactGrid& grid,
+                                                       double spindle_speed_rpm, double theta_rad,
+                                                       const Eigen::VectorXcd& l, const Eigen::VectorXcd& r);
+
+/// The sum of these weights over all harmonics without end: that of a compliance R without inertia, which moves with
+/// the force at once, lᵀ Z(e^{iθ}) r = Σ_ij W_ij R_ij. Shape 3 × 3, N/m². Cost: contacts.
+[[nodiscard]] Eigen::Matrix3cd static_weight(const ContactGrid& grid, double theta_rad, const Eigen::VectorXcd& l,
+                                             const Eigen::VectorXcd& r);
+
 /// The gradient of a value of that gain with respect to the samples: g, one 3 × 3 a line, with
 ///
 ///     Re (factor · lᵀ dZ(e^{iθ}) r) = Re Σ_lines Σ_ij g_ij dH_ij
@@ -34,16 +55,5 @@ namespace thinwall::milling {
                                                           double spindle_speed_rpm, double theta_rad,
                                                           const Eigen::VectorXcd& l, const Eigen::VectorXcd& r,
                                                           std::complex<double> factor);
-
-/// The root mean square of Re (factor · lᵀ dZ(e^{iθ}) r) by changes dH of the receptance at the harmonics from
-/// `from_hz` to twice that, independent from one harmonic to the next and as 1/f^{3/2}, with the entries' root mean
-/// squares `rms` (m/N) at from_hz. Entries of one harmonic change together, as by one mode:
-///
-///     √ Σ_k ( Σ_ij |g_ij(ω_k)| rms_ij )² (from/f_k)³,      g = factor/T (sᵀ l)(F r)ᵀ as in gain_gradient()
-///
-/// Cost: harmonics × contacts.
-[[nodiscard]] double gain_deviation(const Eigen::Matrix3d& rms, double from_hz, const ContactGrid& grid,
-                                    double spindle_speed_rpm, double theta_rad, const Eigen::VectorXcd& l,
-                                    const Eigen::VectorXcd& r, std::complex<double> factor);
 
 }  // namespace thinwall::milling
