@@ -97,8 +97,13 @@ void describe_reduce(CLI::App& app, Arguments& arguments) {
 void describe_inspect(CLI::App& app, Arguments& arguments) {
   InspectRequest& inspect = arguments.inspect;
   io::MatrixFiles& files = inspect.files;
-  auto* command = app.add_subcommand("inspect", "may a reduced or imported model be trusted? (exit 6: it may not)");
-  auto* model = command->add_option("MODEL", inspect.model, "a folder of \"thinwall reduce\", or a MAT file in SI")
+  auto* command = app.add_subcommand("inspect",
+                                     "may a reduced or imported model be trusted, and what does a universal file hold? "
+                                     "(exit 6: it may not, or not all of "
+                                     "it can be read)");
+  auto* model = command
+                    ->add_option("MODEL", inspect.model,
+                                 "a folder of \"thinwall reduce\", a MAT file in SI, or a universal file (.uff, .unv)")
                     ->type_name("FILE");
   command
       ->add_option("--stiffness", files.stiffness,

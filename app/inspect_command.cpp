@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/inspect_universal.hpp"
 #include "core/error.hpp"
 #include "io/json_file.hpp"
 #include "io/matrices/matrix_format.hpp"
@@ -56,6 +57,8 @@ reduction::ReducedModelReport report_of_model(const InspectRequest& request) {
 }  // namespace
 
 Inspection inspect(const InspectRequest& request) {
+  if (is_universal_file(request.model))
+    return inspect_universal(request.model, request.files.length_unit, request.json);
   std::string notes;
   const auto report = request.model.empty() ? report_of(request, notes) : report_of_model(request);
   if (request.json) io::write_json(*request.json, report::report_json(report));

@@ -1,5 +1,5 @@
 #pragma once
-// `thinwall inspect`: may this model be trusted?
+// `thinwall inspect`: may this model be trusted, and what does this universal file hold?
 
 #include <filesystem>
 #include <optional>
@@ -11,13 +11,14 @@ namespace thinwall::app {
 
 /// The request of `thinwall inspect`.
 struct InspectRequest {
-  std::filesystem::path model;                ///< a folder of `thinwall reduce`, or a MAT file; or, empty:
-  io::MatrixFiles files;                      ///< matrices of any program
-  std::optional<int> rigid_motions;           ///< how many must be free; left out: told, not judged
+  std::filesystem::path model;       ///< a folder of `thinwall reduce`, a MAT file, a universal file; or, empty:
+  io::MatrixFiles files;             ///< matrices of any program
+  std::optional<int> rigid_motions;  ///< how many must be free; left out: told, not judged
   std::optional<std::filesystem::path> json;  ///< where the report goes as JSON
 };
 
-/// The text of reduction::report(), and whether nothing was found against the model.
+/// The text of reduction::report(), and whether nothing was found against the model; of a universal file its table, and
+/// whether all of it could be read (app/inspect_universal.hpp).
 struct Inspection {
   std::string text;
   bool trustworthy = false;

@@ -9,7 +9,9 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "io/frf/one_reference.hpp"
 #include "io/frf/uff.hpp"
+#include "io/frf/uff_content.hpp"
 #include "io/frf/uff_mesh.hpp"
 #include "io/frf/uff_shapes.hpp"
 
@@ -30,6 +32,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace thinwall::io;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   read([bytes] { return response_matrix(uff_entries(bytes, "fuzz")); });
+  read([bytes] { return reference_column(uff_entries(bytes, "fuzz")); });
+  read([bytes] { return nodes_without_place(uff_content(bytes, "fuzz")); });
   read([bytes] { return uff_mesh(bytes, "fuzz"); });
   read([bytes] { return uff_shapes(bytes, "fuzz"); });
   return 0;

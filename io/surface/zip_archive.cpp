@@ -13,7 +13,7 @@ namespace thinwall::io {
 namespace {
 
 constexpr std::size_t end_size = 22, longest_comment = 65535, entry_size = 46, head_size = 30;
-constexpr std::size_t largest_expansion = 1100;  ///< by deflate, whose largest ratio is 1032
+constexpr std::size_t largest_deflate_expansion = 1100;  ///< by deflate, whose largest ratio is 1032
 constexpr std::uint32_t end_mark = 0x06054b50, entry_mark = 0x02014b50, head_mark = 0x04034b50;
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
@@ -85,7 +85,7 @@ std::string zip_contents(const ZipEntry& entry, const std::string& path) {
   if (!entry.deflated) {
     contents = std::string(entry.data);
   } else {
-    if (entry.size > largest_expansion * (entry.data.size() + 1)) fail(path, what);
+    if (entry.size > largest_deflate_expansion * (entry.data.size() + 1)) fail(path, what);
     contents.resize(entry.size);
     z_stream stream{};
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(entry.data.data()));
