@@ -1,8 +1,8 @@
-// Along a path: the limiting depth over position and spindle speed, as a map or a line for each position, and beneath it what holds at every position.
+// Along a path: the limiting depth over position and spindle speed, as a map, a line for each position or stacked lines, and beneath it what holds at every position.
 
 import { choice, el, tick } from './dom.js';
 import { numbers } from './decode.js';
-import { viridis, viridisScale } from './colours.js';
+import { faint, printPalette, viridis, viridisScale } from './colours.js';
 import { number, plain, scaled } from './format.js';
 import { decades, logTicks, plot } from './plot.js';
 import { lobeTitle } from './lobes.js';
@@ -12,12 +12,13 @@ export function paths(runs) {
   if (!maps.length) return null;
   const several = runs.length > 1;
   const supported = maps.findIndex((m) => m.path.name === 'supported');
-  const state = { at: Math.max(0, supported), log: true };
+  const state = { at: Math.max(0, supported), log: true, waterfall: false };
   const title = ({ run, path }) => (several ? `${run.label}: ` : '') + lobeTitle(path.name);
   const chart = plot({ name: 'path', label: 'Depth along the path', build: (colours, narrow) => build(maps, state, title, colours, narrow), columns: () => columns(maps[state.at].path) });
   return { chart, content: [el('div', { class: 'controls' },
     choice('Map of', maps.map((m, i) => [i, title(m)]), state.at, (v) => { state.at = Number(v); chart.draw(); }),
-    maps.some(({ path }) => !few(path)) && tick('logarithmic colours', state.log, (on) => { state.log = on; chart.draw(); })), chart.figure] };
+    choice('Show', [['', maps.every(({ path }) => few(path)) ? 'lines' : 'map'], ['waterfall', 'waterfall']], '', (v) => { state.waterfall = Boolean(v); chart.draw(); }),
+    maps.some(({ path }) => !few(path)) && tick('logarithmic', state.log, (on) => { state.log = on; chart.draw(); })), chart.figure] };
 }
 
 /** Length along the path to each position, in mm. */
@@ -56,15 +57,35 @@ function build(maps, state, title, colours, narrow) {
   });
   const n = run.cutting?.spindle_speed_rpm;
   const length = y.at(-1);
-  const data = few(path) ? perPosition(x, y, z, bar) : [map];
+  const stacked = state.waterfall && length > 0;
+  const fall = stacked ? waterfall(x, y, z, { low, high, log: state.log }, colours) : null;
+  const data = fall ? fall.data : few(path) ? perPosition(x, y, z, bar) : [map];
+  const alone = { domain: [0.4, 1], ...(fall ? { title: narrow ? 'Position (mm)' : 'Position along the path (mm)', range: fall.range } : few(path) ? { title: narrow ? 'Depth (mm)' : 'Depth, each position (mm)', type: 'log', ...decades(all) } : { title: narrow ? 'Position (mm)' : 'Position along the path (mm)', ...(length > 0 ? { range: [0, length] } : {}) }) };
   return { data: [...data, ...curves, ...best], layout: {
-    height: narrow ? 500 : 560, hovermode: 'closest', uirevision: `path ${state.at}`, margin: { l: narrow ? 50 : 64, r: narrow ? 8 : 16, t: 12, b: 46 },
+    height: narrow ? 500 : 560, hovermode: 'closest', uirevision: `path ${state.at} ${Boolean(fall)}`, ...(fall ? { annotations: [fall.note] } : {}), margin: { l: narrow ? 50 : 64, r: narrow ? 8 : 16, t: 12, b: 46 },
     xaxis: { title: 'Spindle speed (rpm)', anchor: 'y2', ticks: '', range: [x[0], x.at(-1)] },
-    yaxis: { domain: [0.4, 1], ...(few(path) ? { title: narrow ? 'Depth (mm)' : 'Depth, each position (mm)', type: 'log', ...decades(all) } : { title: narrow ? 'Position (mm)' : 'Position along the path (mm)', ...(length > 0 ? { range: [0, length] } : {}) }) },
+    yaxis: alone,
     yaxis2: { title: narrow ? 'Depth (mm)' : 'Depth, all positions (mm)', domain: [0, 0.32], type: 'log', dtick: 1 },
     legend: { orientation: 'h', x: 0, y: 0.325, xanchor: 'left', yanchor: 'bottom', font: { size: 11 } },
     shapes: n ? [{ type: 'line', x0: n, x1: n, y0: 0, y1: 1, yref: 'paper', line: { color: colours.ink, width: 1.2, dash: 'dash' } }] : [],
   } };
+}
+
+/** The depth at each position as a line above its place along the path; the nearer ones hide what is behind them. { data, range, note } */
+function waterfall(x, y, z, { low, high, log }, colours) {
+  const most = 40;
+  const shown = y.map((_, i) => i).filter((i) => y.length <= most || i % Math.ceil(y.length / most) === 0);
+  const height = (2.5 * y.at(-1)) / Math.max(1, shown.length - 1);
+  const share = log ? (d) => Math.log(d / low) / (Math.log(high / low) || 1) : (d) => d / high;
+  const [darkest, span] = colours.paper === printPalette.paper ? [0, 0.9] : [0.3, 0.7]; // what is to be read on this paper
+  const above = (d, s) => (d > 0 ? s + height * share(d) : null);
+  const data = shown.reverse().flatMap((i) => [
+    { x: [x[0], x.at(-1)], y: [y[i], y[i]], mode: 'lines', showlegend: false, hoverinfo: 'skip', line: { color: colours.grid, width: 1 }, meta: `base ${i}` },
+    { name: `at ${number(y[i], 4)} mm`, x, y: z[i].map((d) => above(d, y[i])), customdata: z[i], mode: 'lines', showlegend: false, fill: 'tonexty', fillcolor: faint(colours.paper, 0.8), connectgaps: false,
+      line: { simplify: false, color: `rgb(${viridis(darkest + (span * y[i]) / y.at(-1)).join(',')})`, width: 1.5 }, hovertemplate: `%{x:.5~g} rpm<br>${number(y[i], 4)} mm along the path<br>depth %{customdata:.4~g} mm<extra></extra>`, meta: `stacked ${i}` }]);
+  const text = log ? `each line from ${number(low, 3)} mm at its base to ${number(high, 3)} mm, logarithmic` : `each line from 0 at its base to ${number(high, 3)} mm`;
+  return { data, range: [-0.02 * y.at(-1), y.at(-1) + 1.4 * height],
+    note: { text, xref: 'paper', yref: 'paper', x: 0.995, y: 0.995, xanchor: 'right', yanchor: 'top', showarrow: false, font: { size: 12 }, bgcolor: faint(colours.paper, 0.75) } };
 }
 
 /** A line for each position, coloured by its place along the path, which the bar tells. */

@@ -233,6 +233,21 @@ describe('the charts', () => {
     });
   });
 
+  test('a waterfall stacks the depth of each position above its place, the nearest in front', async () => {
+    await shown(oneRun(), async (page) => {
+      await page.locator('#path select').nth(1).selectOption('waterfall');
+      const lines = await page.evaluate(() => document.getElementById('plot-path').data.filter((t) => t.meta?.startsWith('stacked') || t.meta?.startsWith('base')).map((t) => ({ meta: t.meta, y: Array.from(t.y), depth: t.customdata && Array.from(t.customdata) })));
+      assert.deepEqual(lines.map((l) => l.meta), [4, 3, 2, 1, 0].flatMap((i) => [`base ${i}`, `stacked ${i}`]));
+      const all = lines.flatMap((l) => l.depth ?? []);
+      const [low, high] = [Math.min(...all), Math.max(...all)];
+      for (const { meta, y, depth } of lines) {
+        const place = 50 * Number(meta.split(' ')[1]); // mm
+        if (!depth) assert.ok(y.every((v) => Math.abs(v - place) < 1e-6), meta);
+        else for (const [j, d] of depth.entries()) assert.ok(Math.abs(y[j] - place - (125 * Math.log(d / low)) / Math.log(high / low)) < 1e-6, meta); // 2.5 spacings high
+      }
+    });
+  });
+
   test('mode indicator: the singular values of the whole matrix', async () => {
     const close = (a, b) => assert.ok(Math.abs(a - b) < 1e-9 * Math.abs(b) + 1e-15, `${a} is not ${b}`);
     // U diag(5, 2) Vᴴ with rotations and phases has the singular values 5 and 2; a matrix of rank one has one.

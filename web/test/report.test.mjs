@@ -149,7 +149,7 @@ for (const file of reports) {
     });
 
     test('the path maps are those of the files beside the report', { skip: !has.paths || !csv('lobes') }, async () => {
-      const select = page.locator('#path select');
+      const select = page.locator('#path select').first();
       const start = await select.inputValue();
       for (const [i, { name }] of data.runs[0].paths.entries()) {
         await select.selectOption(String(i));
