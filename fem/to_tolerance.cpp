@@ -16,13 +16,20 @@ namespace thinwall::fem {
 
 namespace {
 
+/// What is known of the receptances between the points; empty without points.
+struct Responses {
+  Eigen::ArrayXd lambda;        // rad²/s²
+  double sigma = 0.0;           // of the factor
+  Eigen::MatrixXd amplitudes;   // Wᵀ Φ
+  Eigen::MatrixXd flexibility;  // Wᵀ (K − σM)⁻¹ W
+};
+
 /// One solution, with the quantities that are compared between orders.
 struct Solution {
   Model model;
   Factored factored;
   Modes modes;
-  Eigen::MatrixXd amplitudes;   // Wᵀ Φ
-  Eigen::MatrixXd flexibility;  // Wᵀ (K − σM)⁻¹ W
+  Responses responses;
 };
 
 /// The columns of the points. Turns are scaled to the norm of a displacement's column, so that receptances in rad and
@@ -53,22 +60,23 @@ Materials materials_of(const SolidPart& part, const mesh::TetMesh& mesh) {
 Solution prepared(const SolidPart& part, const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
   Model model = supported_model(mesh, order, materials_of(part, mesh), part.supports, part.shape, part.attachments);
   Factored factored = factorise(model, options.memory_limit_bytes);
-  return {std::move(model), std::move(factored), {}, {}, {}};
+  return {std::move(model), std::move(factored), {}, {}};
 }
 
-/// Fills in the amplitudes and the flexibility of the points, if there are any.
-void find_responses(Solution& s, const ToleranceOptions& options) {
-  if (options.points.empty()) return;
-  const linalg::SparseMatrix W = point_loads(s.model, options.points);
-  s.amplitudes = W.transpose() * s.modes.pairs.Phi;
-  s.flexibility = W.transpose() * s.factored.factor.solve(Eigen::MatrixXd(W));
+/// The amplitudes and the flexibility of the points, if there are any.
+Responses responses_of(const Model& model, const Factored& factored, const Modes& modes,
+                       const ToleranceOptions& options) {
+  if (options.points.empty()) return {};
+  const linalg::SparseMatrix W = point_loads(model, options.points);
+  return {modes.pairs.lambda.array(), factored.sigma, W.transpose() * modes.pairs.Phi,
+          W.transpose() * factored.factor.solve(Eigen::MatrixXd(W))};
 }
 
 /// The solution of the given order on a mesh, with its modes.
 Solution solve(const SolidPart& part, const mesh::TetMesh& mesh, int order, const ToleranceOptions& options) {
   Solution s = prepared(part, mesh, order, options);
   s.modes = modes(s.model, s.factored, options.modes);
-  find_responses(s, options);
+  s.responses = responses_of(s.model, s.factored, s.modes, options);
   return s;
 }
 
@@ -81,7 +89,7 @@ Solution solve_below(const SolidPart& part, const Solution& above, const Toleran
   start.Phi = interpolated(above.model, start.Phi, s.model);
   auto near = modes_near(s.model, s.factored, std::move(start), 0.1 * std::sqrt(options.tolerance));
   s.modes = near ? std::move(*near) : modes(s.model, s.factored, options.modes);
-  find_responses(s, options);
+  s.responses = responses_of(s.model, s.factored, s.modes, options);
   return s;
 }
 
@@ -96,9 +104,8 @@ double frequency_change(const Modes& a, const Modes& b) {
 
 /// The receptance between the points over the known modes k and all others, whose contribution is taken at the shift,
 /// where the factor gives it exactly: H(ω²) = Wᵀ(K − σM)⁻¹W + Σ_k a_k a_kᵀ (1/(λ_k − ω²) − 1/(λ_k − σ)).
-Eigen::MatrixXd receptance(const Solution& s, double omega_squared) {
-  const Eigen::ArrayXd lambda = s.modes.pairs.lambda.array();
-  const Eigen::VectorXd share = (lambda - omega_squared).inverse() - (lambda - s.factored.sigma).inverse();
+Eigen::MatrixXd receptance(const Responses& s, double omega_squared) {
+  const Eigen::VectorXd share = (s.lambda - omega_squared).inverse() - (s.lambda - s.sigma).inverse();
   return s.flexibility + s.amplitudes * share.asDiagonal() * s.amplitudes.transpose();
 }
 
@@ -107,10 +114,9 @@ Eigen::MatrixXd receptance(const Solution& s, double omega_squared) {
 /// cancelled. At an antiresonance they do cancel, and an error relative to the remainder would say nothing about the
 /// model. The entry (i, j) has the scale √(B_ii B_jj), which bounds it (Cauchy-Schwarz) and leaves one that vanishes by
 /// symmetry a scale.
-Eigen::MatrixXd magnitudes(const Solution& s, double omega_squared) {
-  const Eigen::ArrayXd lambda = s.modes.pairs.lambda.array();
-  const Eigen::VectorXd share = (lambda - omega_squared).inverse().abs();
-  const Eigen::VectorXd at_shift = (lambda - s.factored.sigma).inverse();
+Eigen::MatrixXd magnitudes(const Responses& s, double omega_squared) {
+  const Eigen::VectorXd share = (s.lambda - omega_squared).inverse().abs();
+  const Eigen::VectorXd at_shift = (s.lambda - s.sigma).inverse();
   const Eigen::MatrixXd squares = s.amplitudes.cwiseAbs2();
   const Eigen::VectorXd rest = (s.flexibility.diagonal() - squares * at_shift).cwiseAbs();
   const Eigen::VectorXd root = (rest + squares * share).cwiseSqrt();
@@ -137,9 +143,10 @@ struct ReceptanceChange {
   Eigen::Index row = 0, column = 0;
 };
 
-ReceptanceChange receptance_change(const Solution& a, const Solution& b) {
+/// The change between two solutions, relative to the magnitudes() of the second one, whose modes are given.
+ReceptanceChange receptance_change(const Responses& a, const Responses& b, const Modes& modes) {
   ReceptanceChange worst;
-  for (const double place : compared_omega_squared(b.modes, b.factored.sigma)) {
+  for (const double place : compared_omega_squared(modes, b.sigma)) {
     // Both at the same place: the shifts of a free part, which scale with the matrices, differ by half between orders,
     // and its rigid motions have a receptance there that is inverse to it.
     const Eigen::MatrixXd change = (receptance(a, place) - receptance(b, place)).cwiseAbs();
@@ -163,16 +170,14 @@ std::string receptance_name(const std::vector<NamedPoint>& points, Eigen::Index 
   return row == column ? to : names[static_cast<std::size_t>(column)] + " to " + to;
 }
 
-/// The step from one solution to the next on the same mesh.
-RefinementStep step_between(const Solution& below, const Solution& now, int level,
-                            const std::vector<NamedPoint>& points) {
-  RefinementStep step{level, now.model.nodes.order, now.model.K.rows(), frequency_change(below.modes, now.modes), {}};
-  if (points.empty()) return step;
-  const ReceptanceChange change = receptance_change(below, now);
+/// Adds what changes of the receptances between the points from one solution to the next, whose modes are given.
+void compare_receptances(const Responses& below, const Responses& now, const Modes& modes,
+                         const std::vector<NamedPoint>& points, RefinementStep& step) {
+  if (points.empty()) return;
+  const ReceptanceChange change = receptance_change(below, now, modes);
   step.receptance_change = change.of_largest;
   step.entry_change = change.of_own;
   step.worst_receptance = receptance_name(points, change.row, change.column);
-  return step;
 }
 
 void validate(const ToleranceOptions& o) {
@@ -286,11 +291,12 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
     // follow from it by inverse iteration.
     Solution now = solve(part, mesh, options.first_order + 1, options);
     if (level == 0 && options.points_hold && now.factored.sigma != 0.0)
-      require_motions_determined(now.model, now.modes, now.amplitudes);
+      require_motions_determined(now.model, now.modes, now.responses.amplitudes);
     Solution below = solve_below(part, now, options);
     estimate.steps.push_back({level, options.first_order, below.model.K.rows(), {}, {}});
     for (int order = options.first_order + 1;; ++order) {
-      const RefinementStep step = step_between(below, now, level, options.points);
+      RefinementStep step{level, order, now.model.K.rows(), frequency_change(below.modes, now.modes), {}};
+      compare_receptances(below.responses, now.responses, now.modes, options.points, step);
       estimate.steps.push_back(step);
       const Errors of_lower = errors_of_lower(step, exponent);
       const Errors of_higher = errors_of_higher(step, exponent);
@@ -325,6 +331,25 @@ Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& optio
       now = solve(part, mesh, order + 1, options);
     }
   }
+}
+
+Estimate estimate_by_next_order(const Model& model, const Factored& factored, const Modes& modes, const Model& higher,
+                                const ToleranceOptions& options) {
+  const Factored next_factored = factorise(higher, options.memory_limit_bytes);
+  const Modes next = fem::modes(higher, next_factored, options.modes);
+  RefinementStep step{0, higher.nodes.order, higher.K.rows(), frequency_change(modes, next), {}};
+  compare_receptances(responses_of(model, factored, modes, options), responses_of(higher, next_factored, next, options),
+                      next, options.points, step);
+  const double exponent = options.reentrant_edges ? reentrant_edge_exponent : 1.0;
+  const Errors errors = errors_of_lower(step, {exponent, exponent});
+  Estimate estimate;
+  estimate.frequency = errors.frequency;
+  estimate.receptance = errors.receptance;
+  estimate.entry = errors.entry;
+  estimate.worst_receptance = step.worst_receptance;
+  estimate.met = true;  // nothing was asked for
+  estimate.steps = {{0, model.nodes.order, model.K.rows(), {}, {}}, step};
+  return estimate;
 }
 
 }  // namespace thinwall::fem

@@ -62,9 +62,9 @@ struct Estimate {
   double receptance = 0.0;         ///< largest error of a receptance by the largest magnitude; 0 without points
   double entry = 0.0;              ///< largest error of a receptance by its own magnitude; held to no tolerance
   std::string worst_receptance{};  ///< name of the receptance of that error, "P.x" or "P.x to Q.z"
-  double tolerance = 0.0;
-  bool met = false;        ///< false if all levels were used or the next solution would exceed largest_dofs
-  bool held_back = false;  ///< true if largest_dofs ended the refinement
+  double tolerance = 0.0;          ///< 0: none was asked for
+  bool met = false;                ///< false if all levels were used or the next solution would exceed largest_dofs
+  bool held_back = false;          ///< true if largest_dofs ended the refinement
   /// The error to which all levels would have come at best, where the refinement was ended because that is more than
   /// twice the tolerance; otherwise 0.
   double within_reach = 0.0;
@@ -97,5 +97,13 @@ void require_fit(const mesh::TetMesh& mesh, const ToleranceOptions& options);
 /// not determine the rigid motions although they must, and what the steps throw. Cost: that of the last step, and about
 /// a third more for those before.
 Refined refine_to_tolerance(const SolidPart& part, const ToleranceOptions& options);
+
+/// The estimated error of a solution on a mesh that is given, by the one of the next order: d / (1 − r), with r by the
+/// exponent of a re-entrant edge where options.reentrant_edges says that there may be one (docs/theory/elements.md, Eq.
+/// 3). `higher`: the same part on the same mesh, one order higher. Of the options it takes the modes, the points,
+/// reentrant_edges and the limit of memory. Throws linalg::MemoryLimitError where the higher factor would exceed that
+/// limit, and as modes(). Cost: that of the higher solution, which takes about three times the unknowns at order 2.
+[[nodiscard]] Estimate estimate_by_next_order(const Model& model, const Factored& factored, const Modes& modes,
+                                              const Model& higher, const ToleranceOptions& options);
 
 }  // namespace thinwall::fem

@@ -130,4 +130,51 @@ LagrangeNodes lagrange_nodes(const TetMesh& mesh, int order) {
   return nodes;
 }
 
+LagrangeNodes nodes_of_order(const TetMesh& mesh, const LagrangeNodes& nodes, int order) {
+  if (nodes.order > 2)
+    throw core::InputError("nodes of order " + std::to_string(nodes.order) + " where 1 or 2 is expected");
+  LagrangeNodes result = lagrange_nodes(mesh, order);
+  if (nodes.order < 2) return result;
+  const auto quadratic = lattice(2);
+  const auto alphas = lattice(order);
+  for (Eigen::Index tet = 0; tet < result.elements.rows(); ++tet) {
+    for (std::size_t a = 4; a < alphas.size(); ++a) {
+      Eigen::RowVector3d x = Eigen::RowVector3d::Zero();
+      for (std::size_t b = 0; b < quadratic.size(); ++b) {
+        double N = 1.0;  // λ(2λ − 1) at a corner, 4 λ λ' within an edge
+        for (std::size_t k = 0; k < 4; ++k) {
+          const double lambda = static_cast<double>(alphas[a][k]) / order;
+          if (quadratic[b][k] == 2) N *= lambda * (2.0 * lambda - 1.0);
+          if (quadratic[b][k] == 1) N *= 2.0 * lambda;
+        }
+        x += N * nodes.positions.row(nodes.elements(tet, static_cast<Eigen::Index>(b)));
+      }
+      result.positions.row(result.elements(tet, static_cast<Eigen::Index>(a))) = x;
+    }
+  }
+  return result;
+}
+
+std::vector<int> set_of_order(const LagrangeNodes& from, const std::vector<int>& set, const LagrangeNodes& to) {
+  const auto lower = lattice(from.order);
+  const auto higher = lattice(to.order);
+  std::vector<char> in_set(static_cast<std::size_t>(from.positions.rows()), 0);
+  for (const int node : set) in_set[static_cast<std::size_t>(node)] = 1;
+  std::vector<int> result;
+  for (Eigen::Index tet = 0; tet < to.elements.rows(); ++tet) {
+    for (std::size_t a = 0; a < higher.size(); ++a) {
+      bool all = true;
+      for (std::size_t b = 0; b < lower.size() && all; ++b) {
+        bool on = true;  // the edge, face or element of the higher node
+        for (std::size_t k = 0; k < 4; ++k) on = on && (lower[b][k] == 0 || higher[a][k] > 0);
+        all = !on || in_set[static_cast<std::size_t>(from.elements(tet, static_cast<Eigen::Index>(b)))] != 0;
+      }
+      if (all) result.push_back(to.elements(tet, static_cast<Eigen::Index>(a)));
+    }
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
 }  // namespace thinwall::mesh

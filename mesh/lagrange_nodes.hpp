@@ -27,6 +27,16 @@ struct LagrangeNodes {
 /// special case. Throws InputError for another order. Cost O(nodes log nodes).
 [[nodiscard]] LagrangeNodes lagrange_nodes(const TetMesh& mesh, int order);
 
+/// The nodes of another order on the elements of `nodes`, which are of order 1 or 2 and may be curved: x(λ) = Σ N_a(λ)
+/// x_a at each of them. Throws as lagrange_nodes(), and InputError for nodes of a higher order. Cost as
+/// lagrange_nodes().
+[[nodiscard]] LagrangeNodes nodes_of_order(const TetMesh& mesh, const LagrangeNodes& nodes, int order);
+
+/// The nodes of `to` on edges, faces and elements of which `set` has every node of `from`, another order on the same
+/// mesh; ascending. `set`: nodes of `from`. Cost O(elements · nodes of an element of each order).
+[[nodiscard]] std::vector<int> set_of_order(const LagrangeNodes& from, const std::vector<int>& set,
+                                            const LagrangeNodes& to);
+
 /// The number of nodes that lagrange_nodes() would make, without making them: V + (p − 1) E + (p − 1)(p − 2)/2 F
 /// + (p − 1)(p − 2)(p − 3)/6 T for the vertices that elements use, edges, faces and elements. Throws InputError for
 /// another order than 1…6. Cost O(elements log elements).

@@ -86,7 +86,7 @@ std::vector<bool> nodes_held_by(const std::string& name, const setup::Setup& sou
   if (setup::names_node_set(source, name)) {
     mesh::SolidMesh solid = *setup::solid_of(*source.part);
     if (model.nodes.order == 2) solid = mesh::with_order(std::move(solid), 2);
-    rows = setup::rows_held_by_sets(one, solid);
+    rows = setup::rows_held_by_sets(one, solid, model.nodes);
   }
   std::vector<bool> held(static_cast<std::size_t>(model.nodes.positions.rows()), false);
   for (const int row : rows) held[static_cast<std::size_t>(row / 3)] = true;

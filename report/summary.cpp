@@ -25,7 +25,8 @@ namespace {
 /// The error that the mesh costs, by its own estimate; none where size and order were given.
 std::optional<MeshEstimateSummary> estimate_of(const study::PartResult& part) {
   if (!part.estimate) return std::nullopt;
-  MeshEstimateSummary result{.tolerance = part.estimate->tolerance,
+  const double tolerance = part.estimate->tolerance;
+  MeshEstimateSummary result{.tolerance = tolerance > 0.0 ? std::optional(tolerance) : std::nullopt,
                              .met = part.estimate->met,
                              .max_relative_frequency_error = part.estimate->frequency,
                              .max_relative_receptance_error = part.estimate->receptance,

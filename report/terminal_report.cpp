@@ -164,14 +164,15 @@ void mesh(std::string& out, const MeshSummary& mesh) {
   out += fmt::format("  mesh        {} tetrahedra of order {}, {} degrees of freedom, lowest quality {:.2f}\n",
                      mesh.elements, mesh.order, mesh.dofs, mesh.min_quality);
   if (const auto& estimate = mesh.error_estimate)
-    out += fmt::format("    by estimate frequencies within {:.1e}{}; asked for {:g}{}\n",
-                       estimate->max_relative_frequency_error,
+    out += fmt::format("    by estimate frequencies within {:.1e}{}; {}{}\n", estimate->max_relative_frequency_error,
                        estimate->max_relative_receptance_error > 0.0
                            ? fmt::format(", receptances within {:.1e} of the largest ({} within {:.1e} of itself)",
                                          estimate->max_relative_receptance_error, estimate->worst_receptance,
                                          estimate->max_relative_entry_error)
                            : "",  // no points
-                       estimate->tolerance, estimate->met ? "" : ", NOT MET: see run.log");
+                       estimate->tolerance ? fmt::format("asked for {:g}", *estimate->tolerance)
+                                           : "the mesh was given, one order more was tried",
+                       estimate->met ? "" : ", NOT MET: see run.log");
 }
 
 void reduction(std::string& out, const ReductionSummary& r) {

@@ -70,12 +70,15 @@ mesh::Region region_of(const PartSetup& source, const std::string& name) {
   return mesh::SphereRegion{selection->sphere->centre, selection->sphere->radius};
 }
 
-std::vector<int> rows_held_by_sets(const PartSetup& source, const mesh::SolidMesh& solid) {
+std::vector<int> rows_held_by_sets(const PartSetup& source, const mesh::SolidMesh& solid,
+                                   const mesh::LagrangeNodes& nodes) {
   std::vector<int> rows;
   for (const Support& support : source.part->supports) {
     if (!names_node_set(source, support.on)) continue;
     const auto& set = mesh::node_set(solid, support.on, main_file(*source.part).string());
-    for (const int row : fem::rows_of(set.nodes, support.fixed)) rows.push_back(row);
+    const std::vector<int> held =
+        nodes.order == solid.nodes.order ? set.nodes : mesh::set_of_order(solid.nodes, set.nodes, nodes);
+    for (const int row : fem::rows_of(held, support.fixed)) rows.push_back(row);
   }
   return rows;
 }

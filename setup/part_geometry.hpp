@@ -35,8 +35,10 @@ struct PlanarPart {
 /// A face of the box around the part, or a selection, by its name.
 [[nodiscard]] mesh::Region region_of(const PartSetup& source, const std::string& name);
 
-/// The nodes of a mesh from a file that are held: 3·node + axis of the supports on its sets.
-[[nodiscard]] std::vector<int> rows_held_by_sets(const PartSetup& source, const mesh::SolidMesh& solid);
+/// The nodes of a mesh from a file that are held: 3·node + axis of the supports on its sets. `nodes`: those of the
+/// mesh, or of a higher order on it, which are held where all of the mesh's own are (mesh::set_of_order()).
+[[nodiscard]] std::vector<int> rows_held_by_sets(const PartSetup& source, const mesh::SolidMesh& solid,
+                                                 const mesh::LagrangeNodes& nodes);
 
 /// The material of the part as the finite elements take it.
 [[nodiscard]] fem::Material material_of(const Part& part);

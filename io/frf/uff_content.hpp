@@ -1,5 +1,5 @@
 #pragma once
-// What a universal file holds: its units, geometry, shapes and FRFs together.
+// The contents of a universal file: geometry, shapes and FRFs together.
 
 #include <filesystem>
 #include <map>

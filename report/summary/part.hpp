@@ -66,7 +66,7 @@ void fields(Visitor& visit, Section& step) {
 
 /// The error that the mesh costs, by its own estimate.
 struct MeshEstimateSummary {
-  double tolerance = 0.0;
+  std::optional<double> tolerance;
   bool met = false;
   double max_relative_frequency_error = 0.0, max_relative_receptance_error = 0.0, max_relative_entry_error = 0.0;
   std::string worst_receptance;
@@ -75,8 +75,11 @@ struct MeshEstimateSummary {
 
 template <class Visitor, Either<MeshEstimateSummary> Section>
 void fields(Visitor& visit, Section& estimate) {
-  visit(Field{"tolerance", Kind::ratio, "tolerance that the case asks for, relative"}, estimate.tolerance);
-  visit(Field{"met", Kind::truth, "true if both estimates are within the tolerance"}, estimate.met);
+  visit(Field{"tolerance", Kind::ratio, "tolerance that the case asks for, relative; null: the mesh was given",
+              Presence::or_null},
+        estimate.tolerance);
+  visit(Field{"met", Kind::truth, "true if both estimates are within the tolerance, or none was asked for"},
+        estimate.met);
   visit(Field{"max_relative_frequency_error", Kind::error_estimate, "estimated largest relative error of a frequency"},
         estimate.max_relative_frequency_error);
   visit(Field{"max_relative_receptance_error", Kind::error_estimate,
@@ -116,7 +119,8 @@ void fields(Visitor& visit, Section& mesh) {
   visit(Field{"frequency_round_off", Kind::residual, "relative change of the lowest frequency that rounding may cause"},
         mesh.frequency_round_off);
   visit(Field{"error_estimate", Kind::section,
-              "the error that the mesh costs, by its own estimate; null where size and order were given",
+              "the error that the mesh costs, by its own estimate; null where size and order were given, or it is not "
+              "known",
               Presence::or_null},
         mesh.error_estimate);
 }

@@ -68,20 +68,6 @@ mesh::TetMesh surface_mesh(const setup::PartSetup& source) {
   return std::move(meshed.mesh);
 }
 
-/// Points at which the tolerance on receptances is to hold: at the interface, and at both ends and the middle of the
-/// path.
-std::vector<fem::NamedPoint> watched_points(const PartInput& source) {
-  std::vector<fem::NamedPoint> points;
-  const auto add = [&points](const setup::PartSetup& at) {
-    for (const std::string& name : at.reduction.interface) points.push_back(setup::named_point(at, name));
-  };
-  add(source);
-  if (source.path.empty()) return points;
-  const std::size_t last = source.path.size() - 1;
-  for (const std::size_t i : {std::size_t{0}, last / 2, last}) add(setup::part_at(source, source.path[i]));
-  return points;
-}
-
 void log_steps(const fem::Estimate& estimate) {
   for (const auto& step : estimate.steps) {
     std::string text = fmt::format("level {}, order {}: {} degrees of freedom", step.level, step.order, step.dofs);
@@ -207,6 +193,18 @@ mesh::TetMesh coarsest_mesh(const PartInput& source) {
   if (setup::kind(part) == setup::ShapeKind::mesh) return part.imported->mesh->solid.mesh;
   if (part.mesh.element_size) return setup::cut_at_materials(source, surface_mesh(source));
   return fem::coarsest_mesh(part.imported->surface->surface, closed_part_options(source));
+}
+
+std::vector<fem::NamedPoint> watched_points(const PartInput& source) {
+  std::vector<fem::NamedPoint> points;
+  const auto add = [&points](const setup::PartSetup& at) {
+    for (const std::string& name : at.reduction.interface) points.push_back(setup::named_point(at, name));
+  };
+  add(source);
+  if (source.path.empty()) return points;
+  const std::size_t last = source.path.size() - 1;
+  for (const std::size_t i : {std::size_t{0}, last / 2, last}) add(setup::part_at(source, source.path[i]));
+  return points;
 }
 
 Discretisation discretise(const PartInput& source) {

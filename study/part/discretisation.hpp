@@ -29,6 +29,10 @@ struct Discretisation {
 /// tenths of a second, seconds for a curved surface, and minutes for one that no mesher can fill.
 [[nodiscard]] mesh::TetMesh coarsest_mesh(const PartInput& source);
 
+/// Points at which the tolerance on receptances is to hold: at the interface, and at both ends and the middle of the
+/// path.
+[[nodiscard]] std::vector<fem::NamedPoint> watched_points(const PartInput& source);
+
 /// Mesh and order: from the tolerance (fem::refine_to_tolerance), or as the case gives them.
 [[nodiscard]] Discretisation discretise(const PartInput& source);
 

@@ -12,15 +12,15 @@ namespace thinwall::study {
 
 namespace {
 
-/// The mesh of a file with its own nodes, curved where they are, or straight-sided of a higher order.
+/// The mesh of a file with its own nodes, or with those of a higher order; curved where its own are.
 fem::Model mesh_model(const setup::PartSetup& source, int order, const fem::Materials& materials) {
   mesh::SolidMesh solid = source.part->imported->mesh->solid;
-  if (order == 2) solid = mesh::with_order(std::move(solid), 2);
-  mesh::LagrangeNodes nodes = order > 2 ? mesh::lagrange_nodes(solid.mesh, order) : solid.nodes;
+  if (order >= 2) solid = mesh::with_order(std::move(solid), 2);
+  mesh::LagrangeNodes nodes = order <= 2                     ? solid.nodes
+                              : solid.midside_offset <= 1e-6 ? mesh::lagrange_nodes(solid.mesh, order)
+                                                             : mesh::nodes_of_order(solid.mesh, solid.nodes, order);
   std::vector<int> fixed = fem::fixed_rows(solid.mesh, nodes, setup::supports_of(source));
-  if (order <= 2) {
-    for (const int row : setup::rows_held_by_sets(source, solid)) fixed.push_back(row);
-  }
+  for (const int row : setup::rows_held_by_sets(source, solid, nodes)) fixed.push_back(row);
   return fem::build_model(std::move(solid.mesh), std::move(nodes), materials, fixed, setup::attachments_of(source));
 }
 

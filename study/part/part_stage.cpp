@@ -229,6 +229,15 @@ void tell_chosen_faces(const setup::PartSetup& source, const mesh::TetMesh& mesh
 
 namespace {
 
+/// The remedy for the coarse mesh of a file: its elements can be of a higher order where they are straight and nothing
+/// is held by a set of nodes.
+std::string remedy_of_given_mesh(const PartInput& source, int order) {
+  const bool by_sets = std::ranges::any_of(
+      source.part->supports, [&](const setup::Support& support) { return setup::names_node_set(source, support.on); });
+  const bool curved = source.part->imported->mesh->solid.midside_offset > 1e-6;
+  return by_sets || curved ? "take a finer one" : fmt::format("take part.mesh.order = {}, or a finer one", order + 1);
+}
+
 /// Checks the modes where the case asks for it.
 void verify(const setup::PartSetup& source, Solution& solution, Stages& stages) {
   if (!source.modes.verify) return;
@@ -250,6 +259,35 @@ Solution solve(const setup::PartSetup& source, Discretisation discretisation, St
   return {std::move(model), std::move(factored), std::move(modes)};
 }
 
+/// The error that the mesh of a file costs, by one order more on it. None above order 5, and where that takes too much
+/// memory, which is told.
+std::optional<fem::Estimate> error_of_given_mesh(const PartInput& source, const Solution& solved, Stages& stages) {
+  const int order = solved.model.nodes.order;
+  if (order > 5) return std::nullopt;
+  stages.begin("mesh error");
+  fem::ToleranceOptions options;
+  options.modes = setup::mode_options(source);
+  options.points = watched_points(source);
+  options.reentrant_edges = true;  // there may be one
+  options.memory_limit_bytes = core::available_memory_bytes();
+  try {
+    const fem::Model higher = part_model(source, solved.model.mesh, order + 1);
+    fem::Estimate estimate = fem::estimate_by_next_order(solved.model, solved.factored, solved.modes, higher, options);
+    if (const double worst = std::max(estimate.frequency, estimate.receptance); worst > 0.01)
+      core::warn(
+          fmt::format("the mesh of the file is coarse for elements of order {}: frequencies are right to about "
+                      "{:.1e}, receptances to {:.1e}; {}",
+                      order, estimate.frequency, estimate.receptance, remedy_of_given_mesh(source, order)));
+    return estimate;
+  } catch (const linalg::MemoryLimitError& error) {
+    core::warn(
+        fmt::format("what the mesh of the file costs is not known, for one order more would take too much "
+                    "memory: {}",
+                    error.what()));
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 Solution solved_part(const setup::PartSetup& source, Discretisation discretisation, Stages& stages) {
@@ -262,6 +300,7 @@ PartResult compute_part(const PartInput& source, Discretisation discretisation, 
   PartResult part;
   part.estimate = discretisation.estimate;
   Solution solved = solved_part(source, std::move(discretisation), stages);
+  if (setup::kind(*source.part) == setup::ShapeKind::mesh) part.estimate = error_of_given_mesh(source, solved, stages);
   part.model = std::move(solved.model);
   part.modes = std::move(solved.modes);
   const fem::Factored factored = std::move(solved.factored);

@@ -207,6 +207,17 @@ TEST(PartFile, AMeshIsSolvedOnItsOwnNodesAndHeldByItsSets) {
   for (std::size_t k = 0; k < 6; ++k)
     EXPECT_NEAR(frequencies(by_set)[k] / expected.frequency_hz(static_cast<Eigen::Index>(k)), 1.0, 1e-9);
   EXPECT_EQ(by_set["mesh"]["order"], 2);
+  const auto& estimate = by_set["mesh"]["error_estimate"];
+  ASSERT_TRUE(estimate.is_object());
+  EXPECT_TRUE(estimate["tolerance"].is_null());
+  EXPECT_EQ(estimate["steps"].back()["order"], 3);
+  const mesh::LagrangeNodes finer = mesh::lagrange_nodes(solid.mesh, 5);
+  const fem::Model fine = fem::build_model(solid.mesh, finer, fem::Material{71e9, 0.33, 2810.0},
+                                           fem::rows_of(mesh::set_of_order(solid.nodes, held, finer), {0, 1, 2}));
+  const fem::Modes exact = fem::modes(fine, fem::factorise(fine), options);
+  const double error = (expected.frequency_hz.array() / exact.frequency_hz.array() - 1.0).abs().maxCoeff();
+  EXPECT_GE(estimate["max_relative_frequency_error"].get<double>(), error);
+  EXPECT_LE(estimate["max_relative_frequency_error"].get<double>(), 5.0 * error);
   EXPECT_EQ(by_set["geometry"]["notes"].size(), solid.notices.size());
   try {
     (void)parse_case(text("clampd"), folder);
