@@ -273,11 +273,13 @@ std::optional<fem::Estimate> error_of_given_mesh(const PartInput& source, const 
   try {
     const fem::Model higher = part_model(source, solved.model.mesh, order + 1);
     fem::Estimate estimate = fem::estimate_by_next_order(solved.model, solved.factored, solved.modes, higher, options);
-    if (const double worst = std::max(estimate.frequency, estimate.receptance); worst > 0.01)
-      core::warn(
-          fmt::format("the mesh of the file is coarse for elements of order {}: frequencies are right to about "
-                      "{:.1e}, receptances to {:.1e}; {}",
-                      order, estimate.frequency, estimate.receptance, remedy_of_given_mesh(source, order)));
+    if (std::max(estimate.frequency, estimate.receptance) > 0.01) {
+      const std::string receptances =
+          options.points.empty() ? "" : fmt::format(", receptances to {:.1e}", estimate.receptance);
+      core::warn(fmt::format(
+          "the mesh of the file is coarse for elements of order {}: frequencies are right to about {:.1e}{}; {}", order,
+          estimate.frequency, receptances, remedy_of_given_mesh(source, order)));
+    }
     return estimate;
   } catch (const linalg::MemoryLimitError& error) {
     core::warn(
