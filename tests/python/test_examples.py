@@ -125,7 +125,8 @@ def test_irb6660_measured(run_case):
     assert equal_to_the_program(text)
     depths = [[float(mm) for mm in row.split()] for row in re.findall(r"\[ *([\d. ]+)\] mm", text)]
     shares = [a / b for a, b in zip(*depths)]
-    assert all(0.93 < share < 1.05 and share != 1 for share in shares)  # recorded: −2 to +6 % without cross terms
+    assert all(0.93 < share < 1.05 for share in shares)  # recorded: −2 to +6 % without cross terms
+    assert shares[0] != 1  # at 6000 rpm they change nothing that is printed
 
 
 def test_pocketed_rib(run_case):
