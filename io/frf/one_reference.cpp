@@ -52,7 +52,7 @@ bool has_driving_point(const Dof& reference, const std::vector<MeasuredEntry>& e
 
 /// The difference of a pair that was measured both ways, relative to the largest value.
 std::string difference_text(const MeasuredEntry& kept, const MeasuredEntry& transposed) {
-  const std::string pair = name(kept.response) + "/" + name(kept.force) + " was measured both ways";
+  std::string pair = name(kept.response) + "/" + name(kept.force) + " was measured both ways";
   if (!equal(kept.frf.axis, transposed.frf.axis)) return pair + ", on other frequencies";
   const double largest = kept.frf.H.cwiseAbs().maxCoeff();
   const double difference = (kept.frf.H - transposed.frf.H).cwiseAbs().maxCoeff();
