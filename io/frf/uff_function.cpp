@@ -171,7 +171,7 @@ Bits bits_at(const char* bytes, bool little_endian) {
   return bits;
 }
 
-double number_at(const char* bytes, std::size_t size, bool little_endian) {
+double real_number_at(const char* bytes, std::size_t size, bool little_endian) {
   if (size == 4) return std::bit_cast<float>(bits_at<std::uint32_t>(bytes, little_endian));
   return std::bit_cast<double>(bits_at<std::uint64_t>(bytes, little_endian));
 }
@@ -184,7 +184,7 @@ void read_binary_values(UffFunction& function, std::size_t count, const UffDataS
   std::size_t part = 0;
   take_values(function, count, [&] {
     const std::size_t size = of_abscissa ? binary.abscissa_bytes : binary.value_bytes;
-    const double value = number_at(at, size, binary.little_endian);
+    const double value = real_number_at(at, size, binary.little_endian);
     if (!std::isfinite(value)) refuse(set.records, "binary values are not finite; is the byte order the stated one?");
     at += size;
     part = of_abscissa ? 0 : part + 1;
