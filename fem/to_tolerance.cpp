@@ -16,7 +16,7 @@ namespace thinwall::fem {
 
 namespace {
 
-/// What is known of the receptances between the points; empty without points.
+/// The data of the receptances between the points; empty without points.
 struct Responses {
   Eigen::ArrayXd lambda;        // rad²/s²
   double sigma = 0.0;           // of the factor

@@ -11,7 +11,7 @@ namespace thinwall::io {
 
 namespace {
 
-/// What the reader gives, or nothing and its refusal.
+/// The reader's value; if it refuses the file, none, and its message is added to `refused`.
 template <typename Reader>
 auto taken(Reader read, std::vector<std::string>& refused) -> std::optional<decltype(read())> {
   try {

@@ -105,26 +105,48 @@ complex<double> depth_along(const Eigenpair& pair, double theta) {
   return {1.0, at_end ? 0.0 : pair.slope.real() / pair.slope.imag()};
 }
 
-/// The root mean square of a depth's change by modes above the lines, relative: by FittedStructure::unseen, which falls
-/// as 1/f^{3/2}, at each harmonic up to twice the last line, independent from one to the next. With the weights g of
-/// gain_weights() a change dH moves the depth by dw = w² Re (1 + i Re ν_θ/Im ν_θ) Σ_ij g_ij dH_ij / lᵀ r
-/// (depth_gradient()); entries of one harmonic change together, as by one mode.
-double change_by_unseen(const CrossingGrid& grid, const FittedStructure& structure, const Crossing& crossing) {
-  if (structure.unseen.isZero(0.0)) return 0.0;
+/// The weights of the receptance in a depth: a change dH of it at the harmonics changes the depth by dw/w = Re (factor
+/// Σ_k W_k : dH(ω_k)), with factor = w (1 + i Re ν_θ/Im ν_θ) / lᵀ r (depth_gradient()).
+struct DepthWeights {
+  Eigenpair pair;
+  complex<double> factor;
+  double last_rad_s = 0.0;                ///< of the lines
+  std::vector<HarmonicWeight> harmonics;  ///< up to twice the last line
+};
+
+/// The weights at a crossing; none for an eigenvalue of ill condition.
+std::optional<DepthWeights> depth_weights(const CrossingGrid& grid, const FittedStructure& structure,
+                                          const Crossing& crossing) {
   const double theta = crossing.theta_rad, w = crossing.depth_m;
-  const Eigenpair pair = eigenpair_near(grid.gain(structure.all.remainder), theta, 1.0 / w);
-  const double factor = w * std::abs(depth_along(pair, theta) / (pair.left.transpose() * pair.right).value());
   const Eigen::VectorXd& hz = structure.lines.samples.frequency_hz;
-  const double last_rad_s = 2.0 * pi * hz(hz.size() - 1);
+  try {
+    DepthWeights weights{
+        eigenpair_near(grid.gain(structure.all.remainder), theta, 1.0 / w), 0.0, 2.0 * pi * hz(hz.size() - 1), {}};
+    const Eigenpair& pair = weights.pair;
+    weights.factor = w * depth_along(pair, theta) / (pair.left.transpose() * pair.right).value();
+    if (!std::isfinite(std::abs(weights.factor))) return std::nullopt;
+    weights.harmonics =
+        gain_weights(2.0 * weights.last_rad_s, grid.grid(), grid.spindle_speed_rpm(), theta, pair.left, pair.right);
+    return weights;
+  } catch (const core::NumericalError&) {
+    return std::nullopt;
+  }
+}
+
+/// The root mean square of a depth's change by modes above the lines, relative: by FittedStructure::unseen, which falls
+/// as 1/f^{3/2}, at each harmonic up to twice the last line, independent from one to the next. Entries of one harmonic
+/// change together, as by one mode. 1 where the weights are not known.
+double change_by_unseen(const FittedStructure& structure, const std::optional<DepthWeights>& weights) {
+  if (structure.unseen.isZero(0.0)) return 0.0;
+  if (!weights) return 1.0;
   double squares = 0.0;
-  for (const auto& [omega, weight] :
-       gain_weights(2.0 * last_rad_s, grid.grid(), grid.spindle_speed_rpm(), theta, pair.left, pair.right)) {
-    const double share = last_rad_s / std::abs(omega);
+  for (const auto& [omega, weight] : weights->harmonics) {
+    const double share = weights->last_rad_s / std::abs(omega);
     if (share >= 1.0) continue;
-    const double change = factor * weight.cwiseAbs().cwiseProduct(structure.unseen).sum();
+    const double change = std::abs(weights->factor) * weight.cwiseAbs().cwiseProduct(structure.unseen).sum();
     squares += change * change * share * share * share;
   }
-  return std::sqrt(squares);
+  return std::isfinite(squares) ? std::sqrt(squares) : 1.0;
 }
 
 /// depth_gradient() at a crossing of a gain.
@@ -159,30 +181,25 @@ Eigen::Matrix3cd receptance_of(const Fit& fit, double omega) {
 ///
 ///     Δν = −(Σ_k W_k : (ΔG(ω_k) − ΔR) + W_static : ΔR) / lᵀ r,      Δw/w = −w Re [(1 + i Re ν_θ/Im ν_θ) Δν]
 ///
-/// Harmonics beyond one and a half of the last line are left out, where the fits differ little from ΔR.
-Eigen::ArrayXd first_order_changes(const CrossingGrid& grid, const Crossing& crossing,
-                                   const FittedStructure& structure) {
-  const double theta = crossing.theta_rad, w = crossing.depth_m;
-  const Eigenpair pair = eigenpair_near(grid.gain(structure.all.remainder), theta, 1.0 / w);
-  const complex<double> factor = w * depth_along(pair, theta) / (pair.left.transpose() * pair.right).value();
-  const Eigen::VectorXd& hz = structure.lines.samples.frequency_hz;
-  const auto weights = gain_weights(1.5 * 2.0 * pi * hz(hz.size() - 1), grid.grid(), grid.spindle_speed_rpm(), theta,
-                                    pair.left, pair.right);
-  const Eigen::Matrix3cd of_static = static_weight(grid.grid(), theta, pair.left, pair.right);
+/// Harmonics beyond twice the last line are left out, where the fits differ little from ΔR.
+Eigen::ArrayXd first_order_changes(const CrossingGrid& grid, const Crossing& crossing, const FittedStructure& structure,
+                                   const DepthWeights& weights) {
+  const Eigen::Matrix3cd of_static =
+      static_weight(grid.grid(), crossing.theta_rad, weights.pair.left, weights.pair.right);
   const Fit all = grid.in_tool(structure.all);
   std::vector<Eigen::Matrix3cd> by_all;
-  by_all.reserve(weights.size());
-  for (const auto& [omega, weight] : weights) by_all.push_back(receptance_of(all, omega));
+  by_all.reserve(weights.harmonics.size());
+  for (const auto& [omega, weight] : weights.harmonics) by_all.push_back(receptance_of(all, omega));
   Eigen::ArrayXd changes(static_cast<Eigen::Index>(structure.without.size()));
   for (Eigen::Index i = 0; i < changes.size(); ++i) {
     const Fit fit = grid.in_tool(structure.without[static_cast<std::size_t>(i)]);
     const Eigen::Matrix3cd rigid = (fit.poles.R - all.poles.R).cast<complex<double>>();
     complex<double> sum = of_static.cwiseProduct(rigid).sum();
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-      const Eigen::Matrix3cd change = receptance_of(fit, weights[k].omega_rad_s) - by_all[k] - rigid;
-      sum += weights[k].weight.cwiseProduct(change).sum();
+    for (std::size_t k = 0; k < by_all.size(); ++k) {
+      const auto& [omega, weight] = weights.harmonics[k];
+      sum += weight.cwiseProduct(receptance_of(fit, omega) - by_all[k] - rigid).sum();
     }
-    changes(i) = (factor * sum).real();
+    changes(i) = (weights.factor * sum).real();
   }
   return changes;
 }
@@ -196,13 +213,13 @@ bool small_changes(const Eigen::ArrayXd& changes) {
 /// The relative changes of a depth by the fits that each leave out a part of the lines, to first order while that will
 /// do, else by following the crossing to each fit. None if it is lost.
 std::optional<Eigen::ArrayXd> changes_without_lines(const CrossingGrid& grid, const Crossing& crossing,
-                                                    const FittedStructure& structure) {
-  Eigen::ArrayXd changes(static_cast<Eigen::Index>(structure.without.size()));
-  try {
-    changes = first_order_changes(grid, crossing, structure);
+                                                    const FittedStructure& structure,
+                                                    const std::optional<DepthWeights>& weights) {
+  if (weights) {
+    const Eigen::ArrayXd changes = first_order_changes(grid, crossing, structure, *weights);
     if (small_changes(changes)) return changes;
-  } catch (const core::NumericalError&) {  // an eigenvalue of ill condition, which following may yet reach
   }
+  Eigen::ArrayXd changes(static_cast<Eigen::Index>(structure.without.size()));
   for (Eigen::Index i = 0; i < changes.size(); ++i) {
     const std::optional<double> at = grid.depth_by(structure.without[static_cast<std::size_t>(i)], crossing);
     if (!at) return std::nullopt;
@@ -213,9 +230,10 @@ std::optional<Eigen::ArrayXd> changes_without_lines(const CrossingGrid& grid, co
 
 /// The standard deviation of a depth by noise, relative: the jackknife's, from fits that each leave out a part of the
 /// lines (Efron 1982, Eq. 3.3), σ² = (g − 1)/g Σ (w_i − mean)². 1 if a crossing is lost.
-double deviation(const CrossingGrid& grid, const Crossing& crossing, const FittedStructure& structure) {
+double deviation(const CrossingGrid& grid, const Crossing& crossing, const FittedStructure& structure,
+                 const std::optional<DepthWeights>& weights) {
   if (structure.without.empty()) return 0.0;
-  const std::optional<Eigen::ArrayXd> changes = changes_without_lines(grid, crossing, structure);
+  const std::optional<Eigen::ArrayXd> changes = changes_without_lines(grid, crossing, structure, weights);
   if (!changes) return 1.0;
   const auto count = static_cast<double>(changes->size());
   return std::sqrt((*changes - changes->mean()).square().sum() * (count - 1.0) / count);
@@ -233,12 +251,13 @@ void follow_to_lines(const FittedStructure& structure, const CutAtSpeed& cut, Lo
     point.error_estimate = 1.0;
     return;
   }
+  const std::optional<DepthWeights> weights = depth_weights(grid, structure, by_lines);
   const double change = by_lines.depth_m / by_poles.depth_m;
   point.depth_m *= change;
-  point.error_estimate += 2.0 * largest_change<2>(grid, by_lines, {&structure.even, &structure.odd}) +
-                          std::max(largest_change<1>(grid, by_lines, {&structure.within}),
-                                   2.0 * change_by_unseen(grid, structure, by_lines)) +
-                          deviations * deviation(grid, by_lines, structure);
+  point.error_estimate +=
+      2.0 * largest_change<2>(grid, by_lines, {&structure.even, &structure.odd}) +
+      std::max(largest_change<1>(grid, by_lines, {&structure.within}), 2.0 * change_by_unseen(structure, weights)) +
+      deviations * deviation(grid, by_lines, structure, weights);
   if (cut.process.cutter.depends_on_depth()) point.error_estimate += std::abs(change - 1.0);
 }
 

@@ -39,6 +39,12 @@ struct FittedLines {
 /// with the same pole; a mode whose peak is below a tenth of what the fit leaves of a line (root mean square) stays in
 /// the remainder. A pole above the last line is taken as it is only if the fits of the others have it, too, within
 /// three tenths of its half width, so that its peak is known; else it is damped to 10 %, its static part unchanged.
+/// No fit can tell where modes above the lines have their peaks. As many of them as in the last third of the lines,
+/// which is Δω wide and ends at ω_e, and with modal masses and damping ratios as there, have the mean square
+///
+///     unseen_ij² = Σ_k |φ_ik b_jk|² π / (|Re λ_k| Δω) (|λ_k|/ω_e)³
+///
+/// for the integral of |r/(iω − λ)|² over ω is π|r|²/|Re λ|, and that of modes of one mass and damping falls as 1/ω³.
 /// Throws InputError as require_usable(), and for fewer than 14 lines, of which the halves could not be fitted. Cost:
 /// that of three fits.
 [[nodiscard]] FittedLines fitted(const SampledReceptance& samples);

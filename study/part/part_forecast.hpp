@@ -1,5 +1,5 @@
 #pragma once
-// What a run will find about a part, and the time that it will take, before anything is solved.
+// Findings of a run about its part, and the time that it takes, before anything is solved.
 
 #include <optional>
 
