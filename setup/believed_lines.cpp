@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/error.hpp"
 #include "dynamics/believable_band.hpp"
@@ -74,6 +76,16 @@ std::string warning_of(const End& end, const MeasuredFrf& measured, bool left_ou
   return fmt::format("{} are used, but hardly to be believed, for {}", what, reason(end.doubt));
 }
 
+/// The warning that lines are left out because FRFs beside this one have none there.
+std::string neighbours_warning(const MeasuredFrf& measured, const dynamics::FrequencyAxis& axis, double from_hz,
+                               double to_hz) {
+  const bool below = axis.hz(0)<from_hz*(1.0 - 1e-12), above = axis.hz(axis.size() - 1)> to_hz * (1.0 + 1e-12);
+  return fmt::format("{} ({} by {}): lines {}{}{} are left out, too, for the FRFs beside it have none there",
+                     measured.file.string(), measured.response, measured.force,
+                     below ? fmt::format("below {:.4g} Hz", from_hz) : "", below && above ? " and " : "",
+                     above ? fmt::format("above {:.4g} Hz", to_hz) : "");
+}
+
 }  // namespace
 
 FrfContent with_believed_lines(FrfContent content, const MeasuredFrf& measured, bool held) {
@@ -126,8 +138,29 @@ dynamics::FrequencyAxis within_lines_of(const std::vector<MeasuredFrf>& files, c
   return {Eigen::VectorXd(axis.hz(lines))};
 }
 
-dynamics::FrequencyAxis common_lines(const std::vector<MeasuredFrf>& files) {
-  return within_lines_of(files, receptance_of(files.front()).axis);
+void take_common_band(std::vector<MeasuredFrf>& files) {
+  double from_hz = 0.0, to_hz = INFINITY;
+  for (const MeasuredFrf& file : files) {
+    const Eigen::VectorXd& hz = receptance_of(file).axis.hz;
+    if (hz.size() == 0) return;
+    from_hz = std::max(from_hz, hz(0));
+    to_hz = std::min(to_hz, hz(hz.size() - 1));
+  }
+  for (MeasuredFrf& file : files) {
+    const dynamics::FrequencyAxis& axis = receptance_of(file).axis;
+    const std::vector<Index> lines = lines_within(axis, from_hz, to_hz);
+    if (std::ssize(lines) == axis.size()) continue;
+    if (lines.size() < 2)
+      throw core::InputError(fmt::format(
+          "\"{}\" ({} by {}) has fewer than two lines from {:g} to {:g} Hz, where the FRFs beside it have lines: its "
+          "own go from {:g} to {:g} Hz; correct their from and to, or measure all of them over one band",
+          file.file.string(), file.response, file.force, from_hz, to_hz, axis.hz(0), axis.hz(axis.size() - 1)));
+    FrfContent content = *file.content;
+    content.warnings.push_back(neighbours_warning(file, axis, from_hz, to_hz));
+    keep(lines, content.frf);
+    content.lines_left_out = true;
+    file.content = std::make_shared<const FrfContent>(std::move(content));
+  }
 }
 
 }  // namespace thinwall::setup

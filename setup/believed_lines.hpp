@@ -20,7 +20,9 @@ namespace thinwall::setup {
 [[nodiscard]] dynamics::FrequencyAxis within_lines_of(const std::vector<MeasuredFrf>& files,
                                                       const dynamics::FrequencyAxis& axis);
 
-/// The axis of the first file, as far as all files have lines where some are left out.
-[[nodiscard]] dynamics::FrequencyAxis common_lines(const std::vector<MeasuredFrf>& files);
+/// Leaves out the lines of these FRFs, which were read, of one structure whose lines are taken as the first file has
+/// them: those below the largest of the first lines and above the smallest of the last, with a warning. Throws
+/// InputError if fewer than two lines of a file remain. Cost O(lines).
+void take_common_band(std::vector<MeasuredFrf>& files);
 
 }  // namespace thinwall::setup

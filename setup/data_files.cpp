@@ -72,6 +72,8 @@ void read_data_files(Setup& source) {
     frf->content = std::make_shared<const FrfContent>(
         with_believed_lines(read_measured(*frf, files), *frf, is_of_held_structure(source, frf)));
   }
+  if (source.tool) take_common_band(source.tool->measured);
+  if (source.tool && source.tool->swap) take_common_band(source.tool->swap->measured);
   for (SupportContact& contact : source.contacts) {
     if (auto* tabled = std::get_if<TabledContact>(&contact.model); tabled != nullptr && !tabled->rows)
       tabled->rows = std::make_shared<const coupling::ContactTable>(read_contact_table(tabled->table));

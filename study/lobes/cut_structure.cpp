@@ -13,7 +13,6 @@
 #include "dynamics/conversion.hpp"
 #include "io/frf/resample.hpp"
 #include "milling/direct/passivity.hpp"
-#include "setup/believed_lines.hpp"
 #include "setup/measured.hpp"
 #include "setup/robot_tip.hpp"
 #include "study/lobes/tool_swap.hpp"
@@ -135,7 +134,8 @@ CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFra
   const std::optional<milling::RelativeStructure> modal = cut_poles(source, part);
   if (source.tool->swap) return fitted(swapped(source), modal, frame, "the swapped tool's");
   if (!source.tool->measured.empty()) {
-    milling::SampledReceptance tip = measured_tip(source.tool->measured, setup::common_lines(source.tool->measured));
+    const dynamics::FrequencyAxis& lines = setup::receptance_of(source.tool->measured.front()).axis;
+    milling::SampledReceptance tip = measured_tip(source.tool->measured, lines);
     warn_if_implausible(tip, "the tool's");
     return fitted(tip, modal, frame, "the tool's");
   }

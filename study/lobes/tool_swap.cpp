@@ -9,7 +9,6 @@
 #include "coupling/finite_difference_rotations.hpp"
 #include "dynamics/conversion.hpp"
 #include "fem/beam.hpp"
-#include "setup/believed_lines.hpp"
 #include "setup/measured.hpp"
 
 namespace thinwall::study {
@@ -111,7 +110,7 @@ dynamics::ResponseModel with_rotations(const dynamics::ResponseModel& measured, 
 SwappedTip swapped_tip(const setup::CutSetup& source) {
   const setup::ToolSwap& swap = *source.tool->swap;
   const Vector3d& axis = source.cutting->tool_axis;
-  const dynamics::FrequencyAxis lines = setup::common_lines(swap.measured);
+  const dynamics::FrequencyAxis lines = setup::receptance_of(swap.measured.front()).axis;
   const dynamics::ResponseModel measured = setup::measured_response(swap.measured, lines);
   const std::vector<Vector3d> directions = directions_of(measured, axis);
   const coupling::Contact held = joint(directions, axis);

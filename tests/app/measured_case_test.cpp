@@ -19,7 +19,7 @@
 #include "dynamics/conversion.hpp"
 #include "io/frf/uff.hpp"
 #include "io/matrices/mat_variables.hpp"
-#include "setup/believed_lines.hpp"
+#include "report/tool_files.hpp"
 #include "setup/measured.hpp"
 #include "setup/measured_layout.hpp"
 #include "setup/robot_tip.hpp"
@@ -281,15 +281,25 @@ TEST(MeasuredCase, LinesThatAreLeftOutOfARobotsFrfAreNoneOfTheRun) {
 TEST(MeasuredCase, FilesOfAToolAreTakenWhereAllHaveLines) {
   const TemporaryFolder folder;
   write_csv(folder.path / "tip.csv", measured_axis(), one_mass(measured_axis(), 2.0));
-  std::vector<MeasuredFrf> files(2);
-  for (MeasuredFrf& file : files) {
-    file = {"tool.x", "tool.x", folder.path / "tip.csv", io::FrfQuantity::receptance, "m/N", "Hz", {}};
-    file.content = std::make_shared<const FrfContent>(with_believed_lines(read_measured(file), file, true));
-  }
-  EXPECT_EQ(common_lines(files).hz, measured_axis().hz);
-  files[1].from_hz = 57.0;
-  files[1].content = std::make_shared<const FrfContent>(with_believed_lines(read_measured(files[1]), files[1], true));
-  EXPECT_EQ(common_lines(files).hz, measured_axis().hz.tail(222)) << "from 58 Hz on, also of the first";
+  const std::string format = "quantity = \"receptance\"\nunit = \"m/N\"\n";
+  const auto tool = [&](const std::string& of_x, const std::string& of_y) {
+    const std::string whole = cutter_case();
+    const auto modes = whole.find("[[tool.modes]]"), cut = whole.find("[cutting]");
+    return parse_case(whole.substr(0, modes) + entry("tool", "x", "x", "tip.csv", format + of_x) +
+                          entry("tool", "y", "y", "tip.csv", format + of_y) + whole.substr(cut),
+                      folder.path)
+        .tool.value();
+  };
+  EXPECT_TRUE(tool("", "").measured[0].content->warnings.empty());
+  const Tool later_y = tool("to = \"400 Hz\"\n", "from = \"57 Hz\"\n");
+  for (const MeasuredFrf& file : later_y.measured)
+    EXPECT_EQ(receptance_of(file).axis.hz, measured_axis().hz.segment(19, 172)) << "58 Hz to 400 Hz";
+  ASSERT_EQ(later_y.measured[0].content->warnings.size(), 1U);
+  EXPECT_NE(later_y.measured[0].content->warnings[0].find("lines below 58 Hz are left out, too"), std::string::npos)
+      << later_y.measured[0].content->warnings[0];
+  report::write_tool_frf(folder.path / "tool_frf.csv", later_y);
+  EXPECT_TRUE(fs::exists(folder.path / "tool_frf.csv"));
+  EXPECT_THROW((void)tool("to = \"100 Hz\"\n", "from = \"200 Hz\"\n"), core::InputError);
 }
 
 TEST(MeasuredCase, TheCheckAndTheMatrixSayTheSame) {
