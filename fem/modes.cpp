@@ -53,8 +53,8 @@ void require_rigid_modes(const Model& model, const Eigen::VectorXd& lambda, doub
            ? "a part that is free in " + std::to_string(rigid) + " rigid motions (" + listed(model.free_motions) + ")"
            : std::string("a part that is held")) +
       " shows modes that are neither rigid nor elastic, one at " + std::to_string(hertz(lambda(rigid))) +
-      " Hz: the mesh may have pieces that hang together at a point or edge only, or elements too thin for double "
-      "precision");
+      " Hz: the mesh may have pieces that hang together at a point or edge only, elements too thin for double "
+      "precision, or materials of too unlike stiffness");
 }
 
 /// The result for converged pairs: frequencies, residuals, and the error that round-off of K may cause.

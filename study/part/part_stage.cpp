@@ -290,6 +290,25 @@ std::optional<fem::Estimate> error_of_given_mesh(const PartInput& source, const 
   }
 }
 
+/// The relative change of the lowest frequency from which round-off is told.
+constexpr double much_round_off = 1e-4;
+
+/// The cause of much round-off and what helps: materials where it would be little if all were as stiff for their mass
+/// as the softest, which the ratio of E/ρ tells; else a wall that is thin.
+std::string cause_of_round_off(const setup::PartSetup& source, const PartResult& part) {
+  if (part.model.mesh.tets.empty()) return "for the stiffnesses in its matrices differ by many orders";
+  const auto materials = setup::materials_on(source, part.model.mesh).list;
+  const auto specific = [](const fem::Material& m) { return m.youngs_modulus_Pa / m.density_kg_m3; };
+  const auto [soft, stiff] = std::ranges::minmax_element(materials, {}, specific);
+  if (part.modes.round_off > much_round_off * specific(*stiff) / specific(*soft))
+    return "for the part is very thin: a lower order or larger elements lose less";
+  return fmt::format(
+      "for its materials are of very unlike stiffness, {} and {}: leave one of them out, or take moduli that "
+      "are nearer to each other",
+      core::readable_text(soft->youngs_modulus_Pa, core::kind::stress),
+      core::readable_text(stiff->youngs_modulus_Pa, core::kind::stress));
+}
+
 }  // namespace
 
 Solution solved_part(const setup::PartSetup& source, Discretisation discretisation, Stages& stages) {
@@ -308,11 +327,9 @@ PartResult compute_part(const PartInput& source, Discretisation discretisation, 
   const fem::Factored factored = std::move(solved.factored);
   const bool meshed = !part.model.mesh.tets.empty();
   if (meshed) check_mass(source, part);
-  if (part.modes.round_off > 1e-4) {
-    core::warn(fmt::format(
-        "round-off may change the lowest frequency by {:.0e} of it, for the part is very thin: a lower order or "
-        "larger elements lose less",
-        part.modes.round_off));
+  if (part.modes.round_off > much_round_off) {
+    core::warn(fmt::format("round-off may change the lowest frequency by {:.0e} of it, {}", part.modes.round_off,
+                           cause_of_round_off(source, part)));
   }
   if (meshed) look_at_mesh(part);
   if (source.reduction.interface.empty()) return part;
