@@ -129,14 +129,13 @@ ExitCode inspect(const Arguments& arguments, std::ostream& out) {
 }
 
 /// The size of the part's mesh and the time that it takes: from the first mesh of a part from a file, else by estimate.
-cases::SizeEstimate size_of(const cases::Case& source) {
+setup::PartSize size_of(const cases::Case& source) {
   study::require_points_hold(source);
-  if (const auto first = study::forecast(study::part_input(source)))
-    return {first->order, first->elements, 0.0, first->dofs, first->seconds};
-  return cases::estimate_size(source);
+  const auto first = study::forecast(study::part_input(source));
+  return first ? *first : cases::estimate_size(source);
 }
 
-void tell_size(const cases::Case& source, const cases::SizeEstimate& size, std::ostream& out) {
+void tell_size(const cases::Case& source, const setup::PartSize& size, std::ostream& out) {
   const auto rounded = [](double value) { return core::readable_text(value, core::kind::number); };
   if (size.elements > 0.0)
     out << "  elements  about " << rounded(size.elements) << " of order " << size.order << ", "
@@ -153,7 +152,7 @@ void tell_size(const cases::Case& source, const cases::SizeEstimate& size, std::
 ExitCode check(const Arguments& arguments, std::ostream& out) {
   const cases::Case source = cases::read_case(arguments.case_path, arguments.overrides);
   const auto expectations = cases::read_expectations(source.file);
-  const cases::SizeEstimate size = source.part ? size_of(source) : cases::SizeEstimate{};
+  const setup::PartSize size = source.part ? size_of(source) : setup::PartSize{};
   out << source.file.string() << ": no errors\n";
   if (!source.title.empty()) out << "  " << source.title << '\n';
   if (source.part && source.part->imported) {

@@ -24,6 +24,7 @@
 #include "setup/part_geometry.hpp"
 #include "setup/part_materials.hpp"
 #include "setup/part_model.hpp"
+#include "setup/part_size.hpp"
 #include "setup/path.hpp"
 #include "setup/point.hpp"
 #include "setup/robot.hpp"

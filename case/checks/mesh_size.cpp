@@ -107,9 +107,9 @@ void check_surface_size(const Case& source, Findings& findings) {
 
 }  // namespace
 
-SizeEstimate estimate_size(const Case& source) {
+setup::PartSize estimate_size(const Case& source) {
   const setup::Part& part = *source.part;
-  SizeEstimate size;
+  setup::PartSize size;
   if (setup::kind(part) == setup::ShapeKind::matrices) {
     size.dofs = static_cast<double>(part.imported->matrices->size());
     size.seconds = 3.0 * std::pow(size.dofs / 4e4, 1.3);
@@ -125,8 +125,8 @@ SizeEstimate estimate_size(const Case& source) {
                         : static_cast<double>(setup::graded_mesh(source, 0).tets.size());
   // A tetrahedral mesh of a thin wall has about 0.3 vertices, 1.6 edges and 2.3 faces an element.
   const double p = size.order;
-  size.nodes = size.elements * (0.3 + 1.6 * (p - 1) + 2.3 * (p - 1) * (p - 2) / 2 + (p - 1) * (p - 2) * (p - 3) / 6);
-  size.dofs = 3.0 * size.nodes;
+  size.dofs =
+      3.0 * size.elements * (0.3 + 1.6 * (p - 1) + 2.3 * (p - 1) * (p - 2) / 2 + (p - 1) * (p - 2) * (p - 3) / 6);
   // 40 000 DOFs take some three seconds with factorisation, modes and reduction; the factor of a wall grows as n^1.3.
   size.seconds = 3.0 * std::pow(size.dofs / 4e4, 1.3);
   return size;
@@ -149,7 +149,7 @@ void check_mesh_size(const Case& source, Findings& findings) {
   if (setup::kind(*source.part) == setup::ShapeKind::surface) check_surface_size(source, findings);
   if (!by_tetgen(*source.part)) return;
   const int order_now = mesh.order.value_or(2);
-  const SizeEstimate size = estimate_size(source);
+  const setup::PartSize size = estimate_size(source);
   const bool many_tets = size.elements > most_tets;
   if (!many_tets && !(size.dofs > most_dofs)) return;
   const double excess = many_tets ? size.elements / most_tets : size.dofs / most_dofs;

@@ -3,21 +3,15 @@
 
 #include "case/checks/findings.hpp"
 #include "case/machining_case.hpp"
+#include "setup/part_size.hpp"
 
 namespace thinwall::cases {
 
-/// Sizes to expect of the mesh of the case's part, before it is made (within a factor of about two): elements are the
-/// integral of 6√2 / size³ over the box, the size graded around the points as the mesher will be asked for it; of
-/// graded meshes their exact number on the coarsest level, with the order that it usually takes.
-struct SizeEstimate {
-  int order = 2;
-  double elements = 0.0;
-  double nodes = 0.0;
-  double dofs = 0.0;
-  double seconds = 0.0;
-};
-/// The sizes of the case's part, as SizeEstimate describes them.
-[[nodiscard]] SizeEstimate estimate_size(const Case& source);
+/// The size to expect of the mesh of the case's part, before it is made (within a factor of about two): elements are
+/// the integral of 6√2 / size³ over the box, the size graded around the points as the mesher will be asked for it; of
+/// graded meshes their exact number on the coarsest level, with the order that it usually takes. A part by matrices has
+/// no elements.
+[[nodiscard]] setup::PartSize estimate_size(const Case& source);
 
 /// Reports keys of [part.mesh] that do not belong together, and meshes beyond what can be made or solved, with the size
 /// or order that would do. The geometry of the part must be known.

@@ -195,6 +195,10 @@ mesh::TetMesh coarsest_mesh(const PartInput& source) {
   return fem::coarsest_mesh(part.imported->surface->surface, closed_part_options(source));
 }
 
+bool is_solved_one_order_higher(const setup::Part& part, int order) {
+  return setup::kind(part) == setup::ShapeKind::mesh && order <= 5;
+}
+
 std::vector<fem::NamedPoint> watched_points(const PartInput& source) {
   std::vector<fem::NamedPoint> points;
   const auto add = [&points](const setup::PartSetup& at) {

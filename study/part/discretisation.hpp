@@ -29,6 +29,9 @@ struct Discretisation {
 /// tenths of a second, seconds for a curved surface, and minutes for one that no mesher can fill.
 [[nodiscard]] mesh::TetMesh coarsest_mesh(const PartInput& source);
 
+/// True if a part's mesh is that of a file, which is solved by one order more, too, for its error; not above order 5.
+[[nodiscard]] bool is_solved_one_order_higher(const setup::Part& part, int order);
+
 /// Points at which the tolerance on receptances is to hold: at the interface, and at both ends and the middle of the
 /// path.
 [[nodiscard]] std::vector<fem::NamedPoint> watched_points(const PartInput& source);

@@ -60,13 +60,13 @@ void require_faces(const PartInput& source, const mesh::TetMesh& mesh) {
 
 }  // namespace
 
-std::optional<PartForecast> forecast(const PartInput& source) {
+std::optional<setup::PartSize> forecast(const PartInput& source) {
   const setup::Part& part = *source.part;
   const setup::ShapeKind kind = setup::kind(part);
   if (kind != setup::ShapeKind::surface && kind != setup::ShapeKind::mesh) return {};
   const mesh::TetMesh mesh = coarsest_mesh(source);
   require_faces(source, mesh);
-  PartForecast result;
+  setup::PartSize result;
   result.elements = static_cast<double>(mesh.tets.size());
   const bool to_tolerance = kind == setup::ShapeKind::surface && !part.mesh.element_size;
   const int usual = to_tolerance                     ? fem::ClosedPartOptions{}.first_order + 1
@@ -76,6 +76,7 @@ std::optional<PartForecast> forecast(const PartInput& source) {
   result.dofs = dofs(mesh, result.order);
   const int last = part.mesh.order ? result.order : fem::ClosedPartOptions{}.last_order;
   result.seconds = to_tolerance ? refinement_s(part, mesh, result.order - 1, last) : solve_s(result.dofs, false);
+  if (is_solved_one_order_higher(part, result.order)) result.seconds += solve_s(dofs(mesh, result.order + 1), false);
   return result;
 }
 

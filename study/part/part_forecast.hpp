@@ -3,25 +3,20 @@
 
 #include <optional>
 
+#include "setup/part_size.hpp"
 #include "study/part/part_input.hpp"
 
 namespace thinwall::study {
 
-/// Size of the first mesh, and the time of mesh, modes and reduction on two cores.
-struct PartForecast {
-  int order = 2;  ///< with a tolerance, the second one that is solved
-  double elements = 0.0;
-  double dofs = 0.0;     ///< before supports
-  double seconds = 0.0;  ///< mostly within a factor of three; a part that takes all orders may take seven times as long
-};
-
-/// The forecast of a part whose surface or mesh a file holds, from its first mesh (coarsest_mesh()), on which its
-/// supports and clamps are looked up; none for other parts. A solution of n degrees of freedom takes (n / 4e4)^1.3
-/// times 2 s, in bulky parts, whose factors are fuller, 4 s. The number of solutions is that of the usual refinement:
-/// two orders and half the time of a third; all orders for a bulky part; and a second level of 3.5 times as many
-/// degrees of freedom where edges turn inwards. For tolerances from 0.05 on it is two orders, and a quarter of the
-/// second level. Throws what coarsest_mesh() throws, and InputError for a support or clamp that holds no face.
-[[nodiscard]] std::optional<PartForecast> forecast(const PartInput& source);
+/// The size of the first mesh of a part whose surface or mesh a file holds (coarsest_mesh()), on which its supports and
+/// clamps are looked up, and the time of the part, mostly within a factor of three; none for other parts. A solution of
+/// n degrees of freedom takes (n / 4e4)^1.3 times 2 s, in bulky parts, whose factors are fuller, 4 s. The number of
+/// solutions is that of the usual refinement: two orders and half the time of a third; all orders for a bulky part; and
+/// a second level of 3.5 times as many degrees of freedom where edges turn inwards. For tolerances from 0.05 on it is
+/// two orders, and a quarter of the second level. A mesh of a file is solved once more, of one order more, for its
+/// error. A part that takes all orders may take seven times as long as is said. Throws what coarsest_mesh() throws, and
+/// InputError for a support or clamp that holds no face.
+[[nodiscard]] std::optional<setup::PartSize> forecast(const PartInput& source);
 
 /// Throws InputError unless the points of the reduction determine the six rigid motions of a part that nothing holds:
 /// the rank of the motions [d, (p − c) × d / s] of the points' directions d at their places p, with c and s centre and

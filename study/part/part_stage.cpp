@@ -259,11 +259,10 @@ Solution solve(const setup::PartSetup& source, Discretisation discretisation, St
   return {std::move(model), std::move(factored), std::move(modes)};
 }
 
-/// The error that the mesh of a file costs, by one order more on it. None above order 5, and where that takes too much
-/// memory, which is told.
+/// The error that the mesh of a file costs, by one order more on it. None where that takes too much memory, which is
+/// told.
 std::optional<fem::Estimate> error_of_given_mesh(const PartInput& source, const Solution& solved, Stages& stages) {
   const int order = solved.model.nodes.order;
-  if (order > 5) return std::nullopt;
   stages.begin("mesh error");
   fem::ToleranceOptions options;
   options.modes = setup::mode_options(source);
@@ -321,7 +320,8 @@ PartResult compute_part(const PartInput& source, Discretisation discretisation, 
   PartResult part;
   part.estimate = discretisation.estimate;
   Solution solved = solved_part(source, std::move(discretisation), stages);
-  if (setup::kind(*source.part) == setup::ShapeKind::mesh) part.estimate = error_of_given_mesh(source, solved, stages);
+  if (is_solved_one_order_higher(*source.part, solved.model.nodes.order))
+    part.estimate = error_of_given_mesh(source, solved, stages);
   part.model = std::move(solved.model);
   part.modes = std::move(solved.modes);
   const fem::Factored factored = std::move(solved.factored);

@@ -17,7 +17,7 @@ using namespace cases;
 
 namespace {
 
-TEST(SizeEstimate, IsTheIntegralOfTheGradedSizeAroundAPoint) {
+TEST(MeshSize, IsTheIntegralOfTheGradedSizeAroundAPoint) {
   Case c = parse_case(plate_case(), ".");
   auto& box = std::get<BoxShape>(c.part->shape);
   box.length = box.height = box.thickness = 1.0;
@@ -38,18 +38,18 @@ TEST(SizeEstimate, IsTheIntegralOfTheGradedSizeAroundAPoint) {
   EXPECT_NEAR(estimate_size(c).elements / (uniform * 1000.0), 1.0, 1e-12);
 }
 
-TEST(SizeEstimate, GrowsWithTheCubeOfTheFinenessAndWithTheNodesOfTheOrder) {
+TEST(MeshSize, GrowsWithTheCubeOfTheFinenessAndWithTheNodesOfTheOrder) {
   Case c = parse_case(plate_case(), ".");
   c.part->mesh.element_size = 0.002;
   c.part->mesh.order = 1;
-  const SizeEstimate coarse = estimate_size(c);
+  const PartSize coarse = estimate_size(c);
   // V · 6√2 / a³ for regular tetrahedra of edge a.
   EXPECT_NEAR(coarse.elements, 0.392 * 0.1 * 0.006 * 8.485281374 / 8e-9, 1.0);
   c.part->mesh.element_size = 0.001;
   EXPECT_NEAR(estimate_size(c).elements / coarse.elements, 8.0, 1e-12);
   c.part->mesh.order = 2;
   // A quadratic mesh has its vertices and its edges as nodes.
-  EXPECT_GT(estimate_size(c).nodes, 8 * coarse.nodes * 4);
+  EXPECT_GT(estimate_size(c).dofs, 8 * coarse.dofs * 4);
 }
 
 }  // namespace

@@ -1,0 +1,14 @@
+#pragma once
+// What is expected of a part's mesh and of the time that it takes, before anything is solved.
+
+namespace thinwall::setup {
+
+/// The size of a mesh, and the time of mesh, modes and reduction on two cores.
+struct PartSize {
+  int order = 2;  ///< with a tolerance, the one that it usually takes
+  double elements = 0.0;
+  double dofs = 0.0;  ///< before supports
+  double seconds = 0.0;
+};
+
+}  // namespace thinwall::setup
