@@ -8,6 +8,7 @@
 #include "app/case_files.hpp"
 #include "app/doctor.hpp"
 #include "app/expectation_checks.hpp"
+#include "app/forecast.hpp"
 #include "app/log.hpp"
 #include "app/signals.hpp"
 #include "app/stage_display.hpp"
@@ -69,6 +70,20 @@ void write_report(const std::filesystem::path& results, const report::RunAtHand&
   }
 }
 
+/// Says the whole time of a run that takes long. A run that finds charts of an earlier one may take less, and a point
+/// of a sweep is one of many. What cannot be foreseen is an error of the run, which tells it where it is met.
+void tell_of_long_run(const cases::Case& source, const RunOptions& options) {
+  constexpr double long_s = 10.0;
+  const bool first = options.fresh || !std::filesystem::exists(options.out / "cache" / "lobes.bin");
+  if (!first || !options.parts.empty()) return;
+  try {
+    if (const Forecast time = forecast(source); time.whole_s() >= long_s) spdlog::info("{}", text(time));
+  } catch (const core::Interrupted&) {
+    throw;
+  } catch (const core::Error&) {
+  }
+}
+
 report::Summary summary_of(const cases::Case& source, const study::Results& results) {
   report::Summary summary = report::summary_of(results.setup, results);
   summary.case_name = source.name;
@@ -80,6 +95,7 @@ report::Summary summary_of(const cases::Case& source, const study::Results& resu
 
 RunResult run_case(const cases::Case& source, const RunOptions& options) {
   const std::string started = now_utc();
+  tell_of_long_run(source, options);
   const auto expectations = cases::read_expectations(source.file);
   messages_to_log();
   for (const std::string& doubt : cases::doubts_about(source)) core::warn(doubt);

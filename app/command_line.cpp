@@ -11,6 +11,7 @@
 #include "app/command_sweep.hpp"
 #include "app/completion.hpp"
 #include "app/doctor.hpp"
+#include "app/forecast.hpp"
 #include "app/inspect_command.hpp"
 #include "app/lobes_input.hpp"
 #include "app/log.hpp"
@@ -19,7 +20,6 @@
 #include "app/terminal.hpp"
 #include "app/unknown_word.hpp"
 #include "case/checks/doubts.hpp"
-#include "case/checks/mesh_size.hpp"
 #include "case/reader.hpp"
 #include "case/schema/json_schema.hpp"
 #include "case/templates.hpp"
@@ -38,7 +38,6 @@
 #include "report/terminal_report.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/part_geometry.hpp"
-#include "study/part/part_forecast.hpp"
 #include "study/support/robot_survey.hpp"
 
 namespace thinwall::app {
@@ -128,13 +127,6 @@ ExitCode inspect(const Arguments& arguments, std::ostream& out) {
   return inspection.trustworthy ? ExitCode::done : ExitCode::expectation;
 }
 
-/// The size of the part's mesh and the time that it takes: from the first mesh of a part from a file, else by estimate.
-setup::PartSize size_of(const cases::Case& source) {
-  study::require_points_hold(source);
-  const auto first = study::forecast(study::part_input(source));
-  return first ? *first : cases::estimate_size(source);
-}
-
 void tell_size(const cases::Case& source, const setup::PartSize& size, std::ostream& out) {
   const auto rounded = [](double value) { return core::readable_text(value, core::kind::number); };
   if (size.elements > 0.0)
@@ -145,28 +137,36 @@ void tell_size(const cases::Case& source, const setup::PartSize& size, std::ostr
                 : "size and order from the tolerance of " + rounded(source.part->mesh.tolerance))
         << '\n';
   out << "  DOFs      about " << rounded(size.dofs) << '\n'
-      << "  time      about " << core::readable_text(std::max(1.0, size.seconds), core::kind::time)
-      << " for mesh, modes and reduction on two cores\n";
+      << "  time      " << about(size.seconds) << " for mesh, modes and reduction on two cores\n";
+}
+
+void tell_lobes(const setup::LobesOptions& lobes, const Forecast& time, std::ostream& out) {
+  out << "  lobes     " << lobes.count << " speeds, and up to " << setup::most_added(lobes)
+      << " between them where the line needs them\n";
+  if (!time.lobes) return;
+  out << "  time      " << about(time.lobes_s(), time.at_least()) << " for some "
+      << core::readable_text(time.lobes->rows.of_structure + time.lobes->rows.of_lines, core::kind::number)
+      << " rows of all charts on " << core::thread_count() << (core::thread_count() == 1 ? " thread" : " threads");
+  if (time.part) out << "; " << about(time.whole_s(), time.at_least()) << " in all";
+  out << '\n';
 }
 
 ExitCode check(const Arguments& arguments, std::ostream& out) {
   const cases::Case source = cases::read_case(arguments.case_path, arguments.overrides);
   const auto expectations = cases::read_expectations(source.file);
-  const setup::PartSize size = source.part ? size_of(source) : setup::PartSize{};
+  const Forecast time = forecast(source);
   out << source.file.string() << ": no errors\n";
   if (!source.title.empty()) out << "  " << source.title << '\n';
   if (source.part && source.part->imported) {
     out << "  part      " << source.part->imported->summary << '\n';
     for (const auto& note : source.part->imported->notes) out << "            " << note << '\n';
   }
-  if (source.part) {
-    tell_size(source, size, out);
+  if (time.part) {
+    tell_size(source, *time.part, out);
     for (const std::string& warning : setup::unreachable_tolerances(source)) out << "  warning   " << warning << '\n';
   }
   for (const std::string& doubt : cases::doubts_about(source)) out << "  warning   " << doubt << '\n';
-  if (source.lobes)
-    out << "  lobes     " << source.lobes->count << " speeds, and up to " << setup::most_added(*source.lobes)
-        << " between them where the line needs them\n";
+  if (source.lobes) tell_lobes(*source.lobes, time, out);
   if (!expectations.empty()) out << "  expected  " << expectations.size() << " figures\n";
   return ExitCode::done;
 }

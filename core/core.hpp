@@ -11,5 +11,6 @@
 #include "core/overloaded.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
+#include "core/time_limit.hpp"
 #include "core/units.hpp"
 #include "core/words.hpp"

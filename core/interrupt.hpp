@@ -12,7 +12,8 @@ void clear_interrupt() noexcept;
 /// True once request_interrupt() was called.
 [[nodiscard]] bool interrupt_requested() noexcept;
 
-/// Throws Interrupted if a stop was requested. Cost: one relaxed atomic load.
+/// Throws Interrupted if a stop was requested, and TimeIsOver where a TimeLimit of this thread has passed
+/// (core/time_limit.hpp). Cost: one relaxed atomic load, with a limit a reading of the clock.
 void check_interrupt();
 
 }  // namespace thinwall::core

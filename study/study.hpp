@@ -10,6 +10,7 @@
 #include "study/lobes/chart_of.hpp"
 #include "study/lobes/cut_structure.hpp"
 #include "study/lobes/lobe_sensitivity.hpp"
+#include "study/lobes/lobes_forecast.hpp"
 #include "study/lobes/lobes_stage.hpp"
 #include "study/lobes/low_limit.hpp"
 #include "study/lobes/main_modes.hpp"

@@ -131,7 +131,11 @@ milling::FittedStructure sampled_structure(const setup::CutSetup& source, const 
 
 CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                            const dynamics::ModalModel* part) {
-  const std::optional<milling::RelativeStructure> modal = cut_poles(source, part);
+  return cut_structure(source, frame, cut_poles(source, part));
+}
+
+CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
+                           const std::optional<milling::RelativeStructure>& modal) {
   if (source.tool->swap) return fitted(swapped(source), modal, frame, "the swapped tool's");
   if (!source.tool->measured.empty()) {
     const dynamics::FrequencyAxis& lines = setup::receptance_of(source.tool->measured.front()).axis;

@@ -37,6 +37,10 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::FittedStr
 [[nodiscard]] CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                          const dynamics::ModalModel* part);
 
+/// As above, with what is known by its modes given as cut_poles() gives it.
+[[nodiscard]] CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
+                                         const std::optional<milling::RelativeStructure>& modal);
+
 /// The part as it is held by a robot that has no poles: samples of `coupled` (part axes) at the point that is cut, on
 /// its lines, and the tool: its modes as poles, or its measured receptance put on these lines. Warns as above. Throws
 /// DataError as io::resample.

@@ -27,14 +27,6 @@ namespace thinwall::study {
 
 namespace {
 
-milling::MethodOptions options_of(const setup::LobesOptions& wanted) {
-  milling::MethodOptions options;
-  options.stability = stability_options(wanted);
-  options.steps_per_period = wanted.steps_per_period.value_or(options.steps_per_period);
-  options.harmonics = wanted.harmonics.value_or(options.harmonics);
-  return options;
-}
-
 /// The data from which a chart and its answers are computed; `poles` is null where the structure is known by samples.
 struct Chart {
   CutStructure structure;
@@ -232,12 +224,20 @@ milling::StabilityOptions stability_options(const setup::LobesOptions& wanted) {
   return options;
 }
 
+milling::MethodOptions method_options(const setup::LobesOptions& wanted) {
+  milling::MethodOptions options;
+  options.stability = stability_options(wanted);
+  options.steps_per_period = wanted.steps_per_period.value_or(options.steps_per_period);
+  options.harmonics = wanted.harmonics.value_or(options.harmonics);
+  return options;
+}
+
 StructureLobes compute_lobes(const setup::CutSetup& source, ChartOf of, CutStructure structure,
                              const StructureErrors& errors, const std::vector<milling::OperatingPoint>& points,
                              Checkpoint& kept) {
   const setup::LobesOptions& wanted = *source.lobes;
   const milling::MillingProcess process = setup::milling_process(source);
-  const Chart chart{std::move(structure), process, options_of(wanted), wanted.method == milling::Method::direct};
+  const Chart chart{std::move(structure), process, method_options(wanted), wanted.method == milling::Method::direct};
   StructureLobes result;
   result.of = of;
   result.main_modes_hz = main_modes_hz(chart.structure);

@@ -14,6 +14,9 @@ namespace thinwall::study {
 /// Options of the search at a speed, from [lobes].
 [[nodiscard]] milling::StabilityOptions stability_options(const setup::LobesOptions& wanted);
 
+/// Those options with what other methods than the direct one need.
+[[nodiscard]] milling::MethodOptions method_options(const setup::LobesOptions& wanted);
+
 /// The chart of a structure as the cut feels it, what `errors` of the structure make of its depths, and what it says of
 /// operating points. Rows that are kept are taken, others kept as they are found. From samples there are neither
 /// comparisons, a map, a robust chart nor sensitivities.

@@ -12,6 +12,7 @@
 #include <regex>
 #include <sstream>
 
+#include "app/forecast.hpp"
 #include "app/stage_display.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -137,6 +138,14 @@ TEST_F(OnATerminal, OneLineWithStageAndCountIsOverwritten) {
   EXPECT_TRUE(std::regex_search(text, std::regex("lobes: [0-9]+ of 100 speeds"))) << text;
   EXPECT_EQ(text.find("stage: "), std::string::npos);
   EXPECT_NE(text.find("\033[1mCutter\033[0m"), std::string::npos) << text;
+}
+
+TEST(Forecast, SaysTheWholeTimeAndItsTwoParts) {
+  const auto part = [](double seconds) { return setup::PartSize{2, 1.0, 1.0, seconds}; };
+  EXPECT_EQ(text({part(0.2), study::LobesForecast{{}, 0.1, false}}), "this takes about 1 s");
+  EXPECT_EQ(text({part(30.0), study::LobesForecast{{}, 90.0, false}}),
+            "this takes about 2 min: the part about 30 s, the lobes about 90 s");
+  EXPECT_EQ(text({{}, study::LobesForecast{{}, 7200.0, true}}), "this takes over 2 h");
 }
 
 TEST(StageDisplay, AStageWithoutALoopIsToldOfAgainWhileItGoesOn) {

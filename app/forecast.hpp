@@ -1,0 +1,36 @@
+#pragma once
+// The time that a run will take, before it begins.
+
+#include <optional>
+#include <string>
+
+#include "case/machining_case.hpp"
+#include "setup/part_size.hpp"
+#include "study/lobes/lobes_forecast.hpp"
+
+namespace thinwall::app {
+
+/// What is known of a run before it begins; none of what the case does not have.
+struct Forecast {
+  std::optional<setup::PartSize> part;
+  std::optional<study::LobesForecast> lobes;
+
+  [[nodiscard]] double part_s() const { return part ? part->seconds : 0.0; }
+  [[nodiscard]] double lobes_s() const { return lobes ? lobes->seconds : 0.0; }
+  [[nodiscard]] double whole_s() const { return part_s() + lobes_s(); }
+  /// True if it is known only that the run takes as long or longer.
+  [[nodiscard]] bool at_least() const { return lobes && lobes->at_least; }
+};
+
+/// The forecast of a case: the part from its first mesh where a file holds it (study::forecast()), else by
+/// cases::estimate_size(), and study::forecast_lobes(). Throws InputError for points that do not hold the part, and as
+/// study::forecast(). Cost: two seconds for the charts at most, and the first mesh.
+[[nodiscard]] Forecast forecast(const cases::Case& source);
+
+/// "about 3 min" or, of what is only known to be longer, "over 3 min"; a second at least.
+[[nodiscard]] std::string about(double seconds, bool at_least = false);
+
+/// A line that says the whole time and what it consists of.
+[[nodiscard]] std::string text(const Forecast& forecast);
+
+}  // namespace thinwall::app

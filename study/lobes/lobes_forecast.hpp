@@ -1,0 +1,38 @@
+#pragma once
+// The time that the charts of a set-up will take, from some of their rows computed with modes that stand in for the
+// part's.
+
+#include <optional>
+
+#include "setup/machining_setup.hpp"
+
+namespace thinwall::study {
+
+/// Numbers of rows.
+struct ExpectedRows {
+  double of_structure = 0.0;  ///< of part or tool as cut_structure() has them, and supported by a robot that has poles
+  double of_lines = 0.0;      ///< of the supported part where it is known by its receptances alone
+};
+
+/// What the stage of the lobes will take on core::thread_count() threads.
+struct LobesForecast {
+  ExpectedRows rows;
+  double seconds = 0.0;
+  bool at_least = false;  ///< a row was given up: all of them take as long or longer
+};
+
+/// The rows of all charts: with and without the robot, along a path, of methods to compare with, of a map, and those
+/// that a robust chart needs. A line is taken to need five hundred speeds, a quarter more than the even ones
+/// at least, as far as they may be added. The set-up must have lobes.
+[[nodiscard]] ExpectedRows expected_rows(const setup::Setup& source);
+
+/// The time of expected_rows(), from the time of a row, which is that of its method at the first speed, the last and
+/// between them, and of the fit of lines. What is known is taken as it is: cut, tool, and the lines of a measured tip.
+/// The part's modes, which are not known yet, have the density of those of a plate of its extent and thickness (Cremer,
+/// Heckl & Petersson 2005) and its mass. It is right within a factor of three as a rule. Empty where there is no chart,
+/// or where no row can be computed, which the run will tell. Throws Interrupted. Cost: that of three rows and a fit,
+/// `limit_s` at most, or twice that where lines of the supported part are fitted, but for steps that do not look at
+/// interrupts.
+[[nodiscard]] std::optional<LobesForecast> forecast_lobes(const setup::Setup& source, double limit_s = 1.5);
+
+}  // namespace thinwall::study

@@ -1,0 +1,106 @@
+// The forecast of a chart's time: its count of rows against those that a run computes, and what it does where rows do
+// not end in time.
+
+#include "study/lobes/lobes_forecast.hpp"
+
+#include <gtest/gtest.h>
+
+#include "case/reader.hpp"
+#include "core/atomic_file.hpp"
+#include "core/parallel.hpp"
+#include "study/run.hpp"
+#include "tests/case/case_text.hpp"
+#include "tests/core/temporary_folder.hpp"
+
+namespace thinwall::tests::lobes_forecast_test {
+
+using namespace cases;
+using namespace study;
+
+namespace {
+
+std::optional<LobesForecast> forecast_of(const std::string& text, double limit_s) {
+  return forecast_lobes(parse_case(text, "."), limit_s);
+}
+
+/// Seven teeth with helices and unequal pitches, whose rows take seconds to minutes.
+std::string slow_case(int speeds) {
+  std::string text =
+      with(cutter_case(), "teeth = 2\n",
+           "teeth = 7\nhelices = [\"38 deg\", \"38 deg\", \"38 deg\", \"38 deg\", \"38 deg\", \"38 deg\", "
+           "\"38 deg\"]\npitches = [\"46 deg\", \"52 deg\", \"50 deg\", \"55 deg\", \"49 deg\", \"54 deg\", "
+           "\"54 deg\"]\n");
+  return with(text, "count = 3", "count = " + std::to_string(speeds));
+}
+
+/// The rows of all charts that a run of the case computes.
+double rows_of_run(const std::string& text) {
+  Kept kept;
+  const Results results = run(parse_case(text, "."), {}, kept, {});
+  double rows = 0.0;
+  for (const StructureLobes& chart : results.lobes) {
+    rows += static_cast<double>(chart.lobes.rows.size());
+    for (const ComparedLobes& other : chart.compared) rows += static_cast<double>(other.lobes.rows.size());
+  }
+  return rows;
+}
+
+TEST(LobesForecast, CountsTheRowsThatARunComputes) {
+  const std::string range = "from = \"5000 rpm\"\nto = \"6000 rpm\"\ncount = 3\n";
+  for (const std::string lobes :
+       {"from = \"2000 rpm\"\nto = \"12000 rpm\"\ncount = 60\n",
+        "from = \"2000 rpm\"\nto = \"12000 rpm\"\ncount = 300\n",
+        "from = \"9000 rpm\"\nto = \"10000 rpm\"\ncount = 450\n",
+        "from = \"2000 rpm\"\nto = \"12000 rpm\"\ncount = 60\nmost_added = 0\n",
+        "from = \"2000 rpm\"\nto = \"12000 rpm\"\ncount = 60\ncompare = [\"zeroth_order\"]\n"}) {
+    const std::string text = with(cutter_case(), range, lobes);
+    const double said = expected_rows(parse_case(text, ".")).of_structure, taken = rows_of_run(text);
+    std::printf("%.0f rows said, %.0f computed\n", said, taken);
+    EXPECT_LT(said, 2.0 * taken) << lobes;
+    EXPECT_GT(said, 0.5 * taken) << lobes;
+  }
+}
+
+TEST(LobesForecast, IsTheTimeOfARowTimesTheirNumber) {
+  const auto forecast = forecast_of(cutter_case(), 600.0);
+  ASSERT_TRUE(forecast);
+  EXPECT_FALSE(forecast->at_least);
+  EXPECT_GT(forecast->seconds, 0.0);
+  EXPECT_EQ(forecast->rows.of_structure, 9.0) << "three speeds, and six may be added";
+}
+
+TEST(LobesForecast, RowsThatDoNotEndInTimeBoundItFromBelow) {
+  constexpr double limit_s = 0.02;
+  const auto forecast = forecast_of(slow_case(1000), limit_s);
+  ASSERT_TRUE(forecast);
+  EXPECT_TRUE(forecast->at_least);
+  EXPECT_GE(forecast->seconds, 0.9 * forecast->rows.of_structure * limit_s / core::thread_count())
+      << "the first row takes the limit, and all others do";
+}
+
+TEST(LobesForecast, ThereIsNoneWithoutAChart) {
+  cases::Case source = parse_case(cutter_case(), ".");
+  source.lobes.reset();
+  EXPECT_FALSE(forecast_lobes(source, 600.0));
+}
+
+TEST(LobesForecast, ModesStandInForThoseOfThePart) {
+  const std::string folder = std::string(THINWALL_SOURCE_DIR) + "/cases/cantilever-wall";
+  const auto forecast = forecast_lobes(read_case(folder), 600.0);
+  ASSERT_TRUE(forecast);
+  EXPECT_FALSE(forecast->at_least);
+  EXPECT_GT(forecast->seconds, 0.0);
+}
+
+TEST(LobesForecast, WhatIsAskedForBesideTheChartCounts) {
+  const auto rows = [](const std::string& text) { return expected_rows(parse_case(text, ".")).of_structure; };
+  const std::string plain = with(cutter_case(), "count = 3", "count = 100");
+  EXPECT_EQ(rows(plain), 300.0);
+  EXPECT_EQ(rows(with(cutter_case(), "count = 3", "count = 800")), 1000.0);
+  EXPECT_EQ(rows(with(plain, "count = 100", "count = 100\nmost_added = 20")), 120.0);
+  EXPECT_EQ(rows(with(plain, "count = 100", "count = 100\ncompare = [\"zeroth_order\"]")), 600.0);
+  EXPECT_GT(rows(plain + "[lobes.uncertainty]\nfrequency = 0.01\n"), 3.5 * 300.0) << "two rows a speed and more";
+}
+
+}  // namespace
+}  // namespace thinwall::tests::lobes_forecast_test
