@@ -214,6 +214,8 @@ TEST_F(CommandLine, CheckReportsEveryErrorAndOtherwiseTheSizes) {
   const Outcome good = call({"check", plate()});
   EXPECT_EQ(good.code, 0);
   EXPECT_NE(good.out.find("DOFs"), std::string::npos);
+  EXPECT_NE(good.out.find(" rows of all charts on "), std::string::npos) << good.out;
+  EXPECT_NE(good.out.find(" in all\n"), std::string::npos) << good.out;
   core::write_file_atomically(
       temporary.path / "plate" / "case.toml",
       with(with(plate_case(), "teeth = 6", "teeth = 0"), "poisson_ratio = 0.3", "poisson_ratio = 0.5"));
