@@ -274,6 +274,7 @@ Results run(const setup::Setup& setup, const setup::Variation& variation, Kept& 
     run_coupled_updating(variation, work, kept.structure, results, stages);
   run_responses(kept.structure, work.setup, results, stages);
   run_lobes(work.setup, options.points, kept.charts, results, stages);
+  kept.charts.arrange();
   stages.end();
   results.setup = std::move(work.setup);
   results.timings_s = stages.timings_s();

@@ -56,7 +56,8 @@ void Checkpoint::read(bool fresh) {
     if (left < size || left - size < name_size) break;
     const std::string_view both = std::string_view(all).substr(end + 1, name_size + size);
     if (io::sha256(both) != sum) break;
-    pieces_[std::string(both.substr(0, name_size))] = both.substr(name_size);
+    note_place_of(std::string(both.substr(0, name_size)));
+    pieces_[last_] = both.substr(name_size);
     at = end + 1 + name_size + size;
   }
   begun_ = true;
@@ -77,10 +78,30 @@ void Checkpoint::add(const std::string& name, std::string bytes) {
   if (file_.empty()) return;
   try {
     write(record(name, bytes));
+    note_place_of(name);
     pieces_[name] = std::move(bytes);
   } catch (const core::DataError& error) {
     core::warn(fmt::format("{}; the next run begins anew", error.what()));
     file_.clear();
+  }
+}
+
+void Checkpoint::note_place_of(const std::string& name) {
+  sorted_ = sorted_ && (pieces_.empty() || last_ < name);
+  last_ = name;
+}
+
+void Checkpoint::arrange() {
+  const std::lock_guard lock(mutex_);
+  if (file_.empty() || sorted_) return;
+  std::string all = heading_;
+  for (const auto& [name, bytes] : pieces_) all += record(name, bytes);
+  try {
+    core::write_file_atomically(file_, all);
+    last_ = pieces_.rbegin()->first;
+    sorted_ = true;
+  } catch (const core::DataError& error) {
+    core::warn(fmt::format("{}; the kept pieces stay in the order in which they were finished", error.what()));
   }
 }
 

@@ -24,16 +24,22 @@ class Checkpoint {
   [[nodiscard]] const std::string* find(const std::string& name) const;
   /// Adds a piece and writes it at once. Cost: its bytes, hashed and written.
   void add(const std::string& name, std::string bytes);
+  /// Writes the file again with its pieces in the order of their names, unless they are: threads add them in the order
+  /// in which they finish, and two runs of one case leave equal files only so. Cost: all bytes, hashed and written.
+  void arrange();
 
  private:
   void read(bool fresh);
   void write(const std::string& piece);
+  void note_place_of(const std::string& name);
 
   mutable std::mutex mutex_;
   std::filesystem::path file_;
   std::string heading_;
   std::map<std::string, std::string> pieces_;
+  std::string last_;    ///< the name of the last piece in the file
   bool begun_ = false;  ///< the file has this heading
+  bool sorted_ = true;  ///< the pieces in the file are in the order of their names
 };
 
 }  // namespace thinwall::study
