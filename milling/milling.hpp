@@ -1,8 +1,9 @@
 #pragma once
 // All that milling/ offers to other programs.
-// Internal: contact_grid, contact_state, critical_depths, crossing, cut_at_speed, cut_cycle, dominant_eigenvalue, edge,
-// fitted_receptance, found_crossings, harmonic_gain, helical_row, parameter_change, product_rule, refined_crossing,
-// row_search, sampled_peak, step_coefficients, uniform_step_map, uniform_step_stability, vanishing_powers.
+// Internal: chip_force, circular_cut, contact_grid, contact_state, critical_depths, crossing, cut_at_speed,
+// cut_cycle, dominant_eigenvalue, edge, fitted_receptance, found_crossings, harmonic_gain, helical_row, march,
+// march_rule, parameter_change, product_rule, refined_crossing, row_search, sampled_peak, step_coefficients,
+// uniform_step_map, uniform_step_stability, vanishing_powers.
 
 #include "core/eigen_alignment.hpp"
 #include "milling/chart/line_error.hpp"
@@ -37,6 +38,10 @@
 #include "milling/direct/stability.hpp"
 #include "milling/forced/forced_vibration.hpp"
 #include "milling/forced/surface_error.hpp"
+#include "milling/simulation/growth.hpp"
+#include "milling/simulation/march_grid.hpp"
+#include "milling/simulation/motion_kind.hpp"
+#include "milling/simulation/simulation.hpp"
 #include "milling/structure/periodic_motion.hpp"
 #include "milling/structure/regenerative_loop.hpp"
 #include "milling/structure/relative_structure.hpp"

@@ -75,7 +75,11 @@ Eigen::MatrixXcd as_complex(const Eigen::MatrixXd& parts) {
 
 }  // namespace
 
-ProductRule::ProductRule(int nodes, double largest_exponent) : node_(core::gauss_legendre(nodes).node) {
+ProductRule::ProductRule(int nodes, double largest_exponent)
+    : ProductRule(core::gauss_legendre(nodes).node, largest_exponent) {}
+
+ProductRule::ProductRule(const Eigen::VectorXd& given, double largest_exponent) : node_(given) {
+  const auto nodes = static_cast<int>(given.size());
   const core::GaussRule whole = points_for(nodes, largest_exponent);
   // A force at s acts for 1 − s until the end: e^{z (1 − s)} is taken at these distances.
   distance_ = 1.0 - whole.node.array();

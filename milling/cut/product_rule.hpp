@@ -21,15 +21,18 @@ struct ModeMoments {
   Eigen::MatrixXcd end;                  ///< modes × nodes
 };
 
-/// Product integration at n Gauss nodes c_i: the exponential of each mode is integrated against the polynomials as it
-/// is, so that stiff modes need no more nodes than their share of the force asks for: a rule of quadrature on the nodes
-/// would have to resolve e^{z s}, although the force that it carries is smooth. The integrals themselves are Gauss sums
-/// with as many points as |z| needs; their integrands are entire, so that they converge to round-off. From node to node
-/// they are carried on: I(c_i) = e^{z (c_i − c_{i−1})} I(c_{i−1}) + ∫ between the two.
+/// Product integration at n nodes c_i, Gauss's unless others are given: the exponential of each mode is integrated
+/// against the polynomials as it is, so that stiff modes need no more nodes than their share of the force asks for: a
+/// rule of quadrature on the nodes would have to resolve e^{z s}, although the force that it carries is smooth. The
+/// integrals themselves are Gauss sums with as many points as |z| needs; their integrands are entire, so that they
+/// converge to round-off. From node to node they are carried on: I(c_i) = e^{z (c_i − c_{i−1})} I(c_{i−1}) + ∫ between
+/// the two.
 class ProductRule {
  public:
-  /// The rule of `nodes` ≥ 1, which serves |z| ≤ `largest_exponent`.
+  /// The rule of `nodes` ≥ 1 Gauss nodes, which serves |z| ≤ `largest_exponent`.
   ProductRule(int nodes, double largest_exponent);
+  /// The rule of given nodes, ascending within [0, 1] and symmetric about ½.
+  ProductRule(const Eigen::VectorXd& nodes, double largest_exponent);
 
   /// The nodes c_i.
   [[nodiscard]] const Eigen::VectorXd& node() const { return node_; }

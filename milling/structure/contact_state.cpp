@@ -37,7 +37,8 @@ Eigen::Matrix2Xd yielding_directions(const Eigen::Matrix2Xcd& phi, const Relativ
 
 ContactState contact_state(const RelativeStructure& structure, const ToolFrame& frame) {
   const Eigen::Matrix3d R = frame.rotation();
-  const Eigen::Matrix2Xcd phi = R.leftCols<2>().transpose() * structure.phi;
+  const Eigen::Matrix3Xcd in_space = R.transpose() * structure.phi;
+  const Eigen::Matrix2Xcd phi = in_space.topRows<2>();
   const Eigen::Matrix3Xcd b = R.transpose() * structure.b;
   std::vector<Eigen::Index> pairs;
   std::vector<Eigen::Index> reals;
@@ -53,15 +54,18 @@ ContactState contact_state(const RelativeStructure& structure, const ToolFrame& 
   state.real_pole = structure.poles(reals).real();
   state.B.resize(2 * n + m, 3);
   state.C.resize(state.in_plane.cols(), 2 * n + m);
+  state.motion.resize(3, 2 * n + m);
   const auto place = [&](Eigen::Index mode, Eigen::Index row, bool pair) {
     const double norm = phi.col(mode).norm();
     const double scale = norm > 0.0 ? norm : 1.0;
     const Eigen::VectorXcd shape = state.in_plane.transpose() * phi.col(mode) / scale;
     state.B.row(row) = b.col(mode).real().transpose() * scale;
     state.C.col(row) = shape.real() * (pair ? 2.0 : 1.0);
+    state.motion.col(row) = in_space.col(mode).real() / scale * (pair ? 2.0 : 1.0);
     if (!pair) return;
     state.B.row(n + row) = b.col(mode).imag().transpose() * scale;
     state.C.col(n + row) = -2.0 * shape.imag();
+    state.motion.col(n + row) = -2.0 * in_space.col(mode).imag() / scale;
   };
   for (Eigen::Index i = 0; i < n; ++i) place(pairs[static_cast<std::size_t>(i)], i, true);
   for (Eigen::Index i = 0; i < m; ++i) place(reals[static_cast<std::size_t>(i)], 2 * n + i, false);

@@ -20,6 +20,7 @@ struct ContactState {
   Eigen::ArrayXd real_pole;  ///< real poles, rad/s
   Eigen::MatrixXd B;         ///< states × 3
   Eigen::MatrixXd C;         ///< p × states
+  Eigen::Matrix3Xd motion;   ///< 3 × states: the displacement in tool axes, the axis included
   Eigen::Matrix2Xd in_plane;
 
   /// Number of states: two a pair of poles, one a real pole.

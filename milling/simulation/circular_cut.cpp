@@ -1,0 +1,68 @@
+#include "milling/simulation/circular_cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "core/error.hpp"
+
+namespace thinwall::milling {
+
+namespace {
+
+void require_positive(const char* what, double value, const char* unit) {
+  if (value > 0.0 && std::isfinite(value)) return;
+  std::ostringstream text;
+  text << "simulation: " << what << " " << value << " " << unit << ", must be positive; correct it";
+  throw core::InputError(text.str());
+}
+
+double longest_step_rad(const MarchGrid& grid) {
+  double longest = 0.0;
+  for (const MarchStretch& s : grid.stretches) longest = std::max(longest, (s.to_rad - s.from_rad) / s.steps);
+  return longest;
+}
+
+/// Steps of free flight twice as long as those of the cut.
+Flight flight_over(const CircularCut& cut, double from_rad, double to_rad, double cut_step_rad) {
+  const double rad = to_rad - from_rad;
+  Flight flight{free_flight(cut.structure, rad / cut.rad_per_s), {}, 0, from_rad, 0.0};
+  if (rad < 1e-9) return flight;
+  flight.steps = std::max(1, static_cast<int>(std::ceil(rad / (2.0 * cut_step_rad))));
+  flight.step_rad = rad / flight.steps;
+  flight.half_step = free_flight(cut.structure, 0.5 * flight.step_rad / cut.rad_per_s);
+  return flight;
+}
+
+}  // namespace
+
+CircularCut circular_cut(const RelativeStructure& structure, const MillingProcess& process, double spindle_speed_rpm,
+                         double depth_m, double feed_per_tooth_m, const StepOptions& options) {
+  require_positive("spindle speed", spindle_speed_rpm, "rpm");
+  require_positive("depth", depth_m, "m");
+  require_positive("feed per tooth", feed_per_tooth_m, "m");
+  CircularCut result;
+  result.grid = march_grid(process, depth_m, feed_per_tooth_m, options);
+  result.structure = contact_state(structure, process.frame);
+  const Eigen::Matrix3d to_part = process.frame.rotation();
+  result.residual = to_part.transpose() * structure.R * to_part;
+  result.rad_per_s = spindle_speed_rpm * 2.0 * std::numbers::pi / 60.0;
+  result.start = start_map(result.structure, result.residual, result.rad_per_s);
+  const double usual_step_rad = longest_step_rad(result.grid);
+  double since = 0.0;
+  for (const MarchStretch& stretch : result.grid.stretches) {
+    const double step_rad = (stretch.to_rad - stretch.from_rad) / stretch.steps;
+    result.flights.push_back(flight_over(result, since, stretch.from_rad, usual_step_rad));
+    result.rules.push_back(march_rule(result.structure, result.residual, step_rad / result.rad_per_s, step_rad));
+    since = stretch.to_rad;
+  }
+  result.flights.push_back(flight_over(result, since, result.grid.period_rad, usual_step_rad));
+  return result;
+}
+
+CutState at_rest(const CircularCut& cut) {
+  return {Eigen::VectorXd::Zero(cut.structure.size()), std::vector<double>(cut.grid.points.size(), 0.0)};
+}
+
+}  // namespace thinwall::milling

@@ -1,0 +1,52 @@
+#pragma once
+// A structure and a cut made ready to be marched from period to period, with teeth on circles.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "milling/simulation/march_grid.hpp"
+#include "milling/simulation/march_rule.hpp"
+#include "milling/structure/contact_state.hpp"
+
+namespace thinwall::milling {
+
+/// The structure between two stretches of the cut, where no tooth cuts: at once, or in steps that can be looked at.
+struct Flight {
+  FreeFlight whole;
+  FreeFlight half_step;
+  int steps = 0;
+  double from_rad = 0.0;  ///< rotation since the period began
+  double step_rad = 0.0;
+};
+
+/// All that does not change from one period to the next. Teeth move on circles that the vibration shifts and that the
+/// feed moves on by f_j = v_f τ_j from one tooth to the next; angles of entry and exit are fixed.
+struct CircularCut {
+  MarchGrid grid;
+  ContactState structure;
+  Eigen::Matrix3d residual = Eigen::Matrix3d::Zero();  ///< R in tool axes, m/N
+  double rad_per_s = 0.0;                              ///< Ω
+  StartMap start;
+  std::vector<MarchRule> rules;  ///< of each stretch
+  std::vector<Flight> flights;   ///< up to each stretch from the one before, and from the last to the period's end
+
+  /// Duration of a period, s.
+  [[nodiscard]] double period_s() const { return grid.period_rad / rad_per_s; }
+};
+
+/// `structure` in part axes. Throws InputError for a bad process, option, speed, depth or feed, or a structure that
+/// does not move in the plane of the cut. Cost O(nodes teeth discs + stretches states²).
+[[nodiscard]] CircularCut circular_cut(const RelativeStructure& structure, const MillingProcess& process,
+                                       double spindle_speed_rpm, double depth_m, double feed_per_tooth_m,
+                                       const StepOptions& options);
+
+/// What a period hands on to the next.
+struct CutState {
+  Eigen::VectorXd modes;          ///< as in ContactState
+  std::vector<double> surface_m;  ///< left by each point of MarchGrid::points, along its normal, in the moving frame
+};
+
+/// A structure at rest and the surfaces of a rigid tool.
+[[nodiscard]] CutState at_rest(const CircularCut& cut);
+
+}  // namespace thinwall::milling

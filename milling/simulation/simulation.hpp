@@ -1,0 +1,112 @@
+#pragma once
+// Milling in the time domain: the vibration of a cut whose teeth may leave the material, on either side of the boundary
+// of stability.
+
+#include <Eigen/Core>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "milling/cut/force_law.hpp"
+#include "milling/cut/process.hpp"
+#include "milling/simulation/march_grid.hpp"
+#include "milling/simulation/motion_kind.hpp"
+#include "milling/structure/relative_structure.hpp"
+
+namespace thinwall::milling {
+
+/// The operating point of a simulation.
+struct SimulatedPoint {
+  double spindle_speed_rpm = 0.0;
+  double depth_m = 0.0;
+  double feed_per_tooth_m = 0.0;  ///< mean over the teeth
+};
+
+/// What is simulated, and what of it is kept.
+struct SimulationOptions {
+  StepOptions steps = {};
+  int settling_turns = 200;  ///< ≥ 0: before anything is recorded
+  int recorded_turns = 200;  ///< ≥ 1
+  int kept_passes = 8000;    ///< ≥ 2: the last of the recorded passes of teeth are kept
+  int traced_turns = 0;      ///< 0 to `recorded_turns`: the last of them, sample by sample
+  int samples_a_turn = 720;  ///< ≥ 2: of the trace
+};
+
+/// Every violation, empty if there is none.
+[[nodiscard]] std::vector<std::string> validate(const SimulationOptions& options);
+
+/// The outcome of a simulation.
+enum class SimulationStatus {
+  completed,
+  overflowed,  ///< the vibration outgrew the radius of the cutter, or a number was not finite
+  unsettled,   ///< forces within a step did not settle at more than one node in a thousand
+};
+
+/// The status as in the enumeration.
+[[nodiscard]] std::string name(SimulationStatus status);
+
+/// Least and greatest values in tool axes.
+struct Extremes {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d high = Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity());
+
+  /// Takes a value in.
+  void take(const Eigen::Vector3d& value) {
+    low = low.cwiseMin(value);
+    high = high.cwiseMax(value);
+  }
+  /// High less low.
+  [[nodiscard]] Eigen::Vector3d range() const { return high - low; }
+};
+
+/// A tooth that passed through the cut: the samples once a tooth. Tool axes.
+struct ToothPass {
+  int tooth = 0;
+  double entry_s = 0.0;                                 ///< since the simulation began
+  Eigen::Vector3d entry_m = Eigen::Vector3d::Zero();    ///< displacement of tool minus part when its tip enters
+  Eigen::Vector3d entry_m_s = Eigen::Vector3d::Zero();  ///< and its velocity
+  Eigen::Vector3d exit_m = Eigen::Vector3d::Zero();     ///< when its tip leaves
+};
+
+/// Samples at equal steps of time. Tool axes.
+struct Trace {
+  double step_s = 0.0;
+  double start_s = 0.0;             ///< since the simulation began: when a turn began
+  Eigen::Matrix3Xd displacement_m;  ///< of tool minus part
+  Eigen::Matrix3Xd force_n;         ///< on the tool
+  Eigen::VectorXd torque_n_m;       ///< that the spindle gives
+};
+
+/// A simulated cut. Figures are those of the recorded turns; displacements and forces are those of the tool in tool
+/// axes.
+struct SimulatedCut {
+  SimulationStatus status = SimulationStatus::completed;
+  double simulated_s = 0.0;      ///< up to the end, or to where the status was met
+  Extremes displacement_m;       ///< of tool minus part
+  Extremes force_n;              ///< on the tool
+  double peak_force_n = 0.0;     ///< largest resultant
+  double peak_torque_n_m = 0.0;  ///< that the spindle gives
+  double thickest_chip_m = 0.0;
+  Eigen::Vector3d mean_force_n = Eigen::Vector3d::Zero();  ///< over time
+  double mean_torque_n_m = 0.0;
+  double mean_power_w = 0.0;           ///< mean torque times Ω
+  double share_without_contact = 0.0;  ///< of the time that teeth spend within the angles of the cut
+  std::vector<ToothPass> passes;       ///< the last `kept_passes`, in the order of entry
+  MotionKind motion;
+  Trace trace;  ///< of the last `traced_turns`
+};
+
+/// Called after every turn with the share of the turns done.
+using TurnObserver = std::function<void(double share)>;
+
+/// The march of circular_cut.hpp and march.hpp from rest, under the chip of the feed. `law` gives the force of each
+/// tooth; the linear law takes the coefficients of `process`, a tooth each where they differ. Multiple regeneration,
+/// loss of contact, runout, any pitch, helix and envelope are in it; extremes are those of parabolas through the nodes
+/// of a step. `structure` in part axes. Throws InputError for a bad process, law, option, speed, depth or feed (≤ 0).
+/// Cost: turns × steps × (states + 3 × points of edges in the cut); the memory does not depend on the turns.
+[[nodiscard]] SimulatedCut simulate(const RelativeStructure& structure, const MillingProcess& process,
+                                    const ForceLaw& law, const SimulatedPoint& point,
+                                    const SimulationOptions& options = {}, const TurnObserver& after_turn = {});
+
+}  // namespace thinwall::milling
