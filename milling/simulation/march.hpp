@@ -4,57 +4,16 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <type_traits>
 #include <vector>
 
 #include "milling/simulation/chip_force.hpp"
 #include "milling/simulation/circular_cut.hpp"
+#include "milling/simulation/march_step.hpp"
 
 namespace thinwall::milling {
 
-/// A moment of the march, at which all teeth in the cut have found their chips.
-struct MarchNode {
-  Eigen::Vector3d displacement_m = Eigen::Vector3d::Zero();  ///< of tool minus part, tool axes
-  Eigen::Vector3d force_n = Eigen::Vector3d::Zero();         ///< on the tool, tool axes
-  Eigen::Vector3d slope = Eigen::Vector3d::Zero();  ///< dq/dφ, m/rad, where a stretch begins; else with rubbing only
-  double torque_n_m = 0.0;                          ///< that the spindle gives
-  double thickest_chip_m = 0.0;
-  int points = 0, without_contact = 0;  ///< of edges within the angles of the cut
-};
-
-/// A step of the march: its start, middle and end, at equal distances.
-struct MarchStep {
-  int first_node = -1;    ///< of MarchGrid; −1 in free flight
-  double from_rad = 0.0;  ///< rotation since the period began
-  double step_rad = 0.0;
-  std::array<MarchNode, 3> at;
-
-  /// The rotation of a node, 0 to 2.
-  [[nodiscard]] double rotation_rad(int node) const { return from_rad + 0.5 * node * step_rad; }
-  /// The integral over the step by Simpson's rule of a quantity of its nodes, which is a value.
-  template <class Quantity>
-  [[nodiscard]] auto integral(const Quantity& quantity) const {
-    auto sum = quantity(at[1]);
-    sum *= 4.0;
-    sum += quantity(at[0]);
-    sum += quantity(at[2]);
-    sum *= step_rad / 6.0;
-    return sum;
-  }
-};
-
-/// An observer that sees nothing, for which free flight is one product.
-struct Unseen {
-  void operator()(const MarchStep& /*step*/) const {}
-};
-
-/// Marches a state over periods. `ChipForce` is one of chip_force.hpp. A step solves
-///
-///     f_c = F_c(q_c),   q_c = from_state x + Σ_j from_force_cj f_j,      c = middle, end
-///
-/// by fixed-point iterations from the parabola through the last three forces. They contract by the share of a mode's
-/// inertia that the cutting stiffness moves within a step, about w K h²/m, some 1e-4, and need two or three passes.
+/// Marches a state over periods. `ChipForce` is one of chip_force.hpp.
 ///
 /// With N = nᵀq + runout the position of the point of an edge along its normal and S the surface that it meets,
 ///
@@ -90,7 +49,6 @@ class March {
 
  private:
   using Vector = Eigen::Vector3d;
-  using Rows = Eigen::Matrix<double, 8, 1>;
 
   /// The surfaces at a node of a step.
   struct Surfaces {
@@ -106,24 +64,6 @@ class March {
   Points points_of(int node) const {
     const auto i = static_cast<std::size_t>(node);
     return {c_.grid.first_point[i], c_.grid.first_point[i + 1]};
-  }
-
-  static void fly(const FreeFlight& flight, Eigen::VectorXd& x) {
-    const Eigen::Index n = flight.cosine.size();
-    double* re = x.data();
-    double* im = re + n;
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const double rotated = flight.cosine[k] * re[k] - flight.sine[k] * im[k];
-      im[k] = flight.sine[k] * re[k] + flight.cosine[k] * im[k];
-      re[k] = rotated;
-    }
-    for (Eigen::Index k = 0; k < flight.decay.size(); ++k) x[2 * n + k] *= flight.decay[k];
-  }
-
-  static Rows seen(const Eigen::Matrix<double, 8, Eigen::Dynamic>& map, const Eigen::VectorXd& x) {
-    Rows sum = Rows::Zero();
-    for (Eigen::Index k = 0; k < x.size(); ++k) sum += map.col(k) * x[k];
-    return sum;
   }
 
   /// The surfaces that the points of a node meet.
@@ -182,13 +122,9 @@ class March {
     }
   }
 
-  static bool near(const Vector& a, const Vector& b, double tolerance) {
-    return (a - b).cwiseAbs().maxCoeff() <= tolerance * b.cwiseAbs().maxCoeff();
-  }
-
   /// The forces at the start of a stretch, where the residual alone follows them at once.
   void solve_start(int node, const Eigen::VectorXd& x) {
-    const Rows rows = seen(c_.start.from_state, x);
+    const Eigen::Matrix<double, 8, 1> rows = of_state(c_.start.from_state, x);
     MarchNode& start = step_.at[0];
     start.force_n.setZero();
     for (int pass = 0;; ++pass) {
@@ -203,70 +139,27 @@ class March {
     }
   }
 
-  static Vector answer(const Rows& rows, const std::array<Eigen::Matrix3d, 3>& from_force, int row, const Vector& f0,
-                       const Vector& f1, const Vector& f2) {
-    return rows.segment<3>(row) + from_force[0] * f0 + from_force[1] * f1 + from_force[2] * f2;
-  }
-
-  /// The forces at the middle and the end of the step.
-  void solve_step(const MarchRule& rule, const Eigen::VectorXd& x) {
-    const bool rubs = chip_force_.damping.K_r != 0.0;
-    const Rows q_rows = seen(rule.displacement.from_state, x);
-    const Rows slope_rows = rubs ? seen(rule.slope.from_state, x) : Rows(Rows::Zero());
-    const Vector f0 = step_.at[0].force_n;
-    for (int pass = 0;; ++pass) {
-      const Vector f1 = step_.at[1].force_n;
-      const Vector f2 = step_.at[2].force_n;
-      for (std::size_t c : {std::size_t{0}, std::size_t{1}}) {
-        const int row = c == 0 ? 0 : 4;
-        MarchNode& node = step_.at[c + 1];
-        node.displacement_m = answer(q_rows, rule.displacement.from_force[c], row, f0, f1, f2);
-        if (rubs) node.slope = answer(slope_rows, rule.slope.from_force[c], row, f0, f1, f2);
-        load(step_.first_node + 1 + static_cast<int>(c), node, surfaces_[c + 1]);
-      }
-      const auto both = [&](double tolerance) {
-        return near(f1, step_.at[1].force_n, tolerance) && near(f2, step_.at[2].force_n, tolerance);
-      };
-      if (both(settled_tolerance)) return;
-      if (pass < most_passes) continue;
-      if (!both(unsettled_tolerance)) ++unsettled_;
-      return;
-    }
-  }
-
-  void update(const MarchRule& rule, Eigen::VectorXd& x) const {
-    fly(rule.flight, x);
-    for (int j = 0; j < 9; ++j) {
-      const double* column = rule.update.col(j).data();
-      const double f = step_.at[static_cast<std::size_t>(j / 3)].force_n[j % 3];
-      for (Eigen::Index k = 0; k < x.size(); ++k) x[k] += column[k] * f;
-    }
-  }
-
   template <class Observer>
   void over_stretch(const MarchStretch& stretch, const MarchRule& rule, CutState& state, Observer& see) {
-    step_.first_node = stretch.first_node;
+    step_.in_cut = true;
     step_.step_rad = (stretch.to_rad - stretch.from_rad) / stretch.steps;
-    meet(stretch.first_node, state, surfaces_[0]);
-    solve_start(stretch.first_node, state.modes);
-    leave_surface(stretch.first_node, surfaces_[0], state);
+    int node = stretch.first_node;
+    meet(node, state, surfaces_[0]);
+    solve_start(node, state.modes);
+    leave_surface(node, surfaces_[0], state);
     step_.at[1].force_n = step_.at[2].force_n = step_.at[0].force_n;
-    for (int i = 0; i < stretch.steps; ++i, step_.first_node += 2) {
+    const bool rubs = chip_force_.damping.K_r != 0.0;
+    for (int i = 0; i < stretch.steps; ++i, node += 2) {
       step_.from_rad = stretch.from_rad + i * step_.step_rad;
-      meet(step_.first_node + 1, state, surfaces_[1]);
-      meet(step_.first_node + 2, state, surfaces_[2]);
-      solve_step(rule, state.modes);
-      update(rule, state.modes);
-      leave_surface(step_.first_node + 1, surfaces_[1], state);
-      leave_surface(step_.first_node + 2, surfaces_[2], state);
+      for (std::size_t c : {std::size_t{1}, std::size_t{2}}) meet(node + static_cast<int>(c), state, surfaces_[c]);
+      unsettled_ += settle_forces(rule, state.modes, rubs, step_, [&](std::size_t c, MarchNode& at) {
+        load(node + static_cast<int>(c), at, surfaces_[c]);
+      });
+      advance_state(rule, step_, state.modes);
+      for (std::size_t c : {std::size_t{1}, std::size_t{2}})
+        leave_surface(node + static_cast<int>(c), surfaces_[c], state);
       see(step_);
-      const Vector f0 = step_.at[0].force_n;
-      const Vector f1 = step_.at[1].force_n;
-      step_.at[0] = step_.at[2];
-      // The parabola through the three forces, carried on to the next step, is where its iterations begin.
-      const Vector f2 = step_.at[0].force_n;
-      step_.at[1].force_n = 3.0 * f2 - 3.0 * f1 + f0;
-      step_.at[2].force_n = 6.0 * f2 - 8.0 * f1 + 3.0 * f0;
+      begin_next(step_);
     }
   }
 
@@ -276,7 +169,7 @@ class March {
       fly(flight.whole, x);
       return;
     }
-    step_ = {-1, flight.from_rad, flight.step_rad, {}};
+    step_ = {false, flight.from_rad, flight.step_rad, {}};
     step_.at[0].displacement_m = c_.structure.motion * x;
     for (int i = 0; i < flight.steps; ++i) {
       step_.from_rad = flight.from_rad + i * flight.step_rad;
@@ -288,10 +181,6 @@ class March {
       step_.at[0] = step_.at[2];
     }
   }
-
-  static constexpr double settled_tolerance = 1e-12;
-  static constexpr double unsettled_tolerance = 1e-9;
-  static constexpr int most_passes = 30;
 
   const CircularCut& c_;
   const ChipForce& chip_force_;

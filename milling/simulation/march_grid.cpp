@@ -101,7 +101,7 @@ class Builder {
     for (const MarchStretch& stretch : grid_.stretches) add_points(stretch);
     grid_.first_point.push_back(static_cast<int>(grid_.points.size()));
     for (const MarchStretch& stretch : grid_.stretches) add_pasts(stretch);
-    add_tip_moments();
+    add_tips();
     return std::move(grid_);
   }
 
@@ -193,21 +193,13 @@ class Builder {
     for (int k = 0; k < window; ++k) grid_.pasts.push_back({point(first + k), weights(k)});
   }
 
-  void add_tip_moments() {
+  void add_tips() {
     for (std::size_t i = 0; i < teeth_.cycle.sweeps.size(); ++i) {
       if (teeth_.disc[i] != 0) continue;
       const Sweep& sweep = teeth_.cycle.sweeps[i];
-      for (const MarchStretch& stretch : grid_.stretches) {
-        const double exit = std::fmod(sweep.entry_rad + sweep.arc_rad, grid_.period_rad);
-        const bool ends_with_period = exit < hair && std::abs(stretch.to_rad - grid_.period_rad) < hair;
-        if (std::abs(stretch.from_rad - sweep.entry_rad) < hair)
-          grid_.tip_moments.push_back({stretch.first_node, sweep.tooth, true});
-        if (std::abs(stretch.to_rad - exit) < hair || ends_with_period)
-          grid_.tip_moments.push_back({stretch.first_node + 2 * stretch.steps, sweep.tooth, false});
-      }
+      const double exit = std::fmod(sweep.entry_rad + sweep.arc_rad, grid_.period_rad);
+      grid_.tips.push_back({sweep.tooth, sweep.entry_rad, exit < hair ? grid_.period_rad : exit});
     }
-    std::stable_sort(grid_.tip_moments.begin(), grid_.tip_moments.end(),
-                     [](const TipMoment& a, const TipMoment& b) { return a.node < b.node; });
   }
 
   const MillingProcess& process_;

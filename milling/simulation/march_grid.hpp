@@ -51,11 +51,12 @@ struct MarchStretch {
   int first_node = 0;  ///< of 2 steps + 1
 };
 
-/// The entry of the tip of a tooth into an arc of the cut, or its exit, and the node on the side of the cut.
-struct TipMoment {
-  int node = 0;
+/// The rotation at which the tip of a tooth enters an arc of the cut, and at which it leaves it, rad since the period
+/// began: an entry from 0 to below the period, an exit above 0 to the period.
+struct TipPass {
   int tooth = 0;
-  bool entry = true;
+  double entry_rad = 0.0;
+  double exit_rad = 0.0;
 };
 
 /// One period of the cut, after which it repeats itself: a pitch where all teeth are alike, else a turn. It begins when
@@ -68,7 +69,7 @@ struct MarchGrid {
   std::vector<int> first_point;  ///< of each node, and one more entry for the end
   std::vector<CutPoint> points;
   std::vector<PastSurface> pasts;
-  std::vector<TipMoment> tip_moments;  ///< by rising node
+  std::vector<TipPass> tips;
 
   [[nodiscard]] int nodes() const { return static_cast<int>(first_point.size()) - 1; }
   /// Steps of all stretches.

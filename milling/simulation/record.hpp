@@ -1,0 +1,45 @@
+#pragma once
+// What is kept of the motion of a simulation: extremes, means, samples once a tooth, a trace.
+
+#include <Eigen/Core>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "milling/simulation/march_grid.hpp"
+#include "milling/simulation/march_step.hpp"
+#include "milling/simulation/simulation.hpp"
+
+namespace thinwall::milling {
+
+/// Sums over the recorded periods: an observer of the march, which calls it with every step.
+class Record {
+ public:
+  /// `tips` are those of a period; `result` receives extremes and trace at once, the rest at finish().
+  Record(const std::vector<TipPass>& tips, double rad_per_s, const SimulationOptions& options, SimulatedCut& result);
+
+  /// The period to be marched next begins at this time; `traced_rad`: rotation since the trace began, below 0 before.
+  void begin_period(double time_s, double traced_rad);
+  /// Takes a step in. No allocation but of the passes that are kept.
+  void operator()(const MarchStep& step);
+  /// Means over the recorded rotation, the passes, and the kind of the motion.
+  void finish(double recorded_rad);
+
+ private:
+  void take_trace(const MarchStep& step);
+  void take_passes(const MarchStep& step);
+
+  std::vector<TipPass> tips_;
+  double rad_per_s_;
+  double sample_rad_;
+  std::size_t kept_;
+  SimulatedCut& result_;
+  std::vector<std::optional<ToothPass>> open_;  ///< of each of the tips, between entry and exit
+  std::deque<ToothPass> passes_;
+  Eigen::Index next_sample_ = 0;
+  double period_start_s_ = 0.0, traced_rad_ = -1.0;
+  Eigen::Vector3d impulse_ = Eigen::Vector3d::Zero();
+  double work_ = 0.0, within_ = 0.0, without_contact_ = 0.0;
+};
+
+}  // namespace thinwall::milling
