@@ -2,8 +2,8 @@
 // All that milling/ offers to other programs.
 // Internal: chip_force, circular_cut, contact_grid, contact_state, critical_depths, crossing, cut_at_speed,
 // cut_cycle, dominant_eigenvalue, edge, fitted_receptance, found_crossings, harmonic_gain, helical_row, march,
-// march_rule, parameter_change, product_rule, refined_crossing, row_search, sampled_peak, step_coefficients,
-// uniform_step_map, uniform_step_stability, vanishing_powers.
+// march_rule, march_step, parameter_change, product_rule, record, refined_crossing, row_search, sampled_peak,
+// step_coefficients, uniform_step_map, uniform_step_stability, vanishing_powers.
 
 #include "core/eigen_alignment.hpp"
 #include "milling/chart/line_error.hpp"
@@ -38,10 +38,12 @@
 #include "milling/direct/stability.hpp"
 #include "milling/forced/forced_vibration.hpp"
 #include "milling/forced/surface_error.hpp"
+#include "milling/simulation/exact_path.hpp"
 #include "milling/simulation/growth.hpp"
 #include "milling/simulation/march_grid.hpp"
 #include "milling/simulation/motion_kind.hpp"
 #include "milling/simulation/simulation.hpp"
+#include "milling/simulation/stock.hpp"
 #include "milling/structure/periodic_motion.hpp"
 #include "milling/structure/regenerative_loop.hpp"
 #include "milling/structure/relative_structure.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 // The force of a chip on an edge, in the forms that a simulation is compiled for.
 
+#include <variant>
 #include <vector>
 
 #include "milling/cut/force_law.hpp"
@@ -64,5 +65,21 @@ struct NonlinearContact {
     return {f[0] + damping.K_t * chip.slope, f[1] + damping.K_r * chip.slope, f[2]};
   }
 };
+
+/// The coefficients of each tooth.
+[[nodiscard]] inline std::vector<CuttingCoefficients> coefficients_of_teeth(const MillingProcess& process) {
+  std::vector<CuttingCoefficients> of_tooth;
+  for (int j = 0; j < process.cutter.teeth; ++j) of_tooth.push_back(coefficients(process, j));
+  return of_tooth;
+}
+
+/// body(chip_force) with the form that a law needs: the linear law has the coefficients of `process`.
+template <class Body>
+auto with_chip_force(const MillingProcess& process, const ForceLaw& law, const Body& body) {
+  const CuttingCoefficients damping = per_slope(process.damping, process.cutter);
+  if (const auto* power = std::get_if<PowerLaw>(&law)) return body(NonlinearContact<PowerLaw>{*power, damping});
+  if (const auto* bent = std::get_if<FractionalLaw>(&law)) return body(NonlinearContact<FractionalLaw>{*bent, damping});
+  return body(LinearContact{coefficients_of_teeth(process), damping});
+}
 
 }  // namespace thinwall::milling

@@ -3,20 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
-
-#include "core/error.hpp"
 
 namespace thinwall::milling {
 
 namespace {
-
-void require_positive(const char* what, double value, const char* unit) {
-  if (value > 0.0 && std::isfinite(value)) return;
-  std::ostringstream text;
-  text << "simulation: " << what << " " << value << " " << unit << ", must be positive; correct it";
-  throw core::InputError(text.str());
-}
 
 double longest_step_rad(const MarchGrid& grid) {
   double longest = 0.0;
@@ -39,9 +29,6 @@ Flight flight_over(const CircularCut& cut, double from_rad, double to_rad, doubl
 
 CircularCut circular_cut(const RelativeStructure& structure, const MillingProcess& process, double spindle_speed_rpm,
                          double depth_m, double feed_per_tooth_m, const StepOptions& options) {
-  require_positive("spindle speed", spindle_speed_rpm, "rpm");
-  require_positive("depth", depth_m, "m");
-  require_positive("feed per tooth", feed_per_tooth_m, "m");
   CircularCut result;
   result.grid = march_grid(process, depth_m, feed_per_tooth_m, options);
   result.structure = contact_state(structure, process.frame);

@@ -34,8 +34,8 @@ struct CircularCut {
   [[nodiscard]] double period_s() const { return grid.period_rad / rad_per_s; }
 };
 
-/// `structure` in part axes. Throws InputError for a bad process, option, speed, depth or feed, or a structure that
-/// does not move in the plane of the cut. Cost O(nodes teeth discs + stretches states²).
+/// `structure` in part axes; speed, depth and feed are positive. Throws InputError for a bad process or option, or a
+/// structure that does not move in the plane of the cut. Cost O(nodes teeth discs + stretches states²).
 [[nodiscard]] CircularCut circular_cut(const RelativeStructure& structure, const MillingProcess& process,
                                        double spindle_speed_rpm, double depth_m, double feed_per_tooth_m,
                                        const StepOptions& options);

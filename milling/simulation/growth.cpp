@@ -5,26 +5,20 @@
 
 #include "milling/direct/dominant_eigenvalue.hpp"
 #include "milling/simulation/march.hpp"
+#include "milling/simulation/simulation.hpp"
 
 namespace thinwall::milling {
 
 namespace {
 
 constexpr double eigenvalue_tolerance = 1e-10;
-
-LinearVariation linear_variation(const MillingProcess& process) {
-  LinearVariation force;
-  for (int j = 0; j < process.cutter.teeth; ++j) force.of_tooth.push_back(coefficients(process, j));
-  force.damping = per_slope(process.damping, process.cutter);
-  return force;
-}
+constexpr double any_feed_m = 1e-4;  // drops out
 
 /// Without an estimate.
 SimulatedGrowth growth_with(const RelativeStructure& structure, const MillingProcess& process, double rpm,
                             double depth_m, const StepOptions& options) {
-  constexpr double any_feed_m = 1e-4;  // drops out
   const CircularCut cut = circular_cut(structure, process, rpm, depth_m, any_feed_m, options);
-  const LinearVariation force = linear_variation(process);
+  const LinearVariation force{coefficients_of_teeth(process), per_slope(process.damping, process.cutter)};
   March march(cut, force);
   CutState state = at_rest(cut);
   const Eigen::Index modes = state.modes.size();
@@ -52,6 +46,7 @@ SimulatedGrowth growth_with(const RelativeStructure& structure, const MillingPro
 
 SimulatedGrowth simulated_growth(const RelativeStructure& structure, const MillingProcess& process,
                                  double spindle_speed_rpm, double depth_m, const StepOptions& options) {
+  require_usable(process, process.coefficients, {spindle_speed_rpm, depth_m, any_feed_m}, {options});
   SimulatedGrowth growth = growth_with(structure, process, spindle_speed_rpm, depth_m, options);
   StepOptions coarse = options;
   coarse.steps_in_cut = std::max(4, options.steps_in_cut / 2);

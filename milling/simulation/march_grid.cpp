@@ -21,19 +21,6 @@ struct DiscCycle {
   std::vector<int> disc;  ///< of each sweep
 };
 
-std::vector<Disc> discs_of(const MillingProcess& process, double depth_m, const StepOptions& options) {
-  const Cutter& cutter = process.cutter;
-  const EdgeShape shape = edge_shape(cutter, depth_m);
-  std::vector<Disc> discs;
-  for (const EdgeWeight& w : edge_weights(shape, cutter.depends_on_depth() ? options.discs : 1, 0.0, 1.0)) {
-    const double height = w.height * depth_m;
-    const bool upright = w.kappa_rad == 0.5 * std::numbers::pi;
-    discs.push_back({height, std::sin(w.kappa_rad), upright ? 0.0 : std::cos(w.kappa_rad), w.weight * depth_m,
-                     at_height(cutter.envelope, cutter.diameter_m, height).radius_m});
-  }
-  return discs;
-}
-
 DiscCycle disc_cycle(const MillingProcess& process, double depth_m, const std::vector<Disc>& discs) {
   const CutCycle edges = cut_cycle(process, depth_m);
   DiscCycle result{{edges.period_rad, edges.equal_teeth, {}, {0.0, 1.0}}, {}};
@@ -209,6 +196,19 @@ class Builder {
 };
 
 }  // namespace
+
+std::vector<Disc> discs_of(const MillingProcess& process, double depth_m, const StepOptions& options) {
+  const Cutter& cutter = process.cutter;
+  const EdgeShape shape = edge_shape(cutter, depth_m);
+  std::vector<Disc> discs;
+  for (const EdgeWeight& w : edge_weights(shape, cutter.depends_on_depth() ? options.discs : 1, 0.0, 1.0)) {
+    const double height = w.height * depth_m;
+    const bool upright = w.kappa_rad == 0.5 * std::numbers::pi;
+    discs.push_back({height, std::sin(w.kappa_rad), upright ? 0.0 : std::cos(w.kappa_rad), w.weight * depth_m,
+                     at_height(cutter.envelope, cutter.diameter_m, height).radius_m});
+  }
+  return discs;
+}
 
 std::vector<std::string> validate(const StepOptions& options) {
   std::vector<std::string> violations;

@@ -25,6 +25,10 @@ struct Disc {
   double radius_m = 0.0;  ///< lever of the torque
 };
 
+/// The discs of a cutter at a depth, from the tip up: one where height does not matter. Throws InputError if the depth
+/// exceeds the height of the edges.
+[[nodiscard]] std::vector<Disc> discs_of(const MillingProcess& process, double depth_m, const StepOptions& options);
+
 /// The part of a surface on which a point of an edge lies: `weight` times what the point `point` has left.
 struct PastSurface {
   int point = 0;

@@ -16,6 +16,7 @@ struct MarchNode {
   Eigen::Vector3d slope = Eigen::Vector3d::Zero();           ///< dq/dφ, m/rad; kept up to date with rubbing only
   double torque_n_m = 0.0;                                   ///< that the spindle gives
   double thickest_chip_m = 0.0;
+  double removal_m2_rad = 0.0;          ///< area that teeth remove, of exact paths
   int points = 0, without_contact = 0;  ///< of edges within the angles of the cut
 };
 

@@ -90,6 +90,7 @@ void Record::operator()(const MarchStep& step) {
   }
   impulse_ += step.integral([](const MarchNode& n) { return Eigen::Vector3d(n.force_n); });
   work_ += step.integral([](const MarchNode& n) { return n.torque_n_m; });
+  removed_ += step.integral([](const MarchNode& n) { return n.removal_m2_rad; });
   within_ += step.integral([](const MarchNode& n) { return static_cast<double>(n.points); });
   without_contact_ += step.integral([](const MarchNode& n) { return static_cast<double>(n.without_contact); });
 }
@@ -135,6 +136,7 @@ void Record::take_passes(const MarchStep& step) {
 void Record::finish(double recorded_rad) {
   result_.mean_force_n = impulse_ / recorded_rad;
   result_.mean_torque_n_m = work_ / recorded_rad;
+  result_.removed_m2 = removed_ / recorded_rad * 2.0 * std::numbers::pi;
   result_.mean_power_w = result_.mean_torque_n_m * rad_per_s_;
   result_.share_without_contact = within_ > 0.0 ? without_contact_ / within_ : 0.0;
   result_.passes.assign(passes_.begin(), passes_.end());

@@ -2,13 +2,23 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <sstream>
 
+#include "core/error.hpp"
 #include "milling/simulation/march.hpp"
 #include "milling/simulation/record.hpp"
 
 namespace thinwall::milling {
 
 namespace {
+
+void require_positive(const char* what, double value, const char* unit) {
+  if (value > 0.0 && std::isfinite(value)) return;
+  std::ostringstream text;
+  text << "simulation: " << what << " " << value << " " << unit << ", must be positive; correct it";
+  throw core::InputError(text.str());
+}
 
 bool within_radius(const CutState& state, double radius_m) {
   // Modes are scaled to their displacement at the cut. NaN fails the comparison.
@@ -45,12 +55,6 @@ SimulatedCut run(const CircularCut& cut, const ChipForce& force, double radius_m
   return result;
 }
 
-std::vector<CuttingCoefficients> coefficients_of_teeth(const MillingProcess& process) {
-  std::vector<CuttingCoefficients> of_tooth;
-  for (int j = 0; j < process.cutter.teeth; ++j) of_tooth.push_back(coefficients(process, j));
-  return of_tooth;
-}
-
 }  // namespace
 
 std::string name(SimulationStatus status) {
@@ -76,19 +80,24 @@ std::vector<std::string> validate(const SimulationOptions& options) {
   return violations;
 }
 
+void require_usable(const MillingProcess& process, const ForceLaw& law, const SimulatedPoint& point,
+                    const SimulationOptions& options) {
+  require_valid(validate(process));
+  require_valid(validate(law));
+  require_valid(validate(options));
+  require_positive("spindle speed", point.spindle_speed_rpm, "rpm");
+  require_positive("depth", point.depth_m, "m");
+  require_positive("feed per tooth", point.feed_per_tooth_m, "m");
+}
+
 SimulatedCut simulate(const RelativeStructure& structure, const MillingProcess& process, const ForceLaw& law,
                       const SimulatedPoint& point, const SimulationOptions& options, const TurnObserver& after_turn) {
-  require_valid(validate(options));
-  require_valid(validate(law));
+  require_usable(process, law, point, options);
   const CircularCut cut =
       circular_cut(structure, process, point.spindle_speed_rpm, point.depth_m, point.feed_per_tooth_m, options.steps);
-  const CuttingCoefficients damping = per_slope(process.damping, process.cutter);
-  const double radius_m = 0.5 * process.cutter.diameter_m;
-  const auto with = [&](const auto& force) { return run(cut, force, radius_m, options, after_turn); };
-  if (std::holds_alternative<CuttingCoefficients>(law))
-    return with(LinearContact{coefficients_of_teeth(process), damping});
-  if (const auto* power = std::get_if<PowerLaw>(&law)) return with(NonlinearContact<PowerLaw>{*power, damping});
-  return with(NonlinearContact<FractionalLaw>{std::get<FractionalLaw>(law), damping});
+  return with_chip_force(process, law, [&](const auto& chip_force) {
+    return run(cut, chip_force, 0.5 * process.cutter.diameter_m, options, after_turn);
+  });
 }
 
 }  // namespace thinwall::milling

@@ -36,6 +36,11 @@ struct SimulationOptions {
 /// Every violation, empty if there is none.
 [[nodiscard]] std::vector<std::string> validate(const SimulationOptions& options);
 
+/// Throws InputError with the violations of process, law and options, or for a speed, depth or feed that is not
+/// positive.
+void require_usable(const MillingProcess& process, const ForceLaw& law, const SimulatedPoint& point,
+                    const SimulationOptions& options);
+
 /// The outcome of a simulation.
 enum class SimulationStatus {
   completed,
@@ -88,6 +93,7 @@ struct SimulatedCut {
   double peak_force_n = 0.0;     ///< largest resultant
   double peak_torque_n_m = 0.0;  ///< that the spindle gives
   double thickest_chip_m = 0.0;
+  double removed_m2 = 0.0;  ///< area in the plane of the cut that a turn removes, mean over depth; of exact paths
   Eigen::Vector3d mean_force_n = Eigen::Vector3d::Zero();  ///< over time
   double mean_torque_n_m = 0.0;
   double mean_power_w = 0.0;           ///< mean torque times Ω

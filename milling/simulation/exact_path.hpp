@@ -1,0 +1,46 @@
+#pragma once
+// Milling in the time domain with teeth on the paths that they really take, and contact found by geometry.
+
+#include "milling/cut/force_law.hpp"
+#include "milling/cut/process.hpp"
+#include "milling/simulation/simulation.hpp"
+#include "milling/simulation/stock.hpp"
+#include "milling/structure/relative_structure.hpp"
+
+namespace thinwall::milling {
+
+/// The fineness of exact paths, besides that of SimulationOptions, whose steps in the cut have no meaning here.
+struct PathOptions {
+  int steps_a_turn = 720;   ///< ≥ 24
+  int earlier_passes = 10;  ///< ≥ 1 and at most 1000: of teeth, whose surfaces a tooth may meet
+};
+
+/// Every violation, empty if there is none.
+[[nodiscard]] std::vector<std::string> validate(const PathOptions& options);
+
+/// The centre of the tool moves along C(t) = v_f t x_T + q(t), a tooth's tip along C + R n(φ). A tooth meets, on the
+/// ray from the centre through its tip, the surface that an earlier tooth has left or the edge of the stock:
+///
+///     h = min(R, ρ_leaves) − max(ρ_enters, ρ_1 … ρ_K),     ρ_k = D·n + R_k cos ε,   sin ε = D·t / R_k,
+///     D = C(t − s) − C(t),   s = (P_k + ε)/Ω
+///
+/// with P_k the angle from the tooth to the k-th one ahead of it (Huynh 2017 removes the same region by polygons; a
+/// point of an earlier path lies on the ray where D + R_k n(φ − ε) has no part along t). s is found by fixed-point
+/// iterations, which contract by v/(R Ω); C between nodes is a cubic. So teeth on trochoids, the entry into a border, a
+/// contact that vibration moves, runout and any pitch are in it. Before the simulation begins the tool did not vibrate.
+/// Forces and motion are those of a step as in march_step.hpp, at equal steps of a turn; the contact of a tooth that
+/// enters within a step is known to that step.
+///
+/// SimulatedCut::removed_m2 is ∫ [R h − h²/2 + (C'·t) h] dφ over a turn, which is exact for any h: where the radial
+/// depth is a and nothing vibrates it is a v_f times the turn, less the cusps, and a number of steps that breaks this
+/// is too small.
+///
+/// `stock` bounds the material; the arcs of `process` only say where samples once a tooth are taken. Sides of cylinders
+/// only. `structure` in part axes. Throws InputError for a bad process, law, option, speed, depth or feed (≤ 0), or
+/// another envelope. Cost: steps × 3 × (states + teeth in the stock × discs × earlier passes).
+[[nodiscard]] SimulatedCut simulate_exact_path(const RelativeStructure& structure, const MillingProcess& process,
+                                               const ForceLaw& law, const SimulatedPoint& point, const Stock& stock,
+                                               const SimulationOptions& options = {}, const PathOptions& paths = {},
+                                               const TurnObserver& after_turn = {});
+
+}  // namespace thinwall::milling

@@ -1,0 +1,209 @@
+// Teeth on their real paths: values of another program, Bondarenko's robot, the area that a turn removes.
+
+#include "milling/simulation/exact_path.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "tests/milling/single_mode.hpp"
+
+namespace thinwall::milling::exact_path_test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+RelativeStructure modes_in_plane(double frequency_hz, double damping_ratio, double mass_kg, int directions = 2) {
+  std::vector<testing::Mode> modes{{frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitX()}};
+  if (directions == 2) modes.push_back({frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitY()});
+  return relative_structure(testing::modal_model(modes), "P");
+}
+
+RelativeStructure stiff() {
+  return modes_in_plane(20e3, 0.05, 1e6);
+}
+
+MillingProcess down_milling(double diameter_m, double radial_depth_m, int teeth = 2) {
+  MillingProcess process;
+  process.cutter = {teeth, diameter_m};
+  process.coefficients = {6e8, 2e8, 0.0, 0.0, 0.0, 0.0};
+  process.engagement = engagement_of(process.cutter, radial_depth_m, MillingDirection::down);
+  return process;
+}
+
+SimulationOptions turns(int settling, int recorded) {
+  SimulationOptions options;
+  options.settling_turns = settling;
+  options.recorded_turns = recorded;
+  return options;
+}
+
+struct LimitCycle {
+  double immersion, rpm, depth_m, diameter_m;
+  double range_x_um, range_y_um, deviation_um, force_x_n;
+};
+
+/// 2880 steps a turn outside this project, within 2e-4 of 1440 (oscillator of Insperger & Stepan in x and y).
+TEST(ExactPath, HasTheLimitCyclesOfAnotherProgram) {
+  for (const LimitCycle& c : {LimitCycle{0.05, 19000.0, 2e-3, 0.01, 151.885, 109.549, 65.7847, 74.673},
+                              LimitCycle{0.05, 19000.0, 2e-3, 0.1, 145.297, 103.157, 62.591, 71.6941},
+                              LimitCycle{1.0, 11000.0, 0.1e-3, 0.01, 139.509, 188.941, 46.6015, 6.1789}}) {
+    const double radial = c.immersion * c.diameter_m;
+    const MillingProcess process = down_milling(c.diameter_m, radial);
+    PathOptions paths;
+    paths.earlier_passes = c.immersion < 1.0 ? 10 : 5;
+    paths.steps_a_turn = c.diameter_m > 0.05 ? 1440 : 720;  // the larger cutter crosses the cut in half the angle
+    const SimulatedCut cut = simulate_exact_path(
+        modes_in_plane(922.0, 0.011, 0.03993), process, process.coefficients, {c.rpm, c.depth_m, 1e-4},
+        shoulder(process.cutter, radial, MillingDirection::down), turns(500, 500), paths);
+    ASSERT_EQ(cut.status, SimulationStatus::completed);
+    EXPECT_NEAR(1e6 * cut.displacement_m.range().x(), c.range_x_um, 2e-3 * c.range_x_um);
+    EXPECT_NEAR(1e6 * cut.displacement_m.range().y(), c.range_y_um, 2e-3 * c.range_y_um);
+    double mean = 0.0, square = 0.0;
+    for (const ToothPass& pass : cut.passes) {
+      const double x = 1e6 * pass.entry_m.x();
+      mean += x / static_cast<double>(cut.passes.size());
+      square += x * x / static_cast<double>(cut.passes.size());
+    }
+    EXPECT_NEAR(std::sqrt(square - mean * mean), c.deviation_um, 2e-3 * c.range_x_um);
+    // The peak of a quasi-periodic record is that of its length.
+    EXPECT_NEAR(cut.force_n.high.x(), c.force_x_n, 3e-3 * c.force_x_n);
+  }
+}
+
+/// a_e times the feed of a turn, less a cusp of f²/24R by f a tooth: to 1e-4 for down-milling, up-milling and a slot.
+TEST(ExactPath, RemovesTheAreaOfTheCut) {
+  constexpr double feed = 1e-4, diameter = 0.01;
+  for (const auto direction : {MillingDirection::down, MillingDirection::up}) {
+    for (const double radial : {0.5e-3, 4e-3, 10e-3}) {
+      MillingProcess process = down_milling(diameter, radial);
+      process.engagement = engagement_of(process.cutter, radial, direction);
+      const SimulatedCut cut =
+          simulate_exact_path(stiff(), process, process.coefficients, {6000.0, 1e-3, feed},
+                              shoulder(process.cutter, radial, direction), turns(2, 2), {2880, 10});
+      const double cusps = 2.0 * feed * feed * feed / (24.0 * 0.5 * diameter) * (radial < diameter ? 1.0 : 2.0);
+      EXPECT_NEAR(cut.removed_m2, 2.0 * feed * radial - cusps, 1e-4 * 2.0 * feed * radial) << radial;
+    }
+  }
+}
+
+/// Runout so large that every other tooth misses the cut: the area is that of all the feed all the same.
+TEST(ExactPath, RemovesTheAreaWithRunoutAndUnequalPitches) {
+  MillingProcess process = down_milling(0.01, 4e-3);
+  process.cutter.runout_m = {100e-6, -100e-6};
+  process.cutter.pitches_rad = {170.0 * pi / 180.0, 190.0 * pi / 180.0};
+  const SimulatedCut cut =
+      simulate_exact_path(stiff(), process, process.coefficients, {6000.0, 1e-3, 1e-4},
+                          shoulder(process.cutter, 4e-3, MillingDirection::down), turns(3, 2), {2880, 10});
+  // The wall is moved by the runout of the tooth that makes it.
+  const double radial = 4e-3 + 100e-6;
+  EXPECT_NEAR(cut.removed_m2, 2e-4 * radial, 3e-4 * 2e-4 * radial);
+}
+
+/// A circle and a trochoid part as the cutter grows: by the first order in f/D.
+TEST(ExactPath, IsTheCircularOneOfALargeCutter) {
+  double before = 0.0;
+  for (const double diameter : {0.02, 0.04, 0.08}) {
+    const double radial = 0.5 * diameter;
+    const MillingProcess process = down_milling(diameter, radial);
+    const RelativeStructure structure = modes_in_plane(922.0, 0.011, 0.03993);
+    const SimulatedPoint point{9000.0, 0.05e-3, 1e-4};
+    const SimulatedCut exact =
+        simulate_exact_path(structure, process, process.coefficients, point,
+                            shoulder(process.cutter, radial, MillingDirection::down), turns(300, 2), {1440, 4});
+    const SimulatedCut circular = simulate(structure, process, process.coefficients, point, turns(300, 2));
+    const double difference = (exact.mean_force_n - circular.mean_force_n).norm() / circular.mean_force_n.norm();
+    EXPECT_LT(difference, 0.02);
+    if (before > 0.0) EXPECT_NEAR(before / difference, 2.0, 0.5) << diameter;
+    before = difference;
+  }
+}
+
+/// The robot of Bondarenko 2012: mass and stiffness at the tip, a slot of four teeth that enters a straight border.
+struct Entering {
+  double final_mm = 0.0, overshoot_percent = 0.0, settling_s = 0.0;
+};
+
+/// The averages over a tooth period of one direction: the last of them, the greatest beyond, the last more than 2 %
+/// off.
+Entering entering(const Trace& trace, int direction, int samples_a_tooth) {
+  std::vector<double> mean;
+  for (Eigen::Index i = 0; i + samples_a_tooth <= trace.displacement_m.cols(); i += samples_a_tooth)
+    mean.push_back(trace.displacement_m.row(direction).segment(i, samples_a_tooth).mean());
+  Entering result;
+  double last = 0.0;
+  for (std::size_t i = mean.size() - 100; i < mean.size(); ++i) last += mean[i] / 100.0;
+  result.final_mm = 1e3 * last;
+  for (std::size_t i = 0; i < mean.size(); ++i) {
+    result.overshoot_percent = std::max(result.overshoot_percent, 100.0 * (mean[i] / last - 1.0));
+    if (std::abs(mean[i] / last - 1.0) > 0.02)
+      result.settling_s = (static_cast<double>(i) + 1.5) * samples_a_tooth * trace.step_s;
+  }
+  return result;
+}
+
+SimulatedCut bondarenko(const RelativeStructure& robot, int turns_recorded, int steps) {
+  MillingProcess process = down_milling(0.02, 0.02, 4);
+  constexpr double width = 1e-3, k_0 = 5e6;  // N/m over the width of cut
+  const FractionalLaw law{k_0 / width, 0.3 * k_0 / width, 0.0, 18e-6, 0.1};
+  SimulationOptions options = turns(0, turns_recorded);
+  options.traced_turns = turns_recorded;
+  options.samples_a_turn = steps;
+  return simulate_exact_path(robot, process, law, {10000.0, width, 1e-4}, {border_ahead(process.cutter, 0.0)}, options,
+                             {steps, 4});
+}
+
+double tip_hz(double stiffness, double mass_kg) {
+  return std::sqrt(stiffness / mass_kg) / (2.0 * pi);
+}
+
+/// Case B (x alone) and case C (x and y) for 1 MN/m and 100 kg, by another program with 960 steps a turn: finals to
+/// 1e-5 of it, overshoots to half a point (x of case C 1.5), times to 1 %.
+TEST(Bondarenko2012, EntersTheBorderAsAnotherProgramHasIt) {
+  const SimulatedCut b = bondarenko(modes_in_plane(tip_hz(1e6, 100.0), 0.05, 100.0, 1), 200, 960);
+  const Entering x = entering(b.trace, 0, 240);
+  EXPECT_NEAR(x.final_mm, -0.0394521, 1e-2 * 0.0394521);
+  EXPECT_NEAR(x.overshoot_percent, 17.6906, 0.5);
+  EXPECT_NEAR(x.settling_s, 0.451296, 0.03 * 0.451296);
+  const SimulatedCut c = bondarenko(modes_in_plane(tip_hz(1e6, 100.0), 0.05, 100.0), 200, 960);
+  const Entering cx = entering(c.trace, 0, 240), cy = entering(c.trace, 1, 240);
+  EXPECT_NEAR(cx.final_mm, -0.0394523, 1e-2 * 0.0394523);
+  EXPECT_NEAR(cx.overshoot_percent, 34.8395, 1.5);
+  EXPECT_NEAR(cx.settling_s, 0.457505, 0.03 * 0.457505);
+  EXPECT_NEAR(cy.final_mm, 0.132381, 1e-3 * 0.132381);
+  EXPECT_NEAR(cy.overshoot_percent, 16.0576, 0.5);
+  EXPECT_NEAR(cy.settling_s, 0.235967, 0.03 * 0.235967);
+}
+
+/// Case A, a tool that does not move: forces in the full slot by 5760 steps outside this project; the first tooth cuts
+/// alone until the next one reaches the border, R (1 − cos π/N)/v_f.
+TEST(Bondarenko2012, HasTheForcesOfTheFullSlot) {
+  const SimulatedCut cut = bondarenko(stiff(), 40, 2880);
+  const Eigen::Index last = 2880 * 5;
+  const auto full = cut.trace.force_n.rightCols(last);
+  EXPECT_NEAR(full.row(0).mean(), -39.452038, 1e-3 * 39.45);
+  EXPECT_NEAR(full.row(1).mean(), 132.38106, 1e-3 * 132.4);
+  EXPECT_NEAR(full.row(0).minCoeff(), -67.393086, 2e-3 * 67.4);
+  EXPECT_NEAR(full.row(0).maxCoeff(), -8.6883887, 2e-2);
+  EXPECT_NEAR(full.row(1).maxCoeff(), 143.85398, 1e-3 * 143.9);
+  EXPECT_NEAR(cut.displacement_m.range().norm(), 0.0, 1e-7);
+}
+
+TEST(ExactPath, RefusesWhatItCannotMarch) {
+  const MillingProcess process = down_milling(0.01, 1e-3);
+  const auto with = [&](const MillingProcess& p, const Stock& stock, const PathOptions& paths) {
+    return simulate_exact_path(stiff(), p, p.coefficients, {6000.0, 1e-3, 1e-4}, stock, turns(1, 1), paths);
+  };
+  EXPECT_THROW((void)with(process, {}, {10, 5}), core::InputError);
+  EXPECT_THROW((void)with(process, {}, {720, 0}), core::InputError);
+  EXPECT_THROW((void)with(process, {{Eigen::Vector2d(1.0, 1.0), 0.0}}, {}), core::InputError);
+  MillingProcess ball = process;
+  ball.cutter.envelope = ball_end(0.01);
+  EXPECT_THROW((void)with(ball, {}, {}), core::InputError);
+}
+
+}  // namespace
+}  // namespace thinwall::milling::exact_path_test
