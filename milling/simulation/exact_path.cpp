@@ -163,11 +163,27 @@ int over_step(PathCut& cut, const ChipForce& chip_force, Eigen::VectorXd& x, Mar
   return unsettled;
 }
 
+/// Tips of all teeth within a turn.
+std::vector<TipPass> tips_of(const MillingProcess& process) {
+  std::vector<TipPass> tips;
+  double behind = 0.0;
+  for (int j = 0; j < process.cutter.teeth; ++j) {
+    if (j > 0) behind += process.cutter.pitch_rad(j);
+    const double exit = std::fmod(behind + process.engagement.arc_rad(), turn_rad);
+    tips.push_back(
+        {j, behind, exit < 1e-9 ? turn_rad : exit, process.engagement.entry_rad, process.engagement.arc_rad()});
+  }
+  return tips;
+}
+
 template <class ChipForce>
-SimulatedCut run(PathCut& cut, const ChipForce& chip_force, const std::vector<TipPass>& tips, double radius_m,
+SimulatedCut run(PathCut& cut, const ChipForce& chip_force, const MillingProcess& process,
                  const SimulationOptions& options, int steps_a_turn, const TurnObserver& after_turn) {
   SimulatedCut result;
+  const std::vector<TipPass> tips = tips_of(process);
+  const double radius_m = 0.5 * process.cutter.diameter_m;
   Record record(tips, cut.rad_per_s, options, result);
+  WallRecorder wall(process, cut.feed_per_node_m / cut.node_rad, tips, turn_rad, options.wall);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(cut.structure.size());
   const double turn_s = turn_rad / cut.rad_per_s;
   const int turns = options.settling_turns + options.recorded_turns;
@@ -179,10 +195,12 @@ SimulatedCut run(PathCut& cut, const ChipForce& chip_force, const std::vector<Ti
   int turn = 0;
   for (; turn < turns && result.status == SimulationStatus::completed; ++turn) {
     record.begin_period(turn * turn_s, (turn - (turns - options.traced_turns)) * turn_rad);
+    wall.begin_period((turn - (turns - options.wall.turns)) * turn_rad);
     for (int i = 0; i < steps_a_turn; ++i) {
       step.from_rad = i * step.step_rad;
       unsettled += over_step(cut, chip_force, x, step);
       if (turn >= options.settling_turns) record(step);
+      wall(step);
       begin_next(step);
     }
     if (!(x.cwiseAbs().maxCoeff() < radius_m)) result.status = SimulationStatus::overflowed;
@@ -192,21 +210,10 @@ SimulatedCut run(PathCut& cut, const ChipForce& chip_force, const std::vector<Ti
   if (1000 * unsettled > 2L * turn * steps_a_turn && result.status == SimulationStatus::completed)
     result.status = SimulationStatus::unsettled;
   result.trace.start_s = (turns - options.traced_turns) * turn_s;
+  result.walls = wall.walls();
   record.finish(std::max(1, turn - options.settling_turns) * turn_rad);
   if (result.status == SimulationStatus::overflowed) result.motion = {Motion::growing, 0, 0.0};
   return result;
-}
-
-/// Tips of all teeth within a turn.
-std::vector<TipPass> tips_of(const MillingProcess& process) {
-  std::vector<TipPass> tips;
-  double behind = 0.0;
-  for (int j = 0; j < process.cutter.teeth; ++j) {
-    if (j > 0) behind += process.cutter.pitch_rad(j);
-    const double exit = std::fmod(behind + process.engagement.arc_rad(), turn_rad);
-    tips.push_back({j, behind, exit < 1e-9 ? turn_rad : exit});
-  }
-  return tips;
 }
 
 }  // namespace
@@ -256,8 +263,7 @@ SimulatedCut simulate_exact_path(const RelativeStructure& structure, const Milli
               rad_per_s,
               width};
   return with_chip_force(process, law, [&](const auto& chip_force) {
-    return run(cut, chip_force, tips_of(process), 0.5 * process.cutter.diameter_m, options, paths.steps_a_turn,
-               after_turn);
+    return run(cut, chip_force, process, options, paths.steps_a_turn, after_turn);
   });
 }
 

@@ -185,7 +185,8 @@ class Builder {
       if (teeth_.disc[i] != 0) continue;
       const Sweep& sweep = teeth_.cycle.sweeps[i];
       const double exit = std::fmod(sweep.entry_rad + sweep.arc_rad, grid_.period_rad);
-      grid_.tips.push_back({sweep.tooth, sweep.entry_rad, exit < hair ? grid_.period_rad : exit});
+      grid_.tips.push_back(
+          {sweep.tooth, sweep.entry_rad, exit < hair ? grid_.period_rad : exit, sweep.entry_phi_rad, sweep.arc_rad});
     }
   }
 

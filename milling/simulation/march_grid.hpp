@@ -61,6 +61,8 @@ struct TipPass {
   int tooth = 0;
   double entry_rad = 0.0;
   double exit_rad = 0.0;
+  double entry_phi_rad = 0.0;  ///< the angle φ at which the arc begins
+  double arc_rad = 0.0;
 };
 
 /// One period of the cut, after which it repeats itself: a pitch where all teeth are alike, else a turn. It begins when

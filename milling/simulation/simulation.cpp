@@ -26,22 +26,31 @@ bool within_radius(const CutState& state, double radius_m) {
 }
 
 template <class ChipForce>
-SimulatedCut run(const CircularCut& cut, const ChipForce& force, double radius_m, const SimulationOptions& options,
-                 const TurnObserver& after_turn) {
+SimulatedCut run(const CircularCut& cut, const ChipForce& force, const MillingProcess& process, double feed_per_tooth_m,
+                 const SimulationOptions& options, const TurnObserver& after_turn) {
   SimulatedCut result;
+  const double radius_m = 0.5 * process.cutter.diameter_m;
+  const double feed_m_per_rad = feed_per_tooth_m / process.cutter.pitch_rad();
   Record record(cut.grid.tips, cut.rad_per_s, options, result);
+  WallRecorder wall(process, feed_m_per_rad, cut.grid.tips, cut.grid.period_rad, options.wall);
+  const auto observe = [&](const MarchStep& step) {
+    record(step);
+    wall(step);
+  };
   March march(cut, force);
   CutState state = at_rest(cut);
   const int turns = options.settling_turns + options.recorded_turns;
   const int settling = options.settling_turns * cut.grid.periods_a_turn;
   const int untraced = (turns - options.traced_turns) * cut.grid.periods_a_turn;
+  const int unwalled = (turns - options.wall.turns) * cut.grid.periods_a_turn;
   const Unseen unseen;
   long unsettled = 0;
   int period = 0;
   for (int turn = 0; turn < turns && result.status == SimulationStatus::completed; ++turn) {
     for (int i = 0; i < cut.grid.periods_a_turn; ++i, ++period) {
       record.begin_period(period * cut.period_s(), (period - untraced) * cut.grid.period_rad);
-      unsettled += period < settling ? march.over_period(state, unseen) : march.over_period(state, record);
+      wall.begin_period((period - unwalled) * cut.grid.period_rad);
+      unsettled += period < settling ? march.over_period(state, unseen) : march.over_period(state, observe);
     }
     result.simulated_s = period * cut.period_s();
     if (!within_radius(state, radius_m)) result.status = SimulationStatus::overflowed;
@@ -50,6 +59,7 @@ SimulatedCut run(const CircularCut& cut, const ChipForce& force, double radius_m
   if (1000 * unsettled > static_cast<long>(period) * cut.grid.nodes() && result.status == SimulationStatus::completed)
     result.status = SimulationStatus::unsettled;
   result.trace.start_s = untraced * cut.period_s();
+  result.walls = wall.walls();
   record.finish(std::max(1, period - settling) * cut.grid.period_rad);
   if (result.status == SimulationStatus::overflowed) result.motion = {Motion::growing, 0, 0.0};
   return result;
@@ -73,6 +83,10 @@ std::vector<std::string> validate(const SimulationOptions& options) {
   require(options.recorded_turns >= 1, "turns to record", options.recorded_turns, 1);
   require(options.kept_passes >= 2, "passes of teeth to keep", options.kept_passes, 2);
   require(options.samples_a_turn >= 2, "samples a turn", options.samples_a_turn, 2);
+  if (options.wall.turns < 0 || options.wall.turns > options.recorded_turns) {
+    violations.push_back("simulation: " + std::to_string(options.wall.turns) + " turns of wall, must be 0 to the " +
+                         std::to_string(options.recorded_turns) + " that are recorded; correct it");
+  }
   if (options.traced_turns < 0 || options.traced_turns > options.recorded_turns) {
     violations.push_back("simulation: " + std::to_string(options.traced_turns) + " turns to trace, must be 0 to the " +
                          std::to_string(options.recorded_turns) + " that are recorded; correct it");
@@ -96,7 +110,7 @@ SimulatedCut simulate(const RelativeStructure& structure, const MillingProcess& 
   const CircularCut cut =
       circular_cut(structure, process, point.spindle_speed_rpm, point.depth_m, point.feed_per_tooth_m, options.steps);
   return with_chip_force(process, law, [&](const auto& chip_force) {
-    return run(cut, chip_force, 0.5 * process.cutter.diameter_m, options, after_turn);
+    return run(cut, chip_force, process, point.feed_per_tooth_m, options, after_turn);
   });
 }
 

@@ -12,6 +12,7 @@
 #include "milling/cut/process.hpp"
 #include "milling/simulation/march_grid.hpp"
 #include "milling/simulation/motion_kind.hpp"
+#include "milling/simulation/wall.hpp"
 #include "milling/structure/relative_structure.hpp"
 
 namespace thinwall::milling {
@@ -31,6 +32,7 @@ struct SimulationOptions {
   int kept_passes = 8000;    ///< ≥ 2: the last of the recorded passes of teeth are kept
   int traced_turns = 0;      ///< 0 to `recorded_turns`: the last of them, sample by sample
   int samples_a_turn = 720;  ///< ≥ 2: of the trace
+  WallOptions wall = {};
 };
 
 /// Every violation, empty if there is none.
@@ -100,7 +102,8 @@ struct SimulatedCut {
   double share_without_contact = 0.0;  ///< of the time that teeth spend within the angles of the cut
   std::vector<ToothPass> passes;       ///< the last `kept_passes`, in the order of entry
   MotionKind motion;
-  Trace trace;  ///< of the last `traced_turns`
+  Trace trace;              ///< of the last `traced_turns`
+  std::vector<Wall> walls;  ///< of the last turns, as WallOptions asks for them
 };
 
 /// Called after every turn with the share of the turns done.

@@ -1,0 +1,137 @@
+// The wall of a simulated cut: values of another program, the cusps of a rigid tool in closed form, a filter.
+
+#include "milling/simulation/wall.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "milling/simulation/exact_path.hpp"
+#include "milling/simulation/simulation.hpp"
+#include "tests/milling/single_mode.hpp"
+
+namespace thinwall::milling::wall_test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double feed_m = 1e-4;
+constexpr double diameter_m = 0.01;
+
+RelativeStructure in_plane(double frequency_hz, double damping_ratio, double mass_kg) {
+  return relative_structure(testing::modal_model({{frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitX()},
+                                                  {frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitY()}}),
+                            "P");
+}
+
+MillingProcess milling(double immersion, MillingDirection direction, double first_pitch_degrees = 180.0) {
+  MillingProcess process;
+  process.cutter = {2, diameter_m};
+  process.coefficients = {6e8, 2e8, 0.0, 0.0, 0.0, 0.0};
+  process.engagement = engagement_of(process.cutter, diameter_m * immersion, direction);
+  if (first_pitch_degrees != 180.0)
+    process.cutter.pitches_rad = {first_pitch_degrees * pi / 180.0, (360.0 - first_pitch_degrees) * pi / 180.0};
+  return process;
+}
+
+SimulationOptions walled(int settling, int steps = 400) {
+  SimulationOptions options;
+  options.steps.steps_in_cut = steps;
+  options.settling_turns = settling;
+  options.recorded_turns = options.wall.turns = 12;
+  return options;
+}
+
+struct Expected {
+  double immersion, rpm, depth_m;
+  MillingDirection direction;
+  double first_pitch_degrees;
+  double mean_um, R_a_um, R_q_um, R_t_um;
+};
+
+/// Outside this project: the envelope of the tips on the orbit in closed form, settled to 1e-4 of R_t (D = 10 mm, 0.1
+/// mm a tooth, oscillator of Insperger & Stepan in x and y). There positive is material left.
+TEST(Wall, IsThatOfAnotherProgram) {
+  constexpr auto down = MillingDirection::down, up = MillingDirection::up;
+  for (const Expected& e : {Expected{0.05, 11000.0, 1e-3, down, 180.0, 6.541554, 0.06299894, 0.07319856, 0.2455096},
+                            Expected{0.1, 16500.0, 0.6e-3, down, 180.0, 5.959273, 0.0645329, 0.07498062, 0.2514883},
+                            Expected{0.1, 22000.0, 1e-3, up, 180.0, -1.201653, 0.06371798, 0.07403377, 0.2483169},
+                            Expected{0.05, 14000.0, 1e-3, down, 180.0, 20.62015, 0.06881369, 0.07995425, 0.2681727},
+                            Expected{0.05, 11000.0, 0.8e-3, down, 165.0, -5.722428, 0.2558171, 0.2972348, 0.9969756},
+                            Expected{0.1, 22000.0, 1e-3, up, 175.0, -1.322473, 0.2356119, 0.2661361, 0.7565163}}) {
+    const MillingProcess process = milling(e.immersion, e.direction, e.first_pitch_degrees);
+    const SimulatedCut cut = simulate(in_plane(922.0, 0.011, 0.03993), process, process.coefficients,
+                                      {e.rpm, e.depth_m, feed_m}, walled(2000));
+    ASSERT_EQ(cut.walls.size(), 1u);
+    const Wall& wall = cut.walls.front();
+    EXPECT_EQ(wall.side, e.direction == up ? 1 : -1);
+    EXPECT_NEAR(-1e6 * wall.mean_m, e.mean_um, 1e-3 * e.R_t_um) << e.rpm;
+    EXPECT_NEAR(1e6 * wall.R_a_m, e.R_a_um, 2e-3 * e.R_a_um) << e.rpm;
+    EXPECT_NEAR(1e6 * wall.R_q_m, e.R_q_um, 2e-3 * e.R_q_um) << e.rpm;
+    EXPECT_NEAR(1e6 * wall.R_t_m, e.R_t_um, 2e-3 * e.R_t_um) << e.rpm;
+  }
+}
+
+/// A rigid tool leaves cusps of R_t = f²/8R (1 ± 2 v_f/(R Ω)), + for down-milling, R_a = 0.2566 R_t and
+/// R_q = 0.2981 R_t, those of a parabola: 2/(9√3) and √(4/45).
+TEST(Wall, OfARigidToolHasItsCusps) {
+  for (const auto direction : {MillingDirection::down, MillingDirection::up}) {
+    const MillingProcess process = milling(0.4, direction);
+    const SimulatedCut cut =
+        simulate_exact_path(in_plane(20e3, 0.05, 1e6), process, process.coefficients, {6000.0, 1e-3, feed_m},
+                            shoulder(process.cutter, 4e-3, direction), walled(2), {1440, 10});
+    ASSERT_EQ(cut.walls.size(), 1u);
+    const Wall& wall = cut.walls.front();
+    const double sign = direction == MillingDirection::down ? 1.0 : -1.0;
+    // v_f/(R Ω) = f z/(2π R)
+    const double slip = 2.0 * feed_m / (2.0 * pi * 0.5 * diameter_m);
+    const double R_t = feed_m * feed_m / (4.0 * diameter_m) * (1.0 + sign * 2.0 * slip);
+    EXPECT_NEAR(wall.R_t_m, R_t, 1e-3 * R_t);
+    EXPECT_NEAR(wall.R_a_m, 2.0 * R_t / (9.0 * std::sqrt(3.0)) * 2.0, 1e-3 * R_t);
+    EXPECT_NEAR(wall.R_q_m, std::sqrt(4.0 / 45.0) * R_t, 1e-3 * R_t);
+    EXPECT_NEAR(wall.deepest_m, 0.0, 1e-3 * R_t);
+  }
+}
+
+/// With a helix the wall of every height is made at a moment of its own, when the force is another.
+TEST(Wall, OfAHelixDiffersOverTheHeight) {
+  MillingProcess process = milling(0.1, MillingDirection::down);
+  process.cutter.helices_rad = {pi / 6.0, pi / 6.0};
+  SimulationOptions options = walled(1000, 200);
+  options.wall.heights_m = {0.0, 1e-3, 2e-3};
+  const SimulatedCut cut =
+      simulate(in_plane(922.0, 0.011, 0.03993), process, process.coefficients, {16500.0, 2e-3, feed_m}, options);
+  ASSERT_EQ(cut.walls.size(), 3u);
+  EXPECT_EQ(cut.walls[1].height_m, 1e-3);
+  EXPECT_GT(std::abs(cut.walls[2].mean_m - cut.walls[0].mean_m), 5e-7);
+}
+
+TEST(Wall, OfASlotHasTwoSides) {
+  const MillingProcess process = milling(1.0, MillingDirection::down);
+  const SimulatedCut cut =
+      simulate(in_plane(20e3, 0.05, 1e3), process, process.coefficients, {6000.0, 1e-3, feed_m}, walled(2, 200));
+  ASSERT_EQ(cut.walls.size(), 2u);
+  EXPECT_EQ(cut.walls[0].side, 1);
+  EXPECT_EQ(cut.walls[1].side, -1);
+}
+
+/// The filter halves a wave of its cutoff (ISO 16610-21), and passes what is much shorter.
+TEST(Wall, FilterHalvesTheWaveOfItsCutoff) {
+  const auto amplitude_left = [](double length) {
+    Wall wall;
+    wall.x_m = Eigen::VectorXd::LinSpaced(20001, 0.0, 20e-3);
+    wall.error_m = (2.0 * pi / length * wall.x_m.array()).sin();
+    return 0.5 * filtered(wall, 0.8e-3).R_t_m;
+  };
+  EXPECT_NEAR(amplitude_left(0.8e-3), 0.5, 1e-3);
+  EXPECT_NEAR(amplitude_left(0.08e-3), 1.0, 1e-3);
+  EXPECT_NEAR(amplitude_left(8e-3), 1.0 - std::exp2(-0.01), 1e-3);
+  Wall shorter;
+  shorter.x_m = Eigen::VectorXd::LinSpaced(101, 0.0, 1e-3);
+  shorter.error_m = shorter.x_m;
+  EXPECT_THROW((void)filtered(shorter, 0.8e-3), core::InputError);
+}
+
+}  // namespace
+}  // namespace thinwall::milling::wall_test
