@@ -13,8 +13,27 @@
 #include "milling/chart/sampled_stability.hpp"
 #include "milling/chart/stability_map.hpp"
 #include "python/bindings.hpp"
+#include "python/cut_structure.hpp"
 
 namespace thinwall::python {
+
+std::string point_of(const dynamics::DofTable& dofs, const std::optional<std::string>& at) {
+  if (at) return *at;
+  std::vector<std::string> points;
+  for (const auto& dof : dofs)
+    if (dof.kind == dynamics::DofKind::translation && std::ranges::find(points, dof.point) == points.end())
+      points.push_back(dof.point);
+  if (points.size() == 1) return points.front();
+  throw core::InputError("say at which point the cut is: `at`");
+}
+
+milling::RelativeStructure poles(const dynamics::ModalModel& model, const std::optional<std::string>& at) {
+  return milling::relative_structure(model, point_of(model.dofs, at));
+}
+
+milling::RelativeStructure poles(const dynamics::SpatialModel& model, const std::optional<std::string>& at) {
+  return poles(dynamics::to_modal(model.has_structural_damping() ? dynamics::equivalent_viscous(model) : model), at);
+}
 
 namespace {
 
@@ -44,24 +63,6 @@ MillingProcess process(int teeth, double diameter_m, double K_t, double K_r, dou
                               : milling::engagement_of(result.cutter, *radial_depth_m, turn);
   milling::require_valid(milling::validate(result));
   return result;
-}
-
-std::string point_of(const dynamics::DofTable& dofs, const std::optional<std::string>& at) {
-  if (at) return *at;
-  std::vector<std::string> points;
-  for (const auto& dof : dofs)
-    if (dof.kind == dynamics::DofKind::translation && std::ranges::find(points, dof.point) == points.end())
-      points.push_back(dof.point);
-  if (points.size() == 1) return points.front();
-  throw core::InputError("say at which point the cut is: `at`");
-}
-
-milling::RelativeStructure poles(const dynamics::ModalModel& model, const std::optional<std::string>& at) {
-  return milling::relative_structure(model, point_of(model.dofs, at));
-}
-
-milling::RelativeStructure poles(const dynamics::SpatialModel& model, const std::optional<std::string>& at) {
-  return poles(dynamics::to_modal(model.has_structural_damping() ? dynamics::equivalent_viscous(model) : model), at);
 }
 
 milling::SampledStructure samples(const dynamics::ResponseModel& model, const std::optional<std::string>& at,

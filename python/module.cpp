@@ -32,6 +32,7 @@ PYBIND11_MODULE(_core, module) {
   bind_robot(module);
   bind_coupling(module);
   bind_milling(module);
+  bind_simulation(module);
   bind_io(module);
   bind_study(module);
   hold_copies(module);

@@ -308,6 +308,30 @@ def multiplier(
     depth_m: float,
     at: str | None = None,
 ) -> Multiplier: ...
+def simulate(
+    structure: SpatialModel | ModalModel,
+    process: MillingProcess,
+    spindle_speed_rpm: float,
+    depth_m: float,
+    feed_per_tooth_m: float,
+    *,
+    at: str | None = None,
+    paths: str = "circular",
+    settling_turns: int = 200,
+    recorded_turns: int = 200,
+    traced_turns: int = 0,
+    wall_turns: int = 0,
+    steps: int = 200,
+) -> dict[str, Any]: ...
+def simulated_growth(
+    structure: SpatialModel | ModalModel,
+    process: MillingProcess,
+    spindle_speed_rpm: float,
+    depth_m: float,
+    *,
+    at: str | None = None,
+    steps: int = 200,
+) -> dict[str, Any]: ...
 class Case:
     @staticmethod
     def load(path: _Path, overrides: _Names = ...) -> Case: ...
