@@ -83,8 +83,9 @@ std::vector<std::string> validate(const SimulationOptions& options) {
   require(options.recorded_turns >= 1, "turns to record", options.recorded_turns, 1);
   require(options.kept_passes >= 2, "passes of teeth to keep", options.kept_passes, 2);
   require(options.samples_a_turn >= 2, "samples a turn", options.samples_a_turn, 2);
-  if (options.wall.turns < 0 || options.wall.turns > options.recorded_turns) {
-    violations.push_back("simulation: " + std::to_string(options.wall.turns) + " turns of wall, must be 0 to the " +
+  const int walled = options.wall.turns;
+  if (walled != 0 && (walled < 4 || walled > options.recorded_turns)) {
+    violations.push_back("simulation: " + std::to_string(walled) + " turns of wall, must be 0, or 4 to the " +
                          std::to_string(options.recorded_turns) + " that are recorded; correct it");
   }
   if (options.traced_turns < 0 || options.traced_turns > options.recorded_turns) {

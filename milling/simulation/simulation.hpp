@@ -63,8 +63,11 @@ struct Extremes {
     low = low.cwiseMin(value);
     high = high.cwiseMax(value);
   }
-  /// High less low.
-  [[nodiscard]] Eigen::Vector3d range() const { return high - low; }
+  /// High less low; NaN where nothing was taken in.
+  [[nodiscard]] Eigen::Vector3d range() const {
+    if ((low.array() <= high.array()).all()) return high - low;
+    return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
 };
 
 /// A tooth that passed through the cut: the samples once a tooth. Tool axes.
@@ -85,8 +88,8 @@ struct Trace {
   Eigen::VectorXd torque_n_m;       ///< that the spindle gives
 };
 
-/// A simulated cut. Figures are those of the recorded turns; displacements and forces are those of the tool in tool
-/// axes.
+/// A simulated cut. Figures are those of the recorded turns, extremes not finite if the simulation ended before;
+/// displacements and forces are those of the tool in tool axes.
 struct SimulatedCut {
   SimulationStatus status = SimulationStatus::completed;
   double simulated_s = 0.0;      ///< up to the end, or to where the status was met

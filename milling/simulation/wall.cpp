@@ -44,6 +44,12 @@ void set_roughness(Wall& wall) {
   wall.R_t_m = about.maxCoeff() - about.minCoeff();
 }
 
+double deepest_place(const TipPath& path) {
+  Eigen::Index at = 0;
+  path.e_m.maxCoeff(&at);
+  return path.x_m(at);
+}
+
 /// The error that the deepest of several tips leaves at a place; −∞ where none passes.
 double deepest_at(const std::vector<const TipPath*>& paths, double x) {
   double deepest = -std::numeric_limits<double>::infinity();
@@ -146,8 +152,9 @@ std::vector<Wall> WallRecorder::walls() const {
         if (of_side == side && path.height == static_cast<int>(h)) paths.push_back(&path);
       }
       if (paths.size() < 2) continue;
-      // What the first and the last passes cover was or will be covered by others as well.
-      const double from = paths.front()->x_m(samples_a_pass - 1), to = paths.back()->x_m(0);
+      // A turn's feed from where the first and the last pass are deepest, passes before and after are no deeper.
+      const double from = deepest_place(*paths.front()) + feed_a_turn_m_;
+      const double to = deepest_place(*paths.back()) - feed_a_turn_m_;
       const auto feeds = static_cast<Eigen::Index>(std::floor((to - from) / feed_a_turn_m_ + 1e-9));
       if (feeds < 1) continue;
       Wall wall{side, options_.heights_m[h], {}, {}};

@@ -12,7 +12,7 @@ namespace thinwall::milling {
 
 /// What of a wall is recorded.
 struct WallOptions {
-  int turns = 0;                          ///< ≥ 0: the last of the recorded turns; 0: no wall
+  int turns = 0;                          ///< the last of the recorded turns, at least 4; 0: no wall
   std::vector<double> heights_m = {0.0};  ///< from the tip up, within the depth
 };
 
@@ -51,8 +51,8 @@ class WallRecorder {
   void begin_period(double recorded_rad);
   /// Takes a step in.
   void operator()(const MarchStep& step);
-  /// The walls that the paths leave: none where no arc reaches a wall, two in a slot; one a height, over the feeds that
-  /// all passes cover. The sample points of a feed are 200.
+  /// The walls that the paths leave: none where no arc reaches a wall, two in a slot; one a height, of
+  /// 200 points a turn, without the first and the last turn, whose neighbours are not known.
   [[nodiscard]] std::vector<Wall> walls() const;
 
  private:

@@ -271,6 +271,9 @@ TEST(Simulation, RefusesWhatItCannotMarch) {
   SimulationOptions longer = turns(1, 1);
   longer.traced_turns = 2;
   EXPECT_THROW((void)simulated(process, {11000.0, 1e-3, feed_m}, longer), core::InputError);
+  SimulationOptions short_wall = turns(1, 10);
+  short_wall.wall.turns = 3;
+  EXPECT_THROW((void)simulated(process, {11000.0, 1e-3, feed_m}, short_wall), core::InputError);
 }
 
 }  // namespace

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 import thinwall
 
-TOOL = thinwall.oscillators([(922.0, 0.011, 0.03993, "x"), (922.0, 0.011, 0.03993, "y")], "tip")
+STIFFNESS = 0.03993 * (2 * np.pi * 922.0) ** 2
+TOOL = thinwall.oscillators([(922.0, 0.011, STIFFNESS, "x"), (922.0, 0.011, STIFFNESS, "y")], "tip")
 CUT = thinwall.MillingProcess(teeth=2, diameter_m=0.01, K_t=6e8, K_r=2e8, radial_depth_m=0.0005)
 
 
