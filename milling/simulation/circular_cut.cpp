@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace thinwall::milling {
@@ -48,8 +49,28 @@ CircularCut circular_cut(const RelativeStructure& structure, const MillingProces
   return result;
 }
 
-CutState at_rest(const CircularCut& cut) {
-  return {Eigen::VectorXd::Zero(cut.structure.size()), std::vector<double>(cut.grid.points.size(), 0.0)};
+Eigen::VectorXd at_rest(const ContactState& structure, const Eigen::Vector3d& force_n) {
+  const Eigen::Index n = structure.decay.size();
+  const Eigen::VectorXd driven = structure.B * force_n;
+  Eigen::VectorXd x(structure.size());
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const std::complex<double> z = -std::complex<double>(driven(k), driven(n + k)) /
+                                   std::complex<double>(structure.decay(k), structure.frequency(k));
+    x(k) = z.real();
+    x(n + k) = z.imag();
+  }
+  for (Eigen::Index k = 2 * n; k < structure.size(); ++k) x(k) = -driven(k) / structure.real_pole(k - 2 * n);
+  return x;
+}
+
+CutState at_rest(const CircularCut& cut, const Eigen::Vector3d& force_n) {
+  CutState state{at_rest(cut.structure, force_n), {}};
+  const Eigen::Vector3d q = cut.structure.motion * state.modes + cut.residual * force_n;
+  for (const CutPoint& p : cut.grid.points) {
+    const Disc& disc = cut.grid.discs[static_cast<std::size_t>(p.disc)];
+    state.surface_m.push_back(disc.sin_kappa * (p.sine * q.x() + p.cosine * q.y()) - disc.cos_kappa * q.z());
+  }
+  return state;
 }
 
 }  // namespace thinwall::milling

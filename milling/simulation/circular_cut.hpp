@@ -46,7 +46,10 @@ struct CutState {
   std::vector<double> surface_m;  ///< left by each point of MarchGrid::points, along its normal, in the moving frame
 };
 
-/// A structure at rest and the surfaces of a rigid tool.
-[[nodiscard]] CutState at_rest(const CircularCut& cut);
+/// The state of a structure at rest under a constant force on the tool, tool axes, N: x = −Λ⁻¹ B f.
+[[nodiscard]] Eigen::VectorXd at_rest(const ContactState& structure, const Eigen::Vector3d& force_n);
+
+/// A structure at rest under that force, and the surfaces that a tool in this place has left.
+[[nodiscard]] CutState at_rest(const CircularCut& cut, const Eigen::Vector3d& force_n = Eigen::Vector3d::Zero());
 
 }  // namespace thinwall::milling

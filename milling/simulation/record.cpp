@@ -82,6 +82,7 @@ void Record::operator()(const MarchStep& step) {
   take_parabola(result_.force_n, step, force);
   if (traced_rad_ >= 0.0) take_trace(step);
   take_passes(step);
+  displaced_ += step.integral([](const MarchNode& n) { return Eigen::Vector3d(n.displacement_m); });
   if (!step.in_cut) return;
   for (const MarchNode& node : step.at) {
     result_.peak_force_n = std::max(result_.peak_force_n, node.force_n.norm());
@@ -135,6 +136,7 @@ void Record::take_passes(const MarchStep& step) {
 
 void Record::finish(double recorded_rad) {
   result_.mean_force_n = impulse_ / recorded_rad;
+  result_.mean_displacement_m = displaced_ / recorded_rad;
   result_.mean_torque_n_m = work_ / recorded_rad;
   result_.removed_m2 = removed_ / recorded_rad * 2.0 * std::numbers::pi;
   result_.mean_power_w = result_.mean_torque_n_m * rad_per_s_;

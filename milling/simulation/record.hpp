@@ -39,6 +39,7 @@ class Record {
   Eigen::Index next_sample_ = 0;
   double period_start_s_ = 0.0, traced_rad_ = -1.0;
   Eigen::Vector3d impulse_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d displaced_ = Eigen::Vector3d::Zero();
   double work_ = 0.0, removed_ = 0.0, within_ = 0.0, without_contact_ = 0.0;
 };
 

@@ -38,7 +38,7 @@ SimulatedCut run(const CircularCut& cut, const ChipForce& force, const MillingPr
     wall(step);
   };
   March march(cut, force);
-  CutState state = at_rest(cut);
+  CutState state = at_rest(cut, options.first_force_n);
   const int turns = options.settling_turns + options.recorded_turns;
   const int settling = options.settling_turns * cut.grid.periods_a_turn;
   const int untraced = (turns - options.traced_turns) * cut.grid.periods_a_turn;

@@ -27,8 +27,11 @@ struct SimulatedPoint {
 /// What is simulated, and what of it is kept.
 struct SimulationOptions {
   StepOptions steps = {};
-  int settling_turns = 200;  ///< ≥ 0: before anything is recorded
-  int recorded_turns = 200;  ///< ≥ 1
+  int settling_turns = 200;                                 ///< ≥ 0: before anything is recorded
+  Eigen::Vector3d first_force_n = Eigen::Vector3d::Zero();  ///< on the tool, tool axes: the structure begins at rest
+                                                            ///< under it. The mean force of the cut saves the time that
+                                                            ///< slow modes need to settle
+  int recorded_turns = 200;                                 ///< ≥ 1
   int kept_passes = 8000;    ///< ≥ 2: the last of the recorded passes of teeth are kept
   int traced_turns = 0;      ///< 0 to `recorded_turns`: the last of them, sample by sample
   int samples_a_turn = 720;  ///< ≥ 2: of the trace
@@ -92,11 +95,12 @@ struct Trace {
 /// displacements and forces are those of the tool in tool axes.
 struct SimulatedCut {
   SimulationStatus status = SimulationStatus::completed;
-  double simulated_s = 0.0;      ///< up to the end, or to where the status was met
-  Extremes displacement_m;       ///< of tool minus part
-  Extremes force_n;              ///< on the tool
-  double peak_force_n = 0.0;     ///< largest resultant
-  double peak_torque_n_m = 0.0;  ///< that the spindle gives
+  double simulated_s = 0.0;                                       ///< up to the end, or to where the status was met
+  Extremes displacement_m;                                        ///< of tool minus part
+  Eigen::Vector3d mean_displacement_m = Eigen::Vector3d::Zero();  ///< over time
+  Extremes force_n;                                               ///< on the tool
+  double peak_force_n = 0.0;                                      ///< largest resultant
+  double peak_torque_n_m = 0.0;                                   ///< that the spindle gives
   double thickest_chip_m = 0.0;
   double removed_m2 = 0.0;  ///< area in the plane of the cut that a turn removes, mean over depth; of exact paths
   Eigen::Vector3d mean_force_n = Eigen::Vector3d::Zero();  ///< over time
