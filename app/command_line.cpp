@@ -114,6 +114,13 @@ ExitCode robot(const Arguments& arguments, std::ostream& out) {
   return ExitCode::done;
 }
 
+ExitCode simulate(const Arguments& arguments, std::ostream& out) {
+  (void)start_log(arguments);
+  out << simulate_case(cases::read_case(arguments.case_path, arguments.overrides), operating_points(arguments),
+                       arguments.out, arguments.simulate);
+  return ExitCode::done;
+}
+
 ExitCode reduce(const Arguments& arguments, std::ostream& out) {
   ReduceRequest request = arguments.reduce;
   request.display = start_log(arguments);
@@ -227,6 +234,7 @@ ExitCode execute(const CLI::App& app, const Arguments& arguments, const RunCase&
   if (app.got_subcommand("run")) return run(arguments, run_case, out);
   if (app.got_subcommand("lobes")) return lobes(arguments, run_case, out);
   if (app.got_subcommand("robot")) return robot(arguments, out);
+  if (app.got_subcommand("simulate")) return simulate(arguments, out);
   if (app.got_subcommand("reduce")) return reduce(arguments, out);
   if (app.got_subcommand("inspect")) return inspect(arguments, out);
   if (app.got_subcommand("check")) return check(arguments, out);

@@ -121,6 +121,34 @@ void describe_inspect(CLI::App& app, Arguments& arguments) {
   command->add_option("--json", inspect.json, "the report as JSON")->type_name("FILE");
 }
 
+void describe_simulate(CLI::App& app, Arguments& arguments) {
+  SimulateRequest& simulate = arguments.simulate;
+  auto* command = app.add_subcommand("simulate",
+                                     "operating points of a case in the time domain: how large the vibration becomes, "
+                                     "where teeth leave the cut, and the wall");
+  add_case_arguments(*command, arguments);
+  command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
+  command->add_option("--at", arguments.points, "an operating point, several times: --at \"5000 rpm, 0.5 mm\"")
+      ->type_name("\"SPEED, DEPTH\"")
+      ->allow_extra_args(false)
+      ->required();
+  command
+      ->add_option("--paths", simulate.paths,
+                   "how teeth move: on circles between fixed angles of entry and exit (default), or exactly, with "
+                   "contact by geometry")
+      ->type_name("circular|exact")
+      ->check(CLI::IsMember({"circular", "exact"}));
+  command->add_option("--settle", simulate.settling_turns, "turns before anything is recorded (default: 400)")
+      ->check(CLI::Range(0, 10000000));
+  command->add_option("--turns", simulate.turns, "turns that are recorded (default: 200)")
+      ->check(CLI::Range(1, 10000000));
+  command->add_option("--trace", simulate.traced_turns, "of them, those written sample by sample (default: 10)")
+      ->check(CLI::Range(0, 10000));
+  command->add_option("--steps", simulate.steps, "steps of a tooth from entry to exit (default: 200)")
+      ->check(CLI::Range(4, 100000));
+  add_log_arguments(*command, arguments);
+}
+
 void describe_for_the_shell(CLI::App& app, Arguments& arguments) {
   auto* completion = app.add_subcommand("completion", "print a script that completes thinwall's words in a shell");
   completion->add_option("SHELL", arguments.shell, "the shell")
@@ -152,6 +180,7 @@ void describe(CLI::App& app, Arguments& arguments) {
       "robot", "modes and stiffness of the robot's tip in its posture, along a path, over a workspace");
   add_case_arguments(*robot_command, arguments);
   robot_command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
+  describe_simulate(app, arguments);
   add_case_arguments(*app.add_subcommand("check", "report every error of a case, and sizes to expect"), arguments);
   describe_reduce(app, arguments);
   describe_inspect(app, arguments);

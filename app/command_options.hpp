@@ -8,6 +8,7 @@
 #include "app/inspect_command.hpp"
 #include "app/lobes_input.hpp"
 #include "app/reduce_command.hpp"
+#include "app/simulate_command.hpp"
 #include "report/page/phases.hpp"
 
 namespace CLI {
@@ -25,6 +26,7 @@ struct Arguments {
   ReduceRequest reduce;
   InspectRequest inspect;
   report::PhasesRequest phases;
+  SimulateRequest simulate;
   SweepRequest sweep;
   MergeRequest merge;
   bool fresh = false, quiet = false, verbose = false, all = false;

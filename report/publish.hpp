@@ -7,7 +7,7 @@
 namespace thinwall::report {
 
 /// Folders of a result folder, which a run replaces whole.
-inline constexpr std::array result_subfolders{"modes", "frf", "robot", "lobes", "models"};
+inline constexpr std::array result_subfolders{"modes", "frf", "robot", "lobes", "simulation", "models"};
 
 /// Files of a result folder that a run replaces. The manifest, which lists all others, is the last.
 inline constexpr std::array result_files{"case.toml",   "case.resolved.toml", "case.fitted.toml",

@@ -54,21 +54,23 @@ void warn_of_missed_chips(const milling::MillingProcess& process, double feed_m)
       100.0 * least));
 }
 
-milling::ForceLaw law_of(const Cutting& c) {
-  if (c.law == ForceLawKind::power)
-    return milling::PowerLaw{c.Kt, c.Kr, c.Ka, c.exponents[0], c.exponents[1], c.exponents[2]};
-  return milling::FractionalLaw{c.Kt, c.Kr, c.Ka, c.chip_scale.value_or(0.0), c.stiffness_ratio.value_or(0.0)};
-}
-
 void set_force(const CutSetup& source, milling::MillingProcess& process) {
   const Cutting& c = *source.cutting;
   if (c.law == ForceLawKind::oblique) set_oblique(c, process);
   else if (c.law == ForceLawKind::linear) process.coefficients = {c.Kt, c.Kr, c.Ka, c.Kte, c.Kre, c.Kae};
-  else milling::set_force_law(process, law_of(c), feed_per_tooth(source).value_or(0.0));
+  else milling::set_force_law(process, force_law(c, process), feed_per_tooth(source).value_or(0.0));
   if (!process.cutter.runout_m.empty()) warn_of_missed_chips(process, feed_per_tooth(source).value_or(0.0));
 }
 
 }  // namespace
+
+milling::ForceLaw force_law(const Cutting& c, const milling::MillingProcess& process) {
+  if (c.law == ForceLawKind::power)
+    return milling::PowerLaw{c.Kt, c.Kr, c.Ka, c.exponents[0], c.exponents[1], c.exponents[2]};
+  if (c.law == ForceLawKind::fractional)
+    return milling::FractionalLaw{c.Kt, c.Kr, c.Ka, c.chip_scale.value_or(0.0), c.stiffness_ratio.value_or(0.0)};
+  return process.coefficients;
+}
 
 milling::Cutter cutter_of(const Tool& tool) {
   milling::Cutter cutter{tool.teeth, tool.diameter, tool.pitches, tool.helices, {}, tool.runout};

@@ -15,6 +15,9 @@ namespace thinwall::setup {
 /// InputError as milling::set_force_law and engagement_of do.
 [[nodiscard]] milling::MillingProcess milling_process(const CutSetup& source);
 
+/// The force of [cutting] as a law of the chip; the linear and the oblique one are the coefficients of `process`.
+[[nodiscard]] milling::ForceLaw force_law(const Cutting& cutting, const milling::MillingProcess& process);
+
 /// Feed per tooth in m, if the case gives it or what it follows from.
 [[nodiscard]] std::optional<double> feed_per_tooth(const CutSetup& source);
 

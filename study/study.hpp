@@ -29,6 +29,7 @@
 #include "study/part/solution.hpp"
 #include "study/results.hpp"
 #include "study/run.hpp"
+#include "study/simulation/point_simulation.hpp"
 #include "study/stages.hpp"
 #include "study/support/added_lines.hpp"
 #include "study/support/contact_force.hpp"

@@ -173,8 +173,10 @@ void load(PathCut& cut, const ChipForce& chip_force, std::size_t c, MarchNode& a
     Surface& surface = cut.surfaces[c][i];
     const double sine = surface.sine, cosine = surface.cosine;
     const double h = chip(cut, disc, surface, node, centre, {sine, cosine});
+    const bool may_cut = sine > 0.0 && surface.found;  // it is in the stock, and ahead of the tool
+    at.points += may_cut;
+    at.without_contact += may_cut && h <= 0.0;
     if (h <= 0.0) continue;
-    ++at.points;
     at.thickest_chip_m = std::max(at.thickest_chip_m, h);
     const double slope = sine * at.slope[0] + cosine * at.slope[1];
     const double forward = cosine * (at.slope[0] + cut.feed_per_node_m / cut.node_rad) - sine * at.slope[1];

@@ -13,6 +13,9 @@
 
 namespace thinwall::milling {
 
+/// A tooth above its surface by less than this, m, has not lost contact.
+inline constexpr double contact_hair_m = 1e-12;
+
 /// Marches a state over periods. `ChipForce` is one of chip_force.hpp.
 ///
 /// With N = nᵀq + runout the position of the point of an edge along its normal and S the surface that it meets,
@@ -100,7 +103,7 @@ class March {
       surfaces.position[k] = position;
       const double chip = position - surfaces.met[k];
       if (ChipForce::loses_contact && chip <= 0.0) {
-        ++at.without_contact;
+        if (chip < -contact_hair_m) ++at.without_contact;  // chips end at zero where a tooth leaves the cut
         continue;
       }
       at.thickest_chip_m = std::max(at.thickest_chip_m, chip);

@@ -1,0 +1,25 @@
+#pragma once
+// `thinwall simulate`: operating points of a case in the time domain.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "case/machining_case.hpp"
+#include "milling/chart/operating_point.hpp"
+
+namespace thinwall::app {
+
+/// What the options of `thinwall simulate` say, besides those of every case.
+struct SimulateRequest {
+  std::string paths = "circular";
+  int settling_turns = 400, turns = 200, traced_turns = 10, steps = 200;
+};
+
+/// Computes part, robot and both as `run` does, with the part that an earlier run in the same folder has kept,
+/// simulates the points, writes simulation/ into `out` (empty: results/<case>) and returns the text for the terminal.
+/// Throws core::Error.
+[[nodiscard]] std::string simulate_case(cases::Case source, const std::vector<milling::OperatingPoint>& points,
+                                        const std::filesystem::path& out, const SimulateRequest& request);
+
+}  // namespace thinwall::app

@@ -1,0 +1,168 @@
+#include "report/simulation_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/units.hpp"
+#include "core/words.hpp"
+#include "io/results/csv_table.hpp"
+
+namespace thinwall::report {
+
+namespace {
+
+using study::SimulatedPoint;
+
+std::string length(double metres) {
+  return core::readable_text(metres, core::kind::length);
+}
+
+std::string kind_of_motion(const milling::MotionKind& motion) {
+  switch (motion.motion) {
+    case milling::Motion::periodic:
+      return "it repeats itself with the cut";
+    case milling::Motion::period_n:
+      return fmt::format("it repeats itself after {} periods of the cut", motion.period);
+    case milling::Motion::quasi_periodic:
+      return "it never repeats itself";
+    case milling::Motion::growing:
+      return "it grows";
+  }
+  return "";
+}
+
+std::string outcome(const SimulatedPoint& p) {
+  if (p.cut.status == milling::SimulationStatus::overflowed)
+    return fmt::format("the vibration outgrew the cutter after {:.3g} s", p.cut.simulated_s);
+  std::string text = "vibration " + kind_of_motion(p.cut.motion).substr(3);
+  if (p.cut.status == milling::SimulationStatus::unsettled)
+    text += "; forces within steps did not settle: take more steps, and trust no figure";
+  return text;
+}
+
+std::string wall_text(const milling::Wall& wall) {
+  const std::string place = wall.height_m > 0.0 ? " at " + length(wall.height_m) + " height" : "";
+  return fmt::format("  wall {}y{}  {} {}, R_a {}, R_t {}\n", wall.side > 0 ? "+" : "-", place,
+                     length(std::abs(wall.mean_m)), wall.mean_m > 0.0 ? "too deep" : "left standing",
+                     length(wall.R_a_m), length(wall.R_t_m));
+}
+
+std::string text_of(const SimulatedPoint& p) {
+  const Eigen::Vector3d range = p.cut.displacement_m.range();
+  std::string text = fmt::format("{} at {:.0f} rpm, {} deep: {}\n", core::word_of(p.of), p.point.spindle_speed_rpm,
+                                 length(p.point.depth_m), outcome(p));
+  if (p.growth.converged) {
+    text += fmt::format("  growth     |mu| {:.6f} by the march, {:.6f} by the lobes ({:+.1e} apart)\n",
+                        p.growth.modulus, p.lobes.modulus, p.growth_difference());
+  } else {
+    text += fmt::format("  growth     not found by the march; |mu| {:.6f} by the lobes\n", p.lobes.modulus);
+  }
+  if (p.cut.status == milling::SimulationStatus::overflowed) return text;
+  text += fmt::format("  vibration  peak to peak {} along the feed, {} across\n", length(range.x()), length(range.y()));
+  text += fmt::format("  force      peak {:.4g} N, torque {:.4g} N m, power {:.4g} W on the mean\n", p.cut.peak_force_n,
+                      p.cut.peak_torque_n_m, p.cut.mean_power_w);
+  text += fmt::format("  contact    lost in {:.2g} % of the cut, thickest chip {}\n",
+                      100.0 * p.cut.share_without_contact, length(p.cut.thickest_chip_m));
+  for (const milling::Wall& wall : p.cut.walls) text += wall_text(wall);
+  return text;
+}
+
+template <typename Of>
+io::Column column(const std::vector<SimulatedPoint>& points, const std::string& name, const Of& of) {
+  std::vector<double> values;
+  for (const SimulatedPoint& point : points) values.push_back(of(point));
+  return {name, values};
+}
+
+io::Table table_of(const std::vector<SimulatedPoint>& points) {
+  std::vector<std::string> of, status, motion;
+  for (const SimulatedPoint& p : points) {
+    of.emplace_back(core::word_of(p.of));
+    status.push_back(milling::name(p.cut.status));
+    motion.push_back(milling::name(p.cut.motion.motion));
+  }
+  // A vibration that outgrew the cutter before it was recorded has no range.
+  const auto range = [](int i) {
+    return [i](const SimulatedPoint& p) {
+      const double value = p.cut.displacement_m.range()[i];
+      return std::isfinite(value) ? value : std::numeric_limits<double>::infinity();
+    };
+  };
+  return {{"structure", of},
+          column(points, "spindle_speed_rpm", [](const SimulatedPoint& p) { return p.point.spindle_speed_rpm; }),
+          column(points, "depth_m", [](const SimulatedPoint& p) { return p.point.depth_m; }),
+          column(points, "feed_per_tooth_m", [](const SimulatedPoint& p) { return p.feed_per_tooth_m; }),
+          {"status", status},
+          {"motion", motion},
+          column(points, "period", [](const SimulatedPoint& p) { return p.cut.motion.period; }),
+          column(points, "multiplier_march", [](const SimulatedPoint& p) { return p.growth.modulus; }),
+          column(points, "multiplier_lobes", [](const SimulatedPoint& p) { return p.lobes.modulus; }),
+          column(points, "peak_to_peak_x_m", range(0)),
+          column(points, "peak_to_peak_y_m", range(1)),
+          column(points, "peak_to_peak_z_m", range(2)),
+          column(points, "peak_force_n", [](const SimulatedPoint& p) { return p.cut.peak_force_n; }),
+          column(points, "peak_torque_n_m", [](const SimulatedPoint& p) { return p.cut.peak_torque_n_m; }),
+          column(points, "mean_power_w", [](const SimulatedPoint& p) { return p.cut.mean_power_w; }),
+          column(points, "share_without_contact", [](const SimulatedPoint& p) { return p.cut.share_without_contact; }),
+          column(points, "thickest_chip_m", [](const SimulatedPoint& p) { return p.cut.thickest_chip_m; })};
+}
+
+std::vector<double> row(const Eigen::Matrix3Xd& values, int i) {
+  const Eigen::VectorXd one = values.row(i);
+  return {one.begin(), one.end()};
+}
+
+io::Table table_of(const milling::Trace& trace) {
+  std::vector<double> time(static_cast<std::size_t>(trace.torque_n_m.size()));
+  for (std::size_t i = 0; i < time.size(); ++i) time[i] = trace.start_s + static_cast<double>(i) * trace.step_s;
+  return {{"time_s", time},
+          {"x_m", row(trace.displacement_m, 0)},
+          {"y_m", row(trace.displacement_m, 1)},
+          {"z_m", row(trace.displacement_m, 2)},
+          {"force_x_n", row(trace.force_n, 0)},
+          {"force_y_n", row(trace.force_n, 1)},
+          {"force_z_n", row(trace.force_n, 2)},
+          {"torque_n_m", std::vector<double>(trace.torque_n_m.begin(), trace.torque_n_m.end())}};
+}
+
+io::Table table_of(const std::vector<milling::ToothPass>& passes) {
+  io::Table table;
+  const auto add = [&](const char* name, const auto& of) {
+    std::vector<double> values;
+    for (const milling::ToothPass& pass : passes) values.push_back(of(pass));
+    table.push_back({name, values});
+  };
+  add("entry_s", [](const milling::ToothPass& p) { return p.entry_s; });
+  add("tooth", [](const milling::ToothPass& p) { return static_cast<double>(p.tooth); });
+  add("entry_x_m", [](const milling::ToothPass& p) { return p.entry_m.x(); });
+  add("entry_y_m", [](const milling::ToothPass& p) { return p.entry_m.y(); });
+  add("entry_x_m_s", [](const milling::ToothPass& p) { return p.entry_m_s.x(); });
+  add("entry_y_m_s", [](const milling::ToothPass& p) { return p.entry_m_s.y(); });
+  add("exit_x_m", [](const milling::ToothPass& p) { return p.exit_m.x(); });
+  add("exit_y_m", [](const milling::ToothPass& p) { return p.exit_m.y(); });
+  return table;
+}
+
+}  // namespace
+
+std::string simulation_text(const std::vector<SimulatedPoint>& points) {
+  std::string text;
+  for (const SimulatedPoint& point : points) text += text_of(point);
+  return text;
+}
+
+void write_simulation(const std::filesystem::path& folder, const std::vector<SimulatedPoint>& points) {
+  const auto below = folder / "simulation";
+  std::filesystem::create_directories(below);
+  io::write_csv(below / "points.csv", table_of(points));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const milling::SimulatedCut& cut = points[i].cut;
+    const std::string name = fmt::format("{}-{}", core::word_of(points[i].of), i + 1);
+    if (cut.trace.torque_n_m.size() > 0) io::write_csv(below / (name + ".csv"), table_of(cut.trace));
+    if (!cut.passes.empty()) io::write_csv(below / (name + "-passes.csv"), table_of(cut.passes));
+  }
+}
+
+}  // namespace thinwall::report

@@ -1,0 +1,101 @@
+// `thinwall simulate`: from a case and points to figures and tables.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "app/case_run.hpp"
+#include "app/command_line.hpp"
+#include "core/atomic_file.hpp"
+#include "tests/system/run_in_folder.hpp"
+
+namespace thinwall::tests::simulate_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const tool_case = R"(
+[tool]
+teeth = 2
+diameter = "10 mm"
+length = "20 mm"
+[[tool.modes]]
+frequency = "922 Hz"
+damping_ratio = 0.011
+stiffness = "1340049.6480507487 N/m"
+direction = "x"
+[[tool.modes]]
+frequency = "922 Hz"
+damping_ratio = 0.011
+stiffness = "1340049.6480507487 N/m"
+direction = "y"
+[cutting]
+radial_depth = "0.5 mm"
+mode = "down"
+Kt = "600 N/mm^2"
+Kr = "200 N/mm^2"
+feed_per_tooth = "0.1 mm"
+[lobes]
+from = "10000 rpm"
+to = "20000 rpm"
+)";
+
+struct Outcome {
+  std::string text;  ///< that the command printed
+  int code = 0;
+};
+
+/// Simulates a case in `folder`, with results in its folder "out".
+Outcome simulate(const fs::path& folder, const std::vector<std::string>& more, const std::string& text = tool_case) {
+  std::ofstream(folder / "case.toml") << text;
+  std::vector<std::string> words{
+      "thinwall", "simulate", (folder / "case.toml").string(), "--out", (folder / "out").string(), "-q"};
+  words.insert(words.end(), more.begin(), more.end());
+  std::vector<const char*> argv;
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  std::ostringstream out, err;
+  const int code = app::run_command_line(static_cast<int>(argv.size()), argv.data(), app::run_case, out, err);
+  return {out.str() + err.str(), code};
+}
+
+TEST(Simulate, TellsTheMotionOnBothSidesOfTheBoundary) {
+  const fs::path folder = scratch("simulate_points");
+  const auto [text, code] =
+      simulate(folder, {"--at", "11000 rpm, 1 mm", "--at", "19000 rpm, 2 mm", "--settle", "2000"});
+  EXPECT_EQ(code, 0) << text;
+  EXPECT_NE(text.find("tool at 11000 rpm, 1 mm deep: vibration repeats itself with the cut"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("tool at 19000 rpm, 2 mm deep: vibration repeats itself after 2 periods"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("|mu| 1.119285 by the march, 1.119285 by the lobes"), std::string::npos) << text;
+  EXPECT_NE(text.find("6.542 µm left standing"), std::string::npos) << text;  // as in tests/milling/wall_test.cpp
+  EXPECT_NE(text.find("peak to peak 144.6 µm along the feed, 102.5 µm across"), std::string::npos) << text;
+  const std::string points = core::read_file(folder / "out/simulation/points.csv");
+  EXPECT_EQ(std::count(points.begin(), points.end(), '\n'), 3);
+  EXPECT_TRUE(fs::exists(folder / "out/simulation/tool-1.csv"));
+  EXPECT_TRUE(fs::exists(folder / "out/simulation/tool-2-passes.csv"));
+}
+
+TEST(Simulate, TellsWhatItNeeds) {
+  const fs::path folder = scratch("simulate_needs");
+  const auto [none, no_point] = simulate(folder, {});
+  EXPECT_NE(no_point, 0);
+  EXPECT_NE(none.find("--at is required"), std::string::npos) << none;
+  std::string without_feed = tool_case;
+  without_feed.replace(without_feed.find("feed_per_tooth"), 1, "# f");
+  const auto [feed, no_feed] = simulate(folder, {"--at", "11000 rpm, 1 mm"}, without_feed);
+  EXPECT_EQ(no_feed, 3);
+  EXPECT_NE(feed.find("cutting.feed_per_tooth: not given"), std::string::npos) << feed;
+  const auto [paths, word] = simulate(folder, {"--at", "11000 rpm, 1 mm", "--paths", "round"});
+  EXPECT_NE(word, 0);
+  EXPECT_NE(paths.find("circular"), std::string::npos) << paths;
+  EXPECT_FALSE(fs::exists(folder / "out/simulation"));
+}
+
+}  // namespace
+}  // namespace thinwall::tests::simulate_test
