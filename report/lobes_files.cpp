@@ -1,7 +1,10 @@
 #include "report/lobes_files.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -101,6 +104,37 @@ void write_map(const fs::path& file, const milling::StabilityMap& map) {
                 {"of the largest Floquet multiplier, by contact-phase collocation; stable below 1"});
 }
 
+/// The forced motion over the speeds, depth by depth.
+void write_forced(const fs::path& file, const std::vector<study::ForcedOverSpeed>& curves) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> depth, speed, surface, force, contact, error;
+  std::vector<std::string> verdict;
+  for (const study::ForcedOverSpeed& curve : curves) {
+    for (const study::ForcedRow& row : curve.rows) {
+      const auto& figures = row.figures;
+      depth.push_back(curve.depth_m);
+      speed.push_back(row.spindle_speed_rpm);
+      verdict.emplace_back(figures ? "stable" : "chatter");
+      surface.push_back(figures ? figures->surface_location_error_m.value_or(none) : none);
+      force.push_back(figures ? figures->peak_force_n : none);
+      contact.push_back(figures && figures->contact ? figures->contact->least_n : none);
+      error.push_back(figures ? figures->error_estimate : none);
+    }
+  }
+  io::Table table{{"depth_m", depth},
+                  {"spindle_speed_rpm", speed},
+                  {"verdict", verdict},
+                  {"surface_location_error_m", surface, true},
+                  {"peak_force_n", force, true}};
+  if (std::ranges::any_of(contact, [](double n) { return !std::isnan(n); }))
+    table.push_back({"least_contact_force_n", contact, true});
+  table.push_back({"error_estimate_relative", error, true});
+  io::write_csv(file, table,
+                {"a row without figures chatters: no forced motion is seen there. surface_location_error_m: positive "
+                 "overcut; empty too where no wall is cut",
+                 fmt::format("feed per tooth at every speed: {:.9g} m", curves.front().feed_per_tooth_m)});
+}
+
 }  // namespace
 
 void write_lobes(const fs::path& folder, const study::StructureLobes& named) {
@@ -110,6 +144,7 @@ void write_lobes(const fs::path& folder, const study::StructureLobes& named) {
   for (const study::ComparedLobes& other : named.compared)
     write_chart(folder / (name + "_" + other.method + ".csv"), other.lobes, nullptr, {});
   if (named.map) write_map(folder / (name + "_map.csv"), *named.map);
+  if (!named.forced_over_speed.empty()) write_forced(folder / (name + "_forced.csv"), named.forced_over_speed);
 }
 
 void write_path(const fs::path& folder, const setup::Setup& source, const study::PathLobes& path) {

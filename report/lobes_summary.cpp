@@ -1,5 +1,9 @@
 #include "report/lobes_summary.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
 #include "report/finite_number.hpp"
 
 namespace thinwall::report {
@@ -44,6 +48,46 @@ LineSummary line_summary(const milling::DrawnLine& line) {
           .met = line.met};
 }
 
+/// Takes a value and its speed where there is none yet, or where `better` says so.
+template <class Better>
+void take_extreme(std::optional<double>& value, std::optional<double>& at_rpm, double candidate, double rpm,
+                  Better better) {
+  if (value && !better(candidate, *value)) return;
+  value = candidate;
+  at_rpm = rpm;
+}
+
+void add_row(ForcedOverSpeedSummary& summary, double rpm, const study::ForcedFigures& figures) {
+  const auto larger = [](double a, double b) { return std::abs(a) > std::abs(b); };
+  const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  ++summary.speeds_stable;
+  take_extreme(summary.peak_force_n, summary.peak_force_at_rpm, figures.peak_force_n, rpm, larger);
+  if (const auto error = figures.surface_location_error_m) {
+    take_extreme(summary.largest_surface_error_m, summary.largest_surface_error_at_rpm, *error, rpm, larger);
+    take_extreme(summary.least_surface_error_m, summary.least_surface_error_at_rpm, *error, rpm, smaller);
+  }
+  if (!figures.contact) return;
+  summary.preload_n = figures.contact->preload_n;
+  summary.speeds_contact_lost = summary.speeds_contact_lost.value_or(0) + (figures.contact->lost ? 1 : 0);
+  take_extreme(summary.least_contact_force_n, summary.least_contact_force_at_rpm, figures.contact->least_n, rpm,
+               std::less{});
+}
+
+ForcedOverSpeedSummary forced_summary(const study::ForcedOverSpeed& forced) {
+  ForcedOverSpeedSummary summary;
+  summary.depth_m = forced.depth_m;
+  summary.feed_per_tooth_m = forced.feed_per_tooth_m;
+  summary.speeds = std::ssize(forced.rows);
+  double worst = 0.0;
+  for (const study::ForcedRow& row : forced.rows) {
+    if (!row.figures) continue;
+    add_row(summary, row.spindle_speed_rpm, *row.figures);
+    worst = std::max(worst, row.figures->error_estimate);
+  }
+  if (summary.speeds_stable > 0) summary.error_estimate_relative = finite(worst);
+  return summary;
+}
+
 }  // namespace
 
 CuttingSummary cutting_summary(const setup::Setup& source) {
@@ -82,6 +126,7 @@ void add_what_was_asked(LobesSummary& chart, const setup::Setup& source, const s
   if (named.lobes.line) chart.line = line_summary(*named.lobes.line);
   for (const study::ComparedLobes& other : named.compared) chart.compared.push_back(compared_summary(other));
   if (named.map) chart.map = map_summary(*named.map);
+  for (const auto& forced : named.forced_over_speed) chart.forced_over_speed.push_back(forced_summary(forced));
   if (!named.robust) return;
   chart.robust = {.confidence = source.lobes->robust->confidence,
                   .minimum_depth_m = named.robust->minimum_depth_m,

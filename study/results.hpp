@@ -164,6 +164,27 @@ struct ContactLimit {
   std::optional<double> lost_above_m;  ///< none: it holds up to the limiting depth
 };
 
+/// The forced motion at one speed, in figures.
+struct ForcedFigures {
+  std::optional<double> surface_location_error_m;  ///< positive: overcut; none without a wall
+  double peak_force_n = 0.0;
+  double error_estimate = 0.0;          ///< relative, of the worst of these
+  std::optional<ContactForce> contact;  ///< of the supported part with a preload
+};
+
+/// A speed, and its forced motion where the cut is stable.
+struct ForcedRow {
+  double spindle_speed_rpm = 0.0;
+  std::optional<ForcedFigures> figures;
+};
+
+/// The forced motion of a depth of cut over the speeds of a chart.
+struct ForcedOverSpeed {
+  double depth_m = 0.0;
+  double feed_per_tooth_m = 0.0;
+  std::vector<ForcedRow> rows;
+};
+
 /// The answer of a chart for one operating point.
 struct PointStability {
   milling::OperatingPoint point;
@@ -200,6 +221,7 @@ struct StructureLobes {
   std::optional<LimitBelowResonance> doubtful;       ///< there, else at the least depth; none of a limit that is sound
   std::optional<ContactLimit> contact;               ///< there, of a supported part with a preload, poles and a feed
   std::vector<PointStability> points;                ///< that were asked for
+  std::vector<ForcedOverSpeed> forced_over_speed;    ///< of the depths of `points`, where poles and the feed are known
   std::vector<ParameterSensitivity> sensitivities;   ///< at the case's own speed, largest first
   std::vector<double> main_modes_hz;                 ///< that the cut feels most, ascending
   std::vector<milling::Pocket> pockets;              ///< within the machine's limits, best first

@@ -15,6 +15,7 @@
 #include "study/kept/kept_coupling.hpp"
 #include "study/kept/kept_part.hpp"
 #include "study/lobes/cut_structure.hpp"
+#include "study/lobes/forced_over_speed.hpp"
 #include "study/lobes/lobes_stage.hpp"
 #include "study/lobes/path_stage.hpp"
 #include "study/part/part_damping.hpp"
@@ -181,7 +182,7 @@ void add_sampled_chart(const setup::CutSetup& work, const milling::ToolFrame& fr
 /// Looks for the depth at which the contact is lost at the case's own speed, up to the limit. What the library does not
 /// model is told and left out.
 void find_contact_limit(const setup::Setup& work, const milling::MillingProcess& process, Results& results,
-                        const std::function<ContactForce(const milling::ForcedVibration&)>& force_of) {
+                        const ContactForceOf& force_of) {
   StructureLobes& chart = results.lobes.back();
   const auto feed = setup::feed_per_tooth(work);
   if (!chart.at_spindle_speed || !feed || !results.coupled->modal || work.tool->swap || !work.tool->measured.empty() ||
@@ -206,16 +207,23 @@ void find_contact_limit(const setup::Setup& work, const milling::MillingProcess&
   }
 }
 
-/// Computes the force on the contact of the supported part at its operating points, and up to which depth it holds at
-/// the case's own speed; not told of a regularised kernel.
-void flag_contacts(const setup::Setup& work, Results& results) {
-  if (work.coupling.regularisation != coupling::Regularisation::none) return;
-  if (results.lobes.back().of != ChartOf::supported) return;
-  const milling::MillingProcess process = setup::milling_process(work);
-  const CutPlace place{work.cutting->at, process.frame.rotation()};
-  const auto force_of = [&](const milling::ForcedVibration& forced) {
+/// The force on the contact of the supported part; empty where no contact has a preload, and with a regularised kernel,
+/// of which it is not told.
+ContactForceOf contact_force_of(const setup::Setup& work, const Results& results) {
+  const bool pressed = results.coupled && (work.robot->preload != Eigen::Vector3d::Zero() ||
+                                           (work.contacts.size() == 1 && setup::own_preload(work.contacts.front())));
+  if (!pressed || work.coupling.regularisation != coupling::Regularisation::none) return {};
+  const CutPlace place{work.cutting->at, setup::milling_process(work).frame.rotation()};
+  return [&work, &results, place](const milling::ForcedVibration& forced) {
     return contact_force(work, contacts_of(results.contacts), place, *results.part, *results.robot, forced);
   };
+}
+
+/// Computes the force on the contact of the supported part at its operating points, and up to which depth it holds at
+/// the case's own speed.
+void flag_contacts(const setup::Setup& work, const ContactForceOf& force_of, Results& results) {
+  if (results.lobes.back().of != ChartOf::supported) return;
+  const milling::MillingProcess process = setup::milling_process(work);
   find_contact_limit(work, process, results, force_of);
   for (PointStability& point : results.lobes.back().points) {
     if (!point.forced) continue;
@@ -224,6 +232,37 @@ void flag_contacts(const setup::Setup& work, Results& results) {
     core::warn(
         fmt::format("at {:.0f} rpm the cut pulls the contact open: its force falls to {:.3g} N of {:.3g} N preload",
                     point.point.spindle_speed_rpm, point.contact->least_n, point.contact->preload_n));
+  }
+}
+
+/// The poles of which a chart is; none if it is of samples.
+std::optional<milling::RelativeStructure> poles_of(const setup::Setup& work, ChartOf chart, const Results& results) {
+  if (work.tool->swap || !work.tool->measured.empty()) return std::nullopt;
+  if (chart == ChartOf::tool) return cut_poles(work, nullptr);
+  const auto& modal = chart == ChartOf::part ? results.part->modal : results.coupled->modal;
+  return modal ? cut_poles(work, &*modal) : std::nullopt;
+}
+
+/// Surface, force and contact over the speeds of every chart, at the depths of its operating points. What the library
+/// does not model is told and left out.
+void add_forced_over_speed(const setup::Setup& work, const ContactForceOf& force_of, Results& results, Stages& stages) {
+  const auto feed = setup::feed_per_tooth(work);
+  if (!feed || results.lobes.front().points.empty()) return;
+  stages.begin("forced vibration");
+  try {
+    for (StructureLobes& chart : results.lobes) {
+      const auto poles = poles_of(work, chart.of, results);
+      if (!poles) continue;
+      for (const double depth_m : depths_of(chart.points)) {
+        chart.forced_over_speed.push_back(
+            forced_over_speed(*poles, setup::milling_process(work), chart.lobes.rows, {depth_m, *feed},
+                              chart.of == ChartOf::supported ? force_of : ContactForceOf{}));
+      }
+    }
+  } catch (const core::InputError& error) {
+    core::warn(fmt::format("no forced vibration over the speed: {}", error.what()));
+  } catch (const core::NumericalError& error) {
+    core::warn(fmt::format("no forced vibration over the speed: {}", error.what()));
   }
 }
 
@@ -240,7 +279,10 @@ void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoi
     return component && component->modal ? &*component->modal : nullptr;
   };
   stages.begin("lobes");
-  if (!work.part && work.measured_part.empty()) return chart_of(ChartOf::tool, nullptr, nullptr);
+  if (!work.part && work.measured_part.empty()) {
+    chart_of(ChartOf::tool, nullptr, nullptr);
+    return add_forced_over_speed(work, {}, results, stages);
+  }
   if (!results.part || !results.part->modal) {
     throw core::InputError(
         "lobes need a part that is held and known as a model (part.shape with part.supports), not by measured "
@@ -253,9 +295,9 @@ void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoi
   } else if (results.coupled) {
     add_sampled_chart(work, frame, points, kept, results);
   }
-  const bool pressed = results.coupled && (work.robot->preload != Eigen::Vector3d::Zero() ||
-                                           (work.contacts.size() == 1 && setup::own_preload(work.contacts.front())));
-  if (pressed) flag_contacts(work, results);
+  const ContactForceOf force_of = contact_force_of(work, results);
+  if (force_of) flag_contacts(work, force_of, results);
+  add_forced_over_speed(work, force_of, results, stages);
   if (!work.path) return;
   stages.begin("lobes along the path");
   results.path = lobes_along_path(path_input(work), results, kept);

@@ -9,6 +9,7 @@
 #include "study/least_squares.hpp"
 #include "study/lobes/chart_of.hpp"
 #include "study/lobes/cut_structure.hpp"
+#include "study/lobes/forced_over_speed.hpp"
 #include "study/lobes/lobe_sensitivity.hpp"
 #include "study/lobes/lobes_forecast.hpp"
 #include "study/lobes/lobes_stage.hpp"

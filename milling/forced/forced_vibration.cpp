@@ -159,30 +159,37 @@ Eigen::VectorXd mean_of(const ContactGrid& grid, const Eigen::MatrixXd& at_nodes
   return sum / grid.period_rad;
 }
 
+/// Force and torque at the samples, and their peaks; the motion if it is wanted.
 void sample(const FedCut& given, const PeriodicMotion& motion, const Eigen::RowVectorXd& torque, double per_rad,
-            ForcedVibration& result) {
+            bool with_motion, ForcedVibration& result) {
   const Samples samples = samples_of(given, motion.grid, per_rad);
   const auto count = static_cast<Index>(samples.moments.size());
   result.rotation_rad.resize(count);
-  result.displacement_m.resize(3, count);
+  if (with_motion) result.displacement_m.resize(3, count);
   result.force_n.resize(3, count);
   result.torque_n_m.resize(count);
   for (Index i = 0; i < count; ++i) {
     const Moment& moment = samples.moments[static_cast<std::size_t>(i)];
     result.rotation_rad(i) = moment.rotation_rad;
-    result.displacement_m.col(i) = displacement(motion, moment);
+    if (with_motion) result.displacement_m.col(i) = displacement(motion, moment);
     result.force_n.col(i) = at_moment(motion.grid, motion.force, moment);
     result.torque_n_m(i) = at_moment(motion.grid, torque, moment)(0);
   }
   result.peak_force_n = peak(samples.runs, result.force_n.colwise().norm().transpose());
   result.peak_torque_n_m = peak(samples.runs, result.torque_n_m);
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; with_motion && k < 3; ++k) {
     const Eigen::VectorXd q = result.displacement_m.row(k).transpose();
     result.peak_to_peak_m(k) = peak(samples.runs, q) + peak(samples.runs, -q);
   }
 }
 
-ForcedVibration vibration_on(const FedCut& given, Resolution resolution, double per_rad) {
+/// The vibration on one grid, and its largest displacement, at the samples or, without them, at the nodes.
+struct OnGrid {
+  ForcedVibration vibration;
+  double largest_m = 0.0;
+};
+
+OnGrid vibration_on(const FedCut& given, Resolution resolution, double per_rad, bool with_motion) {
   const CutAtSpeed& cut = given.cut;
   // All directions: the force is an answer, also where nothing yields.
   const ContactGrid grid = contact_grid(cut.process, Eigen::Matrix3d::Identity(), resolution, given.depth_m);
@@ -191,7 +198,7 @@ ForcedVibration vibration_on(const FedCut& given, Resolution resolution, double 
   const PeriodicMotion motion = periodic_motion(cut.structure, grid, cut.spindle_speed_rpm, force);
   const Eigen::RowVectorXd torque = torque_of(given, motion);
   ForcedVibration result;
-  sample(given, motion, torque, per_rad, result);
+  sample(given, motion, torque, per_rad, with_motion, result);
   result.period_s = grid.period_rad * motion.seconds_per_rad;
   result.mean_force_n = mean_of(grid, force);
   result.mean_torque_n_m = mean_of(grid, torque)(0);
@@ -202,15 +209,17 @@ ForcedVibration vibration_on(const FedCut& given, Resolution resolution, double 
   result.walls = surface_profiles(cut.process.cutter, given.cycle, given.depth_m, motion, heights);
   if (!result.walls.empty()) result.surface_location_error_m = largest_error_m(result.walls);
   result.nodes = static_cast<int>(grid.node_rad.size());
-  return result;
+  const Eigen::Matrix3Xd q = with_motion ? result.displacement_m : displacement_at_nodes(motion);
+  return {std::move(result), q.allFinite() ? q.colwise().norm().maxCoeff() : HUGE_VAL};
 }
 
 /// Largest change of any figure.
-double change_between(const ForcedVibration& coarse, const ForcedVibration& fine) {
+double change_between(const ForcedVibration& coarse, const OnGrid& now) {
+  const ForcedVibration& fine = now.vibration;
   const auto relative = [](double before, double now, double scale) {
     return before == now ? 0.0 : std::abs(before - now) / scale;
   };
-  const double motion = fine.displacement_m.colwise().norm().maxCoeff();
+  const double motion = now.largest_m;
   double change = std::max(relative(coarse.peak_force_n, fine.peak_force_n, fine.peak_force_n),
                            relative(coarse.peak_torque_n_m, fine.peak_torque_n_m, fine.peak_torque_n_m));
   change = std::max(change, (coarse.mean_force_n - fine.mean_force_n).norm() / fine.peak_force_n);
@@ -219,7 +228,7 @@ double change_between(const ForcedVibration& coarse, const ForcedVibration& fine
     change = std::max(change, relative(coarse.peak_to_peak_m(k), fine.peak_to_peak_m(k), motion));
   change = std::max(change, relative(coarse.surface_location_error_m.value_or(0.0),
                                      fine.surface_location_error_m.value_or(0.0), motion));
-  if (!std::isfinite(fine.surface_location_error_m.value_or(0.0)) || !fine.displacement_m.allFinite())
+  if (!std::isfinite(fine.surface_location_error_m.value_or(0.0)) || !std::isfinite(motion))
     throw core::NumericalError("forced vibration: the motion is not finite; check the structure at the cut");
   return change;
 }
@@ -259,18 +268,19 @@ ForcedVibration refined(const FedCut& given, const ForcedOptions& options) {
   const bool known = given.cycle.equal_teeth && process.damping.C == 0.0;
   Resolution resolution = known ? Resolution{waves.elements, 8} : waves;
   double per_rad = 12.0 * waves.elements * waves.nodes / longest_stretch_rad(process, given.depth_m);
-  ForcedVibration before = vibration_on(given, resolution, per_rad);
+  ForcedVibration before = vibration_on(given, resolution, per_rad, options.motion).vibration;
   double change = 1.0;
   for (int level = 1;; ++level) {
     resolution = finer(resolution);
     per_rad *= 1.5;
-    ForcedVibration result = vibration_on(given, resolution, per_rad);
-    const double change_before = std::exchange(change, change_between(before, result));
+    OnGrid found = vibration_on(given, resolution, per_rad, options.motion);
+    const double change_before = std::exchange(change, change_between(before, found));
+    ForcedVibration& result = found.vibration;
     result.error_estimate = estimate_from(change, change_before);
-    if (level > 1 && result.error_estimate <= options.error_tolerance) return result;
+    if (level > 1 && result.error_estimate <= options.error_tolerance) return std::move(result);
     if (known ? level == 6 : 3 * result.nodes >= 2 * options.most_nodes) {
       result.status = StabilityStatus::node_limit_reached;
-      return result;
+      return std::move(result);
     }
     before = std::move(result);
   }

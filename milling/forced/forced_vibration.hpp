@@ -18,13 +18,14 @@ namespace thinwall::milling {
 struct ForcedOptions {
   double error_tolerance = 1e-4;  ///< relative, in (0, 1), of every figure
   int most_nodes = 240;           ///< ≥ 8: nodes in the cut at which refinement of unequal teeth gives up
+  bool motion = true;  ///< false: only force and surface are wanted; displacement and peak to peak are left out
 };
 
 /// Tool axes. Samples lie at equal steps between entries and exits, where there are two: just before and just after.
 struct ForcedVibration {
   double period_s = 0.0;            ///< a tooth's where all are alike, else a turn's
   Eigen::VectorXd rotation_rad;     ///< since the tip of the first tooth entered the first arc
-  Eigen::Matrix3Xd displacement_m;  ///< of tool minus part
+  Eigen::Matrix3Xd displacement_m;  ///< of tool minus part; empty where the motion is not wanted
   Eigen::Matrix3Xd force_n;         ///< on the tool
   Eigen::VectorXd torque_n_m;       ///< that the spindle gives
   double peak_force_n = 0.0;        ///< largest resultant
@@ -55,8 +56,8 @@ struct ForcedVibration {
 ///
 /// `structure` in part axes, with its residual. Throws InputError for a bad process, option, speed, depth or feed (≤
 /// 0), teeth with runout, whose chips are not modelled, or an arc behind the tool (sin φ < 0), where the feed makes
-/// none. Cost: equal teeth, samples × poles × nodes of an element; else a linear system of the size of the contacts
-/// besides, on two grids at least.
+/// none. Cost: equal teeth, samples × poles × nodes of an element, a small part of that without the motion; else a
+/// linear system of the size of the contacts besides, on two grids at least.
 [[nodiscard]] ForcedVibration forced_vibration(const RelativeStructure& structure, const MillingProcess& process,
                                                double spindle_speed_rpm, double depth_m, double feed_per_tooth_m,
                                                const ForcedOptions& options = {});

@@ -46,6 +46,17 @@ struct Source {
     }
     return list;
   }
+  /// Rows [begin, end) of a column that may have empty cells.
+  [[nodiscard]] json gapped(const std::string& name, std::size_t begin, std::size_t end) const {
+    const std::vector<double> all = io::numbers_or_gaps(table, name, file);
+    std::vector<float> values;
+    for (std::size_t row = begin; row < end; ++row)
+      values.push_back(std::isfinite(all[row]) ? for_picture(all[row]) : std::numeric_limits<float>::quiet_NaN());
+    return packed(values, {values.size()});
+  }
+  [[nodiscard]] bool has(const std::string& name) const {
+    return std::ranges::count(table, name, &io::Column::name) > 0;
+  }
   [[nodiscard]] json exact(const std::string& name) const { return packed(numbers(name), {numbers(name).size()}); }
   [[nodiscard]] json rough(const std::string& name) const {
     std::vector<float> values;
@@ -80,7 +91,7 @@ json chart_of(const fs::path& folder, const std::string& name) {
                  {"kind", chart.words("bifurcation")},
                  {"status", chart.statuses()}};
   for (const char* column : {"truncation_m", "noise_deviation_m", "robust_depth_m"}) {
-    if (std::ranges::count(chart.table, column, &io::Column::name) > 0) result[column] = chart.rough(column);
+    if (chart.has(column)) result[column] = chart.rough(column);
   }
   const fs::path file = folder / (name + "_crossings.csv");
   if (!fs::exists(file)) return result;
@@ -90,6 +101,24 @@ json chart_of(const fs::path& folder, const std::string& name) {
                          {"chatter_hz", crossings.rough("chatter_frequency_hz")},
                          {"kind", crossings.words("bifurcation")}};
   return result;
+}
+
+/// The forced motion over the speeds, a list of depths; rows of one depth follow each other.
+json forced_curves(const fs::path& file) {
+  const Source source(file);
+  const auto& depth = source.numbers("depth_m");
+  const auto& rpm = source.numbers("spindle_speed_rpm");
+  json list = json::array();
+  for (std::size_t begin = 0, end = 0; begin < depth.size(); begin = end) {
+    while (end < depth.size() && depth[end] == depth[begin]) ++end;
+    const std::vector<double> speeds(rpm.begin() + static_cast<std::ptrdiff_t>(begin),
+                                     rpm.begin() + static_cast<std::ptrdiff_t>(end));
+    list.push_back({{"depth_m", depth[begin]}, {"rpm", packed(speeds, {speeds.size()})}});
+    for (const char* name : {"surface_location_error_m", "peak_force_n", "least_contact_force_n"}) {
+      if (source.has(name)) list.back()[name] = source.gapped(name, begin, end);
+    }
+  }
+  return list;
 }
 
 /// Depths over position and speed; every position has the same speeds.
@@ -138,6 +167,8 @@ json lobes_data(const fs::path& results, const Summary& summary) {
     if (!fs::exists(folder / (name + ".csv"))) continue;
     run["lobes"].push_back(chart_of(folder, name));
     if (json others = compared_of(folder, chart); !others.empty()) run["lobes"].back()["compared"] = std::move(others);
+    if (const fs::path forced = folder / (name + "_forced.csv"); fs::exists(forced))
+      run["lobes"].back()["forced"] = forced_curves(forced);
     run["lobes"].back()["tooth_passing_hz"] = chart.main_modes_hz;
     if (const fs::path path = folder / (name + "_path.csv"); fs::exists(path))
       run["paths"].push_back(path_of(path, name));

@@ -6,6 +6,7 @@
 
 #include "report/summary/errors.hpp"
 #include "report/summary/field.hpp"
+#include "report/summary/forced_over_speed.hpp"
 #include "study/lobes/chart_of.hpp"
 
 namespace thinwall::report {
@@ -283,6 +284,7 @@ struct LobesSummary {
   std::optional<ChartErrorsSummary> error_budget;
   std::optional<CaseSpeedSummary> at_case_speed;
   std::optional<DoubtfulLimitSummary> below_first_resonance;
+  std::vector<ForcedOverSpeedSummary> forced_over_speed;
 };
 
 template <class Visitor, Either<LobesSummary> Section>
@@ -323,6 +325,10 @@ void fields(Visitor& visit, Section& chart) {
               "the limit at the case's own speed, else the least, where measured lines below the first resonance make "
               "it, which is to be doubted; absent: they do not"},
         chart.below_first_resonance);
+  visit(Field{"forced_over_speed", Kind::section,
+              "forced motion over the speeds, at each depth of an operating point; absent without a feed or poles",
+              Presence::if_any},
+        chart.forced_over_speed);
 }
 
 }  // namespace thinwall::report

@@ -42,7 +42,9 @@ Eigen::Matrix3Xcd force_harmonics(const milling::ForcedVibration& cut, const Eig
 }
 
 dynamics::ResponseModel response_on(const Component& known, const dynamics::FrequencyAxis& axis) {
-  if (known.spatial) return dynamics::direct_response(*known.spatial, axis);
+  // Modes say the same where damping is viscous, without a factorisation a line.
+  if (known.spatial && (!known.modal || known.spatial->has_structural_damping()))
+    return dynamics::direct_response(*known.spatial, axis);
   if (known.modal) return dynamics::to_response(*known.modal, axis);
   throw core::InputError("the force on a contact needs a part and a robot that are known by models");
 }

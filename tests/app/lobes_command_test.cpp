@@ -14,6 +14,7 @@
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "io/frf/mat_response.hpp"
+#include "io/results/csv_table.hpp"
 #include "tests/case/case_text.hpp"
 #include "tests/core/temporary_folder.hpp"
 
@@ -302,11 +303,52 @@ TEST_F(LobesCommand, AStablePointWithAFeedSaysWhatTheTeethForce) {
   EXPECT_NE(outcome.out.find("N, torque 0."), std::string::npos) << outcome.out;
 }
 
+TEST_F(LobesCommand, SurfaceAndForceAreGivenOverTheSpeedsAtTheDepthOfThePoint) {
+  // A mode across the wall, so that the surface moves; at 12000 rpm 5 mm chatter, at others not.
+  write("modes.csv", "frequency_hz,damping_ratio,mass,direction\n922,0.011,0.03993,y\n");
+  write("tool.toml", with(tool_toml, "[cutting]", "[cutting]\nfeed_per_tooth = \"0.1 mm\""));
+  const Outcome outcome =
+      lobes({path("modes.csv"), "--tool", path("tool.toml"), "--at", "14000 rpm, 1 mm", "--set", "lobes.count=30"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto curve = summary()["lobes"][0]["forced_over_speed"][0];
+  EXPECT_EQ(curve["depth_m"], 1e-3);
+  EXPECT_EQ(curve["feed_per_tooth_m"], 1e-4);
+  EXPECT_EQ(curve["speeds"], summary()["lobes"][0]["speeds"]);
+  EXPECT_FALSE(curve.contains("preload_n")) << "a tool has no contact";
+  const auto file = temporary.path / "results" / "lobes" / "tool_forced.csv";
+  const io::Table table = io::read_csv(file);
+  const auto rpm = io::numbers(table, "spindle_speed_rpm", file);
+  const auto limit = io::numbers(io::read_csv(file.parent_path() / "tool.csv"), "limiting_depth_m", file);
+  const auto surface = io::numbers_or_gaps(table, "surface_location_error_m", file);
+  const auto force = io::numbers_or_gaps(table, "peak_force_n", file);
+  ASSERT_EQ(rpm.size(), limit.size());
+  const double entry = 1e-3 * 1e-4 * std::sin(std::acos(2.0 * 0.1 - 1.0)) * std::hypot(6e8, 2e8);
+  long stable = 0;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < rpm.size(); ++i) {
+    EXPECT_EQ(std::isnan(force[i]), limit[i] <= 1e-3) << rpm[i];
+    EXPECT_EQ(std::isnan(surface[i]), std::isnan(force[i])) << rpm[i];
+    if (std::isnan(force[i])) continue;
+    ++stable;
+    EXPECT_NEAR(force[i], entry, 1e-4 * entry) << rpm[i];
+    if (std::abs(surface[i]) > std::abs(largest)) largest = surface[i];
+    if (rpm[i] == 14000.0)
+      EXPECT_NEAR(surface[i],
+                  summary()["operating_points"][0]["forced_vibration"]["surface_location_error_m"].get<double>(), 1e-9);
+  }
+  EXPECT_EQ(curve["speeds_stable"], stable);
+  EXPECT_GT(stable, 0);
+  EXPECT_LT(stable, std::ssize(rpm)) << "some must chatter for this to be a test";
+  EXPECT_EQ(curve["largest_surface_error_m"], largest);
+  EXPECT_NEAR(curve["peak_force_n"].get<double>(), entry, 1e-4 * entry);
+}
+
 TEST_F(LobesCommand, APointWithoutAFeedSaysNothingOfForces) {
   const Outcome outcome =
       lobes({path("modes.csv"), "--tool", path("tool.toml"), "--at", "14000 rpm, 0.5 mm", "--set", "lobes.count=2"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_TRUE(summary()["operating_points"][0]["forced_vibration"].is_null());
+  EXPECT_FALSE(summary()["lobes"][0].contains("forced_over_speed"));
   EXPECT_EQ(outcome.out.find("forced"), std::string::npos) << outcome.out;
 }
 

@@ -347,6 +347,22 @@ TEST(ForcedVibration, ResidualAnswersAtOnce) {
   EXPECT_LT(std::abs(*a.surface_location_error_m - *b.surface_location_error_m), 0.01 * off);
 }
 
+// Of unequal teeth, too, whose force hangs on the motion.
+TEST(ForcedVibration, WithoutTheMotionForceAndSurfaceAreTheSame) {
+  ForcedOptions lean = to(1e-6);
+  lean.motion = false;
+  Cutter uneven{2, 0.01};
+  uneven.pitches_rad = {2.8, 2.0 * pi - 2.8};
+  for (const Cutter& cutter : {Cutter{2, 0.01}, uneven}) {
+    const MillingProcess process = process_with(cutter, 0.5, pi);
+    const ForcedVibration all = forced_vibration(structure(), process, 7000.0, 0.1e-3, feed, to(1e-6));
+    const ForcedVibration v = forced_vibration(structure(), process, 7000.0, 0.1e-3, feed, lean);
+    EXPECT_EQ(v.displacement_m.size(), 0);
+    EXPECT_NEAR(v.peak_force_n, all.peak_force_n, 3e-6 * all.peak_force_n);
+    EXPECT_NEAR(*v.surface_location_error_m, *all.surface_location_error_m, 3e-6 * all.peak_to_peak_m.norm());
+  }
+}
+
 TEST(ForcedVibration, WhatItDoesNotModelIsRefused) {
   const auto refused = [](const MillingProcess& process, double rpm, double depth, double feed_m, const char* word) {
     try {

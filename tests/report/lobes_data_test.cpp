@@ -101,6 +101,27 @@ TEST(LobesData, RobustLimitsAndOtherMethodsAreThereWhereTheCaseAsksForThem) {
   EXPECT_EQ(chart["compared"][0]["status"], (Words{"converged", "not_converged"}));
 }
 
+TEST(LobesData, ForcedMotionIsACurveADepthWithGapsWhereTheCutChatters) {
+  const fs::path folder = result_folder("lobes_forced");
+  write_chart(folder, {"converged", "converged", "converged"});
+  EXPECT_FALSE(lobes_data(folder, summary())["lobes"][0].contains("forced"));
+  io::write_csv(folder / "lobes" / "tool_forced.csv",
+                {{"depth_m", Numbers{1e-3, 1e-3, 2e-3, 2e-3}},
+                 {"spindle_speed_rpm", Numbers{1000.0, 2000.0, 1000.0, 2000.0}},
+                 {"verdict", Words{"stable", "chatter", "chatter", "stable"}},
+                 {"surface_location_error_m", Numbers{1e-5, NAN, NAN, -2e-5}, true},
+                 {"peak_force_n", Numbers{100.0, NAN, NAN, 200.0}, true}});
+  const json curves = lobes_data(folder, summary())["lobes"][0]["forced"];
+  ASSERT_EQ(curves.size(), 2U);
+  EXPECT_EQ(curves[1]["depth_m"], 2e-3);
+  EXPECT_EQ(unpacked<double>(curves[0]["rpm"]), (Numbers{1000.0, 2000.0}));
+  EXPECT_EQ(unpacked<float>(curves[0]["peak_force_n"])[0], 100.0F);
+  EXPECT_TRUE(std::isnan(unpacked<float>(curves[0]["peak_force_n"])[1]));
+  EXPECT_TRUE(std::isnan(unpacked<float>(curves[1]["surface_location_error_m"])[0]));
+  EXPECT_NEAR(unpacked<float>(curves[1]["surface_location_error_m"])[1], -2e-5, 1e-9);
+  EXPECT_FALSE(curves[0].contains("least_contact_force_n"));
+}
+
 TEST(LobesData, OfAPathAreRowsOfPositions) {
   const fs::path folder = result_folder("lobes_path");
   write_chart(folder, {"converged", "converged", "converged"});

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstdio>
@@ -219,13 +220,19 @@ TEST(Contact, APressedBallIsHertzsInTheRunAndItsReport) {
   EXPECT_LT(difference(same, out, "P.x"), 1e-9) << "and couples as a spring of that stiffness";
 }
 
+const std::string cut =
+    "[tool]\nteeth = 4\ndiameter = \"16 mm\"\nlength = \"20 mm\"\n[cutting]\nat = \"Q\"\nradial_depth = \"1 mm\"\n"
+    "feed_per_tooth = \"0.1 mm\"\nKt = \"800 MPa\"\nKr = \"240 MPa\"\nspindle_speed = \"7000 rpm\"\n"
+    "[lobes]\nfrom = \"6000 rpm\"\nto = \"8000 rpm\"\ncount = 4\n";
+
+/// The wall with a robot that presses so hard.
+std::string pressed(const std::string& newtons) {
+  return wall + robot + "preload = [\"-" + newtons + " N\", 0, 0]\n" + contact("") + cut;
+}
+
 /// The depth above which the contact is lost at the case's own speed, by the summary of a run with this preload.
 double lost_above(const std::string& newtons, const fs::path& out) {
-  const std::string cut =
-      "[tool]\nteeth = 4\ndiameter = \"16 mm\"\nlength = \"20 mm\"\n[cutting]\nat = \"Q\"\nradial_depth = \"1 mm\"\n"
-      "feed_per_tooth = \"0.1 mm\"\nKt = \"800 MPa\"\nKr = \"240 MPa\"\nspindle_speed = \"7000 rpm\"\n"
-      "[lobes]\nfrom = \"6000 rpm\"\nto = \"8000 rpm\"\ncount = 4\n";
-  const auto summary = run(wall + robot + "preload = [\"-" + newtons + " N\", 0, 0]\n" + contact("") + cut, out);
+  const auto summary = run(pressed(newtons), out);
   const nlohmann::json& row = summary["lobes"][1]["at_case_speed"];
   EXPECT_DOUBLE_EQ(row["contact"]["preload_n"].get<double>(), std::stod(newtons));
   const nlohmann::json& lost = row["contact"]["lost_above_m"];
@@ -243,6 +250,33 @@ TEST(Contact, IsLostAtADepthInProportionToItsPreload) {
   EXPECT_TRUE(std::isfinite(twice));
   EXPECT_NEAR(twice / once, 2.0, 0.03) << "each to 1 %";
   EXPECT_TRUE(std::isinf(lost_above("100000", out)));
+}
+
+// What is linear in the cut does not know the preload: twice of it leaves the more by as much, at every speed.
+TEST(Contact, OverTheSpeedsThePreloadIsWhatMoreIsLeftOfTheContact) {
+  const fs::path out = scratch("contact_over_speed");
+  const auto least_at = [&](const std::string& newtons) {
+    const RunResult found = run_case(parse_case(pressed(newtons), out), {out, true, -1, false, {{7000.0, 0.02e-3}}});
+    const nlohmann::json summary = summary_json(found.summary);
+    const nlohmann::json& curve = summary["lobes"][1]["forced_over_speed"][0];
+    const fs::path file = out / "lobes" / "supported_forced.csv";
+    const io::Table table = io::read_csv(file);
+    const auto speeds = column(file, "spindle_speed_rpm");
+    const auto least = io::numbers_or_gaps(table, "least_contact_force_n", file);
+    EXPECT_DOUBLE_EQ(curve["preload_n"].get<double>(), std::stod(newtons));
+    EXPECT_EQ(curve["speeds_contact_lost"], std::ranges::count_if(least, [](double n) { return n < 0.0; }));
+    const auto own = static_cast<std::size_t>(std::ranges::find(speeds, 7000.0) - speeds.begin());
+    EXPECT_NEAR(least.at(own), summary["operating_points"][1]["contact"]["least_force_n"].get<double>(), 1e-3);
+    EXPECT_FALSE(summary["lobes"][0]["forced_over_speed"][0].contains("preload_n")) << "alone it touches nothing";
+    return least;
+  };
+  const auto once = least_at("50"), twice = least_at("100");
+  ASSERT_EQ(once.size(), twice.size());
+  EXPECT_GT(std::ranges::count_if(once, [](double n) { return std::isfinite(n); }), 2);
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    EXPECT_EQ(std::isnan(once[i]), std::isnan(twice[i]));
+    if (std::isfinite(once[i])) EXPECT_NEAR(twice[i] - once[i], 50.0, 1e-9);
+  }
 }
 
 // The same rigid contact twice: the kernel has rank one of two. Left out is what the second repeats.

@@ -9,6 +9,7 @@ import { whatWasCut } from './cut.js';
 import { firstLines, headline } from './headline.js';
 import { remarks } from './remarks.js';
 import { lobes, lobesLead } from './lobes.js';
+import { forcedLead, forcedOverSpeed } from './forced.js';
 import { paths } from './paths.js';
 import { receptances, receptancesLead } from './receptances.js';
 import { checkTable, fitTables, routesNote, modesLead, modeTables } from './tables.js';
@@ -52,6 +53,7 @@ function build(data) {
   const sections = [
     section('lobes', 'Stability lobes', () => lobesLead(runs), [charts.lobes?.content]),
     section('path', 'Along the path', () => 'The limiting depth by position and speed; the lower panel gives the depth that is stable at every position.', [charts.path?.content]),
+    section('forced', 'Surface and forces', forcedLead, [forcedOverSpeed(runs)]),
     section('cut', 'What was cut', () => 'Cutter, engagement, coefficients, material and fixture, as the case has them with every default.', [whatWasCut(runs)]),
     section('remarks', 'Remarks', () => 'What the run has to say of its limits and of their errors.', [remarks(data, firstLines(data))]),
     section('receptances', 'Receptances', () => receptancesLead(runs), [charts.frf?.content]),

@@ -26,6 +26,11 @@ export function plot({ name, label, build, columns }) {
   return self;
 }
 
+/** A plot that is folded away under a line of text, and drawn when it is first unfolded; `content` holds its figure. */
+export function folded(summary, chart, ...content) {
+  return el('details', { class: 'folded', toggle: () => chart.draw() }, el('summary', {}, summary), content);
+}
+
 /** Draws a plot when the page has nothing better to do; all are drawn before printing. */
 export function later(draw) {
   waiting.push(draw);

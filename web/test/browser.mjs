@@ -7,8 +7,8 @@ const software = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
 
 export const launch = (webgl = true) => chromium.launch({ executablePath, args: ['--no-sandbox', ...(webgl ? software : ['--disable-gpu', '--disable-3d-apis'])] });
 
-/** Opens a file and waits until it is ready. What went wrong on the way is in `.trouble`, what was asked for in `.requests`. */
-export async function open(browser, file, options = {}) {
+/** Opens a file and waits until it is ready. Folded plots are unfolded unless `unfold` is false. What went wrong on the way is in `.trouble`, what was asked for in `.requests`. */
+export async function open(browser, file, { unfold = true, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1200, height: 900 }, reducedMotion: 'reduce', ...options });
   const page = await context.newPage();
   page.trouble = [];
@@ -23,14 +23,15 @@ export async function open(browser, file, options = {}) {
   });
   await page.goto(`file://${file}`);
   await page.waitForFunction(() => document.documentElement.dataset.ready);
+  if (unfold) await page.evaluate(() => document.querySelectorAll('details.folded').forEach((d) => { d.open = true; }));
   return page;
 }
 
 // What the software renderer says of itself when a test reads pixels.
 const noise = (text) => /GPU stall due to ReadPixels|Automatic fallback to software WebGL/.test(text);
 
-/** All plots of the page are drawn. */
-export const drawn = (page) => page.waitForFunction(() => [...document.querySelectorAll('.plot')].every((p) => p.data));
+/** All plots of the page are drawn but those that are folded away. */
+export const drawn = (page) => page.waitForFunction(() => [...document.querySelectorAll('.plot')].every((p) => p.data || p.closest('details:not([open])')));
 
 /** Traces of a plot as plain values: [{ name, meta, x, y }]. */
 export const traces = (page, id) => page.evaluate((name) => document.getElementById(name).data.map((t) => ({ name: t.name, meta: t.meta, x: Array.from(t.x), y: Array.from(t.y), line: t.line })), `plot-${id}`);

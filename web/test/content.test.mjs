@@ -10,7 +10,7 @@ import { cmif, singularValues } from '../src/cmif.js';
 import { extent, shapeOf, surface } from '../src/shapes.js';
 import { colours, drawn, launch, open, slide, traces } from './browser.mjs';
 import { compose } from './compose.mjs';
-import { alongPath, measured, noArm, oneRun, pack, partAlone, robust, toolMeasured, toolOnly, twoRuns } from './synthetic.mjs';
+import { alongPath, forced, measured, noArm, oneRun, pack, partAlone, robust, toolMeasured, toolOnly, twoRuns } from './synthetic.mjs';
 
 const folder = mkdtempSync(path.join(os.tmpdir(), 'thinwall-content-'));
 let browser;
@@ -304,6 +304,35 @@ describe('the charts', () => {
     assert.deepEqual(table[1].slice(0, 6), ['1500', '1', 'part alone', '✗ chatter', '−0.8 mm (−80 %)', '1410 to 1620']);
     assert.deepEqual(table[2].slice(2, 6), ['with robot', '✓ stable', '1 mm (100 %)', 'lowest to highest']);
   }));
+
+  test('surface, force and contact over the speed: folded, gaps and shading where the cut chatters', async () => {
+    const data = forced();
+    const { rpm, surface, force, contact } = data.expected;
+    delete data.expected;
+    await shown(data, async (page) => {
+      const list = await traces(page, 'forced');
+      const of = (meta) => list.find((t) => t.meta === meta);
+      assert.deepEqual(of('surface_location_error_m').x, rpm);
+      const near = (meta, values, factor) => of(meta).y.forEach((y, k) => assert.ok(values[k] === null ? y === null : Math.abs(y - values[k] * factor) <= 1e-5 * Math.abs(values[k] * factor), `${meta} ${k}: ${y}`));
+      near('surface_location_error_m', surface, 1e6);
+      near('peak_force_n', force, 1);
+      near('least_contact_force_n', contact, 1);
+      const { shapes, annotations } = await page.evaluate(() => { const { layout } = document.getElementById('plot-forced'); return { shapes: layout.shapes.map((s) => [s.type, s.x0, s.x1, s.y0]), annotations: layout.annotations.map((a) => [a.text, a.y]) }; });
+      assert.deepEqual(shapes, [['rect', 1250, 1750, 0], ['rect', 1950, 2000, 0], ['line', 0, 1, 0], ['line', 0, 1, 60]]);
+      assert.deepEqual(annotations, [['preload', 60]]);
+      await page.locator('#forced select').selectOption('1');
+      const alone = await traces(page, 'forced');
+      assert.ok(!alone.some((t) => t.meta === 'least_contact_force_n'), 'the part alone has no contact');
+    });
+    const file = path.join(folder, 'page.html');
+    writeFileSync(file, compose(data));
+    const page = await open(browser, file, { unfold: false });
+    assert.equal(await page.locator('#plot-forced').isVisible(), false);
+    await page.click('#forced summary');
+    await page.waitForFunction(() => document.getElementById('plot-forced').data);
+    await page.context().close();
+    await shown(oneRun(), async (plainPage) => assert.equal(await plainPage.locator('#forced').count(), 0));
+  });
 
   test('tooth-passing speeds are the document\'s, and not offered without them', async () => {
     await shown(toolOnly(), async (page) => {

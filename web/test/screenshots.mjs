@@ -24,7 +24,7 @@ async function small(name, folder, details, take) {
 
 /** The page at a width, in its light colours; `take` makes the picture. */
 async function at(browser, report, options, take) {
-  const page = await open(browser, report, { colorScheme: 'light', ...options });
+  const page = await open(browser, report, { colorScheme: 'light', unfold: false, ...options });
   await drawn(page);
   await page.evaluate(() => document.querySelectorAll('.exports, nav').forEach((e) => { e.style.display = 'none'; }));
   await page.waitForTimeout(300);

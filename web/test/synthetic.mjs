@@ -116,6 +116,18 @@ export function robust() {
   return data;
 }
 
+/** With the forced motion over five speeds, three of which chatter; `expected` has the supported part's numbers. */
+export function forced() {
+  const data = oneRun();
+  const expected = { rpm: [1000, 1500, 1600, 1900, 2000], surface: [-12e-6, null, null, 30e-6, null], force: [120, null, null, 160, null], contact: [40, null, null, -5, null] };
+  const [rpm, [surface, force, contact]] = [pack('f64', [5], expected.rpm), ['surface', 'force', 'contact'].map((key) => pack('f32', [5], expected[key].map((v) => v ?? NaN)))];
+  const [alone, supported] = data.runs[0].lobes;
+  alone.forced = [{ depth_m: 0.001, rpm, surface_location_error_m: surface, peak_force_n: force }];
+  supported.forced = [{ depth_m: 0.001, rpm, surface_location_error_m: surface, peak_force_n: force, least_contact_force_n: contact }];
+  data.runs[0].summary.lobes[1].forced_over_speed = [{ depth_m: 0.001, preload_n: 60 }];
+  return { ...data, expected };
+}
+
 /** As of `thinwall lobes`: a chart of the tool, no part, no robot, no receptances. */
 export function toolOnly() {
   const { document: chart, summary } = lobe('tool', 0.002, 1800);
