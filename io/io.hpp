@@ -41,6 +41,7 @@
 #include "io/results/pvd.hpp"
 #include "io/results/vtp.hpp"
 #include "io/results/vtu.hpp"
+#include "io/surface/gltf.hpp"
 #include "io/surface/obj.hpp"
 #include "io/surface/off.hpp"
 #include "io/surface/ply.hpp"

@@ -15,7 +15,7 @@ namespace thinwall::setup {
 
 namespace {
 
-constexpr std::array surface_endings{".stl", ".off", ".obj", ".ply", ".3mf", ".step", ".stp"};
+constexpr std::array surface_endings{".stl", ".off", ".obj", ".ply", ".3mf", ".glb", ".gltf", ".step", ".stp"};
 constexpr std::array mesh_endings{".msh", ".inp", ".vtu"};
 
 std::string ending(const std::filesystem::path& file) {
@@ -100,7 +100,8 @@ std::optional<ShapeKind> shape_of_file(const std::filesystem::path& file) {
 }
 
 bool tells_its_unit(const std::filesystem::path& file) {
-  return ending(file) == ".step" || ending(file) == ".stp" || ending(file) == ".3mf";
+  constexpr std::array endings{".step", ".stp", ".3mf", ".glb", ".gltf"};
+  return std::ranges::find(endings, ending(file)) != endings.end();
 }
 
 bool from_file(const Part& part) {

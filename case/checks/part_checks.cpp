@@ -74,10 +74,11 @@ void check_matrices(const io::MatrixFiles& files, Findings& findings) {
 
 void check_part_file(const setup::PartFile& file, Findings& findings) {
   if (!findings.written("part.shape") && !file.path.empty() && !setup::shape_of_file(file.path)) {
-    findings.report("part.file",
-                    "\"" + file.path.filename().string() +
-                        "\" has an ending that is not read; take a .stl, .off, .obj, .ply, .3mf or .step, or a "
-                        "mesh as .msh, .inp or .vtu");
+    findings.report(
+        "part.file",
+        "\"" + file.path.filename().string() +
+            "\" has an ending that is not read; take a .stl, .off, .obj, .ply, .3mf, .glb, .gltf or .step, or a "
+            "mesh as .msh, .inp or .vtu");
     return;
   }
   if (setup::tells_its_unit(file.path) && !findings.given("part.unit")) return;

@@ -26,7 +26,7 @@ constexpr Key case_keys[] = {
     Key{"part.height", Type::quantity, kind::length, "", positive, "", "Extent along `axes.height`."},
     Key{"part.thickness", Type::quantity, kind::length, "", positive, "", "Extent along `axes.thickness`; of a prism along z, from 0."},
     Key{"part.outline", Type::polygon, kind::length, "", any, "", "Corners of a prism's outline, x and y, in order."},
-    Key{"part.file", Type::file, kind::number, "", any, "", "Surface of the part: `.stl`, `.off`, `.obj`, `.ply`, `.3mf`, `.step`; or its mesh: `.msh`, `.inp`, `.vtu`."},
+    Key{"part.file", Type::file, kind::number, "", any, "", "Surface of the part: `.stl`, `.off`, `.obj`, `.ply`, `.3mf`, `.glb`, `.gltf`, `.step`; or its mesh: `.msh`, `.inp`, `.vtu`."},
     Key{"part.unit", Type::text, kind::number, "", any, "", "Unit of length in the file or the matrices: `mm`, `m`, `inch` … They do not tell it; a STEP file does."},
     Key{"part.mass_unit", Type::text, kind::number, "", any, "", "Unit of mass of matrices, and of the materials in a mesh: `t` beside mm, N, MPa; `kg` beside m, N, Pa."},
     Key{"part.matrices.stiffness", Type::file, kind::number, "", any, "", "K: Matrix Market, `.sti` of CalculiX, Abaqus, DMIG, OP4, MAT.", required},

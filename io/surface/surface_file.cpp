@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "io/surface/gltf.hpp"
 #include "io/surface/obj.hpp"
 #include "io/surface/off.hpp"
 #include "io/surface/ply.hpp"
@@ -37,13 +38,14 @@ mesh::TriangleSoup read_surface(const std::filesystem::path& path, const std::st
   if (extension == ".step" || extension == ".stp")
     return in_its_unit<StepSurface>([](const std::filesystem::path& file) { return read_step(file); }, path, unit);
   if (extension == ".3mf") return in_its_unit<ThreeMfSurface>(read_three_mf, path, unit);
+  if (extension == ".glb" || extension == ".gltf") return in_its_unit<GltfSurface>(read_gltf, path, unit);
   const double metres = metres_per_unit(unit, path.string());
   if (extension == ".stl") return read_stl(path, metres);
   if (extension == ".off") return read_off(path, metres);
   if (extension == ".obj") return read_obj(path, metres);
   if (extension == ".ply") return read_ply(path, metres);
   throw core::InputError("\"" + path.string() +
-                         "\" is no surface that is read; give .stl, .off, .obj, .ply, .3mf or .step");
+                         "\" is no surface that is read; give .stl, .off, .obj, .ply, .3mf, .glb, .gltf or .step");
 }
 
 }  // namespace thinwall::io

@@ -136,7 +136,8 @@ TEST_F(SurfaceUnits, ThatAreMissingOrNoLengthAreNamed) {
   EXPECT_NE(refusal(file, "").find("is missing; files of its kind do not tell it"), std::string::npos);
   EXPECT_NE(refusal(file, "kg").find("state a length"), std::string::npos) << refusal(file, "kg");
   EXPECT_NE(refusal(file, "furlong").find("furlong"), std::string::npos);
-  EXPECT_NE(refusal(path("part.igs"), "mm").find(".stl, .off, .obj, .ply, .3mf or .step"), std::string::npos);
+  EXPECT_NE(refusal(path("part.igs"), "mm").find(".stl, .off, .obj, .ply, .3mf, .glb, .gltf or .step"),
+            std::string::npos);
   for (const double bad : {0.0, -1.0, std::nan("")}) {
     EXPECT_THROW((void)stl_surface(ascii_stl(cube), "part", bad), core::InputError);
     EXPECT_THROW((void)off_surface(off_text(cube), "part", bad), core::InputError);
