@@ -93,7 +93,8 @@ void add_damping_torque(const FedCut& given, const ContactGrid& grid, const Eige
 Eigen::RowVectorXd torque_of(const FedCut& given, const PeriodicMotion& motion) {
   const ContactGrid& grid = motion.grid;
   const Cutter& cutter = given.cut.process.cutter;
-  const Eigen::Matrix3Xd q = displacement_at_nodes(motion);
+  const bool felt = !given.cycle.equal_teeth || given.cut.process.damping.C != 0.0;  // the motion, by the torque
+  const Eigen::Matrix3Xd q = felt ? displacement_at_nodes(motion) : Eigen::Matrix3Xd();
   Eigen::RowVectorXd torque(grid.node_rad.size());
   for (Index i = 0; i < torque.size(); ++i) {
     const double theta = grid.node_rad(i);
@@ -105,7 +106,7 @@ Eigen::RowVectorXd torque_of(const FedCut& given, const PeriodicMotion& motion) 
     };
     torque(i) = cutting_load(cutter, given.cycle, given.shape, given.depth_m, theta, advance).torque;
   }
-  add_damping_torque(given, grid, q, torque);
+  if (felt) add_damping_torque(given, grid, q, torque);
   return torque;
 }
 
@@ -183,7 +184,22 @@ void sample(const FedCut& given, const PeriodicMotion& motion, const Eigen::RowV
   }
 }
 
-/// The vibration on one grid, and its largest displacement, at the samples or, without them, at the nodes.
+/// The largest displacement where the elements of the cut begin and end, and of the surface: a scale of the motion that
+/// costs a few moments.
+double scale_of(const PeriodicMotion& motion, const ForcedVibration& found) {
+  double largest = std::abs(found.surface_location_error_m.value_or(0.0));
+  for (std::size_t i = 0; i < motion.grid.elements.size(); ++i) {
+    const CutElement& e = motion.grid.elements[i];
+    for (const double at : {e.from_rad, e.to_rad}) {
+      const double size = displacement(motion, {at, static_cast<int>(i)}).norm();
+      if (!std::isfinite(size)) return size;
+      largest = std::max(largest, size);
+    }
+  }
+  return largest;
+}
+
+/// The vibration on one grid, and its largest displacement, of the samples or, without them, of scale_of().
 struct OnGrid {
   ForcedVibration vibration;
   double largest_m = 0.0;
@@ -209,8 +225,13 @@ OnGrid vibration_on(const FedCut& given, Resolution resolution, double per_rad, 
   result.walls = surface_profiles(cut.process.cutter, given.cycle, given.depth_m, motion, heights);
   if (!result.walls.empty()) result.surface_location_error_m = largest_error_m(result.walls);
   result.nodes = static_cast<int>(grid.node_rad.size());
-  const Eigen::Matrix3Xd q = with_motion ? result.displacement_m : displacement_at_nodes(motion);
-  return {std::move(result), q.allFinite() ? q.colwise().norm().maxCoeff() : HUGE_VAL};
+  if (!with_motion) {
+    const double scale = scale_of(motion, result);
+    return {std::move(result), scale};
+  }
+  const double largest =
+      result.displacement_m.allFinite() ? result.displacement_m.colwise().norm().maxCoeff() : HUGE_VAL;
+  return {std::move(result), largest};
 }
 
 /// Largest change of any figure.

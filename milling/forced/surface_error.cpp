@@ -52,8 +52,10 @@ std::vector<SurfaceProfile> surface_profiles(const Cutter& cutter, const CutCycl
     for (const Sweep& sweep : cycle.sweeps) {
       const auto s = reached(sweep, side);
       if (!s) continue;
+      double error = error_at(sweep, side, *s, profile.height_m(0) / depth_m, motion);
       for (Eigen::Index i = 0; i < heights; ++i) {
-        const double error = error_at(sweep, side, *s, profile.height_m(i) / depth_m, motion);
+        // A straight edge generates all heights at one moment.
+        if (i > 0 && sweep.lag_rad != 0.0) error = error_at(sweep, side, *s, profile.height_m(i) / depth_m, motion);
         profile.error_m(i) = std::max(profile.error_m(i), error);
       }
     }

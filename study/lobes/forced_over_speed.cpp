@@ -12,15 +12,15 @@ ForcedOverSpeed forced_over_speed(const milling::RelativeStructure& structure, c
                                   const std::vector<milling::LobeRow>& rows, const FedDepth& cut,
                                   const ContactForceOf& force_of) {
   ForcedOverSpeed result{cut.depth_m, cut.feed_per_tooth_m, std::vector<ForcedRow>(rows.size())};
-  milling::ForcedOptions options;
-  options.motion = false;
+  milling::ForcedOptions lean;
+  lean.motion = false;
   core::Progress progress("forced vibrations", rows.size());
   core::parallel_for(rows.size(), [&](std::size_t i) {
     ForcedRow& row = result.rows[i];
     row.spindle_speed_rpm = rows[i].spindle_speed_rpm;
     if (milling::stable_at(rows[i], cut.depth_m)) {
       const auto forced =
-          milling::forced_vibration(structure, process, row.spindle_speed_rpm, cut.depth_m, cut.feed_per_tooth_m);
+          milling::forced_vibration(structure, process, row.spindle_speed_rpm, cut.depth_m, cut.feed_per_tooth_m, lean);
       row.figures = {.surface_location_error_m = forced.surface_location_error_m,
                      .peak_force_n = forced.peak_force_n,
                      .error_estimate = forced.error_estimate,
