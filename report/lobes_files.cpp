@@ -135,6 +135,34 @@ void write_forced(const fs::path& file, const std::vector<study::ForcedOverSpeed
                  fmt::format("feed per tooth at every speed: {:.9g} m", curves.front().feed_per_tooth_m)});
 }
 
+/// Force and torque over a period of each stable point.
+void write_forces(const fs::path& file, const std::vector<study::PointStability>& points) {
+  std::vector<double> number, rotation, feed, normal, axis, torque;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].forced) continue;
+    const milling::ForcedVibration& forced = *points[i].forced;
+    for (Eigen::Index k = 0; k < forced.rotation_rad.size(); ++k) {
+      number.push_back(static_cast<double>(i + 1));
+      rotation.push_back(forced.rotation_rad(k));
+      feed.push_back(forced.force_n(0, k));
+      normal.push_back(forced.force_n(1, k));
+      axis.push_back(forced.force_n(2, k));
+      torque.push_back(forced.torque_n_m(k));
+    }
+  }
+  if (number.empty()) return;
+  io::write_csv(
+      file,
+      {{"point", number},
+       {"rotation_rad", rotation},
+       {"force_feed_n", feed},
+       {"force_normal_n", normal},
+       {"force_axis_n", axis},
+       {"torque_n_m", torque}},
+      {"point: number of the operating point, those that chatter have none. rotation_rad: since the first tooth "
+       "entered; a period, which is a tooth's where all are alike. Forces on the tool in its axes"});
+}
+
 }  // namespace
 
 void write_lobes(const fs::path& folder, const study::StructureLobes& named) {
@@ -144,6 +172,7 @@ void write_lobes(const fs::path& folder, const study::StructureLobes& named) {
   for (const study::ComparedLobes& other : named.compared)
     write_chart(folder / (name + "_" + other.method + ".csv"), other.lobes, nullptr, {});
   if (named.map) write_map(folder / (name + "_map.csv"), *named.map);
+  write_forces(folder / (name + "_forces.csv"), named.points);
   if (!named.forced_over_speed.empty()) write_forced(folder / (name + "_forced.csv"), named.forced_over_speed);
 }
 

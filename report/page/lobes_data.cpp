@@ -121,6 +121,33 @@ json forced_curves(const fs::path& file) {
   return list;
 }
 
+/// Forces over a period of every stable operating point of a chart, as many samples as a picture needs.
+json forces_of(const fs::path& file, const Summary& summary, study::ChartOf chart) {
+  constexpr std::size_t most = 1500;
+  std::vector<const OperatingPointSummary*> points;
+  for (const OperatingPointSummary& point : summary.operating_points) {
+    if (point.chart == chart) points.push_back(&point);
+  }
+  const Source source(file);
+  const auto& number = source.numbers("point");
+  json list = json::array();
+  for (std::size_t begin = 0, end = 0; begin < number.size(); begin = end) {
+    while (end < number.size() && number[end] == number[begin]) ++end;
+    const auto index = static_cast<std::size_t>(number[begin]) - 1;
+    if (index >= points.size()) throw core::DataError(file.string() + ": a point that summary.json does not have");
+    list.push_back({{"spindle_speed_rpm", points[index]->spindle_speed_rpm}, {"depth_m", points[index]->depth_m}});
+    const std::size_t step = (end - begin + most - 1) / most;
+    for (const char* name : {"rotation_rad", "force_feed_n", "force_normal_n", "force_axis_n"}) {
+      const auto& all = source.numbers(name);
+      std::vector<float> values;
+      for (std::size_t row = begin; row + 1 < end; row += step) values.push_back(for_picture(all[row]));
+      values.push_back(for_picture(all[end - 1]));
+      list.back()[name] = packed(values, {values.size()});
+    }
+  }
+  return list;
+}
+
 /// Depths over position and speed; every position has the same speeds.
 json path_of(const fs::path& file, const std::string& name) {
   const Source path(file);
@@ -169,6 +196,8 @@ json lobes_data(const fs::path& results, const Summary& summary) {
     if (json others = compared_of(folder, chart); !others.empty()) run["lobes"].back()["compared"] = std::move(others);
     if (const fs::path forced = folder / (name + "_forced.csv"); fs::exists(forced))
       run["lobes"].back()["forced"] = forced_curves(forced);
+    if (const fs::path forces = folder / (name + "_forces.csv"); fs::exists(forces))
+      run["lobes"].back()["forces"] = forces_of(forces, summary, chart.name);
     run["lobes"].back()["tooth_passing_hz"] = chart.main_modes_hz;
     if (const fs::path path = folder / (name + "_path.csv"); fs::exists(path))
       run["paths"].push_back(path_of(path, name));

@@ -25,8 +25,8 @@ struct FedDepth {
 /// milling::forced_vibration() at the speed of every row at which the cut is stable (milling::stable_at()), and there
 /// the least force in the contact. Where the cut chatters the forced motion is not what one sees: such a row has no
 /// figures. `structure` as the chart's, in part axes. The speeds share out among the threads; interruptible. Throws as
-/// milling::forced_vibration(), and what `force_of` throws. Cost: one forced vibration a stable speed (some
-/// milliseconds), and one call of `force_of`.
+/// milling::forced_vibration(), and what `force_of` throws. Cost: a millisecond or some at a stable speed, and one call
+/// of `force_of`.
 [[nodiscard]] ForcedOverSpeed forced_over_speed(const milling::RelativeStructure& structure,
                                                 const milling::MillingProcess& process,
                                                 const std::vector<milling::LobeRow>& rows, const FedDepth& cut,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -299,6 +300,15 @@ TEST_F(LobesCommand, AStablePointWithAFeedSaysWhatTheTeethForce) {
   EXPECT_EQ(forced["status"], "converged");
   EXPECT_GT(forced["mean_power_w"].get<double>(), 0.0);
   EXPECT_TRUE(points[1]["forced_vibration"].is_null());  // unstable
+  const auto file = temporary.path / "results" / "lobes" / "tool_forces.csv";
+  const io::Table forces = io::read_csv(file);
+  const auto number = io::numbers(forces, "point", file), rotation = io::numbers(forces, "rotation_rad", file);
+  EXPECT_TRUE(std::ranges::all_of(number, [](double n) { return n == 1.0; })) << "the second chatters";
+  EXPECT_NEAR(rotation.back() - rotation.front(), std::numbers::pi, 1e-9) << "a period of two teeth";
+  double peak = 0.0;
+  const auto along = io::numbers(forces, "force_feed_n", file), across = io::numbers(forces, "force_normal_n", file);
+  for (std::size_t i = 0; i < along.size(); ++i) peak = std::max(peak, std::hypot(along[i], across[i]));
+  EXPECT_NEAR(peak, forced["peak_force_n"].get<double>(), 1e-3 * peak);
   EXPECT_NE(outcome.out.find("forced: surface 0 um, peak force "), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("N, torque 0."), std::string::npos) << outcome.out;
 }

@@ -122,6 +122,30 @@ TEST(LobesData, ForcedMotionIsACurveADepthWithGapsWhereTheCutChatters) {
   EXPECT_FALSE(curves[0].contains("least_contact_force_n"));
 }
 
+TEST(LobesData, ForcesOverAPeriodBelongToTheirOperatingPoint) {
+  const fs::path folder = result_folder("lobes_forces");
+  write_chart(folder, {"converged", "converged", "converged"});
+  io::write_csv(folder / "lobes" / "tool_forces.csv", {{"point", Numbers{2, 2, 2}},
+                                                       {"rotation_rad", Numbers{0.0, 0.5, 1.5}},
+                                                       {"force_feed_n", Numbers{1.0, 2.0, 3.0}},
+                                                       {"force_normal_n", Numbers{-1.0, -2.0, -3.0}},
+                                                       {"force_axis_n", Numbers{0.0, 0.5, 0.0}},
+                                                       {"torque_n_m", Numbers{0.1, 0.2, 0.3}}});
+  Summary with = summary();
+  EXPECT_THROW((void)lobes_data(folder, with), core::DataError) << "of a point that the summary does not have";
+  with.operating_points.resize(3);
+  with.operating_points[0].chart = with.operating_points[2].chart = study::ChartOf::tool;
+  with.operating_points[1].chart = study::ChartOf::part;
+  with.operating_points[2].spindle_speed_rpm = 7000.0;
+  with.operating_points[2].depth_m = 2e-3;
+  const json forces = lobes_data(folder, with)["lobes"][0]["forces"];
+  ASSERT_EQ(forces.size(), 1U);
+  EXPECT_EQ(forces[0]["spindle_speed_rpm"], 7000.0) << "the second of its own chart";
+  EXPECT_EQ(forces[0]["depth_m"], 2e-3);
+  EXPECT_EQ(unpacked<float>(forces[0]["rotation_rad"]), (std::vector<float>{0.0F, 0.5F, 1.5F}));
+  EXPECT_EQ(unpacked<float>(forces[0]["force_normal_n"]), (std::vector<float>{-1.0F, -2.0F, -3.0F}));
+}
+
 TEST(LobesData, OfAPathAreRowsOfPositions) {
   const fs::path folder = result_folder("lobes_path");
   write_chart(folder, {"converged", "converged", "converged"});

@@ -5,6 +5,7 @@ import { button, el, icon } from './dom.js';
 import { readDocument } from './decode.js';
 import { toggleTheme } from './colours.js';
 import { drawWaiting, later } from './plot.js';
+import { forcesOverATurn } from './turn.js';
 import { whatWasCut } from './cut.js';
 import { firstLines, headline } from './headline.js';
 import { remarks } from './remarks.js';
@@ -53,7 +54,7 @@ function build(data) {
   const sections = [
     section('lobes', 'Stability lobes', () => lobesLead(runs), [charts.lobes?.content]),
     section('path', 'Along the path', () => 'The limiting depth by position and speed; the lower panel gives the depth that is stable at every position.', [charts.path?.content]),
-    section('forced', 'Surface and forces', forcedLead, [forcedOverSpeed(runs)]),
+    section('forced', 'Surface and forces', forcedLead, [forcedOverSpeed(runs), forcesOverATurn(runs)]),
     section('cut', 'What was cut', () => 'Cutter, engagement, coefficients, material and fixture, as the case has them with every default.', [whatWasCut(runs)]),
     section('remarks', 'Remarks', () => 'What the run has to say of its limits and of their errors.', [remarks(data, firstLines(data))]),
     section('receptances', 'Receptances', () => receptancesLead(runs), [charts.frf?.content]),

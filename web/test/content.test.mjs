@@ -10,7 +10,7 @@ import { cmif, singularValues } from '../src/cmif.js';
 import { extent, shapeOf, surface } from '../src/shapes.js';
 import { colours, drawn, launch, open, slide, traces } from './browser.mjs';
 import { compose } from './compose.mjs';
-import { alongPath, forced, measured, noArm, oneRun, pack, partAlone, robust, toolMeasured, toolOnly, twoRuns } from './synthetic.mjs';
+import { alongPath, forced, measured, noArm, oneRun, pack, partAlone, robust, toolMeasured, toolOnly, turning, twoRuns } from './synthetic.mjs';
 
 const folder = mkdtempSync(path.join(os.tmpdir(), 'thinwall-content-'));
 let browser;
@@ -333,6 +333,20 @@ describe('the charts', () => {
     await page.context().close();
     await shown(oneRun(), async (plainPage) => assert.equal(await plainPage.locator('#forced').count(), 0));
   });
+
+  test('forces over a turn: the period repeated, polar from the top and clockwise, or components', () => shown(turning(), async (page) => {
+    const [resultant] = await traces(page, 'turn');
+    const expected = [[0, 5], [5, 0], [0, 0], [0, 0], [0, -5], [-5, 0], [0, 0], [0, 0]]; // 5 N at 0°, 90°, 180°, 270°
+    assert.equal(resultant.x.length, expected.length);
+    expected.forEach(([x, y], k) => assert.ok(Math.hypot(resultant.x[k] - x, resultant.y[k] - y) < 1e-5, `${k}: ${resultant.x[k]}, ${resultant.y[k]}`));
+    const { height, width } = await page.evaluate(() => { const { xaxis, yaxis } = document.getElementById('plot-turn')._fullLayout; return { width: xaxis._length / (xaxis.range[1] - xaxis.range[0]), height: yaxis._length / (yaxis.range[1] - yaxis.range[0]) }; });
+    assert.ok(Math.abs(height / width - 1) < 1e-6, 'circles are round');
+    await page.locator('#forced label.control', { hasText: 'Show' }).locator('select').selectOption('angle');
+    const list = await traces(page, 'turn');
+    assert.deepEqual(list.map((t) => t.meta), ['feed', 'normal', 'axis']);
+    assert.deepEqual(list[0].x.map(Math.round), [0, 90, 90, 180, 180, 270, 270, 360]);
+    assert.deepEqual(list[1].y.map(Math.round).map((v) => v + 0), [-4, -4, 0, 0, -4, -4, 0, 0]);
+  }));
 
   test('tooth-passing speeds are the document\'s, and not offered without them', async () => {
     await shown(toolOnly(), async (page) => {

@@ -128,6 +128,14 @@ export function forced() {
   return { ...data, expected };
 }
 
+/** With forces over the half turn of one of two teeth, 3 N along the feed and −4 N along the normal in its first half, none in the other. */
+export function turning() {
+  const data = oneRun();
+  const f32 = (values) => pack('f32', [4], values);
+  data.runs[0].lobes[1].forces = [{ spindle_speed_rpm: 1500, depth_m: 0.001, rotation_rad: f32([0, Math.PI / 2, Math.PI / 2, Math.PI]), force_feed_n: f32([3, 3, 0, 0]), force_normal_n: f32([-4, -4, 0, 0]), force_axis_n: f32([0, 0, 0, 0]) }];
+  return data;
+}
+
 /** As of `thinwall lobes`: a chart of the tool, no part, no robot, no receptances. */
 export function toolOnly() {
   const { document: chart, summary } = lobe('tool', 0.002, 1800);
