@@ -261,7 +261,7 @@ for (const file of reports) {
         assert.match(svg.text, /^<svg[^]*<path[^]*<\/svg>$/, svg.name);
         const csv = await saved(page, figure.getByRole('button', { name: 'save as CSV' }));
         const [head, ...rows] = csv.text.trim().split('\n');
-        assert.ok(/\((mm|rpm|Hz|m\/N|relative)\)|modes kept/.test(head) && rows.length >= 3, `${csv.name}: ${head}`);
+        assert.ok(/\((mm|rpm|Hz|m\/N|relative|rad)\)|modes kept/.test(head) && rows.length >= 3, `${csv.name}: ${head}`);
       }
       assert.deepEqual(await page.evaluate(() => window.violations), []);
     });
