@@ -17,6 +17,7 @@
 #include "io/results/csv_table.hpp"
 #include "io/results/vtp.hpp"
 #include "mesh/surface/wall_thickness.hpp"
+#include "report/coherence_files.hpp"
 #include "report/error_summary.hpp"
 #include "report/lobes_files.hpp"
 #include "report/robot_report.hpp"
@@ -113,6 +114,16 @@ void write_structure(const fs::path& folder, const setup::Setup& source, const s
   if (results.part) add_errors("part", results.part->response, results.errors.part);
   if (results.robot) add_errors("robot", results.robot->response, results.errors.robot);
   if (results.coupled) add_errors("coupled", results.coupled->receptance.response, results.errors.coupled);
+  const auto add_coherence = [&](const std::string& name, const dynamics::ResponseModel& response,
+                                 const std::vector<setup::MeasuredFrf>& measured) {
+    files.emplace_back(
+        [&, name] { write_coherence(folder / "frf" / (name + "_coherence.csv"), measured, response.axis); });
+  };
+  if (results.part) add_coherence("part", results.part->response, source.measured_part);
+  if (results.robot) {
+    if (const auto* robot = std::get_if<setup::MeasuredRobot>(&source.robot->model))
+      add_coherence("robot", results.robot->response, robot->measured);
+  }
   if (results.robot) files.emplace_back([&] { write_frf(folder / "frf", "robot", results.robot->response); });
   if (const auto& lines = results.added.robot)
     files.emplace_back([&] { io::write_response(folder / "frf" / "robot_added.csv", *lines); });

@@ -123,8 +123,31 @@ std::vector<float> deviations(const fs::path& file, const dynamics::ResponseMode
   return result;
 }
 
+/// Coherence of every entry from the file of a measurement, also by its transpose; NaN where it has none.
+std::vector<float> coherences(const fs::path& file, const dynamics::ResponseModel& response, const Lines& lines) {
+  const io::Table table = io::read_csv(file);
+  const std::vector<double>& hz = io::numbers(table, "frequency_hz", file);
+  const auto column = [&](const dynamics::Dof& r, const dynamics::Dof& f) -> const std::vector<double>* {
+    const std::string name = "coherence " + dynamics::name(r) + "/" + dynamics::name(f);
+    const auto found = std::ranges::find(table, name, &io::Column::name);
+    return found == table.end() ? nullptr : std::get_if<std::vector<double>>(&found->values);
+  };
+  std::vector<float> result;
+  for (const auto& r : response.responses) {
+    for (const auto& f : response.forces) {
+      const auto* given = column(r, f);
+      const auto* values = given != nullptr ? given : column(f, r);
+      for (const std::size_t line : lines) {
+        const double at_hz = response.axis.hz(static_cast<Eigen::Index>(line));
+        result.push_back(values == nullptr ? nothing : for_picture(value_at(hz, *values, at_hz)));
+      }
+    }
+  }
+  return result;
+}
+
 json entry_of(const std::string& name, const dynamics::ResponseModel& response, const fs::path& errors,
-              const Lines& lines) {
+              const fs::path& coherence, const Lines& lines) {
   std::vector<float> H;
   for (Eigen::Index i = 0; i < std::ssize(response.responses); ++i) {
     for (Eigen::Index j = 0; j < std::ssize(response.forces); ++j) {
@@ -145,6 +168,8 @@ json entry_of(const std::string& name, const dynamics::ResponseModel& response, 
   result["H"] = packed(H, {rows, columns, lines.size(), 2});
   if (fs::exists(errors))
     result["deviation"] = packed(deviations(errors, response, lines), {rows, columns, lines.size()});
+  if (fs::exists(coherence))
+    result["coherence"] = packed(coherences(coherence, response, lines), {rows, columns, lines.size()});
   if (lines.size() < all) result["thinned"] = {{"from", all}, {"to", lines.size()}};
   return result;
 }
@@ -191,7 +216,8 @@ json with_lines(const Responses& responses, std::size_t most) {
   for (const auto& [count, same] : by_lines) lines[count] = thinned_lines(same, most);
   json run = {{"frf", json::array()}};
   for (const auto& [name, response] : responses.list)
-    run["frf"].push_back(entry_of(name, response, responses.errors_of(name), lines[response.H.size()]));
+    run["frf"].push_back(entry_of(name, response, responses.errors_of(name),
+                                  responses.folder / (name + "_coherence.csv"), lines[response.H.size()]));
   if (responses.route_difference.empty()) return run;
   std::vector<float> routes;
   for (const std::size_t line : lines[responses.route_difference.size()])

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
+#include "report/coherence_files.hpp"
 #include "report/page/thinned_lines.hpp"
 #include "result_folder.hpp"
 #include "unpacked.hpp"
@@ -64,6 +66,35 @@ TEST(FrfData, HoldsTheLinesThatWereAdded) {
     EXPECT_EQ(hz[line], all.axis.hz(static_cast<Eigen::Index>(line)));
     EXPECT_NEAR(H[2 * line], all.H[line](0, 0).real(), 2e-5 * std::abs(all.H[line](0, 0)));
     EXPECT_NEAR(deviation[line], 2.0 * hz[line], 0.02 * hz[line]) << "a straight line, at 7 bits";
+  }
+}
+
+/// What was measured of one entry alone is that of its transpose, too; a component without a file has none.
+TEST(FrfData, HoldsTheCoherenceOfWhatWasMeasured) {
+  const fs::path folder = result_folder("frf_coherence");
+  const auto response = response_of({"P", "Q"}, 50, false);
+  const auto measured = [&](const std::string& r, const std::string& f, bool coherent) {
+    auto content = std::make_shared<setup::FrfContent>();
+    content->frf.axis = response.axis;
+    content->frf.H = Eigen::VectorXcd::Ones(50);
+    if (coherent) content->frf.coherence = Eigen::VectorXd::LinSpaced(50, 0.5, 1.0);
+    setup::MeasuredFrf file{.response = r, .force = f, .file = "hammer.csv"};
+    file.content = content;
+    return file;
+  };
+  io::write_response(folder / "frf" / "part.csv", response);
+  const fs::path file = folder / "frf" / "part_coherence.csv";
+  write_coherence(file, {measured("P.x", "P.x", false)}, response.axis);
+  EXPECT_FALSE(frf_data(folder)["frf"][0].contains("coherence"));
+  write_coherence(file, {measured("P.x", "P.x", false), measured("Q.x", "P.x", true)}, response.axis);
+  const json part = frf_data(folder)["frf"][0];
+  const auto coherence = unpacked<float>(part["coherence"]);
+  ASSERT_EQ(coherence.size(), 4U * 50U);
+  EXPECT_TRUE(std::isnan(coherence[0]) && std::isnan(coherence[150])) << "P.x/P.x has none, Q.x/Q.x was not measured";
+  for (std::size_t line = 0; line < 50; ++line) {
+    const double expected = 0.5 + 0.5 * static_cast<double>(line) / 49.0;
+    EXPECT_NEAR(coherence[100 + line], expected, 1e-4);
+    EXPECT_EQ(coherence[50 + line], coherence[100 + line]) << "P.x/Q.x is what Q.x/P.x is";
   }
 }
 

@@ -92,7 +92,7 @@ const stiff = (runs) => {
 export function receptancesLead(runs) {
   const apart = runs.filter((run) => run.route_difference).map((run) => numbers(run.route_difference).reduce((a, b) => (b > a ? b : a), 0));
   const of = apart.length ? ` The two ways of coupling differ by at most ${number(Math.max(...apart), 2)}, relative to the largest entry of their frequency (lower panel).` : '';
-  return `How far a point moves by a force, over frequency: a lower peak is a stiffer, better damped ${stiff(runs)}.${of}${runs.some((run) => run.tool_frf?.coherence) && !of ? ' Where the coherence (lower panel) falls below 1, noise or what is not linear makes the measurement uncertain.' : ''}`;
+  return `How far a point moves by a force, over frequency: a lower peak is a stiffer, better damped ${stiff(runs)}.${of}${runs.some((run) => frfsOf(run).some((frf) => frf.coherence)) && !of ? ' Where the coherence (lower panel) falls below 1, noise or what is not linear makes the measurement uncertain.' : ''}`;
 }
 
 /** What the page leaves out: degrees of freedom, and lines between those that it draws. */
@@ -161,7 +161,7 @@ function difference(run, i, runs, colours) {
 function coherenceOf(one, { hz, coherence }, runs, colours) {
   if (!coherence || !coherence.some(Number.isFinite)) return [];
   return [{ name: plain(`${label(one, runs)}: coherence`), x: Array.from(hz), y: Array.from(coherence, (v) => (Number.isFinite(v) ? v : null)), yaxis: 'y2', mode: 'lines',
-    line: { color: colours.mark, width: 1.2, dash: one.i ? 'dash' : 'solid' }, hovertemplate: '%{y:.3~g}', meta: `${one.i} coherence` }];
+    line: { color: style(one, colours).color, width: 1.2, dash: one.i ? 'dash' : 'solid' }, hovertemplate: '%{y:.3~g}', meta: `${one.i} ${one.frf.name} coherence` }];
 }
 
 function nyquist(shown, runs, note, margin, colours, narrow) {

@@ -173,13 +173,30 @@ describe('sentences and sections by what there is', () => {
   test('a measured tool shows its receptances with their coherence', () => shown(toolMeasured(), async (page) => {
     assert.match(await lead(page, 'receptances'), /better damped tool\. Where the coherence \(lower panel\)/);
     const list = await traces(page, 'receptance');
-    const coherence = list.find((t) => t.meta === '0 coherence');
+    const coherence = list.find((t) => t.meta === '0 tool coherence');
     assert.ok(list.some((t) => t.meta === '0 tool') && coherence);
     coherence.y.forEach((y, k) => assert.ok(Math.abs(y - (1 - 0.004 * k)) < 1e-6));
     await page.locator('#receptances select').first().selectOption('y');
     await page.locator('#receptances select').nth(1).selectOption('y');
-    assert.ok(!(await traces(page, 'receptance')).some((t) => t.meta === '0 coherence'), 'y/y has none');
+    assert.ok(!(await traces(page, 'receptance')).some((t) => t.meta === '0 tool coherence'), 'y/y has none');
   }));
+
+  test('a measured part and a measured robot show their coherence, each in its own colour', async () => {
+    const data = measured();
+    const [{ frf: [part, robot] }] = data.runs;
+    const n = part.hz.shape[0];
+    part.coherence = pack('f32', [2, 2, n], Array.from({ length: 4 * n }, (_, i) => (i < n ? 1 - i / n : NaN)));
+    robot.coherence = pack('f32', [1, 1, n], Array(n).fill(0.9));
+    await shown(data, async (page) => {
+      assert.match(await lead(page, 'receptances'), /Where the coherence \(lower panel\) falls below 1/);
+      const list = await traces(page, 'receptance');
+      const of = (name) => list.find((t) => t.meta === `0 ${name} coherence`);
+      of('part').y.forEach((y, k) => assert.ok(Math.abs(y - (1 - k / n)) < 1e-6));
+      assert.ok(of('robot').y.every((y) => Math.abs(y - 0.9) < 1e-6));
+      for (const name of ['part', 'robot']) assert.equal(of(name).line.color, list.find((t) => t.meta === `0 ${name}`).line.color);
+      assert.ok(!list.some((t) => t.meta === '0 coupled_receptance coherence'));
+    });
+  });
 
   test('measured receptances: the main modes, and no empty section', () => shown(measured(), async (page) => {
     assert.deepEqual(await page.locator('main section').evaluateAll((list) => list.map((s) => s.id)), ['remarks', 'receptances', 'modes', 'provenance']);
