@@ -140,7 +140,7 @@ void write_cuts(const fs::path& folder, const setup::Setup& source, const study:
   if (results.lobes.empty() && results.path.empty()) return;
   fs::create_directories(folder / "lobes");
   for (const auto& lobes : results.lobes) write_lobes(folder / "lobes", lobes);
-  if (source.tool) write_tool_frf(folder / "lobes" / "tool_frf.csv", *source.tool);
+  if (source.tool) write_tool_frf(folder / "lobes" / "tool_frf.csv", *source.tool, results.synthesised_tip);
   for (const auto& path : results.path) write_path(folder / "lobes", source, path);
 }
 

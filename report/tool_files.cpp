@@ -1,11 +1,15 @@
 #include "report/tool_files.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <complex>
 #include <string>
 #include <vector>
 
 #include "io/frf/resample.hpp"
 #include "io/results/csv_table.hpp"
 #include "setup/measured.hpp"
+#include "study/lobes/cut_structure.hpp"
 
 namespace thinwall::report {
 
@@ -15,9 +19,24 @@ std::vector<double> list_of(const Eigen::VectorXd& values) {
   return {values.begin(), values.end()};
 }
 
+/// Real or imaginary parts of an entry of the synthesised receptance on an axis; NaN at lines that it does not have.
+std::vector<double> synthesised_on(const dynamics::FrequencyAxis& axis, const milling::SampledReceptance& synthesised,
+                                   Eigen::Index i, Eigen::Index j, bool imaginary) {
+  std::vector<double> values;
+  const auto& hz = synthesised.frequency_hz;
+  for (const double at : axis.hz) {
+    const auto line = static_cast<std::size_t>(std::lower_bound(hz.begin(), hz.end(), at * (1.0 - 1e-12)) - hz.begin());
+    const bool known = line < synthesised.H.size() && hz(static_cast<Eigen::Index>(line)) <= at * (1.0 + 1e-12);
+    const std::complex<double> H = known ? synthesised.H[line](i, j) : std::complex<double>(NAN, NAN);
+    values.push_back(imaginary ? H.imag() : H.real());
+  }
+  return values;
+}
+
 }  // namespace
 
-void write_tool_frf(const std::filesystem::path& file, const setup::Tool& tool) {
+void write_tool_frf(const std::filesystem::path& file, const setup::Tool& tool,
+                    const std::optional<milling::SampledReceptance>& synthesised) {
   if (tool.measured.empty()) return;
   const dynamics::FrequencyAxis axis = setup::receptance_of(tool.measured.front()).axis;
   io::Table table{{"frequency_hz", list_of(axis.hz)}};
@@ -29,8 +48,15 @@ void write_tool_frf(const std::filesystem::path& file, const setup::Tool& tool) 
     table.push_back({"im " + entry + " m/N", list_of(H.imag())});
     const Eigen::VectorXd coherence = io::coherence_on(frf, axis);
     if (coherence.size() > 0) table.push_back({"coherence " + entry, list_of(coherence)});
+    if (!synthesised) continue;
+    const int i = study::direction_of_dof(measured.response), j = study::direction_of_dof(measured.force);
+    for (const bool imaginary : {false, true})
+      table.push_back({std::string("synthesised ") + (imaginary ? "im " : "re ") + entry + " m/N",
+                       synthesised_on(axis, *synthesised, i, j, imaginary), true});
   }
-  io::write_csv(file, table, {"receptances of the tool's tip as measured, on the lines of the first file"});
+  io::write_csv(file, table,
+                {"receptances of the tool's tip as measured, on the lines of the first file; synthesised: those of the "
+                 "poles that were fitted to them, where they were"});
 }
 
 }  // namespace thinwall::report

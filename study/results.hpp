@@ -279,6 +279,7 @@ struct Results {
   AddedLines added;  ///< between those of part, robot and both
   std::vector<AmplitudeReduction> reductions;
   ErrorBudget errors;
+  std::optional<milling::SampledReceptance> synthesised_tip;  ///< of a measured tool, by its fitted poles; part axes
   std::vector<StructureLobes> lobes;
   std::vector<PathLobes> path;
   std::vector<std::pair<std::string, double>> timings_s;  ///< stage, seconds, in the order they ran

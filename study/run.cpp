@@ -272,6 +272,7 @@ void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoi
   const milling::ToolFrame frame = setup::milling_process(work).frame;
   const auto chart_of = [&](ChartOf of, const dynamics::ModalModel* part, const dynamics::ModalModel* richer) {
     const CutStructure structure = cut_structure(work, frame, part);
+    if (!results.synthesised_tip) results.synthesised_tip = synthesised_tip(work, structure);
     const StructureErrors errors = structure_errors(work, frame, structure, richer);
     results.lobes.push_back(compute_lobes(work, of, structure, errors, points, kept));
   };

@@ -3,7 +3,10 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
+#include <complex>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +22,10 @@ namespace {
 using nlohmann::json;
 
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
+
+float for_picture_or_nothing(double value) {
+  return std::isnan(value) ? nothing : for_picture(value);
+}
 
 bool has(const io::Table& table, const std::string& column) {
   return std::ranges::count(table, column, &io::Column::name) > 0;
@@ -63,6 +70,36 @@ std::vector<std::size_t> lines_of(const io::Table& table, const std::filesystem:
   return thinned_lines({&measured}, most);
 }
 
+/// What an entry has besides its receptance: the lines of the poles' and how well both agree, over all lines that both
+/// have. FRAC = |Σ H̄ G|² / (Σ|H|² Σ|G|²) (Heylen & Lammens 1996), error = (Σ|G − H|² / Σ|H|²)^½.
+struct Synthesised {
+  std::vector<double> real, imaginary;
+  double frac = 0.0, error = 0.0;
+};
+
+std::optional<Synthesised> synthesised_of(const io::Table& table, const std::filesystem::path& file,
+                                          const std::string& entry) {
+  if (!has(table, "synthesised re " + entry + " m/N")) return std::nullopt;
+  Synthesised found{io::numbers_or_gaps(table, "synthesised re " + entry + " m/N", file),
+                    io::numbers_or_gaps(table, "synthesised im " + entry + " m/N", file)};
+  const auto &re = io::numbers(table, "re " + entry + " m/N", file),
+             &im = io::numbers(table, "im " + entry + " m/N", file);
+  std::complex<double> across = 0.0;
+  double measured = 0.0, poles = 0.0, apart = 0.0;
+  for (std::size_t line = 0; line < re.size(); ++line) {
+    const std::complex<double> H(re[line], im[line]), G(found.real[line], found.imaginary[line]);
+    if (std::isnan(G.real())) continue;
+    across += std::conj(H) * G;
+    measured += std::norm(H);
+    poles += std::norm(G);
+    apart += std::norm(G - H);
+  }
+  if (!(measured > 0.0) || !(poles > 0.0)) return std::nullopt;
+  found.frac = std::norm(across) / (measured * poles);
+  found.error = std::sqrt(apart / measured);
+  return found;
+}
+
 }  // namespace
 
 json tool_frf_data(const std::filesystem::path& file, std::size_t most) {
@@ -74,8 +111,9 @@ json tool_frf_data(const std::filesystem::path& file, std::size_t most) {
   std::vector<double> hz;
   hz.reserve(lines.size());
   for (const std::size_t line : lines) hz.push_back(all_hz[line]);
-  std::vector<float> H, coherence;
-  bool coherent = false;
+  std::vector<float> H, coherence, poles;
+  std::vector<double> agreement;
+  bool coherent = false, fitted = false;
   for (const std::string& r : responses) {
     for (const std::string& f : forces) {
       const std::string entry = fmt::format("{}/{}", r, f);
@@ -90,11 +128,23 @@ json tool_frf_data(const std::filesystem::path& file, std::size_t most) {
         H.push_back(im != nullptr ? for_picture((*im)[line]) : nothing);
         coherence.push_back(quality != nullptr ? for_picture((*quality)[line]) : nothing);
       }
+      const auto synthesised = synthesised_of(table, file, entry);
+      fitted = fitted || synthesised.has_value();
+      for (const std::size_t line : lines) {
+        poles.push_back(synthesised ? for_picture_or_nothing(synthesised->real[line]) : nothing);
+        poles.push_back(synthesised ? for_picture_or_nothing(synthesised->imaginary[line]) : nothing);
+      }
+      agreement.push_back(synthesised ? synthesised->frac : std::nan(""));
+      agreement.push_back(synthesised ? synthesised->error : std::nan(""));
     }
   }
   json frf = {{"name", "tool"}, {"responses", responses}, {"forces", forces}, {"hz", packed(hz, {hz.size()})}};
   frf["H"] = packed(H, {responses.size(), forces.size(), lines.size(), 2});
   if (coherent) frf["coherence"] = packed(coherence, {responses.size(), forces.size(), lines.size()});
+  if (fitted) {
+    frf["synthesised"] = packed(poles, {responses.size(), forces.size(), lines.size(), 2});
+    frf["agreement"] = packed(agreement, {responses.size(), forces.size(), 2});
+  }
   if (lines.size() < all_hz.size()) frf["thinned"] = {{"from", all_hz.size()}, {"to", lines.size()}};
   return frf;
 }

@@ -110,6 +110,19 @@ std::optional<milling::RelativeStructure> cut_poles(const setup::CutSetup& sourc
   return poles ? milling::sum(*poles, tool_modes(*source.tool)) : tool_modes(*source.tool);
 }
 
+std::optional<milling::SampledReceptance> synthesised_tip(const setup::CutSetup& source,
+                                                          const CutStructure& structure) {
+  const auto* fit = std::get_if<milling::FittedStructure>(&structure);
+  if (fit == nullptr || source.tool->swap || source.tool->measured.empty()) return std::nullopt;
+  milling::SampledReceptance tip{fit->lines.samples.frequency_hz, {}};
+  for (const double hz : tip.frequency_hz) {
+    const double omega = 2.0 * std::numbers::pi * hz;
+    tip.H.emplace_back(milling::receptance(fit->all.poles, omega));
+    if (fit->lines.poles) tip.H.back() -= milling::receptance(*fit->lines.poles, omega);
+  }
+  return tip;
+}
+
 milling::FittedStructure sampled_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                            const dynamics::ResponseModel& coupled) {
   const dynamics::ResponseModel at_cut = dynamics::between(coupled, source.cutting->at, source.cutting->at);

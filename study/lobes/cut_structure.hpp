@@ -41,6 +41,11 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::FittedStr
 [[nodiscard]] CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                          const std::optional<milling::RelativeStructure>& modal);
 
+/// The receptance of a measured tool's tip as its fitted poles alone give it, part axes, on the lines of the fit; those
+/// of the part are left out. None of a tool that is not measured, or that was swapped. Cost O(lines poles).
+[[nodiscard]] std::optional<milling::SampledReceptance> synthesised_tip(const setup::CutSetup& source,
+                                                                        const CutStructure& structure);
+
 /// The part as it is held by a robot that has no poles: samples of `coupled` (part axes) at the point that is cut, on
 /// its lines, and the tool: its modes as poles, or its measured receptance put on these lines. Warns as above. Throws
 /// DataError as io::resample.

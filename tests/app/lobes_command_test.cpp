@@ -362,6 +362,23 @@ TEST_F(LobesCommand, APointWithoutAFeedSaysNothingOfForces) {
   EXPECT_EQ(outcome.out.find("forced"), std::string::npos) << outcome.out;
 }
 
+TEST_F(LobesCommand, TheReceptanceOfFittedPolesIsWrittenBesideWhatWasMeasured) {
+  ASSERT_EQ(frf(path("tip.csv"), {"--set", "lobes.count=2"}).code, 0);
+  const auto file = temporary.path / "results" / "lobes" / "tool_frf.csv";
+  const io::Table table = io::read_csv(file);
+  double largest = 0.0, apart = 0.0;
+  for (const std::string part : {"re", "im"}) {
+    const auto measured = io::numbers(table, part + " tool.x/tool.x m/N", file);
+    const auto fitted = io::numbers_or_gaps(table, "synthesised " + part + " tool.x/tool.x m/N", file);
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      largest = std::max(largest, std::abs(measured[i]));
+      if (std::isfinite(fitted[i])) apart = std::max(apart, std::abs(fitted[i] - measured[i]));
+    }
+    EXPECT_GT(std::ranges::count_if(fitted, [](double v) { return std::isfinite(v); }), std::ssize(fitted) / 2);
+  }
+  EXPECT_LT(apart, 1e-6 * largest) << "of one mode without noise the poles say it all";
+}
+
 TEST_F(LobesCommand, AnOperatingPointThatIsNoneIsWrongUse) {
   for (const auto* text : {"5000 rpm", "5000 rpm 0.5 mm", "5000 rpm, 0.5 mm, 3", "5000, 0.5 mm", "5000 rpm, 0.5 Hz",
                            "0.5 mm, 5000 rpm", "0 rpm, 0.5 mm", "-5000 rpm, 0.5 mm", "5000 rpm, 0 mm",

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <memory>
 
 #include "core/error.hpp"
@@ -50,6 +51,32 @@ TEST(ToolFrfData, IsWhatWasMeasured) {
   EXPECT_NEAR(coherence[19], 1.0, 1e-4);
   EXPECT_TRUE(std::isnan(coherence[60])) << "y/y has no coherence";
   EXPECT_FALSE(frf.contains("thinned"));
+}
+
+/// Half of what was measured is as like it as can be (FRAC 1) and half of it off; lines that the fit lacks do not
+/// count.
+TEST(ToolFrfData, SaysHowWellTheFittedPolesAgree) {
+  const auto file = result_folder("tool_frf_fit") / "lobes" / "tool_frf.csv";
+  setup::Tool tool;
+  tool.measured = {measured("x", "x", 1e-6, true), measured("y", "x", 2e-6, false)};
+  milling::SampledReceptance fit{Eigen::VectorXd::LinSpaced(10, 100.0, 190.0), {}};
+  for (Eigen::Index line = 0; line < 10; ++line) {
+    fit.H.emplace_back(Eigen::Matrix3cd::Zero());
+    fit.H.back()(0, 0) = std::complex<double>(0.5e-6, -1e-6) * (line == 7 ? 3.0 : 1.0);
+    fit.H.back()(1, 0) = std::complex<double>(4e-6, 2e-6) * (line == 7 ? 3.0 : 1.0);
+  }
+  write_tool_frf(file, tool, fit);
+  const json frf = tool_frf_data(file);
+  const auto agreement = unpacked<double>(frf["agreement"]);
+  ASSERT_EQ(agreement.size(), 4U) << "responses x and y, force x";
+  EXPECT_NEAR(agreement[0], 1.0, 1e-12);
+  EXPECT_NEAR(agreement[1], 0.5, 1e-12);
+  EXPECT_NEAR(agreement[2], 1.0, 1e-12) << "a quarter of a turn ahead, which FRAC does not see";
+  EXPECT_GT(agreement[3], 1.0) << "but the error does";
+  const auto poles = unpacked<float>(frf["synthesised"]);
+  ASSERT_EQ(poles.size(), 2U * 20U * 2U);
+  EXPECT_NEAR(poles[14], 1.5e-6, 1e-10);
+  EXPECT_TRUE(std::isnan(poles[2 * 10])) << "at 200 Hz the fit has no line";
 }
 
 TEST(ToolFrfData, OfManyLinesKeepsThePeaks) {

@@ -80,7 +80,10 @@ function entry({ run, frf }, { response, force }) {
   if (r < 0 || f < 0) return null;
   const values = H.subarray(at() * n * 2, (at() + 1) * n * 2);
   const coherence = numbers(frf.coherence)?.subarray(at() * n, (at() + 1) * n);
-  return { hz, coherence, re: values.filter((_, k) => k % 2 === 0), im: values.filter((_, k) => k % 2 === 1), deviation: deviation?.subarray(at() * n, (at() + 1) * n) };
+  const poles = numbers(frf.synthesised)?.subarray(at() * n * 2, (at() + 1) * n * 2);
+  const [frac, error] = numbers(frf.agreement)?.subarray(at() * 2, (at() + 1) * 2) ?? [];
+  const synthesised = poles && Number.isFinite(frac) ? { re: poles.filter((_, k) => k % 2 === 0), im: poles.filter((_, k) => k % 2 === 1), frac, error } : null;
+  return { hz, coherence, synthesised, re: values.filter((_, k) => k % 2 === 0), im: values.filter((_, k) => k % 2 === 1), deviation: deviation?.subarray(at() * n, (at() + 1) * n) };
 }
 
 const stiff = (runs) => {
@@ -131,7 +134,7 @@ function overFrequency(shown, runs, state, note, margin, colours, narrow) {
     const y = x.map((_, k) => display.of(e.re[k], e.im[k])).map((v) => (Number.isFinite(v) ? v : null));
     const line = style(one, colours);
     return [...(display.band && e.deviation && one.frf.name !== 'coupled_spatial' ? errorBand(x, y, e.deviation, line.color) : []),
-      { name: plain(label(one, runs)), x, y, mode: 'lines', line, hovertemplate: `%{y:.4~g} ${display.unit ?? 'µm/N'}`, meta: `${one.i} ${one.frf.name}` }];
+      { name: plain(label(one, runs)), x, y, mode: 'lines', line, hovertemplate: `%{y:.4~g} ${display.unit ?? 'µm/N'}`, meta: `${one.i} ${one.frf.name}` }, ...synthesisedOf(one, e, x, display, runs, colours)];
   });
   const apart = runs.flatMap((run, i) => difference(run, i, runs, colours));
   const coherent = apart.length ? [] : shown.flatMap(({ one, e }) => coherenceOf(one, e, runs, colours));
@@ -155,6 +158,14 @@ function difference(run, i, runs, colours) {
   if (!values || !coupled) return [];
   return [{ name: plain(`${runs.length > 1 ? `${run.label}: ` : ''}difference of the two routes`), x: Array.from(numbers(coupled.hz)), y: Array.from(values, (v) => (v > 0 ? v : null)), yaxis: 'y2', mode: 'lines',
     line: { color: colours.mark, width: 1.2, dash: i ? 'dash' : 'solid' }, hovertemplate: '%{y:.2~e}', meta: `${i} difference` }];
+}
+
+/** What the poles that were fitted to a measured entry make of it, and how well both agree. */
+function synthesisedOf(one, { synthesised }, x, display, runs, colours) {
+  if (!synthesised) return [];
+  const { re, im, frac, error } = synthesised;
+  return [{ name: plain(`${label(one, runs)}, fitted: FRAC ${number(frac, 4)}, ${error < 1e-4 ? 'below 0.01' : number(error * 100, 2)} % off`), x, y: x.map((_, k) => display.of(re[k], im[k])).map((v) => (Number.isFinite(v) ? v : null)), mode: 'lines',
+    line: { simplify: false, color: colours.mark, width: 1.4, dash: 'dash' }, hovertemplate: `%{y:.4~g} ${display.unit ?? 'µm/N'}`, meta: `${one.i} ${one.frf.name} synthesised` }];
 }
 
 /** The coherence of a measured entry, where its file has one. */
@@ -194,6 +205,7 @@ function columns(all, runs, state) {
     const e = entry(one, state);
     const name = `${one.run.label}, ${names[one.frf.name] ?? one.frf.name}`;
     return e ? [{ name: `${name}: frequency (Hz)`, values: Array.from(e.hz) }, { name: `${name}: Re ${of} (m/N)`, values: Array.from(e.re) }, { name: `${name}: Im ${of} (m/N)`, values: Array.from(e.im) },
+      ...(e.synthesised ? [{ name: `${name}, fitted: Re ${of} (m/N)`, values: Array.from(e.synthesised.re) }, { name: `${name}, fitted: Im ${of} (m/N)`, values: Array.from(e.synthesised.im) }] : []),
       ...(e.coherence ? [{ name: `${name}: coherence ${of}`, values: Array.from(e.coherence) }] : [])] : [];
   }).concat(runs.flatMap((run) => (run.route_difference ? [{ name: `${run.label}: difference of the routes (relative)`, values: Array.from(numbers(run.route_difference)) }] : [])));
 }

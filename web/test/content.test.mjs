@@ -198,6 +198,23 @@ describe('sentences and sections by what there is', () => {
     });
   });
 
+  test('a measured tool shows what its fitted poles make of it, and how well they agree', async () => {
+    const data = toolMeasured();
+    const { tool_frf: tip } = data.runs[0];
+    const H = Array.from({ length: 400 }, (_, i) => (i < 100 ? (i % 2 ? -2e-6 : 1e-6) : NaN));
+    Object.assign(tip, { synthesised: pack('f32', [2, 2, 50, 2], H), agreement: pack('f64', [2, 2, 2], [0.99871, 0.0456, NaN, NaN, NaN, NaN, NaN, NaN]) });
+    await shown(data, async (page) => {
+      const of = async () => (await traces(page, 'receptance')).find((t) => t.meta === '0 tool synthesised');
+      const fitted = await of();
+      assert.equal(fitted.name, 'tool, fitted: FRAC 0.9987, 4.6 % off');
+      assert.ok(fitted.y.every((y) => Math.abs(y - Math.hypot(1, 2)) < 1e-5));
+      await page.locator('#receptances select').nth(2).selectOption('imaginary');
+      assert.ok((await of()).y.every((y) => Math.abs(y + 2) < 1e-5));
+      await page.locator('#receptances select').first().selectOption('y');
+      assert.equal(await of(), undefined, 'y/x was not measured');
+    });
+  });
+
   test('measured receptances: the main modes, and no empty section', () => shown(measured(), async (page) => {
     assert.deepEqual(await page.locator('main section').evaluateAll((list) => list.map((s) => s.id)), ['remarks', 'receptances', 'modes', 'provenance']);
     assert.deepEqual((await rows(page, 'Part with robot: main modes of the receptance'))[0][1], ['1', '36.328', '1.64']);
