@@ -44,6 +44,7 @@
 #include "milling/simulation/motion_kind.hpp"
 #include "milling/simulation/simulation.hpp"
 #include "milling/simulation/stock.hpp"
+#include "milling/simulation/wall.hpp"
 #include "milling/structure/periodic_motion.hpp"
 #include "milling/structure/regenerative_loop.hpp"
 #include "milling/structure/relative_structure.hpp"
