@@ -10,7 +10,7 @@
 
 namespace thinwall::app {
 
-/// What is known of a run before it begins; none of what the case does not have.
+/// The expectations of a run before it begins; none of what the case does not have.
 struct Forecast {
   std::optional<setup::PartSize> part;
   std::optional<study::LobesForecast> lobes;

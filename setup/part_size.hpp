@@ -1,5 +1,5 @@
 #pragma once
-// What is expected of a part's mesh and of the time that it takes, before anything is solved.
+// The size that is expected of a part's mesh, and the time of the part, before anything is solved.
 
 namespace thinwall::setup {
 

@@ -14,7 +14,7 @@ struct ExpectedRows {
   double of_lines = 0.0;      ///< of the supported part where it is known by its receptances alone
 };
 
-/// What the stage of the lobes will take on core::thread_count() threads.
+/// The rows and the time of the stage of the lobes on core::thread_count() threads.
 struct LobesForecast {
   ExpectedRows rows;
   double seconds = 0.0;
