@@ -79,7 +79,9 @@ std::string warning_of(const End& end, const MeasuredFrf& measured, bool left_ou
 /// The warning that lines are left out because FRFs beside this one have none there.
 std::string neighbours_warning(const MeasuredFrf& measured, const dynamics::FrequencyAxis& axis, double from_hz,
                                double to_hz) {
-  const bool below = axis.hz(0)<from_hz*(1.0 - 1e-12), above = axis.hz(axis.size() - 1)> to_hz * (1.0 + 1e-12);
+  constexpr double hair = 1e-12;
+  const bool below = axis.hz(0) < from_hz * (1.0 - hair);
+  const bool above = axis.hz(axis.size() - 1) > to_hz * (1.0 + hair);
   return fmt::format("{} ({} by {}): lines {}{}{} are left out, too, for the FRFs beside it have none there",
                      measured.file.string(), measured.response, measured.force,
                      below ? fmt::format("below {:.4g} Hz", from_hz) : "", below && above ? " and " : "",

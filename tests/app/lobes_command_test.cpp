@@ -1,5 +1,7 @@
 // `thinwall lobes`: the same structure as a case, as a table of modes and as FRFs; operating points; bad input.
 
+#include "tests/app/lobes_command.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,100 +19,10 @@
 #include "io/frf/mat_response.hpp"
 #include "io/results/csv_table.hpp"
 #include "tests/case/case_text.hpp"
-#include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::tests::lobes_command_test {
 
-using namespace setup;
-using namespace cases;
-using namespace app;
-
 namespace {
-
-struct Outcome {
-  int code = -1;
-  std::string out, err;
-};
-
-const std::string tool_toml = R"([tool]
-teeth = 2
-diameter = "10 mm"
-length = "10 mm"
-[cutting]
-radial_depth = "1 mm"
-feed_direction = "x"
-Kt = "600 N/mm^2"
-Kr = "200 N/mm^2"
-[lobes]
-from = "9000 rpm"
-to = "16000 rpm"
-count = 8
-)";
-
-class LobesCommand : public testing::Test {
- protected:
-  LobesCommand() {
-    write("tool.toml", tool_toml);
-    write("modes.csv", "frequency_hz,damping_ratio,mass,direction\n922,0.011,0.03993,x\n");
-    write_frf("tip.csv", 0, 1.0);
-  }
-  void write(const std::string& name, const std::string& text) const {
-    core::write_file_atomically(temporary.path / name, text);
-  }
-  /// The benchmark's mode as receptance (0), mobility (1) or accelerance (2), with the sign of its damping.
-  void write_frf(const std::string& name, int derivative, double damping_sign, double to_hz = 6000.0) const {
-    std::ostringstream text;
-    text.precision(17);
-    text << "frequency_hz,real,imaginary\n";
-    const double omega_0 = 2.0 * std::numbers::pi * 922.0;
-    for (double hz = 2.0; hz <= to_hz; hz += 2.0) {
-      const double omega = 2.0 * std::numbers::pi * hz;
-      const std::complex<double> stiffness(omega_0 * omega_0 - omega * omega, 0.022 * damping_sign * omega_0 * omega);
-      const auto H = std::pow(std::complex<double>(0.0, omega), derivative) / (0.03993 * stiffness);
-      text << hz << ',' << H.real() << ',' << H.imag() << '\n';
-    }
-    write(name, text.str());
-  }
-  /// A tool's receptance from 0 Hz, as integrated from an accelerometer whose noise hides it below some 10 Hz.
-  void write_integrated(const std::string& name, double from_hz) const {
-    std::mt19937_64 random(5);
-    std::normal_distribution<double> normal(0.0, std::pow(2.0 * std::numbers::pi * 10.0, 2) / 2e7);
-    std::ostringstream text;
-    text.precision(17);
-    for (double hz = 0.0; hz <= 2400.0; hz += 1.0) {
-      const double r = hz / 620.0, q = hz / 1340.0, omega = 2.0 * std::numbers::pi * std::max(hz, 1.0);
-      const double real = normal(random), imaginary = normal(random);
-      const std::complex<double> H = 1.0 / (2e7 * std::complex<double>(1.0 - r * r, 0.06 * r)) +
-                                     1.0 / (5e7 * std::complex<double>(1.0 - q * q, 0.05 * q)) +
-                                     std::complex<double>(real, imaginary) / (omega * omega);
-      if (hz >= from_hz) text << hz << ',' << H.real() << ',' << H.imag() << '\n';
-    }
-    write(name, text.str());
-  }
-  [[nodiscard]] std::string path(const std::string& name) const { return (temporary.path / name).string(); }
-  [[nodiscard]] nlohmann::json summary() const {
-    return nlohmann::json::parse(core::read_file(temporary.path / "results" / "summary.json"));
-  }
-  /// Runs `thinwall lobes` with words after it; results go to results/.
-  [[nodiscard]] Outcome lobes(std::vector<std::string> words) const {
-    words.insert(words.begin(), {"thinwall", "lobes"});
-    words.insert(words.end(), {"--out", path("results"), "-q"});
-    std::vector<const char*> argv;
-    argv.reserve(words.size());
-    for (const auto& word : words) argv.push_back(word.c_str());
-    std::ostringstream out, err;
-    const int code = run_command_line(static_cast<int>(argv.size()), argv.data(), run_case, out, err);
-    return {code, out.str(), err.str()};
-  }
-  [[nodiscard]] Outcome frf(const std::string& file, std::vector<std::string> more = {},
-                            const std::string& quantity = "receptance", const std::string& unit = "m/N") const {
-    std::vector<std::string> words{file, "--tool", path("tool.toml"), "--quantity", quantity, "--unit", unit};
-    words.insert(words.end(), more.begin(), more.end());
-    return lobes(words);
-  }
-
-  TemporaryFolder temporary;
-};
 
 void expect_refused(const Outcome& outcome, int code, const std::string& part) {
   EXPECT_EQ(outcome.code, code) << outcome.err;
@@ -279,104 +191,6 @@ TEST_F(LobesCommand, FromSamplesTheMultiplierIsNullAndTheRestAgrees) {
       EXPECT_NEAR(samples[key].get<double>() / poles[key].get<double>(), 1.0, 1e-4) << key;
     }
   }
-}
-
-TEST_F(LobesCommand, AStablePointWithAFeedSaysWhatTheTeethForce) {
-  // Down-milling with K_t and K_r alone: the force is largest at the entry, w f sin φ √(K_t² + K_r²), torque alike.
-  write("tool.toml", with(tool_toml, "[cutting]", "[cutting]\nfeed_per_tooth = \"0.1 mm\""));
-  const std::vector<std::string> at{"--at", "14000 rpm, 0.5 mm", "--at", "12000 rpm, 5 mm", "--set", "lobes.count=8"};
-  std::vector<std::string> words{path("modes.csv"), "--tool", path("tool.toml")};
-  words.insert(words.end(), at.begin(), at.end());
-  const Outcome outcome = lobes(words);
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const auto points = summary()["operating_points"];
-  const auto forced = points[0]["forced_vibration"];
-  const double entry = std::sin(std::acos(2.0 * 0.1 - 1.0));
-  EXPECT_NEAR(forced["peak_force_n"].get<double>(), 0.5e-3 * 0.1e-3 * entry * std::hypot(6e8, 2e8), 1e-5);
-  EXPECT_NEAR(forced["peak_torque_n_m"].get<double>(), 0.5e-3 * 0.1e-3 * entry * 6e8 * 0.005, 1e-7);
-  EXPECT_EQ(forced["surface_location_error_m"], 0.0);  // the structure moves along the feed alone
-  EXPECT_GT(forced["peak_to_peak_m"][0].get<double>(), 1e-6);
-  EXPECT_LE(forced["error_estimate_relative"].get<double>(), 1e-4);
-  EXPECT_EQ(forced["status"], "converged");
-  EXPECT_GT(forced["mean_power_w"].get<double>(), 0.0);
-  EXPECT_TRUE(points[1]["forced_vibration"].is_null());  // unstable
-  const auto file = temporary.path / "results" / "lobes" / "tool_forces.csv";
-  const io::Table forces = io::read_csv(file);
-  const auto number = io::numbers(forces, "point", file), rotation = io::numbers(forces, "rotation_rad", file);
-  EXPECT_TRUE(std::ranges::all_of(number, [](double n) { return n == 1.0; })) << "the second chatters";
-  EXPECT_NEAR(rotation.back() - rotation.front(), std::numbers::pi, 1e-9) << "a period of two teeth";
-  double peak = 0.0;
-  const auto along = io::numbers(forces, "force_feed_n", file), across = io::numbers(forces, "force_normal_n", file);
-  for (std::size_t i = 0; i < along.size(); ++i) peak = std::max(peak, std::hypot(along[i], across[i]));
-  EXPECT_NEAR(peak, forced["peak_force_n"].get<double>(), 1e-3 * peak);
-  EXPECT_NE(outcome.out.find("forced: surface 0 um, peak force "), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("N, torque 0."), std::string::npos) << outcome.out;
-}
-
-TEST_F(LobesCommand, SurfaceAndForceAreGivenOverTheSpeedsAtTheDepthOfThePoint) {
-  // A mode across the wall, so that the surface moves; at 12000 rpm 5 mm chatter, at others not.
-  write("modes.csv", "frequency_hz,damping_ratio,mass,direction\n922,0.011,0.03993,y\n");
-  write("tool.toml", with(tool_toml, "[cutting]", "[cutting]\nfeed_per_tooth = \"0.1 mm\""));
-  const Outcome outcome =
-      lobes({path("modes.csv"), "--tool", path("tool.toml"), "--at", "14000 rpm, 1 mm", "--set", "lobes.count=30"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const auto curve = summary()["lobes"][0]["forced_over_speed"][0];
-  EXPECT_EQ(curve["depth_m"], 1e-3);
-  EXPECT_EQ(curve["feed_per_tooth_m"], 1e-4);
-  EXPECT_EQ(curve["speeds"], summary()["lobes"][0]["speeds"]);
-  EXPECT_FALSE(curve.contains("preload_n")) << "a tool has no contact";
-  const auto file = temporary.path / "results" / "lobes" / "tool_forced.csv";
-  const io::Table table = io::read_csv(file);
-  const auto rpm = io::numbers(table, "spindle_speed_rpm", file);
-  const auto limit = io::numbers(io::read_csv(file.parent_path() / "tool.csv"), "limiting_depth_m", file);
-  const auto surface = io::numbers_or_gaps(table, "surface_location_error_m", file);
-  const auto force = io::numbers_or_gaps(table, "peak_force_n", file);
-  ASSERT_EQ(rpm.size(), limit.size());
-  const double entry = 1e-3 * 1e-4 * std::sin(std::acos(2.0 * 0.1 - 1.0)) * std::hypot(6e8, 2e8);
-  long stable = 0;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < rpm.size(); ++i) {
-    EXPECT_EQ(std::isnan(force[i]), limit[i] <= 1e-3) << rpm[i];
-    EXPECT_EQ(std::isnan(surface[i]), std::isnan(force[i])) << rpm[i];
-    if (std::isnan(force[i])) continue;
-    ++stable;
-    EXPECT_NEAR(force[i], entry, 1e-4 * entry) << rpm[i];
-    if (std::abs(surface[i]) > std::abs(largest)) largest = surface[i];
-    if (rpm[i] == 14000.0)
-      EXPECT_NEAR(surface[i],
-                  summary()["operating_points"][0]["forced_vibration"]["surface_location_error_m"].get<double>(), 1e-9);
-  }
-  EXPECT_EQ(curve["speeds_stable"], stable);
-  EXPECT_GT(stable, 0);
-  EXPECT_LT(stable, std::ssize(rpm)) << "some must chatter for this to be a test";
-  EXPECT_EQ(curve["largest_surface_error_m"], largest);
-  EXPECT_NEAR(curve["peak_force_n"].get<double>(), entry, 1e-4 * entry);
-}
-
-TEST_F(LobesCommand, APointWithoutAFeedSaysNothingOfForces) {
-  const Outcome outcome =
-      lobes({path("modes.csv"), "--tool", path("tool.toml"), "--at", "14000 rpm, 0.5 mm", "--set", "lobes.count=2"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(summary()["operating_points"][0]["forced_vibration"].is_null());
-  EXPECT_FALSE(summary()["lobes"][0].contains("forced_over_speed"));
-  EXPECT_EQ(outcome.out.find("forced"), std::string::npos) << outcome.out;
-}
-
-TEST_F(LobesCommand, TheReceptanceOfFittedPolesIsWrittenBesideWhatWasMeasured) {
-  ASSERT_EQ(frf(path("tip.csv"), {"--set", "lobes.count=2"}).code, 0);
-  const auto file = temporary.path / "results" / "lobes" / "tool_frf.csv";
-  const io::Table table = io::read_csv(file);
-  double largest = 0.0, apart = 0.0;
-  for (const std::string part : {"re", "im"}) {
-    const auto measured = io::numbers(table, part + " tool.x/tool.x m/N", file);
-    const auto fitted = io::numbers_or_gaps(table, "synthesised " + part + " tool.x/tool.x m/N", file);
-    for (std::size_t i = 0; i < measured.size(); ++i) {
-      largest = std::max(largest, std::abs(measured[i]));
-      if (std::isfinite(fitted[i])) apart = std::max(apart, std::abs(fitted[i] - measured[i]));
-    }
-    EXPECT_GT(std::ranges::count_if(fitted, [](double v) { return std::isfinite(v); }), std::ssize(fitted) / 2);
-  }
-  EXPECT_LT(apart, 1e-6 * largest) << "of one mode without noise the poles say it all";
 }
 
 TEST_F(LobesCommand, AnOperatingPointThatIsNoneIsWrongUse) {
