@@ -70,14 +70,16 @@ void write_report(const std::filesystem::path& results, const report::RunAtHand&
   }
 }
 
-/// Says the whole time of a run that takes long. A run that finds charts of an earlier one may take less, and a point
-/// of a sweep is one of many. What cannot be foreseen is an error of the run, which tells it where it is met.
+/// Says the whole time of a run that takes long, or whose rows take too long to be timed. A run that finds charts of an
+/// earlier one may take less, and a point of a sweep is one of many. What cannot be foreseen is an error of the run,
+/// which tells it where it is met.
 void tell_of_long_run(const cases::Case& source, const RunOptions& options) {
   constexpr double long_s = 10.0;
   const bool first = options.fresh || !std::filesystem::exists(options.out / "cache" / "lobes.bin");
   if (!first || !options.parts.empty()) return;
   try {
-    if (const Forecast time = forecast(source); time.whole_s() >= long_s) spdlog::info("{}", text(time));
+    const Forecast time = forecast(source);
+    if (time.at_least() || time.whole_s() >= long_s) spdlog::info("{}", text(time));
   } catch (const core::Interrupted&) {
     throw;
   } catch (const core::Error&) {
