@@ -10,7 +10,7 @@
 
 namespace thinwall::app {
 
-/// What the options of `thinwall simulate` say, besides those of every case.
+/// The options of `thinwall simulate`, besides those of every case.
 struct SimulateRequest {
   std::string paths = "circular";
   int settling_turns = 400, turns = 200, traced_turns = 10, steps = 200;

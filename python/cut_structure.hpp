@@ -1,5 +1,5 @@
 #pragma once
-// What a cut feels of the models that Python hands over.
+// The structure that a cut feels, from the models that Python hands over.
 
 #include <optional>
 #include <string>

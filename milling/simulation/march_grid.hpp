@@ -77,6 +77,7 @@ struct MarchGrid {
   std::vector<PastSurface> pasts;
   std::vector<TipPass> tips;
 
+  /// Nodes of all stretches.
   [[nodiscard]] int nodes() const { return static_cast<int>(first_point.size()) - 1; }
   /// Steps of all stretches.
   [[nodiscard]] int steps() const;

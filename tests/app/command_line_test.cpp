@@ -120,7 +120,7 @@ TEST_F(CommandLine, AMergeSaysWhereItsTableGoes) {
 }
 
 TEST_F(CommandLine, AWordThatMeansACommandIsAnsweredWithIt) {
-  EXPECT_NE(call({"simulate", "a"}).err.find("(did you mean \"run\"?)"), std::string::npos);
+  EXPECT_NE(call({"compute", "a"}).err.find("(did you mean \"run\"?)"), std::string::npos);
 }
 
 TEST_F(CommandLine, AWordThatIsNoCommandIsNamedWithTheNearestOne) {
