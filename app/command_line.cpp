@@ -115,9 +115,10 @@ ExitCode robot(const Arguments& arguments, std::ostream& out) {
 }
 
 ExitCode simulate(const Arguments& arguments, std::ostream& out) {
-  (void)start_log(arguments);
+  SimulateRequest request = arguments.simulate;
+  request.display = start_log(arguments);
   out << simulate_case(cases::read_case(arguments.case_path, arguments.overrides), operating_points(arguments),
-                       arguments.out, arguments.simulate);
+                       arguments.out, request);
   return ExitCode::done;
 }
 

@@ -42,8 +42,13 @@ std::string simulate_case(cases::Case source, const std::vector<milling::Operati
                                : study::Checkpoint(),
                    {},
                    {}};
-  const study::Results results = study::run(source, cases::variation_of(source), kept, {});
+  StageDisplay display(request.display);
+  const study::Results results =
+      study::run(source, cases::variation_of(source), kept, {.on_stage = display.listener()});
+  study::Stages stages(display.listener());
+  stages.begin("simulation");
   const auto simulated = study::simulate_points(results.setup, results, simulation);
+  stages.end();
   const auto staging = core::partial_path(folder.path() / "simulated");
   report::write_simulation(staging, simulated);
   report::publish_folder(staging / "simulation", folder.path() / "simulation");

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/stage_display.hpp"
 #include "case/machining_case.hpp"
 #include "milling/chart/operating_point.hpp"
 
@@ -13,6 +14,7 @@ namespace thinwall::app {
 /// The options of `thinwall simulate`, besides those of every case.
 struct SimulateRequest {
   std::string paths = "circular";
+  ProgressDisplay display = ProgressDisplay::none;  ///< how stages are shown
   int settling_turns = 400, turns = 200, traced_turns = 10, steps = 200;
 };
 

@@ -83,6 +83,14 @@ std::vector<std::string> validate(const SimulationOptions& options) {
   require(options.recorded_turns >= 1, "turns to record", options.recorded_turns, 1);
   require(options.kept_passes >= 2, "passes of teeth to keep", options.kept_passes, 2);
   require(options.samples_a_turn >= 2, "samples a turn", options.samples_a_turn, 2);
+  constexpr double most_numbers = 1e8;
+  const double numbers = 7.0 * options.traced_turns * static_cast<double>(options.samples_a_turn);
+  if (numbers > most_numbers) {
+    std::ostringstream text;
+    text << "simulation: a trace of " << numbers << " numbers, must be at most " << most_numbers
+         << "; trace fewer turns or take fewer samples a turn";
+    violations.push_back(text.str());
+  }
   const int walled = options.wall.turns;
   if (walled != 0 && (walled < 4 || walled > options.recorded_turns)) {
     violations.push_back("simulation: " + std::to_string(walled) + " turns of wall, must be 0, or 4 to the " +

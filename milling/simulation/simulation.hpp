@@ -38,7 +38,7 @@ struct SimulationOptions {
   WallOptions wall = {};
 };
 
-/// Every violation, empty if there is none.
+/// Every violation, empty if there is none; a trace of more than 10⁸ numbers is one.
 [[nodiscard]] std::vector<std::string> validate(const SimulationOptions& options);
 
 /// Throws InputError with the violations of process, law and options, or for a speed, depth or feed that is not

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/progress.hpp"
 #include "milling/direct/stability.hpp"
 #include "milling/simulation/exact_path.hpp"
 #include "setup/milling_process.hpp"
@@ -59,7 +60,12 @@ milling::SimulatedCut simulated(const setup::Setup& setup, const milling::Relati
                                 const SimulationRequest& request) {
   const milling::SimulatedPoint at{point.point.spindle_speed_rpm, point.point.depth_m, point.feed_per_tooth_m};
   const milling::ForceLaw law = setup::force_law(*setup.cutting, process);
-  const auto look = [](double /*share*/) { core::check_interrupt(); };
+  core::Progress progress("simulated turns",
+                          static_cast<std::size_t>(request.options.settling_turns + request.options.recorded_turns));
+  const auto look = [&progress](double /*share*/) {
+    core::check_interrupt();
+    progress.step();
+  };
   if (request.paths == ToothPaths::circular)
     return milling::simulate(structure, process, law, at, request.options, look);
   const auto direction = setup.cutting->down_milling ? milling::MillingDirection::down : milling::MillingDirection::up;

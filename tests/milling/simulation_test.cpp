@@ -271,6 +271,9 @@ TEST(Simulation, RefusesWhatItCannotMarch) {
   SimulationOptions longer = turns(1, 1);
   longer.traced_turns = 2;
   EXPECT_THROW((void)simulated(process, {11000.0, 1e-3, feed_m}, longer), core::InputError);
+  SimulationOptions huge_trace = turns(1, 100000);
+  huge_trace.traced_turns = 100000;
+  EXPECT_THROW((void)simulated(process, {11000.0, 1e-3, feed_m}, huge_trace), core::InputError);
   SimulationOptions short_wall = turns(1, 10);
   short_wall.wall.turns = 3;
   EXPECT_THROW((void)simulated(process, {11000.0, 1e-3, feed_m}, short_wall), core::InputError);
