@@ -54,8 +54,10 @@ std::string text_of(const SimulatedPoint& p) {
   std::string text = fmt::format("{} at {:.0f} rpm, {} deep: {}\n", core::word_of(p.of), p.point.spindle_speed_rpm,
                                  length(p.point.depth_m), outcome(p));
   if (p.growth.converged) {
-    text += fmt::format("  growth     |mu| {:.6f} by the march, {:.6f} by the lobes ({:+.1e} apart)\n",
-                        p.growth.modulus, p.lobes.modulus, p.growth_difference());
+    text += fmt::format(
+        "  growth     |mu| {:.6f} by the march, {:.6f} by the lobes ({:+.1e} apart; by estimate within {:.0e} and "
+        "{:.0e})\n",
+        p.growth.modulus, p.lobes.modulus, p.growth_difference(), p.growth.error_estimate, p.lobes.error_estimate);
   } else {
     text += fmt::format("  growth     not found by the march; |mu| {:.6f} by the lobes\n", p.lobes.modulus);
   }
@@ -83,30 +85,43 @@ io::Table table_of(const std::vector<SimulatedPoint>& points) {
     status.push_back(milling::name(p.cut.status));
     motion.push_back(milling::name(p.cut.motion.motion));
   }
-  // A vibration that outgrew the cutter before it was recorded has no range.
-  const auto range = [](int i) {
-    return [i](const SimulatedPoint& p) {
-      const double value = p.cut.displacement_m.range()[i];
-      return std::isfinite(value) ? value : std::numeric_limits<double>::infinity();
+  // A vibration that outgrew the cutter has no figures.
+  const auto figure = [](const auto& of) {
+    return [of](const SimulatedPoint& p) {
+      const bool grew = p.cut.status == milling::SimulationStatus::overflowed;
+      return grew ? std::numeric_limits<double>::infinity() : static_cast<double>(of(p.cut));
     };
   };
-  return {{"structure", of},
-          column(points, "spindle_speed_rpm", [](const SimulatedPoint& p) { return p.point.spindle_speed_rpm; }),
-          column(points, "depth_m", [](const SimulatedPoint& p) { return p.point.depth_m; }),
-          column(points, "feed_per_tooth_m", [](const SimulatedPoint& p) { return p.feed_per_tooth_m; }),
-          {"status", status},
-          {"motion", motion},
-          column(points, "period", [](const SimulatedPoint& p) { return p.cut.motion.period; }),
-          column(points, "multiplier_march", [](const SimulatedPoint& p) { return p.growth.modulus; }),
-          column(points, "multiplier_lobes", [](const SimulatedPoint& p) { return p.lobes.modulus; }),
-          column(points, "peak_to_peak_x_m", range(0)),
-          column(points, "peak_to_peak_y_m", range(1)),
-          column(points, "peak_to_peak_z_m", range(2)),
-          column(points, "peak_force_n", [](const SimulatedPoint& p) { return p.cut.peak_force_n; }),
-          column(points, "peak_torque_n_m", [](const SimulatedPoint& p) { return p.cut.peak_torque_n_m; }),
-          column(points, "mean_power_w", [](const SimulatedPoint& p) { return p.cut.mean_power_w; }),
-          column(points, "share_without_contact", [](const SimulatedPoint& p) { return p.cut.share_without_contact; }),
-          column(points, "thickest_chip_m", [](const SimulatedPoint& p) { return p.cut.thickest_chip_m; })};
+  const auto range = [&](int i) {
+    return figure([i](const milling::SimulatedCut& cut) { return cut.displacement_m.range()[i]; });
+  };
+  return {
+      {"structure", of},
+      column(points, "spindle_speed_rpm", [](const SimulatedPoint& p) { return p.point.spindle_speed_rpm; }),
+      column(points, "depth_m", [](const SimulatedPoint& p) { return p.point.depth_m; }),
+      column(points, "feed_per_tooth_m", [](const SimulatedPoint& p) { return p.feed_per_tooth_m; }),
+      {"status", status},
+      {"motion", motion},
+      column(points, "period", [](const SimulatedPoint& p) { return p.cut.motion.period; }),
+      column(points, "multiplier_march",
+             [](const SimulatedPoint& p) {
+               return p.growth.converged ? p.growth.modulus : std::numeric_limits<double>::infinity();
+             }),
+      column(points, "multiplier_march_error",
+             [](const SimulatedPoint& p) {
+               return p.growth.converged ? p.growth.error_estimate : std::numeric_limits<double>::infinity();
+             }),
+      column(points, "multiplier_lobes", [](const SimulatedPoint& p) { return p.lobes.modulus; }),
+      column(points, "multiplier_lobes_error", [](const SimulatedPoint& p) { return p.lobes.error_estimate; }),
+      column(points, "peak_to_peak_x_m", range(0)),
+      column(points, "peak_to_peak_y_m", range(1)),
+      column(points, "peak_to_peak_z_m", range(2)),
+      column(points, "peak_force_n", figure([](const milling::SimulatedCut& cut) { return cut.peak_force_n; })),
+      column(points, "peak_torque_n_m", figure([](const milling::SimulatedCut& cut) { return cut.peak_torque_n_m; })),
+      column(points, "mean_power_w", figure([](const milling::SimulatedCut& cut) { return cut.mean_power_w; })),
+      column(points, "share_without_contact",
+             figure([](const milling::SimulatedCut& cut) { return cut.share_without_contact; })),
+      column(points, "thickest_chip_m", figure([](const milling::SimulatedCut& cut) { return cut.thickest_chip_m; }))};
 }
 
 std::vector<double> row(const Eigen::Matrix3Xd& values, int i) {
@@ -160,6 +175,7 @@ void write_simulation(const std::filesystem::path& folder, const std::vector<Sim
   for (std::size_t i = 0; i < points.size(); ++i) {
     const milling::SimulatedCut& cut = points[i].cut;
     const std::string name = fmt::format("{}-{}", core::word_of(points[i].of), i + 1);
+    if (cut.status == milling::SimulationStatus::overflowed) continue;
     if (cut.trace.torque_n_m.size() > 0) io::write_csv(below / (name + ".csv"), table_of(cut.trace));
     if (!cut.passes.empty()) io::write_csv(below / (name + "-passes.csv"), table_of(cut.passes));
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -28,8 +29,9 @@ class CentrePath {
   void set(long node, const Point& centre) { ring_[place(node)] = centre; }
 
   /// The centre at a time in nodes since the simulation began, at least two nodes before the newest: the cubic through
-  /// four nodes. Before the start the tool did not vibrate.
+  /// four nodes. Before the start the tool did not vibrate. NaN at a time that is not finite.
   [[nodiscard]] Point at(double time) const {
+    if (!std::isfinite(time)) return Point::Constant(std::numeric_limits<double>::quiet_NaN());
     const double floor = std::floor(time);
     const double s = time - floor;
     const long i = static_cast<long>(floor);
@@ -253,11 +255,14 @@ SimulatedCut run(PathCut& cut, const ChipForce& chip_force, const MillingProcess
     for (int i = 0; i < steps_a_turn; ++i) {
       step.from_rad = i * step.step_rad;
       unsettled += over_step(cut, chip_force, x, step);
+      if (!x.allFinite() || !(x.cwiseAbs().maxCoeff() < radius_m)) {
+        result.status = SimulationStatus::overflowed;
+        break;
+      }
       if (turn >= options.settling_turns) record(step);
       wall(step);
       begin_next(step);
     }
-    if (!(x.cwiseAbs().maxCoeff() < radius_m)) result.status = SimulationStatus::overflowed;
     if (after_turn) after_turn((turn + 1.0) / turns);
   }
   result.simulated_s = turn * turn_s;

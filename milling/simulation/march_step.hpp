@@ -83,9 +83,9 @@ inline constexpr double settled_tolerance = 1e-12;
 inline constexpr double unsettled_tolerance = 1e-9;
 inline constexpr int most_passes = 30;
 
-/// True if two forces differ by no more than a share of the second one.
+/// True if two forces are finite and differ by no more than a share of the second one.
 inline bool near(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double tolerance) {
-  return (a - b).cwiseAbs().maxCoeff() <= tolerance * b.cwiseAbs().maxCoeff();
+  return (a - b).allFinite() && (a - b).cwiseAbs().maxCoeff() <= tolerance * b.cwiseAbs().maxCoeff();
 }
 
 /// The forces at the middle and the end of a step, from those that `step.at` brings along as the guess:

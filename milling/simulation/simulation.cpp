@@ -21,8 +21,8 @@ void require_positive(const char* what, double value, const char* unit) {
 }
 
 bool within_radius(const CutState& state, double radius_m) {
-  // Modes are scaled to their displacement at the cut. NaN fails the comparison.
-  return state.modes.cwiseAbs().maxCoeff() < radius_m;
+  // Modes are scaled to their displacement at the cut. The largest of numbers some of which are NaN is any of them.
+  return state.modes.allFinite() && state.modes.cwiseAbs().maxCoeff() < radius_m;
 }
 
 template <class ChipForce>
@@ -92,6 +92,12 @@ std::vector<std::string> validate(const SimulationOptions& options) {
     violations.push_back(text.str());
   }
   const int walled = options.wall.turns;
+  constexpr double numbers_a_turn = 1000.0;  // of tip paths, a height and some teeth
+  if (walled * numbers_a_turn * static_cast<double>(options.wall.heights_m.size()) > most_numbers) {
+    violations.push_back("simulation: " + std::to_string(walled) + " turns of wall at " +
+                         std::to_string(options.wall.heights_m.size()) +
+                         " heights, must be at most 100000 together; record fewer turns or heights");
+  }
   if (walled != 0 && (walled < 4 || walled > options.recorded_turns)) {
     violations.push_back("simulation: " + std::to_string(walled) + " turns of wall, must be 0, or 4 to the " +
                          std::to_string(options.recorded_turns) + " that are recorded; correct it");
@@ -111,6 +117,13 @@ void require_usable(const MillingProcess& process, const ForceLaw& law, const Si
   require_positive("spindle speed", point.spindle_speed_rpm, "rpm");
   require_positive("depth", point.depth_m, "m");
   require_positive("feed per tooth", point.feed_per_tooth_m, "m");
+  for (const double height : options.wall.heights_m) {
+    if (height >= 0.0 && height <= point.depth_m) continue;
+    std::ostringstream text;
+    text << "simulation: wall at " << height << " m height, must be 0 to the depth of " << point.depth_m
+         << " m; correct it";
+    throw core::InputError(text.str());
+  }
 }
 
 SimulatedCut simulate(const RelativeStructure& structure, const MillingProcess& process, const ForceLaw& law,

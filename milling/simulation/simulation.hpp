@@ -61,11 +61,6 @@ struct Extremes {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector3d high = Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity());
 
-  /// Takes a value in.
-  void take(const Eigen::Vector3d& value) {
-    low = low.cwiseMin(value);
-    high = high.cwiseMax(value);
-  }
   /// High less low; NaN where nothing was taken in.
   [[nodiscard]] Eigen::Vector3d range() const {
     if ((low.array() <= high.array()).all()) return high - low;

@@ -163,6 +163,7 @@ std::vector<Wall> WallRecorder::walls() const {
           Eigen::VectorXd::LinSpaced(points + 1, from, from + static_cast<double>(feeds) * feed_a_turn_m_).head(points);
       wall.error_m.resize(points);
       for (Eigen::Index i = 0; i < points; ++i) wall.error_m(i) = deepest_at(paths, wall.x_m(i));
+      if (!wall.error_m.allFinite()) continue;  // no recorded tip passed some place
       set_roughness(wall);
       wall.deepest_m = wall.error_m.maxCoeff();
       wall.highest_m = highest_cusp(wall, paths);

@@ -52,7 +52,8 @@ class WallRecorder {
   /// Takes a step in.
   void operator()(const MarchStep& step);
   /// The walls that the paths leave: none where no arc reaches a wall, two in a slot; one a height, of
-  /// 200 points a turn, without the first and the last turn, whose neighbours are not known.
+  /// 200 points a turn, without the first and the last turn, whose neighbours are not known. None where the vibration
+  /// is so large that no recorded tip passes some place.
   [[nodiscard]] std::vector<Wall> walls() const;
 
  private:

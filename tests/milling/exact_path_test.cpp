@@ -192,6 +192,16 @@ TEST(Bondarenko2012, HasTheForcesOfTheFullSlot) {
   EXPECT_NEAR(cut.displacement_m.range().norm(), 0.0, 1e-7);
 }
 
+/// A soft, light structure under a deep slot: the vibration outgrows the cutter within a turn, and no number of it is
+/// used as a place of the path.
+TEST(ExactPath, TellsWhenTheVibrationOutgrowsTheCutter) {
+  const MillingProcess process = down_milling(0.01, 0.01);
+  const SimulatedCut cut = simulate_exact_path(modes_in_plane(50.0, 0.01, 1e-3), process, process.coefficients,
+                                               {5000.0, 0.1, 1e-3}, {}, turns(0, 50));
+  EXPECT_EQ(cut.status, SimulationStatus::overflowed);
+  EXPECT_EQ(cut.motion.motion, Motion::growing);
+}
+
 TEST(ExactPath, RefusesWhatItCannotMarch) {
   const MillingProcess process = down_milling(0.01, 1e-3);
   const auto with = [&](const MillingProcess& p, const Stock& stock, const PathOptions& paths) {

@@ -274,6 +274,9 @@ TEST(Simulation, RefusesWhatItCannotMarch) {
   SimulationOptions huge_trace = turns(1, 100000);
   huge_trace.traced_turns = 100000;
   EXPECT_THROW((void)simulated(process, {11000.0, 1e-3, feed_m}, huge_trace), core::InputError);
+  SimulationOptions above = turns(1, 10);
+  above.wall.heights_m = {2e-3};
+  EXPECT_THROW((void)simulated(process, {11000.0, 1e-3, feed_m}, above), core::InputError);
   SimulationOptions short_wall = turns(1, 10);
   short_wall.wall.turns = 3;
   EXPECT_THROW((void)simulated(process, {11000.0, 1e-3, feed_m}, short_wall), core::InputError);
