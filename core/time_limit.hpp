@@ -3,7 +3,8 @@
 
 namespace thinwall::core {
 
-/// What check_interrupt() throws once the time of a TimeLimit is over. It is no Error: only who set the limit knows it.
+/// The object that check_interrupt() throws once the time of a TimeLimit is over. It is no Error: only who set the
+/// limit knows it.
 struct TimeIsOver {};
 
 /// Bounds what the calling thread computes while the object lives: the next check_interrupt() after `seconds` throws

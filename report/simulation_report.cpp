@@ -13,7 +13,7 @@ namespace thinwall::report {
 
 namespace {
 
-using study::SimulatedPoint;
+using study::PointSimulation;
 
 std::string length(double metres) {
   return core::readable_text(metres, core::kind::length);
@@ -33,7 +33,7 @@ std::string kind_of_motion(const milling::MotionKind& motion) {
   return "";
 }
 
-std::string outcome(const SimulatedPoint& p) {
+std::string outcome(const PointSimulation& p) {
   if (p.cut.status == milling::SimulationStatus::overflowed)
     return fmt::format("the vibration outgrew the cutter after {:.3g} s", p.cut.simulated_s);
   std::string text = "vibration " + kind_of_motion(p.cut.motion).substr(3);
@@ -49,7 +49,7 @@ std::string wall_text(const milling::Wall& wall) {
                      length(wall.R_a_m), length(wall.R_t_m));
 }
 
-std::string text_of(const SimulatedPoint& p) {
+std::string text_of(const PointSimulation& p) {
   const Eigen::Vector3d range = p.cut.displacement_m.range();
   std::string text = fmt::format("{} at {:.0f} rpm, {} deep: {}\n", core::word_of(p.of), p.point.spindle_speed_rpm,
                                  length(p.point.depth_m), outcome(p));
@@ -72,22 +72,22 @@ std::string text_of(const SimulatedPoint& p) {
 }
 
 template <typename Of>
-io::Column column(const std::vector<SimulatedPoint>& points, const std::string& name, const Of& of) {
+io::Column column(const std::vector<PointSimulation>& points, const std::string& name, const Of& of) {
   std::vector<double> values;
-  for (const SimulatedPoint& point : points) values.push_back(of(point));
+  for (const PointSimulation& point : points) values.push_back(of(point));
   return {name, values};
 }
 
-io::Table table_of(const std::vector<SimulatedPoint>& points) {
+io::Table table_of(const std::vector<PointSimulation>& points) {
   std::vector<std::string> of, status, motion;
-  for (const SimulatedPoint& p : points) {
+  for (const PointSimulation& p : points) {
     of.emplace_back(core::word_of(p.of));
     status.push_back(milling::name(p.cut.status));
     motion.push_back(milling::name(p.cut.motion.motion));
   }
   // A vibration that outgrew the cutter has no figures.
   const auto figure = [](const auto& of) {
-    return [of](const SimulatedPoint& p) {
+    return [of](const PointSimulation& p) {
       const bool grew = p.cut.status == milling::SimulationStatus::overflowed;
       return grew ? std::numeric_limits<double>::infinity() : static_cast<double>(of(p.cut));
     };
@@ -97,22 +97,22 @@ io::Table table_of(const std::vector<SimulatedPoint>& points) {
   };
   return {
       {"structure", of},
-      column(points, "spindle_speed_rpm", [](const SimulatedPoint& p) { return p.point.spindle_speed_rpm; }),
-      column(points, "depth_m", [](const SimulatedPoint& p) { return p.point.depth_m; }),
-      column(points, "feed_per_tooth_m", [](const SimulatedPoint& p) { return p.feed_per_tooth_m; }),
+      column(points, "spindle_speed_rpm", [](const PointSimulation& p) { return p.point.spindle_speed_rpm; }),
+      column(points, "depth_m", [](const PointSimulation& p) { return p.point.depth_m; }),
+      column(points, "feed_per_tooth_m", [](const PointSimulation& p) { return p.feed_per_tooth_m; }),
       {"status", status},
       {"motion", motion},
-      column(points, "period", [](const SimulatedPoint& p) { return p.cut.motion.period; }),
+      column(points, "period", [](const PointSimulation& p) { return p.cut.motion.period; }),
       column(points, "multiplier_march",
-             [](const SimulatedPoint& p) {
+             [](const PointSimulation& p) {
                return p.growth.converged ? p.growth.modulus : std::numeric_limits<double>::infinity();
              }),
       column(points, "multiplier_march_error",
-             [](const SimulatedPoint& p) {
+             [](const PointSimulation& p) {
                return p.growth.converged ? p.growth.error_estimate : std::numeric_limits<double>::infinity();
              }),
-      column(points, "multiplier_lobes", [](const SimulatedPoint& p) { return p.lobes.modulus; }),
-      column(points, "multiplier_lobes_error", [](const SimulatedPoint& p) { return p.lobes.error_estimate; }),
+      column(points, "multiplier_lobes", [](const PointSimulation& p) { return p.lobes.modulus; }),
+      column(points, "multiplier_lobes_error", [](const PointSimulation& p) { return p.lobes.error_estimate; }),
       column(points, "peak_to_peak_x_m", range(0)),
       column(points, "peak_to_peak_y_m", range(1)),
       column(points, "peak_to_peak_z_m", range(2)),
@@ -162,13 +162,13 @@ io::Table table_of(const std::vector<milling::ToothPass>& passes) {
 
 }  // namespace
 
-std::string simulation_text(const std::vector<SimulatedPoint>& points) {
+std::string simulation_text(const std::vector<PointSimulation>& points) {
   std::string text;
-  for (const SimulatedPoint& point : points) text += text_of(point);
+  for (const PointSimulation& point : points) text += text_of(point);
   return text;
 }
 
-void write_simulation(const std::filesystem::path& folder, const std::vector<SimulatedPoint>& points) {
+void write_simulation(const std::filesystem::path& folder, const std::vector<PointSimulation>& points) {
   const auto below = folder / "simulation";
   std::filesystem::create_directories(below);
   io::write_csv(below / "points.csv", table_of(points));

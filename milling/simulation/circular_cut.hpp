@@ -40,7 +40,7 @@ struct CircularCut {
                                        double spindle_speed_rpm, double depth_m, double feed_per_tooth_m,
                                        const StepOptions& options);
 
-/// What a period hands on to the next.
+/// The state that a period hands on to the next.
 struct CutState {
   Eigen::VectorXd modes;          ///< as in ContactState
   std::vector<double> surface_m;  ///< left by each point of MarchGrid::points, along its normal, in the moving frame

@@ -17,7 +17,7 @@ struct StepOptions {
 /// Every violation, empty if there is none.
 [[nodiscard]] std::vector<std::string> validate(const StepOptions& options);
 
-/// What a disc of the cutter, a Gauss point over the height of its edges, stands for.
+/// A disc of the cutter: a Gauss point over the height of its edges, and its share of them.
 struct Disc {
   double height_m = 0.0;
   double sin_kappa = 1.0, cos_kappa = 0.0;

@@ -1,5 +1,5 @@
 #pragma once
-// What is kept of the motion of a simulation: extremes, means, samples once a tooth, a trace.
+// The record of a simulated motion: extremes, means, samples once a tooth, a trace.
 
 #include <Eigen/Core>
 #include <deque>

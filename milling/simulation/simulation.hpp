@@ -24,7 +24,7 @@ struct SimulatedPoint {
   double feed_per_tooth_m = 0.0;  ///< mean over the teeth
 };
 
-/// What is simulated, and what of it is kept.
+/// The length of a simulation, its fineness, and the part of it that is kept.
 struct SimulationOptions {
   StepOptions steps = {};
   int settling_turns = 200;                                 ///< ≥ 0: before anything is recorded

@@ -10,7 +10,7 @@
 
 namespace thinwall::milling {
 
-/// What of a wall is recorded.
+/// The turns and heights at which a wall is recorded.
 struct WallOptions {
   int turns = 0;                          ///< the last of the recorded turns, at least 4; 0: no wall
   std::vector<double> heights_m = {0.0};  ///< from the tip up, within the depth

@@ -70,8 +70,8 @@ std::vector<std::size_t> lines_of(const io::Table& table, const std::filesystem:
   return thinned_lines({&measured}, most);
 }
 
-/// What an entry has besides its receptance: the lines of the poles' and how well both agree, over all lines that both
-/// have. FRAC = |Σ H̄ G|² / (Σ|H|² Σ|G|²) (Heylen & Lammens 1996), error = (Σ|G − H|² / Σ|H|²)^½.
+/// The figures of an entry besides its receptance: the lines of the poles' and how well both agree, over all lines that
+/// both have. FRAC = |Σ H̄ G|² / (Σ|H|² Σ|G|²) (Heylen & Lammens 1996), error = (Σ|G − H|² / Σ|H|²)^½.
 struct Synthesised {
   std::vector<double> real, imaginary;
   double frac = 0.0, error = 0.0;

@@ -56,7 +56,7 @@ std::vector<Felt> structures(const setup::Setup& setup, const Results& results) 
 }
 
 milling::SimulatedCut simulated(const setup::Setup& setup, const milling::RelativeStructure& structure,
-                                const milling::MillingProcess& process, const SimulatedPoint& point,
+                                const milling::MillingProcess& process, const PointSimulation& point,
                                 const SimulationRequest& request) {
   const milling::SimulatedPoint at{point.point.spindle_speed_rpm, point.point.depth_m, point.feed_per_tooth_m};
   const milling::ForceLaw law = setup::force_law(*setup.cutting, process);
@@ -76,14 +76,14 @@ milling::SimulatedCut simulated(const setup::Setup& setup, const milling::Relati
 
 }  // namespace
 
-std::vector<SimulatedPoint> simulate_points(const setup::Setup& setup, const Results& results,
-                                            const SimulationRequest& request) {
+std::vector<PointSimulation> simulate_points(const setup::Setup& setup, const Results& results,
+                                             const SimulationRequest& request) {
   require_points(setup, request);
   const milling::MillingProcess process = setup::milling_process(setup);
-  std::vector<SimulatedPoint> points;
+  std::vector<PointSimulation> points;
   for (const auto& [of, structure] : structures(setup, results)) {
     for (const milling::OperatingPoint& point : request.points) {
-      SimulatedPoint one{of, point, *setup::feed_per_tooth(setup), {}, {}, {}};
+      PointSimulation one{of, point, *setup::feed_per_tooth(setup), {}, {}, {}};
       one.cut = simulated(setup, structure, process, one, request);
       one.growth =
           milling::simulated_growth(structure, process, point.spindle_speed_rpm, point.depth_m, request.options.steps);

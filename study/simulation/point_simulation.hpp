@@ -13,13 +13,13 @@
 
 namespace thinwall::study {
 
-/// How teeth move.
+/// The paths of teeth.
 enum class ToothPaths {
   circular,  ///< on circles, between fixed angles of entry and exit (milling/simulation/circular_cut.hpp)
   exact,     ///< on their real paths (milling/simulation/exact_path.hpp)
 };
 
-/// What is asked of a simulation.
+/// The points that are to be simulated, and in which way.
 struct SimulationRequest {
   std::vector<milling::OperatingPoint> points;
   ToothPaths paths = ToothPaths::circular;
@@ -27,7 +27,7 @@ struct SimulationRequest {
 };
 
 /// One point on one structure.
-struct SimulatedPoint {
+struct PointSimulation {
   ChartOf of = ChartOf::part;
   milling::OperatingPoint point;
   double feed_per_tooth_m = 0.0;
@@ -43,8 +43,8 @@ struct SimulatedPoint {
 /// of run() without lobes. Throws InputError without points, [tool], [cutting] or a feed; where a structure has no
 /// poles (lines of a measured FRF need a fit by modes first); where exact paths need a radial depth; for bad options;
 /// and Interrupted between turns. Cost: see milling::simulate().
-[[nodiscard]] std::vector<SimulatedPoint> simulate_points(const setup::Setup& setup, const Results& results,
-                                                          const SimulationRequest& request);
+[[nodiscard]] std::vector<PointSimulation> simulate_points(const setup::Setup& setup, const Results& results,
+                                                           const SimulationRequest& request);
 
 }  // namespace thinwall::study
 
