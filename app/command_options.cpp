@@ -142,7 +142,9 @@ void describe_simulate(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(0, 10000000));
   command->add_option("--turns", simulate.turns, "turns that are recorded (default: 200)")
       ->check(CLI::Range(1, 10000000));
-  command->add_option("--trace", simulate.traced_turns, "of them, those written sample by sample (default: 10)")
+  command
+      ->add_option("--trace", simulate.traced_turns,
+                   "of them, those written sample by sample, and of whose lines the text tells (default: 50)")
       ->check(CLI::Range(0, 10000));
   command->add_option("--steps", simulate.steps, "steps of a tooth from entry to exit (default: 200)")
       ->check(CLI::Range(4, 100000));

@@ -15,7 +15,7 @@ namespace thinwall::app {
 struct SimulateRequest {
   std::string paths = "circular";
   ProgressDisplay display = ProgressDisplay::none;  ///< how stages are shown
-  int settling_turns = 400, turns = 200, traced_turns = 10, steps = 200;
+  int settling_turns = 400, turns = 200, traced_turns = 50, steps = 200;
 };
 
 /// Computes part, robot and both as `run` does, with the part that an earlier run in the same folder has kept,

@@ -43,6 +43,7 @@
 #include "milling/simulation/march_grid.hpp"
 #include "milling/simulation/motion_kind.hpp"
 #include "milling/simulation/simulation.hpp"
+#include "milling/simulation/spectrum.hpp"
 #include "milling/simulation/stock.hpp"
 #include "milling/simulation/wall.hpp"
 #include "milling/structure/periodic_motion.hpp"

@@ -8,6 +8,7 @@
 #include "core/units.hpp"
 #include "core/words.hpp"
 #include "io/results/csv_table.hpp"
+#include "milling/simulation/spectrum.hpp"
 
 namespace thinwall::report {
 
@@ -42,6 +43,42 @@ std::string outcome(const PointSimulation& p) {
   return text;
 }
 
+const char* word(milling::LineOrigin origin) {
+  switch (origin) {
+    case milling::LineOrigin::tooth_passing:
+      return "teeth";
+    case milling::LineOrigin::spindle:
+      return "spindle";
+    case milling::LineOrigin::other:
+      return "chatter";
+  }
+  return "";
+}
+
+/// The direction in which the tool vibrates most, 0 or 1.
+int main_direction(const milling::SimulatedCut& cut) {
+  const Eigen::Vector3d range = cut.displacement_m.range();
+  return range.y() > range.x() ? 1 : 0;
+}
+
+/// The strongest lines along the main direction; "" of a trace too short for them.
+std::string lines_text(const PointSimulation& p) {
+  constexpr std::size_t most = 4;
+  constexpr Eigen::Index least_samples = 8;
+  if (p.cut.trace.torque_n_m.size() < least_samples) return "";
+  const int direction = main_direction(p.cut);
+  const milling::Spectrum spectrum =
+      milling::spectrum_of(p.cut.trace.displacement_m.row(direction), p.cut.trace.step_s);
+  std::string text = fmt::format("  lines      {}", direction == 0 ? "along the feed" : "across");
+  const char* comma = ": ";
+  for (const milling::SpectralLine& line :
+       milling::spectral_lines(spectrum, p.point.spindle_speed_rpm / 60.0, p.teeth, most)) {
+    text += fmt::format("{}{:.1f} Hz {} ({})", comma, line.frequency_hz, length(line.amplitude), word(line.origin));
+    comma = ", ";
+  }
+  return text + "\n";
+}
+
 std::string wall_text(const milling::Wall& wall) {
   const std::string place = wall.height_m > 0.0 ? " at " + length(wall.height_m) + " height" : "";
   return fmt::format("  wall {}y{}  {} {}, R_a {}, R_t {}\n", wall.side > 0 ? "+" : "-", place,
@@ -67,6 +104,7 @@ std::string text_of(const PointSimulation& p) {
                       p.cut.peak_torque_n_m, p.cut.mean_power_w);
   text += fmt::format("  contact    lost in {:.2g} % of the cut, thickest chip {}\n",
                       100.0 * p.cut.share_without_contact, length(p.cut.thickest_chip_m));
+  text += lines_text(p);
   for (const milling::Wall& wall : p.cut.walls) text += wall_text(wall);
   return text;
 }

@@ -83,7 +83,7 @@ std::vector<PointSimulation> simulate_points(const setup::Setup& setup, const Re
   std::vector<PointSimulation> points;
   for (const auto& [of, structure] : structures(setup, results)) {
     for (const milling::OperatingPoint& point : request.points) {
-      PointSimulation one{of, point, *setup::feed_per_tooth(setup), {}, {}, {}};
+      PointSimulation one{of, point, *setup::feed_per_tooth(setup), process.cutter.teeth, {}, {}, {}};
       one.cut = simulated(setup, structure, process, one, request);
       one.growth =
           milling::simulated_growth(structure, process, point.spindle_speed_rpm, point.depth_m, request.options.steps);

@@ -31,6 +31,7 @@ struct PointSimulation {
   ChartOf of = ChartOf::part;
   milling::OperatingPoint point;
   double feed_per_tooth_m = 0.0;
+  int teeth = 1;
   milling::SimulatedCut cut;
   milling::SimulatedGrowth growth;  ///< of a small vibration, by the march
   milling::Multiplier lobes;        ///< what multiplier_at() says of it

@@ -75,6 +75,8 @@ TEST(Simulate, TellsTheMotionOnBothSidesOfTheBoundary) {
   EXPECT_NE(text.find("|mu| 1.119285 by the march, 1.119285 by the lobes"), std::string::npos) << text;
   EXPECT_NE(text.find("6.542 µm left standing"), std::string::npos) << text;  // as in tests/milling/wall_test.cpp
   EXPECT_NE(text.find("peak to peak 144.6 µm along the feed, 102.5 µm across"), std::string::npos) << text;
+  // Every second tooth: 1.5 times the 633.3 Hz of the teeth, next to the mode at 922 Hz.
+  EXPECT_NE(text.find("950.0 Hz"), std::string::npos) << text;
   const std::string points = core::read_file(folder / "out/simulation/points.csv");
   EXPECT_EQ(std::count(points.begin(), points.end(), '\n'), 3);
   EXPECT_TRUE(fs::exists(folder / "out/simulation/tool-1.csv"));
