@@ -13,6 +13,7 @@
 #include "mesh/planar/box_mesh.hpp"
 #include "mesh/planar/prism.hpp"
 #include "mesh/planar/prism_mesh.hpp"
+#include "mesh/planar/stacked_prisms.hpp"
 #include "mesh/polygon.hpp"
 #include "mesh/selection.hpp"
 #include "mesh/solid/labelled_mesh.hpp"

@@ -1,9 +1,10 @@
 #pragma once
 // All that milling/ offers to other programs.
 // Internal: chip_force, circular_cut, contact_grid, contact_state, critical_depths, crossing, cut_at_speed,
-// cut_cycle, dominant_eigenvalue, edge, fitted_receptance, found_crossings, harmonic_gain, helical_row, march,
-// march_rule, march_step, parameter_change, product_rule, record, refined_crossing, row_search, sampled_peak,
-// step_coefficients, uniform_step_map, uniform_step_stability, vanishing_powers.
+// cut_cycle, dominant_eigenvalue, earlier_paths, edge, fitted_receptance, found_crossings, harmonic_gain,
+// helical_row, march, march_rule, march_step, parameter_change, path_march, product_rule, record, refined_crossing,
+// row_search, sampled_peak, step_coefficients, tooth_discs, turns, uniform_step_map, uniform_step_stability,
+// vanishing_powers.
 
 #include "core/eigen_alignment.hpp"
 #include "milling/chart/line_error.hpp"
@@ -38,10 +39,13 @@
 #include "milling/direct/stability.hpp"
 #include "milling/forced/forced_vibration.hpp"
 #include "milling/forced/surface_error.hpp"
+#include "milling/simulation/entry.hpp"
 #include "milling/simulation/exact_path.hpp"
 #include "milling/simulation/growth.hpp"
 #include "milling/simulation/march_grid.hpp"
 #include "milling/simulation/motion_kind.hpp"
+#include "milling/simulation/part_region.hpp"
+#include "milling/simulation/region_path.hpp"
 #include "milling/simulation/simulation.hpp"
 #include "milling/simulation/spectrum.hpp"
 #include "milling/simulation/stock.hpp"

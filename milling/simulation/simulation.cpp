@@ -1,13 +1,12 @@
 #include "milling/simulation/simulation.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
 
 #include "core/error.hpp"
 #include "milling/simulation/march.hpp"
-#include "milling/simulation/record.hpp"
+#include "milling/simulation/turns.hpp"
 
 namespace thinwall::milling {
 
@@ -20,50 +19,33 @@ void require_positive(const char* what, double value, const char* unit) {
   throw core::InputError(text.str());
 }
 
-bool within_radius(const CutState& state, double radius_m) {
-  // Modes are scaled to their displacement at the cut. The largest of numbers some of which are NaN is any of them.
-  return state.modes.allFinite() && state.modes.cwiseAbs().maxCoeff() < radius_m;
-}
-
+/// The march of a circular cut from rest.
 template <class ChipForce>
-SimulatedCut run(const CircularCut& cut, const ChipForce& force, const MillingProcess& process, double feed_per_tooth_m,
-                 const SimulationOptions& options, const TurnObserver& after_turn) {
-  SimulatedCut result;
-  const double radius_m = 0.5 * process.cutter.diameter_m;
-  const double feed_m_per_rad = feed_per_tooth_m / process.cutter.pitch_rad();
-  Record record(cut.grid.tips, cut.rad_per_s, options, result);
-  WallRecorder wall(process, feed_m_per_rad, cut.grid.tips, cut.grid.period_rad, options.wall);
-  const auto observe = [&](const MarchStep& step) {
-    record(step);
-    wall(step);
-  };
-  March march(cut, force);
-  CutState state = at_rest(cut, options.first_force_n);
-  const int turns = options.settling_turns + options.recorded_turns;
-  const int settling = options.settling_turns * cut.grid.periods_a_turn;
-  const int untraced = (turns - options.traced_turns) * cut.grid.periods_a_turn;
-  const int unwalled = (turns - options.wall.turns) * cut.grid.periods_a_turn;
-  const Unseen unseen;
-  long unsettled = 0;
-  int period = 0;
-  for (int turn = 0; turn < turns && result.status == SimulationStatus::completed; ++turn) {
-    for (int i = 0; i < cut.grid.periods_a_turn; ++i, ++period) {
-      record.begin_period(period * cut.period_s(), (period - untraced) * cut.grid.period_rad);
-      wall.begin_period((period - unwalled) * cut.grid.period_rad);
-      unsettled += period < settling ? march.over_period(state, unseen) : march.over_period(state, observe);
-    }
-    result.simulated_s = period * cut.period_s();
-    if (!within_radius(state, radius_m)) result.status = SimulationStatus::overflowed;
-    if (after_turn) after_turn((turn + 1.0) / turns);
+class CircularMotion {
+ public:
+  /// Keeps references to both.
+  CircularMotion(const CircularCut& cut, const ChipForce& force, const Eigen::Vector3d& first_force_n)
+      : march_(cut, force),
+        state_(at_rest(cut, first_force_n)),
+        periods_{cut.grid.tips, cut.grid.period_rad, cut.grid.periods_a_turn, cut.grid.nodes(), cut.rad_per_s} {}
+
+  [[nodiscard]] const Periods& periods() const { return periods_; }
+
+  template <class Observer>
+  long over_period(Observer& see) {
+    return march_.over_period(state_, see);
   }
-  if (1000 * unsettled > static_cast<long>(period) * cut.grid.nodes() && result.status == SimulationStatus::completed)
-    result.status = SimulationStatus::unsettled;
-  result.trace.start_s = untraced * cut.period_s();
-  result.walls = wall.walls();
-  record.finish(std::max(1, period - settling) * cut.grid.period_rad);
-  if (result.status == SimulationStatus::overflowed) result.motion = {Motion::growing, 0, 0.0};
-  return result;
-}
+
+  /// Modes are scaled to their displacement at the cut. The largest of numbers some of which are NaN is any of them.
+  [[nodiscard]] bool within(double radius_m) const {
+    return state_.modes.allFinite() && state_.modes.cwiseAbs().maxCoeff() < radius_m;
+  }
+
+ private:
+  March<ChipForce> march_;
+  CutState state_;
+  Periods periods_;
+};
 
 }  // namespace
 
@@ -131,8 +113,10 @@ SimulatedCut simulate(const RelativeStructure& structure, const MillingProcess& 
   require_usable(process, law, point, options);
   const CircularCut cut =
       circular_cut(structure, process, point.spindle_speed_rpm, point.depth_m, point.feed_per_tooth_m, options.steps);
+  const double feed_m_per_rad = point.feed_per_tooth_m / process.cutter.pitch_rad();
   return with_chip_force(process, law, [&](const auto& chip_force) {
-    return run(cut, chip_force, process, point.feed_per_tooth_m, options, after_turn);
+    CircularMotion motion(cut, chip_force, options.first_force_n);
+    return over_turns(motion, process, feed_m_per_rad, options, after_turn);
   });
 }
 

@@ -70,7 +70,7 @@ struct Extremes {
 
 /// A tooth that passed through the cut: the samples once a tooth. Tool axes.
 struct ToothPass {
-  int tooth = 0;
+  int tooth = 0;                                        ///< 0 for all where the teeth are alike
   double entry_s = 0.0;                                 ///< since the simulation began
   Eigen::Vector3d entry_m = Eigen::Vector3d::Zero();    ///< displacement of tool minus part when its tip enters
   Eigen::Vector3d entry_m_s = Eigen::Vector3d::Zero();  ///< and its velocity

@@ -35,13 +35,8 @@ double height_at(const TipPath& path, double x) {
   return lagrange_polynomials(path.x_m.segment<4>(first), x).dot(path.e_m.segment<4>(first));
 }
 
-/// Figures of roughness from the errors about their mean.
-void set_roughness(Wall& wall) {
-  const Eigen::ArrayXd about = wall.error_m.array() - wall.error_m.mean();
-  wall.mean_m = wall.error_m.mean();
-  wall.R_a_m = about.abs().mean();
-  wall.R_q_m = std::sqrt(about.square().mean());
-  wall.R_t_m = about.maxCoeff() - about.minCoeff();
+bool ascends(const Eigen::VectorXd& x) {
+  return ((x.tail(x.size() - 1) - x.head(x.size() - 1)).array() > 0.0).all();
 }
 
 double deepest_place(const TipPath& path) {
@@ -87,13 +82,23 @@ double highest_cusp(const Wall& wall, const std::vector<const TipPath*>& paths) 
 
 }  // namespace
 
+void set_roughness(Wall& wall) {
+  const Eigen::ArrayXd about = wall.error_m.array() - wall.error_m.mean();
+  wall.mean_m = wall.error_m.mean();
+  wall.R_a_m = about.abs().mean();
+  wall.R_q_m = std::sqrt(about.square().mean());
+  wall.R_t_m = about.maxCoeff() - about.minCoeff();
+}
+
 WallRecorder::WallRecorder(const MillingProcess& process, double feed_m_per_rad, const std::vector<TipPass>& tips,
                            double period_rad, const WallOptions& options)
-    : feed_m_per_rad_(feed_m_per_rad), feed_a_turn_m_(feed_m_per_rad * turn_rad), options_(options) {
+    : radius_m_(0.5 * process.cutter.diameter_m),
+      feed_m_per_rad_(feed_m_per_rad),
+      feed_a_turn_m_(feed_m_per_rad * turn_rad),
+      options_(options) {
   if (options.turns == 0) return;
   const Cutter& cutter = process.cutter;
-  const double nominal = 0.5 * cutter.diameter_m;
-  const double reach = std::min(reach_rad + feed_a_turn_m_ / nominal, 0.45 * period_rad);
+  const double reach = std::min(reach_rad + feed_a_turn_m_ / radius_m_, 0.45 * period_rad);
   for (int i = 0; i < samples_a_pass; ++i) offset_rad_.push_back(reach * (2.0 * i / (samples_a_pass - 1) - 1.0));
   for (const TipPass& tip : tips) {
     const double runout = cutter.runout_m.empty() ? 0.0 : cutter.runout_m[static_cast<std::size_t>(tip.tooth)];
@@ -108,7 +113,7 @@ WallRecorder::WallRecorder(const MillingProcess& process, double feed_m_per_rad,
               {rotation - period_rad * std::floor(rotation / period_rad), static_cast<int>(open_.size()), i});
         }
         const Eigen::VectorXd empty(samples_a_pass);
-        open_.push_back({side, nominal + runout, nominal, false, {static_cast<int>(h), empty, empty}});
+        open_.push_back({side, radius_m_ + runout, false, {static_cast<int>(h), empty, empty}});
       }
     }
   }
@@ -136,9 +141,9 @@ void WallRecorder::operator()(const MarchStep& step) {
     const double moved = feed_m_per_rad_ * (recorded_rad_ + sample.rotation_rad);
     const Eigen::Index ascending = open.side > 0 ? sample.place : samples_a_pass - 1 - sample.place;
     open.path.x_m(ascending) = moved + q.x() + open.side * open.radius_m * std::sin(offset);
-    open.path.e_m(ascending) = open.side * q.y() + open.radius_m * std::cos(offset) - open.nominal_radius_m;
+    open.path.e_m(ascending) = open.side * q.y() + open.radius_m * std::cos(offset) - radius_m_;
     if (sample.place + 1 < samples_a_pass) continue;
-    done_.emplace_back(open.side, open.path);
+    if (ascends(open.path.x_m)) done_.emplace_back(open.side, open.path);
     open.begun = false;
   }
 }

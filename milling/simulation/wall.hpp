@@ -37,6 +37,9 @@ struct Wall {
   double R_t_m = 0.0;       ///< highest peak to lowest valley
 };
 
+/// Sets the mean, R_a, R_q and R_t of a wall from its errors.
+void set_roughness(Wall& wall);
+
 /// Follows the tips of the teeth by the walls: an observer of the march. A tooth leaves the wall where it points along
 /// its normal, at φ = 0 on the +y_T side and φ = π on the other; with a helix every height at a moment of its own.
 /// Paths reach 0.12 rad and the feed of a turn to either side, because a tip that moves along the normal by v_n is
@@ -53,7 +56,7 @@ class WallRecorder {
   void operator()(const MarchStep& step);
   /// The walls that the paths leave: none where no arc reaches a wall, two in a slot; one a height, of
   /// 200 points a turn, without the first and the last turn, whose neighbours are not known. None where the vibration
-  /// is so large that no recorded tip passes some place.
+  /// is so large that a tip turns back along the feed or that no recorded tip passes some place.
   [[nodiscard]] std::vector<Wall> walls() const;
 
  private:
@@ -66,11 +69,12 @@ class WallRecorder {
   /// A tooth at a height by a wall, between its first and its last sample.
   struct OpenPath {
     int side = 1;
-    double radius_m = 0.0, nominal_radius_m = 0.0;
+    double radius_m = 0.0;
     bool begun = false;
     TipPath path;
   };
 
+  double radius_m_;  ///< without runout
   double feed_m_per_rad_;
   double feed_a_turn_m_;
   WallOptions options_;

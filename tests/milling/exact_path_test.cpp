@@ -1,4 +1,4 @@
-// Teeth on their real paths: values of another program, Bondarenko's robot, the area that a turn removes.
+// Teeth on their real paths: values of another program, the area that a turn removes.
 
 #include "milling/simulation/exact_path.hpp"
 
@@ -120,76 +120,6 @@ TEST(ExactPath, IsTheCircularOneOfALargeCutter) {
     if (before > 0.0) EXPECT_NEAR(before / difference, 2.0, 0.5) << diameter;
     before = difference;
   }
-}
-
-/// The robot of Bondarenko 2012: mass and stiffness at the tip, a slot of four teeth that enters a straight border.
-struct Entering {
-  double final_mm = 0.0, overshoot_percent = 0.0, settling_s = 0.0;
-};
-
-/// The averages over a tooth period of one direction: the last of them, the greatest beyond, the last more than 2 %
-/// off.
-Entering entering(const Trace& trace, int direction, int samples_a_tooth) {
-  std::vector<double> mean;
-  for (Eigen::Index i = 0; i + samples_a_tooth <= trace.displacement_m.cols(); i += samples_a_tooth)
-    mean.push_back(trace.displacement_m.row(direction).segment(i, samples_a_tooth).mean());
-  Entering result;
-  double last = 0.0;
-  for (std::size_t i = mean.size() - 100; i < mean.size(); ++i) last += mean[i] / 100.0;
-  result.final_mm = 1e3 * last;
-  for (std::size_t i = 0; i < mean.size(); ++i) {
-    result.overshoot_percent = std::max(result.overshoot_percent, 100.0 * (mean[i] / last - 1.0));
-    if (std::abs(mean[i] / last - 1.0) > 0.02)
-      result.settling_s = (static_cast<double>(i) + 1.5) * samples_a_tooth * trace.step_s;
-  }
-  return result;
-}
-
-SimulatedCut bondarenko(const RelativeStructure& robot, int turns_recorded, int steps) {
-  MillingProcess process = down_milling(0.02, 0.02, 4);
-  constexpr double width = 1e-3, k_0 = 5e6;  // N/m over the width of cut
-  const FractionalLaw law{k_0 / width, 0.3 * k_0 / width, 0.0, 18e-6, 0.1};
-  SimulationOptions options = turns(0, turns_recorded);
-  options.traced_turns = turns_recorded;
-  options.samples_a_turn = steps;
-  return simulate_exact_path(robot, process, law, {10000.0, width, 1e-4}, {border_ahead(process.cutter, 0.0)}, options,
-                             {steps, 4});
-}
-
-double tip_hz(double stiffness, double mass_kg) {
-  return std::sqrt(stiffness / mass_kg) / (2.0 * pi);
-}
-
-/// Case B (x alone) and case C (x and y) for 1 MN/m and 100 kg, by another program with 960 steps a turn: finals to
-/// 1e-5 of it, overshoots to half a point (x of case C 1.5), times to 1 %.
-TEST(Bondarenko2012, EntersTheBorderAsAnotherProgramHasIt) {
-  const SimulatedCut b = bondarenko(modes_in_plane(tip_hz(1e6, 100.0), 0.05, 100.0, 1), 200, 960);
-  const Entering x = entering(b.trace, 0, 240);
-  EXPECT_NEAR(x.final_mm, -0.0394521, 1e-2 * 0.0394521);
-  EXPECT_NEAR(x.overshoot_percent, 17.6906, 0.5);
-  EXPECT_NEAR(x.settling_s, 0.451296, 0.03 * 0.451296);
-  const SimulatedCut c = bondarenko(modes_in_plane(tip_hz(1e6, 100.0), 0.05, 100.0), 200, 960);
-  const Entering cx = entering(c.trace, 0, 240), cy = entering(c.trace, 1, 240);
-  EXPECT_NEAR(cx.final_mm, -0.0394523, 1e-2 * 0.0394523);
-  EXPECT_NEAR(cx.overshoot_percent, 34.8395, 1.5);
-  EXPECT_NEAR(cx.settling_s, 0.457505, 0.03 * 0.457505);
-  EXPECT_NEAR(cy.final_mm, 0.132381, 1e-3 * 0.132381);
-  EXPECT_NEAR(cy.overshoot_percent, 16.0576, 0.5);
-  EXPECT_NEAR(cy.settling_s, 0.235967, 0.03 * 0.235967);
-}
-
-/// Case A, a tool that does not move: forces in the full slot by 5760 steps outside this project; the first tooth cuts
-/// alone until the next one reaches the border, R (1 − cos π/N)/v_f.
-TEST(Bondarenko2012, HasTheForcesOfTheFullSlot) {
-  const SimulatedCut cut = bondarenko(stiff(), 40, 2880);
-  const Eigen::Index last = 2880 * 5;
-  const auto full = cut.trace.force_n.rightCols(last);
-  EXPECT_NEAR(full.row(0).mean(), -39.452038, 1e-3 * 39.45);
-  EXPECT_NEAR(full.row(1).mean(), 132.38106, 1e-3 * 132.4);
-  EXPECT_NEAR(full.row(0).minCoeff(), -67.393086, 2e-3 * 67.4);
-  EXPECT_NEAR(full.row(0).maxCoeff(), -8.6883887, 2e-2);
-  EXPECT_NEAR(full.row(1).maxCoeff(), 143.85398, 1e-3 * 143.9);
-  EXPECT_NEAR(cut.displacement_m.range().norm(), 0.0, 1e-7);
 }
 
 /// A soft, light structure under a deep slot: the vibration outgrows the cutter within a turn, and no number of it is

@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "milling/forced/forced_vibration.hpp"
 #include "milling/simulation/exact_path.hpp"
 #include "milling/simulation/simulation.hpp"
 #include "tests/milling/single_mode.hpp"
@@ -95,15 +97,26 @@ TEST(Wall, OfARigidToolHasItsCusps) {
 }
 
 /// With a helix the wall of every height is made at a moment of its own, when the force is another.
-TEST(Wall, OfAHelixDiffersOverTheHeight) {
+/// The closed form of the periodic motion at each height's own moment (surface_error.hpp), where equal teeth leave
+/// their lowest points.
+TEST(Wall, OfAHelixIsThatOfThePeriodicMotionAtEachHeight) {
   MillingProcess process = milling(0.1, MillingDirection::down);
   process.cutter.helices_rad = {pi / 6.0, pi / 6.0};
   SimulationOptions options = walled(1000, 200);
-  options.wall.heights_m = {0.0, 1e-3, 2e-3};
+  options.wall.heights_m = {0.0, 0.3e-3, 0.6e-3};
   const SimulatedCut cut =
-      simulate(in_plane(922.0, 0.011, 0.03993), process, process.coefficients, {16500.0, 2e-3, feed_m}, options);
+      simulate(in_plane(922.0, 0.011, 0.03993), process, process.coefficients, {16500.0, 0.6e-3, feed_m}, options);
   ASSERT_EQ(cut.walls.size(), 3u);
-  EXPECT_EQ(cut.walls[1].height_m, 1e-3);
+  const ForcedVibration forced = forced_vibration(in_plane(922.0, 0.011, 0.03993), process, 16500.0, 0.6e-3, feed_m);
+  ASSERT_EQ(forced.walls.size(), 1u);
+  const SurfaceProfile& profile = forced.walls[0];
+  for (const Wall& wall : cut.walls) {
+    const double place = wall.height_m / 0.6e-3 * static_cast<double>(profile.height_m.size() - 1);
+    const auto i = std::min(static_cast<Eigen::Index>(place), profile.height_m.size() - 2);
+    const double s = place - static_cast<double>(i);
+    const double error_m = (1.0 - s) * profile.error_m(i) + s * profile.error_m(i + 1);
+    EXPECT_NEAR(wall.deepest_m, error_m, 3e-8) << wall.height_m;
+  }
   EXPECT_GT(std::abs(cut.walls[2].mean_m - cut.walls[0].mean_m), 5e-7);
 }
 

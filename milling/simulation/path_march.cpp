@@ -1,0 +1,32 @@
+#include "milling/simulation/path_march.hpp"
+
+#include <numbers>
+
+#include "milling/structure/contact_state.hpp"
+
+namespace thinwall::milling {
+
+PathCut path_cut(const RelativeStructure& structure, const MillingProcess& process, const SimulatedPoint& point,
+                 const SimulationOptions& options, int steps_a_turn, int earlier_passes) {
+  constexpr double turn_rad = 2.0 * std::numbers::pi;
+  PathCut cut;
+  cut.structure = contact_state(structure, process.frame);
+  const Eigen::Matrix3d to_part = process.frame.rotation();
+  const Eigen::Matrix3d residual = to_part.transpose() * structure.R * to_part;
+  const double step_rad = turn_rad / steps_a_turn;
+  cut.rad_per_s = point.spindle_speed_rpm * turn_rad / 60.0;
+  cut.rule = march_rule(cut.structure, residual, step_rad / cut.rad_per_s, step_rad);
+  cut.discs = tooth_discs(process, point.depth_m, options.steps, earlier_passes);
+  cut.steps_a_turn = steps_a_turn;
+  cut.entry_rad = process.engagement.entry_rad;
+  cut.feed_per_node_m = point.feed_per_tooth_m * process.cutter.teeth / (2.0 * steps_a_turn);
+  cut.node_rad = 0.5 * step_rad;
+  cut.width_m = width_of_cut(cut.discs, process.cutter);
+  cut.radius_m = 0.5 * process.cutter.diameter_m;
+  cut.start = at_rest(cut.structure, options.first_force_n);
+  cut.start_m = cut.structure.motion * cut.start + residual * options.first_force_n;
+  cut.tips = tips_of_turn(process);
+  return cut;
+}
+
+}  // namespace thinwall::milling
