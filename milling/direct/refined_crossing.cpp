@@ -7,7 +7,10 @@
 namespace thinwall::milling {
 
 double estimate_from(double change, double change_before) {
-  return 1e-11 + std::max(change, 0.1 * change_before);
+  constexpr double slowest = 0.9;
+  const double ratio = change_before > 0.0 ? std::min(change / change_before, slowest) : 0.0;
+  const double remaining = change < change_before ? change * ratio / (1.0 - ratio) : 0.0;
+  return 1e-11 + std::max({change, 0.1 * change_before, remaining});
 }
 
 void refine_until(std::size_t levels, double tolerance, const ToLevel& to_level, RefinedCrossing& c) {

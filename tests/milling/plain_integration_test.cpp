@@ -1,0 +1,118 @@
+// Force laws far from their limits, teeth that lose contact: the march against the plainest integration there is, with
+// some ten thousand steps a tooth.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "milling/simulation/simulation.hpp"
+#include "tests/milling/single_mode.hpp"
+
+namespace thinwall::milling::plain_integration_test {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double frequency_hz = 922.0, damping_ratio = 0.011, mass_kg = 0.03993;
+constexpr double feed_m = 1e-4;
+constexpr int turns_marched = 20, samples_a_turn = 400;
+
+/// Down-milling at half immersion with two straight teeth: from φ = π/2 to π, then as long without a tooth.
+MillingProcess half_immersion() {
+  MillingProcess process;
+  process.cutter = {2, 0.01};
+  process.coefficients = {6e8, 2e8, 0.0, 0.0, 0.0, 0.0};
+  process.engagement = engagement_of(process.cutter, 5e-3, MillingDirection::down);
+  return process;
+}
+
+struct Row {
+  std::string name;
+  ForceLaw law;
+  double depth_m;
+  ProcessDamping damping = {};
+  double tolerance = 2e-5;  ///< of the range of the motion
+};
+
+/// Velocity Verlet at equal steps, the surface of the last tooth that cut at each of them. The tooth enters at a step
+/// and leaves at one; there the force jumps, and each side has its own.
+Eigen::Matrix2Xd integrated(const Row& row, const MillingProcess& process, double rpm, int steps_a_tooth) {
+  const double omega = 2.0 * pi * frequency_hz;
+  const double dt = 30.0 / rpm / steps_a_tooth, rad_per_s = rpm * pi / 30.0;
+  const CuttingCoefficients rubbing = per_slope(row.damping, process.cutter);
+  const int in_cut = steps_a_tooth / 2;
+  std::vector<double> surface(static_cast<std::size_t>(in_cut) + 1, 0.0);
+  Eigen::Vector2d q = Eigen::Vector2d::Zero(), v = q;
+  const auto force = [&](int step, bool leave_surface) -> Eigen::Vector2d {
+    const double phi = 0.5 * pi * (1.0 + static_cast<double>(step) / in_cut);
+    const double sine = std::sin(phi), cosine = std::cos(phi);
+    const double position = sine * q.x() + cosine * q.y();
+    double& left = surface[static_cast<std::size_t>(step)];
+    const double met = left - feed_m * sine, chip = position - met;
+    if (leave_surface) left = std::max(met, position);
+    if (chip <= 0.0) return Eigen::Vector2d::Zero();
+    const double slope = (sine * v.x() + cosine * v.y()) / rad_per_s;
+    const Eigen::Vector3d f = force_per_width(row.law, chip);
+    const double tangential = f[0] + rubbing.K_t * slope, normal = f[1] + rubbing.K_r * slope;
+    return row.depth_m * Eigen::Vector2d(-tangential * cosine - normal * sine, tangential * sine - normal * cosine);
+  };
+  const int teeth = 2 * turns_marched, stride = 2 * steps_a_tooth / samples_a_turn;
+  Eigen::Matrix2Xd trace(2, turns_marched * samples_a_turn);
+  Eigen::Index sample = 0;
+  Eigen::Vector2d after = force(0, false);
+  for (int tooth = 0; tooth < teeth; ++tooth) {
+    for (int i = 0; i < steps_a_tooth; ++i) {
+      if (i % stride == 0) trace.col(sample++) = q;
+      if (i <= in_cut) (void)force(i, true);
+      const Eigen::Vector2d half = v + 0.5 * dt * (after / mass_kg - omega * omega * q - 2.0 * damping_ratio * omega * v);
+      q += dt * half;
+      v = half;  // of which rubbing takes its slope
+      const int next = (i + 1) % steps_a_tooth;
+      const Eigen::Vector2d before = i + 1 <= in_cut ? force(i + 1, false) : Eigen::Vector2d(Eigen::Vector2d::Zero());
+      v = (half + 0.5 * dt * (before / mass_kg - omega * omega * q)) / (1.0 + dt * damping_ratio * omega);
+      after = next == in_cut ? Eigen::Vector2d(Eigen::Vector2d::Zero()) : next < in_cut ? force(next, false) : before;
+    }
+  }
+  return trace;
+}
+
+/// Forces that set in at once, those of the edge and of rubbing, cost the step in which contact is lost or found its
+/// order: their tolerance is larger.
+TEST(ForceLaws, AreThoseOfAPlainIntegration) {
+  const std::vector<Row> rows{
+      {"linear", CuttingCoefficients{6e8, 2e8, 0.0, 0.0, 0.0, 0.0}, 0.3e-3},
+      {"power law", PowerLaw{3e8, 1e8, 0.0, 0.25, 0.35, 0.0}, 0.3e-3},
+      {"exponential", exponential_law(2e6, 0.6, 0.4), 0.3e-3},
+      {"fractional", FractionalLaw{2e9, 6e8, 0.0, 18e-6, 0.1}, 0.3e-3},
+      {"rubbing", CuttingCoefficients{6e8, 2e8, 0.0, 0.0, 0.0, 0.0}, 0.4e-3, {2e5, 0.3}, 2e-4},
+      {"edge forces", CuttingCoefficients{6e8, 2e8, 0.0, 20e3, 10e3, 0.0}, 0.3e-3, {}, 4e-4}};
+  const RelativeStructure structure = relative_structure(
+      testing::modal_model({{frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitX()},
+                            {frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitY()}}),
+      "P");
+  for (const Row& row : rows) {
+    MillingProcess process = half_immersion();
+    if (const auto* linear = std::get_if<CuttingCoefficients>(&row.law)) process.coefficients = *linear;
+    process.damping = row.damping;
+    for (const double rpm : {7000.0, 12500.0}) {
+      SimulationOptions options;
+      options.settling_turns = 0;
+      options.recorded_turns = options.traced_turns = turns_marched;
+      options.samples_a_turn = samples_a_turn;
+      options.steps.steps_in_cut = 1600;
+      const SimulatedCut cut = simulate(structure, process, row.law, {rpm, row.depth_m, feed_m}, options);
+      ASSERT_EQ(cut.status, SimulationStatus::completed) << row.name;
+      const Eigen::Matrix2Xd plain = integrated(row, process, rpm, 40000);
+      const double range = (plain.rowwise().maxCoeff() - plain.rowwise().minCoeff()).norm();
+      const double difference = (cut.trace.displacement_m.topRows(2) - plain).cwiseAbs().maxCoeff();
+      EXPECT_LT(difference, row.tolerance * range) << row.name << " at " << rpm;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace thinwall::milling::plain_integration_test
