@@ -44,6 +44,7 @@ OWNERS = [
     (re.compile(r"^(urdf|console_bridge)"), ("io/urdf.cpp",)),
     (re.compile(r"^[A-Za-z]+_?[A-Za-z]*\.hxx$"), ("io/surface/step",)),
     (re.compile(r"^tetgen\.h$"), ("mesh/",)),
+    (re.compile(r"^polyclipping/"), ("milling/simulation/part_region.cpp",)),
     (re.compile(r"^(suitesparse/)?cholmod\.h$"), ("linalg/", "tests/linalg/")),
 ]
 
