@@ -59,6 +59,34 @@ MatrixXd mass_matrix(const SerialArm& arm, const ArmPose& at) {
   return 0.5 * (M + M.transpose());
 }
 
+Eigen::VectorXd velocity_torque(const SerialArm& arm, const ArmPose& at, const Eigen::VectorXd& rate) {
+  using Eigen::Vector3d;
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(at.joints());
+  Vector3d place = at.origins.col(0);  // a point of the link, and its acceleration
+  Vector3d acceleration = Vector3d::Zero(), turning = Vector3d::Zero(), turning_up = Vector3d::Zero();  // ω, α
+  const auto beside = [&](const Vector3d& d) -> Vector3d {
+    return acceleration + turning_up.cross(d) + turning.cross(turning.cross(d));
+  };
+  for (Index i = 0; i < at.joints(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    acceleration = beside(at.origins.col(i) - place);
+    place = at.origins.col(i);
+    const Vector3d joint_rate = rate(i) * at.axes.col(i);
+    if (at.slides[k]) {
+      acceleration += 2.0 * turning.cross(joint_rate);
+    } else {
+      turning_up += turning.cross(joint_rate);
+      turning += joint_rate;
+    }
+    const Eigen::Matrix3d R = at.links[k].linear();
+    const Eigen::Matrix3d inertia = R * link_of(arm, i).inertia * R.transpose();
+    const Vector3d centre = centre_of(arm, at, i);
+    b += link_of(arm, i).mass * translation_jacobian(at, centre, i).transpose() * beside(centre - place) +
+         rotation_jacobian(at, i).transpose() * (inertia * turning_up + turning.cross(inertia * turning));
+  }
+  return b;
+}
+
 Eigen::VectorXd gravity_torque(const SerialArm& arm, const ArmPose& at) {
   Eigen::VectorXd G = Eigen::VectorXd::Zero(at.joints());
   for (Index i = 0; i < at.joints(); ++i)

@@ -28,12 +28,7 @@ bool is_along_z(const Eigen::Isometry3d& frame) {
 
 /// The lengths of a four-axis arm. Throws InputError for an arm of another kind.
 Lengths four_axis_lengths(const SerialArm& arm) {
-  bool fits = arm.links.size() == 4 && is_along_z(arm.tip);
-  for (std::size_t i = 0; fits && i < 4; ++i) {
-    const Vector3d axis = i == 0 ? Vector3d::UnitZ() : Vector3d::UnitY();
-    fits = is_along_z(arm.links[i].placement) && !arm.links[i].slides && (arm.links[i].axis - axis).norm() <= 1e-12;
-  }
-  if (!fits) {
+  if (!is_four_axis(arm)) {
     throw core::InputError(
         "the closed form is for four joints that turn, the first about z, the others about y, all above each other "
         "along z where "
@@ -65,6 +60,15 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> scaled_jacobian(const ArmPose& at, doub
 }
 
 }  // namespace
+
+bool is_four_axis(const SerialArm& arm) {
+  bool fits = arm.links.size() == 4 && is_along_z(arm.tip);
+  for (std::size_t i = 0; fits && i < 4; ++i) {
+    const Vector3d axis = i == 0 ? Vector3d::UnitZ() : Vector3d::UnitY();
+    fits = is_along_z(arm.links[i].placement) && !arm.links[i].slides && (arm.links[i].axis - axis).norm() <= 1e-12;
+  }
+  return fits;
+}
 
 std::vector<Eigen::Vector4d> four_axis_postures(const SerialArm& arm, const Vector3d& tip, double pitch) {
   require_valid(arm);

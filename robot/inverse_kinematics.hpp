@@ -9,6 +9,9 @@
 
 namespace thinwall::robot {
 
+/// True of a four-axis arm as four_axis_postures() takes it.
+[[nodiscard]] bool is_four_axis(const SerialArm& arm);
+
 /// All postures, in closed form, of a four-axis arm that bring its tip to `tip` (m, world) with its last link at the
 /// angle `pitch` (rad) from the base's z axis. The first axis of the arm is z, the three others are along y, and all
 /// frames and the tip lie above each other along z at q = 0 (Huynh 2017, Eq. 1-5). With r the distance from the first

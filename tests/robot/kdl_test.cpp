@@ -63,7 +63,7 @@ double apart(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).norm() / b.norm();
 }
 
-TEST(OrocosKdl, HasTheSamePosesJacobiansMassMatricesAndGravity) {
+TEST(OrocosKdl, HasTheSamePosesJacobiansMassMatricesGravityAndCoriolisForces) {
   std::mt19937_64 random(11);
   double worst = 0.0;
   for (int trial = 0; trial < 20; ++trial) {
@@ -86,13 +86,17 @@ TEST(OrocosKdl, HasTheSamePosesJacobiansMassMatricesAndGravity) {
 
     KDL::ChainDynParam dynamics(chain, to_kdl(arm.gravity));
     KDL::JntSpaceInertiaMatrix M(static_cast<int>(n));
-    KDL::JntArray G(n);
+    KDL::JntArray G(n), b(n);
+    const Eigen::VectorXd rate = random_posture(random, arm.joints());
     dynamics.JntToMass(to_kdl(q), M);
     dynamics.JntToGravity(to_kdl(q), G);
+    dynamics.JntToCoriolis(to_kdl(q), to_kdl(rate), b);
     worst = std::max(worst, apart(from_kdl(M, n, n), mass_matrix(arm, at)));
     worst = std::max(worst, apart(from_kdl(G, n, 1), gravity_torque(arm, at)));
+    if (n > 1) worst = std::max(worst, apart(from_kdl(b, n, 1), velocity_torque(arm, at, rate)));
   }
-  std::printf("tip, Jacobian, mass matrix and gravity of 20 arms: within %.1e of orocos-KDL's\n", worst);
+  std::printf("tip, Jacobian, mass matrix, gravity and Coriolis forces of 20 arms: within %.1e of orocos-KDL's\n",
+              worst);
   EXPECT_LT(worst, 1e-12);
 }
 
