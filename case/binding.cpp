@@ -373,6 +373,10 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
   if (root.table("lobes").exists()) bound.lobes = bind_lobes(root.table("lobes"), bound.tool);
   if (root.table("machine").exists()) bound.machine = bind_machine(root.table("machine"));
   if (root.table("path").exists()) bound.path = bind_path(root.table("path"));
+  if (setup::carries_tool(bound.robot)) {
+    if (bound.cutting) bound.robot->cut_point = bound.cutting->at;
+    if (bound.path) bound.path->robot_follows = true;  // with the tool
+  }
   bound.values = std::move(values);
   bound.data_files = named_files(bound);
   return bound;

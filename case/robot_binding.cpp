@@ -209,7 +209,8 @@ setup::RobotModel bind_model(const Table& table, const std::filesystem::path& fo
 }  // namespace
 
 setup::Robot bind_robot(const Table& table, const std::filesystem::path& folder) {
-  return {table.text("point"), table.vector("preload"), bind_model(table, folder)};
+  return {table.text("point"), table.vector("preload"), bind_model(table, folder),
+          table.choice<setup::RobotCarries>("carries")};
 }
 
 }  // namespace thinwall::cases

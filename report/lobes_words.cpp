@@ -14,6 +14,8 @@ std::string chart_title(study::ChartOf chart) {
       return "part alone";
     case study::ChartOf::supported:
       return "with the robot";
+    case study::ChartOf::carried:
+      return "tool on the robot";
     case study::ChartOf::tool:
       break;
   }

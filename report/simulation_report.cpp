@@ -9,6 +9,7 @@
 #include "core/words.hpp"
 #include "io/results/csv_table.hpp"
 #include "milling/simulation/spectrum.hpp"
+#include "report/lobes_words.hpp"
 
 namespace thinwall::report {
 
@@ -88,7 +89,7 @@ std::string wall_text(const milling::Wall& wall) {
 
 std::string text_of(const PointSimulation& p) {
   const Eigen::Vector3d range = p.cut.displacement_m.range();
-  std::string text = fmt::format("{} at {:.0f} rpm, {} deep: {}\n", core::word_of(p.of), p.point.spindle_speed_rpm,
+  std::string text = fmt::format("{} at {:.0f} rpm, {} deep: {}\n", chart_title(p.of), p.point.spindle_speed_rpm,
                                  length(p.point.depth_m), outcome(p));
   if (p.growth.converged) {
     text += fmt::format(

@@ -116,6 +116,7 @@ std::vector<ModeSummary> mode_list(const dynamics::ModalModel& model) {
 RobotSummary robot_of(const setup::Setup& source, const study::Component& robot, const setup::RobotPosture& posture) {
   RobotSummary result;
   result.model = core::word_of(setup::kind(*source.robot));
+  if (setup::carries_tool(source.robot)) result.carries = core::word_of(source.robot->carries);
   if (robot.modal) result.modes = mode_list(*robot.modal);
   result.posture = posture_summary(posture);
   const study::TipReport report = study::tip_report(posture, robot);

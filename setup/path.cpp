@@ -63,6 +63,7 @@ PartSetup part_at(const PartSetup& source, const PathStation& station) {
 SupportSetup support_at(const SupportSetup& source, const PathStation& station) {
   SupportSetup there = source;
   for (std::size_t i = 0; i < there.contacts.size(); ++i) there.contacts[i].part_point = station.touched[i];
+  if (carries_tool(there.robot)) there.robot->cut_point = station.cut;
   return there;
 }
 

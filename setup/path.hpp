@@ -27,7 +27,7 @@ struct PathStation {
 /// The part with the points of the station alone, which are the interface of its reduction.
 [[nodiscard]] PartSetup part_at(const PartSetup& source, const PathStation& station);
 
-/// The robot's contacts at the points of the station.
+/// The robot's contacts, or the cut of a robot that carries the tool, at the points of the station.
 [[nodiscard]] SupportSetup support_at(const SupportSetup& source, const PathStation& station);
 
 /// The cut at its point of the station.

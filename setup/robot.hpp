@@ -84,12 +84,22 @@ using RobotModel = std::variant<OneModeRobot, ModalRobot, MeasuredRobot, TabledR
 /// The models of a robot's tip, in the order of RobotModel.
 enum class RobotKind { one_mode, modes, measured, modal_table, flexible_joints, virtual_joints };
 
-/// The robot: its tip's name, what presses it, and the model of it.
+/// The two uses of a robot: it supports the part, or it carries the tool.
+enum class RobotCarries { part, tool };
+
+/// The robot: its tip's name, what presses it, the model of it, and its use.
 struct Robot {
   std::string point = "R";
   Eigen::Vector3d preload = Eigen::Vector3d::Zero();  ///< N, on the tip
   RobotModel model;
+  RobotCarries carries = RobotCarries::part;
+  std::string cut_point{};  ///< of a robot that carries the tool: the point of the part that is cut; empty: not known
 };
+
+/// True if there is a robot whose tip is the tool's.
+[[nodiscard]] inline bool carries_tool(const std::optional<Robot>& robot) {
+  return robot && robot->carries == RobotCarries::tool;
+}
 
 /// The kind of a robot's model.
 [[nodiscard]] inline RobotKind kind(const Robot& robot) {
@@ -105,6 +115,8 @@ struct Robot {
 
 namespace thinwall::core {
 
+template <>
+inline constexpr std::array<std::string_view, 2> words<setup::RobotCarries>{"part", "tool"};
 template <>
 inline constexpr std::array<std::string_view, 6> words<setup::RobotKind>{
     "one_mode", "modes", "measured", "modal_table", "flexible_joints", "virtual_joints"};

@@ -67,8 +67,9 @@ dynamics::ModalModel tabled_tip(const TabledRobot& robot, const std::string& poi
 /// The place in space where the tip is to be.
 Vector3d wanted_place(const PartSetup& part, const SupportSetup& support, const PostureWish& wish) {
   if (wish.tip) return *wish.tip;
-  if (const auto place = contact_place(part, support)) return *place;
-  throw core::InputError("the place of the robot's tip is not known; give robot.posture.tip or a contact");
+  if (const auto place = tip_place(part, support)) return *place;
+  throw core::InputError(std::string("the place of the robot's tip is not known; give robot.posture.tip or ") +
+                         (carries_tool(support.robot) ? "cutting.at" : "a contact"));
 }
 
 /// The closed form's posture on the wanted side and with the wanted elbow.
@@ -143,9 +144,15 @@ double smallest_singular(const robot::ArmPose& at) {
 
 }  // namespace
 
-std::optional<Vector3d> contact_place(const PartSetup& part, const SupportSetup& support) {
-  if (support.contacts.empty() || !part.part) return std::nullopt;
-  const Vector3d flat = position(*part.part, point(part, support.contacts.front().part_point));
+std::string tip_point(const SupportSetup& support) {
+  if (carries_tool(support.robot)) return support.robot->cut_point;
+  return support.contacts.empty() ? "" : support.contacts.front().part_point;
+}
+
+std::optional<Vector3d> tip_place(const PartSetup& part, const SupportSetup& support) {
+  const std::string name = tip_point(support);
+  if (name.empty() || !part.part) return std::nullopt;
+  const Vector3d flat = position(*part.part, point(part, name));
   if (!flat.allFinite()) return std::nullopt;  // a node of matrices whose place no file tells
   return bend(*part.part) != nullptr ? mesh::bent(bend_of(*part.part), flat) : flat;
 }

@@ -18,8 +18,12 @@ struct RobotPosture {
   std::vector<Eigen::Vector3d> arm;         ///< from joint to joint to the tip, m, part axes
 };
 
-/// The place of the first contact on the part, in space, m; none without a contact or a modelled part.
-[[nodiscard]] std::optional<Eigen::Vector3d> contact_place(const PartSetup& part, const SupportSetup& support);
+/// The point of the part at which the robot's tip belongs: that of the first contact, or the one that is cut where the
+/// robot carries the tool; empty if there is none.
+[[nodiscard]] std::string tip_point(const SupportSetup& support);
+
+/// The place of that point, in space, m; none without it or without a modelled part.
+[[nodiscard]] std::optional<Eigen::Vector3d> tip_place(const PartSetup& part, const SupportSetup& support);
 
 /// The modes of a robot's tip or a tool's, as the case lists them. Errors as robot::one_mode().
 [[nodiscard]] std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list);

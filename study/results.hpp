@@ -236,7 +236,7 @@ struct StructureLobes {
 
 /// Charts of one structure at the positions of the path.
 struct PathLobes {
-  ChartOf of = ChartOf::part;                        ///< part or supported
+  ChartOf of = ChartOf::part;                        ///< part, supported or carried
   std::vector<milling::Lobes> lobes;                 ///< of each position
   std::vector<milling::LobeRow> at_spindle_speed{};  ///< of each, at the case's own speed; empty without one
   std::vector<setup::RobotPosture> robot{};          ///< how it stands at each; empty for the part alone

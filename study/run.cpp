@@ -81,15 +81,16 @@ void run_coupled_updating(const setup::Variation& variation, setup::VariedSetup&
   part.damped = damped(work.setup.damping, part.reduced->model, part.identified);
 }
 
-/// An arm that stands by its joints may stand elsewhere than at its contact.
+/// An arm that stands by its joints may stand elsewhere than at its contact or at the cut.
 void warn_of_distance(const setup::PartSetup& part, const setup::SupportSetup& support,
                       const setup::RobotPosture& robot) {
-  const auto place = setup::contact_place(part, support);
+  const auto place = setup::tip_place(part, support);
   if (!robot.tip || !place || (*robot.tip - *place).norm() <= 1e-3) return;
-  core::warn(
-      fmt::format("the robot's tip stands {:.1f} mm from its contact at \"{}\": it is joined as if it touched; check "
-                  "robot.base and robot.posture",
-                  (*robot.tip - *place).norm() * 1e3, support.contacts.front().part_point));
+  core::warn(fmt::format(
+      "the robot's tip stands {:.1f} mm from {} \"{}\": it is joined as if it touched; check robot.base and "
+      "robot.posture",
+      (*robot.tip - *place).norm() * 1e3, setup::carries_tool(support.robot) ? "the cut at" : "its contact at",
+      setup::tip_point(support)));
 }
 
 /// Finds the joint of the first contact where FRFs of the assembly are given.
@@ -235,10 +236,15 @@ void flag_contacts(const setup::Setup& work, const ContactForceOf& force_of, Res
   }
 }
 
+const dynamics::ModalModel* modes_or_null(const std::optional<Component>& component) {
+  return component && component->modal ? &*component->modal : nullptr;
+}
+
 /// The poles of which a chart is; none if it is of samples.
 std::optional<milling::RelativeStructure> poles_of(const setup::Setup& work, ChartOf chart, const Results& results) {
   if (work.tool->swap || !work.tool->measured.empty()) return std::nullopt;
   if (chart == ChartOf::tool) return cut_poles(work, nullptr);
+  if (chart == ChartOf::carried) return cut_poles(work, modes_or_null(results.part), &carrier_modes(*results.robot));
   const auto& modal = chart == ChartOf::part ? results.part->modal : results.coupled->modal;
   return modal ? cut_poles(work, &*modal) : std::nullopt;
 }
@@ -270,18 +276,17 @@ void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoi
                Results& results, Stages& stages) {
   if (!work.lobes || !work.cutting || !work.tool) return;
   const milling::ToolFrame frame = setup::milling_process(work).frame;
+  const bool carried = setup::carries_tool(work.robot);
   const auto chart_of = [&](ChartOf of, const dynamics::ModalModel* part, const dynamics::ModalModel* richer) {
-    const CutStructure structure = cut_structure(work, frame, part);
+    const dynamics::ModalModel* carrier = of == ChartOf::carried ? &carrier_modes(*results.robot) : nullptr;
+    const CutStructure structure = cut_structure(work, frame, part, carrier);
     if (!results.synthesised_tip) results.synthesised_tip = synthesised_tip(work, structure);
-    const StructureErrors errors = structure_errors(work, frame, structure, richer);
+    const StructureErrors errors = structure_errors(work, frame, structure, richer, carrier);
     results.lobes.push_back(compute_lobes(work, of, structure, errors, points, kept));
-  };
-  const auto modal = [](const std::optional<Component>& component) {
-    return component && component->modal ? &*component->modal : nullptr;
   };
   stages.begin("lobes");
   if (!work.part && work.measured_part.empty()) {
-    chart_of(ChartOf::tool, nullptr, nullptr);
+    chart_of(carried ? ChartOf::carried : ChartOf::tool, nullptr, nullptr);
     return add_forced_over_speed(work, {}, results, stages);
   }
   if (!results.part || !results.part->modal) {
@@ -289,7 +294,8 @@ void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoi
         "lobes need a part that is held and known as a model (part.shape with part.supports), not by measured "
         "receptances alone");
   }
-  chart_of(ChartOf::part, &*results.part->modal, modal(results.errors.richer_part));
+  chart_of(ChartOf::part, &*results.part->modal, modes_or_null(results.errors.richer_part));
+  if (carried) chart_of(ChartOf::carried, &*results.part->modal, modes_or_null(results.errors.richer_part));
   if (results.coupled && results.coupled->modal) {
     const auto& richer = results.errors.richer_coupled;
     chart_of(ChartOf::supported, &*results.coupled->modal, richer ? &*richer : nullptr);

@@ -36,7 +36,7 @@ bool check_needs(const Case& source, Findings& findings) {
     findings.report("path", "there is no modelled part to move along; describe it (part.length …), or remove [path]");
   if (!source.tool || !source.cutting || !source.lobes)
     findings.report("path", "a path needs [tool], [cutting] and [lobes]; add what is missing, or remove [path]");
-  if (source.path->robot_follows && (!source.robot || source.contacts.empty()))
+  if (source.path->robot_follows && !setup::carries_tool(source.robot) && (!source.robot || source.contacts.empty()))
     findings.report("path.support", "there is no robot to follow the cut; add [robot] and [[contacts]]");
   const auto* robot = source.robot ? std::get_if<setup::JointedRobot>(&source.robot->model) : nullptr;
   if (source.path->robot_follows && robot != nullptr && (!robot->posture.joints.empty() || robot->posture.tip))

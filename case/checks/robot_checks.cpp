@@ -194,6 +194,26 @@ std::vector<Eigen::Vector3d> modelled_directions(const setup::Robot& robot) {
   return directions;
 }
 
+/// Checks that a robot which carries the tool has poles, and holds nothing else.
+void check_carrier(const Case& source, Findings& findings) {
+  if (!source.contacts.empty()) {
+    findings.report(
+        "robot.carries",
+        "the robot carries the tool and touches no part besides; remove [[contacts]], or set it to \"part\"");
+  }
+  if (setup::kind(*source.robot) == setup::RobotKind::measured) {
+    findings.report("robot.model",
+                    "FRFs at the tip of a robot that carries the tool are those of the tool; give them as "
+                    "[[tool.measured]] and remove [robot]");
+  }
+  if (source.tool && (!source.tool->measured.empty() || source.tool->swap)) {
+    findings.report(
+        "robot.carries",
+        "the robot is in what was measured at the tool already; remove [robot], or give tool.modes in place "
+        "of the measured FRFs");
+  }
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3d> tip_directions(const setup::Robot& robot) {
@@ -239,6 +259,7 @@ std::string fault_of_posture(const setup::PartSetup& part, const setup::SupportS
 void check_robot(const Case& source, Findings& findings) {
   const setup::Robot& robot = *source.robot;
   if (findings.unreadable("robot.model")) return;
+  if (setup::carries_tool(source.robot)) check_carrier(source, findings);
   if (const Table base{source.values, "robot.base"}; base.exists()) {
     if (std::abs(base.direction("x").dot(base.direction("z"))) > 1e-9)
       return findings.report("robot.base.x", "is not at a right angle to robot.base.z; a frame's axes are");

@@ -136,6 +136,7 @@ constexpr Key case_keys[] = {
     Key{"damping.from_frf.to", Type::quantity, kind::frequency, "", positive, "", "Last line that is used; if not given the last that is believed."},
 
     Key{"robot.model", Type::choice, kind::number, "\"one_mode\"", any, "one_mode|modes|measured|modal_table|flexible_joints|virtual_joints", "How the tip is known."},
+    Key{"robot.carries", Type::choice, kind::number, "\"part\"", any, "part|tool", "`part`: the robot supports the part by contacts. `tool`: the robot mills; the cut feels its tip, which is the tool's, beside tool and part, and there are no contacts."},
     Key{"robot.point", Type::text, kind::number, "\"R\"", any, "", "Name of the tip."},
     Key{"robot.direction", Type::direction, kind::number, "\"x\"", any, "", "Direction in which the tip moves."},
     Key{"robot.frequency", Type::quantity, kind::frequency, "", positive, "", "Natural frequency, with `stiffness` and `damping_ratio`."},

@@ -48,9 +48,13 @@ double error_at_speed(const LobesSummary& chart) {
                      row->error_budget ? &*row->error_budget : nullptr, chart.error_budget);
 }
 
-/// The supported part before the bare one.
+bool with_robot(study::ChartOf name) {
+  return name == study::ChartOf::supported || name == study::ChartOf::carried;
+}
+
+/// The chart with the robot before that of the part alone.
 void add(std::vector<Answer>& list, study::ChartOf name, Answer answer) {
-  list.insert(name == study::ChartOf::supported ? list.begin() : list.end(), std::move(answer));
+  list.insert(with_robot(name) ? list.begin() : list.end(), std::move(answer));
 }
 
 std::vector<Answer> chart_answers(const Summary& summary) {
@@ -85,18 +89,19 @@ std::string held_points(const Summary& summary) {
   return text;
 }
 
-/// "with the robot at P", "with the robot at B, cut at P", "part alone, cut at P", "this tool".
+/// "with the robot at P", "with the robot at B, cut at P", "part alone, cut at P", "this tool", "tool on the robot".
 std::string subject(const LobesSummary& chart, const Summary& summary) {
   if (chart.name == study::ChartOf::tool) return "this tool";
   const std::string at = summary.cutting ? summary.cutting->at.value_or("") : "";
   const std::string cut = at.empty() ? "" : ", cut at " + at;
-  if (chart.name != study::ChartOf::supported) return "part alone" + cut;
+  if (chart.name != study::ChartOf::supported) return chart_title(chart.name) + cut;
   const std::string held = held_points(summary);
   return "with the robot" + (held.empty() ? "" : " at " + held) + (held == at ? "" : cut);
 }
 
 std::string path_subject(const PathSummary& path) {
-  return path.name == study::ChartOf::supported ? "along the path with the robot" : "along the path, part alone";
+  if (path.name == study::ChartOf::supported) return "along the path with the robot";
+  return "along the path, " + chart_title(path.name);
 }
 
 /// Both limits in one sentence.

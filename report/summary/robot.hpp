@@ -43,6 +43,7 @@ void fields(Visitor& visit, Section& posture) {
 /// The robot as it stands, and its tip.
 struct RobotSummary {
   std::string model;
+  std::optional<std::string> carries;
   std::vector<ModeSummary> modes;
   PostureSummary posture;
   std::optional<std::vector<std::optional<double>>> static_stiffness_n_per_m;
@@ -53,6 +54,7 @@ struct RobotSummary {
 template <class Visitor, Either<RobotSummary> Section>
 void fields(Visitor& visit, Section& robot) {
   visit(Field{"model", Kind::text, "model of the robot"}, robot.model);
+  visit(Field{"carries", Kind::text, "\"tool\": the robot mills; absent: it supports the part"}, robot.carries);
   visit(Field{"modes", Kind::section, "modes of the robot; none of one known by measured receptances"}, robot.modes);
   fields(visit, robot.posture);
   visit(Field{"static_stiffness_n_per_m", Kind::stiffness,

@@ -12,7 +12,8 @@ namespace thinwall::study {
 enum class ChartOf {
   part,       ///< the part alone
   supported,  ///< the part with the robot that supports it
-  tool        ///< a tool that cuts a rigid part
+  tool,       ///< a tool that cuts a rigid part
+  carried     ///< a tool on a robot that carries it, which cuts the part, or a rigid one
 };
 
 }  // namespace thinwall::study
@@ -20,6 +21,6 @@ enum class ChartOf {
 namespace thinwall::core {
 
 template <>
-inline constexpr std::array<std::string_view, 3> words<study::ChartOf>{"part", "supported", "tool"};
+inline constexpr std::array<std::string_view, 4> words<study::ChartOf>{"part", "supported", "tool", "carried"};
 
 }  // namespace thinwall::core

@@ -103,11 +103,14 @@ bool gives_reverse(const std::vector<setup::MeasuredFrf>& files, const setup::Me
   });
 }
 
-std::optional<milling::RelativeStructure> cut_poles(const setup::CutSetup& source, const dynamics::ModalModel* part) {
+std::optional<milling::RelativeStructure> cut_poles(const setup::CutSetup& source, const dynamics::ModalModel* part,
+                                                    const dynamics::ModalModel* carrier) {
   std::optional<milling::RelativeStructure> poles;
-  if (part != nullptr) poles = part_structure(source, *part);
-  if (source.tool->modes.empty()) return poles;
-  return poles ? milling::sum(*poles, tool_modes(*source.tool)) : tool_modes(*source.tool);
+  const auto add = [&](const milling::RelativeStructure& more) { poles = poles ? milling::sum(*poles, more) : more; };
+  if (part != nullptr) add(part_structure(source, *part));
+  if (!source.tool->modes.empty()) add(tool_modes(*source.tool));
+  if (carrier != nullptr) add(milling::relative_structure(*carrier, carrier->dofs.front().point));
+  return poles;
 }
 
 std::optional<milling::SampledReceptance> synthesised_tip(const setup::CutSetup& source,
@@ -143,8 +146,8 @@ milling::FittedStructure sampled_structure(const setup::CutSetup& source, const 
 }
 
 CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
-                           const dynamics::ModalModel* part) {
-  return cut_structure(source, frame, cut_poles(source, part));
+                           const dynamics::ModalModel* part, const dynamics::ModalModel* carrier) {
+  return cut_structure(source, frame, cut_poles(source, part, carrier));
 }
 
 CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
@@ -156,7 +159,9 @@ CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFra
     warn_if_implausible(tip, "the tool's");
     return fitted(tip, modal, frame, "the tool's");
   }
-  if (!modal) throw core::InputError("lobes need something that moves: a part, tool.modes or tool.measured");
+  if (!modal)
+    throw core::InputError(
+        "lobes need something that moves: a part, tool.modes, tool.measured, or a robot that carries the tool");
   return *modal;
 }
 

@@ -19,10 +19,12 @@ namespace thinwall::study {
 /// where the tool tip is measured.
 using CutStructure = std::variant<milling::RelativeStructure, milling::FittedStructure>;
 
-/// The poles of what is known by its modes: the part (null: a rigid one), and the tool where it is given by modes. None
-/// if nothing is.
+/// The poles of what is known by its modes: the part (null: a rigid one), the tool where it is given by modes, and the
+/// tip of the robot that carries the tool (null: none, or a rigid one). They are in series, so that their receptances
+/// add. None if nothing is known so.
 [[nodiscard]] std::optional<milling::RelativeStructure> cut_poles(const setup::CutSetup& source,
-                                                                  const dynamics::ModalModel* part);
+                                                                  const dynamics::ModalModel* part,
+                                                                  const dynamics::ModalModel* carrier = nullptr);
 
 /// 0, 1, 2 of "tool.x", "tool.y", "tool.z".
 [[nodiscard]] int direction_of_dof(const std::string& dof);
@@ -30,12 +32,13 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::FittedStr
 /// True if one of the files is the transpose of `file`, an entry off the diagonal.
 [[nodiscard]] bool gives_reverse(const std::vector<setup::MeasuredFrf>& files, const setup::MeasuredFrf& file);
 
-/// Part and tool together; `frame` is the cut's, `part` must hold the point that is cut, null: a rigid part. Samples
-/// lie on the lines of the first measured file; what speaks against them is logged as a warning: a driving point that
-/// gives energy. Throws InputError if nothing moves or the lines cannot be fitted (milling::fitted_structure()),
-/// DataError as io::resample.
+/// Part, tool and what carries it together; `frame` is the cut's, `part` must hold the point that is cut, null: a rigid
+/// part; `carrier` as in cut_poles(). Samples lie on the lines of the first measured file; what speaks against them is
+/// logged as a warning: a driving point that gives energy. Throws InputError if nothing moves or the lines cannot be
+/// fitted (milling::fitted_structure()), DataError as io::resample.
 [[nodiscard]] CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
-                                         const dynamics::ModalModel* part);
+                                         const dynamics::ModalModel* part,
+                                         const dynamics::ModalModel* carrier = nullptr);
 
 /// As above, with what is known by its modes given as cut_poles() gives it.
 [[nodiscard]] CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,

@@ -16,6 +16,7 @@
 #include "setup/imported_part.hpp"
 #include "setup/milling_process.hpp"
 #include "setup/path.hpp"
+#include "setup/robot_tip.hpp"
 #include "study/lobes/cut_structure.hpp"
 #include "study/lobes/lobes_stage.hpp"
 #include "study/support/support_stage.hpp"
@@ -92,7 +93,12 @@ struct StandIn {
 };
 
 StandIn structure_like(const setup::Setup& source, const milling::ToolFrame& frame) {
-  std::optional<milling::RelativeStructure> poles = cut_poles(source, nullptr);
+  std::optional<Component> robot;
+  if (setup::carries_tool(source.robot)) {
+    robot = robot_component(*source.robot, {Eigen::VectorXd::Ones(1)}, setup::robot_posture(source, source).posture);
+  }
+  std::optional<milling::RelativeStructure> poles =
+      cut_poles(source, nullptr, robot ? &carrier_modes(*robot) : nullptr);
   if (source.part) poles = poles ? milling::sum(*poles, modes_like(source)) : modes_like(source);
   return {cut_structure(source, frame, poles)};
 }
@@ -193,7 +199,8 @@ ExpectedRows expected_rows(const setup::Setup& source) {
   if (lobes.map_depths) chart += 0.02 * lobes.count * *lobes.map_depths;
   const double stations = source.path ? static_cast<double>(source.path->positions.size()) : 0.0;
   chart += stations * lobes.count;
-  if (!source.part || !source.robot || source.contacts.empty()) return {chart, 0.0};
+  const bool with_robot = setup::carries_tool(source.robot) || (source.robot && !source.contacts.empty());
+  if (!source.part || !with_robot) return {chart, 0.0};
   return setup::is_measured(*source.robot) ? ExpectedRows{chart, speeds} : ExpectedRows{2.0 * chart, 0.0};
 }
 

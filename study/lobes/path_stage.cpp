@@ -24,10 +24,10 @@ namespace thinwall::study {
 
 namespace {
 
-/// Structures that the cut feels at each position: of the part alone, and held by the robot, as it stands there (empty
-/// without one).
+/// Structures that the cut feels at each position: of the part alone, and with the robot that supports it or carries
+/// the tool, as it stands there (empty without one).
 struct StructuresAlongPath {
-  std::vector<milling::RelativeStructure> part, supported;
+  std::vector<milling::RelativeStructure> part, with_robot;
   std::vector<setup::RobotPosture> robot;
 };
 
@@ -61,24 +61,31 @@ StructuresAlongPath structures_along_path(const PathInput& input, const Results&
                                           const milling::ToolFrame& frame) {
   const auto& models = results.finite_elements->along_path;
   const bool supported = results.coupled && results.coupled->model;
+  const bool carried = setup::carries_tool(input.support.robot);
   StructuresAlongPath structures;
   core::Progress progress("positions", models.size());
   structures.part.reserve(models.size());
-  structures.supported.reserve(models.size());
-  if (supported) structures.robot = postures_along_path(input, results);
+  structures.with_robot.reserve(models.size());
+  if (supported || carried) structures.robot = postures_along_path(input, results);
   for (std::size_t i = 0; i < models.size(); ++i) {
     const setup::CutSetup cut = setup::cut_at(input.cut, input.stations[i]);
     std::vector<reduction::IdentifiedMode> identified;
     const dynamics::SpatialModel part = damped(input.part.damping, models[i], identified);
-    const auto felt = [&](const dynamics::ModalModel& modal) {
-      return std::get<milling::RelativeStructure>(cut_structure(cut, frame, &modal));
+    const auto felt = [&](const dynamics::ModalModel& modal, const dynamics::ModalModel* carrier) {
+      return std::get<milling::RelativeStructure>(cut_structure(cut, frame, &modal, carrier));
     };
-    structures.part.push_back(felt(modes_of(part)));
+    const dynamics::ModalModel alone = modes_of(part);
+    structures.part.push_back(felt(alone, nullptr));
     progress.step();
+    if (carried) {
+      const Component robot =
+          robot_component(*input.support.robot, {Eigen::VectorXd::Ones(1)}, structures.robot[i].posture);
+      structures.with_robot.push_back(felt(alone, &carrier_modes(robot)));
+    }
     if (!supported) continue;
     const dynamics::SpatialModel robot = setup::robot_matrices(*input.support.robot, structures.robot[i].posture);
-    structures.supported.push_back(
-        felt(modes_of(coupling::couple(part, robot, contacts_at(results.contacts, input.stations[i])))));
+    structures.with_robot.push_back(
+        felt(modes_of(coupling::couple(part, robot, contacts_at(results.contacts, input.stations[i]))), nullptr));
   }
   return structures;
 }
@@ -114,11 +121,12 @@ std::vector<PathLobes> lobes_along_path(const PathInput& input, const Results& r
   const milling::MillingProcess process = setup::milling_process(input.cut);
   const StructuresAlongPath structures = structures_along_path(input, results, process.frame);
   const std::string& method = results.lobes.front().lobes.method;
-  if (structures.supported.empty() && results.coupled)
+  if (structures.with_robot.empty() && results.coupled)
     core::warn("no charts of the supported part along the path: part and robot are not joined by matrices");
   std::vector<PathLobes> all{charts(input.cut, ChartOf::part, method, process, structures.part, kept)};
-  if (!structures.supported.empty()) {
-    all.push_back(charts(input.cut, ChartOf::supported, method, process, structures.supported, kept));
+  if (!structures.with_robot.empty()) {
+    const ChartOf of = setup::carries_tool(input.support.robot) ? ChartOf::carried : ChartOf::supported;
+    all.push_back(charts(input.cut, of, method, process, structures.with_robot, kept));
     all.back().robot = structures.robot;
   }
   return all;

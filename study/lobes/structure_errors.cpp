@@ -107,9 +107,10 @@ DepthError sampled_error(const milling::FittedStructure& structure, const Struct
 }  // namespace
 
 StructureErrors structure_errors(const setup::CutSetup& source, const milling::ToolFrame& frame,
-                                 const CutStructure& structure, const dynamics::ModalModel* richer_part) {
+                                 const CutStructure& structure, const dynamics::ModalModel* richer_part,
+                                 const dynamics::ModalModel* carrier) {
   StructureErrors errors;
-  if (richer_part != nullptr) errors.richer = cut_poles(source, richer_part);
+  if (richer_part != nullptr) errors.richer = cut_poles(source, richer_part, carrier);
   if (const auto* sampled = std::get_if<milling::FittedStructure>(&structure); sampled && !source.tool->swap)
     add_tool_noise(source, frame, {sampled->lines.samples.frequency_hz}, errors.noise);
   return errors;

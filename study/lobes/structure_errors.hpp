@@ -22,9 +22,10 @@ struct StructureErrors {
 };
 
 /// Of cut_structure() with the part (`richer_part`: with what its reduction left out, null if nothing was) or with the
-/// supported part by its poles: noise of a measured tool.
+/// supported part by its poles: noise of a measured tool. `carrier` as in cut_poles().
 [[nodiscard]] StructureErrors structure_errors(const setup::CutSetup& source, const milling::ToolFrame& frame,
-                                               const CutStructure& structure, const dynamics::ModalModel* richer_part);
+                                               const CutStructure& structure, const dynamics::ModalModel* richer_part,
+                                               const dynamics::ModalModel* carrier = nullptr);
 
 /// Of sampled_structure() with the coupled response of `results`: its noise and truncation at the point that is cut,
 /// and the noise of a measured tool.

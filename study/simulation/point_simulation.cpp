@@ -10,6 +10,7 @@
 #include "milling/simulation/exact_path.hpp"
 #include "setup/milling_process.hpp"
 #include "study/lobes/cut_structure.hpp"
+#include "study/support/support_stage.hpp"
 
 namespace thinwall::study {
 
@@ -32,11 +33,13 @@ void require_points(const setup::Setup& setup, const SimulationRequest& request)
         "say where the material lies");
 }
 
-milling::RelativeStructure poles_of(const setup::Setup& setup, const dynamics::ModalModel* part) {
+milling::RelativeStructure poles_of(const setup::Setup& setup, const dynamics::ModalModel* part,
+                                    const dynamics::ModalModel* carrier = nullptr) {
   if (!setup.tool->measured.empty() || setup.tool->swap)
     throw core::InputError("tool.measured: a simulation needs poles, and measured lines have none; give tool.modes");
-  auto poles = cut_poles(setup, part);
-  if (!poles) throw core::InputError("simulate: nothing moves; give a part, or tool.modes");
+  auto poles = cut_poles(setup, part, carrier);
+  if (!poles)
+    throw core::InputError("simulate: nothing moves; give a part, tool.modes, or a robot that carries the tool");
   return std::move(*poles);
 }
 
@@ -48,8 +51,12 @@ const dynamics::ModalModel& modal(const std::optional<dynamics::ModalModel>& mod
 }
 
 std::vector<Felt> structures(const setup::Setup& setup, const Results& results) {
-  if (!results.part) return {{ChartOf::tool, poles_of(setup, nullptr)}};
-  std::vector<Felt> felt{{ChartOf::part, poles_of(setup, &modal(results.part->modal, "the part"))}};
+  const auto* carrier = setup::carries_tool(setup.robot) ? &carrier_modes(*results.robot) : nullptr;
+  if (!results.part)
+    return {{carrier != nullptr ? ChartOf::carried : ChartOf::tool, poles_of(setup, nullptr, carrier)}};
+  const dynamics::ModalModel& part = modal(results.part->modal, "the part");
+  std::vector<Felt> felt{{ChartOf::part, poles_of(setup, &part)}};
+  if (carrier != nullptr) felt.emplace_back(ChartOf::carried, poles_of(setup, &part, carrier));
   if (results.coupled)
     felt.emplace_back(ChartOf::supported, poles_of(setup, &modal(results.coupled->modal, "the supported part")));
   return felt;

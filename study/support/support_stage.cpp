@@ -115,6 +115,14 @@ Component robot_component(const setup::Robot& robot, const dynamics::FrequencyAx
   return result;
 }
 
+const dynamics::ModalModel& carrier_modes(const Component& robot) {
+  if (robot.modal) return *robot.modal;
+  throw core::InputError(robot.spatial ? "the robot that carries the tool moves without any force; give its joints a "
+                                         "stiffness"
+                                       : "the robot that carries the tool is known by receptances alone; give them as "
+                                         "tool.measured, for they are those of the tool's tip, and leave [robot] out");
+}
+
 Component measured_part(const setup::MeasuredPart& source, const dynamics::FrequencyAxis& axis) {
   Component part;
   part.response =

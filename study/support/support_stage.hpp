@@ -22,6 +22,10 @@ namespace thinwall::study {
 [[nodiscard]] Component robot_component(const setup::Robot& robot, const dynamics::FrequencyAxis& axis,
                                         const robot::Posture& posture);
 
+/// The poles of the tip of a robot that carries the tool. Throws InputError if it has none: it is known by receptances
+/// alone, or moves without any force.
+[[nodiscard]] const dynamics::ModalModel& carrier_modes(const Component& robot);
+
 /// The part from its measured FRFs, less its sensors. Errors as measured_response() and setup::without_sensors().
 [[nodiscard]] Component measured_part(const setup::MeasuredPart& source, const dynamics::FrequencyAxis& axis);
 

@@ -80,7 +80,8 @@ function fixture(v) {
   return on.length ? `held at ${on.join(', ')}` : null;
 }
 
-function supported({ summary }) {
+function robot({ summary }) {
+  if (summary.robot?.carries === 'tool') return 'carries the tool';
   const list = (summary.contacts ?? []).map((c) => `${c.robot} at ${c.part}${c.stiffness_n_per_m?.length && c.stiffness_n_per_m.every((k) => k === null) ? ' (rigid)' : c.model ? ` (${c.model})` : ''}`);
   return list.length ? list.join(', ') : null;
 }
@@ -107,7 +108,7 @@ const rows = [
   ['Runout', (v) => (v['tool.runout'] ? listOf(v['tool.runout']).map((r) => display(r)).join(', ') : null)],
   ['Engagement', engaged], ['Feed', feed],
   ['Cutting coefficients', coefficients], ['Their origin', (_, run) => origin(run)],
-  ['Material', material], ['Fixture', fixture], ['Robot', (_, run) => supported(run)],
+  ['Material', material], ['Fixture', fixture], ['Robot', (_, run) => robot(run)],
 ];
 
 /** Table and sketch of the runs that cut; nothing where none does. */

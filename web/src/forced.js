@@ -5,7 +5,7 @@ import { numbers } from './decode.js';
 import { faint } from './colours.js';
 import { number, plain, scaled } from './format.js';
 import { folded, plot } from './plot.js';
-import { lobeTitle } from './lobes.js';
+import { lobeTitle, withRobot } from './lobes.js';
 
 const panels = [
   { key: 'surface_location_error_m', title: 'Surface location error (µm)', short: 'Surface (µm)', unit: 'µm', factor: 1e6, name: 'surface location error (m)' },
@@ -14,7 +14,7 @@ const panels = [
 ];
 
 /** The curves of all runs; the supported part's first, since that is the cut which is asked about. */
-const curvesOf = (runs) => runs.flatMap((run) => (run.lobes ?? []).flatMap((lobe) => (lobe.forced ?? []).map((curve) => ({ run, lobe, curve })))).sort((a, b) => (b.lobe.name === 'supported') - (a.lobe.name === 'supported'));
+const curvesOf = (runs) => runs.flatMap((run) => (run.lobes ?? []).flatMap((lobe) => (lobe.forced ?? []).map((curve) => ({ run, lobe, curve })))).sort((a, b) => withRobot(b.lobe.name) - withRobot(a.lobe.name));
 
 /** The folded plot; null where no run has such curves. */
 export function forcedOverSpeed(runs) {

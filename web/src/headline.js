@@ -3,7 +3,7 @@
 import { el, table } from './dom.js';
 import { hertz, isNumber, millimetres, number, percent, rpm } from './format.js';
 import { cutSentence } from './cut.js';
-import { lobeTitle } from './lobes.js';
+import { lobeTitle, withRobot } from './lobes.js';
 import { sentencesOf } from './remarks.js';
 
 const cards = 3; // figures that stand large; the others are a strip beneath them
@@ -66,8 +66,9 @@ function verdict(summary) {
 /** The chart that counts, with the robot if there is one, and the part's own beside it. */
 function charts(list = []) {
   const named = (name) => list.find((l) => l.name === name);
-  const main = named('supported') ?? named('part') ?? list[0];
-  return { main, other: named('supported') && named('part'), who: main && lobeTitle(main.name) };
+  const robots = list.find((l) => withRobot(l.name));
+  const main = robots ?? named('part') ?? list[0];
+  return { main, other: robots && named('part'), who: main && lobeTitle(main.name) };
 }
 
 function ofCharts(summary) {

@@ -7,11 +7,13 @@ import { isNumber, millimetres, number, percent, plain, rpm as speed, scaled } f
 import { between, decades, plot } from './plot.js';
 import { pointMarks, pointsOf, pointTable } from './points.js';
 
-const titles = { part: 'part alone', supported: 'with robot', tool: 'tool' };
+const titles = { part: 'part alone', supported: 'with robot', tool: 'tool', carried: 'tool on the robot' };
 const symbols = { hopf: 'circle', flip: 'diamond', fold: 'square' };
 const signs = { hopf: '○\u00a0Hopf', flip: '◇\u00a0flip', fold: '□\u00a0fold' };
 const dashes = ['solid', 'dash', 'dashdot', 'longdash']; // of the runs
 const worthAStar = 1.3; // a pocket is deeper than the chart's least depth by this factor at least
+/** True of the chart with the robot: that of the supported part, or of a tool on the robot. */
+export const withRobot = (name) => name === 'supported' || name === 'carried';
 export const lobeTitle = (name) => titles[name] ?? name;
 
 /** The section's content: the options and the plot. Null where no run has lobes. */
@@ -120,7 +122,7 @@ function limit(curve, runs, colours, log) {
   const at = (status) => lobe.status.map((s, k) => (s === status ? depth[k] * 1e3 : null));
   const group = `${i} ${lobe.name}`;
   const line = { simplify: false, color: colour, width: 2, dash: dashes[i % dashes.length] };
-  const filled = runs.length === 1 && !log && lobe === (curve.run.lobes.find((l) => l.name === 'supported') ?? lobe);
+  const filled = runs.length === 1 && !log && lobe === (curve.run.lobes.find((l) => withRobot(l.name)) ?? lobe);
   const result = [...band(curve, x, colour, group),
     { name, x, y, mode: 'lines', line, legendgroup: group, fill: filled ? 'tozeroy' : 'none', fillcolor: faint(colour, 0.07), hovertemplate: '%{y:.4~g} mm', meta: `limit ${group}` }];
   if (lobe.status.includes('stable_to_depth_limit')) {

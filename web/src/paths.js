@@ -5,13 +5,13 @@ import { numbers } from './decode.js';
 import { faint, printPalette, viridis, viridisScale } from './colours.js';
 import { number, plain, scaled } from './format.js';
 import { decades, logTicks, plot } from './plot.js';
-import { lobeTitle } from './lobes.js';
+import { lobeTitle, withRobot } from './lobes.js';
 
 export function paths(runs) {
   const maps = runs.flatMap((run) => (run.paths ?? []).map((path) => ({ run, path })));
   if (!maps.length) return null;
   const several = runs.length > 1;
-  const supported = maps.findIndex((m) => m.path.name === 'supported');
+  const supported = maps.findIndex((m) => withRobot(m.path.name));
   const state = { at: Math.max(0, supported), log: true, waterfall: false };
   const title = ({ run, path }) => (several ? `${run.label}: ` : '') + lobeTitle(path.name);
   const chart = plot({ name: 'path', label: 'Depth along the path', build: (colours, narrow) => build(maps, state, title, colours, narrow), columns: () => columns(maps[state.at].path) });
@@ -46,7 +46,7 @@ function build(maps, state, title, colours, narrow) {
   const bar = { title: { text: 'mm', side: 'top', font: { size: 12 } }, thickness: 12, outlinewidth: 0, len: 0.64, y: 1, yanchor: 'top', ...(state.log ? logTicks(low, high) : {}) };
   const map = { type: 'heatmap', x, y, z: state.log ? z.map((r) => r.map((v) => (v > 0 ? Math.log10(v) : null))) : z, customdata: z, colorscale: viridisScale, colorbar: bar,
     hovertemplate: '%{x:.5~g} rpm<br>%{y:.4~g} mm along the path<br>depth %{customdata:.4~g} mm<extra></extra>', meta: 'map' };
-  const dashes = { supported: ['solid', 'dash', 'longdash'], part: ['dot', 'dashdot', 'longdashdot'] }; // of the runs
+  const dashes = { supported: ['solid', 'dash', 'longdash'], carried: ['solid', 'dash', 'longdash'], part: ['dot', 'dashdot', 'longdashdot'] }; // of the runs
   const order = [...new Set(maps.map((m) => m.run))];
   const curves = maps.map((m) => ({ name: plain(title(m)), x: Array.from(numbers(m.path.rpm)), y: least(rows(m.path)), yaxis: 'y2', mode: 'lines',
     line: { color: colours[m.path.name] ?? colours.robot, width: 2, dash: dashes[m.path.name]?.[order.indexOf(m.run) % 3] }, hovertemplate: '%{x:.5~g} rpm: %{y:.4~g} mm everywhere', meta: `least ${order.indexOf(m.run)} ${m.path.name}` }));

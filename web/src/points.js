@@ -4,7 +4,7 @@ import { table } from './dom.js';
 import { hertz, isNumber, number, plain } from './format.js';
 import { lobeTitle } from './lobes.js';
 
-const sizes = { supported: 16, part: 8 }; // at the same place the ring of one chart goes around the mark of the other
+const sizes = { supported: 16, carried: 16, part: 8 }; // at the same place the ring of one chart goes around the mark of the other
 
 export const pointsOf = (run) => run.summary.operating_points ?? [];
 

@@ -5,14 +5,14 @@ import { numbers } from './decode.js';
 import { faint } from './colours.js';
 import { number } from './format.js';
 import { folded, plot } from './plot.js';
-import { lobeTitle } from './lobes.js';
+import { lobeTitle, withRobot } from './lobes.js';
 
 const components = [['feed', 'along the feed', 'part'], ['normal', 'along the normal', 'supported'], ['axis', 'along the axis', 'robot']];
 const degrees = (rad) => (rad * 180) / Math.PI;
 
 /** The folded plot of the stable points; null where no run has any. */
 export function forcesOverATurn(runs) {
-  const points = runs.flatMap((run) => (run.lobes ?? []).flatMap((lobe) => (lobe.forces ?? []).map((forces) => ({ run, lobe, forces })))).sort((a, b) => (b.lobe.name === 'supported') - (a.lobe.name === 'supported'));
+  const points = runs.flatMap((run) => (run.lobes ?? []).flatMap((lobe) => (lobe.forces ?? []).map((forces) => ({ run, lobe, forces })))).sort((a, b) => withRobot(b.lobe.name) - withRobot(a.lobe.name));
   if (!points.length) return null;
   const state = { at: 0, over: 'polar' };
   const title = ({ run, lobe, forces: f }) => `${runs.length > 1 ? `${run.label}: ` : ''}${lobeTitle(lobe.name)}, ${number(f.spindle_speed_rpm, 5)} rpm, ${number(f.depth_m * 1e3, 4)} mm`;
