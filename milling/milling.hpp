@@ -44,6 +44,7 @@
 #include "milling/simulation/growth.hpp"
 #include "milling/simulation/march_grid.hpp"
 #include "milling/simulation/motion_kind.hpp"
+#include "milling/simulation/one_sided_contact.hpp"
 #include "milling/simulation/part_region.hpp"
 #include "milling/simulation/region_path.hpp"
 #include "milling/simulation/simulation.hpp"

@@ -12,8 +12,8 @@ namespace thinwall::milling {
 /// The error of the value on the finest grid from the last two changes, relative. Collocation converges fast, so that
 /// the last change is mostly the error of the grid before: as an estimate of the finest grid's it is on the safe side.
 /// A change alone may be small by chance, where the error of two neighbours is the same: the one before stands in with
-/// a tenth. Where the grids converge slowly, as over the height of a ball, changes fall by a ratio r, and r/(1 − r) of the
-/// last one remains. 1e-11 is the round-off of an eigenvalue.
+/// a tenth. Where the grids converge slowly, as over the height of a ball, changes fall by a ratio r, and r/(1 − r) of
+/// the last one remains. 1e-11 is the round-off of an eigenvalue.
 [[nodiscard]] double estimate_from(double change, double change_before);
 
 /// A crossing on the finest grid so far.

@@ -42,7 +42,8 @@ CircularCut circular_cut(const RelativeStructure& structure, const MillingProces
   for (const MarchStretch& stretch : result.grid.stretches) {
     const double step_rad = (stretch.to_rad - stretch.from_rad) / stretch.steps;
     result.flights.push_back(flight_over(result, since, stretch.from_rad, usual_step_rad));
-    result.rules.push_back(march_rule(result.structure, result.residual, step_rad / result.rad_per_s, step_rad));
+    result.rules.push_back(march_rule<3>(result.structure, ports_of(result.structure, result.residual),
+                                         step_rad / result.rad_per_s, step_rad));
     since = stretch.to_rad;
   }
   result.flights.push_back(flight_over(result, since, result.grid.period_rad, usual_step_rad));

@@ -27,8 +27,8 @@ struct CircularCut {
   Eigen::Matrix3d residual = Eigen::Matrix3d::Zero();  ///< R in tool axes, m/N
   double rad_per_s = 0.0;                              ///< Ω
   StartMap start;
-  std::vector<MarchRule> rules;  ///< of each stretch
-  std::vector<Flight> flights;   ///< up to each stretch from the one before, and from the last to the period's end
+  std::vector<MarchRule<3>> rules;  ///< of each stretch
+  std::vector<Flight> flights;      ///< up to each stretch from the one before, and from the last to the period's end
 
   /// Duration of a period, s.
   [[nodiscard]] double period_s() const { return grid.period_rad / rad_per_s; }

@@ -28,14 +28,14 @@ SimulatedCut simulate_exact_path(const RelativeStructure& structure, const Milli
   require_usable(process, law, point, options);
   require_valid(validate(stock));
   require_valid(validate(paths));
-  const PathCut cut = path_cut(structure, process, point, options, paths.steps_a_turn, paths.earlier_passes);
+  const PathCut cut =
+      path_cut(structure, process, point, options, paths.steps_a_turn, paths.earlier_passes, paths.contact);
   double farthest = 0.0;
   for (const ToothDisc& disc : cut.discs) farthest = std::max(farthest, disc.earlier.back().ahead_rad);
   const auto remembered = static_cast<std::size_t>((farthest + 1.0) / cut.node_rad) + 16;
   EarlierPaths material(stock, cut.feed_per_node_m, cut.node_rad, cut.start_m.head<2>(), remembered);
   return with_chip_force(process, law, [&](const auto& chip_force) {
-    PathMotion motion(cut, material, chip_force);
-    return over_turns(motion, process, cut.feed_per_node_m / cut.node_rad, options, after_turn);
+    return over_path(cut, material, chip_force, process, options, after_turn);
   });
 }
 

@@ -1,8 +1,11 @@
 #pragma once
 // Milling in the time domain with teeth on the paths that they really take, and contact found by geometry.
 
+#include <optional>
+
 #include "milling/cut/force_law.hpp"
 #include "milling/cut/process.hpp"
+#include "milling/simulation/one_sided_contact.hpp"
 #include "milling/simulation/simulation.hpp"
 #include "milling/simulation/stock.hpp"
 #include "milling/structure/relative_structure.hpp"
@@ -11,8 +14,9 @@ namespace thinwall::milling {
 
 /// The fineness of exact paths, besides that of SimulationOptions, whose steps in the cut have no meaning here.
 struct PathOptions {
-  int steps_a_turn = 720;   ///< ≥ 24
-  int earlier_passes = 10;  ///< ≥ 1 and at most 1000: of teeth, whose surfaces a tooth may meet
+  int steps_a_turn = 720;                       ///< ≥ 24
+  int earlier_passes = 10;                      ///< ≥ 1 and at most 1000: of teeth, whose surfaces a tooth may meet
+  std::optional<OneSidedContact> contact = {};  ///< of a support, that may open
 };
 
 /// Every violation, empty if there is none.

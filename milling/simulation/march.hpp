@@ -135,15 +135,15 @@ class March {
       start.displacement_m = rows.head<3>() + c_.start.displacement * before;
       start.slope = rows.segment<3>(4) + c_.start.slope * before;
       load(node, start, surfaces_[0]);
-      if (near(start.force_n, before, settled_tolerance)) return;
+      if (near<3>(start.force_n, before, settled_tolerance)) return;
       if (pass < most_passes) continue;
-      if (!near(start.force_n, before, unsettled_tolerance)) ++unsettled_;
+      if (!near<3>(start.force_n, before, unsettled_tolerance)) ++unsettled_;
       return;
     }
   }
 
   template <class Observer>
-  void over_stretch(const MarchStretch& stretch, const MarchRule& rule, CutState& state, Observer& see) {
+  void over_stretch(const MarchStretch& stretch, const MarchRule<3>& rule, CutState& state, Observer& see) {
     step_.in_cut = true;
     step_.step_rad = (stretch.to_rad - stretch.from_rad) / stretch.steps;
     int node = stretch.first_node;

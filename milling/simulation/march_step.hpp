@@ -15,6 +15,10 @@ struct MarchNode {
   Eigen::Vector3d force_n = Eigen::Vector3d::Zero();         ///< on the tool, tool axes
   Eigen::Vector3d slope = Eigen::Vector3d::Zero();           ///< dq/dφ, m/rad; kept up to date with rubbing only
   double torque_n_m = 0.0;                                   ///< that the spindle gives
+  double opening_m = 0.0;                                    ///< of a support's contact, if it may open
+  double opening_slope = 0.0;                                ///< its dq/dφ, m/rad
+  double separating_n = 0.0;                                 ///< g of one_sided_contact.hpp
+  double pressing_n = 0.0;                                   ///< and N
   double thickest_chip_m = 0.0;
   double removal_m2_rad = 0.0;          ///< area that teeth remove, of exact paths
   int points = 0, without_contact = 0;  ///< of edges within the angles of the cut
@@ -83,8 +87,31 @@ inline constexpr double settled_tolerance = 1e-12;
 inline constexpr double unsettled_tolerance = 1e-9;
 inline constexpr int most_passes = 30;
 
-/// True if two forces are finite and differ by no more than a share of the second one.
-inline bool near(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double tolerance) {
+/// The forces of a node that a march of N of them has, and what they do work on.
+template <int N>
+Eigen::Matrix<double, N, 1> forces_of(const MarchNode& node) {
+  if constexpr (N == 3) {
+    return node.force_n;
+  } else {
+    return {node.force_n[0], node.force_n[1], node.force_n[2], node.separating_n};
+  }
+}
+
+template <int N>
+void set_displacement(MarchNode& node, const Eigen::Matrix<double, N, 1>& q) {
+  node.displacement_m = q.template head<3>();
+  if constexpr (N == 4) node.opening_m = q[3];
+}
+
+template <int N>
+void set_slope(MarchNode& node, const Eigen::Matrix<double, N, 1>& slope) {
+  node.slope = slope.template head<3>();
+  if constexpr (N == 4) node.opening_slope = slope[3];
+}
+
+/// True if two sets of forces are finite and differ by no more than a share of the second one.
+template <int N>
+bool near(const Eigen::Matrix<double, N, 1>& a, const Eigen::Matrix<double, N, 1>& b, double tolerance) {
   return (a - b).allFinite() && (a - b).cwiseAbs().maxCoeff() <= tolerance * b.cwiseAbs().maxCoeff();
 }
 
@@ -95,27 +122,28 @@ inline bool near(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double tole
 /// by fixed-point iterations. They contract by about w K h²/m, the share of a mode's inertia that the cutting stiffness
 /// moves within a step, some 1e-4, and need two or three passes. `load(c, node)` sets force, torque and chip of a node
 /// from its displacement and, if `rubs`, its slope. Returns the number of nodes that did not settle. No allocation.
-template <class LoadAt>
-int settle_forces(const MarchRule& rule, const Eigen::VectorXd& x, bool rubs, MarchStep& step, const LoadAt& load) {
+template <int N, class LoadAt>
+int settle_forces(const MarchRule<N>& rule, const Eigen::VectorXd& x, bool rubs, MarchStep& step, const LoadAt& load) {
   using Rows = Eigen::Matrix<double, 8, 1>;
+  using Forces = Eigen::Matrix<double, N, 1>;
   const Rows q_rows = of_state(rule.displacement.from_state, x);
   const Rows slope_rows = rubs ? of_state(rule.slope.from_state, x) : Rows(Rows::Zero());
-  const Eigen::Vector3d f0 = step.at[0].force_n;
+  const Forces f0 = forces_of<N>(step.at[0]);
   for (int pass = 0;; ++pass) {
-    const Eigen::Vector3d f1 = step.at[1].force_n;
-    const Eigen::Vector3d f2 = step.at[2].force_n;
+    const Forces f1 = forces_of<N>(step.at[1]);
+    const Forces f2 = forces_of<N>(step.at[2]);
     for (std::size_t c : {std::size_t{1}, std::size_t{2}}) {
       const auto row = static_cast<Eigen::Index>(4 * (c - 1));
-      const auto answer = [&](const Rows& rows, const NodeMap& map) -> Eigen::Vector3d {
+      const auto answer = [&](const Rows& rows, const NodeMap<N>& map) -> Forces {
         const auto& from = map.from_force[c - 1];
-        return rows.segment<3>(row) + from[0] * f0 + from[1] * f1 + from[2] * f2;
+        return rows.segment<N>(row) + from[0] * f0 + from[1] * f1 + from[2] * f2;
       };
-      step.at[c].displacement_m = answer(q_rows, rule.displacement);
-      if (rubs) step.at[c].slope = answer(slope_rows, rule.slope);
+      set_displacement<N>(step.at[c], answer(q_rows, rule.displacement));
+      if (rubs) set_slope<N>(step.at[c], answer(slope_rows, rule.slope));
       load(c, step.at[c]);
     }
     const auto settled = [&](double tolerance) {
-      return near(f1, step.at[1].force_n, tolerance) && near(f2, step.at[2].force_n, tolerance);
+      return near<N>(f1, forces_of<N>(step.at[1]), tolerance) && near<N>(f2, forces_of<N>(step.at[2]), tolerance);
     };
     if (settled(settled_tolerance)) return 0;
     if (pass >= most_passes) return settled(unsettled_tolerance) ? 0 : 2;
@@ -123,24 +151,31 @@ int settle_forces(const MarchRule& rule, const Eigen::VectorXd& x, bool rubs, Ma
 }
 
 /// The state at the end of a step, from its forces.
-inline void advance_state(const MarchRule& rule, const MarchStep& step, Eigen::VectorXd& x) {
+template <int N>
+void advance_state(const MarchRule<N>& rule, const MarchStep& step, Eigen::VectorXd& x) {
   fly(rule.flight, x);
-  for (int j = 0; j < 9; ++j) {
-    const double* column = rule.update.col(j).data();
-    const double f = step.at[static_cast<std::size_t>(j / 3)].force_n[j % 3];
-    for (Eigen::Index k = 0; k < x.size(); ++k) x[k] += column[k] * f;
+  for (int j = 0; j < 3; ++j) {
+    const Eigen::Matrix<double, N, 1> forces = forces_of<N>(step.at[static_cast<std::size_t>(j)]);
+    for (int i = 0; i < N; ++i) {
+      const double* column = rule.update.col(N * j + i).data();
+      for (Eigen::Index k = 0; k < x.size(); ++k) x[k] += column[k] * forces[i];
+    }
   }
 }
 
 /// Makes the end of a step the start of the next one, and carries the parabola through its three forces on to where the
 /// next iterations begin.
 inline void begin_next(MarchStep& step) {
-  const Eigen::Vector3d f0 = step.at[0].force_n;
-  const Eigen::Vector3d f1 = step.at[1].force_n;
+  const Eigen::Vector4d f0 = forces_of<4>(step.at[0]);
+  const Eigen::Vector4d f1 = forces_of<4>(step.at[1]);
   step.at[0] = step.at[2];
-  const Eigen::Vector3d f2 = step.at[0].force_n;
-  step.at[1].force_n = 3.0 * f2 - 3.0 * f1 + f0;
-  step.at[2].force_n = 6.0 * f2 - 8.0 * f1 + 3.0 * f0;
+  const Eigen::Vector4d f2 = forces_of<4>(step.at[0]);
+  const auto set = [](MarchNode& node, const Eigen::Vector4d& forces) {
+    node.force_n = forces.head<3>();
+    node.separating_n = forces[3];
+  };
+  set(step.at[1], 3.0 * f2 - 3.0 * f1 + f0);
+  set(step.at[2], 6.0 * f2 - 8.0 * f1 + 3.0 * f0);
 }
 
 }  // namespace thinwall::milling

@@ -7,15 +7,26 @@
 namespace thinwall::milling {
 
 PathCut path_cut(const RelativeStructure& structure, const MillingProcess& process, const SimulatedPoint& point,
-                 const SimulationOptions& options, int steps_a_turn, int earlier_passes) {
+                 const SimulationOptions& options, int steps_a_turn, int earlier_passes,
+                 const std::optional<OneSidedContact>& contact) {
   constexpr double turn_rad = 2.0 * std::numbers::pi;
   PathCut cut;
-  cut.structure = contact_state(structure, process.frame);
   const Eigen::Matrix3d to_part = process.frame.rotation();
   const Eigen::Matrix3d residual = to_part.transpose() * structure.R * to_part;
+  if (contact) {
+    require_valid(validate(*contact));
+    cut.contact = contact;
+    cut.structure = contact_state(structure, contact->pair, process.frame);
+    ForcePair pair = contact->pair;
+    pair.at_cut = to_part.transpose() * pair.at_cut;
+    pair.from_cut = to_part.transpose() * pair.from_cut;
+    cut.ports = ports_of(cut.structure, residual, pair);
+  } else {
+    cut.structure = contact_state(structure, process.frame);
+    cut.ports = ports_of(cut.structure, residual);
+  }
   const double step_rad = turn_rad / steps_a_turn;
   cut.rad_per_s = point.spindle_speed_rpm * turn_rad / 60.0;
-  cut.rule = march_rule(cut.structure, residual, step_rad / cut.rad_per_s, step_rad);
   cut.discs = tooth_discs(process, point.depth_m, options.steps, earlier_passes);
   cut.steps_a_turn = steps_a_turn;
   cut.entry_rad = process.engagement.entry_rad;

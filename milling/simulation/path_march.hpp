@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "milling/simulation/chip_force.hpp"
 #include "milling/simulation/circular_cut.hpp"
 #include "milling/simulation/march_step.hpp"
+#include "milling/simulation/one_sided_contact.hpp"
 #include "milling/simulation/tooth_discs.hpp"
 #include "milling/simulation/turns.hpp"
 
@@ -38,7 +40,7 @@ struct PathStep {
 /// A structure and a cut made ready to be marched along its path.
 struct PathCut {
   ContactState structure;
-  MarchRule rule;
+  MarchPorts ports;
   std::vector<ToothDisc> discs;
   int steps_a_turn = 0;
   double entry_rad = 0.0;  ///< angle of the tip of the first tooth when the simulation begins
@@ -50,20 +52,23 @@ struct PathCut {
   Eigen::VectorXd start;                              ///< state when the simulation begins
   Eigen::Vector3d start_m = Eigen::Vector3d::Zero();  ///< and the displacement then, tool axes
   std::vector<TipPass> tips;
+  std::optional<OneSidedContact> contact;
 };
 
 /// `structure` in part axes; at rest under `first_force_n` (tool axes). Throws as tooth_discs(), and for a structure
 /// that does not move in the plane of the cut.
 [[nodiscard]] PathCut path_cut(const RelativeStructure& structure, const MillingProcess& process,
                                const SimulatedPoint& point, const SimulationOptions& options, int steps_a_turn,
-                               int earlier_passes);
+                               int earlier_passes, const std::optional<OneSidedContact>& contact = {});
 
 /// A motion of turns.hpp. `Material` has
 ///
 ///     double chip(const ToothDisc&, DiscRay&, double node, centre)   m; ≤ 0 without contact; sets `found` of the ray
 ///                                                                    where there is material on it
 ///     void leave(const PathStep&)                                    removes what the teeth of a step have swept
-template <class Material, class ChipForce>
+///
+/// N = 4 forces with a contact that may open, else 3.
+template <int N, class Material, class ChipForce>
 class PathMotion {
  public:
   /// Keeps references to all three.
@@ -71,11 +76,13 @@ class PathMotion {
       : c_(cut),
         material_(material),
         chip_force_(chip_force),
+        rule_(march_rule<N>(cut.structure, cut.ports, 2.0 * cut.node_rad / cut.rad_per_s, 2.0 * cut.node_rad)),
         x_(cut.start),
-        periods_{cut.tips, 2.0 * std::numbers::pi, 1, 2 * cut.steps_a_turn, cut.rad_per_s} {
+        periods_{cut.tips, 2.0 * std::numbers::pi, 1, 2 * cut.steps_a_turn, cut.rad_per_s, N == 4} {
     step_.in_cut = true;
     step_.step_rad = 2.0 * cut.node_rad;
     step_.at[0].displacement_m = cut.start_m;
+    if constexpr (N == 4) step_.at[0].opening_m = cut.structure.pair_motion.dot(x_);
     turn_to(0);
     load(0, step_.at[0]);
   }
@@ -141,13 +148,18 @@ class PathMotion {
       at.force_n[2] += disc.width_m * f.axial;
       at.torque_n_m += disc.width_m * f.tangential * disc.radius_m;
     }
+    if constexpr (N == 4) {
+      const double force = force_between(*c_.contact, at.opening_m, at.opening_slope * c_.rad_per_s);
+      at.separating_n = std::max(0.0, -force);
+      at.pressing_n = std::max(0.0, force);
+    }
   }
 
   int over_step() {
     turn_to(1);
     turn_to(2);
-    const int unsettled = settle_forces(c_.rule, x_, true, step_, [&](std::size_t c, MarchNode& at) { load(c, at); });
-    advance_state(c_.rule, step_, x_);
+    const int unsettled = settle_forces<N>(rule_, x_, true, step_, [&](std::size_t c, MarchNode& at) { load(c, at); });
+    advance_state<N>(rule_, step_, x_);
     PathStep accepted{node_, {}, rays_};
     for (const std::size_t c : {std::size_t{0}, std::size_t{1}, std::size_t{2}})
       accepted.centre[c] = fed(c) + step_.at[c].displacement_m.template head<2>();
@@ -160,11 +172,26 @@ class PathMotion {
   const PathCut& c_;
   Material& material_;
   const ChipForce& chip_force_;
+  MarchRule<N> rule_;
   Eigen::VectorXd x_;
   Periods periods_;
   MarchStep step_;
   std::array<std::vector<DiscRay>, 3> rays_;  ///< of each node of the step and each disc
   long node_ = 0;                             ///< where the step begins
 };
+
+/// over_turns() of the motion on a material, with a contact that may open where the cut has one.
+template <class Material, class ChipForce>
+SimulatedCut over_path(const PathCut& cut, Material& material, const ChipForce& chip_force,
+                       const MillingProcess& process, const SimulationOptions& options,
+                       const TurnObserver& after_turn) {
+  const double feed_m_per_rad = cut.feed_per_node_m / cut.node_rad;
+  if (cut.contact) {
+    PathMotion<4, Material, ChipForce> motion(cut, material, chip_force);
+    return over_turns(motion, process, feed_m_per_rad, options, after_turn);
+  }
+  PathMotion<3, Material, ChipForce> motion(cut, material, chip_force);
+  return over_turns(motion, process, feed_m_per_rad, options, after_turn);
+}
 
 }  // namespace thinwall::milling

@@ -82,6 +82,7 @@ void Record::operator()(const MarchStep& step) {
   take_parabola(result_.force_n, step, force);
   if (traced_rad_ >= 0.0) take_trace(step);
   take_passes(step);
+  if (result_.contact) take_contact(step, *result_.contact);
   displaced_ += step.integral([](const MarchNode& n) { return Eigen::Vector3d(n.displacement_m); });
   if (!step.in_cut) return;
   for (const MarchNode& node : step.at) {
@@ -107,6 +108,15 @@ void Record::take_trace(const MarchStep& step) {
         step.value(rotation, [](const MarchNode& n) { return Eigen::Vector3d(n.force_n); });
     trace.torque_n_m(next_sample_) = step.value(rotation, [](const MarchNode& n) { return n.torque_n_m; });
   }
+}
+
+void Record::take_contact(const MarchStep& step, ContactOutcome& contact) {
+  for (const MarchNode& node : step.at) {
+    contact.least_n = std::min(contact.least_n, node.pressing_n);
+    contact.largest_n = std::max(contact.largest_n, node.pressing_n);
+    if (node.separating_n > 0.0) contact.widest_m = std::max(contact.widest_m, node.opening_m);
+  }
+  open_rad_ += step.integral([](const MarchNode& n) { return n.separating_n > 0.0 ? 1.0 : 0.0; });
 }
 
 void Record::take_passes(const MarchStep& step) {
@@ -140,6 +150,7 @@ void Record::finish(double recorded_rad) {
   result_.mean_torque_n_m = work_ / recorded_rad;
   result_.removed_m2 = removed_ / recorded_rad * 2.0 * std::numbers::pi;
   result_.mean_power_w = result_.mean_torque_n_m * rad_per_s_;
+  if (result_.contact) result_.contact->open_share = open_rad_ / recorded_rad;
   result_.share_without_contact = within_ > 0.0 ? without_contact_ / within_ : 0.0;
   result_.passes.assign(passes_.begin(), passes_.end());
   const Eigen::MatrixXd samples = entries_of_first_tooth(result_, rad_per_s_);

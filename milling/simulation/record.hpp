@@ -27,6 +27,7 @@ class Record {
 
  private:
   void take_trace(const MarchStep& step);
+  void take_contact(const MarchStep& step, ContactOutcome& contact);
   void take_passes(const MarchStep& step);
 
   std::vector<TipPass> tips_;
@@ -40,7 +41,7 @@ class Record {
   double period_start_s_ = 0.0, traced_rad_ = -1.0;
   Eigen::Vector3d impulse_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d displaced_ = Eigen::Vector3d::Zero();
-  double work_ = 0.0, removed_ = 0.0, within_ = 0.0, without_contact_ = 0.0;
+  double work_ = 0.0, removed_ = 0.0, within_ = 0.0, without_contact_ = 0.0, open_rad_ = 0.0;
 };
 
 }  // namespace thinwall::milling

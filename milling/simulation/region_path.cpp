@@ -163,7 +163,7 @@ RegionCut simulate_region(const RelativeStructure& structure, const MillingProce
                           const TurnObserver& after_turn) {
   require_usable(process, law, point, options);
   require_valid(validate(PathOptions{region.steps_a_turn, 1}));
-  const PathCut cut = path_cut(structure, process, point, options, region.steps_a_turn, 1);
+  const PathCut cut = path_cut(structure, process, point, options, region.steps_a_turn, 1, region.contact);
   const double cell = region.cell_m > 0.0 ? region.cell_m : cut.radius_m / 20.0;
   Slices slices(part, cell, cut, region.edge);
   double behind = 0.0;
@@ -174,8 +174,7 @@ RegionCut simulate_region(const RelativeStructure& structure, const MillingProce
   const double before = slices.mean_area_m2();
   RegionCut result;
   result.cut = with_chip_force(process, law, [&](const auto& chip_force) {
-    PathMotion motion(cut, slices, chip_force);
-    return over_turns(motion, process, cut.feed_per_node_m / cut.node_rad, options, after_turn);
+    return over_path(cut, slices, chip_force, process, options, after_turn);
   });
   result.removed_m2 = before - slices.mean_area_m2();
   const std::vector<Disc> heights = discs_of(process, point.depth_m, options.steps);

@@ -1,6 +1,7 @@
 #pragma once
 // Milling in the time domain with the part as a region from which each tooth takes what it sweeps.
 
+#include <optional>
 #include <vector>
 
 #include "milling/simulation/exact_path.hpp"
@@ -18,7 +19,8 @@ enum class SweptEdge {
 struct RegionOptions {
   int steps_a_turn = 720;  ///< ≥ 24
   SweptEdge edge = SweptEdge::arcs;
-  double cell_m = 0.0;  ///< of PartRegion; 0: a twentieth of the cutter's radius
+  double cell_m = 0.0;                          ///< of PartRegion; 0: a twentieth of the cutter's radius
+  std::optional<OneSidedContact> contact = {};  ///< of a support, that may open
 };
 
 /// What is left of the part at a height.

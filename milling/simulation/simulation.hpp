@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "milling/cut/process.hpp"
 #include "milling/simulation/march_grid.hpp"
 #include "milling/simulation/motion_kind.hpp"
+#include "milling/simulation/one_sided_contact.hpp"
 #include "milling/simulation/wall.hpp"
 #include "milling/structure/relative_structure.hpp"
 
@@ -100,9 +102,10 @@ struct SimulatedCut {
   double removed_m2 = 0.0;  ///< area in the plane of the cut that a turn removes, mean over depth; of exact paths
   Eigen::Vector3d mean_force_n = Eigen::Vector3d::Zero();  ///< over time
   double mean_torque_n_m = 0.0;
-  double mean_power_w = 0.0;           ///< mean torque times Ω
-  double share_without_contact = 0.0;  ///< of the time that teeth spend within the angles of the cut
-  std::vector<ToothPass> passes;       ///< the last `kept_passes`, in the order of entry
+  double mean_power_w = 0.0;              ///< mean torque times Ω
+  double share_without_contact = 0.0;     ///< of the time that teeth spend within the angles of the cut
+  std::vector<ToothPass> passes;          ///< the last `kept_passes`, in the order of entry
+  std::optional<ContactOutcome> contact;  ///< of a support whose contact may open
   MotionKind motion;
   Trace trace;              ///< of the last `traced_turns`
   std::vector<Wall> walls;  ///< of the last turns, as WallOptions asks for them

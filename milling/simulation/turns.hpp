@@ -2,6 +2,7 @@
 // The turns of a simulated cut: what is settled, recorded, traced and measured along the wall, for any way to march.
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "milling/simulation/record.hpp"
@@ -15,8 +16,9 @@ struct Periods {
   std::vector<TipPass> tips;  ///< of a period
   double period_rad = 0.0;
   int a_turn = 1;
-  int nodes = 0;           ///< of a period, at which forces are settled
-  double rad_per_s = 0.0;  ///< Ω
+  int nodes = 0;             ///< of a period, at which forces are settled
+  double rad_per_s = 0.0;    ///< Ω
+  bool has_contact = false;  ///< a support's that may open
 };
 
 /// Marches a motion over the turns of `options`. `Marched` has
@@ -33,6 +35,7 @@ SimulatedCut over_turns(Marched& motion, const MillingProcess& process, double f
   SimulatedCut result;
   const Periods& of = motion.periods();
   const double period_s = of.period_rad / of.rad_per_s;
+  if (of.has_contact) result.contact = {0.0, std::numeric_limits<double>::infinity(), 0.0, 0.0};
   Record record(of.tips, of.rad_per_s, options, result);
   WallRecorder wall(process, feed_m_per_rad, of.tips, of.period_rad, options.wall);
   const auto observe = [&](const MarchStep& step) {

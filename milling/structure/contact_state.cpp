@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <complex>
+#include <string>
 #include <vector>
 
 #include "core/dense_factorisations.hpp"
@@ -36,6 +37,18 @@ Eigen::Matrix2Xd yielding_directions(const Eigen::Matrix2Xcd& phi, const Relativ
 }  // namespace
 
 ContactState contact_state(const RelativeStructure& structure, const ToolFrame& frame) {
+  const Eigen::VectorXcd none = Eigen::VectorXcd::Zero(structure.poles.size());
+  ContactState state = contact_state(structure, ForcePair{none, none}, frame);
+  state.pair_force.resize(0);
+  state.pair_motion.resize(0);
+  return state;
+}
+
+ContactState contact_state(const RelativeStructure& structure, const ForcePair& pair, const ToolFrame& frame) {
+  if (pair.phi.size() != structure.poles.size() || pair.b.size() != structure.poles.size()) {
+    throw core::InputError("pair of forces: " + std::to_string(pair.phi.size()) + " poles, must be the " +
+                           std::to_string(structure.poles.size()) + " of the structure at the cut");
+  }
   const Eigen::Matrix3d R = frame.rotation();
   const Eigen::Matrix3Xcd in_space = R.transpose() * structure.phi;
   const Eigen::Matrix2Xcd phi = in_space.topRows<2>();
@@ -55,14 +68,20 @@ ContactState contact_state(const RelativeStructure& structure, const ToolFrame& 
   state.B.resize(2 * n + m, 3);
   state.C.resize(state.in_plane.cols(), 2 * n + m);
   state.motion.resize(3, 2 * n + m);
-  const auto place = [&](Eigen::Index mode, Eigen::Index row, bool pair) {
+  state.pair_force.resize(2 * n + m);
+  state.pair_motion.resize(2 * n + m);
+  const auto place = [&](Eigen::Index mode, Eigen::Index row, bool conjugate) {
     const double norm = phi.col(mode).norm();
     const double scale = norm > 0.0 ? norm : 1.0;
     const Eigen::VectorXcd shape = state.in_plane.transpose() * phi.col(mode) / scale;
     state.B.row(row) = b.col(mode).real().transpose() * scale;
-    state.C.col(row) = shape.real() * (pair ? 2.0 : 1.0);
-    state.motion.col(row) = in_space.col(mode).real() / scale * (pair ? 2.0 : 1.0);
-    if (!pair) return;
+    state.C.col(row) = shape.real() * (conjugate ? 2.0 : 1.0);
+    state.motion.col(row) = in_space.col(mode).real() / scale * (conjugate ? 2.0 : 1.0);
+    state.pair_force(row) = pair.b(mode).real() * scale;
+    state.pair_motion(row) = pair.phi(mode).real() / scale * (conjugate ? 2.0 : 1.0);
+    if (!conjugate) return;
+    state.pair_force(n + row) = pair.b(mode).imag() * scale;
+    state.pair_motion(n + row) = -2.0 * pair.phi(mode).imag() / scale;
     state.B.row(n + row) = b.col(mode).imag().transpose() * scale;
     state.C.col(n + row) = -2.0 * shape.imag();
     state.motion.col(n + row) = -2.0 * in_space.col(mode).imag() / scale;

@@ -22,6 +22,8 @@ struct ContactState {
   Eigen::MatrixXd C;         ///< p × states
   Eigen::Matrix3Xd motion;   ///< 3 × states: the displacement in tool axes, the axis included
   Eigen::Matrix2Xd in_plane;
+  Eigen::VectorXd pair_force;   ///< states: B of a pair of forces elsewhere; empty without one
+  Eigen::VectorXd pair_motion;  ///< states: the distance between its two points, m
 
   /// Number of states: two a pair of poles, one a real pole.
   [[nodiscard]] Eigen::Index size() const { return 2 * decay.size() + real_pole.size(); }
@@ -31,6 +33,11 @@ struct ContactState {
 
 /// Throws InputError if the structure does not move in the plane of the cut. Cost O(poles).
 [[nodiscard]] ContactState contact_state(const RelativeStructure& structure, const ToolFrame& frame);
+
+/// As above, with a pair of forces on two other points of the structure. Throws InputError for another number of poles,
+/// too.
+[[nodiscard]] ContactState contact_state(const RelativeStructure& structure, const ForcePair& pair,
+                                         const ToolFrame& frame);
 
 /// Λ, states × states.
 [[nodiscard]] Eigen::MatrixXd state_matrix(const ContactState& state);

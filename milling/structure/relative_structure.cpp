@@ -74,6 +74,28 @@ RelativeStructure relative_structure(const dynamics::ModalModel& model, const st
   return structure;
 }
 
+ForcePair force_pair(const dynamics::ModalModel& model, const std::string& cut, const std::string& first,
+                     const std::string& second, const Eigen::Vector3d& direction, Eigen::Index further) {
+  require_finite(model);
+  const Eigen::RowVectorXd apart = (dynamics::displacement_row(model.dofs, first, direction) -
+                                    dynamics::displacement_row(model.dofs, second, direction))
+                                       .transpose();
+  const auto chosen = independent_poles(model.poles);
+  const auto poles = static_cast<Eigen::Index>(chosen.size());
+  // The cut acts on the part with the opposite of the force on the tool, and the tool moves against the part: states at
+  // the cut are those of the part with the other sign.
+  ForcePair pair{Eigen::VectorXcd::Zero(poles + further), Eigen::VectorXcd::Zero(poles + further)};
+  pair.phi.head(poles) = -(apart * model.right(Eigen::all, chosen)).transpose();
+  pair.b.head(poles) =
+      -(apart * model.left(Eigen::all, chosen) * model.scaling(chosen).cwiseInverse().asDiagonal()).transpose();
+  if (model.residual.size() == 0) return pair;
+  const Eigen::Matrix3Xd at_cut = displacement_rows(model.dofs, cut);
+  pair.at_cut = -at_cut * model.residual * apart.transpose();
+  pair.from_cut = -at_cut * model.residual.transpose() * apart.transpose();
+  pair.residual = (apart * model.residual * apart.transpose())(0);
+  return pair;
+}
+
 RelativeStructure sum(const RelativeStructure& a, const RelativeStructure& b) {
   const Eigen::Index count = a.poles.size() + b.poles.size();
   RelativeStructure both{Eigen::VectorXcd(count), Eigen::Matrix3Xcd(3, count), Eigen::Matrix3Xcd(3, count), a.R + b.R};

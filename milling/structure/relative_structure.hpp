@@ -29,6 +29,23 @@ struct RelativeStructure {
 /// O(poles).
 [[nodiscard]] RelativeStructure relative_structure(const dynamics::ModalModel& model, const std::string& point);
 
+/// Two points elsewhere that a pair of opposite unit forces along a line pushes apart, with the same poles as the
+/// structure at the cut: what one does to the other.
+struct ForcePair {
+  Eigen::VectorXcd phi;                                ///< the distance between the points along the line, of each pole
+  Eigen::VectorXcd b;                                  ///< force shapes of the pair over the modal scaling
+  Eigen::Vector3d at_cut = Eigen::Vector3d::Zero();    ///< quasi-static q at the cut under the pair, m/N, part axes
+  Eigen::Vector3d from_cut = Eigen::Vector3d::Zero();  ///< distance under forces on the tool at the cut, m/N
+  double residual = 0.0;                               ///< distance under the pair, m/N
+};
+
+/// The pair of forces along the unit vector `direction`, on `first` with it and on `second` against it, for the
+/// structure that relative_structure(model, cut) gives, and zeros for `further` poles behind these. Throws InputError
+/// for an unknown point.
+[[nodiscard]] ForcePair force_pair(const dynamics::ModalModel& model, const std::string& cut, const std::string& first,
+                                   const std::string& second, const Eigen::Vector3d& direction,
+                                   Eigen::Index further = 0);
+
 /// Sum of two receptances: part and tool, in any order.
 [[nodiscard]] RelativeStructure sum(const RelativeStructure& a, const RelativeStructure& b);
 

@@ -1,14 +1,17 @@
-// Force laws far from their limits, teeth that lose contact: the march against the plainest integration there is, with
-// some ten thousand steps a tooth.
+// Force laws far from their limits, teeth that lose contact, a support that opens: the march against the plainest
+// integration there is, with some ten thousand steps a tooth.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "milling/simulation/exact_path.hpp"
 #include "milling/simulation/simulation.hpp"
 #include "tests/milling/single_mode.hpp"
 
@@ -20,6 +23,16 @@ using std::numbers::pi;
 constexpr double frequency_hz = 922.0, damping_ratio = 0.011, mass_kg = 0.03993;
 constexpr double feed_m = 1e-4;
 constexpr int turns_marched = 20, samples_a_turn = 400;
+
+/// A support along y of which the structure holds the spring: the part moves away from it as the tool moves along −y.
+struct Support {
+  double stiffness = 0.0, damping = 0.0, preload = std::numeric_limits<double>::infinity();
+
+  /// The force on the tool that takes back what the spring pulls.
+  [[nodiscard]] Eigen::Vector2d taken_back(const Eigen::Vector2d& q, const Eigen::Vector2d& v) const {
+    return {0.0, -std::max(0.0, -stiffness * q.y() - damping * v.y() - preload)};
+  }
+};
 
 /// Down-milling at half immersion with two straight teeth: from φ = π/2 to π, then as long without a tooth.
 MillingProcess half_immersion() {
@@ -38,17 +51,19 @@ struct Row {
   double tolerance = 2e-5;  ///< of the range of the motion
 };
 
-/// Velocity Verlet at equal steps, the surface of the last tooth that cut at each of them. The tooth enters at a step
-/// and leaves at one; there the force jumps, and each side has its own.
-Eigen::Matrix2Xd integrated(const Row& row, const MillingProcess& process, double rpm, int steps_a_tooth) {
+/// Velocity Verlet at equal steps of two teeth from `entry` to π, the surface of the last tooth that cut at each of
+/// them. The tooth enters at a step and leaves at one; there the force jumps, and each side has its own.
+Eigen::Matrix2Xd integrated(const Row& row, const MillingProcess& process, double rpm, int steps_a_tooth,
+                            const Support& support = {}) {
   const double omega = 2.0 * pi * frequency_hz;
   const double dt = 30.0 / rpm / steps_a_tooth, rad_per_s = rpm * pi / 30.0;
   const CuttingCoefficients rubbing = per_slope(row.damping, process.cutter);
-  const int in_cut = steps_a_tooth / 2;
+  const double entry = process.engagement.entry_rad;
+  const int in_cut = static_cast<int>(std::lround(steps_a_tooth * (pi - entry) / pi));
   std::vector<double> surface(static_cast<std::size_t>(in_cut) + 1, 0.0);
   Eigen::Vector2d q = Eigen::Vector2d::Zero(), v = q;
   const auto force = [&](int step, bool leave_surface) -> Eigen::Vector2d {
-    const double phi = 0.5 * pi * (1.0 + static_cast<double>(step) / in_cut);
+    const double phi = entry + (pi - entry) * static_cast<double>(step) / in_cut;
     const double sine = std::sin(phi), cosine = std::cos(phi);
     const double position = sine * q.x() + cosine * q.y();
     double& left = surface[static_cast<std::size_t>(step)];
@@ -68,12 +83,15 @@ Eigen::Matrix2Xd integrated(const Row& row, const MillingProcess& process, doubl
     for (int i = 0; i < steps_a_tooth; ++i) {
       if (i % stride == 0) trace.col(sample++) = q;
       if (i <= in_cut) (void)force(i, true);
-      const Eigen::Vector2d half = v + 0.5 * dt * (after / mass_kg - omega * omega * q - 2.0 * damping_ratio * omega * v);
+      after += support.taken_back(q, v);
+      const Eigen::Vector2d half =
+          v + 0.5 * dt * (after / mass_kg - omega * omega * q - 2.0 * damping_ratio * omega * v);
       q += dt * half;
       v = half;  // of which rubbing takes its slope
       const int next = (i + 1) % steps_a_tooth;
       const Eigen::Vector2d before = i + 1 <= in_cut ? force(i + 1, false) : Eigen::Vector2d(Eigen::Vector2d::Zero());
-      v = (half + 0.5 * dt * (before / mass_kg - omega * omega * q)) / (1.0 + dt * damping_ratio * omega);
+      const Eigen::Vector2d pushed = before + support.taken_back(q, half);
+      v = (half + 0.5 * dt * (pushed / mass_kg - omega * omega * q)) / (1.0 + dt * damping_ratio * omega);
       after = next == in_cut ? Eigen::Vector2d(Eigen::Vector2d::Zero()) : next < in_cut ? force(next, false) : before;
     }
   }
@@ -83,17 +101,16 @@ Eigen::Matrix2Xd integrated(const Row& row, const MillingProcess& process, doubl
 /// Forces that set in at once, those of the edge and of rubbing, cost the step in which contact is lost or found its
 /// order: their tolerance is larger.
 TEST(ForceLaws, AreThoseOfAPlainIntegration) {
-  const std::vector<Row> rows{
-      {"linear", CuttingCoefficients{6e8, 2e8, 0.0, 0.0, 0.0, 0.0}, 0.3e-3},
-      {"power law", PowerLaw{3e8, 1e8, 0.0, 0.25, 0.35, 0.0}, 0.3e-3},
-      {"exponential", exponential_law(2e6, 0.6, 0.4), 0.3e-3},
-      {"fractional", FractionalLaw{2e9, 6e8, 0.0, 18e-6, 0.1}, 0.3e-3},
-      {"rubbing", CuttingCoefficients{6e8, 2e8, 0.0, 0.0, 0.0, 0.0}, 0.4e-3, {2e5, 0.3}, 2e-4},
-      {"edge forces", CuttingCoefficients{6e8, 2e8, 0.0, 20e3, 10e3, 0.0}, 0.3e-3, {}, 4e-4}};
-  const RelativeStructure structure = relative_structure(
-      testing::modal_model({{frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitX()},
-                            {frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitY()}}),
-      "P");
+  const std::vector<Row> rows{{"linear", CuttingCoefficients{6e8, 2e8, 0.0, 0.0, 0.0, 0.0}, 0.3e-3},
+                              {"power law", PowerLaw{3e8, 1e8, 0.0, 0.25, 0.35, 0.0}, 0.3e-3},
+                              {"exponential", exponential_law(2e6, 0.6, 0.4), 0.3e-3},
+                              {"fractional", FractionalLaw{2e9, 6e8, 0.0, 18e-6, 0.1}, 0.3e-3},
+                              {"rubbing", CuttingCoefficients{6e8, 2e8, 0.0, 0.0, 0.0, 0.0}, 0.4e-3, {2e5, 0.3}, 2e-4},
+                              {"edge forces", CuttingCoefficients{6e8, 2e8, 0.0, 20e3, 10e3, 0.0}, 0.3e-3, {}, 4e-4}};
+  const RelativeStructure structure =
+      relative_structure(testing::modal_model({{frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitX()},
+                                               {frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitY()}}),
+                         "P");
   for (const Row& row : rows) {
     MillingProcess process = half_immersion();
     if (const auto* linear = std::get_if<CuttingCoefficients>(&row.law)) process.coefficients = *linear;
@@ -112,6 +129,94 @@ TEST(ForceLaws, AreThoseOfAPlainIntegration) {
       EXPECT_LT(difference, row.tolerance * range) << row.name << " at " << rpm;
     }
   }
+}
+
+/// The mode along y of which a part of the stiffness is the support's, and its pair of forces.
+struct SupportedTool {
+  RelativeStructure structure;
+  OneSidedContact contact;
+};
+
+SupportedTool supported(const Support& support) {
+  SupportedTool tool{
+      relative_structure(testing::modal_model({{frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitX()},
+                                               {frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitY()}}),
+                         "P"),
+      {}};
+  tool.contact.pair.phi = -tool.structure.phi.row(1).transpose();
+  tool.contact.pair.b = -tool.structure.b.row(1).transpose();
+  tool.contact.stiffness_n_per_m = support.stiffness;
+  tool.contact.damping_n_s_per_m = support.damping;
+  tool.contact.preload_n = support.preload;
+  return tool;
+}
+
+/// A slot by a cutter so large that its trochoids are circles: chips begin and end at zero, no force jumps.
+MillingProcess slot() {
+  MillingProcess process;
+  process.cutter = {2, 10.0};
+  process.coefficients = {6e8, 2e8, 0.0, 0.0, 0.0, 0.0};
+  process.engagement = engagement_of(process.cutter, 10.0, MillingDirection::down);
+  return process;
+}
+
+TEST(OneSidedContact, IsThatOfAPlainIntegration) {
+  const double k = 0.6 * mass_kg * std::pow(2.0 * pi * frequency_hz, 2);
+  const MillingProcess process = slot();
+  for (const double preload : {0.0, 0.05, 0.15}) {
+    const Support support{k, 0.5, preload};
+    const SupportedTool tool = supported(support);
+    SimulationOptions options;
+    options.settling_turns = 0;
+    options.recorded_turns = options.traced_turns = turns_marched;
+    options.samples_a_turn = samples_a_turn;
+    const SimulatedCut cut = simulate_exact_path(tool.structure, process, process.coefficients,
+                                                 {7000.0, 0.1e-3, feed_m}, {}, options, {4000, 3, tool.contact});
+    ASSERT_EQ(cut.status, SimulationStatus::completed);
+    const Row row{"slot", process.coefficients, 0.1e-3};
+    const Eigen::Matrix2Xd plain = integrated(row, process, 7000.0, 20000, support);
+    const double range = (plain.rowwise().maxCoeff() - plain.rowwise().minCoeff()).norm();
+    const double difference = (cut.trace.displacement_m.topRows(2) - plain).cwiseAbs().maxCoeff();
+    EXPECT_LT(difference, 2e-4 * range) << preload;
+    EXPECT_GT(cut.contact->open_share, 0.01) << preload;
+    EXPECT_EQ(cut.contact->least_n, 0.0);
+  }
+}
+
+/// Closed all the time it is the linear structure; open all the time, the part without the support.
+TEST(OneSidedContact, IsLinearWhileItStaysClosedOrOpen) {
+  const double k = 0.6 * mass_kg * std::pow(2.0 * pi * frequency_hz, 2);
+  MillingProcess process = slot();
+  process.cutter.teeth = 8;  // whose forces hardly change
+  SimulationOptions options;
+  options.settling_turns = 0;
+  options.recorded_turns = options.traced_turns = turns_marched;
+  const auto run = [&](const RelativeStructure& structure, const std::optional<OneSidedContact>& contact) {
+    return simulate_exact_path(structure, process, process.coefficients, {3000.0, 0.02e-3, feed_m}, {}, options,
+                               {1440, 3, contact});
+  };
+  const SupportedTool pressed = supported({k, 0.0, 1e4});
+  const SimulatedCut closed = run(pressed.structure, pressed.contact);
+  const SimulatedCut linear = run(pressed.structure, {});
+  EXPECT_EQ(closed.contact->open_share, 0.0);
+  EXPECT_LT((closed.trace.displacement_m - linear.trace.displacement_m).norm(),
+            1e-9 * linear.trace.displacement_m.norm());
+
+  // Pushed away from a support on the other side before the cut begins: 0.4 of the stiffness is left along y.
+  SupportedTool away = supported({k, 0.0, 0.0});
+  away.contact.pair.phi *= -1.0;
+  away.contact.pair.b *= -1.0;
+  options.first_force_n = {0.0, 2.0, 0.0};
+  const SimulatedCut open = run(away.structure, away.contact);
+  EXPECT_NEAR(open.contact->open_share, 1.0, 1e-9);
+  const double softer = std::sqrt(0.4);
+  const RelativeStructure without = relative_structure(
+      testing::modal_model({{frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitX()},
+                            {softer * frequency_hz, damping_ratio / softer, mass_kg, Eigen::Vector3d::UnitY()}}),
+      "P");
+  options.first_force_n *= 0.4;
+  const SimulatedCut alone = run(without, {});
+  EXPECT_LT((open.trace.displacement_m - alone.trace.displacement_m).norm(), 1e-5 * alone.trace.displacement_m.norm());
 }
 
 }  // namespace
