@@ -70,20 +70,12 @@ void write_report(const std::filesystem::path& results, const report::RunAtHand&
   }
 }
 
-/// Says the whole time of a run that takes long, or whose rows take too long to be timed. A run that finds charts of an
-/// earlier one may take less, and a point of a sweep is one of many. What cannot be foreseen is an error of the run,
-/// which tells it where it is met.
-void tell_of_long_run(const cases::Case& source, const RunOptions& options) {
-  constexpr double long_s = 10.0;
-  const bool first = options.fresh || !std::filesystem::exists(options.out / "cache" / "lobes.bin");
-  if (!first || !options.parts.empty()) return;
-  try {
-    const Forecast time = forecast(source);
-    if (time.at_least() || time.whole_s() >= long_s) spdlog::info("{}", text(time));
-  } catch (const core::Interrupted&) {
-    throw;
-  } catch (const core::Error&) {
-  }
+/// Says the whole time of a run that takes long. A run that finds charts or simulations of an earlier one may take
+/// less, and a point of a sweep is one of many.
+void tell_of_first_run(const cases::Case& source, const RunOptions& options) {
+  const std::filesystem::path cache = options.out / "cache";
+  const bool known = std::filesystem::exists(cache / "lobes.bin") || std::filesystem::exists(cache / "simulation.bin");
+  if ((options.fresh || !known) && options.parts.empty()) tell_of_long_run(source);
 }
 
 report::Summary summary_of(const cases::Case& source, const study::Results& results) {
@@ -97,7 +89,7 @@ report::Summary summary_of(const cases::Case& source, const study::Results& resu
 
 RunResult run_case(const cases::Case& source, const RunOptions& options) {
   const std::string started = now_utc();
-  tell_of_long_run(source, options);
+  tell_of_first_run(source, options);
   const auto expectations = cases::read_expectations(source.file);
   messages_to_log();
   for (const std::string& doubt : cases::doubts_about(source)) core::warn(doubt);
@@ -106,7 +98,10 @@ RunResult run_case(const cases::Case& source, const RunOptions& options) {
                                              : ProgressDisplay::none);
   study::Kept kept{part_checkpoint(source, options),
                    {options.out / "cache" / "structure.bin", study::structure_key(source), options.fresh},
-                   {options.out / "cache" / "lobes.bin", study::charts_key(source), options.fresh}};
+                   {options.out / "cache" / "lobes.bin", study::charts_key(source), options.fresh},
+                   source.simulation ? study::Checkpoint(options.out / "cache" / "simulation.bin",
+                                                         study::simulation_key(source), options.fresh)
+                                     : study::Checkpoint()};
   study::Results results = study::run(source, cases::variation_of(source), kept, {options.points, display.listener()});
   study::Stages stages(display.listener());
   stages.begin("output");

@@ -116,9 +116,10 @@ ExitCode robot(const Arguments& arguments, std::ostream& out) {
 
 ExitCode simulate(const Arguments& arguments, std::ostream& out) {
   SimulateRequest request = arguments.simulate;
-  request.display = start_log(arguments);
-  out << simulate_case(cases::read_case(arguments.case_path, arguments.overrides), operating_points(arguments),
-                       arguments.out, request);
+  request.points = arguments.points;
+  const ProgressDisplay display = start_log(arguments);
+  if (arguments.threads > 0) core::set_thread_count(arguments.threads);
+  out << simulate_case(simulated_case(arguments.case_path, arguments.overrides, request), arguments.out, display);
   return ExitCode::done;
 }
 
@@ -148,6 +149,14 @@ void tell_size(const cases::Case& source, const setup::PartSize& size, std::ostr
       << "  time      " << about(size.seconds) << " for mesh, modes and reduction on two cores\n";
 }
 
+void tell_simulation(const study::SimulationForecast& time, std::ostream& out) {
+  const auto rounded = [](double value) { return core::readable_text(value, core::kind::number); };
+  out << "  simulated " << rounded(time.points) << " points";
+  if (time.map_points > 0.0) out << ", and a map of " << rounded(time.map_points);
+  out << ", " << rounded(time.turns) << " turns together\n  time      " << about(time.seconds) << " on "
+      << core::thread_count() << (core::thread_count() == 1 ? " thread\n" : " threads\n");
+}
+
 void tell_lobes(const setup::LobesOptions& lobes, const Forecast& time, std::ostream& out) {
   out << "  lobes     " << lobes.count << " speeds, and up to " << setup::most_added(lobes)
       << " between them where the line needs them\n";
@@ -175,6 +184,7 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
   }
   for (const std::string& doubt : cases::doubts_about(source)) out << "  warning   " << doubt << '\n';
   if (source.lobes) tell_lobes(*source.lobes, time, out);
+  if (time.simulation) tell_simulation(*time.simulation, out);
   if (!expectations.empty()) out << "  expected  " << expectations.size() << " figures\n";
   return ExitCode::done;
 }

@@ -123,15 +123,18 @@ void describe_inspect(CLI::App& app, Arguments& arguments) {
 
 void describe_simulate(CLI::App& app, Arguments& arguments) {
   SimulateRequest& simulate = arguments.simulate;
-  auto* command = app.add_subcommand("simulate",
-                                     "operating points of a case in the time domain: how large the vibration becomes, "
-                                     "where teeth leave the cut, and the wall");
+  auto* command =
+      app.add_subcommand("simulate",
+                         "operating points of a case in the time domain: how large the vibration becomes, "
+                         "where teeth leave the cut, and the wall; options go before [simulation] of the case");
   add_case_arguments(*command, arguments);
   command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
-  command->add_option("--at", arguments.points, "an operating point, several times: --at \"5000 rpm, 0.5 mm\"")
+  command
+      ->add_option("--at", arguments.points,
+                   "an operating point, several times: --at \"5000 rpm, 0.5 mm\" (default: simulation.at, else both "
+                   "sides of the boundary at the case's own speed)")
       ->type_name("\"SPEED, DEPTH\"")
-      ->allow_extra_args(false)
-      ->required();
+      ->allow_extra_args(false);
   command
       ->add_option("--paths", simulate.paths,
                    "how teeth move: on circles between fixed angles of entry and exit (default), or exactly, with "
@@ -146,9 +149,10 @@ void describe_simulate(CLI::App& app, Arguments& arguments) {
       ->add_option("--trace", simulate.traced_turns,
                    "of them, those written sample by sample, and of whose lines the text tells (default: 50)")
       ->check(CLI::Range(0, 10000));
-  command->add_option("--steps", simulate.steps, "steps of a tooth from entry to exit (default: 200)")
+  command->add_option("--steps", simulate.steps, "steps of a tooth from entry to exit, on circles (default: 200)")
       ->check(CLI::Range(4, 100000));
   add_log_arguments(*command, arguments);
+  command->add_option("--threads", arguments.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
 }
 
 void describe_for_the_shell(CLI::App& app, Arguments& arguments) {

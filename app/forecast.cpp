@@ -1,9 +1,14 @@
 #include "app/forecast.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
+#include <array>
+#include <tuple>
 
 #include "app/stage_display.hpp"
 #include "case/checks/mesh_size.hpp"
+#include "core/error.hpp"
 #include "study/part/part_forecast.hpp"
 
 namespace thinwall::app {
@@ -22,6 +27,7 @@ Forecast forecast(const cases::Case& source) {
   Forecast result;
   if (source.part) result.part = size_of(source);
   result.lobes = study::forecast_lobes(source);
+  result.simulation = study::forecast_simulation(source);
   return result;
 }
 
@@ -30,10 +36,29 @@ std::string about(double seconds, bool at_least) {
 }
 
 std::string text(const Forecast& forecast) {
-  std::string line = "this takes " + about(forecast.whole_s(), forecast.at_least());
-  if (forecast.part_s() >= 1.0 && forecast.lobes_s() >= 1.0)
-    line += ": the part " + about(forecast.part_s()) + ", the lobes " + about(forecast.lobes_s(), forecast.at_least());
-  return line;
+  const std::string line = "this takes " + about(forecast.whole_s(), forecast.at_least());
+  const std::array<std::tuple<const char*, double, bool>, 3> pieces{
+      {{"the part ", forecast.part_s(), false},
+       {"the lobes ", forecast.lobes_s(), forecast.at_least()},
+       {"the simulation ", forecast.simulation_s(), false}}};
+  std::string list;
+  int told = 0;
+  for (const auto& [name, seconds, at_least] : pieces) {
+    if (seconds < 1.0) continue;
+    list += (told++ == 0 ? ": " : ", ") + (name + about(seconds, at_least));
+  }
+  return told > 1 ? line + list : line;
+}
+
+void tell_of_long_run(const cases::Case& source) {
+  constexpr double long_s = 10.0;
+  try {
+    const Forecast time = forecast(source);
+    if (time.at_least() || time.whole_s() >= long_s) spdlog::info("{}", text(time));
+  } catch (const core::Interrupted&) {
+    throw;
+  } catch (const core::Error&) {
+  }
 }
 
 }  // namespace thinwall::app

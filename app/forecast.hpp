@@ -7,6 +7,7 @@
 #include "case/machining_case.hpp"
 #include "setup/part_size.hpp"
 #include "study/lobes/lobes_forecast.hpp"
+#include "study/simulation/simulation_forecast.hpp"
 
 namespace thinwall::app {
 
@@ -14,17 +15,20 @@ namespace thinwall::app {
 struct Forecast {
   std::optional<setup::PartSize> part;
   std::optional<study::LobesForecast> lobes;
+  std::optional<study::SimulationForecast> simulation;
 
   [[nodiscard]] double part_s() const { return part ? part->seconds : 0.0; }
   [[nodiscard]] double lobes_s() const { return lobes ? lobes->seconds : 0.0; }
-  [[nodiscard]] double whole_s() const { return part_s() + lobes_s(); }
+  [[nodiscard]] double simulation_s() const { return simulation ? simulation->seconds : 0.0; }
+  [[nodiscard]] double whole_s() const { return part_s() + lobes_s() + simulation_s(); }
   /// True if it is known only that the run takes as long or longer.
   [[nodiscard]] bool at_least() const { return lobes && lobes->at_least; }
 };
 
 /// The forecast of a case: the part from its first mesh where a file holds it (study::forecast()), else by
-/// cases::estimate_size(), and study::forecast_lobes(). Throws InputError for points that do not hold the part, and as
-/// study::forecast(). Cost: two seconds for the charts at most, and the first mesh.
+/// cases::estimate_size(), study::forecast_lobes() and study::forecast_simulation(). Throws InputError for points that
+/// do not hold the part, and as study::forecast(). Cost: two seconds for charts and simulation at most each, and the
+/// first mesh.
 [[nodiscard]] Forecast forecast(const cases::Case& source);
 
 /// "about 3 min" or, of what is only known to be longer, "over 3 min"; a second at least.
@@ -32,5 +36,9 @@ struct Forecast {
 
 /// A line that says the whole time and what it consists of.
 [[nodiscard]] std::string text(const Forecast& forecast);
+
+/// Logs that line for a case that takes ten seconds or longer, or whose rows take too long to be timed. What cannot be
+/// foreseen is an error of the run, which tells it where it is met. Throws Interrupted. Cost: as forecast().
+void tell_of_long_run(const cases::Case& source);
 
 }  // namespace thinwall::app

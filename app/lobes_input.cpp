@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "case/operating_point.hpp"
 #include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "case/writer.hpp"
@@ -225,25 +226,17 @@ cases::Case from_files(const LobesInput& input) {
 
 cases::Case lobes_case(const LobesInput& input) {
   const fs::path first = input.sources.front();
-  return fs::is_directory(first) || first.extension() == ".toml" ? from_case(input) : from_files(input);
+  cases::Case source = fs::is_directory(first) || first.extension() == ".toml" ? from_case(input) : from_files(input);
+  source.simulation.reset();  // the charts alone
+  return source;
 }
 
 milling::OperatingPoint operating_point(const std::string& text) {
-  const auto fail = [&](const std::string& why) {
-    throw UsageError("--at \"" + text + "\": " + why + "; write --at \"5000 rpm, 0.5 mm\"");
-  };
-  const auto comma = text.find(',');
-  if (comma == std::string::npos || text.find(',', comma + 1) != std::string::npos)
-    fail("a spindle speed and a depth with one comma between them are expected");
-  milling::OperatingPoint point;
   try {
-    point.spindle_speed_rpm = core::parse_quantity(text.substr(0, comma), core::kind::spindle_speed);
-    point.depth_m = core::parse_quantity(text.substr(comma + 1), core::kind::length);
+    return cases::operating_point(text);
   } catch (const core::InputError& error) {
-    fail(error.what());
+    throw UsageError("--at \"" + text + "\": " + error.what() + "; write --at \"5000 rpm, 0.5 mm\"");
   }
-  if (!(point.spindle_speed_rpm > 0.0) || !(point.depth_m > 0.0)) fail("speed and depth must be above 0");
-  return point;
 }
 
 }  // namespace thinwall::app

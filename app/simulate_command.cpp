@@ -1,13 +1,18 @@
 #include "app/simulate_command.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include "app/forecast.hpp"
+#include "app/lobes_input.hpp"
 #include "app/log.hpp"
 #include "case/numbers.hpp"
+#include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "report/publish.hpp"
 #include "report/result_folder.hpp"
-#include "report/simulation_report.hpp"
+#include "report/simulation/simulation_files.hpp"
+#include "report/simulation/simulation_report.hpp"
+#include "report/summary.hpp"
 #include "study/kept/stage_keys.hpp"
 #include "study/run.hpp"
 
@@ -15,45 +20,56 @@ namespace thinwall::app {
 
 namespace {
 
-study::SimulationRequest simulation_of(const std::vector<milling::OperatingPoint>& points,
-                                       const SimulateRequest& request) {
-  study::SimulationRequest simulation;
-  simulation.points = points;
-  simulation.paths = request.paths == "exact" ? study::ToothPaths::exact : study::ToothPaths::circular;
-  simulation.options.settling_turns = request.settling_turns;
-  simulation.options.recorded_turns = request.turns;
-  simulation.options.traced_turns = std::min(request.traced_turns, request.turns);
-  simulation.options.wall.turns = request.turns >= 4 ? std::min(request.turns, 20) : 0;
-  simulation.options.steps.steps_in_cut = request.steps;
-  return simulation;
+/// The points as a list of TOML.
+std::string list_of(const std::vector<std::string>& points) {
+  std::string list;
+  for (const std::string& point : points) {
+    (void)operating_point(point);  // throws what is said of --at
+    list += (list.empty() ? "\"" : ", \"") + point + "\"";
+  }
+  return "[" + list + "]";
 }
 
 }  // namespace
 
-std::string simulate_case(cases::Case source, const std::vector<milling::OperatingPoint>& points,
-                          const std::filesystem::path& out, const SimulateRequest& request) {
-  const study::SimulationRequest simulation = simulation_of(points, request);
+cases::Case simulated_case(const std::filesystem::path& path, std::vector<std::string> overrides,
+                           const SimulateRequest& request) {
+  const auto put = [&overrides](const char* key, const auto& value) {
+    if (value) overrides.push_back(fmt::format("simulation.{}={}", key, *value));
+  };
+  if (!request.points.empty()) overrides.push_back("simulation.at=" + list_of(request.points));
+  put("paths", request.paths);
+  put("settling_turns", request.settling_turns);
+  put("turns", request.turns);
+  put("trace", request.traced_turns);
+  put("steps", request.steps);
+  cases::Case source = cases::read_case(path, overrides);
+  if (source.simulation) return source;
+  overrides.emplace_back("simulation.paths=circular");
+  return cases::read_case(path, overrides);
+}
+
+std::string simulate_case(cases::Case source, const std::filesystem::path& out, ProgressDisplay display) {
   source.lobes.reset();
   source.path.reset();
   const report::ResultFolder folder(out.empty() ? report::default_result_folder(source.name) : out);
   log_to_file(folder.path() / "run.log");  // marks the folder as ours
+  tell_of_long_run(source);
   messages_to_log();
-  study::Kept kept{source.part ? study::Checkpoint(folder.path() / "cache" / "part.bin", study::part_key(source), false)
-                               : study::Checkpoint(),
-                   {},
-                   {}};
-  StageDisplay display(request.display);
-  const study::Results results =
-      study::run(source, cases::variation_of(source), kept, {.on_stage = display.listener()});
-  study::Stages stages(display.listener());
-  stages.begin("simulation");
-  const auto simulated = study::simulate_points(results.setup, results, simulation);
-  stages.end();
+  const auto cache = folder.path() / "cache";
+  study::Kept kept{
+      source.part ? study::Checkpoint(cache / "part.bin", study::part_key(source), false) : study::Checkpoint(),
+      {},
+      {},
+      {cache / "simulation.bin", study::simulation_key(source), false}};
+  StageDisplay stages(display);
+  const study::Results results = study::run(source, cases::variation_of(source), kept, {.on_stage = stages.listener()});
   const auto staging = core::partial_path(folder.path() / "simulated");
-  report::write_simulation(staging, simulated);
+  report::write_simulation(staging, results);
   report::publish_folder(staging / "simulation", folder.path() / "simulation");
   std::filesystem::remove(staging);
-  return (source.title.empty() ? "" : source.title + "\n") + report::simulation_text(simulated) +
+  return (source.title.empty() ? "" : source.title + "\n") +
+         report::simulation_text(report::summary_of(results.setup, results)) +
          "  tables: " + (folder.path() / "simulation").string() + "\n";
 }
 

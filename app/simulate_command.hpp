@@ -2,26 +2,30 @@
 // `thinwall simulate`: operating points of a case in the time domain.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/stage_display.hpp"
 #include "case/machining_case.hpp"
-#include "milling/chart/operating_point.hpp"
 
 namespace thinwall::app {
 
-/// The options of `thinwall simulate`, besides those of every case.
+/// The options of `thinwall simulate`, besides those of every case: what is given takes the place of [simulation].
 struct SimulateRequest {
-  std::string paths = "circular";
-  ProgressDisplay display = ProgressDisplay::none;  ///< how stages are shown
-  int settling_turns = 400, turns = 200, traced_turns = 50, steps = 200;
+  std::vector<std::string> points;  ///< "5000 rpm, 0.5 mm"
+  std::optional<std::string> paths;
+  std::optional<int> settling_turns, turns, traced_turns, steps;
 };
 
-/// Computes part, robot and both as `run` does, with the part that an earlier run in the same folder has kept,
-/// simulates the points, writes simulation/ into `out` (empty: results/<case>) and returns the text for the terminal.
-/// Throws core::Error.
-[[nodiscard]] std::string simulate_case(cases::Case source, const std::vector<milling::OperatingPoint>& points,
-                                        const std::filesystem::path& out, const SimulateRequest& request);
+/// The case of that path with the options of the request put over its [simulation]; one without [simulation] gets it
+/// with its defaults. Throws as cases::read_case(), and UsageError for points that are none.
+[[nodiscard]] cases::Case simulated_case(const std::filesystem::path& path, std::vector<std::string> overrides,
+                                         const SimulateRequest& request);
+
+/// Computes part, robot and both as `run` does, with the part and the simulations that an earlier run in the same
+/// folder has kept, simulates what the case's [simulation] says, writes simulation/ into `out` (empty: results/<case>)
+/// and returns the text for the terminal. Throws core::Error.
+[[nodiscard]] std::string simulate_case(cases::Case source, const std::filesystem::path& out, ProgressDisplay display);
 
 }  // namespace thinwall::app

@@ -10,6 +10,7 @@
 #include "case/measured_binding.hpp"
 #include "case/robot_binding.hpp"
 #include "case/schema/schema.hpp"
+#include "case/simulation_binding.hpp"
 #include "case/table.hpp"
 #include "core/error.hpp"
 #include "setup/imported_part.hpp"
@@ -377,6 +378,7 @@ Case bind_case(CaseValues values, const std::filesystem::path& folder) {
     if (bound.cutting) bound.robot->cut_point = bound.cutting->at;
     if (bound.path) bound.path->robot_follows = true;  // with the tool
   }
+  if (root.table("simulation").exists()) bound.simulation = bind_simulation(root.table("simulation"), bound.lobes);
   bound.values = std::move(values);
   bound.data_files = named_files(bound);
   return bound;

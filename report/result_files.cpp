@@ -22,6 +22,7 @@
 #include "report/lobes_files.hpp"
 #include "report/robot_report.hpp"
 #include "report/shape_files.hpp"
+#include "report/simulation/simulation_files.hpp"
 #include "report/summary/summary_json.hpp"
 #include "report/tool_files.hpp"
 #include "setup/imported_part.hpp"
@@ -137,6 +138,7 @@ void write_structure(const fs::path& folder, const setup::Setup& source, const s
 }
 
 void write_cuts(const fs::path& folder, const setup::Setup& source, const study::Results& results) {
+  write_simulation(folder, results);
   if (results.lobes.empty() && results.path.empty()) return;
   fs::create_directories(folder / "lobes");
   for (const auto& lobes : results.lobes) write_lobes(folder / "lobes", lobes);

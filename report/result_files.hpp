@@ -14,7 +14,7 @@ namespace thinwall::report {
 /// [response]. Throws DataError if a file cannot be written.
 void write_structure(const std::filesystem::path& folder, const setup::Setup& source, const study::Results& results);
 
-/// lobes/ below `folder`. Throws DataError as above.
+/// lobes/ and simulation/ below `folder`. Throws DataError as above.
 void write_cuts(const std::filesystem::path& folder, const setup::Setup& source, const study::Results& results);
 
 /// Writes summary.json and manifest.json, the last files of a result folder: `manifest` with the summary's times and

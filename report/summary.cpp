@@ -13,6 +13,7 @@
 #include "report/lobes_summary.hpp"
 #include "report/path_report.hpp"
 #include "report/robot_report.hpp"
+#include "report/simulation/simulation_summary.hpp"
 #include "setup/imported_part.hpp"
 #include "study/part/part_damping.hpp"
 #include "study/support/robot_survey.hpp"
@@ -307,6 +308,7 @@ Summary summary_of(const setup::Setup& source, const study::Results& results) {
   for (const auto& lobes : results.lobes) {
     for (const auto& point : lobes.points) summary.operating_points.push_back(operating_point_of(lobes.of, point));
   }
+  summary.simulation = simulation_summary(results);
   summary.sentences = answer_sentences(summary);
   summary.timings_s.insert(results.timings_s.begin(), results.timings_s.end());
   return summary;

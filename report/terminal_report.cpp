@@ -12,6 +12,7 @@
 #include "report/lobes_words.hpp"
 #include "report/page/limit_text.hpp"
 #include "report/path_report.hpp"
+#include "report/simulation/simulation_report.hpp"
 
 namespace thinwall::report {
 
@@ -182,12 +183,24 @@ void reduction(std::string& out, const ReductionSummary& r) {
   out += r.max_relative_receptance_error ? " of the full model\n" : " of the full model; receptances not checked\n";
 }
 
+/// How far the simulation is from lobes and closed form, each at the point where it is farthest.
+void consistency(std::string& out, const SimulationSummary& simulation) {
+  const auto tell = [&out](const char* what, const std::optional<LargestDifferenceSummary>& largest) {
+    if (!largest) return;
+    out += fmt::format("  simulation  {} {:.1e} (largest at {:.0f} rpm, {:.3f} mm, {})\n", what, largest->max_relative,
+                       largest->spindle_speed_rpm, largest->depth_m * 1e3, chart_title(largest->chart));
+  };
+  tell("growth and lobes agree to", simulation.growth_difference);
+  tell("periodic motion and closed form agree to", simulation.forced_difference);
+}
+
 void trust(std::string& out, const Summary& summary) {
   if (const auto& geometry = summary.geometry)
     out += fmt::format("  part        {}: {}\n", geometry->file, geometry->read);
   if (summary.mesh) mesh(out, *summary.mesh);
   if (summary.reduction) reduction(out, *summary.reduction);
   if (summary.coupling) routes(out, *summary.coupling);
+  if (summary.simulation) consistency(out, *summary.simulation);
 }
 
 void checks(std::string& out, const Summary& summary) {
@@ -216,6 +229,7 @@ std::string terminal_report(const Summary& summary, const std::string& result_fo
   out += '\n';
   if (const std::string path = path_text(summary); !path.empty()) out += path + '\n';
   if (const std::string points = operating_points_text(summary); !points.empty()) out += points + '\n';
+  if (const std::string points = simulation_text(summary); !points.empty()) out += points + '\n';
   updating(out, summary);
   out += contacts_text(summary);
   trust(out, summary);

@@ -16,6 +16,7 @@
 #include "setup/part_model.hpp"
 #include "setup/point.hpp"
 #include "setup/robot.hpp"
+#include "setup/simulation.hpp"
 #include "setup/tool.hpp"
 
 namespace thinwall::setup {
@@ -56,6 +57,7 @@ struct CutSetup {
 struct Setup : PartSetup, MeasuredPart, SupportSetup, CutSetup {
   std::vector<Updating> updating;
   std::optional<Path> path;
+  std::optional<Simulation> simulation;
 };
 
 /// The point of that name; throws InputError with the nearest name if there is none.

@@ -34,6 +34,8 @@
 #include "setup/machining_setup.hpp"
 #include "setup/robot_tip.hpp"
 #include "study/lobes/chart_of.hpp"
+#include "study/simulation/amplitude_map.hpp"
+#include "study/simulation/point_simulation.hpp"
 
 namespace thinwall::study {
 
@@ -282,6 +284,8 @@ struct Results {
   std::optional<milling::SampledReceptance> synthesised_tip;  ///< of a measured tool, by its fitted poles; part axes
   std::vector<StructureLobes> lobes;
   std::vector<PathLobes> path;
+  std::vector<PointSimulation> simulations;               ///< structure by structure
+  std::vector<AmplitudeMap> amplitude_maps;               ///< of each structure, where a map is asked for
   std::vector<std::pair<std::string, double>> timings_s;  ///< stage, seconds, in the order they ran
 };
 

@@ -20,6 +20,7 @@
 #include "study/lobes/path_stage.hpp"
 #include "study/part/part_damping.hpp"
 #include "study/part/part_stage.hpp"
+#include "study/simulation/point_simulation.hpp"
 #include "study/support/added_lines.hpp"
 #include "study/support/contact_force.hpp"
 #include "study/support/contact_identification.hpp"
@@ -310,10 +311,20 @@ void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoi
   results.path = lobes_along_path(path_input(work), results, kept);
 }
 
+/// The points of [simulation], and its map.
+void run_simulation(const setup::Setup& work, const std::vector<milling::OperatingPoint>& points, Checkpoint& kept,
+                    Results& results, Stages& stages) {
+  if (!work.simulation) return;
+  stages.begin("simulation");
+  results.simulations = simulate_points(work, results, points, kept);
+  results.amplitude_maps = amplitude_maps(work, results, kept);
+}
+
 }  // namespace
 
 Results run(const setup::Setup& setup, const setup::Variation& variation, Kept& kept, const RunOptions& options) {
   require_chart_of(setup, options.points);
+  require_simulation(setup, options.points);
   setup::tell_of_data_files(setup);
   Stages stages(options.on_stage);
   Results results;
@@ -324,6 +335,8 @@ Results run(const setup::Setup& setup, const setup::Variation& variation, Kept& 
   run_responses(kept.structure, work.setup, results, stages);
   run_lobes(work.setup, options.points, kept.charts, results, stages);
   kept.charts.arrange();
+  run_simulation(work.setup, options.points, kept.simulations, results, stages);
+  kept.simulations.arrange();
   stages.end();
   results.setup = std::move(work.setup);
   results.timings_s = stages.timings_s();

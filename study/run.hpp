@@ -15,21 +15,22 @@ namespace thinwall::study {
 
 /// Options of a run.
 struct RunOptions {
-  std::vector<milling::OperatingPoint> points = {};  ///< that every chart is asked about
+  std::vector<milling::OperatingPoint> points = {};  ///< that every chart is asked about, and that a simulation takes
+                                                     ///< which names none
   StageListener on_stage = {};                       ///< hears of each stage as it begins and ends
 };
 
 /// Results of an earlier run of the same inputs, which are taken instead of being computed, and to which new ones are
 /// added. A default Checkpoint keeps nothing and finds nothing.
 struct Kept {
-  Checkpoint part, structure, charts;
+  Checkpoint part, structure, charts, simulations;
 };
 
 /// Computes what the set-up holds: the part (mesh, modes, reduction), fits of its numbers by `variation`, receptances
-/// of part and robot, both joined by two routes, the error budget, and stability charts. Messages go to
-/// core::set_message_listener, the progress of long loops to core::set_progress_listener. A set-up without fits needs
-/// no `variation`. Throws core::Error: InputError for what cannot be computed, NumericalError where a stage does not
-/// converge, Interrupted after core::request_interrupt().
+/// of part and robot, both joined by two routes, the error budget, stability charts, and simulated points. Messages go
+/// to core::set_message_listener, the progress of long loops to core::set_progress_listener. A set-up without fits
+/// needs no `variation`. Throws core::Error: InputError for what cannot be computed, NumericalError where a stage does
+/// not converge, Interrupted after core::request_interrupt().
 [[nodiscard]] Results run(const setup::Setup& setup, const setup::Variation& variation, Kept& kept,
                           const RunOptions& options);
 

@@ -1,6 +1,6 @@
 #pragma once
 // All that study/ offers to other programs.
-// Internal: archive, archive_models, input_key, kept_coupling, kept_part.
+// Internal: archive, archive_models, input_key, kept_coupling, kept_part, kept_simulation.
 
 #include "core/eigen_alignment.hpp"
 #include "study/error_budget.hpp"
@@ -16,6 +16,7 @@
 #include "study/lobes/low_limit.hpp"
 #include "study/lobes/main_modes.hpp"
 #include "study/lobes/path_stage.hpp"
+#include "study/lobes/stand_in.hpp"
 #include "study/lobes/structure_errors.hpp"
 #include "study/lobes/tool_swap.hpp"
 #include "study/part/discretisation.hpp"
@@ -30,7 +31,9 @@
 #include "study/part/solution.hpp"
 #include "study/results.hpp"
 #include "study/run.hpp"
+#include "study/simulation/amplitude_map.hpp"
 #include "study/simulation/point_simulation.hpp"
+#include "study/simulation/simulation_forecast.hpp"
 #include "study/stages.hpp"
 #include "study/support/added_lines.hpp"
 #include "study/support/contact_force.hpp"

@@ -18,6 +18,7 @@
 #include "case/checks/part_checks.hpp"
 #include "case/checks/path_checks.hpp"
 #include "case/checks/robot_checks.hpp"
+#include "case/checks/simulation_checks.hpp"
 #include "case/checks/tool_checks.hpp"
 #include "case/checks/updating_checks.hpp"
 #include "case/numbers.hpp"
@@ -36,12 +37,12 @@ namespace {
 void check_something_to_do(const Case& source, Findings& findings) {
   const bool moves =
       source.tool && (!source.tool->modes.empty() || !source.tool->measured.empty() || source.tool->swap.has_value());
-  const bool tool_alone = moves && source.lobes;
+  const bool tool_alone = moves && (source.lobes || source.simulation);
   if (source.part || !source.measured_part.empty() || tool_alone || source.robot || has_table(source.values, "part"))
     return;
   findings.report("part",
                   "missing; a case holds a part ([part] or [[part.measured]]), a [robot], or a tool with modes or "
-                  "measured FRFs and [lobes]");
+                  "measured FRFs and [lobes] or [simulation]");
 }
 
 /// A folder holds no data, and a pipe is waited for without end.
@@ -312,6 +313,7 @@ std::vector<Problem> check_case(const Case& source) {
   if (source.lobes) check_lobes(source, findings);
   if (source.machine) check_machine(source, findings);
   if (source.path) check_path(source, findings);
+  if (source.simulation) check_simulation(source, findings);
   return std::move(findings.problems);
 }
 

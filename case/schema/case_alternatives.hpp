@@ -125,6 +125,9 @@ inline constexpr Belonging case_belongings[] = {
     {"cutting.shear_angle", "cutting.law", "oblique"},
 
     {"lobes.uncertainty", "lobes.method", "direct"},
+
+    {"simulation.steps", "simulation.paths", "circular"},
+    {"simulation.steps_a_turn", "simulation.paths", "exact"},
 };
 
 inline constexpr Telling case_tellings[] = {

@@ -99,6 +99,14 @@ inline constexpr Section case_sections[] = {
         "Relative standard uncertainties, for a chart that holds in spite of them (docs/theory/lobes.md). From poles "
         "and by the direct method.",
         ""},
+    Section{"simulation",
+            "Operating points in the time domain (docs/theory/time-domain.md): how large the vibration becomes, where "
+            "teeth "
+            "leave the cut, the wall. Needs a feed, and structures that are known by modes.",
+            ""},
+    Section{"simulation.map",
+            "Peak-to-peak vibration over speed and depth, by circular paths, with the lobe drawn on it. Needs [lobes].",
+            ""},
     Section{"path", "Where the cut goes along the part: the chart at each position. Give `points`, or `from` and `to`.",
             ""},
 };

@@ -404,6 +404,22 @@ constexpr Key case_keys[] = {
     Key{"path.to", Type::vector, kind::length, "", any, "", "Last position."},
     Key{"path.positions", Type::integer, kind::number, "", {2, 200, false, false, false, "2 to 200 positions"}, "", "Number of positions, evenly spaced `from` … `to`; 11 if not given."},
     Key{"path.support", Type::choice, kind::number, "\"held\"", any, "held|follows", "`held`: the robot stays at its contacts. `follows`: they move with the cut and keep the distance that they have from `cutting.at`."},
+
+    Key{"simulation.at", Type::names, kind::number, "", any, "", "Operating points, `\"5000 rpm, 0.5 mm\"` each. If not given, those of `--at`; else `cutting.spindle_speed` at nine tenths and eleven tenths of the depth at which each structure becomes unstable."},
+    Key{"simulation.structures", Type::names, kind::number, "", any, "part|supported|tool", "Structures that are simulated: the part alone, the part that the robot holds, a tool that cuts a rigid part; all that the case has if not given."},
+    Key{"simulation.paths", Type::choice, kind::number, "\"circular\"", any, "circular|exact", "`circular`: teeth move on circles between fixed angles of entry and exit, as in the lobes. `exact`: on their real paths, contact by geometry; needs `cutting.radial_depth` and a cylinder."},
+    Key{"simulation.settling_turns", Type::integer, kind::number, "400", {0, 1e7, false, false, false, ""}, "", "Turns before anything is recorded."},
+    Key{"simulation.turns", Type::integer, kind::number, "", {1, 1e7, false, false, false, ""}, "", "Turns that are recorded; 200 if neither this nor `length` is given."},
+    Key{"simulation.length", Type::quantity, kind::length, "", positive, "", "In place of `turns`: length of the path that is recorded, along the feed."},
+    Key{"simulation.trace", Type::integer, kind::number, "50", {0, 1e5, false, false, false, ""}, "", "Of the recorded turns, the last so many sample by sample: for traces, orbits and spectra."},
+    Key{"simulation.wall", Type::integer, kind::number, "20", {0, 1e5, false, false, false, ""}, "", "Likewise, turns whose wall is recorded; at least 4, 0 for none."},
+    Key{"simulation.steps", Type::integer, kind::number, "200", {4, 1e5, false, false, false, "200 bring the multiplier to 1e-7 as a rule"}, "", "Steps of a tooth from entry to exit."},
+    Key{"simulation.steps_a_turn", Type::integer, kind::number, "720", {24, 1e6, false, false, false, "720 is usual"}, "", "Steps a turn."},
+    Key{"simulation.map.speeds", Type::integer, kind::number, "60", {2, 2000, false, false, false, ""}, "", "Number of speeds, `lobes.from` to `lobes.to`."},
+    Key{"simulation.map.depths", Type::integer, kind::number, "40", {1, 2000, false, false, false, ""}, "", "Number of depths, up to the largest."},
+    Key{"simulation.map.deepest", Type::quantity, kind::length, "", positive, "", "Largest depth; `lobes.depth_limit` if not given."},
+    Key{"simulation.map.turns", Type::integer, kind::number, "200", {4, 1e6, false, false, false, ""}, "", "Turns of each point, of which the last quarter is recorded."},
+    Key{"simulation.map.steps", Type::integer, kind::number, "50", {4, 1e5, false, false, false, ""}, "", "Steps of a tooth from entry to exit."},
 };
 // clang-format on
 

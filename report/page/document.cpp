@@ -14,6 +14,7 @@
 #include "report/page/headline.hpp"
 #include "report/page/lobes_data.hpp"
 #include "report/page/shapes_data.hpp"
+#include "report/page/simulation_data.hpp"
 #include "report/summary/summary_json.hpp"
 
 namespace thinwall::report {
@@ -95,11 +96,15 @@ json run_of(const fs::path& folder, const RunAtHand& at_hand, const KeptSections
   const FrfChoice choice{.points_first = chief_points(summary), .most_bytes = 4000000 / share};
   std::string frf = "frf";
   for (const std::string& point : choice.points_first) frf += " " + point;
-  const std::array<std::function<json()>, 3> sections{
+  const std::array<std::function<json()>, 4> sections{
       [&] { return section(kept, frf, [&] { return frf_data(folder, choice); }); },
       [&] { return section(kept, "shapes", [&] { return shapes_data(folder, summary, 500000 / share); }); },
-      [&] { return lobes_data(folder, summary); }};
-  std::array<json, 3> data;
+      [&] { return lobes_data(folder, summary); },
+      [&] {
+        json simulation = simulation_data(folder, summary);
+        return simulation.is_null() ? json::object() : json{{"simulation", std::move(simulation)}};
+      }};
+  std::array<json, 4> data;
   core::parallel_for(sections.size(), [&](std::size_t i) { data[i] = sections[i](); });
   for (const json& part : data) run.update(part);
   run["headline"] = headline(summary);

@@ -36,6 +36,7 @@ std::string_view unit_of(Kind kind) {
       return "m/N";
     case Kind::removal_rate:
       return "cm^3/min";
+    case Kind::time:
     case Kind::run_time:
       return "s";
     default:
@@ -52,8 +53,11 @@ bool is_number(Kind kind) {
 }
 
 Kind kind_of_column(std::string_view name) {
-  if (name == "relative_residual") return Kind::residual;
-  return name == "error_estimate_relative" ? Kind::error_estimate : Kind::ratio;
+  for (const char* residual : {"relative_residual", "growth_difference", "forced_difference"})
+    if (name == residual) return Kind::residual;
+  for (const char* estimate : {"error_estimate_relative", "multiplier_march_error", "multiplier_lobes_error"})
+    if (name == estimate) return Kind::error_estimate;
+  return Kind::ratio;
 }
 
 }  // namespace thinwall::report

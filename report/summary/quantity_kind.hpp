@@ -34,6 +34,7 @@ enum class Kind {
   damping,
   compliance,
   removal_rate,
+  time,         ///< of what is computed
   run_time,     ///< of the computation itself, which is another one each time
   of_quantity,  ///< of the kind, and in the unit, that another text of the same entry names
   section       ///< no value, but entries or a list of them
@@ -58,10 +59,10 @@ enum class Kind {
 namespace thinwall::core {
 
 template <>
-inline constexpr std::array<std::string_view, 25> words<report::Kind>{
-    "text",         "sentence", "truth",       "count",     "ratio",     "residual",  "error_estimate",
-    "length",       "volume",   "angle",       "angle_deg", "mass",      "frequency", "spindle_speed",
-    "force",        "torque",   "power",       "pressure",  "stiffness", "damping",   "compliance",
-    "removal_rate", "run_time", "of_quantity", "section"};
+inline constexpr std::array<std::string_view, 26> words<report::Kind>{
+    "text",         "sentence", "truth",    "count",       "ratio",     "residual",  "error_estimate",
+    "length",       "volume",   "angle",    "angle_deg",   "mass",      "frequency", "spindle_speed",
+    "force",        "torque",   "power",    "pressure",    "stiffness", "damping",   "compliance",
+    "removal_rate", "time",     "run_time", "of_quantity", "section"};
 
 }  // namespace thinwall::core

@@ -13,6 +13,7 @@
 #include "report/summary/part.hpp"
 #include "report/summary/path.hpp"
 #include "report/summary/robot.hpp"
+#include "report/summary/simulation.hpp"
 #include "report/summary/updating.hpp"
 
 namespace thinwall::report {
@@ -35,6 +36,7 @@ struct Summary {
   std::vector<LobesSummary> lobes;
   std::vector<PathSummary> path;
   std::vector<OperatingPointSummary> operating_points;
+  std::optional<SimulationSummary> simulation;
   std::vector<std::string> sentences;
   std::vector<CheckSummary> checks;
   std::map<std::string, double> timings_s;
@@ -60,6 +62,8 @@ void fields(Visitor& visit, Section& summary) {
   visit(Field{"lobes", Kind::section, "stability charts"}, summary.lobes);
   visit(Field{"path", Kind::section, "charts along the path of the cut", Presence::if_any}, summary.path);
   visit(Field{"operating_points", Kind::section, "operating points that were asked about"}, summary.operating_points);
+  visit(Field{"simulation", Kind::section, "operating points in the time domain; absent without [simulation]"},
+        summary.simulation);
   visit(Field{"sentences", Kind::sentence, "remarks on the charts in words"}, summary.sentences);
   visit(Field{"checks", Kind::section, "expectations of the case"}, summary.checks);
   visit(Field{"timings_s", Kind::run_time, "time of every stage, and \"total\""}, summary.timings_s);

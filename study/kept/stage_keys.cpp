@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "setup/imported_part.hpp"
+#include "setup/milling_process.hpp"
 #include "study/kept/input_key.hpp"
 
 namespace thinwall::study {
@@ -50,6 +51,20 @@ std::string charts_key(const setup::Setup& source) {
                                              cut.cutting->law == setup::ForceLawKind::fractional);
   if (cut.cutting && !asks_for_feed) cut.cutting->spindle_speed_rpm.reset();
   return input_key(structure_key(source), cut);
+}
+
+std::string simulation_key(const setup::Setup& source) {
+  setup::CutSetup cut = source;
+  cut.machine.reset();
+  cut.lobes.reset();
+  if (cut.cutting) cut.cutting->spindle_speed_rpm.reset();
+  std::optional<setup::Simulation> simulation = source.simulation;
+  if (simulation) {
+    simulation->points.clear();
+    simulation->structures.clear();
+  }
+  const bool cuts = source.tool && source.cutting;
+  return input_key(structure_key(source), cut, simulation, cuts ? setup::feed_per_tooth(source) : std::nullopt);
 }
 
 }  // namespace thinwall::study

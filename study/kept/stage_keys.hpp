@@ -24,4 +24,8 @@ namespace thinwall::study {
 /// where a force law asks for the feed of a tooth, which follows from it. Errors as part_input().
 [[nodiscard]] std::string charts_key(const setup::Setup& source);
 
+/// The key of simulated points and maps, which tells neither the points nor the structures: they are the names of what
+/// is kept. The case's own speed belongs to it as far as the feed follows from it. Errors as part_input().
+[[nodiscard]] std::string simulation_key(const setup::Setup& source);
+
 }  // namespace thinwall::study

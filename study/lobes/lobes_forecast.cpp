@@ -13,78 +13,17 @@
 #include "core/time_limit.hpp"
 #include "milling/chart/robust_lobes.hpp"
 #include "milling/chart/sampled_stability.hpp"
-#include "setup/imported_part.hpp"
 #include "setup/milling_process.hpp"
 #include "setup/path.hpp"
 #include "setup/robot_tip.hpp"
 #include "study/lobes/cut_structure.hpp"
 #include "study/lobes/lobes_stage.hpp"
+#include "study/lobes/stand_in.hpp"
 #include "study/support/support_stage.hpp"
 
 namespace thinwall::study {
 
 namespace {
-
-using std::complex;
-
-/// The plate that stands in for a part: its thinnest extent, or the mean wall of a surface.
-struct Plate {
-  double thickness_m = 0.0, area_m2 = 0.0, mass_kg = 0.0, wave_speed_m_s = 5000.0;
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
-};
-
-Plate plate_like(const setup::Part& part) {
-  Eigen::Vector3d size = setup::box_size(part);
-  if (!(size.minCoeff() > 0.0)) size = {0.005, 0.2, 0.2};  // matrices without positions
-  Eigen::Index thin = 0;
-  Plate plate;
-  plate.thickness_m = size.minCoeff(&thin);
-  plate.normal = Eigen::Vector3d::Unit(thin);
-  plate.area_m2 = size.prod() / plate.thickness_m;
-  if (part.imported && part.imported->surface) {
-    double area = 0.0;
-    const mesh::TriangleSurface& surface = part.imported->surface->surface;
-    for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) area += mesh::area_vector(surface, t).norm();
-    plate.area_m2 = 0.5 * area;
-    plate.thickness_m = part.imported->surface->volume_m3 / plate.area_m2;
-  }
-  const setup::Material& m = part.material;
-  const double density = m.density > 0.0 ? m.density : 2700.0;
-  if (m.youngs_modulus > 0.0) plate.wave_speed_m_s = std::sqrt(m.youngs_modulus / density);
-  plate.mass_kg = density * plate.area_m2 * plate.thickness_m;
-  return plate;
-}
-
-/// The direction in which mode k of a part moves: the wall's normal and a tenth along the other axes, for no mode keeps
-/// to one direction; the walls of a part from a file stand in any.
-Eigen::Vector3d direction_of_mode(const setup::Part& part, const Plate& plate, Eigen::Index k) {
-  const Eigen::Vector3d main = setup::from_file(part) ? Eigen::Vector3d(Eigen::Vector3d::Unit(k % 3)) : plate.normal;
-  const Eigen::Vector3d beside(1.0, k % 2 == 0 ? 1.0 : -1.0, k % 4 < 2 ? 1.0 : -1.0);
-  return (main + 0.1 * beside).normalized();
-}
-
-/// Modes of the plate, 2 c_L t / (√12 A) apart, each of a quarter of its mass: φ φᵀ / (2 i ω_d (iω − λ)) + conjugate.
-milling::RelativeStructure modes_like(const setup::Setup& source) {
-  constexpr double damping_ratio = 0.01;
-  const Plate plate = plate_like(*source.part);
-  const double apart_hz = 2.0 * plate.wave_speed_m_s * plate.thickness_m / (std::sqrt(12.0) * plate.area_m2);
-  const setup::ModeRange& range = source.reduction.fixed_interface;
-  const double highest_hz =
-      std::min(range.up_to_hz.value_or(INFINITY), source.lobes->modes_up_to_hz.value_or(INFINITY));
-  const int most = range.up_to_hz ? 300 : range.count.value_or(setup::usual_reduction_modes);
-  const auto count = static_cast<Eigen::Index>(std::clamp(highest_hz / apart_hz, 1.0, static_cast<double>(most)));
-  milling::RelativeStructure structure{Eigen::VectorXcd(count), Eigen::Matrix3Xcd(3, count),
-                                       Eigen::Matrix3Xcd(3, count)};
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const double omega = 2.0 * std::numbers::pi * apart_hz * static_cast<double>(k + 1);
-    const double damped = omega * std::sqrt(1.0 - damping_ratio * damping_ratio);
-    structure.poles(k) = {-damping_ratio * omega, damped};
-    structure.phi.col(k) =
-        (2.0 / std::sqrt(plate.mass_kg) * direction_of_mode(*source.part, plate, k)).cast<complex<double>>();
-    structure.b.col(k) = structure.phi.col(k) / complex<double>(0.0, 2.0 * damped);
-  }
-  return structure;
-}
 
 /// A structure that stands in for that of a chart, and how many times as long as it the true one takes to be made.
 struct StandIn {
@@ -93,14 +32,7 @@ struct StandIn {
 };
 
 StandIn structure_like(const setup::Setup& source, const milling::ToolFrame& frame) {
-  std::optional<Component> robot;
-  if (setup::carries_tool(source.robot)) {
-    robot = robot_component(*source.robot, {Eigen::VectorXd::Ones(1)}, setup::robot_posture(source, source).posture);
-  }
-  std::optional<milling::RelativeStructure> poles =
-      cut_poles(source, nullptr, robot ? &carrier_modes(*robot) : nullptr);
-  if (source.part) poles = poles ? milling::sum(*poles, modes_like(source)) : modes_like(source);
-  return {cut_structure(source, frame, poles)};
+  return {cut_structure(source, frame, poles_like(source))};
 }
 
 /// The supported part as it is known by its lines: some of them, for a fit takes as long as there are lines.

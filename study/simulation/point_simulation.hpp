@@ -1,6 +1,8 @@
 #pragma once
 // Operating points in the time domain, for each structure that the cut may feel.
 
+#include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "milling/chart/operating_point.hpp"
@@ -8,22 +10,20 @@
 #include "milling/simulation/growth.hpp"
 #include "milling/simulation/simulation.hpp"
 #include "setup/machining_setup.hpp"
+#include "study/kept/checkpoint.hpp"
 #include "study/lobes/chart_of.hpp"
-#include "study/results.hpp"
 
 namespace thinwall::study {
 
-/// The paths of teeth.
-enum class ToothPaths {
-  circular,  ///< on circles, between fixed angles of entry and exit (milling/simulation/circular_cut.hpp)
-  exact,     ///< on their real paths (milling/simulation/exact_path.hpp)
-};
+struct Results;
 
-/// The points that are to be simulated, and in which way.
-struct SimulationRequest {
-  std::vector<milling::OperatingPoint> points;
-  ToothPaths paths = ToothPaths::circular;
-  milling::SimulationOptions options;
+/// The periodic motion of a stable cut in closed form (milling/forced/forced_vibration.hpp), and how far the simulated
+/// one is from it.
+struct ForcedAgreement {
+  Eigen::Vector3d peak_to_peak_m = Eigen::Vector3d::Zero();  ///< in closed form, tool axes
+  double difference = 0.0;  ///< the largest of: peak to peak along an axis and the place at which teeth enter, over the
+                            ///< largest peak to peak; the mean force over the peak force
+  double left = 0.0;  ///< |μ| to the power of the periods before the record: of the beginning, what is left in it
 };
 
 /// One point on one structure.
@@ -33,25 +33,31 @@ struct PointSimulation {
   double feed_per_tooth_m = 0.0;
   int teeth = 1;
   milling::SimulatedCut cut;
-  milling::SimulatedGrowth growth;  ///< of a small vibration, by the march
-  milling::Multiplier lobes;        ///< what multiplier_at() says of it
+  milling::SimulatedGrowth growth;        ///< of a small vibration, by the march
+  milling::Multiplier lobes;              ///< what multiplier_at() says of it
+  std::optional<ForcedAgreement> forced;  ///< of a stable point, equal teeth, circular paths and the linear law
 
   /// |μ| of the march over that of the lobes, less one: how far the two are apart.
   [[nodiscard]] double growth_difference() const { return growth.modulus / lobes.modulus - 1.0; }
 };
 
-/// Simulates every point on the part alone, the supported part, or the tool where there is no part. `results` are those
-/// of run() without lobes. Throws InputError without points, [tool], [cutting] or a feed; where a structure has no
-/// poles (lines of a measured FRF need a fit by modes first); where exact paths need a radial depth; for bad options;
-/// and Interrupted between turns. Cost: see milling::simulate().
+/// Throws InputError where [simulation] asks for what cannot be simulated, before anything is computed: without [tool],
+/// [cutting] or a feed, with measured lines in place of poles, exact paths without a radial depth, or without any point
+/// and a speed of the case's own. `asked`: points for a simulation that names none.
+void require_simulation(const setup::Setup& setup, const std::vector<milling::OperatingPoint>& asked);
+
+/// The structures that setup.simulation asks for, with their poles (part axes). `results` are those of run() without
+/// charts. Throws InputError for one that the set-up does not have or that has no poles (lines of a measured FRF need a
+/// fit by modes first).
+[[nodiscard]] std::vector<std::pair<ChartOf, milling::RelativeStructure>> simulated_structures(
+    const setup::Setup& setup, const Results& results);
+
+/// Simulates every point of setup.simulation on every structure; where it names none those that are `asked` for, else
+/// nine tenths and eleven tenths of the limiting depth at the case's own speed. What `kept` holds is taken from there.
+/// Points share out among the threads. Errors as require_simulation() and simulated_structures(); Interrupted between
+/// turns. Cost: see milling::simulate().
 [[nodiscard]] std::vector<PointSimulation> simulate_points(const setup::Setup& setup, const Results& results,
-                                                           const SimulationRequest& request);
+                                                           const std::vector<milling::OperatingPoint>& asked,
+                                                           Checkpoint& kept);
 
 }  // namespace thinwall::study
-
-namespace thinwall::core {
-
-template <>
-inline constexpr std::array<std::string_view, 2> words<study::ToothPaths>{"circular", "exact"};
-
-}  // namespace thinwall::core

@@ -66,6 +66,19 @@ TEST(Compare, TheKindDecidesAndNotAWordOfTheName) {
             1U);
 }
 
+/// What must vanish of a simulation only has to stay small, its vibration is a length.
+TEST(Compare, DifferencesOfASimulationFromLobesAndClosedFormOnlyHaveToStaySmall) {
+  const auto simulation = [](const std::string& growth, const std::string& forced, const std::string& metres) {
+    return R"({"simulation": {"growth_difference": {"max_relative": )" + growth +
+           R"(}, "points": [{"growth": {"difference_relative": )" + growth +
+           R"(}, "forced_vibration": {"difference_relative": )" + forced + R"(}, "peak_to_peak_m": [)" + metres +
+           ", 2e-5, 0]}]}}";
+  };
+  EXPECT_EQ(differences(simulation("1e-12", "1e-8", "1e-5"), simulation("5e-12", "-3e-7", "1e-5")), 0U);
+  EXPECT_EQ(differences(simulation("1e-12", "1e-8", "1e-5"), simulation("1e-12", "0.01", "1e-5")), 1U);
+  EXPECT_EQ(differences(simulation("1e-12", "1e-8", "1e-5"), simulation("1e-12", "1e-8", "1.01e-5")), 1U);
+}
+
 TEST(Compare, AValueOfAnExpectationIsOfTheKindOfItsQuantity) {
   const auto check = [](const std::string& quantity, const std::string& value) {
     return R"({"checks": [{"quantity": ")" + quantity + R"(", "value": )" + value + "}]}";

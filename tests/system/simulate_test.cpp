@@ -83,6 +83,42 @@ TEST(Simulate, TellsTheMotionOnBothSidesOfTheBoundary) {
   EXPECT_TRUE(fs::exists(folder / "out/simulation/tool-2-passes.csv"));
 }
 
+/// The case's own [simulation] is what an option does not say.
+TEST(Simulate, TakesTheCasesOwnSimulationWithOptionsOnTop) {
+  const fs::path folder = scratch("simulate_section");
+  const std::string section = std::string(tool_case) + R"([simulation]
+at = "11000 rpm, 1 mm"
+settling_turns = 1000
+turns = 8
+trace = 4
+)";
+  const auto [own, done] = simulate(folder, {}, section);
+  EXPECT_EQ(done, 0) << own;
+  EXPECT_NE(own.find("tool at 11000 rpm, 1 mm deep: vibration repeats itself with the cut"), std::string::npos) << own;
+  EXPECT_EQ(column(folder / "out/simulation/tool-1.csv", "time_s").size(), 4U * 720U);
+  EXPECT_EQ(column(folder / "out/simulation/tool-1-passes.csv", "entry_s").size(), 16U);
+  const auto [changed, again] = simulate(folder, {"--at", "19000 rpm, 1 mm", "--turns", "3"}, section);
+  EXPECT_EQ(again, 0) << changed;
+  EXPECT_NE(changed.find("tool at 19000 rpm"), std::string::npos) << changed;
+  EXPECT_EQ(changed.find("11000 rpm"), std::string::npos) << changed;
+  EXPECT_EQ(column(folder / "out/simulation/tool-1.csv", "time_s").size(), 3U * 720U);
+}
+
+/// Without a point: nine tenths and eleven tenths of the limiting depth at the case's own speed.
+TEST(Simulate, LooksAtBothSidesOfTheBoundaryWhereNoPointIsGiven) {
+  const fs::path folder = scratch("simulate_boundary");
+  std::string text = tool_case;
+  text.insert(text.find("[cutting]\n") + 10, "spindle_speed = \"19000 rpm\"\n");
+  const auto [said, code] = simulate(folder, {"--settle", "50", "--turns", "4"}, text);
+  EXPECT_EQ(code, 0) << said;
+  const fs::path points = folder / "out/simulation/points.csv";
+  const auto depth = column(points, "depth_m"), modulus = column(points, "multiplier_lobes");
+  ASSERT_EQ(depth.size(), 2U);
+  EXPECT_NEAR(depth[1] / depth[0], 11.0 / 9.0, 1e-9);
+  EXPECT_LT(modulus[0], 1.0);
+  EXPECT_GT(modulus[1], 1.0);
+}
+
 /// A tool of a hundredth of the stiffness under a deep slot with a feed of half its radius: figures of such a motion
 /// are none, and the tables say so instead of failing.
 TEST(Simulate, TellsAVibrationThatOutgrowsTheCutter) {
@@ -101,13 +137,16 @@ TEST(Simulate, TellsAVibrationThatOutgrowsTheCutter) {
 TEST(Simulate, TellsWhatItNeeds) {
   const fs::path folder = scratch("simulate_needs");
   const auto [none, no_point] = simulate(folder, {});
-  EXPECT_NE(no_point, 0);
-  EXPECT_NE(none.find("--at is required"), std::string::npos) << none;
+  EXPECT_EQ(no_point, 3);
+  EXPECT_NE(none.find("simulation.at: no operating point"), std::string::npos) << none;
+  const auto [bad, not_read] = simulate(folder, {"--at", "11000 rpm"});
+  EXPECT_EQ(not_read, 2);
+  EXPECT_NE(bad.find("--at \"11000 rpm\": a spindle speed and a depth with one comma"), std::string::npos) << bad;
   std::string without_feed = tool_case;
   without_feed.replace(without_feed.find("feed_per_tooth"), 1, "# f");
   const auto [feed, no_feed] = simulate(folder, {"--at", "11000 rpm, 1 mm"}, without_feed);
   EXPECT_EQ(no_feed, 3);
-  EXPECT_NE(feed.find("cutting.feed_per_tooth: not given"), std::string::npos) << feed;
+  EXPECT_NE(feed.find("chips depend on the feed; give cutting.feed_per_tooth"), std::string::npos) << feed;
   const auto [paths, word] = simulate(folder, {"--at", "11000 rpm, 1 mm", "--paths", "round"});
   EXPECT_NE(word, 0);
   EXPECT_NE(paths.find("circular"), std::string::npos) << paths;

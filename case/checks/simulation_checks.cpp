@@ -1,0 +1,148 @@
+#include "case/checks/simulation_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/operating_point.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "setup/milling_process.hpp"
+#include "setup/simulation_options.hpp"
+
+namespace thinwall::cases {
+
+namespace {
+
+std::string length(double metres) {
+  return core::readable_text(metres, core::kind::length);
+}
+
+void check_points(const Case& source, Findings& findings) {
+  const CaseValue* given = find(source.values, "simulation.at");
+  const auto* texts = given == nullptr ? nullptr : std::get_if<std::vector<std::string>>(&given->value);
+  if (texts == nullptr) return;
+  for (const std::string& text : *texts) {
+    try {
+      const milling::OperatingPoint point = operating_point(text);
+      if (source.tool && point.depth_m > source.tool->length)
+        findings.report("simulation.at", "\"" + text + "\" is deeper than the tool's length of " +
+                                             length(source.tool->length) + "; give a smaller depth");
+    } catch (const core::InputError& error) {
+      findings.report("simulation.at", "\"" + text + "\": " + error.what() + "; write \"5000 rpm, 0.5 mm\"");
+    }
+  }
+}
+
+/// What keeps a structure from being simulated in this case; empty if nothing.
+std::string fault_of_structure(const Case& source, setup::CutOn structure) {
+  const bool modelled = source.part && setup::may_be_held(*source.part);
+  switch (structure) {
+    case setup::CutOn::part:
+      return modelled ? "" : "a simulation needs a part that is held and modelled; describe it with [[part.supports]]";
+    case setup::CutOn::supported:
+      if (!source.robot || source.contacts.empty()) return "no robot holds the part; add [robot] and [[contacts]]";
+      if (!setup::is_measured(*source.robot)) return "";
+      return "the robot is known by measured FRFs alone, and a simulation needs poles; fit modes to them and give "
+             "robot.modes, or take simulation.structures = \"part\"";
+    case setup::CutOn::tool:
+      return source.part ? "the tool cuts a part, not a rigid block; take \"part\" or \"supported\"" : "";
+    case setup::CutOn::carried:
+      if (!setup::carries_tool(source.robot)) return "no robot carries the tool; give robot.carries = \"tool\"";
+      if (!setup::is_measured(*source.robot)) return "";
+      return "the robot is known by measured FRFs alone, and a simulation needs poles; fit modes to them and give "
+             "robot.modes";
+  }
+  return "";
+}
+
+void check_structures(const Case& source, Findings& findings) {
+  if (source.tool && (!source.tool->measured.empty() || source.tool->swap))
+    findings.report("simulation",
+                    "tool.measured has no poles, and a simulation needs them; fit modes to it and give "
+                    "tool.modes");
+  if (!source.measured_part.empty())
+    findings.report("simulation",
+                    "part.measured has no poles, and a simulation needs them; describe the part "
+                    "(part.length …)");
+  std::vector<setup::CutOn> structures = source.simulation->structures;
+  const bool supported = source.robot && !source.contacts.empty();
+  if (structures.empty() && source.part) structures.push_back(setup::CutOn::part);
+  if (structures.size() == 1 && !findings.given("simulation.structures") && supported)
+    structures.push_back(setup::CutOn::supported);
+  if (structures.empty() && setup::carries_tool(source.robot)) structures.push_back(setup::CutOn::carried);
+  for (const setup::CutOn structure : structures) {
+    if (const std::string fault = fault_of_structure(source, structure); !fault.empty())
+      findings.report("simulation.structures", fault);
+  }
+}
+
+void check_exact_paths(const Case& source, Findings& findings) {
+  if (source.simulation->paths != setup::ToothPaths::exact) return;
+  if (source.cutting && !source.cutting->radial_depth)
+    findings.report(
+        "simulation.paths",
+        "angles of entry and exit do not say where the material lies; exact paths need cutting.radial_depth");
+  if (source.tool && source.tool->end != setup::ToolEnd::flat)
+    findings.report("simulation.paths", "exact paths are known for flat ends only; take \"circular\"");
+}
+
+/// The longest path that fits on the part along the feed, m; none where its size is not known.
+std::optional<double> longest_path(const Case& source) {
+  if (!source.part) return std::nullopt;
+  const double along = setup::box_size(*source.part).dot(source.cutting->feed_direction.cwiseAbs());
+  return along > 0.0 ? std::optional(along) : std::nullopt;
+}
+
+void check_record(const Case& source, double feed_per_tooth_m, Findings& findings) {
+  const setup::Simulation& simulation = *source.simulation;
+  const std::optional<double> longest = longest_path(source);
+  if (simulation.length_m && longest && *simulation.length_m > *longest)
+    findings.report("simulation.length", length(*simulation.length_m) + " is more than the part's extent of " +
+                                             length(*longest) + " along the feed; shorten it");
+  if (findings.given("simulation.turns") && simulation.length_m)
+    findings.report("simulation.length", "give either simulation.turns or simulation.length, not both");
+  const auto violations =
+      milling::validate(setup::simulation_options(simulation, source.tool->teeth * feed_per_tooth_m));
+  for (const std::string& violation : violations) findings.report("simulation.trace", violation);
+}
+
+/// False if one of the numbers that give the feed could not be read, which is reported.
+bool readable_feed(const setup::Cutting& cutting) {
+  return !std::isnan(cutting.feed_per_tooth.value_or(0.0)) && !std::isnan(cutting.feed_rate.value_or(0.0)) &&
+         !std::isnan(cutting.spindle_speed_rpm.value_or(0.0));
+}
+
+void check_map(const Case& source, Findings& findings) {
+  const setup::SimulationMap& map = *source.simulation->map;
+  if (!source.lobes) {
+    findings.report("simulation.map", "a map spans the chart's speeds and depths; add [lobes]");
+  } else if (source.tool && map.depth_limit_m > source.tool->length) {
+    findings.report("simulation.map.deepest",
+                    length(map.depth_limit_m) + " is more than the tool's length of " + length(source.tool->length));
+  }
+}
+
+}  // namespace
+
+void check_simulation(const Case& source, Findings& findings) {
+  check_points(source, findings);
+  check_exact_paths(source, findings);
+  if (source.simulation->map) check_map(source, findings);
+  if (!source.tool || !source.cutting) {
+    findings.report("simulation", "there is no cut; add [tool] and [cutting]");
+    return;
+  }
+  check_structures(source, findings);
+  if (!readable_feed(*source.cutting)) return;
+  if (const auto feed = setup::feed_per_tooth(source)) {
+    check_record(source, *feed, findings);
+  } else {
+    findings.report("simulation",
+                    "chips depend on the feed; give cutting.feed_per_tooth, or cutting.feed_rate and "
+                    "cutting.spindle_speed");
+  }
+}
+
+}  // namespace thinwall::cases

@@ -1,0 +1,63 @@
+#pragma once
+// The simulation in the time domain that is asked for.
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/words.hpp"
+#include "milling/chart/operating_point.hpp"
+
+namespace thinwall::setup {
+
+/// The paths of teeth.
+enum class ToothPaths {
+  circular,  ///< on circles, between fixed angles of entry and exit (milling/simulation/circular_cut.hpp)
+  exact,     ///< on their real paths (milling/simulation/exact_path.hpp)
+};
+
+/// The structures that a cut may be simulated on.
+enum class CutOn {
+  part,       ///< the part alone
+  supported,  ///< the part with the robot that supports it
+  tool,       ///< a tool that cuts a rigid part
+  carried     ///< a tool on a robot that carries it, which cuts the part, or a rigid one
+};
+
+/// A map of the vibration over speed and depth, by circular paths.
+struct SimulationMap {
+  int speeds = 60;  ///< evenly from lobes.from to lobes.to
+  int depths = 40;  ///< evenly up to the largest
+  double from_rpm = 0.0, to_rpm = 0.0;
+  double depth_limit_m = 0.0;
+  int turns = 200;  ///< of each point, of which the last quarter is recorded
+  int steps = 50;   ///< of a tooth from entry to exit
+};
+
+/// Operating points and how they are simulated.
+struct Simulation {
+  std::vector<milling::OperatingPoint> points;  ///< empty: those that are asked for elsewhere, else points on both
+                                                ///< sides of the boundary at the case's own speed
+  std::vector<CutOn> structures;                ///< empty: all that the case has
+  ToothPaths paths = ToothPaths::circular;
+  int settling_turns = 400;        ///< before anything is recorded
+  int turns = 200;                 ///< that are recorded, unless `length_m` says so
+  std::optional<double> length_m;  ///< of the path that is recorded
+  int traced_turns = 50;           ///< the last of them, sample by sample; fewer where fewer are recorded
+  int wall_turns = 20;             ///< likewise, whose wall is recorded; none where fewer than 4 are
+  int steps = 200;                 ///< of a tooth from entry to exit, on circular paths
+  int steps_a_turn = 720;          ///< on exact paths
+  std::optional<SimulationMap> map;
+};
+
+}  // namespace thinwall::setup
+
+namespace thinwall::core {
+
+template <>
+inline constexpr std::array<std::string_view, 2> words<setup::ToothPaths>{"circular", "exact"};
+template <>
+inline constexpr std::array<std::string_view, 4> words<setup::CutOn>{"part", "supported", "tool", "carried"};
+
+}  // namespace thinwall::core

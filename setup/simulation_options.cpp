@@ -1,0 +1,46 @@
+#include "setup/simulation_options.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace thinwall::setup {
+
+namespace {
+
+constexpr int least_wall_turns = 4;
+
+int recorded_turns(const Simulation& simulation, double feed_a_turn_m) {
+  constexpr double most = 1e7;  // as the case's keys allow
+  if (!simulation.length_m || !(feed_a_turn_m > 0.0)) return simulation.turns;
+  return static_cast<int>(std::clamp(std::ceil(*simulation.length_m / feed_a_turn_m), 1.0, most));
+}
+
+}  // namespace
+
+milling::SimulationOptions simulation_options(const Simulation& simulation, double feed_a_turn_m) {
+  milling::SimulationOptions options;
+  options.settling_turns = simulation.settling_turns;
+  options.recorded_turns = recorded_turns(simulation, feed_a_turn_m);
+  options.traced_turns = std::min(simulation.traced_turns, options.recorded_turns);
+  const int walled = std::min(simulation.wall_turns, options.recorded_turns);
+  options.wall.turns = walled < least_wall_turns ? 0 : walled;
+  options.steps.steps_in_cut = simulation.steps;
+  return options;
+}
+
+milling::PathOptions path_options(const Simulation& simulation) {
+  milling::PathOptions options;
+  options.steps_a_turn = simulation.steps_a_turn;
+  return options;
+}
+
+milling::SimulationOptions map_options(const SimulationMap& map) {
+  milling::SimulationOptions options;
+  options.recorded_turns = std::max(1, map.turns / 4);
+  options.settling_turns = map.turns - options.recorded_turns;
+  options.steps.steps_in_cut = map.steps;
+  options.kept_passes = 2;
+  return options;
+}
+
+}  // namespace thinwall::setup

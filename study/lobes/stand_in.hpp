@@ -1,0 +1,18 @@
+#pragma once
+// Modes that stand in for a part's before they are computed.
+
+#include <optional>
+
+#include "milling/structure/relative_structure.hpp"
+#include "setup/machining_setup.hpp"
+
+namespace thinwall::study {
+
+/// Modes as dense as those of a plate of the part's extent and thickness, 2 c_L t / (√12 A) apart (Cremer, Heckl &
+/// Petersson 2005), each of a quarter of its mass: φ φᵀ / (2 i ω_d (iω − λ)) + conjugate. The set-up must have a part.
+[[nodiscard]] milling::RelativeStructure modes_like(const setup::Setup& source);
+
+/// What the cut feels of the modes of the tool and of those that stand in for the part's; none if neither has any.
+[[nodiscard]] std::optional<milling::RelativeStructure> poles_like(const setup::Setup& source);
+
+}  // namespace thinwall::study

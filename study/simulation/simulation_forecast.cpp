@@ -1,0 +1,137 @@
+#include "study/simulation/simulation_forecast.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+
+#include "core/error.hpp"
+#include "core/interrupt.hpp"
+#include "core/parallel.hpp"
+#include "core/time_limit.hpp"
+#include "milling/simulation/exact_path.hpp"
+#include "setup/milling_process.hpp"
+#include "setup/simulation_options.hpp"
+#include "study/lobes/stand_in.hpp"
+
+namespace thinwall::study {
+
+namespace {
+
+/// A long march, which tells of each of its turns.
+using March = std::function<void(const milling::TurnObserver& after_turn)>;
+
+/// Seconds a turn, from as many turns as a quarter of a second holds; the first, in which memory is taken, counts only
+/// where there is no other.
+double seconds_a_turn(const March& march) {
+  using Clock = std::chrono::steady_clock;
+  constexpr double enough_s = 0.25;
+  const auto start = Clock::now();
+  auto first = start, last = start;
+  int turns = 0;
+  try {
+    const core::TimeLimit limit(enough_s);
+    march([&](double /*share*/) {
+      last = Clock::now();
+      if (turns++ == 0) first = last;
+      core::check_interrupt();
+    });
+  } catch (const core::TimeIsOver&) {
+  }
+  const std::chrono::duration<double> all = last - start, later = last - first;
+  return turns > 1 ? later.count() / (turns - 1) : all.count();
+}
+
+double structures(const setup::Setup& source) {
+  const auto named = static_cast<double>(source.simulation->structures.size());
+  if (named > 0.0) return named;
+  return source.part && source.robot && !source.contacts.empty() ? 2.0 : 1.0;
+}
+
+/// The point that is timed: the first, else one at a tenth of the tool's length.
+milling::SimulatedPoint timed_point(const setup::Setup& source, double feed_per_tooth_m) {
+  constexpr double usual_share = 0.1;
+  if (!source.simulation->points.empty()) {
+    const milling::OperatingPoint& first = source.simulation->points.front();
+    return {first.spindle_speed_rpm, first.depth_m, feed_per_tooth_m};
+  }
+  return {source.cutting->spindle_speed_rpm.value_or(5000.0), usual_share * source.tool->length, feed_per_tooth_m};
+}
+
+/// The cut on modes that stand in for the part's.
+struct StandInCut {
+  milling::RelativeStructure structure;
+  milling::MillingProcess process;
+  milling::ForceLaw law;
+  double feed_per_tooth_m = 0.0;
+};
+
+double point_turn_s(const setup::Setup& source, const StandInCut& cut) {
+  const setup::Simulation& wanted = *source.simulation;
+  milling::SimulationOptions options = setup::simulation_options(wanted, 1.0);
+  options.settling_turns = 0;
+  options.recorded_turns = 1000000;
+  options.traced_turns = options.wall.turns = 0;
+  const milling::SimulatedPoint point = timed_point(source, cut.feed_per_tooth_m);
+  return seconds_a_turn([&](const milling::TurnObserver& look) {
+    if (wanted.paths == setup::ToothPaths::circular) {
+      (void)milling::simulate(cut.structure, cut.process, cut.law, point, options, look);
+    } else {
+      const auto direction =
+          source.cutting->down_milling ? milling::MillingDirection::down : milling::MillingDirection::up;
+      (void)milling::simulate_exact_path(
+          cut.structure, cut.process, cut.law, point,
+          milling::shoulder(cut.process.cutter, *source.cutting->radial_depth, direction), options,
+          setup::path_options(wanted), look);
+    }
+  });
+}
+
+double map_turn_s(const setup::SimulationMap& map, const StandInCut& cut) {
+  milling::SimulationOptions options = setup::map_options(map);
+  options.settling_turns = 1000000;
+  const milling::SimulatedPoint middle{0.5 * (map.from_rpm + map.to_rpm), 0.5 * map.depth_limit_m,
+                                       cut.feed_per_tooth_m};
+  return seconds_a_turn([&](const milling::TurnObserver& look) {
+    (void)milling::simulate(cut.structure, cut.process, cut.law, middle, options, look);
+  });
+}
+
+SimulationForecast forecast_of(const setup::Setup& source, const StandInCut& cut) {
+  const setup::Simulation& wanted = *source.simulation;
+  const auto options = setup::simulation_options(wanted, cut.process.cutter.teeth * cut.feed_per_tooth_m);
+  const bool around_boundary = wanted.points.empty() && source.cutting->spindle_speed_rpm;
+  const double points = around_boundary ? 2.0 : static_cast<double>(wanted.points.size());
+  SimulationForecast result;
+  result.points = structures(source) * points;
+  const double point_turns = result.points * (options.settling_turns + options.recorded_turns);
+  if (result.points > 0.0) {
+    const double together = std::min<double>(core::thread_count(), result.points);
+    result.seconds = point_turns * point_turn_s(source, cut) / together;
+  }
+  result.turns = point_turns;
+  if (!wanted.map) return result;
+  result.map_points = structures(source) * wanted.map->speeds * wanted.map->depths;
+  result.turns += result.map_points * wanted.map->turns;
+  result.seconds += result.map_points * wanted.map->turns * map_turn_s(*wanted.map, cut) / core::thread_count();
+  return result;
+}
+
+}  // namespace
+
+std::optional<SimulationForecast> forecast_simulation(const setup::Setup& source) {
+  if (!source.simulation || !source.cutting || !source.tool) return std::nullopt;
+  try {
+    const auto feed = setup::feed_per_tooth(source);
+    auto poles = poles_like(source);
+    if (!feed || !poles) return std::nullopt;
+    const milling::MillingProcess process = setup::milling_process(source);
+    return forecast_of(source, {std::move(*poles), process, setup::force_law(*source.cutting, process), *feed});
+  } catch (const core::Interrupted&) {
+    throw;
+  } catch (const core::Error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace thinwall::study

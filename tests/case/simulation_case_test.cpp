@@ -1,0 +1,150 @@
+// [simulation] of a case: what it becomes, and what is refused.
+
+#include <gtest/gtest.h>
+
+#include "case/operating_point.hpp"
+#include "case/problem.hpp"
+#include "case/reader.hpp"
+#include "core/error.hpp"
+#include "setup/simulation_options.hpp"
+#include "tests/case/case_text.hpp"
+
+namespace thinwall::tests::simulation_case_test {
+
+using namespace setup;
+using namespace cases;
+
+namespace {
+
+std::string simulated(const std::string& lines) {
+  return plate_case() + "[simulation]\n" + lines;
+}
+
+void expect_problem(const std::string& text, const std::string& part) {
+  try {
+    (void)parse_case(text, ".");
+    ADD_FAILURE() << "accepted, though " << part;
+  } catch (const CaseError& error) {
+    ASSERT_EQ(error.problems.size(), 1U) << error.what();
+    EXPECT_NE(error.problems[0].text.find(part), std::string::npos) << error.problems[0].text;
+  }
+}
+
+TEST(SimulationCase, HasDefaultsForAllThatIsNotGiven) {
+  const Case c = parse_case(simulated("at = \"1900 rpm, 1 mm\"\n"), ".");
+  ASSERT_TRUE(c.simulation);
+  ASSERT_EQ(c.simulation->points.size(), 1U);
+  EXPECT_EQ(c.simulation->points[0].spindle_speed_rpm, 1900.0);
+  EXPECT_EQ(c.simulation->points[0].depth_m, 0.001);
+  EXPECT_EQ(c.simulation->paths, ToothPaths::circular);
+  const auto options = simulation_options(*c.simulation, 1e-3);
+  EXPECT_EQ(options.settling_turns, 400);
+  EXPECT_EQ(options.recorded_turns, 200);
+  EXPECT_EQ(options.traced_turns, 50);
+  EXPECT_EQ(options.wall.turns, 20);
+  EXPECT_EQ(options.steps.steps_in_cut, 200);
+  EXPECT_FALSE(c.simulation->map);
+  EXPECT_FALSE(parse_case(plate_case(), ".").simulation);
+}
+
+TEST(SimulationCase, RecordsTheTurnsOfAPathsLength) {
+  const Case c = parse_case(
+      simulated("at = \"1900 rpm, 1 mm\"\nlength = \"10 mm\"\npaths = \"exact\"\nsteps_a_turn = 360\n"), ".");
+  // 1800 mm/min at 1900 rpm are 0.947 mm a turn.
+  const double feed_a_turn = 1.8 / 1900.0;
+  const auto options = simulation_options(*c.simulation, feed_a_turn);
+  EXPECT_EQ(options.recorded_turns, 11);
+  EXPECT_EQ(options.traced_turns, 11) << "not more than are recorded";
+  EXPECT_EQ(path_options(*c.simulation).steps_a_turn, 360);
+  const Case few = parse_case(simulated("turns = 3\n"), ".");
+  EXPECT_EQ(simulation_options(*few.simulation, feed_a_turn).wall.turns, 0) << "a wall takes four turns";
+}
+
+TEST(SimulationCase, ItsMapSpansTheChart) {
+  const Case c = parse_case(simulated("[simulation.map]\nspeeds = 7\nturns = 100\n"), ".");
+  ASSERT_TRUE(c.simulation->map);
+  EXPECT_EQ(c.simulation->map->from_rpm, 1000.0);
+  EXPECT_EQ(c.simulation->map->to_rpm, 3000.0);
+  EXPECT_EQ(c.simulation->map->depth_limit_m, 0.02) << "that of the tool";
+  EXPECT_EQ(c.simulation->map->speeds, 7);
+  EXPECT_EQ(c.simulation->map->depths, 40);
+  const auto options = map_options(*c.simulation->map);
+  EXPECT_EQ(options.settling_turns + options.recorded_turns, 100);
+  EXPECT_EQ(options.recorded_turns, 25);
+}
+
+TEST(SimulationCase, WhatCannotBeSimulatedIsRefused) {
+  expect_problem(simulated("at = [\"1900 rpm, 1 mm\", \"1 mm\"]\n"),
+                 "\"1 mm\": a spindle speed and a depth with one comma");
+  expect_problem(simulated("at = \"1900 rpm, 25 mm\"\n"), "deeper than the tool's length of 20 mm");
+  expect_problem(simulated("at = \"0 rpm, 1 mm\"\n"), "above 0");
+  expect_problem(simulated("turns = 100\nlength = \"10 mm\"\n"), "give either simulation.turns or simulation.length");
+  expect_problem(simulated("length = \"500 mm\"\n"), "more than the part's extent of 392 mm along the feed");
+  expect_problem(simulated("turns = 100000\ntrace = 20000\n"), "a trace of 1.008e+08 numbers");
+  expect_problem(simulated("structures = \"tool\"\n"), "the tool cuts a part");
+  expect_problem(simulated("steps = 100\npaths = \"exact\"\n"), "simulation.steps");
+  expect_problem(simulated("settling_turns = -1\n"), "simulation.settling_turns");
+  expect_problem(simulated("[simulation.map]\ndeepest = \"25 mm\"\n"), "more than the tool's length");
+}
+
+TEST(SimulationCase, AFeedIsNeeded) {
+  std::string text = simulated("at = \"1900 rpm, 1 mm\"\n");
+  const std::string feed = "feed_rate = \"1800 mm/min\"\n";
+  text.erase(text.find(feed), feed.size());
+  expect_problem(text, "chips depend on the feed");
+  std::string zero = simulated("at = \"1900 rpm, 1 mm\"\n");
+  zero.replace(zero.find("1800 mm/min"), 11, "0 mm/min");
+  expect_problem(zero, "cutting.feed_rate");
+}
+
+TEST(SimulationCase, TeethMustTouch) {
+  std::string text = simulated("at = \"1900 rpm, 1 mm\"\n");
+  const std::string depth = "radial_depth = \"0.2 mm\"\n";
+  text.replace(text.find(depth), depth.size(), "entry_angle = \"30 deg\"\nexit_angle = \"30 deg\"\n");
+  expect_problem(text, "the exit must follow");
+}
+
+TEST(SimulationCase, WhatIsMeasuredAloneIsToBeFittedFirst) {
+  std::string text = simulated("at = \"1900 rpm, 1 mm\"\n");
+  const std::string robot = "frequency = \"29 Hz\"\nstiffness = \"1.7e6 N/m\"\ndamping_ratio = 0.02\n";
+  text.replace(text.find(robot), robot.size(), "model = \"measured\"\n");
+  text += "[[robot.measured]]\nfile = \"" + std::string(THINWALL_SOURCE_DIR) +
+          "/cases/barrios-2019/case.toml\"\nquantity = \"receptance\"\nunit = \"m/N\"\n";
+  try {
+    (void)parse_case(text, ".");
+    FAIL();
+  } catch (const CaseError& error) {
+    EXPECT_NE(std::string(error.what()).find("fit modes to them and give robot.modes"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(SimulationCase, AToolAloneIsEnough) {
+  const std::string tool = R"([tool]
+teeth = 2
+diameter = "10 mm"
+length = "20 mm"
+[[tool.modes]]
+frequency = "922 Hz"
+damping_ratio = 0.011
+stiffness = "1.34e6 N/m"
+direction = "x"
+[cutting]
+radial_depth = "0.5 mm"
+Kt = "600 N/mm^2"
+feed_per_tooth = "0.1 mm"
+)";
+  EXPECT_TRUE(parse_case(tool + "[simulation]\nat = \"11000 rpm, 1 mm\"\n", ".").simulation);
+  EXPECT_THROW((void)parse_case(tool, "."), CaseError);
+}
+
+TEST(OperatingPoint, IsReadAsPeopleWriteIt) {
+  const auto point = operating_point("5000 rpm, 0.5 mm");
+  EXPECT_EQ(point.spindle_speed_rpm, 5000.0);
+  EXPECT_EQ(point.depth_m, 0.0005);
+  for (const char* text : {"5000 rpm", "5000 rpm, 0.5 mm, 1", "5000, 0.5 mm", "5000 rpm, 0.5 s", "5000 rpm, 0 mm", ""})
+    EXPECT_THROW((void)operating_point(text), core::InputError) << text;
+}
+
+}  // namespace
+}  // namespace thinwall::tests::simulation_case_test

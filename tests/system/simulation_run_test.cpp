@@ -1,0 +1,178 @@
+// [simulation] of a case as a stage of a run: summary, tables, page, what is kept.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <string>
+
+#include "app/command_line.hpp"
+#include "app/forecast.hpp"
+#include "core/atomic_file.hpp"
+#include "io/json_file.hpp"
+#include "report/page/simulation_data.hpp"
+#include "report/terminal_report.hpp"
+#include "study/kept/checkpoint.hpp"
+#include "study/kept/stage_keys.hpp"
+#include "tests/system/run_in_folder.hpp"
+
+namespace thinwall::tests::simulation_run_test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// A tool of one mode along either axis: the benchmark oscillator of tests/milling.
+const std::string tool = R"(
+[tool]
+teeth = 2
+diameter = "10 mm"
+length = "20 mm"
+[[tool.modes]]
+frequency = "922 Hz"
+damping_ratio = 0.011
+stiffness = "1340049.6480507487 N/m"
+direction = "x"
+[[tool.modes]]
+frequency = "922 Hz"
+damping_ratio = 0.011
+stiffness = "1340049.6480507487 N/m"
+direction = "y"
+[cutting]
+radial_depth = "0.5 mm"
+mode = "down"
+Kt = "600 N/mm^2"
+Kr = "200 N/mm^2"
+feed_per_tooth = "0.1 mm"
+)";
+
+const std::string points = R"(
+[simulation]
+at = ["11000 rpm, 1 mm", "19000 rpm, 2 mm"]
+settling_turns = 2000
+turns = 40
+trace = 20
+)";
+
+/// The figures are those of the reference outside this project (tests/milling), both checks of consistency hold, and
+/// what the page draws is what the tables have.
+TEST(SimulationRun, TellsEveryPointAndThatMarchLobesAndClosedFormAgree) {
+  const fs::path folder = scratch("simulation_run");
+  const json simulation = run(tool + points, folder)["simulation"];
+  ASSERT_EQ(simulation["points"].size(), 2U);
+  const json& stable = simulation["points"][0];
+  const json& flip = simulation["points"][1];
+  EXPECT_EQ(stable["motion"], "periodic");
+  EXPECT_EQ(flip["motion"], "period_n");
+  EXPECT_EQ(flip["period"], 2);
+  EXPECT_NEAR(flip["peak_to_peak_m"][0].get<double>(), 144.598e-6, 0.15e-6);
+  EXPECT_NEAR(flip["growth"]["lobes_modulus"].get<double>(), 1.11928470, 1e-6);
+  EXPECT_LT(std::abs(flip["growth"]["difference_relative"].get<double>()), 1e-6);
+  EXPECT_NEAR(stable["walls"][0]["location_error_m"].get<double>(), -6.5416e-6, 1e-9);
+  EXPECT_NEAR(stable["walls"][0]["R_a_m"].get<double>(), 0.063e-6, 0.0002e-6);
+  EXPECT_LT(stable["forced_vibration"]["difference_relative"].get<double>(), 1e-5);
+  EXPECT_TRUE(flip["forced_vibration"].is_null()) << "the flip has no closed form";
+  EXPECT_LT(simulation["growth_difference"]["max_relative"].get<double>(), 1e-6);
+  EXPECT_LT(simulation["forced_difference"]["max_relative"].get<double>(), 1e-5);
+  EXPECT_EQ(simulation["forced_difference"]["spindle_speed_rpm"], 11000.0);
+}
+
+/// Every second tooth of the flip cuts alike: it has lines at odd multiples of half the tooth passing, which those of a
+/// stable cut are not.
+TEST(SimulationRun, TellsLinesOfTheTeethFromChatter) {
+  const json simulation = run(tool + points, scratch("simulation_lines"))["simulation"];
+  for (const json& line : simulation["points"][0]["vibration_lines"]) EXPECT_EQ(line["origin"], "tooth_passing");
+  bool other = false;
+  for (const json& line : simulation["points"][1]["vibration_lines"])
+    other = other || line["origin"] != "tooth_passing";
+  EXPECT_TRUE(other);
+  EXPECT_FALSE(simulation["points"][0]["force_lines"].empty());
+}
+
+TEST(SimulationRun, WritesTheTablesThatThePageDraws) {
+  const fs::path folder = scratch("simulation_tables");
+  const RunResult result = run_case(parse_case(tool + points, folder), {folder, true, -1, false});
+  for (const char* name : {"points", "tool-1", "tool-1-spectrum", "tool-1-passes", "tool-1-wall", "tool-2"})
+    EXPECT_TRUE(fs::exists(folder / "simulation" / (std::string(name) + ".csv"))) << name;
+  const json data = report::simulation_data(folder, result.summary);
+  ASSERT_EQ(data["points"].size(), 2U);
+  for (const char* key : {"trace", "spectrum", "passes", "walls"}) EXPECT_TRUE(data["points"][0].contains(key)) << key;
+  EXPECT_NE(core::read_file(folder / "report.html").find("\"simulation\""), std::string::npos);
+  const std::string text = report::terminal_report(result.summary, "there");
+  EXPECT_NE(text.find("growth and lobes agree to"), std::string::npos) << text;
+  EXPECT_NE(text.find("periodic motion and closed form agree to"), std::string::npos) << text;
+  // Another simulation in the same place is not taken for this run's.
+  report::Summary other = result.summary;
+  other.simulation->points[1].depth_m = 1e-3;
+  EXPECT_FALSE(report::simulation_data(folder, other)["points"][0].contains("trace"));
+}
+
+/// A map has at each of its points what a simulation there has.
+TEST(SimulationRun, MapsTheVibrationOverSpeedAndDepth) {
+  const fs::path folder = scratch("simulation_map");
+  const std::string map = R"(
+[lobes]
+from = "11000 rpm"
+to = "19000 rpm"
+count = 8
+most_added = 0
+[simulation]
+at = "19000 rpm, 2 mm"
+settling_turns = 600
+turns = 200
+steps = 50
+[simulation.map]
+speeds = 2
+depths = 2
+deepest = "2 mm"
+turns = 800
+)";
+  const json simulation = run(tool + map, folder)["simulation"];
+  EXPECT_EQ(simulation["maps"][0]["speeds"], 2);
+  const fs::path file = folder / "simulation" / "tool_map.csv";
+  EXPECT_EQ(column(file, "spindle_speed_rpm"), (std::vector<double>{11000.0, 11000.0, 19000.0, 19000.0}));
+  EXPECT_EQ(column(file, "depth_m"), (std::vector<double>{1e-3, 2e-3, 1e-3, 2e-3}));
+  const std::vector<double> amplitude = column(file, "peak_to_peak_m");
+  EXPECT_NEAR(amplitude[3], simulation["points"][0]["peak_to_peak_m"][0].get<double>(), 1e-9);
+  EXPECT_LT(amplitude[2], 0.5 * amplitude[3]);
+}
+
+/// Where nothing has changed nothing is simulated again: a second run takes what the first has kept, whichever the
+/// points are asked in; another feed is another key.
+TEST(SimulationRun, KeepsItsPointsForTheNextRun) {
+  const fs::path folder = scratch("simulation_kept");
+  const Case source = parse_case(tool + points, folder);
+  (void)run_case(source, {folder, false, -1, false});
+  study::Checkpoint kept(folder / "cache" / "simulation.bin", study::simulation_key(source), false);
+  const std::string* bytes = kept.find("point of the tool: 11000 rpm, 0.001 m");
+  ASSERT_NE(bytes, nullptr);
+  const std::string before = core::read_file(folder / "cache" / "simulation.bin");
+  const json first = io::read_json(folder / "summary.json")["simulation"];
+  (void)run_case(source, {folder, false, -1, false});
+  EXPECT_EQ(io::read_json(folder / "summary.json")["simulation"], first);
+  EXPECT_EQ(core::read_file(folder / "cache" / "simulation.bin"), before);
+  const auto key = [&](const std::string& from, const std::string& to) {
+    std::string text = tool + points;
+    text.replace(text.find(from), from.size(), to);
+    return study::simulation_key(parse_case(text, folder));
+  };
+  EXPECT_EQ(key("19000 rpm, 2 mm", "19000 rpm, 1 mm"), study::simulation_key(source)) << "a point is a name, no key";
+  EXPECT_NE(key("0.1 mm\"", "0.2 mm\""), study::simulation_key(source));
+  EXPECT_NE(key("turns = 40", "turns = 41"), study::simulation_key(source));
+}
+
+TEST(SimulationRun, IsForetold) {
+  const Forecast time = forecast(parse_case(tool + points, "."));
+  ASSERT_TRUE(time.simulation.has_value());
+  EXPECT_EQ(time.simulation->points, 2.0);
+  EXPECT_EQ(time.simulation->turns, 2.0 * 2040.0);
+  EXPECT_GT(time.simulation->seconds, 0.0);
+  std::string longer = tool + points;
+  longer.replace(longer.find("= 2000"), 6, "= 2000000");
+  EXPECT_GT(forecast(parse_case(longer, ".")).simulation->turns, 4e6);
+  EXPECT_FALSE(forecast(parse_case(tool + "[lobes]\nfrom = \"1000 rpm\"\nto = \"2000 rpm\"\n", ".")).simulation);
+}
+
+}  // namespace
+}  // namespace thinwall::tests::simulation_run_test
