@@ -136,11 +136,12 @@ void describe_simulate(CLI::App& app, Arguments& arguments) {
       ->type_name("\"SPEED, DEPTH\"")
       ->allow_extra_args(false);
   command
-      ->add_option("--paths", simulate.paths,
-                   "how teeth move: on circles between fixed angles of entry and exit (default), or exactly, with "
-                   "contact by geometry")
-      ->type_name("circular|exact")
-      ->check(CLI::IsMember({"circular", "exact"}));
+      ->add_option(
+          "--paths", simulate.paths,
+          "how teeth move: on circles between fixed angles of entry and exit (default), exactly, with contact by "
+          "geometry, or through a part that is kept as a region")
+      ->type_name("circular|exact|region")
+      ->check(CLI::IsMember({"circular", "exact", "region"}));
   command->add_option("--settle", simulate.settling_turns, "turns before anything is recorded (default: 400)")
       ->check(CLI::Range(0, 10000000));
   command->add_option("--turns", simulate.turns, "turns that are recorded (default: 200)")

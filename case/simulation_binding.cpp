@@ -44,6 +44,9 @@ setup::Simulation bind_simulation(const Table& table, const std::optional<setup:
   integer("steps", simulation.steps);
   integer("steps_a_turn", simulation.steps_a_turn);
   simulation.length_m = table.optional("length");
+  simulation.start = table.choice<setup::CutStart>("start");
+  simulation.chords = table.flag("chords");
+  simulation.support = table.choice<setup::SupportSides>("support");
   if (const Table map = table.table("map"); map.exists()) simulation.map = bind_map(map, lobes);
   return simulation;
 }

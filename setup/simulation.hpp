@@ -15,6 +15,19 @@ namespace thinwall::setup {
 enum class ToothPaths {
   circular,  ///< on circles, between fixed angles of entry and exit (milling/simulation/circular_cut.hpp)
   exact,     ///< on their real paths (milling/simulation/exact_path.hpp)
+  region     ///< on their real paths, through a part that is kept as a region (milling/simulation/region_path.hpp)
+};
+
+/// Where the tool is when a simulation begins.
+enum class CutStart {
+  steady,  ///< within the material, which it has cut so far without vibration
+  border   ///< outside, touching a straight border across the feed
+};
+
+/// What the contact of a support does when the cut pulls at it.
+enum class SupportSides {
+  two_sided,  ///< it holds, as in the lobes
+  one_sided   ///< it opens (milling/simulation/one_sided_contact.hpp)
 };
 
 /// The structures that a cut may be simulated on.
@@ -47,7 +60,10 @@ struct Simulation {
   int traced_turns = 50;           ///< the last of them, sample by sample; fewer where fewer are recorded
   int wall_turns = 20;             ///< likewise, whose wall is recorded; none where fewer than 4 are
   int steps = 200;                 ///< of a tooth from entry to exit, on circular paths
-  int steps_a_turn = 720;          ///< on exact paths
+  int steps_a_turn = 720;          ///< on exact paths and in a region
+  CutStart start = CutStart::steady;
+  bool chords = false;  ///< in a region, tips move in one chord a step
+  SupportSides support = SupportSides::two_sided;
   std::optional<SimulationMap> map;
 };
 
@@ -56,7 +72,11 @@ struct Simulation {
 namespace thinwall::core {
 
 template <>
-inline constexpr std::array<std::string_view, 2> words<setup::ToothPaths>{"circular", "exact"};
+inline constexpr std::array<std::string_view, 3> words<setup::ToothPaths>{"circular", "exact", "region"};
+template <>
+inline constexpr std::array<std::string_view, 2> words<setup::CutStart>{"steady", "border"};
+template <>
+inline constexpr std::array<std::string_view, 2> words<setup::SupportSides>{"two_sided", "one_sided"};
 template <>
 inline constexpr std::array<std::string_view, 4> words<setup::CutOn>{"part", "supported", "tool", "carried"};
 

@@ -17,15 +17,35 @@ int recorded_turns(const Simulation& simulation, double feed_a_turn_m) {
 
 }  // namespace
 
-milling::SimulationOptions simulation_options(const Simulation& simulation, double feed_a_turn_m) {
+milling::SimulationOptions simulation_options(const Simulation& simulation, double feed_per_tooth_m, int teeth) {
   milling::SimulationOptions options;
   options.settling_turns = simulation.settling_turns;
-  options.recorded_turns = recorded_turns(simulation, feed_a_turn_m);
+  options.recorded_turns = recorded_turns(simulation, teeth * feed_per_tooth_m);
   options.traced_turns = std::min(simulation.traced_turns, options.recorded_turns);
   const int walled = std::min(simulation.wall_turns, options.recorded_turns);
   options.wall.turns = walled < least_wall_turns ? 0 : walled;
   options.steps.steps_in_cut = simulation.steps;
+  if (simulation.start == CutStart::border) {
+    options.settling_turns = 0;
+    options.traced_turns = options.recorded_turns;
+    constexpr int samples_a_tooth = 24;  // of which means are taken
+    options.samples_a_turn = teeth * samples_a_tooth;
+  }
   return options;
+}
+
+milling::RegionOptions region_options(const Simulation& simulation) {
+  milling::RegionOptions options;
+  options.steps_a_turn = simulation.steps_a_turn;
+  options.edge = simulation.chords ? milling::SweptEdge::chords : milling::SweptEdge::arcs;
+  return options;
+}
+
+milling::Stock stock_of(const Simulation& simulation, const Cutting& cutting, const milling::Cutter& cutter) {
+  const auto direction = cutting.down_milling ? milling::MillingDirection::down : milling::MillingDirection::up;
+  milling::Stock stock = milling::shoulder(cutter, *cutting.radial_depth, direction);
+  if (simulation.start == CutStart::border) stock.push_back(milling::border_ahead(cutter, 0.0));
+  return stock;
 }
 
 milling::PathOptions path_options(const Simulation& simulation) {

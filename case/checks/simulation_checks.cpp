@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <variant>
 
 #include "case/operating_point.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "setup/contact_model.hpp"
 #include "setup/milling_process.hpp"
 #include "setup/simulation_options.hpp"
 
@@ -78,14 +81,31 @@ void check_structures(const Case& source, Findings& findings) {
   }
 }
 
+/// A contact that may open: the only one, of a known stiffness, pressed.
+void check_one_sided(const Case& source, Findings& findings) {
+  if (source.simulation->support != setup::SupportSides::one_sided) return;
+  if (source.contacts.size() != 1 || !source.robot) {
+    findings.report("simulation.support",
+                    std::to_string(source.contacts.size()) +
+                        " contacts of a robot, must be one that opens; give one, or \"two_sided\"");
+    return;
+  }
+  const auto* springs = std::get_if<setup::SpringContact>(&source.contacts.front().model);
+  if (springs != nullptr && !springs->stiffness.empty() && !std::isfinite(springs->stiffness.front()))
+    findings.report("simulation.support",
+                    "a rigid contact does not open; give contacts.stiffness, or contacts.model = \"hertz\"");
+  if (!setup::preload_of(source, source.contacts.front()))
+    findings.report("simulation.support", "nothing presses the contact that may open; give robot.preload");
+}
+
 void check_exact_paths(const Case& source, Findings& findings) {
-  if (source.simulation->paths != setup::ToothPaths::exact) return;
+  if (source.simulation->paths == setup::ToothPaths::circular) return;
   if (source.cutting && !source.cutting->radial_depth)
-    findings.report(
-        "simulation.paths",
-        "angles of entry and exit do not say where the material lies; exact paths need cutting.radial_depth");
+    findings.report("simulation.paths",
+                    "angles of entry and exit do not say where the material lies; paths that are not circles need "
+                    "cutting.radial_depth");
   if (source.tool && source.tool->end != setup::ToolEnd::flat)
-    findings.report("simulation.paths", "exact paths are known for flat ends only; take \"circular\"");
+    findings.report("simulation.paths", "paths that are not circles are known for flat ends only; take \"circular\"");
 }
 
 /// The longest path that fits on the part along the feed, m; none where its size is not known.
@@ -104,7 +124,7 @@ void check_record(const Case& source, double feed_per_tooth_m, Findings& finding
   if (findings.given("simulation.turns") && simulation.length_m)
     findings.report("simulation.length", "give either simulation.turns or simulation.length, not both");
   const auto violations =
-      milling::validate(setup::simulation_options(simulation, source.tool->teeth * feed_per_tooth_m));
+      milling::validate(setup::simulation_options(simulation, feed_per_tooth_m, source.tool->teeth));
   for (const std::string& violation : violations) findings.report("simulation.trace", violation);
 }
 
@@ -129,6 +149,7 @@ void check_map(const Case& source, Findings& findings) {
 void check_simulation(const Case& source, Findings& findings) {
   check_points(source, findings);
   check_exact_paths(source, findings);
+  check_one_sided(source, findings);
   if (source.simulation->map) check_map(source, findings);
   if (!source.tool || !source.cutting) {
     findings.report("simulation", "there is no cut; add [tool] and [cutting]");

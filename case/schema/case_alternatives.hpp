@@ -127,7 +127,10 @@ inline constexpr Belonging case_belongings[] = {
     {"lobes.uncertainty", "lobes.method", "direct"},
 
     {"simulation.steps", "simulation.paths", "circular"},
-    {"simulation.steps_a_turn", "simulation.paths", "exact"},
+    {"simulation.steps_a_turn", "simulation.paths", "exact|region"},
+    {"simulation.start", "simulation.paths", "exact|region"},
+    {"simulation.chords", "simulation.paths", "region"},
+    {"simulation.support", "simulation.paths", "exact|region"},
 };
 
 inline constexpr Telling case_tellings[] = {

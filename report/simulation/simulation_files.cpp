@@ -6,6 +6,8 @@
 
 #include "core/words.hpp"
 #include "io/results/csv_table.hpp"
+#include "io/results/vtp.hpp"
+#include "mesh/planar/stacked_prisms.hpp"
 #include "milling/simulation/spectrum.hpp"
 #include "report/simulation/simulation_summary.hpp"
 
@@ -154,6 +156,17 @@ void write_point(const std::filesystem::path& folder, const std::string& name, c
                   {"error_m: of the deepest tip at each place along the feed; positive: too much is taken"});
 }
 
+/// What is left of the part, as closed layers, tool axes: x along the feed, z from the tip up.
+void write_part(const std::filesystem::path& file, const std::vector<milling::PartSlice>& slices) {
+  std::vector<mesh::Layer> layers;
+  double from_m = 0.0;
+  for (const milling::PartSlice& slice : slices) {
+    layers.push_back({from_m, from_m + slice.width_m, slice.outlines});
+    from_m += slice.width_m;
+  }
+  io::write_vtp(file, mesh::stacked_prisms(layers), {});
+}
+
 void write_map(const std::filesystem::path& file, const study::AmplitudeMap& map) {
   std::vector<double> speed, depth, amplitude, lost;
   for (std::size_t s = 0; s < map.spindle_speeds_rpm.size(); ++s) {
@@ -184,6 +197,7 @@ void write_simulation(const std::filesystem::path& folder, const study::Results&
     const PointSimulation& p = results.simulations[i];
     if (p.cut.status != milling::SimulationStatus::overflowed)
       write_point(below, simulation_files_name(p.of, i), p.cut);
+    if (!p.part.empty()) write_part(below / (simulation_files_name(p.of, i) + "-part.vtp"), p.part);
   }
   for (const study::AmplitudeMap& map : results.amplitude_maps)
     write_map(below / (core::word_of(map.of) + "_map.csv"), map);

@@ -75,6 +75,21 @@ std::string wall_text(const WallSummary& wall) {
       wall.location_error_m > 0.0 ? "too deep" : "left standing", length(wall.R_a_m), length(wall.R_t_m));
 }
 
+std::string approach_text(const ApproachSummary& approach) {
+  return fmt::format(
+      "  deflection {} {} at the end, overshoot {:.3g} % at {:.3g} s, within 2 % after {:.3g} s, 5 % after {:.3g} s\n",
+      approach.direction == "feed" ? "along the feed" : "across", length(approach.final_m), 100.0 * approach.overshoot,
+      approach.peak_s, approach.settling_2_s, approach.settling_5_s);
+}
+
+std::string contact_text(const OpeningContactSummary& contact) {
+  if (contact.open_share == 0.0)
+    return fmt::format("  support    stays closed, pressed by {:.4g} to {:.4g} N\n", contact.least_n,
+                       contact.largest_n);
+  return fmt::format("  support    open in {:.2g} % of the time, by up to {}; pressed by up to {:.4g} N\n",
+                     100.0 * contact.open_share, length(contact.widest_m), contact.largest_n);
+}
+
 std::string text_of(const SimulatedPointSummary& p) {
   std::string text = fmt::format("{} at {:.0f} rpm, {} deep: {}\n", chart_title(p.chart), p.spindle_speed_rpm,
                                  length(p.depth_m), outcome(p));
@@ -87,6 +102,8 @@ std::string text_of(const SimulatedPointSummary& p) {
                       p.peak_force_n.value_or(NAN), p.peak_torque_n_m.value_or(NAN), p.mean_power_w.value_or(NAN));
   text += fmt::format("  contact    lost in {:.2g} % of the cut, thickest chip {}\n",
                       100.0 * p.share_without_contact.value_or(NAN), length(p.thickest_chip_m.value_or(NAN)));
+  if (p.opening_contact) text += contact_text(*p.opening_contact);
+  for (const ApproachSummary& approach : p.approach) text += approach_text(approach);
   text += lines_text(p);
   for (const WallSummary& wall : p.walls) text += wall_text(wall);
   return text;

@@ -61,6 +61,9 @@ void add_figures(SimulatedPointSummary& summary, const milling::SimulatedCut& cu
   summary.share_without_contact = cut.share_without_contact;
   summary.thickest_chip_m = cut.thickest_chip_m;
   summary.walls = walls_of(cut.walls);
+  if (cut.contact)
+    summary.opening_contact = {cut.contact->open_share, cut.contact->least_n, cut.contact->largest_n,
+                               cut.contact->widest_m};
 }
 
 SimulatedPointSummary point_of(const PointSimulation& p, std::size_t index) {
@@ -79,6 +82,11 @@ SimulatedPointSummary point_of(const PointSimulation& p, std::size_t index) {
   add_figures(summary, p.cut);
   summary.vibration_lines = lines_of<VibrationLineSummary>(p, p.cut.trace.displacement_m);
   summary.force_lines = lines_of<ForceLineSummary>(p, p.cut.trace.force_n);
+  for (std::size_t axis = 0; axis < p.approach.size(); ++axis) {
+    const milling::Approach& a = p.approach[axis];
+    summary.approach.push_back(
+        {axis == 0 ? "feed" : "normal", a.final_m, a.overshoot, a.peak_s, a.settling_2_s, a.settling_5_s});
+  }
   if (p.forced) summary.forced_vibration = {p.forced->peak_to_peak_m, p.forced->difference, p.forced->left};
   return summary;
 }
@@ -114,10 +122,10 @@ std::optional<SimulationSummary> simulation_summary(const study::Results& result
   const setup::Simulation& wanted = *results.setup.simulation;
   SimulationSummary summary;
   summary.paths = core::word_of(wanted.paths);
-  summary.settling_turns = wanted.settling_turns;
+  summary.settling_turns = wanted.start == setup::CutStart::border ? 0 : wanted.settling_turns;
   for (std::size_t i = 0; i < results.simulations.size(); ++i) {
     const PointSimulation& p = results.simulations[i];
-    summary.recorded_turns = setup::simulation_options(wanted, p.teeth * p.feed_per_tooth_m).recorded_turns;
+    summary.recorded_turns = setup::simulation_options(wanted, p.feed_per_tooth_m, p.teeth).recorded_turns;
     summary.points.push_back(point_of(p, i));
     const SimulatedPointSummary& added = summary.points.back();
     take_largest(summary.growth_difference, added, added.growth.difference_relative);

@@ -101,6 +101,36 @@ void fields(Visitor& visit, Section& forced) {
         forced.left_of_beginning);
 }
 
+/// The way in which the mean deflection over a tooth approaches its end, of a cut that began at a border.
+struct ApproachSummary {
+  std::string direction;
+  double final_m = 0.0, overshoot = 0.0, peak_s = 0.0, settling_2_s = 0.0, settling_5_s = 0.0;
+};
+
+template <class Visitor, Either<ApproachSummary> Section>
+void fields(Visitor& visit, Section& approach) {
+  visit(Field{"direction", Kind::text, "\"feed\" or \"normal\""}, approach.direction);
+  visit(Field{"final_m", Kind::length, "mean deflection at the end, tool against part"}, approach.final_m);
+  visit(Field{"overshoot", Kind::ratio, "largest mean deflection over that at the end, less one"}, approach.overshoot);
+  visit(Field{"peak_s", Kind::time, "moment of that, since the tool touched the border"}, approach.peak_s);
+  visit(Field{"settling_2_s", Kind::time, "time after which it stays within 2 % of its end"}, approach.settling_2_s);
+  visit(Field{"settling_5_s", Kind::time, "the same of 5 %"}, approach.settling_5_s);
+}
+
+/// The contact of a support that may open.
+struct OpeningContactSummary {
+  double open_share = 0.0, least_n = 0.0, largest_n = 0.0, widest_m = 0.0;
+};
+
+template <class Visitor, Either<OpeningContactSummary> Section>
+void fields(Visitor& visit, Section& contact) {
+  visit(Field{"open_share", Kind::ratio, "share of the time in which it is open"}, contact.open_share);
+  visit(Field{"least_n", Kind::force, "least force that presses it; 0 once it opened"}, contact.least_n);
+  visit(Field{"largest_n", Kind::force, "largest force that presses it"}, contact.largest_n);
+  visit(Field{"widest_m", Kind::length, "largest distance of its sides from where they rest, while open"},
+        contact.widest_m);
+}
+
 /// A simulated operating point.
 struct SimulatedPointSummary {
   std::string files;
@@ -116,6 +146,8 @@ struct SimulatedPointSummary {
   std::vector<VibrationLineSummary> vibration_lines;
   std::vector<ForceLineSummary> force_lines;
   std::vector<WallSummary> walls;
+  std::vector<ApproachSummary> approach;
+  std::optional<OpeningContactSummary> opening_contact;
 };
 
 template <class Visitor, Either<SimulatedPointSummary> Section>
@@ -156,6 +188,9 @@ void fields(Visitor& visit, Section& point) {
         point.vibration_lines);
   visit(Field{"force_lines", Kind::section, "strongest lines of the force", Presence::if_any}, point.force_lines);
   visit(Field{"walls", Kind::section, "walls of the last turns", Presence::if_any}, point.walls);
+  visit(Field{"approach", Kind::section, "mean deflection of a cut that began at a border", Presence::if_any},
+        point.approach);
+  visit(Field{"opening_contact", Kind::section, "contact of a support that may open"}, point.opening_contact);
 }
 
 /// The largest of a difference over all points, and where it is.
@@ -204,7 +239,7 @@ struct SimulationSummary {
 
 template <class Visitor, Either<SimulationSummary> Section>
 void fields(Visitor& visit, Section& simulation) {
-  visit(Field{"paths", Kind::text, "paths of teeth: \"circular\" or \"exact\""}, simulation.paths);
+  visit(Field{"paths", Kind::text, "paths of teeth: \"circular\", \"exact\" or \"region\""}, simulation.paths);
   visit(Field{"settling_turns", Kind::count, "turns before the record"}, simulation.settling_turns);
   visit(Field{"recorded_turns", Kind::count, "turns of the record"}, simulation.recorded_turns);
   visit(Field{"growth_difference", Kind::section,

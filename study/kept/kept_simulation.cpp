@@ -19,7 +19,7 @@ concept OneOf = (std::same_as<T, Structs> || ...);
 
 namespace milling {
 template <class Archive, study::OneOf<OperatingPoint, Extremes, ToothPass, MotionKind, Trace, Wall, SimulatedCut,
-                                      SimulatedGrowth, Multiplier>
+                                      ContactOutcome, Approach, PartSlice, SimulatedGrowth, Multiplier>
                              Struct>
 void serialize(Archive& archive, Struct& value) {
   std::apply([&archive](auto&... member) { archive(member...); }, core::fields_of(value));

@@ -27,9 +27,7 @@ milling::RelativeStructure tool_modes(const setup::Tool& tool) {
 }
 
 milling::RelativeStructure part_structure(const setup::CutSetup& source, const dynamics::ModalModel& part) {
-  const auto& limit = source.lobes->modes_up_to_hz;
-  const auto kept = limit ? dynamics::truncate(part, 2.0 * std::numbers::pi * *limit, true) : part;
-  return milling::relative_structure(kept, source.cutting->at);
+  return milling::relative_structure(kept_modes(source, part), source.cutting->at);
 }
 
 /// The tool's files as a matrix in part axes, on `axis`.
@@ -92,6 +90,11 @@ milling::FittedStructure fitted(const milling::SampledReceptance& tip,
 }
 
 }  // namespace
+
+dynamics::ModalModel kept_modes(const setup::CutSetup& source, const dynamics::ModalModel& part) {
+  if (!source.lobes || !source.lobes->modes_up_to_hz) return part;
+  return dynamics::truncate(part, 2.0 * std::numbers::pi * *source.lobes->modes_up_to_hz, true);
+}
 
 int direction_of_dof(const std::string& dof) {
   return dof.back() - 'x';

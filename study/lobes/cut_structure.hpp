@@ -26,6 +26,9 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::FittedStr
                                                                   const dynamics::ModalModel* part,
                                                                   const dynamics::ModalModel* carrier = nullptr);
 
+/// The modes of the part that the cut feels: up to lobes.modes_up_to where that is given, the others statically.
+[[nodiscard]] dynamics::ModalModel kept_modes(const setup::CutSetup& source, const dynamics::ModalModel& part);
+
 /// 0, 1, 2 of "tool.x", "tool.y", "tool.z".
 [[nodiscard]] int direction_of_dof(const std::string& dof);
 

@@ -55,7 +55,7 @@ std::vector<AmplitudeMap> amplitude_maps(const setup::Setup& setup, const Result
   std::vector<AmplitudeMap> maps;
   if (!setup.simulation || !setup.simulation->map) return maps;
   for (const auto& felt : simulated_structures(setup, results))
-    maps.push_back(map_of_checkpoint(kept, felt.first, [&] { return map_of(setup, felt.first, felt.second); }));
+    maps.push_back(map_of_checkpoint(kept, felt.of, [&] { return map_of(setup, felt.of, felt.structure); }));
   return maps;
 }
 

@@ -14,19 +14,21 @@
 #include "core/progress.hpp"
 #include "milling/direct/stability.hpp"
 #include "milling/forced/forced_vibration.hpp"
+#include "milling/simulation/entry.hpp"
 #include "milling/simulation/exact_path.hpp"
+#include "milling/simulation/region_path.hpp"
+#include "setup/contact_model.hpp"
 #include "setup/milling_process.hpp"
 #include "setup/simulation_options.hpp"
 #include "study/kept/kept_simulation.hpp"
 #include "study/lobes/cut_structure.hpp"
 #include "study/results.hpp"
+#include "study/support/contact_force.hpp"
 #include "study/support/support_stage.hpp"
 
 namespace thinwall::study {
 
 namespace {
-
-using Felt = std::pair<ChartOf, milling::RelativeStructure>;
 
 /// The cut of a case, and how it is simulated.
 struct Simulated {
@@ -43,7 +45,7 @@ Simulated simulated_cut_of(const setup::Setup& setup) {
   const double feed = *setup::feed_per_tooth(setup);
   const milling::MillingProcess process = setup::milling_process(setup);
   return {setup, process, setup::force_law(*setup.cutting, process),
-          setup::simulation_options(*setup.simulation, process.cutter.teeth * feed), feed};
+          setup::simulation_options(*setup.simulation, feed, process.cutter.teeth), feed};
 }
 
 milling::RelativeStructure poles_of(const setup::Setup& setup, const dynamics::ModalModel* part,
@@ -59,6 +61,26 @@ const dynamics::ModalModel& modal(const std::optional<dynamics::ModalModel>& mod
     throw core::InputError(std::string("simulation: ") + what +
                            " is known by measured receptances alone, and a simulation needs poles; give it by a model");
   return *model;
+}
+
+/// The contact of the robot that may open. The pair of forces pushes the tip along the direction in which the part
+/// presses it, and the part against it.
+milling::OneSidedContact one_sided_contact(const setup::Setup& setup, const Results& results,
+                                           const dynamics::ModalModel& model, Eigen::Index poles) {
+  const coupling::Contact& joined = results.contacts.front().contact;
+  const bool one = results.contacts.size() == 1 && !joined.has_matrices() && !joined.springs.front().rigid();
+  const auto preload = setup::preload_of(setup, setup.contacts.front());
+  if (!one || !preload)
+    throw core::InputError(
+        "simulation.support: a contact that opens must be the only one, with a finite stiffness along its normal and a "
+        "preload; give them, or take \"two_sided\"");
+  const Eigen::Vector3d normal = pressing_force(setup).second;
+  const dynamics::ModalModel kept = kept_modes(setup, model);
+  const Eigen::Index of_part = milling::relative_structure(kept, setup.cutting->at).poles.size();
+  const setup::SupportContact& contact = setup.contacts.front();
+  return {
+      milling::force_pair(kept, setup.cutting->at, contact.robot_point, contact.part_point, normal, poles - of_part),
+      joined.springs.front().stiffness, joined.springs.front().damping, *preload};
 }
 
 std::vector<ChartOf> wanted_structures(const setup::Setup& setup, const Results& results) {
@@ -91,15 +113,40 @@ std::vector<milling::OperatingPoint> points_of(const Simulated& cut, const milli
   return around_boundary(cut, structure);
 }
 
-milling::SimulatedCut march(const Simulated& cut, const milling::RelativeStructure& structure,
-                            const milling::OperatingPoint& point, const milling::TurnObserver& look) {
-  const milling::SimulatedPoint at{point.spindle_speed_rpm, point.depth_m, cut.feed_per_tooth_m};
-  if (cut.circular()) return milling::simulate(structure, cut.process, cut.law, at, cut.options, look);
-  const setup::Cutting& cutting = *cut.setup.cutting;
-  const auto direction = cutting.down_milling ? milling::MillingDirection::down : milling::MillingDirection::up;
-  return milling::simulate_exact_path(structure, cut.process, cut.law, at,
-                                      milling::shoulder(cut.process.cutter, *cutting.radial_depth, direction),
-                                      cut.options, setup::path_options(*cut.setup.simulation), look);
+/// Marches the cut of a point; of a region, `p` takes what is left of the part as well.
+void march(const Simulated& cut, const FeltStructure& felt, const milling::TurnObserver& look, PointSimulation& p) {
+  const milling::SimulatedPoint at{p.point.spindle_speed_rpm, p.point.depth_m, cut.feed_per_tooth_m};
+  const setup::Simulation& wanted = *cut.setup.simulation;
+  if (cut.circular()) {
+    p.cut = milling::simulate(felt.structure, cut.process, cut.law, at, cut.options, look);
+    return;
+  }
+  const milling::Stock stock = setup::stock_of(wanted, *cut.setup.cutting, cut.process.cutter);
+  if (wanted.paths == setup::ToothPaths::exact) {
+    milling::PathOptions paths = setup::path_options(wanted);
+    paths.contact = felt.contact;
+    p.cut = milling::simulate_exact_path(felt.structure, cut.process, cut.law, at, stock, cut.options, paths, look);
+    return;
+  }
+  milling::RegionOptions region = setup::region_options(wanted);
+  region.contact = felt.contact;
+  const int turns = cut.options.settling_turns + cut.options.recorded_turns;
+  const milling::CutWindow window = milling::cut_window(cut.process, at, turns);
+  milling::RegionCut left =
+      milling::simulate_region(felt.structure, cut.process, cut.law, at,
+                               {milling::outline_of(stock, window.low, window.high)}, cut.options, region, look);
+  p.cut = std::move(left.cut);
+  p.part = std::move(left.slices);
+}
+
+/// The approach of the deflection to its end, along feed and normal, of a cut that began at a border.
+void approach(const Simulated& cut, PointSimulation& p) {
+  if (cut.setup.simulation->start != setup::CutStart::border) return;
+  if (p.cut.status == milling::SimulationStatus::overflowed) return;
+  constexpr int least_tooth_periods = 20;
+  if (cut.options.recorded_turns * p.teeth < least_tooth_periods) return;
+  const double tooth_period_s = 60.0 / p.point.spindle_speed_rpm / p.teeth;
+  for (const int axis : {0, 1}) p.approach.push_back(milling::approach_of(p.cut.trace, axis, tooth_period_s));
 }
 
 /// The largest difference of the figures that a simulation has of a periodic motion.
@@ -135,9 +182,11 @@ std::optional<ForcedAgreement> agreement(const Simulated& cut, const milling::Re
   return {};
 }
 
-void simulate_point(const Simulated& cut, const milling::RelativeStructure& structure,
-                    const milling::TurnObserver& look, PointSimulation& p) {
-  p.cut = march(cut, structure, p.point, look);
+void simulate_point(const Simulated& cut, const FeltStructure& felt, const milling::TurnObserver& look,
+                    PointSimulation& p) {
+  const milling::RelativeStructure& structure = felt.structure;
+  march(cut, felt, look, p);
+  approach(cut, p);
   p.growth =
       milling::simulated_growth(structure, cut.process, p.point.spindle_speed_rpm, p.point.depth_m, cut.options.steps);
   p.lobes = milling::multiplier_at(structure, cut.process, p.point.spindle_speed_rpm, p.point.depth_m,
@@ -157,7 +206,7 @@ void require_simulation(const setup::Setup& setup, const std::vector<milling::Op
         "cutting.spindle_speed");
   if (!setup.tool->measured.empty() || setup.tool->swap)
     throw core::InputError("tool.measured: a simulation needs poles, and measured lines have none; give tool.modes");
-  if (setup.simulation->paths == setup::ToothPaths::exact && !setup.cutting->radial_depth)
+  if (setup.simulation->paths != setup::ToothPaths::circular && !setup.cutting->radial_depth)
     throw core::InputError(
         "cutting.radial_depth: not given; exact paths need it, for angles of entry and exit do not "
         "say where the material lies");
@@ -168,25 +217,30 @@ void require_simulation(const setup::Setup& setup, const std::vector<milling::Op
         "cutting.spindle_speed for points on both sides of its boundary");
 }
 
-std::vector<Felt> simulated_structures(const setup::Setup& setup, const Results& results) {
+std::vector<FeltStructure> simulated_structures(const setup::Setup& setup, const Results& results) {
   const bool carried = setup::carries_tool(setup.robot);
   const auto has = [&](ChartOf of) {
-    return of == ChartOf::tool || (of == ChartOf::part && results.part) || (of == ChartOf::supported && results.coupled) ||
-           (of == ChartOf::carried && carried);
+    return of == ChartOf::tool || (of == ChartOf::part && results.part) ||
+           (of == ChartOf::supported && results.coupled) || (of == ChartOf::carried && carried);
   };
-  std::vector<Felt> felt;
+  std::vector<FeltStructure> felt;
   for (const ChartOf of : wanted_structures(setup, results)) {
     if (!has(of)) {
       throw core::InputError("simulation.structures: the case has no structure \"" + core::word_of(of) +
                              "\"; add it, or name others");
     }
     if (of == ChartOf::supported) {
-      felt.emplace_back(of, poles_of(setup, &modal(results.coupled->modal, "the supported part")));
+      const dynamics::ModalModel& model = modal(results.coupled->modal, "the supported part");
+      felt.push_back({of, poles_of(setup, &model), {}});
+      if (setup.simulation->support == setup::SupportSides::one_sided)
+        felt.back().contact = one_sided_contact(setup, results, model, felt.back().structure.poles.size());
       continue;
     }
     const bool with_part = of == ChartOf::part || (of == ChartOf::carried && results.part);
-    felt.emplace_back(of, poles_of(setup, with_part ? &modal(results.part->modal, "the part") : nullptr,
-                                   of == ChartOf::carried ? &carrier_modes(*results.robot) : nullptr));
+    felt.push_back({of,
+                    poles_of(setup, with_part ? &modal(results.part->modal, "the part") : nullptr,
+                             of == ChartOf::carried ? &carrier_modes(*results.robot) : nullptr),
+                    {}});
   }
   return felt;
 }
@@ -195,13 +249,13 @@ std::vector<PointSimulation> simulate_points(const setup::Setup& setup, const Re
                                              const std::vector<milling::OperatingPoint>& asked, Checkpoint& kept) {
   require_simulation(setup, asked);
   const Simulated cut = simulated_cut_of(setup);
-  const std::vector<Felt> felt = simulated_structures(setup, results);
+  const std::vector<FeltStructure> felt = simulated_structures(setup, results);
   std::vector<PointSimulation> points;
-  std::vector<const milling::RelativeStructure*> structures;
-  for (const auto& [of, structure] : felt) {
-    for (const milling::OperatingPoint& point : points_of(cut, structure, asked)) {
-      points.push_back({of, point, cut.feed_per_tooth_m, cut.process.cutter.teeth, {}, {}, {}, {}});
-      structures.push_back(&structure);
+  std::vector<const FeltStructure*> structures;
+  for (const FeltStructure& one : felt) {
+    for (const milling::OperatingPoint& point : points_of(cut, one.structure, asked)) {
+      points.push_back({one.of, point, cut.feed_per_tooth_m, cut.process.cutter.teeth, {}, {}, {}, {}, {}, {}});
+      structures.push_back(&one);
     }
   }
   const auto turns =

@@ -7,7 +7,9 @@
 
 #include "milling/chart/operating_point.hpp"
 #include "milling/direct/lobe_row.hpp"
+#include "milling/simulation/entry.hpp"
 #include "milling/simulation/growth.hpp"
+#include "milling/simulation/region_path.hpp"
 #include "milling/simulation/simulation.hpp"
 #include "setup/machining_setup.hpp"
 #include "study/kept/checkpoint.hpp"
@@ -33,12 +35,21 @@ struct PointSimulation {
   double feed_per_tooth_m = 0.0;
   int teeth = 1;
   milling::SimulatedCut cut;
-  milling::SimulatedGrowth growth;        ///< of a small vibration, by the march
-  milling::Multiplier lobes;              ///< what multiplier_at() says of it
-  std::optional<ForcedAgreement> forced;  ///< of a stable point, equal teeth, circular paths and the linear law
+  milling::SimulatedGrowth growth;          ///< of a small vibration, by the march
+  milling::Multiplier lobes;                ///< what multiplier_at() says of it
+  std::optional<ForcedAgreement> forced;    ///< of a stable point, equal teeth, circular paths and the linear law
+  std::vector<milling::Approach> approach;  ///< along feed and normal, of a cut that began at a border
+  std::vector<milling::PartSlice> part;     ///< what is left of a part that is kept as a region
 
   /// |μ| of the march over that of the lobes, less one: how far the two are apart.
   [[nodiscard]] double growth_difference() const { return growth.modulus / lobes.modulus - 1.0; }
+};
+
+/// A structure at the cut, and the contact of its support where that may open.
+struct FeltStructure {
+  ChartOf of = ChartOf::part;
+  milling::RelativeStructure structure;
+  std::optional<milling::OneSidedContact> contact;
 };
 
 /// Throws InputError where [simulation] asks for what cannot be simulated, before anything is computed: without [tool],
@@ -49,8 +60,7 @@ void require_simulation(const setup::Setup& setup, const std::vector<milling::Op
 /// The structures that setup.simulation asks for, with their poles (part axes). `results` are those of run() without
 /// charts. Throws InputError for one that the set-up does not have or that has no poles (lines of a measured FRF need a
 /// fit by modes first).
-[[nodiscard]] std::vector<std::pair<ChartOf, milling::RelativeStructure>> simulated_structures(
-    const setup::Setup& setup, const Results& results);
+[[nodiscard]] std::vector<FeltStructure> simulated_structures(const setup::Setup& setup, const Results& results);
 
 /// Simulates every point of setup.simulation on every structure; where it names none those that are `asked` for, else
 /// nine tenths and eleven tenths of the limiting depth at the case's own speed. What `kept` holds is taken from there.

@@ -67,24 +67,23 @@ struct StandInCut {
 };
 
 double point_turn_s(const setup::Setup& source, const StandInCut& cut) {
+  const double longer = source.simulation->paths == setup::ToothPaths::region ? 10.0 : 1.0;
   const setup::Simulation& wanted = *source.simulation;
-  milling::SimulationOptions options = setup::simulation_options(wanted, 1.0);
+  milling::SimulationOptions options = setup::simulation_options(wanted, 1.0, 1);
   options.settling_turns = 0;
   options.recorded_turns = 1000000;
   options.traced_turns = options.wall.turns = 0;
   const milling::SimulatedPoint point = timed_point(source, cut.feed_per_tooth_m);
-  return seconds_a_turn([&](const milling::TurnObserver& look) {
-    if (wanted.paths == setup::ToothPaths::circular) {
-      (void)milling::simulate(cut.structure, cut.process, cut.law, point, options, look);
-    } else {
-      const auto direction =
-          source.cutting->down_milling ? milling::MillingDirection::down : milling::MillingDirection::up;
-      (void)milling::simulate_exact_path(
-          cut.structure, cut.process, cut.law, point,
-          milling::shoulder(cut.process.cutter, *source.cutting->radial_depth, direction), options,
-          setup::path_options(wanted), look);
-    }
-  });
+  return longer * seconds_a_turn([&](const milling::TurnObserver& look) {
+           if (wanted.paths == setup::ToothPaths::circular) {
+             (void)milling::simulate(cut.structure, cut.process, cut.law, point, options, look);
+           } else {
+             // A part of a million turns would not fit into memory; a region takes some ten times as long as paths.
+             (void)milling::simulate_exact_path(cut.structure, cut.process, cut.law, point,
+                                                setup::stock_of(wanted, *source.cutting, cut.process.cutter), options,
+                                                setup::path_options(wanted), look);
+           }
+         });
 }
 
 double map_turn_s(const setup::SimulationMap& map, const StandInCut& cut) {
@@ -99,7 +98,7 @@ double map_turn_s(const setup::SimulationMap& map, const StandInCut& cut) {
 
 SimulationForecast forecast_of(const setup::Setup& source, const StandInCut& cut) {
   const setup::Simulation& wanted = *source.simulation;
-  const auto options = setup::simulation_options(wanted, cut.process.cutter.teeth * cut.feed_per_tooth_m);
+  const auto options = setup::simulation_options(wanted, cut.feed_per_tooth_m, cut.process.cutter.teeth);
   const bool around_boundary = wanted.points.empty() && source.cutting->spindle_speed_rpm;
   const double points = around_boundary ? 2.0 : static_cast<double>(wanted.points.size());
   SimulationForecast result;

@@ -49,9 +49,8 @@ dynamics::ResponseModel response_on(const Component& known, const dynamics::Freq
   throw core::InputError("the force on a contact needs a part and a robot that are known by models");
 }
 
-/// The force that presses the contact, N, and the unit vector along which it presses the tip: the normal of an only
-/// contact with a preload along it (preload_of()), turned to the side from which robot.preload comes; else
-/// robot.preload.
+}  // namespace
+
 std::pair<double, Eigen::Vector3d> pressing_force(const setup::SupportSetup& source) {
   const Eigen::Vector3d& on_tip = source.robot->preload;
   const setup::SupportContact& first = source.contacts.front();
@@ -63,8 +62,6 @@ std::pair<double, Eigen::Vector3d> pressing_force(const setup::SupportSetup& sou
     throw core::InputError("the force on a contact is compared with its preload, which is zero; give robot.preload");
   return {on_tip.norm(), on_tip.normalized()};
 }
-
-}  // namespace
 
 ContactForce contact_force(const setup::SupportSetup& support, const std::vector<coupling::Contact>& contacts,
                            const CutPlace& place, const Component& part, const Component& tip,

@@ -2,6 +2,7 @@
 // Does the robot stay in touch while the cutter cuts?
 
 #include <functional>
+#include <utility>
 
 #include "setup/machining_setup.hpp"
 #include "study/results.hpp"
@@ -13,6 +14,11 @@ struct CutPlace {
   std::string point;         ///< name of the part's point
   Eigen::Matrix3d rotation;  ///< R of x_part = R x_tool
 };
+
+/// The force that presses the contact, N, and the unit vector along which it presses the tip: the normal of an only
+/// contact with a preload along it (preload_of()), turned to the side from which robot.preload comes; else
+/// robot.preload. Throws InputError without a preload.
+[[nodiscard]] std::pair<double, Eigen::Vector3d> pressing_force(const setup::SupportSetup& source);
 
 /// The force of the part on the robot's tip along the preload over a period of the cut, and whether it falls to zero.
 /// With the harmonics F_k of the cutting force on the part at the cut and Q of dG = P dY Q (coupling/sensitivity.hpp),

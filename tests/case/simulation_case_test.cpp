@@ -37,7 +37,7 @@ TEST(SimulationCase, HasDefaultsForAllThatIsNotGiven) {
   EXPECT_EQ(c.simulation->points[0].spindle_speed_rpm, 1900.0);
   EXPECT_EQ(c.simulation->points[0].depth_m, 0.001);
   EXPECT_EQ(c.simulation->paths, ToothPaths::circular);
-  const auto options = simulation_options(*c.simulation, 1e-3);
+  const auto options = simulation_options(*c.simulation, 1e-3, 1);
   EXPECT_EQ(options.settling_turns, 400);
   EXPECT_EQ(options.recorded_turns, 200);
   EXPECT_EQ(options.traced_turns, 50);
@@ -52,12 +52,12 @@ TEST(SimulationCase, RecordsTheTurnsOfAPathsLength) {
       simulated("at = \"1900 rpm, 1 mm\"\nlength = \"10 mm\"\npaths = \"exact\"\nsteps_a_turn = 360\n"), ".");
   // 1800 mm/min at 1900 rpm are 0.947 mm a turn.
   const double feed_a_turn = 1.8 / 1900.0;
-  const auto options = simulation_options(*c.simulation, feed_a_turn);
+  const auto options = simulation_options(*c.simulation, feed_a_turn, 1);
   EXPECT_EQ(options.recorded_turns, 11);
   EXPECT_EQ(options.traced_turns, 11) << "not more than are recorded";
   EXPECT_EQ(path_options(*c.simulation).steps_a_turn, 360);
   const Case few = parse_case(simulated("turns = 3\n"), ".");
-  EXPECT_EQ(simulation_options(*few.simulation, feed_a_turn).wall.turns, 0) << "a wall takes four turns";
+  EXPECT_EQ(simulation_options(*few.simulation, feed_a_turn, 1).wall.turns, 0) << "a wall takes four turns";
 }
 
 TEST(SimulationCase, ItsMapSpansTheChart) {
