@@ -6,6 +6,7 @@ import { faint } from './colours.js';
 import { isNumber, millimetres, number, percent, plain, rpm as speed, scaled } from './format.js';
 import { between, decades, plot } from './plot.js';
 import { pointMarks, pointsOf, pointTable } from './points.js';
+import { followMark, onShownPoint, simulatedPoints, simulationMarks } from './simulated.js';
 
 const titles = { part: 'part alone', supported: 'with robot', tool: 'tool', carried: 'tool on the robot' };
 const symbols = { hopf: 'circle', flip: 'diamond', fold: 'square' };
@@ -25,8 +26,9 @@ export function lobes(runs) {
   const crosses = curves.some((c) => c.lobe.crossings);
   const rate = runs.find((r) => isNumber(r.cutting?.removal_cm3_per_min_per_m_rpm))?.cutting;
   const chart = plot({
-    name: 'lobes', label: 'Stability lobes', build: (colours, narrow) => build(curves, runs, rate, options, colours, narrow), columns: () => columns(curves),
+    name: 'lobes', label: 'Stability lobes', build: (colours, narrow) => build(curves, runs, rate, options, colours, narrow), columns: () => columns(curves), click: followMark,
   });
+  onShownPoint(() => chart.drawn && chart.draw());
   const option = (key, text) => tick(text, options[key], (on) => { options[key] = on; chart.draw(); });
   return { chart, content: [
     el('div', { class: 'controls' }, option('log', 'logarithmic depth'), passes && option('passing', 'tooth-passing speeds'), rate && option('rates', 'removal rate'),
@@ -44,7 +46,8 @@ export function lobesLead(runs) {
     all.some(({ run, lobe }) => starred(run, lobe).length) ? 'Stars mark the best pockets.' : '', robust.length ? `Dotted: the robust limit, which holds for ${robust.map((k) => number(k, 3)).join(' or ')} standard deviations of what the case calls uncertain.` : '',
     all.some(({ lobe }) => lobe.compared) ? 'Thin lines: the limits of other methods, where they converged.' : '', has('not_converged') ? 'Crosses on the line did not converge.' : '',
     kinds.length ? `The lower panel gives the frequency of the chatter that begins at the line (${kinds.map((k) => signs[k]).join(', ')}${runs.length > 1 ? '; open of the first run, filled of the second' : ''}).` : '',
-    runs.some((run) => pointsOf(run).length) ? 'Operating points are circles where they are stable, crosses where they chatter.' : ''].filter(Boolean).join(' ');
+    runs.some((run) => pointsOf(run).length) ? 'Operating points are circles where they are stable, crosses where they chatter.' : '',
+    simulatedPoints(runs).length ? 'Diamonds were simulated; a click on one leads to its simulation.' : ''].filter(Boolean).join(' ');
 }
 
 /** Beneath the chart: the operating points, and what else is known of its limits. */
@@ -79,7 +82,7 @@ const label = (curve, runs) => plain((runs.length > 1 ? `${curve.run.label}: ` :
 const colourOf = (curve, colours) => colours[curve.lobe.name] ?? colours.robot;
 
 function build(curves, runs, rate, options, colours, narrow) {
-  const points = runs.flatMap(pointsOf);
+  const points = [...runs.flatMap(pointsOf), ...simulatedPoints(runs).map(({ point }) => point)];
   const speeds = [...curves.flatMap((c) => [c.rpm[0], c.rpm.at(-1)]), ...points.map((p) => p.spindle_speed_rpm)];
   const [from, to] = [Math.min(...speeds), Math.max(...speeds)];
   const edge = (to - from) * 0.012;
@@ -90,6 +93,7 @@ function build(curves, runs, rate, options, colours, narrow) {
     ...curves.map((c) => chatterMarks(c, runs, from, to, colours, narrow)),
     ...curves.flatMap((c) => pockets(c, runs, colours)),
     ...pointMarks(runs, colours),
+    ...simulationMarks(runs, colours),
     ...(options.crossings ? curves.flatMap((c) => crossings(c, colours)) : []),
     ...(options.rates && rate ? contours(rate.removal_cm3_per_min_per_m_rpm, from, to, greatest, colours) : []),
   ];

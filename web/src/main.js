@@ -18,6 +18,7 @@ import { macPlot } from './mac.js';
 import { modes3d } from './modes3d.js';
 import { quality } from './reduction.js';
 import { provenance } from './provenance.js';
+import { simulation, simulationLead } from './simulation.js';
 
 /** A section with its heading (an anchor), what to see in a sentence, and its content; null where there is none. The sentence is asked for where there is a content only. */
 function section(id, title, sentence, content) {
@@ -55,6 +56,7 @@ function build(data) {
     section('lobes', 'Stability lobes', () => lobesLead(runs), [charts.lobes?.content]),
     section('path', 'Along the path', () => 'The limiting depth by position and speed; the lower panel gives the depth that is stable at every position.', [charts.path?.content]),
     section('forced', 'Surface and forces', forcedLead, [forcedOverSpeed(runs), forcesOverATurn(runs)]),
+    section('simulation', 'Simulation', () => simulationLead(runs), [simulation(runs)]),
     section('cut', 'What was cut', () => 'Cutter, engagement, coefficients, material and fixture, as the case has them with every default.', [whatWasCut(runs)]),
     section('remarks', 'Remarks', () => 'What the run has to say of its limits and of their errors.', [remarks(data, firstLines(data))]),
     section('receptances', 'Receptances', () => receptancesLead(runs), [charts.frf?.content]),

@@ -12,15 +12,15 @@ const config = { displayModeBar: false, displaylogo: false, doubleClick: 'reset'
 
 /**
  * A figure with its plot. `build(colours, narrow)` gives { data, layout }; `columns()` gives [{ name, values }] of the CSV,
- * names with units. `draw()` draws it; nothing is drawn before.
+ * names with units. `click(event)` hears of marks that are clicked on. `draw()` draws it; nothing is drawn before.
  */
-export function plot({ name, label, build, columns }) {
+export function plot({ name, label, build, columns, click }) {
   const box = el('div', { class: 'plot', id: `plot-${name}`, role: 'img', 'aria-label': label });
   const figure = el('figure', { class: 'figure' }, box, el('div', { class: 'exports' },
     button('Reset view', `${label}: reset the view`, () => Plotly.relayout(box, resetRanges(box))),
     button('SVG', `${label}: save as SVG`, async () => save(`${name}.svg`, 'image/svg+xml', await toSvg(build, box))),
     button('CSV', `${label}: save as CSV`, () => save(`${name}.csv`, 'text/csv', toCsv(columns())))));
-  const self = { box, figure, drawn: false, draw() { draw(self, build); } };
+  const self = { box, figure, click, drawn: false, draw() { draw(self, build); } };
   new ResizeObserver(() => { if (self.drawn && box.clientWidth !== self.width && !isPrinting()) self.draw(); }).observe(box);
   plots.push(self);
   return self;
@@ -57,6 +57,7 @@ function draw(self, build) {
   const { data, layout } = build(palette(), width < 560);
   if (isPrinting() && width === paperWidth.whole) layout.height *= 0.62;
   Plotly.react(self.box, data, complete(layout, palette(), width), config);
+  if (self.click) self.box.removeAllListeners('plotly_click').on('plotly_click', self.click);
 }
 
 const resetRanges = (box) => Object.fromEntries(Object.keys(box.layout).filter((k) => /^[xy]axis\d*$/.test(k))

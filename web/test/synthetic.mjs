@@ -136,6 +136,31 @@ export function turning() {
   return data;
 }
 
+/** With a stable point and a flip that were simulated on the supported part, and a map of 3 speeds and 2 depths. */
+export function simulated() {
+  const data = oneRun();
+  const f32 = (values) => pack('f32', [values.length], values);
+  const f64 = (values) => pack('f64', [values.length], values);
+  const turn = 0.04; // s, at 1500 rpm
+  const t = range(400).map((i) => 7 + (turn * i) / 100);
+  const wave = (size, k) => f32(t.map((s) => size * Math.sin((2 * Math.PI * k * s) / turn)));
+  const point = (depth, motion, modulus, lines) => ({ files: `supported-${motion}`, chart: 'supported', spindle_speed_rpm: 1500, depth_m: depth, feed_per_tooth_m: 1e-4, status: 'completed', motion, period: motion === 'periodic' ? 1 : 2, simulated_s: 8,
+    peak_to_peak_m: [20e-6, 40e-6, 0], mean_force_n: [1, 2, 0], peak_force_n: 120, peak_torque_n_m: 1, mean_power_w: 90, share_without_contact: modulus > 1 ? 0.24 : 0, thickest_chip_m: 1e-4,
+    growth: { march_modulus: modulus, march_error_estimate_relative: 1e-8, lobes_modulus: modulus, lobes_error_estimate_relative: 1e-8, difference_relative: 2e-9 },
+    forced_vibration: modulus < 1 ? { peak_to_peak_m: [20e-6, 40e-6, 0], difference_relative: 3e-7, left_of_beginning: 0 } : null,
+    vibration_lines: lines, walls: [{ side: '-normal', height_m: 0, location_error_m: -6e-6, R_a_m: 6e-8, R_q_m: 7e-8, R_t_m: 2e-7 }] });
+  const tables = (files, size) => ({ files, trace: { time_s: f64(t), x_m: wave(size, 4), y_m: wave(2 * size, 4), force_x_n: wave(10, 4), force_y_n: wave(20, 4), torque_n_m: wave(1, 4) },
+    spectrum: { frequency_hz: f32([0, 50, 100, 150]), x_m: f32([1e-8, 1e-8, size, 1e-8]), y_m: f32([1e-8, size, 2 * size, 1e-8]), force_x_n: f32([1, 1, 5, 1]), force_y_n: f32([1, 1, 9, 1]) },
+    passes: { entry_s: f64([7, 7.02, 7.04, 7.06]), tooth: f32([0, 1, 0, 1]), entry_x_m: f32([1e-6, 2e-6, 1e-6, 2e-6]), entry_y_m: f32([3e-6, 4e-6, 3e-6, 4e-6]), entry_x_m_s: f32([0, 0, 0, 0]), entry_y_m_s: f32([0, 0, 0, 0]) },
+    walls: [{ side: '-normal', height_m: 0, x_m: f32([0, 1e-4, 2e-4]), error_m: f32([-6e-6, -6.2e-6, -6e-6]) }] });
+  const line = (frequency, amplitude, origin) => ({ frequency_hz: frequency, amplitude_m: amplitude, direction: 'normal', origin });
+  data.runs[0].summary.simulation = { paths: 'circular', settling_turns: 400, recorded_turns: 200, growth_difference: { max_relative: 2e-9, chart: 'supported', spindle_speed_rpm: 1500, depth_m: 0.001 }, forced_difference: { max_relative: 3e-7, chart: 'supported', spindle_speed_rpm: 1500, depth_m: 0.001 },
+    points: [point(0.001, 'periodic', 0.9, [line(100, 40e-6, 'tooth_passing')]), point(0.003, 'period_n', 1.2, [line(100, 40e-6, 'tooth_passing'), line(50, 30e-6, 'other')])] };
+  data.runs[0].simulation = { points: [tables('supported-periodic', 1e-5), tables('supported-period_n', 2e-5)],
+    maps: [{ name: 'supported', rpm: f64([1000, 2000, 3000]), depth_m: f64([0.001, 0.002]), peak_to_peak_m: pack('f32', [3, 2], [1e-6, 2e-6, 3e-6, 4e-6, 5e-6, NaN]) }] };
+  return data;
+}
+
 /** As of `thinwall lobes`: a chart of the tool, no part, no robot, no receptances. */
 export function toolOnly() {
   const { document: chart, summary } = lobe('tool', 0.002, 1800);
