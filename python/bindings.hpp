@@ -25,6 +25,7 @@
 #include "mesh/lagrange_nodes.hpp"
 #include "mesh/selection.hpp"
 #include "mesh/tet_mesh.hpp"
+#include "milling/simulation/simulation.hpp"
 
 namespace thinwall::python {
 
@@ -102,6 +103,9 @@ template <typename Value>
 struct OneOrMore {
   std::vector<Value> values;
 };
+
+/// A simulated cut as a dict of figures, with its passes, trace and walls.
+py::dict dict_of(const milling::SimulatedCut& cut);
 
 /// "6 DOFs: P.x, P.y, P.z, …", for what represents an object to a reader.
 std::string listed(const std::string& of, const std::vector<std::string>& names);

@@ -60,16 +60,6 @@ py::list walls_of(const std::vector<milling::Wall>& walls) {
   return list;
 }
 
-py::dict results_of(const milling::SimulatedCut& cut) {
-  return py::dict("status"_a = milling::name(cut.status), "simulated_s"_a = cut.simulated_s,
-                  "motion"_a = milling::name(cut.motion.motion), "period"_a = cut.motion.period,
-                  "peak_to_peak_m"_a = Eigen::Vector3d(cut.displacement_m.range()), "peak_force_n"_a = cut.peak_force_n,
-                  "mean_force_n"_a = cut.mean_force_n, "peak_torque_n_m"_a = cut.peak_torque_n_m,
-                  "mean_torque_n_m"_a = cut.mean_torque_n_m, "mean_power_w"_a = cut.mean_power_w,
-                  "thickest_chip_m"_a = cut.thickest_chip_m, "share_without_contact"_a = cut.share_without_contact,
-                  "passes"_a = passes_of(cut.passes), "trace"_a = trace_of(cut.trace), "walls"_a = walls_of(cut.walls));
-}
-
 /// Shoulder or slot of the process's first arc: the radial depth whose straight wall has this arc.
 milling::Stock stock_of(const milling::MillingProcess& process) {
   const milling::Engagement& arc = process.engagement;
@@ -103,7 +93,7 @@ py::dict simulate(const Structure& structure, const milling::MillingProcess& pro
     return milling::simulate_exact_path(relative, process, process.coefficients, point, stock_of(process), options, {},
                                         look);
   }();
-  return results_of(cut);
+  return dict_of(cut);
 }
 
 py::dict growth(const Structure& structure, const milling::MillingProcess& process, double spindle_speed_rpm,
@@ -117,6 +107,16 @@ py::dict growth(const Structure& structure, const milling::MillingProcess& proce
 }
 
 }  // namespace
+
+py::dict dict_of(const milling::SimulatedCut& cut) {
+  return py::dict("status"_a = milling::name(cut.status), "simulated_s"_a = cut.simulated_s,
+                  "motion"_a = milling::name(cut.motion.motion), "period"_a = cut.motion.period,
+                  "peak_to_peak_m"_a = Eigen::Vector3d(cut.displacement_m.range()), "peak_force_n"_a = cut.peak_force_n,
+                  "mean_force_n"_a = cut.mean_force_n, "peak_torque_n_m"_a = cut.peak_torque_n_m,
+                  "mean_torque_n_m"_a = cut.mean_torque_n_m, "mean_power_w"_a = cut.mean_power_w,
+                  "thickest_chip_m"_a = cut.thickest_chip_m, "share_without_contact"_a = cut.share_without_contact,
+                  "passes"_a = passes_of(cut.passes), "trace"_a = trace_of(cut.trace), "walls"_a = walls_of(cut.walls));
+}
 
 void bind_simulation(py::module_& module) {
   module.def("simulate", simulate, "structure"_a, "process"_a, "spindle_speed_rpm"_a, "depth_m"_a, "feed_per_tooth_m"_a,

@@ -97,6 +97,43 @@ std::map<std::string, milling::Lobes> charts(const study::Results& results) {
   return list;
 }
 
+py::object number_or_none(bool known, double value) {
+  return known ? py::object(py::float_(value)) : py::object(py::none());
+}
+
+/// A simulated point: where it is, how it grows, and all that a simulated cut has.
+py::dict simulation_of(const study::PointSimulation& p) {
+  py::dict point = dict_of(p.cut);
+  point["chart"] = core::word_of(p.of);
+  point["spindle_speed_rpm"] = p.point.spindle_speed_rpm;
+  point["depth_m"] = p.point.depth_m;
+  point["feed_per_tooth_m"] = p.feed_per_tooth_m;
+  point["multiplier_march"] = number_or_none(p.growth.converged, p.growth.modulus);
+  point["multiplier_lobes"] = p.lobes.modulus;
+  point["growth_difference"] = number_or_none(p.growth.converged, p.growth_difference());
+  point["forced_difference"] = number_or_none(p.forced.has_value(), p.forced ? p.forced->difference : 0.0);
+  return point;
+}
+
+py::list simulations(const study::Results& results) {
+  py::list list;
+  for (const study::PointSimulation& point : results.simulations) list.append(simulation_of(point));
+  return list;
+}
+
+py::dict amplitude_maps(const study::Results& results) {
+  py::dict maps;
+  for (const study::AmplitudeMap& map : results.amplitude_maps) {
+    const auto array = [](const std::vector<double>& values) {
+      return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)));
+    };
+    maps[py::str(core::word_of(map.of))] =
+        py::dict("spindle_speed_rpm"_a = array(map.spindle_speeds_rpm), "depth_m"_a = array(map.depths_m),
+                 "peak_to_peak_m"_a = map.peak_to_peak_m, "share_without_contact"_a = map.share_without_contact);
+  }
+  return maps;
+}
+
 std::map<std::string, dynamics::ResponseModel> responses(const study::Results& results) {
   std::map<std::string, dynamics::ResponseModel> list;
   if (results.part) list["part"] = results.part->response;
@@ -141,6 +178,14 @@ void bind_study(py::module_& module) {
       .def_property_readonly("lobes", charts, "The stability charts by their names: part, supported, tool.")
       .def_property_readonly("frf", responses,
                              "The receptances by their names: part, robot, coupled_receptance, coupled_spatial.")
+      .def_property_readonly("simulations", simulations,
+                             "The simulated points, structure by structure: each a dict as of simulate(), with chart,\n"
+                             "spindle_speed_rpm, depth_m, feed_per_tooth_m, multiplier_march, multiplier_lobes,\n"
+                             "growth_difference and forced_difference (None: not known).")
+      .def_property_readonly(
+          "amplitude_maps", amplitude_maps,
+          "Peak-to-peak vibration over speed and depth by the names of charts: dicts of\n"
+          "spindle_speed_rpm, depth_m, and peak_to_peak_m and share_without_contact, depths x speeds.")
       .def("__repr__", [](const study::Results& r) {
         std::vector<std::string> frf, lobes;
         for (const auto& [name, response] : responses(r)) frf.push_back(name);

@@ -20,7 +20,7 @@ import numpy as np
 from ._core import DataError, Response, read_response
 
 Table = dict[str, np.ndarray]
-WORDS = {"bifurcation", "kind", "reason", "status"}
+WORDS = {"bifurcation", "kind", "motion", "reason", "status", "structure"}
 """Columns that contain words, even if all of their cells are empty."""
 
 
@@ -133,7 +133,8 @@ class Results:
     """A result folder. ``summary`` and ``manifest`` are dicts; the others map names to files, read at the first access.
 
     ``frf["part"]``, ``frf["robot"]``, ``frf["coupled_receptance"]``: Response. ``lobes["part"]``,
-    ``lobes["supported_crossings"]``, ``modes["modes"]``, ``robot["postures"]``: tables, a dict of columns.
+    ``lobes["supported_crossings"]``, ``modes["modes"]``, ``robot["postures"]``, ``simulation["points"]``: tables, a dict
+    of columns.
     """
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
@@ -145,6 +146,7 @@ class Results:
         self.lobes: Mapping[str, Table] = _Files(list(self.folder.glob("lobes/*.csv")), read_table)
         self.modes: Mapping[str, Table] = _Files(list(self.folder.glob("modes/*.csv")), read_table)
         self.robot: Mapping[str, Table] = _Files(list(self.folder.glob("robot/*.csv")), read_table)
+        self.simulation: Mapping[str, Table] = _Files(list(self.folder.glob("simulation/*.csv")), read_table)
 
     def shapes(self, name: str = "part") -> list[Shape]:
         """The mode shapes of "part", or of "coupled", in the order of their modes; the largest entry of each is 1."""

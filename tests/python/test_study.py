@@ -31,6 +31,39 @@ def test_run_gives_the_figures_of_the_command_line_to_the_last_digit(tmp_path):
     assert set(computed.frf) == {"part", "robot", "coupled_receptance", "coupled_spatial"}
 
 
+OSCILLATOR = """
+tool = { teeth = 2, diameter = "10 mm", length = "20 mm", modes = [
+  { frequency = "922 Hz", damping_ratio = 0.011, stiffness = "1.34e6 N/m", direction = "x" },
+  { frequency = "922 Hz", damping_ratio = 0.011, stiffness = "1.34e6 N/m", direction = "y" } ] }
+cutting = { radial_depth = "0.5 mm", Kt = "600 N/mm^2", Kr = "200 N/mm^2", feed_per_tooth = "0.1 mm" }
+lobes = { from = "11000 rpm", to = "19000 rpm", count = 9 }
+"""
+
+
+def test_simulated_points_and_maps_of_a_run_are_those_of_its_summary():
+    case = thinwall.Case.parse(
+        OSCILLATOR + 'simulation = { at = ["11000 rpm, 1 mm", "19000 rpm, 2 mm"], settling_turns = 1000, map = '
+        '{ speeds = 3, depths = 2, deepest = "2 mm", turns = 1200 } }'
+    )
+    stages = []
+    results = thinwall.run(case, progress=stages.append)
+    assert stages[-1] == "simulation"
+    stable, flip = results.simulations
+    assert (stable["motion"], flip["motion"], flip["period"]) == ("periodic", "period_n", 2)
+    assert flip["peak_to_peak_m"] == pytest.approx([144.6e-6, 102.5e-6, 0], rel=1e-3)
+    assert abs(flip["growth_difference"]) < 1e-6
+    assert stable["forced_difference"] < 1e-5
+    assert flip["forced_difference"] is None
+    for point, told in zip(results.simulations, results.summary["simulation"]["points"]):
+        assert point["peak_to_peak_m"] == pytest.approx(told["peak_to_peak_m"], rel=1e-12)
+        assert point["multiplier_march"] == pytest.approx(told["growth"]["march_modulus"], rel=1e-12)
+    amplitudes = results.amplitude_maps["tool"]
+    assert amplitudes["peak_to_peak_m"].shape == (2, 3)
+    assert amplitudes["spindle_speed_rpm"] == pytest.approx([11000, 15000, 19000])
+    assert amplitudes["peak_to_peak_m"][1, 2] == pytest.approx(144.6e-6, rel=1e-2)
+    assert thinwall.run(thinwall.Case.parse(OSCILLATOR)).simulations == []
+
+
 def test_a_case_with_another_value_is_another_case():
     case = thinwall.Case.load(CASE)
     thinner = case.with_("part.thickness", "5 mm")
