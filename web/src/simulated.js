@@ -1,11 +1,11 @@
 // Simulated operating points: which of them is on show, and their marks on the chart of the lobes, which lead to it.
 
 import { number, plain } from './format.js';
-import { lobeTitle } from './lobes.js';
+import { lobeTitle, withRobot } from './lobes.js';
 
 /** Every simulated point of all runs with its tables; the supported part's first, since that is the cut which is asked about. */
 export const simulatedPoints = (runs) => runs.flatMap((run, i) => (run.summary.simulation?.points ?? []).map((point, k) => ({ run, i, point, tables: run.simulation?.points?.[k] ?? {} })))
-  .sort((a, b) => a.i - b.i || (b.point.chart === 'supported') - (a.point.chart === 'supported'));
+  .sort((a, b) => a.i - b.i || withRobot(b.point.chart) - withRobot(a.point.chart));
 
 export const growing = ({ growth }) => growth.lobes_modulus > 1;
 export const placeOf = (p) => `${number(p.spindle_speed_rpm, 5)} rpm, ${number(p.depth_m * 1e3, 4)} mm`;
@@ -26,7 +26,7 @@ export function showPoint(index) {
 export function simulationMarks(runs, colours) {
   const points = simulatedPoints(runs);
   return points.length ? [{ name: 'simulated point', x: points.map(({ point }) => point.spindle_speed_rpm), y: points.map(({ point }) => point.depth_m * 1e3), mode: 'markers', cliponaxis: false,
-    marker: { symbol: points.map((_, k) => (k === shown ? 'diamond' : 'diamond-open')), size: points.map(({ point }) => (point.chart === 'supported' ? 15 : 10)), color: colours.mark, line: { width: 2, color: colours.mark } },
+    marker: { symbol: points.map((_, k) => (k === shown ? 'diamond' : 'diamond-open')), size: points.map(({ point }) => (withRobot(point.chart) ? 15 : 10)), color: colours.mark, line: { width: 2, color: colours.mark } },
     customdata: points.map(({ point }) => plain(`${placeOf(point)}, simulated: ${point.motion.replaceAll('_', ' ')}`)), hovertemplate: '%{customdata}', meta: 'simulated' }] : [];
 }
 

@@ -5,7 +5,7 @@ import { numbers } from './decode.js';
 import { faint, viridisScale } from './colours.js';
 import { isNumber, number, percent, plain, scaled } from './format.js';
 import { folded, later, logTicks, plot } from './plot.js';
-import { lobeTitle } from './lobes.js';
+import { lobeTitle, withRobot } from './lobes.js';
 import { growing, onShownPoint, showPoint, shownPoint, simulatedPoints, titleOf } from './simulated.js';
 
 const origins = { tooth_passing: ['tooth passing', 'part', 'circle'], spindle: ['spindle', 'robot', 'square'], other: ['chatter', 'bad', 'x'] };
@@ -151,7 +151,7 @@ function wallOf({ tables: { walls }, point }, colours, narrow) {
 
 /** The vibration over speed and depth with the limit drawn on it; null where no run has one. */
 function map(runs) {
-  const maps = runs.flatMap((run) => (run.simulation?.maps ?? []).map((m) => ({ run, m }))).sort((a, b) => (b.m.name === 'supported') - (a.m.name === 'supported'));
+  const maps = runs.flatMap((run) => (run.simulation?.maps ?? []).map((m) => ({ run, m }))).sort((a, b) => withRobot(b.m.name) - withRobot(a.m.name));
   if (!maps.length) return null;
   const state = { at: 0 };
   const title = ({ run, m }) => `${runs.length > 1 ? `${run.label}: ` : ''}${lobeTitle(m.name)}`;
