@@ -175,7 +175,7 @@ void bind_study(py::module_& module) {
       .def_property_readonly(
           "summary", [](const study::Results& r) { return py::module_::import("json").attr("loads")(summary_text(r)); },
           "The figures of summary.json, as a dict.")
-      .def_property_readonly("lobes", charts, "The stability charts by their names: part, supported, tool.")
+      .def_property_readonly("lobes", charts, "The stability charts by their names: part, supported, tool, carried.")
       .def_property_readonly("frf", responses,
                              "The receptances by their names: part, robot, coupled_receptance, coupled_spatial.")
       .def_property_readonly("simulations", simulations,

@@ -23,8 +23,8 @@ struct JointMotion {
   Eigen::VectorXd acceleration;
 };
 
-/// The force on the tip, N, world axes, at a posture.
-using TipForce = std::function<Eigen::Vector3d(const ArmPose&)>;
+/// The force on the tip, N, world axes, in a motion, whose pose comes first.
+using TipForce = std::function<Eigen::Vector3d(const ArmPose&, const JointMotion&)>;
 
 /// Throws InputError for a faulty arm, a motor that turns, a list of compensated joints of another length than that of
 /// the joints, or links without mass beyond a joint.

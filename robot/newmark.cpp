@@ -60,7 +60,7 @@ ArmStep newmark_step(const MultibodyArm& arm, const JointMotion& from, double dt
     step.status = StepStatus::not_finite;
     if (!step.motion.q.allFinite() || !step.motion.rate.allFinite()) return step;
     step.at = pose(arm.arm, step.motion.q);
-    const VectorXd r = missing_torque(arm, step.at, step.motion, q_ref, held, force(step.at));
+    const VectorXd r = missing_torque(arm, step.at, step.motion, q_ref, held, force(step.at, step.motion));
     step.residual = r.norm() / torque_size(arm.arm, S, step.motion, q_ref, held);
     if (!std::isfinite(step.residual)) return step;
     step.status = step.residual <= round_off ? StepStatus::converged : StepStatus::not_converged;

@@ -32,6 +32,7 @@
 #include "study/results.hpp"
 #include "study/run.hpp"
 #include "study/simulation/amplitude_map.hpp"
+#include "study/simulation/arm_pass.hpp"
 #include "study/simulation/point_simulation.hpp"
 #include "study/simulation/simulation_forecast.hpp"
 #include "study/stages.hpp"

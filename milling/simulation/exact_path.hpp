@@ -1,7 +1,11 @@
 #pragma once
 // Milling in the time domain with teeth on the paths that they really take, and contact found by geometry.
 
+#include <Eigen/Core>
+#include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "milling/cut/force_law.hpp"
 #include "milling/cut/process.hpp"
@@ -43,6 +47,36 @@ struct PathOptions {
 /// only. `structure` in part axes. Throws InputError for a bad process, law, option, speed, depth or feed (≤ 0), or
 /// another envelope. Cost: steps × 3 × (states + teeth in the stock × discs × earlier passes).
 [[nodiscard]] SimulatedCut simulate_exact_path(const RelativeStructure& structure, const MillingProcess& process,
+                                               const ForceLaw& law, const SimulatedPoint& point, const Stock& stock,
+                                               const SimulationOptions& options = {}, const PathOptions& paths = {},
+                                               const TurnObserver& after_turn = {});
+
+/// The place of a tool beside its steady feed, and its velocity, in tool axes.
+struct ToolPlace {
+  Eigen::Vector3d displacement_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
+};
+
+/// The end of a step, and whether the force there agrees with the place.
+struct MovedStep {
+  ToolPlace place;
+  bool settled = true;
+};
+
+/// The force on the tool at a place, N, tool axes.
+using ForceOnTool = std::function<Eigen::Vector3d(const ToolPlace&)>;
+
+/// A tool whose structure is not one of modes, such as a robot of large motions: where it is when the simulation
+/// begins, and a function that moves it on by a time, s, under the force at the end of the step. The force is last
+/// asked at the place that is returned.
+struct MovedTool {
+  ToolPlace start;
+  std::function<MovedStep(double dt_s, const ForceOnTool& force)> step;
+};
+
+/// The same cut with a tool that moves so, twice a step. `first_force_n` of the options has no meaning. Errors as
+/// above, and those of `tool`.
+[[nodiscard]] SimulatedCut simulate_exact_path(const MovedTool& tool, const MillingProcess& process,
                                                const ForceLaw& law, const SimulatedPoint& point, const Stock& stock,
                                                const SimulationOptions& options = {}, const PathOptions& paths = {},
                                                const TurnObserver& after_turn = {});

@@ -6,11 +6,26 @@
 
 namespace thinwall::milling {
 
+PathCut path_cut(const MillingProcess& process, const SimulatedPoint& point, const SimulationOptions& options,
+                 int steps_a_turn, int earlier_passes) {
+  constexpr double turn_rad = 2.0 * std::numbers::pi;
+  PathCut cut;
+  cut.rad_per_s = point.spindle_speed_rpm * turn_rad / 60.0;
+  cut.discs = tooth_discs(process, point.depth_m, options.steps, earlier_passes);
+  cut.steps_a_turn = steps_a_turn;
+  cut.entry_rad = process.engagement.entry_rad;
+  cut.feed_per_node_m = point.feed_per_tooth_m * process.cutter.teeth / (2.0 * steps_a_turn);
+  cut.node_rad = 0.5 * turn_rad / steps_a_turn;
+  cut.width_m = width_of_cut(cut.discs, process.cutter);
+  cut.radius_m = 0.5 * process.cutter.diameter_m;
+  cut.tips = tips_of_turn(process);
+  return cut;
+}
+
 PathCut path_cut(const RelativeStructure& structure, const MillingProcess& process, const SimulatedPoint& point,
                  const SimulationOptions& options, int steps_a_turn, int earlier_passes,
                  const std::optional<OneSidedContact>& contact) {
-  constexpr double turn_rad = 2.0 * std::numbers::pi;
-  PathCut cut;
+  PathCut cut = path_cut(process, point, options, steps_a_turn, earlier_passes);
   const Eigen::Matrix3d to_part = process.frame.rotation();
   const Eigen::Matrix3d residual = to_part.transpose() * structure.R * to_part;
   if (contact) {
@@ -25,18 +40,8 @@ PathCut path_cut(const RelativeStructure& structure, const MillingProcess& proce
     cut.structure = contact_state(structure, process.frame);
     cut.ports = ports_of(cut.structure, residual);
   }
-  const double step_rad = turn_rad / steps_a_turn;
-  cut.rad_per_s = point.spindle_speed_rpm * turn_rad / 60.0;
-  cut.discs = tooth_discs(process, point.depth_m, options.steps, earlier_passes);
-  cut.steps_a_turn = steps_a_turn;
-  cut.entry_rad = process.engagement.entry_rad;
-  cut.feed_per_node_m = point.feed_per_tooth_m * process.cutter.teeth / (2.0 * steps_a_turn);
-  cut.node_rad = 0.5 * step_rad;
-  cut.width_m = width_of_cut(cut.discs, process.cutter);
-  cut.radius_m = 0.5 * process.cutter.diameter_m;
   cut.start = at_rest(cut.structure, options.first_force_n);
   cut.start_m = cut.structure.motion * cut.start + residual * options.first_force_n;
-  cut.tips = tips_of_turn(process);
   return cut;
 }
 

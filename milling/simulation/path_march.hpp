@@ -61,30 +61,33 @@ struct PathCut {
                                const SimulatedPoint& point, const SimulationOptions& options, int steps_a_turn,
                                int earlier_passes, const std::optional<OneSidedContact>& contact = {});
 
+/// The same of a tool whose structure is not one of modes: `start`, `structure` and `rule` are empty.
+[[nodiscard]] PathCut path_cut(const MillingProcess& process, const SimulatedPoint& point,
+                               const SimulationOptions& options, int steps_a_turn, int earlier_passes);
+
 /// A motion of turns.hpp. `Material` has
 ///
 ///     double chip(const ToothDisc&, DiscRay&, double node, centre)   m; ≤ 0 without contact; sets `found` of the ray
 ///                                                                    where there is material on it
 ///     void leave(const PathStep&)                                    removes what the teeth of a step have swept
 ///
-/// N = 4 forces with a contact that may open, else 3.
-template <int N, class Material, class ChipForce>
+/// and `Tool` what ModalTool has (modal_tool.hpp).
+template <class Tool, class Material, class ChipForce>
 class PathMotion {
  public:
-  /// Keeps references to all three.
-  PathMotion(const PathCut& cut, Material& material, const ChipForce& chip_force)
+  /// Keeps references to all but the tool, which is at `cut.start_m` when the simulation begins.
+  PathMotion(const PathCut& cut, Tool tool, Material& material, const ChipForce& chip_force)
       : c_(cut),
+        tool_(std::move(tool)),
         material_(material),
         chip_force_(chip_force),
-        rule_(march_rule<N>(cut.structure, cut.ports, 2.0 * cut.node_rad / cut.rad_per_s, 2.0 * cut.node_rad)),
-        x_(cut.start),
-        periods_{cut.tips, 2.0 * std::numbers::pi, 1, 2 * cut.steps_a_turn, cut.rad_per_s, N == 4} {
+        periods_{cut.tips, 2.0 * std::numbers::pi, 1, 2 * cut.steps_a_turn, cut.rad_per_s, Tool::has_contact} {
     step_.in_cut = true;
     step_.step_rad = 2.0 * cut.node_rad;
     step_.at[0].displacement_m = cut.start_m;
-    if constexpr (N == 4) step_.at[0].opening_m = cut.structure.pair_motion.dot(x_);
     turn_to(0);
     load(0, step_.at[0]);
+    tool_.begin(step_.at[0]);
   }
 
   [[nodiscard]] const Periods& periods() const { return periods_; }
@@ -103,8 +106,7 @@ class PathMotion {
     return unsettled;
   }
 
-  /// Modes are scaled to their displacement at the cut. The largest of numbers some of which are NaN is any of them.
-  [[nodiscard]] bool within(double radius_m) const { return x_.allFinite() && x_.cwiseAbs().maxCoeff() < radius_m; }
+  [[nodiscard]] bool within(double radius_m) const { return tool_.within(radius_m); }
 
  private:
   /// Where the centre would be without vibration.
@@ -148,18 +150,12 @@ class PathMotion {
       at.force_n[2] += disc.width_m * f.axial;
       at.torque_n_m += disc.width_m * f.tangential * disc.radius_m;
     }
-    if constexpr (N == 4) {
-      const double force = force_between(*c_.contact, at.opening_m, at.opening_slope * c_.rad_per_s);
-      at.separating_n = std::max(0.0, -force);
-      at.pressing_n = std::max(0.0, force);
-    }
   }
 
   int over_step() {
     turn_to(1);
     turn_to(2);
-    const int unsettled = settle_forces<N>(rule_, x_, true, step_, [&](std::size_t c, MarchNode& at) { load(c, at); });
-    advance_state<N>(rule_, step_, x_);
+    const int unsettled = tool_.over_step(step_, [&](std::size_t c, MarchNode& at) { load(c, at); });
     PathStep accepted{node_, {}, rays_};
     for (const std::size_t c : {std::size_t{0}, std::size_t{1}, std::size_t{2}})
       accepted.centre[c] = fed(c) + step_.at[c].displacement_m.template head<2>();
@@ -170,28 +166,22 @@ class PathMotion {
   }
 
   const PathCut& c_;
+  Tool tool_;
   Material& material_;
   const ChipForce& chip_force_;
-  MarchRule<N> rule_;
-  Eigen::VectorXd x_;
   Periods periods_;
   MarchStep step_;
   std::array<std::vector<DiscRay>, 3> rays_;  ///< of each node of the step and each disc
   long node_ = 0;                             ///< where the step begins
 };
 
-/// over_turns() of the motion on a material, with a contact that may open where the cut has one.
-template <class Material, class ChipForce>
-SimulatedCut over_path(const PathCut& cut, Material& material, const ChipForce& chip_force,
+/// over_turns() of a tool in a material. The tool is copied.
+template <class Tool, class Material, class ChipForce>
+SimulatedCut over_path(const PathCut& cut, const Tool& tool, Material& material, const ChipForce& chip_force,
                        const MillingProcess& process, const SimulationOptions& options,
                        const TurnObserver& after_turn) {
-  const double feed_m_per_rad = cut.feed_per_node_m / cut.node_rad;
-  if (cut.contact) {
-    PathMotion<4, Material, ChipForce> motion(cut, material, chip_force);
-    return over_turns(motion, process, feed_m_per_rad, options, after_turn);
-  }
-  PathMotion<3, Material, ChipForce> motion(cut, material, chip_force);
-  return over_turns(motion, process, feed_m_per_rad, options, after_turn);
+  PathMotion motion(cut, tool, material, chip_force);
+  return over_turns(motion, process, cut.feed_per_node_m / cut.node_rad, options, after_turn);
 }
 
 }  // namespace thinwall::milling

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "milling/simulation/chip_force.hpp"
+#include "milling/simulation/modal_tool.hpp"
 #include "milling/simulation/path_march.hpp"
 
 namespace thinwall::milling {
@@ -174,7 +175,9 @@ RegionCut simulate_region(const RelativeStructure& structure, const MillingProce
   const double before = slices.mean_area_m2();
   RegionCut result;
   result.cut = with_chip_force(process, law, [&](const auto& chip_force) {
-    return over_path(cut, slices, chip_force, process, options, after_turn);
+    return with_modal_tool(cut, [&](const auto& tool) {
+      return over_path(cut, tool, slices, chip_force, process, options, after_turn);
+    });
   });
   result.removed_m2 = before - slices.mean_area_m2();
   const std::vector<Disc> heights = discs_of(process, point.depth_m, options.steps);

@@ -29,7 +29,7 @@ using Eigen::VectorXd;
 constexpr double pi = std::numbers::pi;
 
 TipForce constant(const Vector3d& force) {
-  return [force](const ArmPose&) { return force; };
+  return [force](const ArmPose&, const JointMotion&) { return force; };
 }
 
 SerialArm without_dampers(SerialArm arm) {
@@ -257,7 +257,8 @@ TEST(NewmarkStep, TellsWhatItDidNotFind) {
   const JointMotion rest = at_rest(arm, q, Vector3d::Zero());
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(newmark_step(arm, rest, 1e-3, q, constant({nan, 0.0, 0.0})).status, StepStatus::not_finite);
-  const TipForce stiffer = [&](const ArmPose& at) -> Vector3d {  // than the step can follow: a spring of 10¹² N/m
+  const TipForce stiffer = [&](const ArmPose& at,
+                               const JointMotion&) -> Vector3d {  // than the step can follow: a spring of 10¹² N/m
     return -1e12 * (at.tip.translation() - pose(arm.arm, q).tip.translation()) + Vector3d(1e3, 0.0, 0.0);
   };
   EXPECT_NE(newmark_step(arm, rest, 1e-3, q, stiffer).status, StepStatus::converged);
