@@ -89,7 +89,8 @@ SimulatedCut simulate_exact_path(const RelativeStructure& structure, const Milli
   require_usable(process, law, point, stock, options, paths);
   const PathCut cut =
       path_cut(structure, process, point, options, paths.steps_a_turn, paths.earlier_passes, paths.contact);
-  return with_modal_tool(cut, [&](const auto& tool) { return march(cut, tool, process, law, stock, options, after_turn); });
+  return with_modal_tool(cut,
+                         [&](const auto& tool) { return march(cut, tool, process, law, stock, options, after_turn); });
 }
 
 SimulatedCut simulate_exact_path(const MovedTool& tool, const MillingProcess& process, const ForceLaw& law,

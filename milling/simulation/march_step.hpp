@@ -19,6 +19,7 @@ struct MarchNode {
   double opening_slope = 0.0;                                ///< its dq/dφ, m/rad
   double separating_n = 0.0;                                 ///< g of one_sided_contact.hpp
   double pressing_n = 0.0;                                   ///< and N
+  double gap_m = 0.0;                                        ///< between its sides, below 0 while they are pressed
   double thickest_chip_m = 0.0;
   double removal_m2_rad = 0.0;          ///< area that teeth remove, of exact paths
   int points = 0, without_contact = 0;  ///< of edges within the angles of the cut

@@ -51,6 +51,7 @@ class ModalTool {
     const double force = force_between(*c_.contact, node.opening_m, node.opening_slope * c_.rad_per_s);
     node.separating_n = std::max(0.0, -force);
     node.pressing_n = std::max(0.0, force);
+    node.gap_m = node.opening_m - c_.contact->preload_n / c_.contact->stiffness_n_per_m;
   }
 
   const PathCut& c_;

@@ -37,7 +37,7 @@ struct ContactOutcome {
   double open_share = 0.0;  ///< of the time
   double least_n = 0.0;     ///< pressing force; 0 once it opened
   double largest_n = 0.0;
-  double widest_m = 0.0;  ///< the largest distance between the sides beyond what the preload had pressed in
+  double widest_m = 0.0;  ///< the widest gap between the sides
 };
 
 }  // namespace thinwall::milling

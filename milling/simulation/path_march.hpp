@@ -77,11 +77,12 @@ class PathMotion {
  public:
   /// Keeps references to all but the tool, which is at `cut.start_m` when the simulation begins.
   PathMotion(const PathCut& cut, Tool tool, Material& material, const ChipForce& chip_force)
-      : c_(cut),
-        tool_(std::move(tool)),
-        material_(material),
-        chip_force_(chip_force),
-        periods_{cut.tips, 2.0 * std::numbers::pi, 1, 2 * cut.steps_a_turn, cut.rad_per_s, Tool::has_contact} {
+      : c_(cut), tool_(std::move(tool)), material_(material), chip_force_(chip_force), periods_{cut.tips,
+                                                                                                2.0 * std::numbers::pi,
+                                                                                                1,
+                                                                                                2 * cut.steps_a_turn,
+                                                                                                cut.rad_per_s,
+                                                                                                Tool::has_contact} {
     step_.in_cut = true;
     step_.step_rad = 2.0 * cut.node_rad;
     step_.at[0].displacement_m = cut.start_m;

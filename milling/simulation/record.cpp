@@ -114,7 +114,7 @@ void Record::take_contact(const MarchStep& step, ContactOutcome& contact) {
   for (const MarchNode& node : step.at) {
     contact.least_n = std::min(contact.least_n, node.pressing_n);
     contact.largest_n = std::max(contact.largest_n, node.pressing_n);
-    if (node.separating_n > 0.0) contact.widest_m = std::max(contact.widest_m, node.opening_m);
+    if (node.separating_n > 0.0) contact.widest_m = std::max(contact.widest_m, node.gap_m);
   }
   open_rad_ += step.integral([](const MarchNode& n) { return n.separating_n > 0.0 ? 1.0 : 0.0; });
 }

@@ -175,9 +175,8 @@ RegionCut simulate_region(const RelativeStructure& structure, const MillingProce
   const double before = slices.mean_area_m2();
   RegionCut result;
   result.cut = with_chip_force(process, law, [&](const auto& chip_force) {
-    return with_modal_tool(cut, [&](const auto& tool) {
-      return over_path(cut, tool, slices, chip_force, process, options, after_turn);
-    });
+    return with_modal_tool(
+        cut, [&](const auto& tool) { return over_path(cut, tool, slices, chip_force, process, options, after_turn); });
   });
   result.removed_m2 = before - slices.mean_area_m2();
   const std::vector<Disc> heights = discs_of(process, point.depth_m, options.steps);

@@ -127,8 +127,7 @@ void fields(Visitor& visit, Section& contact) {
   visit(Field{"open_share", Kind::ratio, "share of the time in which it is open"}, contact.open_share);
   visit(Field{"least_n", Kind::force, "least force that presses it; 0 once it opened"}, contact.least_n);
   visit(Field{"largest_n", Kind::force, "largest force that presses it"}, contact.largest_n);
-  visit(Field{"widest_m", Kind::length, "largest distance of its sides from where they rest, while open"},
-        contact.widest_m);
+  visit(Field{"widest_m", Kind::length, "widest gap between its sides"}, contact.widest_m);
 }
 
 /// A simulated operating point.
