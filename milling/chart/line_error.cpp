@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace thinwall::milling {
 
@@ -56,7 +57,21 @@ struct Around {
   const LobeRow* left = nullptr;
   const LobeRow* right = nullptr;
   const LobeRow* after = nullptr;
+  const LobeRow* farther_before = nullptr;
+  const LobeRow* farther_after = nullptr;
 };
+
+/// Those around gap i; `joined` tells which neighbouring rows lie on one lobe.
+Around around(const std::vector<LobeRow>& rows, const std::vector<bool>& joined, std::size_t i) {
+  Around at;
+  at.left = &rows[i];
+  at.right = &rows[i + 1];
+  if (i > 0 && joined[i - 1]) at.before = &rows[i - 1];
+  if (at.before != nullptr && i > 1 && joined[i - 2]) at.farther_before = &rows[i - 2];
+  if (i + 1 < joined.size() && joined[i + 1]) at.after = &rows[i + 2];
+  if (at.after != nullptr && i + 2 < joined.size() && joined[i + 2]) at.farther_after = &rows[i + 3];
+  return at;
+}
 
 double width(const Around& at) {
   return at.right->spindle_speed_rpm - at.left->spindle_speed_rpm;
@@ -91,25 +106,57 @@ bool may_hide_lobe(const Around& at, bool one_motion) {
                   right - h * std::min(0.0, slope(*at.right, *at.after, growth))) > 0.0;
 }
 
+/// A lobe's 1/w continued from its row beside a gap, by a parabola where three of its rows are known, else by its
+/// chord.
+struct Continued {
+  double value = 0.0, slope = 0.0, bend = 0.0;
+  double before_rpm = 0.0;  ///< distance from the row to the one behind it
+
+  /// At a distance from the row into the gap, rpm.
+  [[nodiscard]] double at(double into_rpm) const {
+    return value + slope * into_rpm + bend * into_rpm * (into_rpm + before_rpm);
+  }
+};
+
+/// `row` is beside the gap, `behind` and `farther` follow away from it; null where the lobe has none.
+Continued continued(const LobeRow& row, const LobeRow* behind, const LobeRow* farther) {
+  Continued lobe{inverse_depth(row)};
+  if (row.at_limit || behind == nullptr) return lobe;
+  const double away = behind->spindle_speed_rpm < row.spindle_speed_rpm ? 1.0 : -1.0;
+  lobe.slope = away * slope(*behind, row, inverse_depth);
+  lobe.before_rpm = std::abs(row.spindle_speed_rpm - behind->spindle_speed_rpm);
+  if (farther != nullptr) lobe.bend = curvature(*farther, *behind, row, inverse_depth);
+  return lobe;
+}
+
+/// The distance from the left row at which two lobes meet within a gap, by bisection; none if the left one is not the
+/// lower at the left end, or the right one not at the right end: the boundary is the lower of both.
+std::optional<double> corner_of(const Continued& left, const Continued& right, double h) {
+  const auto left_is_lower = [&](double x) { return left.at(x) > right.at(h - x); };
+  if (!left_is_lower(0.0) || left_is_lower(h)) return std::nullopt;
+  double from = 0.0, to = h;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = 0.5 * (from + to);
+    (left_is_lower(middle) ? from : to) = middle;
+  }
+  return 0.5 * (from + to);
+}
+
 /// The corner where the continuations of both lobes meet, and what the line is off there.
 void add_corner(const Around& at, LineGap& gap) {
   gap.error = unknown;
   const bool known = (at.before != nullptr || at.left->at_limit) && (at.after != nullptr || at.right->at_limit);
   if (!known) return;
   const double h = width(at);
-  const double before = at.left->at_limit ? 0.0 : slope(*at.before, *at.left, inverse_depth);
-  const double after = at.right->at_limit ? 0.0 : slope(*at.right, *at.after, inverse_depth);
-  const double chord = slope(*at.left, *at.right, inverse_depth);
-  // The lower of both lobes is the boundary only if the left one is the lower at the left end, and the right at the
-  // right end.
-  if (!(before <= chord && chord <= after && before < after)) return;
-  const double x = h * (after - chord) / (after - before);
-  const double top = 1.0 / (inverse_depth(*at.left) + before * x);
+  const Continued left = continued(*at.left, at.before, at.farther_before);
+  const std::optional<double> x = corner_of(left, continued(*at.right, at.after, at.farther_after), h);
+  if (!x) return;
+  const double top = 1.0 / left.at(*x);
   if (!(top > 0.0)) return;
-  gap.error = safety * std::abs(1.0 - (depth(*at.left) + slope(*at.left, *at.right) * x) / top);
+  gap.error = safety * std::abs(1.0 - (depth(*at.left) + slope(*at.left, *at.right) * *x) / top);
   const double rise = std::abs(std::log(depth(*at.left) / depth(*at.right)));
   if (unseen * rise > gap.error) gap.error = unseen * rise;
-  else gap.corner_rpm = at.left->spindle_speed_rpm + std::clamp(x / h, 0.1, 0.9) * h;
+  else gap.corner_rpm = at.left->spindle_speed_rpm + std::clamp(*x / h, 0.1, 0.9) * h;
 }
 
 }  // namespace
@@ -126,8 +173,7 @@ std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingPr
     gap.corner_rpm = 0.5 * (left.spindle_speed_rpm + right.spindle_speed_rpm);
     gap.corner = !joined[i];
     if (right.spindle_speed_rpm <= left.spindle_speed_rpm * (1.0 + narrow_gap)) continue;
-    const Around at{i > 0 && joined[i - 1] ? &rows[i - 1] : nullptr, &left, &right,
-                    i + 1 < gaps.size() && joined[i + 1] ? &rows[i + 2] : nullptr};
+    const Around at = around(rows, joined, i);
     if (left.at_limit && right.at_limit) gap.error = may_hide_lobe(at, joined[i]) ? unknown : 0.0;
     else if (gap.corner) add_corner(at, gap);
     else gap.error = smooth_error(at);

@@ -25,9 +25,9 @@ constexpr double narrow_gap = 1e-5;
 ///     e = 2 |w[n_i−1, n_i, n_i+1]| h²/4 / √(w_i w_i+1)
 ///
 /// with the larger of the divided differences of both sides, doubled for what it changes within the gap. Where two
-/// lobes meet the boundary is the lower of them, and each is continued by its chord before the gap. A gap beside which
-/// a lobe has one row only tells nothing: the error is infinite. It is 0 of a narrow gap. `rows` by rising speed. Cost
-/// O(rows).
+/// lobes meet the boundary is the lower of them, and each is continued into the gap, in 1/w by the parabola of three of
+/// its rows, or by its last chord where it has two. A gap beside which a lobe has one row only tells nothing: the error
+/// is infinite. It is 0 of a narrow gap. `rows` by rising speed. Cost O(rows).
 [[nodiscard]] std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingProcess& process);
 
 }  // namespace thinwall::milling

@@ -15,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "milling/chart/line_error.hpp"
 #include "milling/direct/stability.hpp"
 #include "tests/milling/benchmark.hpp"
 #include "tests/milling/random_cut.hpp"
@@ -113,6 +114,30 @@ TEST(RefinedLine, TellsWhatIsOffWhenNoMoreSpeedsMayBeAdded) {
   const Lobes none = closed_form_chart({0.02, 0});
   EXPECT_EQ(none.rows.size(), 40U);
   EXPECT_FALSE(none.line->met);
+}
+
+/// Two lobes that meet between the speeds at x = 0 and 1.8 of 40 rpm each: the left one's 1/w falls as a parabola, so
+/// that it rises in the gap as its last chord does not tell, and the right one's is straight.
+TEST(RefinedLine, SeesThePeakOfALobeThatBendsUpwardsBeforeItsCorner) {
+  const auto left = [](double x) { return 2000.0 - 38.0 * x - 32.0 * x * (x + 1.0); };
+  const auto right = [](double x) { return 1945.0 + 655.0 * (x - 1.8); };
+  const auto row = [&](double x) {
+    LobeRow result;
+    result.spindle_speed_rpm = 10000.0 + 40.0 * x;
+    const bool on_left = left(x) > right(x);
+    result.limiting_depth_m = 1.0 / (on_left ? left(x) : right(x));
+    result.chatter_frequency_hz = (on_left ? 21.5 : 12.3) * result.spindle_speed_rpm / 30.0;
+    return result;
+  };
+  std::vector<LobeRow> rows;
+  for (const double x : {-2.0, -1.0, 0.0, 1.8, 1.9, 2.0}) rows.push_back(row(x));
+  double off = 0.0;
+  for (double x = 0.0; x < 1.8; x += 0.001) {
+    const double line = rows[2].limiting_depth_m + x / 1.8 * (rows[3].limiting_depth_m - rows[2].limiting_depth_m);
+    off = std::max(off, std::abs(line / row(x).limiting_depth_m - 1.0));
+  }
+  EXPECT_GT(off, 0.07);
+  EXPECT_GE(line_gaps(rows, two_teeth())[2].error, off);
 }
 
 TEST(RefinedLine, GoesThroughTheSpeedsThatAreAsked) {
