@@ -43,9 +43,6 @@ bool check_needs(const Case& source, Findings& findings) {
     findings.report("path.support",
                     "the robot cannot follow with robot.posture.joints or tip, which hold it in one "
                     "place; give its posture by pitch or approach");
-  if (source.tool && (!source.tool->measured.empty() || source.tool->swap))
-    findings.report("path",
-                    "lobes along a path need a tool known by its modes; give tool.modes in place of measured FRFs");
   if (source.lobes && source.lobes->method != milling::Method::direct)
     findings.report("lobes.method", "lobes along a path are by the direct method; leave it at \"direct\" and name \"" +
                                         milling::name(source.lobes->method) + "\" in lobes.compare");

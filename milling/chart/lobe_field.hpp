@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "milling/chart/lobes.hpp"
+#include "milling/chart/sampled_stability.hpp"
 
 namespace thinwall::milling {
 
@@ -26,5 +27,12 @@ struct LobeField {
 [[nodiscard]] LobeField lobe_field(const std::vector<RelativeStructure>& structures, const MillingProcess& process,
                                    const std::vector<double>& spindle_speeds_rpm, StabilityOptions options,
                                    const KeptRows& kept = {});
+
+/// The same with a tool that is known by its lines, in the place of one that is rigid or known by its poles: `tool` has
+/// the fits of its lines and `structures` the poles of all else. Rows that lines limit are none that did not converge.
+/// Errors and cost as those of limiting_depth() of a FittedStructure.
+[[nodiscard]] LobeField lobe_field(const FittedStructure& tool, const std::vector<RelativeStructure>& structures,
+                                   const MillingProcess& process, const std::vector<double>& spindle_speeds_rpm,
+                                   StabilityOptions options, const KeptRows& kept = {});
 
 }  // namespace thinwall::milling

@@ -329,6 +329,15 @@ FittedStructure fitted_structure(const SampledStructure& structure, const ToolFr
   return result;
 }
 
+FittedStructure beside(FittedStructure structure, const RelativeStructure& poles) {
+  std::optional<RelativeStructure>& given = structure.lines.poles;
+  given = given ? sum(*given, poles) : poles;
+  for (Fit* fit : {&structure.all, &structure.even, &structure.odd, &structure.within})
+    fit->poles = sum(fit->poles, poles);
+  for (Fit& fit : structure.without) fit.poles = sum(fit.poles, poles);
+  return structure;
+}
+
 LobeRow limiting_depth(const FittedStructure& structure, const MillingProcess& process, double spindle_speed_rpm,
                        const StabilityOptions& options) {
   require_range(structure.lines.samples, process, spindle_speed_rpm);

@@ -38,6 +38,9 @@ struct FittedStructure {
 /// three fits.
 [[nodiscard]] FittedStructure fitted_structure(const SampledStructure& structure, const ToolFrame& frame);
 
+/// The fits with the poles of another component, part axes, beside them: what a cut feels of both. Cost: a copy.
+[[nodiscard]] FittedStructure beside(FittedStructure structure, const RelativeStructure& poles);
+
 /// The row of a speed. The crossings are those of the fit's poles, found and checked as limiting_depth() of
 /// stability.hpp does. Each that bounds a stable range is then followed, on a grid of its own depth, to where it lies
 /// with the remainder (harmonic_gain()), so that the row is that of the lines less their noise. The estimate of a

@@ -25,8 +25,9 @@ namespace thinwall::study {
 namespace {
 
 /// Structures that the cut feels at each position: of the part alone, and with the robot that supports it or carries
-/// the tool, as it stands there (empty without one).
+/// the tool, as it stands there (empty without one). A tool that is known by its lines is not among them.
 struct StructuresAlongPath {
+  std::optional<milling::FittedStructure> tool;
   std::vector<milling::RelativeStructure> part, with_robot;
   std::vector<setup::RobotPosture> robot;
 };
@@ -57,12 +58,18 @@ std::vector<coupling::Contact> contacts_at(const std::vector<setup::JoinedContac
   return contacts;
 }
 
+bool known_by_lines(const setup::Tool& tool) {
+  return !tool.measured.empty() || tool.swap.has_value();
+}
+
 StructuresAlongPath structures_along_path(const PathInput& input, const Results& results,
                                           const milling::ToolFrame& frame) {
   const auto& models = results.finite_elements->along_path;
   const bool supported = results.coupled && results.coupled->model;
   const bool carried = setup::carries_tool(input.support.robot);
   StructuresAlongPath structures;
+  if (known_by_lines(*input.cut.tool))
+    structures.tool = std::get<milling::FittedStructure>(cut_structure(input.cut, frame, nullptr));
   core::Progress progress("positions", models.size());
   structures.part.reserve(models.size());
   structures.with_robot.reserve(models.size());
@@ -72,7 +79,7 @@ StructuresAlongPath structures_along_path(const PathInput& input, const Results&
     std::vector<reduction::IdentifiedMode> identified;
     const dynamics::SpatialModel part = damped(input.part.damping, models[i], identified);
     const auto felt = [&](const dynamics::ModalModel& modal, const dynamics::ModalModel* carrier) {
-      return std::get<milling::RelativeStructure>(cut_structure(cut, frame, &modal, carrier));
+      return *cut_poles(cut, &modal, carrier);
     };
     const dynamics::ModalModel alone = modes_of(part);
     structures.part.push_back(felt(alone, nullptr));
@@ -91,17 +98,19 @@ StructuresAlongPath structures_along_path(const PathInput& input, const Results&
 }
 
 PathLobes charts(const setup::CutSetup& source, ChartOf of, const std::string& method,
-                 const milling::MillingProcess& process, const std::vector<milling::RelativeStructure>& structures,
-                 Checkpoint& kept) {
+                 const milling::MillingProcess& process, const std::optional<milling::FittedStructure>& tool,
+                 const std::vector<milling::RelativeStructure>& structures, Checkpoint& kept) {
   const setup::LobesOptions& wanted = *source.lobes;
-  const auto speeds = milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count);
-  auto rows = milling::lobe_field(structures, process, speeds, stability_options(wanted),
-                                  kept_rows(kept, "path-" + core::word_of(of)))
-                  .rows;
+  const milling::StabilityOptions options = stability_options(wanted);
+  const auto rows_at = [&](const std::vector<double>& speeds, const milling::KeptRows& kept_there) {
+    return tool ? milling::lobe_field(*tool, structures, process, speeds, options, kept_there).rows
+                : milling::lobe_field(structures, process, speeds, options, kept_there).rows;
+  };
+  auto rows = rows_at(milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.count),
+                      kept_rows(kept, "path-" + core::word_of(of)));
   PathLobes result{of, {}};
   if (const auto rpm = source.cutting->spindle_speed_rpm) {
-    for (const auto& of_place : milling::lobe_field(structures, process, {*rpm}, stability_options(wanted)).rows)
-      result.at_spindle_speed.push_back(of_place.front());
+    for (const auto& of_place : rows_at({*rpm}, {})) result.at_spindle_speed.push_back(of_place.front());
   }
   result.lobes.reserve(structures.size());
   for (std::size_t i = 0; i < structures.size(); ++i) {
@@ -123,10 +132,10 @@ std::vector<PathLobes> lobes_along_path(const PathInput& input, const Results& r
   const std::string& method = results.lobes.front().lobes.method;
   if (structures.with_robot.empty() && results.coupled)
     core::warn("no charts of the supported part along the path: part and robot are not joined by matrices");
-  std::vector<PathLobes> all{charts(input.cut, ChartOf::part, method, process, structures.part, kept)};
+  std::vector<PathLobes> all{charts(input.cut, ChartOf::part, method, process, structures.tool, structures.part, kept)};
   if (!structures.with_robot.empty()) {
     const ChartOf of = setup::carries_tool(input.support.robot) ? ChartOf::carried : ChartOf::supported;
-    all.push_back(charts(input.cut, of, method, process, structures.with_robot, kept));
+    all.push_back(charts(input.cut, of, method, process, structures.tool, structures.with_robot, kept));
     all.back().robot = structures.robot;
   }
   return all;

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "milling/direct/stability.hpp"
 #include "tests/milling/single_mode.hpp"
 
 namespace thinwall::milling::lobe_field_test {
@@ -57,6 +58,32 @@ TEST(LobeField, WeakestPositionIsTheOneOfTheLeastDepth) {
   const LobeField field = lobe_field(path(9), process_of(), rpm, {});
   for (std::size_t i = 0; i < rpm.size(); ++i)
     EXPECT_EQ(field.rows[field.weakest_at[i]][i].limiting_depth_m, field.weakest_depth_m[i]);
+}
+
+/// The rows of a tool that is known by lines beside the wall's poles are those of one fit of lines with these poles.
+TEST(LobeField, OfAToolKnownByLinesHasTheRowsOfBothTogether) {
+  const RelativeStructure tip =
+      relative_structure(testing::modal_model({{1900.0, 0.03, 0.3, Eigen::Vector3d::UnitX()}}), "P");
+  SampledStructure lines{{Eigen::VectorXd::LinSpaced(600, 50.0, 6000.0), {}}, {}};
+  for (const double hz : lines.samples.frequency_hz)
+    lines.samples.H.emplace_back(receptance(in_tool_axes(tip, process_of().frame), 2.0 * std::numbers::pi * hz));
+  const std::vector<double> rpm = spindle_speeds(6000.0, 12000.0, 4);
+  const auto structures = path(3);
+  const LobeField field = lobe_field(fitted_structure(lines, process_of().frame), structures, process_of(), rpm, {});
+  EXPECT_EQ(field.rows_not_converged, 0) << "what lines leave open is told in the estimates";
+  StabilityOptions first_only;
+  first_only.follow = 1.0;
+  for (std::size_t p = 0; p < structures.size(); ++p) {
+    lines.poles = structures[p];
+    const FittedStructure both = fitted_structure(lines, process_of().frame);
+    const RelativeStructure exact = sum(tip, structures[p]);
+    for (std::size_t i = 0; i < rpm.size(); ++i) {
+      const LobeRow &found = field.rows[p][i], alone = limiting_depth(both, process_of(), rpm[i], first_only),
+                    by_poles = limiting_depth(exact, process_of(), rpm[i], first_only);
+      EXPECT_NEAR(found.limiting_depth_m / alone.limiting_depth_m, 1.0, 2e-4) << p << ", " << rpm[i];
+      EXPECT_NEAR(found.limiting_depth_m / by_poles.limiting_depth_m, 1.0, found.error_estimate + 1e-4);
+    }
+  }
 }
 
 TEST(LobeField, DoesNotDependOnTheNumberOfThreads) {

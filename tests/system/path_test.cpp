@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <map>
 
 #include "tests/core/temporary_folder.hpp"
@@ -151,6 +153,41 @@ TEST(Path, ARobotThatFollowsIsTheHeldOneAtItsContactAndAnotherElsewhere) {
   EXPECT_LT(difference(held[1], follows[1]), 1e-7) << "above the contact both are the same case";
   EXPECT_GT(difference(held[0], follows[0]), 0.05);
   EXPECT_LT(difference(depths_along(out, "part")[0], alone[0]), 1e-6) << "the wall alone does not feel it";
+}
+
+/// The lines of one mode at the tool's tip along x, as a file.
+void write_lines(const fs::path& file, double hz, double damping_ratio, double stiffness) {
+  std::ofstream csv(file);
+  csv.precision(12);
+  csv << "frequency_hz,re,im\n";
+  for (int i = 0; i < 1200; ++i) {
+    const double f = 40.0 + 5.0 * i, r = f / hz;
+    const std::complex<double> H = 1.0 / (stiffness * std::complex<double>(1.0 - r * r, 2.0 * damping_ratio * r));
+    csv << f << "," << H.real() << "," << H.imag() << "\n";
+  }
+}
+
+/// With and without robot, a tool that is measured has the charts of the same tool known by its mode.
+TEST(Path, AMeasuredToolHasTheChartsOfTheSameToolByItsMode) {
+  const std::string rows = "count = 3\nmost_added = 0\ntolerance = 1e-3\n" + path(8.0, 64.0, 2, "follows");
+  const auto with_tool = [&](const std::string& tool) {
+    std::string text = wall(40.0, 40.0, coarse, rows);
+    return text.insert(text.find("[cutting]"), tool);
+  };
+  const fs::path by_mode = scratch("path_tool_mode"), by_lines = scratch("path_tool_lines");
+  (void)run(with_tool("[[tool.modes]]\nfrequency = \"1700 Hz\"\ndamping_ratio = 0.03\nstiffness = \"2e6 N/m\"\n"
+                      "direction = \"x\"\n"),
+            by_mode);
+  write_lines(by_lines / "tip.csv", 1700.0, 0.03, 2e6);
+  const auto summary = run(with_tool("[[tool.measured]]\nresponse = \"x\"\nforce = \"x\"\nfile = \"tip.csv\"\n"
+                                     "quantity = \"receptance\"\nunit = \"m/N\"\n"),
+                           by_lines);
+  for (const std::string chart : {"part", "supported"}) {
+    const auto expected = depths_along(by_mode, chart), found = depths_along(by_lines, chart);
+    ASSERT_EQ(found.size(), 2U) << chart;
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(difference(found[i], expected[i]), 5e-3) << chart << ", " << i;
+  }
+  EXPECT_EQ(summary["path"][0]["rows_not_converged"], 0);
 }
 
 TEST(Path, TheWeakestPositionIsThatOfTheTable) {
