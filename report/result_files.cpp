@@ -26,6 +26,7 @@
 #include "report/summary/summary_json.hpp"
 #include "report/tool_files.hpp"
 #include "setup/imported_part.hpp"
+#include "study/lobes/tool_swap.hpp"
 #include "study/support/robot_survey.hpp"
 
 namespace thinwall::report {
@@ -142,7 +143,9 @@ void write_cuts(const fs::path& folder, const setup::Setup& source, const study:
   if (results.lobes.empty() && results.path.empty()) return;
   fs::create_directories(folder / "lobes");
   for (const auto& lobes : results.lobes) write_lobes(folder / "lobes", lobes);
-  if (source.tool) write_tool_frf(folder / "lobes" / "tool_frf.csv", *source.tool, results.synthesised_tip);
+  const fs::path tip = folder / "lobes" / "tool_frf.csv";
+  if (source.tool && source.tool->swap) write_swapped_frf(tip, study::swapped_tip(source).tip, results.synthesised_tip);
+  else if (source.tool) write_tool_frf(tip, *source.tool, results.synthesised_tip);
   for (const auto& path : results.path) write_path(folder / "lobes", source, path);
 }
 

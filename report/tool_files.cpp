@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/frf/resample.hpp"
@@ -33,6 +34,14 @@ std::vector<double> synthesised_on(const dynamics::FrequencyAxis& axis, const mi
   return values;
 }
 
+/// The columns of an entry as the fitted poles alone give it.
+void add_synthesised(io::Table& table, const dynamics::FrequencyAxis& axis, const std::string& entry, Eigen::Index i,
+                     Eigen::Index j, const milling::SampledReceptance& synthesised) {
+  for (const bool imaginary : {false, true})
+    table.push_back({std::string("synthesised ") + (imaginary ? "im " : "re ") + entry + " m/N",
+                     synthesised_on(axis, synthesised, i, j, imaginary), true});
+}
+
 }  // namespace
 
 void write_tool_frf(const std::filesystem::path& file, const setup::Tool& tool,
@@ -50,13 +59,34 @@ void write_tool_frf(const std::filesystem::path& file, const setup::Tool& tool,
     if (coherence.size() > 0) table.push_back({"coherence " + entry, list_of(coherence)});
     if (!synthesised) continue;
     const int i = study::direction_of_dof(measured.response), j = study::direction_of_dof(measured.force);
-    for (const bool imaginary : {false, true})
-      table.push_back({std::string("synthesised ") + (imaginary ? "im " : "re ") + entry + " m/N",
-                       synthesised_on(axis, *synthesised, i, j, imaginary), true});
+    add_synthesised(table, axis, entry, i, j, *synthesised);
   }
   io::write_csv(file, table,
                 {"receptances of the tool's tip as measured, on the lines of the first file; synthesised: those of the "
                  "poles that were fitted to them, where they were"});
+}
+
+void write_swapped_frf(const std::filesystem::path& file, const milling::SampledReceptance& tip,
+                       const std::optional<milling::SampledReceptance>& synthesised) {
+  const dynamics::FrequencyAxis axis{tip.frequency_hz};
+  io::Table table{{"frequency_hz", list_of(axis.hz)}};
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      if (std::ranges::all_of(tip.H, [&](const Eigen::Matrix3cd& H) { return H(i, j) == 0.0; })) continue;
+      const std::string entry = std::string("tool.") + "xyz"[i] + "/tool." + "xyz"[j];
+      std::vector<double> real, imaginary;
+      for (const Eigen::Matrix3cd& H : tip.H) {
+        real.push_back(H(i, j).real());
+        imaginary.push_back(H(i, j).imag());
+      }
+      table.push_back({"re " + entry + " m/N", std::move(real)});
+      table.push_back({"im " + entry + " m/N", std::move(imaginary)});
+      if (synthesised) add_synthesised(table, axis, entry, i, j, *synthesised);
+    }
+  }
+  io::write_csv(
+      file, table,
+      {"receptances of the tool's tip by the swap; synthesised: those of the poles that were fitted to them"});
 }
 
 }  // namespace thinwall::report

@@ -119,7 +119,7 @@ std::optional<milling::RelativeStructure> cut_poles(const setup::CutSetup& sourc
 std::optional<milling::SampledReceptance> synthesised_tip(const setup::CutSetup& source,
                                                           const CutStructure& structure) {
   const auto* fit = std::get_if<milling::FittedStructure>(&structure);
-  if (fit == nullptr || source.tool->swap || source.tool->measured.empty()) return std::nullopt;
+  if (fit == nullptr || (!source.tool->swap && source.tool->measured.empty())) return std::nullopt;
   milling::SampledReceptance tip{fit->lines.samples.frequency_hz, {}};
   for (const double hz : tip.frequency_hz) {
     const double omega = 2.0 * std::numbers::pi * hz;

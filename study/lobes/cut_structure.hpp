@@ -47,8 +47,8 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::FittedStr
 [[nodiscard]] CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                          const std::optional<milling::RelativeStructure>& modal);
 
-/// The receptance of a measured tool's tip as its fitted poles alone give it, part axes, on the lines of the fit; those
-/// of the part are left out. None of a tool that is not measured, or that was swapped. Cost O(lines poles).
+/// The receptance of a measured or swapped tool's tip as its fitted poles alone give it, part axes, on the lines of the
+/// fit; those of the part are left out. None of a tool that is known by its modes or rigid. Cost O(lines poles).
 [[nodiscard]] std::optional<milling::SampledReceptance> synthesised_tip(const setup::CutSetup& source,
                                                                         const CutStructure& structure);
 

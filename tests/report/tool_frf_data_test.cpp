@@ -79,6 +79,31 @@ TEST(ToolFrfData, SaysHowWellTheFittedPolesAgree) {
   EXPECT_TRUE(std::isnan(poles[2 * 10])) << "at 200 Hz the fit has no line";
 }
 
+/// The entries of a swapped tip stand at their own places beside those of the fitted poles; along the axis, where
+/// nothing is known, there is none.
+TEST(ToolFrfData, OfASwappedToolIsWhatTheSwapGave) {
+  const auto file = result_folder("tool_frf_swapped") / "lobes" / "tool_frf.csv";
+  milling::SampledReceptance tip{Eigen::VectorXd::LinSpaced(4, 100.0, 130.0), {}};
+  for (int line = 0; line < 4; ++line) {
+    Eigen::Matrix3cd H = Eigen::Matrix3cd::Zero();
+    H.topLeftCorner<2, 2>() << std::complex<double>(1e-6, -2e-6), 3e-6, 4e-6, 5e-6;
+    tip.H.emplace_back(H);
+  }
+  milling::SampledReceptance fit = tip;
+  for (Eigen::Matrix3cd& H : fit.H) H *= 1.5;
+  write_swapped_frf(file, tip, fit);
+  const json frf = tool_frf_data(file);
+  EXPECT_EQ(frf["responses"], json({"tool.x", "tool.y"}));
+  EXPECT_EQ(frf["forces"], json({"tool.x", "tool.y"}));
+  const auto H = unpacked<float>(frf["H"]), poles = unpacked<float>(frf["synthesised"]);
+  ASSERT_EQ(H.size(), 2U * 2U * 4U * 2U);
+  EXPECT_NEAR(H[1], -2e-6, 1e-10);
+  EXPECT_NEAR(H[8], 3e-6, 1e-10) << "x/y";
+  EXPECT_NEAR(H[16], 4e-6, 1e-10) << "y/x";
+  EXPECT_NEAR(poles[24], 7.5e-6, 1e-10) << "y/y";
+  EXPECT_NEAR(unpacked<double>(frf["agreement"])[1], 0.5, 1e-9);
+}
+
 TEST(ToolFrfData, OfManyLinesKeepsThePeaks) {
   const auto file = result_folder("tool_frf_thinned") / "lobes" / "tool_frf.csv";
   setup::Tool tool;
