@@ -28,10 +28,10 @@ void take_parabola(Extremes& extremes, const MarchStep& step, const Quantity& of
   }
 }
 
-const Eigen::Vector3d& displacement(const MarchNode& node) {
+const Eigen::Vector3d& displacement_of(const MarchNode& node) {
   return node.displacement_m;
 }
-const Eigen::Vector3d& force(const MarchNode& node) {
+const Eigen::Vector3d& force_of(const MarchNode& node) {
   return node.force_n;
 }
 
@@ -78,8 +78,8 @@ void Record::begin_period(double time_s, double traced_rad) {
 }
 
 void Record::operator()(const MarchStep& step) {
-  take_parabola(result_.displacement_m, step, displacement);
-  take_parabola(result_.force_n, step, force);
+  take_parabola(result_.displacement_m, step, displacement_of);
+  take_parabola(result_.force_n, step, force_of);
   if (traced_rad_ >= 0.0) take_trace(step);
   take_passes(step);
   if (result_.contact) take_contact(step, *result_.contact);
