@@ -142,10 +142,10 @@ TEST_F(OnATerminal, OneLineWithStageAndCountIsOverwritten) {
 
 TEST(Forecast, SaysTheWholeTimeAndItsTwoParts) {
   const auto part = [](double seconds) { return setup::PartSize{2, 1.0, 1.0, seconds}; };
-  EXPECT_EQ(text({part(0.2), study::LobesForecast{{}, 0.1, false}}), "this takes about 1 s");
-  EXPECT_EQ(text({part(30.0), study::LobesForecast{{}, 90.0, false}}),
+  EXPECT_EQ(text({part(0.2), study::LobesForecast{{}, 0.1, false}, {}}), "this takes about 1 s");
+  EXPECT_EQ(text({part(30.0), study::LobesForecast{{}, 90.0, false}, {}}),
             "this takes about 2 min: the part about 30 s, the lobes about 90 s");
-  EXPECT_EQ(text({{}, study::LobesForecast{{}, 7200.0, true}}), "this takes over 2 h");
+  EXPECT_EQ(text({{}, study::LobesForecast{{}, 7200.0, true}, {}}), "this takes over 2 h");
 }
 
 TEST(StageDisplay, AStageWithoutALoopIsToldOfAgainWhileItGoesOn) {

@@ -108,7 +108,9 @@ TEST(MillingRobot, CutsAPartAsAToolWithTheSameModesDoes) {
 // The shipped arm, from links and posture in the case, against the arm linearised at once; its simulation against one
 // of that structure. An arm that follows a path stands with its tip at the cut.
 TEST(MillingRobot, IsTheArmOfItsLinksInItsPosture) {
-  const Case source = read_case(fs::path(THINWALL_SOURCE_DIR) / "cases" / "huynh-2017", {"lobes.count=2"});
+  const Case source =
+      read_case(fs::path(THINWALL_SOURCE_DIR) / "cases" / "huynh-2017",
+                {"lobes.count=2", "simulation.settling_turns=2", "simulation.turns=3", "simulation.wall=0"});
   study::Kept nothing;
   const milling::OperatingPoint point{18700.0, 1.6e-3};
   const study::Results results = study::run(source, variation_of(source), nothing, {{point}, {}});
@@ -120,14 +122,14 @@ TEST(MillingRobot, IsTheArmOfItsLinksInItsPosture) {
   EXPECT_EQ(results.lobes[0].of, study::ChartOf::carried);
   EXPECT_NEAR(results.lobes[0].points[0].multiplier->modulus, expected.modulus, 1e-10);
 
-  study::SimulationRequest request;
-  request.points = {point};
-  request.options.settling_turns = 2;
-  request.options.recorded_turns = 3;
-  const auto simulated = study::simulate_points(results.setup, results, request);
+  study::Checkpoint none;
+  const auto simulated = study::simulate_points(results.setup, results, {point}, none);
   ASSERT_EQ(simulated.size(), 1U);
-  const milling::SimulatedCut cut = milling::simulate(arm, process, process.coefficients,
-                                                      {18700.0, 1.6e-3, *feed_per_tooth(source)}, request.options);
+  milling::SimulationOptions options;
+  options.settling_turns = 2;
+  options.recorded_turns = 3;
+  const milling::SimulatedCut cut =
+      milling::simulate(arm, process, process.coefficients, {18700.0, 1.6e-3, *feed_per_tooth(source)}, options);
   EXPECT_GT(cut.displacement_m.high.y(), 1e-8);
   EXPECT_LT((simulated[0].cut.displacement_m.high - cut.displacement_m.high).norm(),
             1e-9 * cut.displacement_m.high.norm());
