@@ -47,6 +47,7 @@ Approach approach_of(const Trace& trace, int direction, double tooth_period_s) {
   const Eigen::VectorXd means = tooth_means(trace, direction, tooth_period_s);
   Approach result;
   result.final_m = means.tail(std::max<Eigen::Index>(1, means.size() / 10)).mean();
+  if (result.final_m == 0.0) return result;  // along an axis on which nothing moves
   const Eigen::VectorXd ratio = means / result.final_m;
   Eigen::Index peak = 0;
   result.overshoot = std::max(0.0, ratio.maxCoeff(&peak) - 1.0);

@@ -25,7 +25,7 @@ std::string motion_in_words(const SimulatedPointSummary& p) {
 
 std::string outcome(const SimulatedPointSummary& p) {
   if (p.status == "overflowed") return fmt::format("the vibration outgrew the cutter after {:.3g} s", p.simulated_s);
-  const std::string text = "vibration " + motion_in_words(p);
+  const std::string text = p.approach.empty() ? "vibration " + motion_in_words(p) : "the tool enters at a border";
   return p.status == "unsettled" ? text + "; forces within steps did not settle: take more steps, and trust no figure"
                                  : text;
 }
@@ -49,8 +49,10 @@ std::string forced_text(const ForcedAgreementSummary& forced) {
   return text + "\n";
 }
 
-const char* word(const std::string& origin) {
-  return origin == "tooth_passing" ? "teeth" : origin == "spindle" ? "spindle" : "chatter";
+const char* word(const std::string& origin, bool entering) {
+  if (origin == "tooth_passing") return "teeth";
+  if (origin == "spindle") return "spindle";
+  return entering ? "of the structure" : "chatter";
 }
 
 /// The strongest lines along the direction in which the tool vibrates most.
@@ -63,7 +65,7 @@ std::string lines_text(const SimulatedPointSummary& p) {
   for (const VibrationLineSummary& line : p.vibration_lines) {
     if (line.direction != direction || shown == most) continue;
     text += fmt::format("{}{:.1f} Hz {} ({})", shown++ == 0 ? ": " : ", ", line.frequency_hz, length(line.amplitude_m),
-                        word(line.origin));
+                        word(line.origin, !p.approach.empty()));
   }
   return text + "\n";
 }
@@ -103,7 +105,9 @@ std::string text_of(const SimulatedPointSummary& p) {
   text += fmt::format("  contact    lost in {:.2g} % of the cut, thickest chip {}\n",
                       100.0 * p.share_without_contact.value_or(NAN), length(p.thickest_chip_m.value_or(NAN)));
   if (p.opening_contact) text += contact_text(*p.opening_contact);
-  for (const ApproachSummary& approach : p.approach) text += approach_text(approach);
+  for (const ApproachSummary& approach : p.approach) {
+    if (approach.final_m != 0.0) text += approach_text(approach);
+  }
   text += lines_text(p);
   for (const WallSummary& wall : p.walls) text += wall_text(wall);
   return text;
