@@ -123,10 +123,10 @@ void describe_inspect(CLI::App& app, Arguments& arguments) {
 
 void describe_simulate(CLI::App& app, Arguments& arguments) {
   SimulateRequest& simulate = arguments.simulate;
-  auto* command =
-      app.add_subcommand("simulate",
-                         "operating points of a case in the time domain: how large the vibration becomes, "
-                         "where teeth leave the cut, and the wall; options go before [simulation] of the case");
+  auto* command = app.add_subcommand("simulate",
+                                     "operating points of a case in the time domain: how large the vibration becomes, "
+                                     "where teeth leave the cut, and the wall; options take the place of what "
+                                     "[simulation] of the case says");
   add_case_arguments(*command, arguments);
   command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
   command

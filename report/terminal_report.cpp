@@ -183,7 +183,7 @@ void reduction(std::string& out, const ReductionSummary& r) {
   out += r.max_relative_receptance_error ? " of the full model\n" : " of the full model; receptances not checked\n";
 }
 
-/// How far the simulation is from lobes and closed form, each at the point where it is farthest.
+/// The distance of the simulation from lobes and closed form, each at the point where it is farthest.
 void consistency(std::string& out, const SimulationSummary& simulation) {
   const auto tell = [&out](const char* what, const std::optional<LargestDifferenceSummary>& largest) {
     if (!largest) return;

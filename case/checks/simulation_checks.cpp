@@ -38,7 +38,7 @@ void check_points(const Case& source, Findings& findings) {
   }
 }
 
-/// What keeps a structure from being simulated in this case; empty if nothing.
+/// The reason why a structure cannot be simulated in this case; empty if there is none.
 std::string fault_of_structure(const Case& source, setup::CutOn structure) {
   const bool modelled = source.part && setup::may_be_held(*source.part);
   switch (structure) {

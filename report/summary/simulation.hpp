@@ -91,11 +91,10 @@ struct ForcedAgreementSummary {
 template <class Visitor, Either<ForcedAgreementSummary> Section>
 void fields(Visitor& visit, Section& forced) {
   visit(Field{"peak_to_peak_m", Kind::length, "in closed form, along feed, normal and axis"}, forced.peak_to_peak_m);
-  visit(
-      Field{"difference_relative", Kind::residual,
-            "largest difference of peak to peak values and places of entry, over the largest peak to peak, and of the "
-            "mean force over the peak force"},
-      forced.difference_relative);
+  visit(Field{"difference_relative", Kind::residual,
+              "largest difference of peak to peak values and, of straight teeth, places of entry, over the largest "
+              "peak to peak, and of the mean force over the peak force"},
+        forced.difference_relative);
   visit(Field{"left_of_beginning", Kind::residual,
               "|mu| to the power of the periods before the record: by so much the simulated motion may not be settled"},
         forced.left_of_beginning);
@@ -227,7 +226,7 @@ void fields(Visitor& visit, Section& map) {
         map.largest_peak_to_peak_m);
 }
 
-/// What was simulated, and how.
+/// The simulations of a run.
 struct SimulationSummary {
   std::string paths;
   int settling_turns = 0, recorded_turns = 0;

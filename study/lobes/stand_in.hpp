@@ -12,7 +12,7 @@ namespace thinwall::study {
 /// Petersson 2005), each of a quarter of its mass: φ φᵀ / (2 i ω_d (iω − λ)) + conjugate. The set-up must have a part.
 [[nodiscard]] milling::RelativeStructure modes_like(const setup::Setup& source);
 
-/// What the cut feels of the modes of the tool and of those that stand in for the part's; none if neither has any.
+/// The modes that the cut feels, those of the tool and those that stand in for the part's; none if neither has any.
 [[nodiscard]] std::optional<milling::RelativeStructure> poles_like(const setup::Setup& source);
 
 }  // namespace thinwall::study

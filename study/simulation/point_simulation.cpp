@@ -149,12 +149,18 @@ void approach(const Simulated& cut, PointSimulation& p) {
   for (const int axis : {0, 1}) p.approach.push_back(milling::approach_of(p.cut.trace, axis, tooth_period_s));
 }
 
+/// True if all heights of a tooth enter at once, into one arc: the moment from which the closed form counts.
+bool one_entry(const milling::MillingProcess& process) {
+  const bool straight = std::ranges::all_of(process.cutter.helices_rad, [](double helix) { return helix == 0.0; });
+  return straight && process.cutter.envelope.straight() && process.further_engagements.empty();
+}
+
 /// The largest difference of the figures that a simulation has of a periodic motion.
-double difference_of(const milling::SimulatedCut& cut, const milling::ForcedVibration& forced, bool one_arc) {
+double difference_of(const milling::SimulatedCut& cut, const milling::ForcedVibration& forced, bool one_entry) {
   const double size = forced.peak_to_peak_m.maxCoeff();
   double difference = (cut.displacement_m.range() - forced.peak_to_peak_m).cwiseAbs().maxCoeff() / size;
   difference = std::max(difference, (cut.mean_force_n - forced.mean_force_n).norm() / forced.peak_force_n);
-  if (one_arc && !cut.passes.empty())
+  if (one_entry && !cut.passes.empty())
     difference = std::max(difference, (cut.passes.back().entry_m - forced.displacement_m.col(0)).norm() / size);
   return difference;
 }
@@ -171,8 +177,7 @@ std::optional<ForcedAgreement> agreement(const Simulated& cut, const milling::Re
     const milling::ForcedVibration forced =
         milling::forced_vibration(structure, cut.process, p.point.spindle_speed_rpm, p.point.depth_m,
                                   p.feed_per_tooth_m, {.error_tolerance = 1e-6});
-    const bool one_arc = cut.process.further_engagements.empty();
-    return ForcedAgreement{forced.peak_to_peak_m, difference_of(p.cut, forced, one_arc),
+    return ForcedAgreement{forced.peak_to_peak_m, difference_of(p.cut, forced, one_entry(cut.process)),
                            std::pow(p.lobes.modulus, static_cast<double>(cut.options.settling_turns) * p.teeth)};
   } catch (const core::InputError& error) {
     core::warn(fmt::format("no closed form beside a simulation: {}", error.what()));

@@ -23,8 +23,8 @@ struct Results;
 /// one is from it.
 struct ForcedAgreement {
   Eigen::Vector3d peak_to_peak_m = Eigen::Vector3d::Zero();  ///< in closed form, tool axes
-  double difference = 0.0;  ///< the largest of: peak to peak along an axis and the place at which teeth enter, over the
-                            ///< largest peak to peak; the mean force over the peak force
+  double difference = 0.0;  ///< the largest of: peak to peak along an axis and the place at which straight teeth enter,
+                            ///< over the largest peak to peak; the mean force over the peak force
   double left = 0.0;  ///< |μ| to the power of the periods before the record: of the beginning, what is left in it
 };
 

@@ -146,6 +146,8 @@ TEST(Forecast, SaysTheWholeTimeAndItsTwoParts) {
   EXPECT_EQ(text({part(30.0), study::LobesForecast{{}, 90.0, false}, {}}),
             "this takes about 2 min: the part about 30 s, the lobes about 90 s");
   EXPECT_EQ(text({{}, study::LobesForecast{{}, 7200.0, true}, {}}), "this takes over 2 h");
+  EXPECT_EQ(text({part(0.2), study::LobesForecast{{}, 90.0, false}, study::SimulationForecast{2.0, 0.0, 1200.0, 29.0}}),
+            "this takes about 2 min: the lobes about 90 s, the simulation about 29 s");
 }
 
 TEST(StageDisplay, AStageWithoutALoopIsToldOfAgainWhileItGoesOn) {

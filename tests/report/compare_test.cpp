@@ -66,7 +66,7 @@ TEST(Compare, TheKindDecidesAndNotAWordOfTheName) {
             1U);
 }
 
-/// What must vanish of a simulation only has to stay small, its vibration is a length.
+/// Differences that must vanish only have to stay small; the vibration of a simulation is a length.
 TEST(Compare, DifferencesOfASimulationFromLobesAndClosedFormOnlyHaveToStaySmall) {
   const auto simulation = [](const std::string& growth, const std::string& forced, const std::string& metres) {
     return R"({"simulation": {"growth_difference": {"max_relative": )" + growth +

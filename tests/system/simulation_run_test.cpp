@@ -78,6 +78,17 @@ TEST(SimulationRun, TellsEveryPointAndThatMarchLobesAndClosedFormAgree) {
   EXPECT_EQ(simulation["forced_difference"]["spindle_speed_rpm"], 11000.0);
 }
 
+/// The closed form holds for a helix, too, whose heights enter one after the other; teeth that differ have none.
+TEST(SimulationRun, ComparesHelicalTeethWithTheClosedFormAndNotThoseThatDiffer) {
+  const auto difference = [](const std::string& of_tool) {
+    std::string text = tool + points;
+    text.insert(text.find("length = "), of_tool);
+    return run(text, scratch("simulation_teeth"))["simulation"]["forced_difference"];
+  };
+  EXPECT_LT(difference("helices = \"30 deg\"\n")["max_relative"].get<double>(), 1e-6);
+  EXPECT_TRUE(difference("pitches = [\"170 deg\", \"190 deg\"]\n").is_null());
+}
+
 /// Every second tooth of the flip cuts alike: it has lines at odd multiples of half the tooth passing, which those of a
 /// stable cut are not.
 TEST(SimulationRun, TellsLinesOfTheTeethFromChatter) {
@@ -138,7 +149,7 @@ turns = 800
   EXPECT_LT(amplitude[2], 0.5 * amplitude[3]);
 }
 
-/// Where nothing has changed nothing is simulated again: a second run takes what the first has kept, whichever the
+/// Nothing is simulated again where nothing has changed: a second run takes what the first has kept, whichever the
 /// points are asked in; another feed is another key.
 TEST(SimulationRun, KeepsItsPointsForTheNextRun) {
   const fs::path folder = scratch("simulation_kept");
