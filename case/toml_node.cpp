@@ -22,7 +22,11 @@ using core::InputError;
 
 std::string read_text(const toml::node& node) {
   if (!node.is_string()) wrong_type(node, "a text in quotes");
-  return *node.value<std::string>();
+  auto text = *node.value<std::string>();
+  // Messages and names of files end at such a character.
+  if (text.find('\0') != std::string::npos)
+    throw InputError("holds the character U+0000, which no name, file or number has; remove it");
+  return text;
 }
 
 /// The quantity that a text states; a range is told as what it is.
@@ -41,9 +45,10 @@ double read_quantity_text(const std::string& text, const Key& key) {
 
 double read_quantity(const toml::node& node, const Key& key) {
   double value = 0.0;
-  if (const auto text = node.value_exact<std::string>()) {
-    const bool infinite = key.bounds.infinity_allowed && (*text == "inf" || *text == "infinite");
-    value = infinite ? std::numeric_limits<double>::infinity() : read_quantity_text(*text, key);
+  if (node.is_string()) {
+    const std::string text = read_text(node);
+    const bool infinite = key.bounds.infinity_allowed && (text == "inf" || text == "infinite");
+    value = infinite ? std::numeric_limits<double>::infinity() : read_quantity_text(text, key);
   } else if (node.is_integer() || node.is_floating_point()) {
     value = *node.value<double>();
     if (!(key.bounds.infinity_allowed && value > 0.0 && std::isinf(value))) value = core::bare_number(value, key.kind);

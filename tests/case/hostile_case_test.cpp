@@ -121,6 +121,14 @@ TEST(HostileCase, AQuantityIsOneOfMachining) {
 }
 
 // The page lists the ranges that hold.
+/// A message ends at such a character, so that the bound and what to do would be missing.
+TEST(HostileCase, ATextWithoutVisibleCharactersIsToldAsWhatItIs) {
+  const std::string part = "holds the character U+0000, which no name, file or number has; remove it";
+  expect_refused(plate_case(), part, {"part.thickness=\"6\\u0000 mm\""});
+  expect_refused(plate_case(), part, {"cutting.mode=\"\\u0000\""});
+  expect_refused(plate_case(), part, {"title=\"a\\u0000b\""});
+}
+
 TEST(HostileCase, ThePageOfTheCaseFileHasEveryRange) {
   const std::string page = core::read_file(std::filesystem::path(THINWALL_SOURCE_DIR) / "docs" / "case-file.md");
   for (const PhysicalRange& range : physical_ranges()) {
