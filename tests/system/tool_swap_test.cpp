@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -12,7 +14,10 @@
 #include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "io/frf/uff.hpp"
+#include "milling/chart/sampled_stability.hpp"
 #include "report/summary/summary_json.hpp"
+#include "setup/milling_process.hpp"
+#include "study/lobes/lobes_stage.hpp"
 #include "tests/system/run_in_folder.hpp"
 #include "tests/verification/tool_swap/machine.hpp"
 
@@ -120,6 +125,46 @@ TEST(ToolSwapCase, TheCaseIsTheSyntheticMachine) {
         std::max(worst, (found.tip.H[line].topLeftCorner<2, 2>() - expected.H[line]).norm() / expected.H[line].norm());
   std::printf("cases/tool-swap from single precision: %.1e\n", worst);
   EXPECT_LT(worst, 1e-4) << "single precision has 6e-8, of which the swap costs digits";
+}
+
+/// cases/tool-swap draws the boundary of the assembled machine, which is known here on lines to 20 kHz, between its
+/// speeds too: within what the line and its rows claim and a hundredth of the depth.
+TEST(ToolSwapCase, TheLineOfTheCaseIsTheBoundaryOfTheAssembledMachine) {
+  const Case source = read_case(fs::path(THINWALL_SOURCE_DIR) / "cases" / "tool-swap", {});
+  const fs::path out = scratch("tool_swap_line");
+  const auto chart = summary_json(run_case(source, {out, true, -1, false}).summary)["lobes"][0];
+  const milling::MillingProcess process = milling_process(source);
+  const Eigen::Matrix3d R = process.frame.rotation();
+  milling::SampledStructure lines{{dynamics::linear_axis(5.0, 20000.0, 4000).hz, {}}, {}};
+  for (const Eigen::MatrixXcd& H : with_target({lines.samples.frequency_hz}).H) {
+    Eigen::Matrix3cd tip = Eigen::Matrix3cd::Zero();
+    tip.topLeftCorner<2, 2>() = H;
+    lines.samples.H.emplace_back(R.transpose() * tip * R);
+  }
+  const milling::FittedStructure machine_tip = milling::fitted_structure(lines, process.frame);
+  milling::StabilityOptions options = stability_options(*source.lobes);
+  options.follow = 1.0;
+  const auto rpm = column(out / "lobes" / "tool.csv", "spindle_speed_rpm"),
+             depth = column(out / "lobes" / "tool.csv", "limiting_depth_m"),
+             error = column(out / "lobes" / "tool.csv", "error_estimate_relative");
+  const auto least_rpm = chart["at_spindle_speed_rpm"].get<double>();
+  const double least = milling::limiting_depth(machine_tip, process, least_rpm, options).limiting_depth_m;
+  double worst = 0.0;
+  for (const double n : milling::spindle_speeds(8001.0, 19999.0, 300)) {
+    const milling::LobeRow row = milling::limiting_depth(machine_tip, process, n, options);
+    const auto right = static_cast<std::size_t>(std::ranges::lower_bound(rpm, n) - rpm.begin());
+    const double share = (n - rpm[right - 1]) / (rpm[right] - rpm[right - 1]);
+    const double line = depth[right - 1] + share * (depth[right] - depth[right - 1]);
+    const double off = std::abs(line / row.limiting_depth_m - 1.0);
+    const double claimed = std::max(0.02, 2.0 * std::max(error[right - 1], error[right]));
+    EXPECT_LE(off, claimed + 0.01 + row.error_estimate) << n << " rpm";
+    worst = std::max(worst, off);
+    EXPECT_GE(row.limiting_depth_m, 0.98 * least) << n << " rpm: no pit is overlooked";
+  }
+  std::printf("cases/tool-swap: line within %.1e of the machine's boundary, least depth there %.4g mm\n", worst,
+              1e3 * least);
+  EXPECT_NEAR(chart["minimum_depth_m"].get<double>() / least, 1.0, 0.01) << "the case's tolerance";
+  EXPECT_TRUE(chart["line"]["met"].get<bool>());
 }
 
 TEST(ToolSwapCase, ItsChartIsThatOfTheMeasuredTip) {
