@@ -169,7 +169,7 @@ spindle_speed = "9000 rpm"
 [lobes]
 from = "6000 rpm"
 to = "15000 rpm"
-count = 50
+count = 200
 modes_up_to = "10 kHz"       # of the part; stiffer modes count by their static compliance
 )";
 
@@ -282,7 +282,7 @@ spindle_speed = "1900 rpm"
 [lobes]
 from = "1000 rpm"
 to = "3000 rpm"
-count = 50
+count = 200
 modes_up_to = "4 kHz"
 )";
 
