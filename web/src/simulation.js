@@ -11,7 +11,7 @@ import { growing, onShownPoint, showPoint, shownPoint, simulatedPoints, titleOf 
 const origins = { tooth_passing: ['tooth passing', 'part', 'circle'], spindle: ['spindle', 'robot', 'square'], other: ['chatter', 'bad', 'x'] };
 const motions = { periodic: () => 'repeats itself with the cut', period_n: (p) => `repeats itself after ${p.period} periods of the cut`, quasi_periodic: () => 'never repeats itself', growing: () => 'grows' };
 const micrometresOf = (vector) => (vector ? `${number(vector[0] * 1e6, 4)}, ${number(vector[1] * 1e6, 4)} µm` : null); // along the feed, across
-const motionOf = (p) => (p.status === 'overflowed' ? `outgrew the cutter after ${number(p.simulated_s, 3)} s` : `${motions[p.motion]?.(p) ?? p.motion}${p.status === 'unsettled' ? '; forces did not settle' : ''}`);
+const motionOf = (p) => (p.approach?.length ? 'enters at a border' : p.status === 'overflowed' ? `outgrew the cutter after ${number(p.simulated_s, 3)} s` : `${motions[p.motion]?.(p) ?? p.motion}${p.status === 'unsettled' ? '; forces did not settle' : ''}`);
 
 /** The section's content; null where nothing was simulated. */
 export function simulation(runs) {
@@ -26,7 +26,7 @@ export function simulationLead(runs) {
   const largest = (key) => all.map((s) => s[key]?.max_relative).filter(isNumber).reduce((a, b) => Math.max(a, b), -Infinity);
   const agreement = [['growth_difference', 'The growth of a small vibration is that of the lobes to'], ['forced_difference', 'the periodic motion that in closed form to']]
     .filter(([key]) => Number.isFinite(largest(key))).map(([key, text]) => `${text} ${number(largest(key), 2)}`).join(', ');
-  return [`The cut step by step, teeth on ${[...new Set(all.map((s) => (s.paths === 'exact' ? 'their real paths' : 'circles')))].join(' or ')}: what vibration it settles in, on either side of the boundary.`, agreement ? `${agreement}.` : ''].filter(Boolean).join(' ');
+  return [`The cut step by step, teeth on ${[...new Set(all.map((s) => (s.paths === 'circular' ? 'circles' : 'their real paths')))].join(' or ')}: what vibration it settles in, on either side of the boundary.`, agreement ? `${agreement}.` : ''].filter(Boolean).join(' ');
 }
 
 function atPoints(runs, points) {
@@ -63,10 +63,15 @@ function atPoints(runs, points) {
 const nothing = (colours) => ({ data: [], layout: { height: 120, xaxis: { visible: false }, yaxis: { visible: false }, annotations: [{ text: 'not recorded of this point', xref: 'paper', yref: 'paper', x: 0.5, y: 0.5, showarrow: false, font: { color: colours.muted } }] } });
 const columnsOf = (arrays, suffix = '') => Object.entries(arrays).map(([name, array]) => ({ name: `${name}${suffix}`, values: Array.from(numbers(array)) }));
 
+/** The way of a mean deflection to its end, in a sentence. */
+const approachOf = (a) => ` ${a.direction === 'feed' ? 'Along the feed' : 'Across'} its mean deflection ends at ${number(a.final_m * 1e6, 4)} µm, overshoots by ${percent(a.overshoot, 3)} and stays within 2 % of its end after ${number(a.settling_2_s, 3)} s.`;
+
 /** The motion of a point in words, with what of it counts. */
 function sentenceOf(p) {
   const lost = p.share_without_contact > 0.001 ? ` Teeth are out of the material in ${percent(p.share_without_contact, 2)} of the cut.` : '';
-  return `Its vibration ${motionOf(p)}.${lost}${p.forced_vibration ? ` In closed form it is the same to ${number(p.forced_vibration.difference_relative, 2)}${p.forced_vibration.left_of_beginning > 1e-6 ? `, with ${number(p.forced_vibration.left_of_beginning, 2)} of its beginning left` : ''}.` : ''}`;
+  const support = p.opening_contact?.open_share > 0 ? ` The support is out of touch in ${percent(p.opening_contact.open_share, 2)} of the time, by up to ${number(p.opening_contact.widest_m * 1e6, 3)} µm.` : '';
+  if (p.approach?.length) return `The tool enters at a border.${p.approach.filter((a) => a.final_m).map(approachOf).join('')}${lost}${support}`;
+  return `Its vibration ${motionOf(p)}.${lost}${support}${p.forced_vibration ? ` In closed form it is the same to ${number(p.forced_vibration.difference_relative, 2)}${p.forced_vibration.left_of_beginning > 1e-6 ? `, with ${number(p.forced_vibration.left_of_beginning, 2)} of its beginning left` : ''}.` : ''}`;
 }
 
 function pointTable(runs, points) {
