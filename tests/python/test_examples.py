@@ -53,6 +53,7 @@ COARSE = {  # what makes a case quick
     "barrios-2019": ("part.mesh.tolerance=0.05",),
     "barrios-2019-measured": ("part.mesh.tolerance=0.05",),
     "cantilever-wall": ("part.mesh.tolerance=0.05", "lobes.count=10"),
+    "huynh-2017": ("lobes.count=3",),
     "huynh-2017-support": ("part.mesh.tolerance=0.05", "path.positions=3", "lobes.count=3"),
     "irb6660-measured": ("part.mesh.tolerance=0.05", "lobes.count=3"),
     "pocketed-rib": ("part.mesh.tolerance=0.1", "reduction.tolerance=0.1", "lobes.count=10"),
@@ -109,6 +110,25 @@ def test_ding_2010(run_case):
     assert number(r"direct +off by +([\d.]+) %", text) < 0.02  # twice the tolerance of 1e-4
     assert number(r"direct .*, +(\d+) flips", text) > 0
     assert number(r"zeroth_order .*, +(\d+) flips", text) == 0  # an average force has no flips
+
+
+def test_huynh_2017(run_case):
+    text = example(run_case, "huynh-2017")
+    assert number(r"mode +([\d.]+) Hz", text) == pytest.approx(19.7036, abs=1e-4)  # independent (expected.toml)
+    assert number(r"at the published speed .* ([\d.]+) times", text) > 1  # no chatter is reported
+
+
+def test_bondarenko_2012_a(run_case):
+    text = example(run_case, "bondarenko-2012-a")
+    assert number(r"mean force (-?[\d.]+),", text) == pytest.approx(-39.452, rel=2e-3)  # independent
+    assert number(r"normal ([\d.]+) N", text) == pytest.approx(143.854, rel=2e-3)  # independent
+
+
+@pytest.mark.parametrize(("case", "end", "overshoot"), [("bondarenko-2012-b", -0.1315, 29.2), ("bondarenko-2012-c", -0.1315, 71.4)])
+def test_bondarenko_2012(run_case, case, end, overshoot):
+    text = example(run_case, case)
+    assert number(r"from the trace: ends at (-?[\d.]+) mm", text) == pytest.approx(end, rel=1e-3)  # independent
+    assert number(r"from the trace: .* ([\d.]+) %", text) == pytest.approx(overshoot, abs=1.5)  # independent
 
 
 def test_huynh_2017_support(run_case):
