@@ -36,6 +36,7 @@ Rows rows_for(std::size_t points) {
 /// Numbers [from, to) of a list as a picture shows them.
 json drawn(const std::vector<double>& all, std::size_t from, std::size_t to) {
   std::vector<float> values;
+  values.reserve(to - from);
   for (std::size_t i = from; i < to; ++i)
     values.push_back(std::isfinite(all[i]) ? for_picture(all[i]) : std::numeric_limits<float>::quiet_NaN());
   return packed(values, {values.size()});
@@ -129,8 +130,10 @@ json map_of(const fs::path& file, const AmplitudeMapSummary& map) {
   if (amplitude.size() != speeds * depths)
     throw core::DataError(file.string() + ": has not as many points as summary.json tells");
   std::vector<double> rpm;
+  rpm.reserve(speeds);
   for (std::size_t s = 0; s < speeds; ++s) rpm.push_back(speed[s * depths]);
   std::vector<float> values;
+  values.reserve(amplitude.size());
   for (const double value : amplitude)
     values.push_back(std::isfinite(value) ? for_picture(value) : std::numeric_limits<float>::quiet_NaN());
   return {{"name", core::word_of(map.chart)},

@@ -34,6 +34,7 @@ std::vector<Line> lines_of(const PointSimulation& p, const Eigen::Matrix3Xd& sam
 
 std::vector<WallSummary> walls_of(const std::vector<milling::Wall>& walls) {
   std::vector<WallSummary> list;
+  list.reserve(walls.size());
   for (const milling::Wall& wall : walls)
     list.push_back(
         {wall.side > 0 ? "+normal" : "-normal", wall.height_m, wall.mean_m, wall.R_a_m, wall.R_q_m, wall.R_t_m});

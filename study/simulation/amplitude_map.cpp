@@ -19,6 +19,7 @@ namespace {
 
 std::vector<double> even_depths(const setup::SimulationMap& wanted) {
   std::vector<double> depths;
+  depths.reserve(static_cast<std::size_t>(wanted.depths));
   for (int i = 1; i <= wanted.depths; ++i) depths.push_back(wanted.depth_limit_m * i / wanted.depths);
   return depths;
 }
