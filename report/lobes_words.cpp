@@ -15,7 +15,7 @@ std::string chart_title(study::ChartOf chart) {
     case study::ChartOf::supported:
       return "with the robot";
     case study::ChartOf::carried:
-      return "tool on the robot";
+      return "tool on robot";
     case study::ChartOf::tool:
       break;
   }

@@ -11,7 +11,7 @@ namespace thinwall::report {
 /// A depth (m) in mm, "over 3.000 mm" where the search ended at its limit.
 [[nodiscard]] std::string depth_text(double depth_m, bool at_limit);
 
-/// The title of a chart: "part alone", "with the robot", "tool on the robot", "tool".
+/// The title of a chart: "part alone", "with the robot", "tool on robot", "tool".
 [[nodiscard]] std::string chart_title(study::ChartOf chart);
 
 /// The title of a chart's `best_pocket`: "best pocket", "best robust pocket", or "edge of the chart".

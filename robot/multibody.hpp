@@ -26,8 +26,8 @@ struct JointMotion {
 /// The force on the tip, N, world axes, in a motion, whose pose comes first.
 using TipForce = std::function<Eigen::Vector3d(const ArmPose&, const JointMotion&)>;
 
-/// Throws InputError for a faulty arm, a motor that turns, a list of compensated joints of another length than that of
-/// the joints, or links without mass beyond a joint.
+/// Throws InputError for a faulty arm, a motor that turns, or a list of compensated joints of another length than that
+/// of the joints.
 void require_valid(const MultibodyArm& arm);
 
 /// The torque that the motors add at q_ref, N m: G(q_ref) with that of the counterbalances at compensated joints, 0 at
@@ -50,7 +50,8 @@ void require_valid(const MultibodyArm& arm);
 /// there is no posture near q_ref in which the arm rests.
 [[nodiscard]] JointMotion at_rest(const MultibodyArm& arm, const Eigen::VectorXd& q_ref, const Eigen::Vector3d& force);
 
-/// The motion with the acceleration that q and q' demand. Cost O(joints³).
+/// The motion with the acceleration that q and q' demand. Throws InputError as require_valid(), or for links without
+/// mass beyond a joint. Cost O(joints³).
 [[nodiscard]] JointMotion accelerated(const MultibodyArm& arm, const Eigen::VectorXd& q, const Eigen::VectorXd& rate,
                                       const Eigen::VectorXd& q_ref, const Eigen::Vector3d& force);
 

@@ -89,7 +89,7 @@ std::string held_points(const Summary& summary) {
   return text;
 }
 
-/// "with the robot at P", "with the robot at B, cut at P", "part alone, cut at P", "this tool", "tool on the robot".
+/// "with the robot at P", "with the robot at B, cut at P", "part alone, cut at P", "this tool", "tool on robot".
 std::string subject(const LobesSummary& chart, const Summary& summary) {
   if (chart.name == study::ChartOf::tool) return "this tool";
   const std::string at = summary.cutting ? summary.cutting->at.value_or("") : "";

@@ -8,12 +8,12 @@ import { between, decades, plot } from './plot.js';
 import { pointMarks, pointsOf, pointTable } from './points.js';
 import { followMark, onShownPoint, simulatedPoints, simulationMarks } from './simulated.js';
 
-const titles = { part: 'part alone', supported: 'with robot', tool: 'tool', carried: 'tool on the robot' };
+const titles = { part: 'part alone', supported: 'with robot', tool: 'tool', carried: 'tool on robot' };
 const symbols = { hopf: 'circle', flip: 'diamond', fold: 'square' };
 const signs = { hopf: '○\u00a0Hopf', flip: '◇\u00a0flip', fold: '□\u00a0fold' };
 const dashes = ['solid', 'dash', 'dashdot', 'longdash']; // of the runs
 const worthAStar = 1.3; // a pocket is deeper than the chart's least depth by this factor at least
-/** True of the chart with the robot: that of the supported part, or of a tool on the robot. */
+/** True of the chart with the robot: that of the supported part, or of a tool on robot. */
 export const withRobot = (name) => name === 'supported' || name === 'carried';
 export const lobeTitle = (name) => titles[name] ?? name;
 
