@@ -37,6 +37,9 @@ milling::SampledReceptance measured_tip(const std::vector<setup::MeasuredFrf>& f
   tip.H.assign(static_cast<std::size_t>(axis.size()), Eigen::Matrix3cd::Zero());
   for (const setup::MeasuredFrf& file : files) {
     const Eigen::VectorXcd H = io::resample(setup::receptance_of(file), axis);
+    if (H.isZero(0.0) && file.response == file.force)
+      core::warn(fmt::format("{}: every line along {} is 0, as of a tool that is rigid there: look at the file",
+                             file.file.string(), file.response));
     const int i = direction_of_dof(file.response);
     const int j = direction_of_dof(file.force);
     const bool reverse_given = gives_reverse(files, file);

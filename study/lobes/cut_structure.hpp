@@ -37,8 +37,8 @@ using CutStructure = std::variant<milling::RelativeStructure, milling::FittedStr
 
 /// Part, tool and what carries it together; `frame` is the cut's, `part` must hold the point that is cut, null: a rigid
 /// part; `carrier` as in cut_poles(). Samples lie on the lines of the first measured file; what speaks against them is
-/// logged as a warning: a driving point that gives energy. Throws InputError if nothing moves or the lines cannot be
-/// fitted (milling::fitted_structure()), DataError as io::resample.
+/// logged as a warning: a driving point that gives energy, or one whose lines are all 0. Throws InputError if nothing
+/// moves or the lines cannot be fitted (milling::fitted_structure()), DataError as io::resample.
 [[nodiscard]] CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                          const dynamics::ModalModel* part,
                                          const dynamics::ModalModel* carrier = nullptr);

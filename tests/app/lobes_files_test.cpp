@@ -97,6 +97,20 @@ TEST_F(LobesFiles, APointWithoutAFeedSaysNothingOfForces) {
   EXPECT_EQ(outcome.out.find("forced"), std::string::npos) << outcome.out;
 }
 
+/// A file of zeros is taken as a tool that is rigid along its direction, which nobody measures.
+TEST_F(LobesFiles, ADrivingPointThatIsZeroAtEveryLineIsTold) {
+  std::string zeros = "frequency_hz,real,imaginary\n";
+  for (int hz = 2; hz <= 6000; hz += 2) zeros += std::to_string(hz) + ",0,0\n";
+  write("zeros.csv", zeros);
+  const Outcome outcome = lobes({path("tip.csv"), "y=" + path("zeros.csv"), "--tool", path("tool.toml"), "--quantity",
+                                 "receptance", "--unit", "m/N", "--set", "lobes.count=2"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string log = core::read_file(temporary.path / "results" / "run.log");
+  EXPECT_NE(log.find("zeros.csv: every line along tool.y is 0, as of a tool that is rigid there"), std::string::npos)
+      << log;
+  EXPECT_EQ(log.find("tip.csv: every line"), std::string::npos);
+}
+
 TEST_F(LobesFiles, TheReceptanceOfFittedPolesIsWrittenBesideWhatWasMeasured) {
   ASSERT_EQ(frf(path("tip.csv"), {"--set", "lobes.count=2"}).code, 0);
   const auto file = temporary.path / "results" / "lobes" / "tool_frf.csv";
