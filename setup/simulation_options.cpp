@@ -28,8 +28,9 @@ milling::SimulationOptions simulation_options(const Simulation& simulation, doub
   if (simulation.start == CutStart::border) {
     options.settling_turns = 0;
     options.traced_turns = options.recorded_turns;
-    constexpr int samples_a_tooth = 24;  // of which means are taken
+    constexpr int samples_a_tooth = 24;  // of a long trace
     options.samples_a_turn = teeth * samples_a_tooth;
+    options.means_a_turn = teeth;
   }
   return options;
 }

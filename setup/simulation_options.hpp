@@ -10,8 +10,8 @@
 
 namespace thinwall::setup {
 
-/// Turns, steps and record of a simulation. The feed gives the turns of a path's length, rounded up; the trace of a cut
-/// from a border has a whole number of samples a tooth.
+/// Turns, steps and record of a simulation. The feed gives the turns of a path's length, rounded up; a cut from a
+/// border has a coarse trace of all turns, and the mean displacement over each tooth.
 [[nodiscard]] milling::SimulationOptions simulation_options(const Simulation& simulation, double feed_per_tooth_m,
                                                             int teeth);
 

@@ -91,11 +91,12 @@ void check_one_sided(const Case& source, Findings& findings) {
     return;
   }
   const auto* springs = std::get_if<setup::SpringContact>(&source.contacts.front().model);
-  if (springs != nullptr && !springs->stiffness.empty() && !std::isfinite(springs->stiffness.front()))
+  if (springs != nullptr && !springs->stiffness.empty() && !std::isfinite(springs->stiffness.front())) {
     findings.report("simulation.support",
                     "a rigid contact does not open; give contacts.stiffness, or contacts.model = \"hertz\"");
-  if (!setup::preload_of(source, source.contacts.front()))
+  } else if (!setup::preload_of(source, source.contacts.front())) {
     findings.report("simulation.support", "nothing presses the contact that may open; give robot.preload");
+  }
 }
 
 void check_exact_paths(const Case& source, Findings& findings) {

@@ -70,6 +70,11 @@ Record::Record(const std::vector<TipPass>& tips, double rad_per_s, const Simulat
   result.trace.displacement_m.setZero(3, samples);
   result.trace.force_n.setZero(3, samples);
   result.trace.torque_n_m.setZero(samples);
+  if (options.means_a_turn == 0) return;
+  part_rad_ = 2.0 * std::numbers::pi / options.means_a_turn;
+  const Eigen::Index parts = static_cast<Eigen::Index>(options.recorded_turns) * options.means_a_turn;
+  of_part_rad_.setZero(parts);
+  result.means_m.setZero(3, parts);
 }
 
 void Record::begin_period(double time_s, double traced_rad) {
@@ -83,7 +88,9 @@ void Record::operator()(const MarchStep& step) {
   if (traced_rad_ >= 0.0) take_trace(step);
   take_passes(step);
   if (result_.contact) take_contact(step, *result_.contact);
-  displaced_ += step.integral([](const MarchNode& n) { return Eigen::Vector3d(n.displacement_m); });
+  const Eigen::Vector3d moved = step.integral([](const MarchNode& n) { return Eigen::Vector3d(n.displacement_m); });
+  displaced_ += moved;
+  take_mean(step, moved);
   if (!step.in_cut) return;
   for (const MarchNode& node : step.at) {
     result_.peak_force_n = std::max(result_.peak_force_n, node.force_n.norm());
@@ -108,6 +115,16 @@ void Record::take_trace(const MarchStep& step) {
         step.value(rotation, [](const MarchNode& n) { return Eigen::Vector3d(n.force_n); });
     trace.torque_n_m(next_sample_) = step.value(rotation, [](const MarchNode& n) { return n.torque_n_m; });
   }
+}
+
+/// A step counts for the part of a turn in which its middle lies.
+void Record::take_mean(const MarchStep& step, const Eigen::Vector3d& integral) {
+  if (of_part_rad_.size() == 0) return;
+  const auto part = static_cast<Eigen::Index>((recorded_rad_ + 0.5 * step.step_rad) / part_rad_);
+  recorded_rad_ += step.step_rad;
+  if (part >= of_part_rad_.size()) return;  // by round-off at the end
+  result_.means_m.col(part) += integral;
+  of_part_rad_(part) += step.step_rad;
 }
 
 void Record::take_contact(const MarchStep& step, ContactOutcome& contact) {
@@ -148,6 +165,7 @@ void Record::finish(double recorded_rad) {
   result_.mean_force_n = impulse_ / recorded_rad;
   result_.mean_displacement_m = displaced_ / recorded_rad;
   result_.mean_torque_n_m = work_ / recorded_rad;
+  for (Eigen::Index i = 0; i < of_part_rad_.size(); ++i) result_.means_m.col(i) /= std::max(of_part_rad_(i), 1e-300);
   result_.removed_m2 = removed_ / recorded_rad * 2.0 * std::numbers::pi;
   result_.mean_power_w = result_.mean_torque_n_m * rad_per_s_;
   if (result_.contact) result_.contact->open_share = open_rad_ / recorded_rad;

@@ -28,6 +28,7 @@ class Record {
  private:
   void take_trace(const MarchStep& step);
   void take_contact(const MarchStep& step, ContactOutcome& contact);
+  void take_mean(const MarchStep& step, const Eigen::Vector3d& integral);
   void take_passes(const MarchStep& step);
 
   std::vector<TipPass> tips_;
@@ -39,6 +40,8 @@ class Record {
   std::deque<ToothPass> passes_;
   Eigen::Index next_sample_ = 0;
   double period_start_s_ = 0.0, traced_rad_ = -1.0;
+  double part_rad_ = 0.0, recorded_rad_ = 0.0;  ///< of a mean, and of the steps so far
+  Eigen::VectorXd of_part_rad_;                 ///< rotation that each mean has taken in
   Eigen::Vector3d impulse_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d displaced_ = Eigen::Vector3d::Zero();
   double work_ = 0.0, removed_ = 0.0, within_ = 0.0, without_contact_ = 0.0, open_rad_ = 0.0;

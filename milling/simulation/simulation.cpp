@@ -65,8 +65,10 @@ std::vector<std::string> validate(const SimulationOptions& options) {
   require(options.recorded_turns >= 1, "turns to record", options.recorded_turns, 1);
   require(options.kept_passes >= 2, "passes of teeth to keep", options.kept_passes, 2);
   require(options.samples_a_turn >= 2, "samples a turn", options.samples_a_turn, 2);
+  require(options.means_a_turn >= 0, "means a turn", options.means_a_turn, 0);
   constexpr double most_numbers = 1e8;
-  const double numbers = 7.0 * options.traced_turns * static_cast<double>(options.samples_a_turn);
+  const double numbers = 7.0 * options.traced_turns * static_cast<double>(options.samples_a_turn) +
+                         3.0 * options.recorded_turns * static_cast<double>(options.means_a_turn);
   if (numbers > most_numbers) {
     std::ostringstream text;
     text << "simulation: a trace of " << numbers << " numbers, must be at most " << most_numbers

@@ -37,6 +37,8 @@ struct SimulationOptions {
   int kept_passes = 8000;    ///< ≥ 2: the last of the recorded passes of teeth are kept
   int traced_turns = 0;      ///< 0 to `recorded_turns`: the last of them, sample by sample
   int samples_a_turn = 720;  ///< ≥ 2: of the trace
+  int means_a_turn = 0;  ///< ≥ 0: mean displacements over equal parts of each recorded turn; of a tooth period, the
+                         ///< teeth
   WallOptions wall = {};
 };
 
@@ -107,8 +109,9 @@ struct SimulatedCut {
   std::vector<ToothPass> passes;          ///< the last `kept_passes`, in the order of entry
   std::optional<ContactOutcome> contact;  ///< of a support whose contact may open
   MotionKind motion;
-  Trace trace;              ///< of the last `traced_turns`
-  std::vector<Wall> walls;  ///< of the last turns, as WallOptions asks for them
+  Trace trace;               ///< of the last `traced_turns`
+  Eigen::Matrix3Xd means_m;  ///< mean displacements over parts of the recorded turns, as `means_a_turn` asks for them
+  std::vector<Wall> walls;   ///< of the last turns, as WallOptions asks for them
 };
 
 /// Called after every turn with the share of the turns done.

@@ -146,7 +146,7 @@ void approach(const Simulated& cut, PointSimulation& p) {
   constexpr int least_tooth_periods = 20;
   if (cut.options.recorded_turns * p.teeth < least_tooth_periods) return;
   const double tooth_period_s = 60.0 / p.point.spindle_speed_rpm / p.teeth;
-  for (const int axis : {0, 1}) p.approach.push_back(milling::approach_of(p.cut.trace, axis, tooth_period_s));
+  for (const int axis : {0, 1}) p.approach.push_back(milling::approach_of(p.cut.means_m.row(axis), tooth_period_s));
 }
 
 /// True if all heights of a tooth enter at once, into one arc: the moment from which the closed form counts.

@@ -152,7 +152,7 @@ TEST(SimulationCase, BeginsAtABorderWithNothingToSettle) {
   const auto options = simulation_options(*c.simulation, 1e-3, 6);
   EXPECT_EQ(options.settling_turns, 0);
   EXPECT_EQ(options.traced_turns, 30);
-  EXPECT_EQ(options.samples_a_turn % 6, 0) << "means over a tooth take a whole number of samples";
+  EXPECT_EQ(options.means_a_turn, 6) << "one a tooth";
   EXPECT_EQ(stock_of(*c.simulation, *c.cutting, {6, 0.016}).size(), 2U) << "the shoulder and the border";
   EXPECT_EQ(region_options(*c.simulation).edge, milling::SweptEdge::chords);
 }
@@ -160,7 +160,7 @@ TEST(SimulationCase, BeginsAtABorderWithNothingToSettle) {
 TEST(SimulationCase, RefusesABorderOnCirclesAndAContactThatCannotOpen) {
   expect_problem(simulated("at = \"1900 rpm, 1 mm\"\nstart = \"border\"\n"), "exact");
   expect_problem(simulated("at = \"1900 rpm, 1 mm\"\npaths = \"exact\"\nchords = true\n"), "region");
-  expect_problem(simulated("at = \"1900 rpm, 1 mm\"\npaths = \"exact\"\nsupport = \"one_sided\"\n"), "preload");
+  expect_problem(simulated("at = \"1900 rpm, 1 mm\"\npaths = \"exact\"\nsupport = \"one_sided\"\n"), "rigid");
 }
 
 }  // namespace

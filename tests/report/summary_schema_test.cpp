@@ -149,7 +149,7 @@ TEST(SummaryJson, AnEnumerationIsOneOfItsWords) {
   json written = summary_json(example());
   EXPECT_EQ(written["lobes"][1]["name"], "supported");
   EXPECT_EQ(summary_schema()["properties"]["lobes"]["items"]["properties"]["name"]["enum"].dump(),
-            R"(["part","supported","tool"])");
+            R"(["part","supported","tool","carried"])");
   written["lobes"][1]["name"] = "suported";
   EXPECT_THROW((void)summary_from(written, "summary.json"), core::DataError);
 }

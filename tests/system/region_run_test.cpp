@@ -51,7 +51,7 @@ TEST(RegionRun, LeavesThePartAsAClosedSurface) {
   const json point =
       run(stiff_tool("paths = \"region\"\nstart = \"border\"\nturns = 40\n"), folder)["simulation"]["points"][0];
   EXPECT_EQ(point["status"], "completed");
-  const io::SurfaceFields part = io::read_vtp(folder / "out" / "simulation" / "tool-1-part.vtp");
+  const io::SurfaceFields part = io::read_vtp(folder / "simulation" / "tool-1-part.vtp");
   constexpr double fed = 40 * 0.2e-3, R = 5e-3, beside = 5.5e-3, depth = 1e-3;
   // The block: from the border at x = R to the end of the window, y from the lower side of the window to −1 mm.
   const double block = (fed + beside - R) * (beside - 1e-3);

@@ -32,6 +32,7 @@ SimulatedCut enter(const RelativeStructure& robot, double simulated_s, int steps
   options.settling_turns = 0;
   options.recorded_turns = options.traced_turns = static_cast<int>(simulated_s * rpm / 60.0);
   options.samples_a_turn = steps;
+  options.means_a_turn = teeth;
   return simulate_exact_path(robot, process, law, {rpm, width_m, 1e-4}, {border_ahead(process.cutter, 0.0)}, options,
                              {steps, 4});
 }
@@ -72,7 +73,7 @@ TEST(Bondarenko2012, TableOneIsThatOfAnotherProgram) {
   for (const RowB& row : rows) {
     if (!all_rows() && row.K != 1e6) continue;
     const SimulatedCut cut = enter(tip(row.K, row.M, 1), simulated_s(row.K), 960);
-    const Approach x = approach_of(cut.trace, 0, tooth_period_s);
+    const Approach x = approach_of(cut.means_m.row(0), tooth_period_s);
     EXPECT_NEAR(1e3 * x.final_m, row.x_mm, 1e-3 * -row.x_mm) << row.K;
     EXPECT_NEAR(100.0 * x.overshoot, row.overshoot, 0.5) << row.K;
     EXPECT_NEAR(x.settling_2_s, row.settling_2_s, 0.03 * row.settling_2_s) << row.K;
@@ -91,7 +92,8 @@ TEST(Bondarenko2012, TableTwoIsThatOfAnotherProgram) {
   for (const RowC& row : rows) {
     if (!all_rows() && row.K != 1e6) continue;
     const SimulatedCut cut = enter(tip(row.K, row.M, 2), simulated_s(row.K), 960);
-    const Approach x = approach_of(cut.trace, 0, tooth_period_s), y = approach_of(cut.trace, 1, tooth_period_s);
+    const Approach x = approach_of(cut.means_m.row(0), tooth_period_s),
+                   y = approach_of(cut.means_m.row(1), tooth_period_s);
     EXPECT_NEAR(1e3 * x.final_m, row.x_mm, 1e-3 * -row.x_mm) << row.K;
     EXPECT_NEAR(1e3 * y.final_m, row.y_mm, 1e-3 * row.y_mm) << row.K;
     EXPECT_NEAR(100.0 * x.overshoot, row.overshoot_x, 1.5) << row.K;
@@ -154,7 +156,8 @@ TEST(Bondarenko2012, SixJointsAreThoseOfAnotherProgram) {
   const Eigen::MatrixXd shapes = M * modes.Phi;
   model.C = shapes * (2.0 * 0.05 * modes.omega_rad_s).asDiagonal() * shapes.transpose();
   const SimulatedCut cut = enter(relative_structure(dynamics::to_modal(model), "tip"), 1.5, 960);
-  const Approach x = approach_of(cut.trace, 0, tooth_period_s), y = approach_of(cut.trace, 1, tooth_period_s);
+  const Approach x = approach_of(cut.means_m.row(0), tooth_period_s),
+                 y = approach_of(cut.means_m.row(1), tooth_period_s);
   EXPECT_NEAR(x.final_m, -2.0330567971018128e-05, 1e-3 * 2.03e-5);
   EXPECT_NEAR(y.final_m, 1.5599799939614272e-4, 1e-3 * 1.56e-4);
   EXPECT_NEAR(100.0 * x.overshoot, 9.017, 1.0);
