@@ -11,7 +11,7 @@ constexpr int least_wall_turns = 4;
 
 int recorded_turns(const Simulation& simulation, double feed_a_turn_m) {
   constexpr double most = 1e7;  // as the case's keys allow
-  if (!simulation.length_m || !(feed_a_turn_m > 0.0)) return simulation.turns;
+  if (!simulation.length_m || !std::isfinite(*simulation.length_m) || !(feed_a_turn_m > 0.0)) return simulation.turns;
   return static_cast<int>(std::clamp(std::ceil(*simulation.length_m / feed_a_turn_m), 1.0, most));
 }
 

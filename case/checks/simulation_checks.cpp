@@ -96,6 +96,14 @@ void check_one_sided(const Case& source, Findings& findings) {
                     "a rigid contact does not open; give contacts.stiffness, or contacts.model = \"hertz\"");
   } else if (!setup::preload_of(source, source.contacts.front())) {
     findings.report("simulation.support", "nothing presses the contact that may open; give robot.preload");
+  } else if (source.contacts.front().directions.size() > 1) {
+    findings.report("simulation.support",
+                    std::to_string(source.contacts.front().directions.size()) +
+                        " directions of the contact, must be one, its normal, for the others do not open; give one");
+  } else if (source.robot->preload.dot(source.contacts.front().directions.front()) == 0.0) {
+    findings.report("simulation.support",
+                    "the side on which the robot stands is told by the sign of robot.preload along the contact's "
+                    "direction; give it");
   }
 }
 
@@ -124,6 +132,7 @@ void check_record(const Case& source, double feed_per_tooth_m, Findings& finding
                                              length(*longest) + " along the feed; shorten it");
   if (findings.given("simulation.turns") && simulation.length_m)
     findings.report("simulation.length", "give either simulation.turns or simulation.length, not both");
+  if (simulation.length_m && !std::isfinite(*simulation.length_m)) return;  // reported as it was read
   const auto violations =
       milling::validate(setup::simulation_options(simulation, feed_per_tooth_m, source.tool->teeth));
   for (const std::string& violation : violations) findings.report("simulation.trace", violation);

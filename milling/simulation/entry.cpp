@@ -10,10 +10,12 @@ namespace thinwall::milling {
 
 namespace {
 
-/// The end of the last period that is a share off, s.
-double settling_s(const Eigen::VectorXd& ratio, double share, double period_s) {
+/// The end of the last period that is a share off, s; none within the last tenth.
+std::optional<double> settling_s(const Eigen::VectorXd& ratio, double share, double period_s) {
   for (Eigen::Index i = ratio.size(); i > 0; --i) {
-    if (std::abs(ratio(i - 1) - 1.0) >= share) return static_cast<double>(i) * period_s;
+    if (std::abs(ratio(i - 1) - 1.0) < share) continue;
+    if (10 * i > 9 * ratio.size()) return std::nullopt;
+    return static_cast<double>(i) * period_s;
   }
   return 0.0;
 }

@@ -54,6 +54,7 @@ SimulatedGrowth simulated_growth(const RelativeStructure& structure, const Milli
   const SimulatedGrowth before = growth_with(structure, process, spindle_speed_rpm, depth_m, coarse);
   growth.converged = growth.converged && before.converged;
   growth.error_estimate = std::abs(growth.modulus - before.modulus) / growth.modulus;
+  if (coarse.steps_in_cut > options.steps_in_cut / 2) growth.error_estimate = 1.0;  // nothing coarser to compare with
   return growth;
 }
 

@@ -1,14 +1,23 @@
 #include "milling/simulation/path_march.hpp"
 
 #include <numbers>
+#include <sstream>
 
+#include "core/error.hpp"
 #include "milling/structure/contact_state.hpp"
 
 namespace thinwall::milling {
 
 PathCut path_cut(const MillingProcess& process, const SimulatedPoint& point, const SimulationOptions& options,
                  int steps_a_turn, int earlier_passes) {
-  constexpr double turn_rad = 2.0 * std::numbers::pi;
+  constexpr double turn_rad = 2.0 * std::numbers::pi, least_steps = 6.0;
+  const double steps_in_cut = process.engagement.arc_rad() / turn_rad * steps_a_turn;
+  if (steps_in_cut < least_steps) {
+    std::ostringstream text;
+    text << "simulation: " << steps_a_turn << " steps a turn are " << steps_in_cut << " in the cut, must be at least "
+         << least_steps << "; take more steps a turn";
+    throw core::InputError(text.str());
+  }
   PathCut cut;
   cut.rad_per_s = point.spindle_speed_rpm * turn_rad / 60.0;
   cut.discs = tooth_discs(process, point.depth_m, options.steps, earlier_passes);

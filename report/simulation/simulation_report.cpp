@@ -18,6 +18,9 @@ std::string length(double metres) {
 }
 
 std::string motion_in_words(const SimulatedPointSummary& p) {
+  const bool stable = p.growth.lobes_modulus < 1.0;
+  if (stable && (p.motion == "quasi_periodic" || p.motion == "growing"))
+    return "has not settled, though small ones decay: settle more turns";
   if (p.motion == "periodic") return "repeats itself with the cut";
   if (p.motion == "period_n") return fmt::format("repeats itself after {} periods of the cut", p.period);
   return p.motion == "quasi_periodic" ? "never repeats itself" : "grows";
@@ -26,7 +29,9 @@ std::string motion_in_words(const SimulatedPointSummary& p) {
 std::string outcome(const SimulatedPointSummary& p) {
   if (p.status == "overflowed") return fmt::format("the vibration outgrew the cutter after {:.3g} s", p.simulated_s);
   const std::string text = p.approach.empty() ? "vibration " + motion_in_words(p) : "the tool enters at a border";
-  return p.status == "unsettled" ? text + "; forces within steps did not settle: take more steps, and trust no figure"
+  return p.status == "unsettled" ? text +
+                                       "; forces within steps did not settle: take more steps, or more modes by "
+                                       "lobes.modes_up_to, and trust no figure"
                                  : text;
 }
 
@@ -49,10 +54,10 @@ std::string forced_text(const ForcedAgreementSummary& forced) {
   return text + "\n";
 }
 
-const char* word(const std::string& origin, bool entering) {
+const char* word(const std::string& origin, bool stable) {
   if (origin == "tooth_passing") return "teeth";
   if (origin == "spindle") return "spindle";
-  return entering ? "of the structure" : "chatter";
+  return stable ? "of the structure" : "chatter";
 }
 
 /// The strongest lines along the direction in which the tool vibrates most.
@@ -65,7 +70,7 @@ std::string lines_text(const SimulatedPointSummary& p) {
   for (const VibrationLineSummary& line : p.vibration_lines) {
     if (line.direction != direction || shown == most) continue;
     text += fmt::format("{}{:.1f} Hz {} ({})", shown++ == 0 ? ": " : ", ", line.frequency_hz, length(line.amplitude_m),
-                        word(line.origin, !p.approach.empty()));
+                        word(line.origin, p.growth.lobes_modulus < 1.0));
   }
   return text + "\n";
 }
@@ -78,10 +83,14 @@ std::string wall_text(const WallSummary& wall) {
 }
 
 std::string approach_text(const ApproachSummary& approach) {
+  const char* direction = approach.direction == "feed" ? "along the feed" : "across";
+  if (!approach.settling_5_s || !approach.settling_2_s)
+    return fmt::format("  deflection {} {} at the end of the record, not settled yet: record more turns\n", direction,
+                       length(approach.final_m));
   return fmt::format(
       "  deflection {} {} at the end, overshoot {:.3g} % at {:.3g} s, within 2 % after {:.3g} s, 5 % after {:.3g} s\n",
-      approach.direction == "feed" ? "along the feed" : "across", length(approach.final_m), 100.0 * approach.overshoot,
-      approach.peak_s, approach.settling_2_s, approach.settling_5_s);
+      direction, length(approach.final_m), 100.0 * approach.overshoot, approach.peak_s, *approach.settling_2_s,
+      *approach.settling_5_s);
 }
 
 std::string contact_text(const OpeningContactSummary& contact) {

@@ -129,8 +129,10 @@ std::optional<SimulationSummary> simulation_summary(const study::Results& result
     summary.recorded_turns = setup::simulation_options(wanted, p.feed_per_tooth_m, p.teeth).recorded_turns;
     summary.points.push_back(point_of(p, i));
     const SimulatedPointSummary& added = summary.points.back();
-    take_largest(summary.growth_difference, added, added.growth.difference_relative);
-    if (added.forced_vibration)
+    if (p.lobes.status == milling::StabilityStatus::converged)
+      take_largest(summary.growth_difference, added, added.growth.difference_relative);
+    constexpr double settled = 1e-6;
+    if (added.forced_vibration && added.forced_vibration->left_of_beginning < settled)
       take_largest(summary.forced_difference, added, added.forced_vibration->difference_relative);
   }
   for (const study::AmplitudeMap& map : results.amplitude_maps) summary.maps.push_back(map_of(map));

@@ -103,7 +103,8 @@ void fields(Visitor& visit, Section& forced) {
 /// The way in which the mean deflection over a tooth approaches its end, of a cut that began at a border.
 struct ApproachSummary {
   std::string direction;
-  double final_m = 0.0, overshoot = 0.0, peak_s = 0.0, settling_2_s = 0.0, settling_5_s = 0.0;
+  double final_m = 0.0, overshoot = 0.0, peak_s = 0.0;
+  std::optional<double> settling_2_s, settling_5_s;
 };
 
 template <class Visitor, Either<ApproachSummary> Section>
@@ -112,8 +113,13 @@ void fields(Visitor& visit, Section& approach) {
   visit(Field{"final_m", Kind::length, "mean deflection at the end, tool against part"}, approach.final_m);
   visit(Field{"overshoot", Kind::ratio, "largest mean deflection over that at the end, less one"}, approach.overshoot);
   visit(Field{"peak_s", Kind::time, "moment of that, since the tool touched the border"}, approach.peak_s);
-  visit(Field{"settling_2_s", Kind::time, "time after which it stays within 2 % of its end"}, approach.settling_2_s);
-  visit(Field{"settling_5_s", Kind::time, "the same of 5 %"}, approach.settling_5_s);
+  visit(
+      Field{"settling_2_s", Kind::time,
+            "time after which it stays within 2 % of its end; null: it has not settled, and no figure here is that of "
+            "its end",
+            Presence::or_null},
+      approach.settling_2_s);
+  visit(Field{"settling_5_s", Kind::time, "the same of 5 %", Presence::or_null}, approach.settling_5_s);
 }
 
 /// The contact of a support that may open.

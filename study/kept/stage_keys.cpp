@@ -56,6 +56,8 @@ std::string charts_key(const setup::Setup& source) {
 std::string simulation_key(const setup::Setup& source) {
   setup::CutSetup cut = source;
   cut.machine.reset();
+  const std::optional<double> modes_up_to_hz =
+      cut.lobes ? cut.lobes->modes_up_to_hz : std::nullopt;  // cut_structure.hpp
   cut.lobes.reset();
   if (cut.cutting) cut.cutting->spindle_speed_rpm.reset();
   std::optional<setup::Simulation> simulation = source.simulation;
@@ -64,7 +66,8 @@ std::string simulation_key(const setup::Setup& source) {
     simulation->structures.clear();
   }
   const bool cuts = source.tool && source.cutting;
-  return input_key(structure_key(source), cut, simulation, cuts ? setup::feed_per_tooth(source) : std::nullopt);
+  return input_key(structure_key(source), cut, modes_up_to_hz, simulation,
+                   cuts ? setup::feed_per_tooth(source) : std::nullopt);
 }
 
 }  // namespace thinwall::study

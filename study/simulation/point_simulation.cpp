@@ -44,8 +44,11 @@ struct Simulated {
 Simulated simulated_cut_of(const setup::Setup& setup) {
   const double feed = *setup::feed_per_tooth(setup);
   const milling::MillingProcess process = setup::milling_process(setup);
-  return {setup, process, setup::force_law(*setup.cutting, process),
-          setup::simulation_options(*setup.simulation, feed, process.cutter.teeth), feed};
+  Simulated cut{setup, process, setup::force_law(*setup.cutting, process),
+                setup::simulation_options(*setup.simulation, feed, process.cutter.teeth), feed};
+  // The ripple from tooth to tooth of unequal ones is no motion that settles.
+  if (cut.options.means_a_turn > 0 && !milling::equal_teeth(process)) cut.options.means_a_turn = 1;
+  return cut;
 }
 
 milling::RelativeStructure poles_of(const setup::Setup& setup, const dynamics::ModalModel* part,
@@ -68,12 +71,14 @@ const dynamics::ModalModel& modal(const std::optional<dynamics::ModalModel>& mod
 milling::OneSidedContact one_sided_contact(const setup::Setup& setup, const Results& results,
                                            const dynamics::ModalModel& model, Eigen::Index poles) {
   const coupling::Contact& joined = results.contacts.front().contact;
-  const bool one = results.contacts.size() == 1 && !joined.has_matrices() && !joined.springs.front().rigid();
+  const bool one = results.contacts.size() == 1 && !joined.has_matrices() && joined.springs.size() == 1 &&
+                   !joined.springs.front().rigid();
   const auto preload = setup::preload_of(setup, setup.contacts.front());
-  if (!one || !preload)
+  const bool side_known = std::abs(setup.robot->preload.dot(joined.springs.front().direction)) > 0.0;
+  if (!one || !preload || !side_known)
     throw core::InputError(
-        "simulation.support: a contact that opens must be the only one, with a finite stiffness along its normal and a "
-        "preload; give them, or take \"two_sided\"");
+        "simulation.support: a contact that opens must be the only one, along one direction, with a finite stiffness, "
+        "pressed by robot.preload, whose sign tells the side; give these, or take \"two_sided\"");
   const Eigen::Vector3d normal = pressing_force(setup).second;
   const dynamics::ModalModel kept = kept_modes(setup, model);
   const Eigen::Index of_part = milling::relative_structure(kept, setup.cutting->at).poles.size();
@@ -143,10 +148,10 @@ void march(const Simulated& cut, const FeltStructure& felt, const milling::TurnO
 void approach(const Simulated& cut, PointSimulation& p) {
   if (cut.setup.simulation->start != setup::CutStart::border) return;
   if (p.cut.status == milling::SimulationStatus::overflowed) return;
-  constexpr int least_tooth_periods = 20;
-  if (cut.options.recorded_turns * p.teeth < least_tooth_periods) return;
-  const double tooth_period_s = 60.0 / p.point.spindle_speed_rpm / p.teeth;
-  for (const int axis : {0, 1}) p.approach.push_back(milling::approach_of(p.cut.means_m.row(axis), tooth_period_s));
+  constexpr Eigen::Index least_means = 20;
+  if (p.cut.means_m.cols() < least_means || !p.cut.means_m.allFinite()) return;
+  const double period_s = 60.0 / p.point.spindle_speed_rpm / cut.options.means_a_turn;
+  for (const int axis : {0, 1}) p.approach.push_back(milling::approach_of(p.cut.means_m.row(axis), period_s));
 }
 
 /// True if all heights of a tooth enter at once, into one arc: the moment from which the closed form counts.

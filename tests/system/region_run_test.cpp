@@ -63,7 +63,10 @@ TEST(RegionRun, LeavesThePartAsAClosedSurface) {
     const double y = -R + (R - 1e-3) * (i + 0.5) / strips;
     swept += (R - 1e-3) / strips * std::max(0.0, fed + std::sqrt(R * R - y * y) - R);
   }
-  EXPECT_NEAR(mesh::volume(part.surface), depth * (block - swept), 2e-3 * depth * swept);
+  // The front was cut by the last teeth, up to one feed behind the disc.
+  const double left = mesh::volume(part.surface) - depth * (block - swept);
+  EXPECT_GT(left, 0.0);
+  EXPECT_LT(left, depth * 0.1e-3 * (R - 1e-3));
 }
 
 /// Of a cut from a border the approach of the mean deflection is told, and the whole of it is traced.

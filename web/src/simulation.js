@@ -11,7 +11,8 @@ import { growing, onShownPoint, showPoint, shownPoint, simulatedPoints, titleOf 
 const origins = { tooth_passing: ['tooth passing', 'part', 'circle'], spindle: ['spindle', 'robot', 'square'], other: ['chatter', 'bad', 'x'] };
 const motions = { periodic: () => 'repeats itself with the cut', period_n: (p) => `repeats itself after ${p.period} periods of the cut`, quasi_periodic: () => 'never repeats itself', growing: () => 'grows' };
 const micrometresOf = (vector) => (vector ? `${number(vector[0] * 1e6, 4)}, ${number(vector[1] * 1e6, 4)} µm` : null); // along the feed, across
-const motionOf = (p) => (p.approach?.length ? 'enters at a border' : p.status === 'overflowed' ? `outgrew the cutter after ${number(p.simulated_s, 3)} s` : `${motions[p.motion]?.(p) ?? p.motion}${p.status === 'unsettled' ? '; forces did not settle' : ''}`);
+const unsettled = (p) => p.growth?.lobes_modulus < 1 && (p.motion === 'quasi_periodic' || p.motion === 'growing');
+const motionOf = (p) => (p.approach?.length ? 'enters at a border' : p.status === 'overflowed' ? `outgrew the cutter after ${number(p.simulated_s, 3)} s` : `${unsettled(p) ? 'has not settled, though small ones decay' : motions[p.motion]?.(p) ?? p.motion}${p.status === 'unsettled' ? '; forces did not settle' : ''}`);
 
 /** The section's content; null where nothing was simulated. */
 export function simulation(runs) {
@@ -64,7 +65,7 @@ const nothing = (colours) => ({ data: [], layout: { height: 120, xaxis: { visibl
 const columnsOf = (arrays, suffix = '') => Object.entries(arrays).map(([name, array]) => ({ name: `${name}${suffix}`, values: Array.from(numbers(array)) }));
 
 /** The way of a mean deflection to its end, in a sentence. */
-const approachOf = (a) => ` ${a.direction === 'feed' ? 'Along the feed' : 'Across'} its mean deflection ends at ${number(a.final_m * 1e6, 4)} µm, overshoots by ${percent(a.overshoot, 3)} and stays within 2 % of its end after ${number(a.settling_2_s, 3)} s.`;
+const approachOf = (a) => ` ${a.direction === 'feed' ? 'Along the feed' : 'Across'} its mean deflection ends at ${number(a.final_m * 1e6, 4)} µm, overshoots by ${percent(a.overshoot, 3)} and ${a.settling_2_s == null ? 'has not settled within the record' : `stays within 2 % of its end after ${number(a.settling_2_s, 3)} s`}.`;
 
 /** The motion of a point in words, with what of it counts. */
 function sentenceOf(p) {
@@ -142,7 +143,7 @@ function forcesOf({ tables: { trace }, point }, colours, narrow) {
   const turn = 60 / point.spindle_speed_rpm;
   const end = t.at(-1);
   const begin = Array.from(t).findIndex((s) => end - s < 2.001 * turn); // the last two turns
-  const angle = Array.from(t).slice(begin).map((s) => ((((s - t[0]) / turn) % 1) * 360));
+  const angle = Array.from(t).slice(begin).map((s) => (((s / turn + 1e-6) % 1) * 360)); // a trace may begin within a turn
   const broken = (key) => scaled(numbers(trace[key]), 1).slice(begin).flatMap((f, i) => (i && angle[i] < angle[i - 1] ? [null, f] : [f]));
   const x = angle.flatMap((a, i) => (i && a < angle[i - 1] ? [null, a] : [a]));
   return { data: [lines('along the feed', x, broken('force_x_n'), colours.part, { trace: { meta: 'force_x_n' } }), lines('across', x, broken('force_y_n'), colours.supported, { trace: { meta: 'force_y_n' } })],

@@ -76,8 +76,8 @@ TEST(Bondarenko2012, TableOneIsThatOfAnotherProgram) {
     const Approach x = approach_of(cut.means_m.row(0), tooth_period_s);
     EXPECT_NEAR(1e3 * x.final_m, row.x_mm, 1e-3 * -row.x_mm) << row.K;
     EXPECT_NEAR(100.0 * x.overshoot, row.overshoot, 0.5) << row.K;
-    EXPECT_NEAR(x.settling_2_s, row.settling_2_s, 0.03 * row.settling_2_s) << row.K;
-    EXPECT_NEAR(x.settling_5_s, row.settling_5_s, 0.03 * row.settling_5_s) << row.K;
+    EXPECT_NEAR(x.settling_2_s.value_or(NAN), row.settling_2_s, 0.03 * row.settling_2_s) << row.K;
+    EXPECT_NEAR(x.settling_5_s.value_or(NAN), row.settling_5_s, 0.03 * row.settling_5_s) << row.K;
   }
 }
 
@@ -98,8 +98,8 @@ TEST(Bondarenko2012, TableTwoIsThatOfAnotherProgram) {
     EXPECT_NEAR(1e3 * y.final_m, row.y_mm, 1e-3 * row.y_mm) << row.K;
     EXPECT_NEAR(100.0 * x.overshoot, row.overshoot_x, 1.5) << row.K;
     EXPECT_NEAR(100.0 * y.overshoot, row.overshoot_y, 0.5) << row.K;
-    EXPECT_NEAR(x.settling_2_s, row.settling_x_s, 0.03 * row.settling_x_s) << row.K;
-    EXPECT_NEAR(y.settling_2_s, row.settling_y_s, 0.03 * row.settling_y_s) << row.K;
+    EXPECT_NEAR(x.settling_2_s.value_or(NAN), row.settling_x_s, 0.03 * row.settling_x_s) << row.K;
+    EXPECT_NEAR(y.settling_2_s.value_or(NAN), row.settling_y_s, 0.03 * row.settling_y_s) << row.K;
   }
 }
 
@@ -162,8 +162,8 @@ TEST(Bondarenko2012, SixJointsAreThoseOfAnotherProgram) {
   EXPECT_NEAR(y.final_m, 1.5599799939614272e-4, 1e-3 * 1.56e-4);
   EXPECT_NEAR(100.0 * x.overshoot, 9.017, 1.0);
   EXPECT_NEAR(100.0 * y.overshoot, 18.953, 0.5);
-  EXPECT_NEAR(x.settling_2_s, 0.45224, 0.03 * 0.45);
-  EXPECT_NEAR(y.settling_2_s, 0.55030, 0.03 * 0.55);
+  EXPECT_NEAR(x.settling_2_s.value_or(NAN), 0.45224, 0.03 * 0.45);
+  EXPECT_NEAR(y.settling_2_s.value_or(NAN), 0.55030, 0.03 * 0.55);
 }
 
 }  // namespace
