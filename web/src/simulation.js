@@ -111,7 +111,8 @@ function spectrumOf({ tables: { spectrum }, point }, { of, log }, colours, narro
   const curves = keys.map((key, k) => ({ ...lines(k ? 'across' : 'along the feed', x, scaled(numbers(spectrum[key]), factor), faint(k ? colours.supported : colours.part, 0.8), { trace: { meta: key } }), hovertemplate: `%{x:.5~g} Hz: %{y:.4~g} ${unit}` }));
   const found = (vibration ? point.vibration_lines : point.force_lines) ?? [];
   const amplitude = (line) => (vibration ? line.amplitude_m : line.amplitude_n) * factor;
-  const marks = Object.entries(origins).flatMap(([origin, [name, colour, symbol]]) => {
+  const marks = Object.entries(origins).flatMap(([origin, [told, colour, symbol]]) => {
+    const name = origin === 'other' && point.growth?.lobes_modulus < 1 ? 'of the structure' : told; // what is left of the beginning
     const own = found.filter((line) => line.origin === origin);
     return own.length ? [{ name: plain(name), x: own.map((line) => line.frequency_hz), y: own.map(amplitude), mode: 'markers', marker: { symbol, size: 9, color: colours[colour], line: { width: 1.5, color: colours[colour] } }, hovertemplate: `${name}: %{x:.5~g} Hz, %{y:.4~g} ${unit}<extra></extra>`, meta: `lines ${origin}` }] : [];
   });
