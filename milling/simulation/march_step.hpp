@@ -98,12 +98,14 @@ Eigen::Matrix<double, N, 1> forces_of(const MarchNode& node) {
   }
 }
 
+/// Sets displacement and, with four forces, opening of a node.
 template <int N>
 void set_displacement(MarchNode& node, const Eigen::Matrix<double, N, 1>& q) {
   node.displacement_m = q.template head<3>();
   if constexpr (N == 4) node.opening_m = q[3];
 }
 
+/// Sets their slopes.
 template <int N>
 void set_slope(MarchNode& node, const Eigen::Matrix<double, N, 1>& slope) {
   node.slope = slope.template head<3>();

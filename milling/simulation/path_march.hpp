@@ -91,6 +91,7 @@ class PathMotion {
     tool_.begin(step_.at[0]);
   }
 
+  /// The turns in which it is marched.
   [[nodiscard]] const Periods& periods() const { return periods_; }
 
   /// Ends early where the vibration outgrows the cutter.
@@ -107,6 +108,7 @@ class PathMotion {
     return unsettled;
   }
 
+  /// False once the vibration has outgrown the radius.
   [[nodiscard]] bool within(double radius_m) const { return tool_.within(radius_m); }
 
  private:

@@ -40,11 +40,13 @@ struct RegionCut {
 /// The stock within a rectangle, as an outline; no corners where they do not meet. Its edges as in stock.hpp.
 [[nodiscard]] Outline outline_of(const Stock& stock, const Eigen::Vector2d& low, const Eigen::Vector2d& high);
 
-/// The rectangle in which a cut of so many turns moves: from the radius and a tenth of it behind the start to as much
-/// ahead of the end.
+/// A rectangle in the plane of the cut, m.
 struct CutWindow {
   Eigen::Vector2d low, high;
 };
+
+/// The rectangle in which a cut of so many turns moves: from the radius and a tenth of it behind the start to as much
+/// ahead of the end.
 [[nodiscard]] CutWindow cut_window(const MillingProcess& process, const SimulatedPoint& point, int turns);
 
 /// As simulate_exact_path(), with a part of any shape: `part` are the outlines of the material before the cut, in the
