@@ -41,6 +41,7 @@ void add_layer(const Layer& layer, TriangleSurface& surface) {
   EndTriangulation triangulation;
   for (const auto& outline : layer.outlines) {
     std::vector<EndKernel::Point_2> corners;
+    corners.reserve(outline.size());
     for (const Eigen::Vector2d& p : outline) corners.emplace_back(p.x(), p.y());
     triangulation.insert_constraint(corners.begin(), corners.end(), true);
   }
