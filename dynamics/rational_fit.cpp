@@ -189,7 +189,7 @@ Eigen::VectorXcd zeros(const Eigen::VectorXcd& poles, const Eigen::VectorXd& c) 
     if (zero.real() > 0.5 * std::abs(zero)) zero.real(-zero.real());
     found.push_back(zero);
   }
-  std::ranges::sort(found, [](auto a, auto b) { return std::abs(a) < std::abs(b); });
+  std::ranges::sort(found, [](auto left, auto right) { return std::abs(left) < std::abs(right); });
   return Eigen::Map<const Eigen::VectorXcd>(found.data(), static_cast<Index>(found.size()));
 }
 

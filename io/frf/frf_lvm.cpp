@@ -164,7 +164,9 @@ MeasuredFrf read_lvm_frf(const std::filesystem::path& path, const FrfFormat& for
     fail(path, lines.number(), "the channel \"" + names[channels.first] + "\" is over " + over + ", not frequency");
 
   // The text that the numbers make, with the checks and messages of other tables.
-  CsvText text{.path = path, .separator = '\t'};
+  CsvText text;
+  text.path = path;
+  text.separator = '\t';
   text.header = {"frequency", "real", "imaginary"};
   if (channels.coherence) text.header.emplace_back("coherence");
   const auto field = [&](const Fields& fields, std::size_t at) {
@@ -173,7 +175,8 @@ MeasuredFrf read_lvm_frf(const std::filesystem::path& path, const FrfFormat& for
     return word;
   };
   const auto start = [&](const char* name) {
-    CsvText one{.path = path};
+    CsvText one;
+    one.path = path;
     const CsvLine line{lines.number(), {field({entry_of(of_record, name, channels.first)}, 0)}};
     return number(one, line, 0);
   };

@@ -237,8 +237,8 @@ OnGrid vibration_on(const FedCut& given, Resolution resolution, double per_rad, 
 /// Largest change of any figure.
 double change_between(const ForcedVibration& coarse, const OnGrid& now) {
   const ForcedVibration& fine = now.vibration;
-  const auto relative = [](double before, double now, double scale) {
-    return before == now ? 0.0 : std::abs(before - now) / scale;
+  const auto relative = [](double before, double after, double scale) {
+    return before == after ? 0.0 : std::abs(before - after) / scale;
   };
   const double motion = now.largest_m;
   double change = std::max(relative(coarse.peak_force_n, fine.peak_force_n, fine.peak_force_n),

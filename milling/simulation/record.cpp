@@ -165,7 +165,8 @@ void Record::finish(double recorded_rad) {
   result_.mean_force_n = impulse_ / recorded_rad;
   result_.mean_displacement_m = displaced_ / recorded_rad;
   result_.mean_torque_n_m = work_ / recorded_rad;
-  for (Eigen::Index i = 0; i < of_part_rad_.size(); ++i) result_.means_m.col(i) /= std::max(of_part_rad_(i), 1e-300);
+  for (Eigen::Index i = 0; i < of_part_rad_.size(); ++i)
+    result_.means_m.col(i) /= of_part_rad_(i);  // NaN where no step fell into the part
   result_.removed_m2 = removed_ / recorded_rad * 2.0 * std::numbers::pi;
   result_.mean_power_w = result_.mean_torque_n_m * rad_per_s_;
   if (result_.contact) result_.contact->open_share = open_rad_ / recorded_rad;

@@ -20,11 +20,11 @@ constexpr int points_a_feed = 200;
 
 /// Rotation from the entry of a tip to the wall of a side, or below 0 if the arc does not hold it.
 double rotation_to_wall(const TipPass& tip, int side) {
-  constexpr double hair = 1e-9;
+  constexpr double round_off_rad = 1e-9;
   const double wall = side > 0 ? 0.0 : std::numbers::pi;
   double s = std::fmod(wall - tip.entry_phi_rad + 2.0 * turn_rad, turn_rad);
-  if (s > turn_rad - hair) s = 0.0;
-  return s <= tip.arc_rad + hair ? s : -1.0;
+  if (s > turn_rad - round_off_rad) s = 0.0;
+  return s <= tip.arc_rad + round_off_rad ? s : -1.0;
 }
 
 /// Height of a path at a place between its samples: the cubic through the four next to it.

@@ -32,10 +32,10 @@ io::Table table_of(const std::vector<PointSimulation>& points) {
     motion.push_back(milling::name(p.cut.motion.motion));
   }
   // A vibration that outgrew the cutter has no figures.
-  const auto figure = [](const auto& of) {
-    return [of](const PointSimulation& p) {
+  const auto figure = [](const auto& quantity) {
+    return [quantity](const PointSimulation& p) {
       const bool grew = p.cut.status == milling::SimulationStatus::overflowed;
-      return grew ? std::numeric_limits<double>::infinity() : static_cast<double>(of(p.cut));
+      return grew ? std::numeric_limits<double>::infinity() : static_cast<double>(quantity(p.cut));
     };
   };
   const auto range = [&](int i) {
@@ -156,7 +156,7 @@ void write_point(const std::filesystem::path& folder, const std::string& name, c
                   {"error_m: of the deepest tip at each place along the feed; positive: too much is taken"});
 }
 
-/// What is left of the part, as closed layers, tool axes: x along the feed, z from the tip up.
+/// Writes the part that is left as closed layers, tool axes: x along the feed, z from the tip up.
 void write_part(const std::filesystem::path& file, const std::vector<milling::PartSlice>& slices) {
   std::vector<mesh::Layer> layers;
   double from_m = 0.0;
