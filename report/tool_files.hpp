@@ -16,8 +16,8 @@ namespace thinwall::report {
 void write_tool_frf(const std::filesystem::path& file, const setup::Tool& tool,
                     const std::optional<milling::SampledReceptance>& synthesised = std::nullopt);
 
-/// The same of a tool that was swapped: `tip` is study::swapped_tip()'s, part axes, all entries that are not 0. Throws
-/// as io::write_csv().
+/// Writes the receptances of a tool that was swapped: `tip` is study::swapped_tip()'s, part axes, all entries that
+/// are not 0. Throws as io::write_csv().
 void write_swapped_frf(const std::filesystem::path& file, const milling::SampledReceptance& tip,
                        const std::optional<milling::SampledReceptance>& synthesised = std::nullopt);
 

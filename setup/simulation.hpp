@@ -18,13 +18,13 @@ enum class ToothPaths {
   region     ///< on their real paths, through a part that is kept as a region (milling/simulation/region_path.hpp)
 };
 
-/// Where the tool is when a simulation begins.
+/// The place of the tool when a simulation begins.
 enum class CutStart {
   steady,  ///< within the material, which it has cut so far without vibration
   border   ///< outside, touching a straight border across the feed
 };
 
-/// What the contact of a support does when the cut pulls at it.
+/// The behaviour of a support's contact when the cut pulls at it.
 enum class SupportSides {
   two_sided,  ///< it holds, as in the lobes
   one_sided   ///< it opens (milling/simulation/one_sided_contact.hpp)

@@ -28,7 +28,7 @@ struct LobeField {
                                    const std::vector<double>& spindle_speeds_rpm, StabilityOptions options,
                                    const KeptRows& kept = {});
 
-/// The same with a tool that is known by its lines, in the place of one that is rigid or known by its poles: `tool` has
+/// A field with a tool that is known by its lines, in the place of one that is rigid or known by its poles: `tool` has
 /// the fits of its lines and `structures` the poles of all else. Rows that lines limit are none that did not converge.
 /// Errors and cost as those of limiting_depth() of a FittedStructure.
 [[nodiscard]] LobeField lobe_field(const FittedStructure& tool, const std::vector<RelativeStructure>& structures,

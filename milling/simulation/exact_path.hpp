@@ -74,7 +74,7 @@ struct MovedTool {
   std::function<MovedStep(double dt_s, const ForceOnTool& force)> step;
 };
 
-/// The same cut with a tool that moves so, twice a step. `first_force_n` of the options has no meaning. Errors as
+/// A cut as above with a tool that moves so, twice a step. `first_force_n` of the options has no meaning. Errors as
 /// above, and those of `tool`.
 [[nodiscard]] SimulatedCut simulate_exact_path(const MovedTool& tool, const MillingProcess& process,
                                                const ForceLaw& law, const SimulatedPoint& point, const Stock& stock,

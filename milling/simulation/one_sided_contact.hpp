@@ -32,7 +32,7 @@ struct OneSidedContact {
 /// Every violation, empty if there is none: finite, stiffness above zero, damping and preload at least zero.
 [[nodiscard]] std::vector<std::string> validate(const OneSidedContact& contact);
 
-/// What became of a contact that may open, over the recorded turns.
+/// The fate of a contact that may open, over the recorded turns.
 struct ContactOutcome {
   double open_share = 0.0;  ///< of the time
   double least_n = 0.0;     ///< pressing force; 0 once it opened

@@ -23,7 +23,7 @@ struct RayMaterial {
 /// of the points where edges cross.
 class PartRegion {
  public:
-  /// What lies inside an odd number of the outlines, in cells of this side, m. Throws InputError for no outline, a
+  /// The region inside an odd number of the outlines, in cells of this side, m. Throws InputError for no outline, a
   /// number that is not finite, a side that is not positive, or more than ten million cells.
   PartRegion(const std::vector<Outline>& outlines, double cell_m);
   ~PartRegion();

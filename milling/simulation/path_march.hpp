@@ -61,7 +61,7 @@ struct PathCut {
                                const SimulatedPoint& point, const SimulationOptions& options, int steps_a_turn,
                                int earlier_passes, const std::optional<OneSidedContact>& contact = {});
 
-/// The same of a tool whose structure is not one of modes: `start`, `structure` and `rule` are empty.
+/// A cut of a tool whose structure is not one of modes: `start`, `structure` and `rule` are empty.
 [[nodiscard]] PathCut path_cut(const MillingProcess& process, const SimulatedPoint& point,
                                const SimulationOptions& options, int steps_a_turn, int earlier_passes);
 
@@ -112,7 +112,7 @@ class PathMotion {
   [[nodiscard]] bool within(double radius_m) const { return tool_.within(radius_m); }
 
  private:
-  /// Where the centre would be without vibration.
+  /// The place of the centre without vibration.
   [[nodiscard]] Eigen::Vector2d fed(std::size_t c) const {
     return {c_.feed_per_node_m * static_cast<double>(node_ + static_cast<long>(c)), 0.0};
   }

@@ -23,7 +23,7 @@ struct RegionOptions {
   std::optional<OneSidedContact> contact = {};  ///< of a support, that may open
 };
 
-/// What is left of the part at a height.
+/// The part that is left at a height.
 struct PartSlice {
   double height_m = 0.0;  ///< from the tip up
   double width_m = 0.0;   ///< of cut that it stands for
