@@ -5,6 +5,7 @@
 : "${logs:?}"
 failed=()
 skipped=()
+declare -A pids=()
 
 step() {  # name, command...: runs it, keeps its output, notes its failure; a line that begins with SKIPPED says why
   local name=$1 start=$SECONDS reason
@@ -19,6 +20,21 @@ step() {  # name, command...: runs it, keeps its output, notes its failure; a li
   else
     printf '=== %s: passed in %d s\n' "$name" "$((SECONDS - start))"
   fi
+}
+
+beside() {  # name, command...: begins a step in the background, which `await` shows and judges
+  step "$@" >"$logs/$1.shown" 2>&1 &
+  pids[$1]=$!
+}
+
+await() {  # name: the output of a step that `beside` began, and its verdict; one that was killed has none, and has failed
+  wait "${pids[$1]}" || true
+  cat "$logs/$1.shown"
+  case $(tail -n 1 "$logs/$1.shown") in
+    "=== $1: passed"*) ;;
+    "=== $1: SKIPPED"*) skipped+=("$1") ;;
+    *) failed+=("$1") ;;
+  esac
 }
 
 finish() {  # names what failed and what was skipped

@@ -156,7 +156,7 @@ void Record::take_passes(const MarchStep& step) {
                        period_start_s_ + tip.entry_rad / rad_per_s_,
                        position(tip.entry_rad),
                        slope_at(step, tip.entry_rad) * rad_per_s_,
-                       {}};
+                       Eigen::Vector3d::Zero()};
     }
   }
 }
