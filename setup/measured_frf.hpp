@@ -26,12 +26,12 @@ struct FrfContent {
 struct MeasuredFrf {
   std::string response;  ///< DOF name, "P.x"
   std::string force;
-  std::filesystem::path file;               ///< absolute, or relative to the working directory
-  std::optional<io::FrfQuantity> quantity;  ///< none: the file says it
-  std::string unit;                         ///< of the FRF, "um/N"; empty: the file says it
-  std::string frequency_unit;               ///< "Hz", "rad/s"
-  std::optional<int> record;                ///< number of the FRF in the file, from 1; none: its only one
-  std::optional<double> noise{};            ///< standard deviation of real and imaginary part alike, relative to |H|
+  std::filesystem::path file;                 ///< absolute, or relative to the working directory
+  std::optional<io::FrfQuantity> quantity{};  ///< none: the file says it
+  std::string unit{};                         ///< of the FRF, "um/N"; empty: the file says it
+  std::string frequency_unit{};               ///< "Hz", "rad/s"
+  std::optional<int> record{};                ///< number of the FRF in the file, from 1; none: its only one
+  std::optional<double> noise{};              ///< standard deviation of real and imaginary part alike, relative to |H|
   std::string variable{};            ///< of another program's MAT file, "H(2,1,:)"; empty: the file is one of ours
   std::string frequency_variable{};  ///< beside it
   std::optional<int> averages{};     ///< that the file's coherence belongs to, in place of `noise`

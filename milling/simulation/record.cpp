@@ -152,11 +152,8 @@ void Record::take_passes(const MarchStep& step) {
       if (passes_.size() > kept_) passes_.pop_front();
     }
     if (tip.entry_rad >= step.from_rad - hair && tip.entry_rad < to - hair) {
-      pass = ToothPass{tip.tooth,
-                       period_start_s_ + tip.entry_rad / rad_per_s_,
-                       position(tip.entry_rad),
-                       slope_at(step, tip.entry_rad) * rad_per_s_,
-                       Eigen::Vector3d::Zero()};
+      pass = ToothPass{tip.tooth, period_start_s_ + tip.entry_rad / rad_per_s_, position(tip.entry_rad),
+                       slope_at(step, tip.entry_rad) * rad_per_s_, Eigen::Vector3d::Zero()};
     }
   }
 }

@@ -130,9 +130,15 @@ TEST(Schema, EverySynonymMeansAKeyAWordOrAUnitThatIsKnown) {
   }
   for (const core::Synonym& row : core::synonyms()) {
     const std::string meant(row.meant);
-    if (row.kind == core::WordKind::key) EXPECT_TRUE(keys.contains(meant)) << meant;
-    if (row.kind == core::WordKind::word) EXPECT_TRUE(words.contains(meant)) << meant;
-    if (row.kind == core::WordKind::unit) EXPECT_NO_THROW((void)core::parse_unit(meant)) << meant;
+    if (row.kind == core::WordKind::key) {
+      EXPECT_TRUE(keys.contains(meant)) << meant;
+    }
+    if (row.kind == core::WordKind::word) {
+      EXPECT_TRUE(words.contains(meant)) << meant;
+    }
+    if (row.kind == core::WordKind::unit) {
+      EXPECT_NO_THROW((void)core::parse_unit(meant)) << meant;
+    }
   }
 }
 

@@ -117,7 +117,9 @@ TEST(ExactPath, IsTheCircularOneOfALargeCutter) {
     const SimulatedCut circular = simulate(structure, process, process.coefficients, point, turns(300, 2));
     const double difference = (exact.mean_force_n - circular.mean_force_n).norm() / circular.mean_force_n.norm();
     EXPECT_LT(difference, 0.02);
-    if (before > 0.0) EXPECT_NEAR(before / difference, 2.0, 0.5) << diameter;
+    if (before > 0.0) {
+      EXPECT_NEAR(before / difference, 2.0, 0.5) << diameter;
+    }
     before = difference;
   }
 }

@@ -304,8 +304,9 @@ TEST(General, ClassicalMethodsRefuseWhatTheyDoNotKnow) {
     const bool in_steps = method != Method::zeroth_order && method != Method::multi_frequency;
     for (const MillingProcess& other : others) {
       const bool takes = method == Method::direct || (in_steps && regenerates_in_plane(other));
-      if (takes) EXPECT_NO_THROW((void)lobe_method(method, structure(), other, {}));
-      else EXPECT_THROW((void)lobe_method(method, structure(), other, {}), core::InputError);
+      if (takes) {
+        EXPECT_NO_THROW((void)lobe_method(method, structure(), other, {}));
+      } else EXPECT_THROW((void)lobe_method(method, structure(), other, {}), core::InputError);
     }
   }
 }

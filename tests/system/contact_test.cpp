@@ -275,7 +275,9 @@ TEST(Contact, OverTheSpeedsThePreloadIsWhatMoreIsLeftOfTheContact) {
   EXPECT_GT(std::ranges::count_if(once, [](double n) { return std::isfinite(n); }), 2);
   for (std::size_t i = 0; i < once.size(); ++i) {
     EXPECT_EQ(std::isnan(once[i]), std::isnan(twice[i]));
-    if (std::isfinite(once[i])) EXPECT_NEAR(twice[i] - once[i], 50.0, 1e-9);
+    if (std::isfinite(once[i])) {
+      EXPECT_NEAR(twice[i] - once[i], 50.0, 1e-9);
+    }
   }
 }
 
