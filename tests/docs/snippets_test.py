@@ -18,6 +18,7 @@ remark before a block says what becomes of it:
     <!-- add to: wall/case.toml -->         is written to the end of it
     <!-- not run: why -->                   commands that are not run, with the reason
 
+A run of a shipped case begins with what an equal run of another test has kept, so that a page waits for it once at most.
 A block of commands without one of these is a failure. Every other block that is TOML must name keys that docs/case-file.md
 has. A command ends before three blanks or " # ", where its explanation begins.
 """
@@ -26,6 +27,7 @@ import fnmatch
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -35,6 +37,9 @@ import time
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from shared_runs import shared_run  # noqa: E402
+
 LIMIT_S = 900
 COMMAND = re.compile(r"(\w+=\S+ )*(\$ )?(\./|((build|bench|cmake|fuzz|docs|\.ci|tests)/)+)?"
                      r"(thinwall|run|cmake|bench_\w+|check_\w+\.\w+|build|python3|apt-get|g\+\+|git|pip|export|cd|paraview)( |$)")
@@ -206,6 +211,7 @@ class Runner:
             expected = next((int(code) for code, *words in exits if any(word in command for word in words)
                              or not words and number == len(commands) - 1), 0)
             start = time.monotonic()
+            self.bring_kept_results(command, folder)
             code, text = self.call(command, folder)
             took = time.monotonic() - start
             print(f"{block.where()}: {command}  ({took:.1f} s)", flush=True)
@@ -217,6 +223,19 @@ class Runner:
                 self.check_missed(block, missed, text)
             output += text
         return output
+
+    def bring_kept_results(self, command, folder):
+        """Copies the results of an equal run to where this command would write, if there are none yet."""
+        if not re.match(r"(\./)?thinwall run cases/[\w-]+( |$)", command):
+            return
+        words = shlex.split(command)
+        case = words[2].removeprefix("cases/")
+        settings = [value for word, value in zip(words, words[1:]) if word == "--set"]
+        out = folder / next((value for word, value in zip(words, words[1:]) if word == "--out"), f"results/{case}")
+        if not out.exists():
+            kept, code = shared_run(self.program, ROOT, case, settings)
+            if code in (0, 6):
+                shutil.copytree(kept, out)
 
     def check_missed(self, block, named, output):
         """The expectations that do not hold are those that the remark names: any other one would go unnoticed."""

@@ -8,7 +8,7 @@ import thinwall
 
 
 def test_a_result_folder_as_arrays(run_case):
-    results = run_case("barrios-2019", "part.mesh.tolerance=0.05")
+    results = run_case("barrios-2019")
     summary = results.summary
     assert summary == json.loads((results.folder / "summary.json").read_text(encoding="utf-8"))
     assert "summary.json" in json.dumps(results.manifest)
@@ -25,7 +25,7 @@ def test_a_result_folder_as_arrays(run_case):
 
 
 def test_receptances_of_a_run_are_reciprocal_passive_and_coupled_as_its_own_formula_says(run_case):
-    results = run_case("barrios-2019", "part.mesh.tolerance=0.05")
+    results = run_case("barrios-2019")
     H = results.frf["part"]
     values = H.H
     assert values.shape == (len(H.frequency_hz), len(H.responses), len(H.forces))
@@ -38,7 +38,7 @@ def test_receptances_of_a_run_are_reciprocal_passive_and_coupled_as_its_own_form
 
 
 def test_shapes_of_a_run_lie_on_its_mesh(run_case):
-    results = run_case("barrios-2019", "part.mesh.tolerance=0.05")
+    results = run_case("barrios-2019")
     shapes = results.shapes()
     assert [s.frequency_hz for s in shapes] == pytest.approx(
         list(results.modes["modes"]["frequency_hz"][: len(shapes)]), rel=1e-12
