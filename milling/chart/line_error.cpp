@@ -13,13 +13,18 @@ constexpr double unknown = std::numeric_limits<double>::infinity();
 constexpr double safety = 2.0;
 constexpr double unseen = 0.2;  // of the rise over a corner's gap: lobes may end there otherwise than they seem to
 
+/// The chatter frequency in cuts of the period T: f_c T, by which a motion's multiplier is turned each period.
+double periods_of(const LobeRow& row, double periods_per_turn) {
+  return 60.0 * row.chatter_frequency_hz / (periods_per_turn * row.spindle_speed_rpm);
+}
+
 /// True if the boundary runs smoothly from one row to the other; of two rows at the depth limit, if it is one motion
 /// that decays least.
 bool on_one_lobe(const LobeRow& a, const LobeRow& b, double periods_per_turn) {
   constexpr double step = 0.05;
   if (a.at_limit != b.at_limit) return false;
   const auto lobe = [&](const LobeRow& row) {
-    const double periods = 60.0 * row.chatter_frequency_hz / (periods_per_turn * row.spindle_speed_rpm);
+    const double periods = periods_of(row, periods_per_turn);
     return row.kind == Bifurcation::fold ? std::round(periods) : std::floor(periods);  // of a fold it is a whole number
   };
   const double f = a.chatter_frequency_hz, g = b.chatter_frequency_hz;
@@ -88,6 +93,19 @@ double distance_from_chord(const Around& at, Value value) {
 
 double smooth_error(const Around& at) {
   return distance_from_chord(at, depth) / std::sqrt(depth(*at.left) * depth(*at.right));
+}
+
+/// The share of the gap between two rows of one lobe, or of one motion at the depth limit, at which its pair of
+/// multipliers passes −1 (at the limit: the real axis left of 0): where f_c T is a whole number and a half; none if it
+/// does not. There the two are equal and real, so that beside this speed one of them alone may leave the unit circle
+/// sooner: a flip lobe begins and ends within the gap although both rows show the same motion.
+std::optional<double> passage_of_flip(const LobeRow& left, const LobeRow& right, double periods_per_turn) {
+  if (left.kind != Bifurcation::hopf) return std::nullopt;
+  if (right.spindle_speed_rpm <= left.spindle_speed_rpm * (1.0 + narrow_flip_lobe)) return std::nullopt;
+  const double a = periods_of(left, periods_per_turn), b = periods_of(right, periods_per_turn);
+  const double half = std::floor(a) + 0.5;
+  if ((a - half) * (b - half) > 0.0 || a == b) return std::nullopt;
+  return std::clamp((half - a) / (b - a), 0.05, 0.95);
 }
 
 /// Between two rows that are stable to the depth limit a lobe may be hidden if the growth of motions there, as far as
@@ -174,7 +192,11 @@ std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingPr
     gap.corner = !joined[i];
     if (right.spindle_speed_rpm <= left.spindle_speed_rpm * (1.0 + narrow_gap)) continue;
     const Around at = around(rows, joined, i);
-    if (left.at_limit && right.at_limit) gap.error = may_hide_lobe(at, joined[i]) ? unknown : 0.0;
+    const std::optional<double> flip = gap.corner ? std::nullopt : passage_of_flip(left, right, periods);
+    if (flip) {
+      gap.error = unknown;
+      gap.corner_rpm = left.spindle_speed_rpm + *flip * width(at);
+    } else if (left.at_limit && right.at_limit) gap.error = may_hide_lobe(at, joined[i]) ? unknown : 0.0;
     else if (gap.corner) add_corner(at, gap);
     else gap.error = smooth_error(at);
   }

@@ -19,6 +19,9 @@ struct LineGap {
 /// A gap is narrow where its speeds differ by this share: a step of the boundary within is drawn as one.
 constexpr double narrow_gap = 1e-5;
 
+/// A flip lobe that is narrower than this share of the speed is not searched for: no spindle holds its speed better.
+constexpr double narrow_flip_lobe = 1e-3;
+
 /// The gaps of a chart. Where both rows lie on one lobe (the kind of the instability and ⌊f_c T⌋ are equal and f_c
 /// hardly differs; T the period of the cut) the boundary within is smooth, and a chord of width h is off by
 ///
@@ -27,7 +30,11 @@ constexpr double narrow_gap = 1e-5;
 /// with the larger of the divided differences of both sides, doubled for what it changes within the gap. Where two
 /// lobes meet the boundary is the lower of them, and each is continued into the gap, in 1/w by the parabola of three of
 /// its rows, or by its last chord where it has two. A gap beside which a lobe has one row only tells nothing: the error
-/// is infinite. It is 0 of a narrow gap. `rows` by rising speed. Cost O(rows).
+/// is infinite. Where f_c T of a Hopf lobe, or of the least stable motion at the depth limit, passes a whole number and
+/// a half, a pair of multipliers passes −1 and a flip lobe may lie within (strong resonance 1:2; Kuznetsov, Elements of
+/// Applied Bifurcation Theory, 2004, section 9.5.3): the error of such a gap is infinite, too, unless it is narrower
+/// than `narrow_flip_lobe`, and its corner is that passage, linearly between the rows. The error is 0 of a narrow gap.
+/// `rows` by rising speed. Cost O(rows).
 [[nodiscard]] std::vector<LineGap> line_gaps(const std::vector<LobeRow>& rows, const MillingProcess& process);
 
 }  // namespace thinwall::milling

@@ -140,6 +140,25 @@ TEST(RefinedLine, SeesThePeakOfALobeThatBendsUpwardsBeforeItsCorner) {
   EXPECT_GE(line_gaps(rows, two_teeth())[2].error, off);
 }
 
+// Between 5050 and 5100 rpm the multipliers of the Hopf lobe pass -1, and a flip lobe of ten rpm lies there.
+TEST(RefinedLine, SeesAFlipLobeThatLiesBetweenTwoSpeedsOnAHopfLobe) {
+  const MillingProcess process = testing::benchmark_process(0.5);
+  const RelativeStructure structure =
+      relative_structure(testing::modal_model({{922.0, 0.011, 0.03993, Eigen::Vector3d::UnitX()},
+                                               {922.0, 0.011, 0.03993, Eigen::Vector3d::UnitY()}}),
+                         "P");
+  const StabilityOptions options;
+  const RowAt row_at = [&](double rpm, const StabilityOptions& with) {
+    return limiting_depth(structure, process, rpm, with);
+  };
+  const Lobes even = even_chart(5000.0, 5200.0, 5, row_at, options);
+  for (const LobeRow& row : even.rows) ASSERT_EQ(row.kind, Bifurcation::hopf);
+  const Lobes chart = refined(even, row_at, process, options, {0.02, 400});
+  EXPECT_TRUE(chart.line->met);
+  EXPECT_TRUE(std::ranges::any_of(chart.rows, [](const LobeRow& row) { return row.kind == Bifurcation::flip; }));
+  EXPECT_LT(std::ranges::max(distances(chart, row_at, options, spindle_speeds(5000.5, 5199.5, 200))), 0.03);
+}
+
 TEST(RefinedLine, GoesThroughTheSpeedsThatAreAsked) {
   const Lobes without = closed_form_chart({});
   const double within = without.rows[7].spindle_speed_rpm + 1.0;
@@ -224,6 +243,11 @@ Lobes chart_of(const RandomCut& cut, const RowAt& row_at, const StabilityOptions
   return refined(even, row_at, cut.process, options, {0.02, 4000});
 }
 
+bool in_narrow_gap(const Lobes& chart, double rpm) {
+  const auto right = std::ranges::lower_bound(chart.rows, rpm, {}, &LobeRow::spindle_speed_rpm);
+  return right->spindle_speed_rpm <= std::prev(right)->spindle_speed_rpm * (1.0 + narrow_gap);
+}
+
 class LineOfARandomCut : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(LineOfARandomCut, IsTheBoundaryBetweenItsSpeeds) {
@@ -241,10 +265,8 @@ TEST_P(LineOfARandomCut, IsTheBoundaryBetweenItsSpeeds) {
   for (int i = 0; i < looked_at; ++i)
     rpm.push_back(cut.slowest_rpm + (cut.fastest_rpm - cut.slowest_rpm) * (generator() + 0.5) / 4294967296.0);
   options.follow = 1.0;
-  const auto distance = distances(chart, row_at, options, rpm);
-  const auto beyond = std::ranges::count_if(distance, [](double d) { return d > 0.03; });
-  // A lobe that lies between two of the even speeds as a whole is not seen: two of these twenty charts have one.
-  EXPECT_LE(beyond, looked_at / 500);
+  std::erase_if(rpm, [&](double n) { return in_narrow_gap(chart, n); });  // a step of the boundary, drawn as one
+  EXPECT_LE(std::ranges::max(distances(chart, row_at, options, rpm)), 0.03);
 }
 
 INSTANTIATE_TEST_SUITE_P(RandomSystems, LineOfARandomCut, ::testing::Range(1U, 21U));
