@@ -128,11 +128,11 @@ TEST(MillingRobot, IsTheArmOfItsLinksInItsPosture) {
   milling::SimulationOptions options;
   options.settling_turns = 2;
   options.recorded_turns = 3;
-  const milling::SimulatedCut cut =
+  const milling::SimulatedCut by_library =
       milling::simulate(arm, process, process.coefficients, {18700.0, 1.6e-3, *feed_per_tooth(source)}, options);
-  EXPECT_GT(cut.displacement_m.high.y(), 1e-8);
-  EXPECT_LT((simulated[0].cut.displacement_m.high - cut.displacement_m.high).norm(),
-            1e-9 * cut.displacement_m.high.norm());
+  EXPECT_GT(by_library.displacement_m.high.y(), 1e-8);
+  EXPECT_LT((simulated[0].cut.displacement_m.high - by_library.displacement_m.high).norm(),
+            1e-9 * by_library.displacement_m.high.norm());
 }
 
 TEST(MillingRobot, StandsWithItsTipAtTheCut) {

@@ -222,8 +222,8 @@ TEST(PartFile, AMeshIsSolvedOnItsOwnNodesAndHeldByItsSets) {
   try {
     (void)parse_case(text("clampd"), folder);
     ADD_FAILURE() << "a set that is not there";
-  } catch (const core::Error& error) {
-    EXPECT_NE(std::string(error.what()).find("clamped"), std::string::npos) << error.what();
+  } catch (const core::Error& refusal) {
+    EXPECT_NE(std::string(refusal.what()).find("clamped"), std::string::npos) << refusal.what();
   }
 }
 
