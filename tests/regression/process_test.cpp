@@ -13,40 +13,12 @@
 namespace thinwall::regression::process_test {
 namespace {
 
-using testing::toy_rows;
-
 Eigen::VectorXd vector_of(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-/// u = ((x - 1600)/300, y/300, kappa/60); targets standardised by mean and population deviation of the values used.
-TaskData toy(std::vector<int> tasks, bool third_at_28 = false) {
-  TaskData data;
-  const auto n = static_cast<Eigen::Index>(toy_rows.size());
-  data.inputs.resize(n, 3);
-  data.targets.resize(n, static_cast<Eigen::Index>(tasks.size()));
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto& row = toy_rows[static_cast<std::size_t>(i)];
-    data.inputs.row(i) << (row.x_mm - 1600.0) / 300.0, row.y_mm / 300.0, row.kappa_deg / 60.0;
-    for (std::size_t t = 0; t < tasks.size(); ++t) {
-      double value = tasks[t] == 0 ? row.y1 : tasks[t] == 1 ? row.y2 : row.y3;
-      if (third_at_28 && tasks[t] == 2 && !row.task3_measured) value = std::numeric_limits<double>::quiet_NaN();
-      data.targets(i, static_cast<Eigen::Index>(t)) = value;
-    }
-  }
-  for (Eigen::Index t = 0; t < data.targets.cols(); ++t) {
-    double sum = 0.0, square = 0.0, count = 0.0;
-    for (const double v : data.targets.col(t)) {
-      if (std::isnan(v)) continue;
-      sum += v;
-      count += 1.0;
-    }
-    for (const double v : data.targets.col(t)) {
-      if (!std::isnan(v)) square += (v - sum / count) * (v - sum / count);
-    }
-    data.targets.col(t).array() = (data.targets.col(t).array() - sum / count) / std::sqrt(square / count);
-  }
-  return data;
+TaskData toy(const std::vector<int>& tasks, bool third_at_28 = false) {
+  return testing::toy_data(tasks, third_at_28);
 }
 
 Eigen::MatrixXd test_places() {

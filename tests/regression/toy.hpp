@@ -1,7 +1,12 @@
 #pragma once
 // Three targets over the 112 postures of a synthetic robot, with noise, drawn outside this project.
 
+#include <Eigen/Core>
 #include <array>
+#include <limits>
+#include <vector>
+
+#include "regression/gaussian_process.hpp"
 
 namespace thinwall::regression::testing {
 
@@ -124,5 +129,24 @@ inline constexpr std::array<ToyRow, 112> toy_rows{{
     {1900, 300, 20, 10.248396945, 17.0952684746, 4.61462566958, 10.3897445936, 17.2301682822, 4.56887684398, 4, false},
     {1900, 300, 40, 10.3815311108, 17.1198452867, 4.9325750291, 10.4945627721, 17.2234523761, 4.75938820553, 1, false},
     {1900, 300, 60, 10.5681852175, 17.1103814209, 4.51739468504, 10.5169723728, 17.2888439754, 4.89839420598, 2, true}}};
+
+/// u = ((x - 1600)/300, y/300, kappa/60); targets standardised by mean and population deviation of the values used.
+inline TaskData toy_data(const std::vector<int>& tasks, bool third_at_28 = false, bool without_noise = false) {
+  TaskData data;
+  const auto n = static_cast<Eigen::Index>(toy_rows.size());
+  data.inputs.resize(n, 3);
+  data.targets.resize(n, static_cast<Eigen::Index>(tasks.size()));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const ToyRow& row = toy_rows[static_cast<std::size_t>(i)];
+    data.inputs.row(i) << (row.x_mm - 1600.0) / 300.0, row.y_mm / 300.0, row.kappa_deg / 60.0;
+    const std::array<double, 3> y = without_noise ? std::array{row.f1, row.f2, row.f3} : std::array{row.y1, row.y2, row.y3};
+    for (std::size_t t = 0; t < tasks.size(); ++t) {
+      const bool missing = third_at_28 && tasks[t] == 2 && !row.task3_measured;
+      data.targets(i, static_cast<Eigen::Index>(t)) =
+          missing ? std::numeric_limits<double>::quiet_NaN() : y[static_cast<std::size_t>(tasks[t])];
+    }
+  }
+  return standardised(data).data;
+}
 
 }  // namespace thinwall::regression::testing
