@@ -94,7 +94,7 @@ Eigen::VectorXd start(int number, Eigen::Index dimensions, Eigen::Index tasks, c
   p.L = Eigen::MatrixXd::Identity(tasks, tasks);
   p.noise_sd.setConstant(tasks, 0.3);
   if (number > 0) {
-    for (double& length : p.length) length = std::exp(between(std::log(0.3), std::log(5.0)));
+    for (double& length : p.length) length = std::exp(between(std::log(0.12), std::log(5.0)));
     for (Eigen::Index i = 0; i < tasks; ++i) {
       for (Eigen::Index j = 0; j < i; ++j) p.L(i, j) = between(-0.7, 0.7);
       p.L(i, i) = between(0.3, 2.0);
