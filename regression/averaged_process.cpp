@@ -1,5 +1,6 @@
 #include "regression/averaged_process.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -92,8 +93,11 @@ AveragedProcess::AveragedProcess(const TaskData& data, const AveragingOptions& o
   double value = posterior(theta);
   if (!std::isfinite(value))
     throw core::NumericalError("averaged process: the covariance is not positive definite; two places may be the same");
+  // The draws keep their factors, n² numbers each.
+  const double places = static_cast<double>(data.places());
+  const int samples = std::min(options.samples, std::max(12, static_cast<int>(4e5 / (places * places))));
   std::mt19937 random(options.seed);
-  for (int sweep = 0; static_cast<int>(draws_.size()) < options.samples; ++sweep) {
+  for (int sweep = 0; static_cast<int>(draws_.size()) < samples; ++sweep) {
     for (Eigen::Index k = 0; k < theta.size(); ++k) slice(posterior, theta, k, value, random);
     if (sweep < first_sweeps || (sweep - first_sweeps) % sweeps_between != 0) continue;
     auto drawn = dense_process(options.kernel, scaled.data, unpacked(theta, data.inputs.cols(), 1));
