@@ -38,6 +38,24 @@ std::vector<TappedPosture> in_order(const std::vector<TappedPosture>& postures, 
   return result;
 }
 
+/// What lies above the modes, at the postures whose fit was kept: the constant of the low band less the high modes.
+void read_rests(const std::string& file, std::vector<TappedPosture>& postures) {
+  std::ifstream in(file);
+  if (!in) return;
+  const nlohmann::json json = nlohmann::json::parse(in);
+  for (const auto& [number, kept] : json["postures"].items()) {
+    TappedPosture& posture = postures[static_cast<std::size_t>(std::stoul(number))];
+    const auto constant = kept["low"]["fit"]["residual_terms"][0].get<std::vector<double>>();
+    Eigen::MatrixXcd rest = Eigen::Map<const Eigen::MatrixXd>(constant.data(), 4, 4).transpose().topLeftCorner(2, 2);
+    std::vector<identification::FittedMode> high;
+    for (const identification::FittedMode& mode : posture.modes) {
+      if (mode.frequency_hz > 300.0) high.push_back(mode);
+    }
+    rest -= receptance(high, 0.0).topLeftCorner(2, 2);
+    posture.rest = rest.real();
+  }
+}
+
 Robot read_robot(const std::string& folder, const std::string& name) {
   const std::string end = "_" + name;
   Robot robot{read_arm(folder + "/arm" + end + ".json", 0.0334),
@@ -48,6 +66,7 @@ Robot read_robot(const std::string& folder, const std::string& name) {
               {}};
   read_modes(folder + "/modes_identified" + end + ".csv", "continuation", {"1X", "1Y", "aX", "aY"}, robot.tapped);
   read_modes(folder + "/modes_test" + end + ".csv", "label", {"1X", "1Y"}, robot.truth);
+  read_rests(folder + "/identification" + end + ".json", robot.tapped);
   TappedArm tip = robot.arm;
   tip.responses = tip.references = robot.arm.responses.topRows(2);
   for (std::vector<TappedPosture>* postures : {&robot.tapped, &robot.truth}) {
@@ -126,7 +145,7 @@ void compare_receptances(const PosturePrediction& at, const TappedPosture& truth
 
 void compare_depths(const PosturePrediction& at, const Eigen::VectorXd& truth, const PostureCut& cut, int draws,
                     Errors& errors) {
-  const Eigen::VectorXd depth = limiting_depths(expected_modes(at), cut);
+  const Eigen::VectorXd depth = limiting_depths(expected_modes(at), cut, at.rest);
   for (Eigen::Index i = 0; i < depth.size(); ++i) errors.depth.push_back(std::abs(depth(i) / truth(i) - 1.0));
   if (draws == 0) return;
   const DepthBand band = depth_band_from_draws(at, cut, draws);

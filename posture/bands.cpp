@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "milling/direct/stability.hpp"
 
@@ -45,6 +46,12 @@ Eigen::MatrixXcd roots_of_parts(const Eigen::MatrixXcd& square) {
   return square.unaryExpr([](Complex c) { return Complex(std::sqrt(c.real()), std::sqrt(c.imag())); });
 }
 
+/// The variance of what the modes leave out, which is real; zeros of the size of H where it is not known.
+Eigen::MatrixXcd rest_variance(const PosturePrediction& prediction, const Eigen::MatrixXcd& H) {
+  if (prediction.rest.size() == 0) return Eigen::MatrixXcd::Zero(H.rows(), H.cols());
+  return prediction.rest_deviation.cwiseAbs2().cast<Complex>();
+}
+
 }  // namespace
 
 std::vector<FittedMode> expected_modes(const PosturePrediction& prediction) {
@@ -79,7 +86,7 @@ FrfBand frf_band(const PosturePrediction& prediction, const std::vector<double>&
   FrfBand band;
   for (const double f : hz) {
     band.mean.push_back(receptance(expected, f));
-    band.deviation.emplace_back(Eigen::MatrixXcd::Zero(band.mean.back().rows(), band.mean.back().cols()));
+    band.deviation.emplace_back(rest_variance(prediction, band.mean.back()));
   }
   for (const PredictedMode& mode : prediction.modes) {
     for (Eigen::Index t = 0; t < mode.mean.size(); ++t) {
@@ -89,6 +96,9 @@ FrfBand frf_band(const PosturePrediction& prediction, const std::vector<double>&
     }
   }
   for (Eigen::MatrixXcd& deviation : band.deviation) deviation = roots_of_parts(deviation);
+  if (prediction.rest.size() > 0) {
+    for (Eigen::MatrixXcd& mean : band.mean) mean += prediction.rest;
+  }
   return band;
 }
 
@@ -102,25 +112,34 @@ FrfBand frf_band_from_draws(const PosturePrediction& prediction, const std::vect
     band.mean.push_back(receptance(expected, f));
     Eigen::MatrixXcd sum = Eigen::MatrixXcd::Zero(band.mean.back().rows(), band.mean.back().cols());
     for (const std::vector<FittedMode>& modes : drawn) sum += squares_of_parts(receptance(modes, f) - band.mean.back());
-    band.deviation.push_back(roots_of_parts(sum / static_cast<double>(draws)));
+    band.deviation.push_back(
+        roots_of_parts(sum / static_cast<double>(draws) + rest_variance(prediction, band.mean.back())));
+    if (prediction.rest.size() > 0) band.mean.back() += prediction.rest;
   }
   return band;
 }
 
-milling::RelativeStructure structure_of(const std::vector<FittedMode>& modes, const PostureCut& cut) {
-  const auto n = static_cast<Eigen::Index>(modes.size());
-  milling::RelativeStructure structure{Eigen::VectorXcd(n), Eigen::Matrix3Xcd(3, n), Eigen::Matrix3Xcd(3, n)};
-  for (Eigen::Index r = 0; r < n; ++r) {
-    const FittedMode& mode = modes[static_cast<std::size_t>(r)];
-    structure.poles(r) = mode.pole();
-    structure.phi.col(r) = cut.responses * mode.right;
-    structure.b.col(r) = cut.references * mode.left;
+milling::RelativeStructure structure_of(const std::vector<FittedMode>& modes, const PostureCut& cut,
+                                        const Eigen::MatrixXd& rest) {
+  milling::RelativeStructure structure;
+  for (const FittedMode& mode : modes) {
+    const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(mode.residue, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const Eigen::VectorXd& size = svd.singularValues();
+    const Eigen::Index before = structure.poles.size(), ranks = (size.array() > 1e-9 * size(0)).count();
+    structure.poles.conservativeResize(before + ranks);
+    structure.phi.conservativeResize(3, before + ranks);
+    structure.b.conservativeResize(3, before + ranks);
+    structure.poles.tail(ranks).setConstant(mode.pole());
+    structure.phi.rightCols(ranks) = cut.responses * svd.matrixU().leftCols(ranks) * size.head(ranks).asDiagonal();
+    structure.b.rightCols(ranks) = cut.references * svd.matrixV().leftCols(ranks).conjugate();
   }
+  if (rest.size() > 0) structure.R = cut.responses * rest * cut.references.transpose();
   return structure;
 }
 
-Eigen::VectorXd limiting_depths(const std::vector<FittedMode>& modes, const PostureCut& cut) {
-  const milling::RelativeStructure structure = structure_of(modes, cut);
+Eigen::VectorXd limiting_depths(const std::vector<FittedMode>& modes, const PostureCut& cut,
+                                const Eigen::MatrixXd& rest) {
+  const milling::RelativeStructure structure = structure_of(modes, cut, rest);
   milling::StabilityOptions options = cut.stability;
   options.follow = 1.0;
   Eigen::VectorXd depths(static_cast<Eigen::Index>(cut.spindle_speeds_rpm.size()));
@@ -138,8 +157,8 @@ DepthBand depth_band_from_draws(const PosturePrediction& prediction, const Postu
   Eigen::MatrixXd drawn(static_cast<Eigen::Index>(cut.spindle_speeds_rpm.size()), draws);
   Eigen::Index column = 0;
   for (const std::vector<FittedMode>& modes : drawn_modes(prediction, draws, seed))
-    drawn.col(column++) = limiting_depths(modes, cut);
-  DepthBand band{limiting_depths(expected_modes(prediction), cut), Eigen::VectorXd(drawn.rows()),
+    drawn.col(column++) = limiting_depths(modes, cut, prediction.rest);
+  DepthBand band{limiting_depths(expected_modes(prediction), cut, prediction.rest), Eigen::VectorXd(drawn.rows()),
                  Eigen::VectorXd(drawn.rows())};
   for (Eigen::Index i = 0; i < drawn.rows(); ++i) {
     Eigen::VectorXd row = drawn.row(i);
@@ -161,7 +180,7 @@ Eigen::MatrixXd depth_slopes(const PosturePrediction& prediction, const PostureC
     const FittedMode expected = modes[r];
     const auto ln_depths = [&](Eigen::Index t, double deviations) {
       modes[r] = moved_in(prediction, prediction.modes[r], t, deviations);
-      return Eigen::VectorXd(limiting_depths(modes, cut).array().log());
+      return Eigen::VectorXd(limiting_depths(modes, cut, prediction.rest).array().log());
     };
     for (Eigen::Index t = 0; t < prediction.modes[r].mean.size(); ++t)
       slopes.col(column++) = 0.5 * (ln_depths(t, 1.0) - ln_depths(t, -1.0));
@@ -171,7 +190,7 @@ Eigen::MatrixXd depth_slopes(const PosturePrediction& prediction, const PostureC
 }
 
 DepthBand depth_band(const PosturePrediction& prediction, const PostureCut& cut) {
-  const Eigen::VectorXd depth = limiting_depths(expected_modes(prediction), cut);
+  const Eigen::VectorXd depth = limiting_depths(expected_modes(prediction), cut, prediction.rest);
   const Eigen::ArrayXd sigma = depth_slopes(prediction, cut).rowwise().norm();
   return {depth, depth.array() * (-1.96 * sigma).exp(), depth.array() * (1.96 * sigma).exp()};
 }

@@ -21,7 +21,7 @@ namespace thinwall::posture {
 /// Σ_r residue_r/(s − λ_r) + conj., s = iω, responses × references, m/N.
 [[nodiscard]] Eigen::MatrixXcd receptance(const std::vector<identification::FittedMode>& modes, double hz);
 
-/// A receptance with its uncertainty at some lines.
+/// A receptance with its uncertainty at some lines, with what the modes leave out.
 struct FrfBand {
   std::vector<Eigen::MatrixXcd> mean;       ///< of the expected modes, m/N
   std::vector<Eigen::MatrixXcd> deviation;  ///< of real and of imaginary part
@@ -46,13 +46,16 @@ struct PostureCut {
   milling::StabilityOptions stability;
 };
 
-/// The structure that the cut feels: the workpiece is rigid.
+/// The structure that the cut feels: the workpiece is rigid. A residue has as many pairs of shapes as its rank: near a
+/// crossing those of two modes exchange their shapes, and only their sum, which a rank of one would change, is smooth
+/// over the postures. `rest` is the static compliance that the modes leave out,
+/// m/N; empty: none.
 [[nodiscard]] milling::RelativeStructure structure_of(const std::vector<identification::FittedMode>& modes,
-                                                      const PostureCut& cut);
+                                                      const PostureCut& cut, const Eigen::MatrixXd& rest = {});
 
 /// Limiting depths, m, at each speed. Throws as milling::limiting_depth().
 [[nodiscard]] Eigen::VectorXd limiting_depths(const std::vector<identification::FittedMode>& modes,
-                                              const PostureCut& cut);
+                                              const PostureCut& cut, const Eigen::MatrixXd& rest = {});
 
 /// Limiting depths with their band, m, at each speed.
 struct DepthBand {
@@ -60,8 +63,8 @@ struct DepthBand {
   Eigen::VectorXd low, high;  ///< 95 % of the depths lie between
 };
 
-/// The band from draws, between their quantiles at 2.5 % and 97.5 %. Throws InputError for fewer than 40 draws, which
-/// have no such quantiles. Cost: draws × speeds times limiting_depth().
+/// The band from draws of the modes, between their quantiles at 2.5 % and 97.5 %. Throws InputError for fewer than 40
+/// draws, which have no such quantiles. Cost: draws × speeds times limiting_depth().
 [[nodiscard]] DepthBand depth_band_from_draws(const PosturePrediction& prediction, const PostureCut& cut, int draws,
                                               unsigned seed = 1);
 

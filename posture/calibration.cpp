@@ -107,6 +107,40 @@ Differences differences(const TappedArm& nominal, const std::vector<TappedPostur
   return result;
 }
 
+/// The search for the least of the objective.
+struct Search {
+  const TappedArm& nominal;
+  const std::vector<TappedPosture>& postures;
+  const CalibrationOptions& options;
+  Eigen::VectorXd first;   ///< nominal values
+  Eigen::VectorXd weight;  ///< 1/σ² of the priors
+  Eigen::VectorXd p{};
+  Differences at{};
+
+  [[nodiscard]] double objective(const Differences& there, const Eigen::VectorXd& place) const {
+    // A mode that lost its partner counts as one that is wrong by three deviations, or losing it would be a gain.
+    return there.sum - 9.0 * there.count + (place - first).cwiseAbs2().dot(weight);
+  }
+  [[nodiscard]] Eigen::LLT<Eigen::MatrixXd> information() const {
+    return Eigen::LLT<Eigen::MatrixXd>(Eigen::MatrixXd(at.JtJ + Eigen::MatrixXd(weight.asDiagonal())));
+  }
+};
+
+/// Takes one step; true where there is none left that lowers the objective.
+bool gauss_newton_step(Search& search) {
+  const Eigen::VectorXd slope = search.at.Jtr - search.weight.cwiseProduct(search.p - search.first);
+  const Eigen::VectorXd step = search.information().solve(slope);
+  for (double share = 1.0; share > 1e-4; share *= 0.5) {
+    const Eigen::VectorXd place = search.p + share * step;
+    Differences there = differences(search.nominal, search.postures, place, search.options);
+    if (search.objective(there, place) > search.objective(search.at, search.p)) continue;
+    search.p = place;
+    search.at = std::move(there);
+    return step.cwiseAbs().maxCoeff() < 1e-8;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::vector<int> paired(const std::vector<identification::FittedMode>& identified,
@@ -132,39 +166,24 @@ Calibration calibrate(const TappedArm& nominal, const std::vector<TappedPosture>
                       const CalibrationOptions& options) {
   require_tapped(nominal, postures);
   const Eigen::Index n = nominal.arm.joints();
-  const Eigen::VectorXd first = unknowns_of(nominal.arm);
-  Eigen::VectorXd weight = Eigen::VectorXd::Constant(2 * n, std::pow(options.sd_ln_stiffness, -2));
-  weight.tail(n).setConstant(std::pow(options.sd_ln_joint_damping, -2));
-  const auto total = [&](const Differences& at, const Eigen::VectorXd& p) {
-    // A mode that lost its partner counts as one that is wrong by three deviations, or losing it would be a gain.
-    return at.sum - 9.0 * at.count + (p - first).cwiseAbs2().dot(weight);
-  };
-  Calibration result;
-  Eigen::VectorXd p = first;
-  Differences at = differences(nominal, postures, p, options);
-  if (at.count == 0)
+  Search search{nominal, postures, options, unknowns_of(nominal.arm), Eigen::VectorXd(2 * n)};
+  search.weight << Eigen::VectorXd::Constant(n, std::pow(options.sd_ln_stiffness, -2)),
+      Eigen::VectorXd::Constant(n, std::pow(options.sd_ln_joint_damping, -2));
+  search.p = search.first;
+  search.at = differences(nominal, postures, search.p, options);
+  if (search.at.count == 0)
     throw core::InputError("calibration: no identified mode is like one of the arm's; check units, joints and rows");
-  const auto information = [&] { return Eigen::MatrixXd(at.JtJ + Eigen::MatrixXd(weight.asDiagonal())); };
+  Calibration result;
   while (result.steps < options.most_steps && !result.converged) {
     ++result.steps;
-    const Eigen::VectorXd step =
-        Eigen::LLT<Eigen::MatrixXd>(information()).solve(at.Jtr - weight.cwiseProduct(p - first));
-    double share = 1.0;
-    for (; share > 1e-4; share *= 0.5) {
-      Differences next = differences(nominal, postures, p + share * step, options);
-      if (total(next, p + share * step) > total(at, p)) continue;
-      p += share * step;
-      at = std::move(next);
-      break;
-    }
-    result.converged = step.cwiseAbs().maxCoeff() < 1e-8 || share <= 1e-4;
+    result.converged = gauss_newton_step(search);
   }
-  result.arm = with_unknowns(nominal.arm, p);
-  result.stiffness = p.head(n).array().exp();
-  result.damping = p.tail(n).array().exp();
-  result.covariance = Eigen::LLT<Eigen::MatrixXd>(information()).solve(Eigen::MatrixXd::Identity(2 * n, 2 * n));
-  result.model = at.model;
-  result.rms = std::sqrt(at.sum / at.count);
+  result.arm = with_unknowns(nominal.arm, search.p);
+  result.stiffness = search.p.head(n).array().exp();
+  result.damping = search.p.tail(n).array().exp();
+  result.covariance = search.information().solve(Eigen::MatrixXd::Identity(2 * n, 2 * n));
+  result.model = search.at.model;
+  result.rms = std::sqrt(search.at.sum / search.at.count);
   return result;
 }
 

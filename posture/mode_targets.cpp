@@ -47,7 +47,7 @@ identification::FittedMode mode_of(const Eigen::VectorXd& targets, Eigen::Index 
   const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   mode.left = svd.matrixV().col(0).conjugate();
   mode.right = svd.matrixU().col(0) * svd.singularValues()(0) / std::complex<double>(0.0, 2.0 * mode.pole().imag());
-  mode.residue = mode.right * mode.left.transpose();
+  mode.residue = A / std::complex<double>(0.0, 2.0 * mode.pole().imag());
   if (svd.singularValues().size() > 1 && svd.singularValues()(0) > 0.0)
     mode.second_singular = svd.singularValues()(1) / svd.singularValues()(0);
   Eigen::Index largest = 0;

@@ -21,8 +21,8 @@ namespace thinwall::posture {
 /// The turn from the tip's frame into the world's.
 [[nodiscard]] Turn back(const Turn& turn);
 
-/// The mode of such numbers, for that many responses; the nearest residue of rank one is taken (Eckart & Young 1936),
-/// its left vector with largest entry 1.
+/// The mode of such numbers, for that many responses. Its vectors are those of the nearest residue of rank one (Eckart
+/// & Young 1936), the left one with largest entry 1; the residue is as the numbers say.
 [[nodiscard]] identification::FittedMode mode_of(const Eigen::VectorXd& targets, Eigen::Index responses);
 
 }  // namespace thinwall::posture

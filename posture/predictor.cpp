@@ -31,6 +31,12 @@ void require_alike(const TappedPosture& posture, const TappedPosture& first, std
   if (posture.label.size() != posture.modes.size())
     refuse(where + " has " + std::to_string(posture.label.size()) + " labels for " +
            std::to_string(posture.modes.size()) + " modes, must be as many; track the modes first");
+  if (posture.place.turn.responses.size() != first.place.turn.responses.size() ||
+      posture.place.turn.references.size() != first.place.turn.references.size())
+    refuse(where + " has another turn into the tip's frame than the first, must be of the same size; give all or none");
+  if (posture.rest.size() > 0 && !posture.modes.empty() && posture.rest.size() != posture.modes.front().residue.size())
+    refuse(where + " has " + std::to_string(posture.rest.size()) + " entries of the rest, must be " +
+           std::to_string(posture.modes.front().residue.size()) + " as of a residue");
 }
 
 Eigen::MatrixXd places_of(const std::vector<TappedPosture>& postures) {
@@ -196,7 +202,8 @@ PredictedMode Predictor::predicted(const Learned& learned, const Place& place, c
 PosturePrediction Predictor::predict(const Place& place) const {
   if (place.turn.responses.size() == 0 && std::ranges::any_of(learned_, &Learned::in_tip_frame))
     refuse("a place without a turn, must have one as the postures have; take tip_turn()");
-  PosturePrediction result{responses_, {}, distance_from_hull(places_, place.at)};
+  PosturePrediction result{responses_, {}, {}, {}, distance_from_hull(places_, place.at)};
+  predict_rest(place, result);
   std::vector<FittedMode> model;
   if (options_.mean) model = as_identified(arm_modes(options_.mean->arm, place.q), *options_.mean);
   const std::vector<int> number = model_numbers(place);
@@ -211,6 +218,31 @@ PosturePrediction Predictor::predict(const Place& place) const {
       result.modes.push_back(unseen(model[m], options_));
   }
   return result;
+}
+
+void Predictor::predict_rest(const Place& place, PosturePrediction& at) const {
+  std::vector<Eigen::MatrixXd> known;
+  const auto matrix = [](const Eigen::MatrixXd& turn, Eigen::Index n) {
+    return turn.size() > 0 ? turn : Eigen::MatrixXd::Identity(n, n);
+  };
+  for (const TappedPosture& p : postures_) {
+    if (p.rest.size() == 0) continue;
+    const Turn& turn = place.turn.responses.size() > 0 ? p.place.turn : place.turn;
+    known.push_back(matrix(turn.responses, p.rest.rows()) * p.rest *
+                    matrix(turn.references, p.rest.cols()).transpose());
+  }
+  if (known.empty()) return;
+  const double n = static_cast<double>(known.size());
+  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(known.front().rows(), known.front().cols()), square = mean;
+  for (const Eigen::MatrixXd& rest : known) mean += rest / n;
+  for (const Eigen::MatrixXd& rest : known) square += (rest - mean).cwiseAbs2();
+  // One posture tells nothing of how much it varies: half of it then.
+  const Eigen::MatrixXd variance = known.size() > 1 ? Eigen::MatrixXd(square * ((1.0 + 1.0 / n) / (n - 1.0)))
+                                                    : Eigen::MatrixXd(0.25 * mean.cwiseAbs2());
+  const Eigen::MatrixXd rows = matrix(place.turn.responses, mean.rows()).transpose();
+  const Eigen::MatrixXd columns = matrix(place.turn.references, mean.cols());
+  at.rest = rows * mean * columns;
+  at.rest_deviation = (rows.cwiseAbs2() * variance * columns.cwiseAbs2()).cwiseSqrt();
 }
 
 Predictor::Covariances Predictor::covariances(const Eigen::MatrixXd& places) const {

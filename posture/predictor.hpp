@@ -23,6 +23,8 @@ struct PredictedMode {
 struct PosturePrediction {
   Eigen::Index responses = 0;
   std::vector<PredictedMode> modes;
+  Eigen::MatrixXd rest{};            ///< static compliance that the modes leave out, m/N; empty: not known
+  Eigen::MatrixXd rest_deviation{};  ///< of its entries
   double from_hull = 0.0;  ///< distance from the hull of the postures, scaled coordinates: > 0 is extrapolation
 };
 
@@ -41,11 +43,12 @@ struct PredictorOptions {
 
 /// Processes of every number of every mode over the places, of what was identified less what the model has (residual
 /// learning) for modes that the model has, of the numbers themselves for the others. Residues are seen in that of the
-/// two frames, the world's or the tip's, in which they vary less over the postures, where all places have a turn.
+/// two frames, the world's or the tip's, in which they vary less over the postures, where all places have a turn. What
+/// the modes leave out is the mean of the postures where it is known, in the tip's frame likewise.
 class Predictor {
  public:
-  /// Learns. Throws InputError for no posture, places of different size, modes without a label, with residues of
-  /// different size or no damping, two postures at one place, and as arm_modes() does; NumericalError as
+  /// Learns. Throws InputError for no posture, places, turns or rests of different size, modes without a label, with
+  /// residues of different size or no damping, two postures at one place, and as arm_modes() does; NumericalError as
   /// AveragedProcess. Cost: an AveragedProcess for each number of each mode.
   Predictor(std::vector<TappedPosture> postures, PredictorOptions options);
 
@@ -76,6 +79,7 @@ class Predictor {
     std::vector<regression::AveragedProcess> processes;
   };
   [[nodiscard]] std::vector<int> model_numbers(const Place& place) const;
+  void predict_rest(const Place& place, PosturePrediction& at) const;
   void learn(int label, const std::vector<std::vector<identification::FittedMode>>& of_model);
   [[nodiscard]] PredictedMode predicted(const Learned& learned, const Place& place,
                                         const identification::FittedMode* model) const;

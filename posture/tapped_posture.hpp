@@ -27,6 +27,8 @@ struct TappedPosture {
   Place place;
   std::vector<identification::FittedMode> modes;  ///< with left and right vectors
   std::vector<int> label{};                       ///< of each mode, from 0 on, as identification::track() gives them
+  Eigen::MatrixXd
+      rest{};  ///< static compliance that the modes leave out, m/N, responses × references; empty: not known
 };
 
 }  // namespace thinwall::posture

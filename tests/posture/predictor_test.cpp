@@ -194,12 +194,19 @@ TEST(Predictor, TellsOfExtrapolationAndOfModesWithTooFewPostures) {
   EXPECT_THROW(Predictor(postures, plain()), core::InputError);
   postures[3].place.at.resize(2);
   EXPECT_THROW(Predictor(postures, plain()), core::InputError);
+  postures = testing::tapped_postures(truth, testing::spread_places(6, 1));
+  postures[2].place.turn = {};
+  EXPECT_THROW(Predictor(postures, plain()), core::InputError);
+  postures = testing::tapped_postures(truth, testing::spread_places(6, 1));
+  postures[1].rest = Eigen::Matrix2d::Identity();
+  EXPECT_THROW(Predictor(postures, plain()), core::InputError);
+  postures = testing::tapped_postures(truth, testing::spread_places(6, 1));
   postures[3].label.pop_back();
   EXPECT_THROW(Predictor(postures, plain()), core::InputError);
 }
 
 PosturePrediction one_mode(double deviation) {
-  PosturePrediction at{1, {{0, Eigen::Vector4d(std::log(50.0), std::log(0.03), 0.02, 0.0), {}}}, 0.0};
+  PosturePrediction at{1, {{0, Eigen::Vector4d(std::log(50.0), std::log(0.03), 0.02, 0.0), {}}}};
   at.modes[0].deviation = Eigen::Vector4d(deviation, 5.0 * deviation, 0.02 * deviation, 0.0);
   return at;
 }
@@ -219,6 +226,48 @@ TEST(FrfBand, IsTheSameToFirstOrderAndFromDraws) {
   for (std::size_t k = 0; k < hz.size(); ++k) {
     EXPECT_NEAR(drawn.deviation[k](0).real(), first.deviation[k](0).real(), 0.05 * std::abs(first.deviation[k](0)));
     EXPECT_NEAR(drawn.deviation[k](0).imag(), first.deviation[k](0).imag(), 0.05 * std::abs(first.deviation[k](0)));
+  }
+}
+
+/// What the modes leave out is fixed to the tip here: it turns with it, and its known value is added to the receptance.
+TEST(Predictor, AddsWhatTheModesLeaveOut) {
+  const TappedArm truth = testing::true_arm();
+  auto postures = testing::tapped_postures(truth, testing::spread_places(6, 1));
+  const Eigen::MatrixXd fixed = Eigen::Vector4d(4e-9, 1e-9, 2e-9, 1e-9).asDiagonal();
+  const auto in_world = [&](const Place& place) -> Eigen::MatrixXd {
+    return place.turn.responses.transpose() * fixed * place.turn.references;
+  };
+  for (std::size_t i = 0; i < 3; ++i) postures[i].rest = in_world(postures[i].place);
+  const Place place = testing::place_of(truth, {0.3, 0.1, -0.6});
+  const PosturePrediction at = Predictor(postures, plain()).predict(place);
+  EXPECT_LT((at.rest - in_world(place)).norm(), 1e-12 * fixed.norm());
+  EXPECT_LT(at.rest_deviation.norm(), 1e-9 * fixed.norm());
+  PosturePrediction without = at;
+  without.rest.resize(0, 0);
+  const Eigen::MatrixXcd added = frf_band(at, {30.0}).mean[0] - frf_band(without, {30.0}).mean[0];
+  EXPECT_LT((added - in_world(place)).norm(), 1e-9 * fixed.norm());
+}
+
+/// The structure of a cut has the receptance of the modes, whatever the rank of their residues, and the rest.
+TEST(StructureOf, HasTheReceptanceOfTheModes) {
+  std::vector<identification::FittedMode> modes(2);
+  for (std::size_t r = 0; r < 2; ++r) {
+    modes[r].frequency_hz = 40.0 + 25.0 * static_cast<double>(r);
+    modes[r].damping_ratio = 0.03;
+    modes[r].residue.resize(2, 2);
+    modes[r].residue << std::complex<double>(0.1, -2.0), 0.4, std::complex<double>(-0.3, 0.2), -1.0;
+  }
+  modes[1].residue.row(1) = modes[1].residue.row(0) * 0.5;
+  PostureCut cut;
+  cut.responses = cut.references = Eigen::Matrix3d::Identity().leftCols(2);
+  const Eigen::Matrix2d rest = Eigen::Vector2d(1e-3, 2e-3).asDiagonal();
+  const milling::RelativeStructure structure = structure_of(modes, cut, rest);
+  EXPECT_EQ(structure.poles.size(), 3);
+  for (const double hz : {10.0, 41.0, 80.0}) {
+    const Eigen::Matrix3cd G = milling::receptance(structure, 2.0 * std::numbers::pi * hz);
+    const Eigen::MatrixXcd H = receptance(modes, hz) + rest;
+    EXPECT_LT((G.topLeftCorner(2, 2) - H).norm(), 1e-12 * H.norm());
+    EXPECT_LT(G.row(2).norm() + G.col(2).norm(), 1e-15);
   }
 }
 
