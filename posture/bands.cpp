@@ -52,12 +52,29 @@ Eigen::MatrixXcd rest_variance(const PosturePrediction& prediction, const Eigen:
   return prediction.rest_deviation.cwiseAbs2().cast<Complex>();
 }
 
+/// True if the resonance of another mode overlaps this one's: their frequencies differ by less than twice the mean of
+/// their half-power widths.
+bool overlaps(const FittedMode& mode, const FittedMode& other) {
+  return std::abs(mode.frequency_hz - other.frequency_hz) <
+         2.0 * (mode.damping_ratio * mode.frequency_hz + other.damping_ratio * other.frequency_hz);
+}
+
+/// Residues of modes that stand alone are cut to a rank of one; those of modes that overlap are kept.
+void cut_ranks(std::vector<FittedMode>& modes) {
+  for (FittedMode& mode : modes) {
+    const bool alone =
+        std::ranges::none_of(modes, [&](const FittedMode& other) { return &other != &mode && overlaps(mode, other); });
+    if (alone) mode.residue = mode.right * mode.left.transpose();
+  }
+}
+
 }  // namespace
 
 std::vector<FittedMode> expected_modes(const PosturePrediction& prediction) {
   std::vector<FittedMode> modes;
   for (const PredictedMode& mode : prediction.modes)
     modes.push_back(moved(prediction, mode, Eigen::VectorXd::Zero(mode.mean.size())));
+  cut_ranks(modes);
   return modes;
 }
 
@@ -70,6 +87,7 @@ std::vector<std::vector<FittedMode>> drawn_modes(const PosturePrediction& predic
       for (double& deviation : deviations) deviation = normal_draw(random);
       modes.push_back(moved(prediction, mode, deviations));
     }
+    cut_ranks(modes);
   }
   return result;
 }

@@ -11,7 +11,9 @@
 
 namespace thinwall::posture {
 
-/// The expected modes.
+/// The expected modes. The residue of a mode that stands alone is cut to a rank of one; those of modes that overlap,
+/// closer than twice the mean of their half-power widths, are kept: near a crossing two modes exchange their shapes,
+/// and only the sum of their residues, which the cut would change, is smooth over the postures. Drawn modes likewise.
 [[nodiscard]] std::vector<identification::FittedMode> expected_modes(const PosturePrediction& prediction);
 
 /// Modes drawn from the prediction, each number by itself from its normal distribution.
@@ -46,10 +48,8 @@ struct PostureCut {
   milling::StabilityOptions stability;
 };
 
-/// The structure that the cut feels: the workpiece is rigid. A residue has as many pairs of shapes as its rank: near a
-/// crossing those of two modes exchange their shapes, and only their sum, which a rank of one would change, is smooth
-/// over the postures. `rest` is the static compliance that the modes leave out,
-/// m/N; empty: none.
+/// The structure that the cut feels: the workpiece is rigid. A residue gives as many pairs of shapes as its rank.
+/// `rest` is the static compliance that the modes leave out, m/N; empty: none.
 [[nodiscard]] milling::RelativeStructure structure_of(const std::vector<identification::FittedMode>& modes,
                                                       const PostureCut& cut, const Eigen::MatrixXd& rest = {});
 

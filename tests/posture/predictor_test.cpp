@@ -248,6 +248,27 @@ TEST(Predictor, AddsWhatTheModesLeaveOut) {
   EXPECT_LT((added - in_world(place)).norm(), 1e-9 * fixed.norm());
 }
 
+/// Two modes of rank two: apart, each becomes its nearest one of rank one; together, their sum stays as predicted.
+TEST(ExpectedModes, KeepTheSumOfResiduesWhereModesOverlap) {
+  identification::FittedMode mode;
+  mode.damping_ratio = 0.03;
+  mode.residue.resize(2, 2);
+  mode.residue << std::complex<double>(0.0, -2.0), 0.0, 0.0, std::complex<double>(0.0, -0.5);
+  for (const double second : {102.0, 140.0}) {
+    PosturePrediction at{2, {}};
+    for (const double hz : {100.0, second}) {
+      mode.frequency_hz = hz;
+      at.modes.push_back({0, targets_of(mode), Eigen::VectorXd::Zero(10)});
+    }
+    for (const auto& modes : {expected_modes(at), drawn_modes(at, 1).front()}) {
+      for (const identification::FittedMode& found : modes) {
+        EXPECT_NEAR(std::abs(found.residue(0, 0)), 2.0, 1e-12);
+        EXPECT_NEAR(std::abs(found.residue(1, 1)), second < 120.0 ? 0.5 : 0.0, 1e-12);
+      }
+    }
+  }
+}
+
 /// The structure of a cut has the receptance of the modes, whatever the rank of their residues, and the rest.
 TEST(StructureOf, HasTheReceptanceOfTheModes) {
   std::vector<identification::FittedMode> modes(2);
