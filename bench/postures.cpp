@@ -38,7 +38,8 @@ std::vector<TappedPosture> in_order(const std::vector<TappedPosture>& postures, 
   return result;
 }
 
-/// What lies above the modes, at the postures whose fit was kept: the constant of the low band less the high modes.
+/// The compliance above the modes, at the postures whose fit was kept: the constant of the low band less the high
+/// modes.
 void read_rests(const std::string& file, std::vector<TappedPosture>& postures) {
   std::ifstream in(file);
   if (!in) return;

@@ -34,7 +34,7 @@ struct FrfBand {
 /// × lines.
 [[nodiscard]] FrfBand frf_band(const PosturePrediction& prediction, const std::vector<double>& hz);
 
-/// The same band from draws: deviations from the expected receptance.
+/// The band from draws: root mean squares of the deviations from the expected receptance.
 [[nodiscard]] FrfBand frf_band_from_draws(const PosturePrediction& prediction, const std::vector<double>& hz, int draws,
                                           unsigned seed = 1);
 

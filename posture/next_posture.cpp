@@ -39,7 +39,7 @@ Eigen::MatrixXd places_in_rows(const std::vector<Place>& path, const std::vector
   return places;
 }
 
-/// What measuring each candidate takes of S at the p-th place of the path.
+/// The share of S at the p-th place of the path that measuring each candidate takes.
 Eigen::VectorXd taken(const Eigen::MatrixXd& C, double noise_variance, Eigen::Index p, Eigen::Index path) {
   const Eigen::Index candidates = C.cols() - path;
   const Eigen::ArrayXd of_candidates = C.diagonal().tail(candidates).array() + noise_variance;

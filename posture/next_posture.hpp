@@ -10,7 +10,7 @@
 
 namespace thinwall::posture {
 
-/// What measuring one more posture is expected to bring.
+/// The gain that measuring one more posture is expected to bring.
 struct NextPosture {
   Eigen::Index best = 0;      ///< number of the candidate
   Eigen::VectorXd reduction;  ///< of each candidate, as a share of the variance along the path, 0 to 1

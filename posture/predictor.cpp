@@ -86,7 +86,7 @@ Seen modes_of_label(const std::vector<TappedPosture>& postures, const std::vecto
   return seen;
 }
 
-/// What processes of a label learn from: a row for each posture.
+/// The numbers that processes of a label learn from: a row for each posture.
 struct NumbersOverPlaces {
   std::vector<Eigen::Index> rows;
   Eigen::MatrixXd values;

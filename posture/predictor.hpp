@@ -19,7 +19,7 @@ struct PredictedMode {
   Turn turn{};                ///< into the frame of the residue's numbers; empty: the world's
 };
 
-/// What is to be expected at a posture.
+/// The modes to be expected at a posture.
 struct PosturePrediction {
   Eigen::Index responses = 0;
   std::vector<PredictedMode> modes;

@@ -229,7 +229,8 @@ TEST(FrfBand, IsTheSameToFirstOrderAndFromDraws) {
   }
 }
 
-/// What the modes leave out is fixed to the tip here: it turns with it, and its known value is added to the receptance.
+/// The rest that the modes leave out is fixed to the tip here: it turns with it, and its known value is added to the
+/// receptance.
 TEST(Predictor, AddsWhatTheModesLeaveOut) {
   const TappedArm truth = testing::true_arm();
   auto postures = testing::tapped_postures(truth, testing::spread_places(6, 1));

@@ -46,7 +46,7 @@ TEST(AveragedProcess, IsTheProcessOfTheHyperParametersWhereThePriorAllowsNoOther
   EXPECT_NEAR(averaged.noise_variance, 0.01 * standardised(data).deviation.cwiseAbs2()(0), 1e-9);
 }
 
-/// Where there is next to no data the draws are those of the prior: mean and deviation of 400 draws of ln ℓ, whose
+/// With next to no data the draws are those of the prior: mean and deviation of 400 draws of ln ℓ, whose
 /// standard errors are 0.8/√400 = 0.04 at most for independent ones, and some times that for a chain.
 TEST(AveragedProcess, DrawsFromThePriorWhereDataSayNothing) {
   TaskData data{Eigen::MatrixXd(2, 1), Eigen::MatrixXd(2, 1)};
