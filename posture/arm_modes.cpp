@@ -6,6 +6,7 @@
 #include <numeric>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"

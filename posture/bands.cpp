@@ -9,6 +9,7 @@
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "milling/direct/stability.hpp"
 
 namespace thinwall::posture {
@@ -173,9 +174,10 @@ DepthBand depth_band_from_draws(const PosturePrediction& prediction, const Postu
   if (draws < 40)
     throw core::InputError("a band of depths from " + std::to_string(draws) + " draws, must be at least 40");
   Eigen::MatrixXd drawn(static_cast<Eigen::Index>(cut.spindle_speeds_rpm.size()), draws);
-  Eigen::Index column = 0;
-  for (const std::vector<FittedMode>& modes : drawn_modes(prediction, draws, seed))
-    drawn.col(column++) = limiting_depths(modes, cut, prediction.rest);
+  const std::vector<std::vector<FittedMode>> modes = drawn_modes(prediction, draws, seed);
+  core::parallel_for(modes.size(), [&](std::size_t i) {
+    drawn.col(static_cast<Eigen::Index>(i)) = limiting_depths(modes[i], cut, prediction.rest);
+  });
   DepthBand band{limiting_depths(expected_modes(prediction), cut, prediction.rest), Eigen::VectorXd(drawn.rows()),
                  Eigen::VectorXd(drawn.rows())};
   for (Eigen::Index i = 0; i < drawn.rows(); ++i) {

@@ -64,7 +64,8 @@ struct DepthBand {
 };
 
 /// The band from draws of the modes, between their quantiles at 2.5 % and 97.5 %. Throws InputError for fewer than 40
-/// draws, which have no such quantiles. Cost: draws × speeds times limiting_depth().
+/// draws, which have no such quantiles. Cost: draws × speeds times limiting_depth(), draws shared out among
+/// core::thread_count() threads.
 [[nodiscard]] DepthBand depth_band_from_draws(const PosturePrediction& prediction, const PostureCut& cut, int draws,
                                               unsigned seed = 1);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <string>
+#include <utility>
 
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"

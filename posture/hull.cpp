@@ -1,6 +1,6 @@
 #include "posture/hull.hpp"
 
-#include <limits>
+#include <algorithm>
 #include <string>
 #include <vector>
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "posture/calibration.hpp"
 #include "posture/hull.hpp"
 #include "posture/mode_targets.hpp"
@@ -159,8 +160,13 @@ void Predictor::learn(int label, const std::vector<std::vector<FittedMode>>& of_
     if (learned.in_tip_frame) numbers = std::move(in_tip_frame);
   }
   const Eigen::MatrixXd places = places_(numbers.rows, Eigen::all);
-  for (Eigen::Index t = 0; t < numbers.values.cols(); ++t)
-    learned.processes.emplace_back(regression::TaskData{places, numbers.values.col(t)}, options_.averaging);
+  std::vector<std::optional<regression::AveragedProcess>> processes(static_cast<std::size_t>(numbers.values.cols()));
+  core::parallel_for(processes.size(), [&](std::size_t t) {
+    processes[t].emplace(regression::TaskData{places, numbers.values.col(static_cast<Eigen::Index>(t))},
+                         options_.averaging);
+  });
+  for (std::optional<regression::AveragedProcess>& process : processes)
+    learned.processes.push_back(std::move(*process));
   learned_.push_back(std::move(learned));
 }
 

@@ -49,7 +49,8 @@ class Predictor {
  public:
   /// Learns. Throws InputError for no posture, places, turns or rests of different size, modes without a label, with
   /// residues of different size or no damping, two postures at one place, and as arm_modes() does; NumericalError as
-  /// AveragedProcess. Cost: an AveragedProcess for each number of each mode.
+  /// AveragedProcess. Cost: an AveragedProcess for each number of each mode, shared
+  /// out among core::thread_count() threads.
   Predictor(std::vector<TappedPosture> postures, PredictorOptions options);
 
   /// The modes at a place: labelled ones first. The arm's modes there are those that continue the ones of the nearest

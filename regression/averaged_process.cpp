@@ -6,6 +6,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "core/error.hpp"
 #include "regression/gaussian_process.hpp"
