@@ -83,25 +83,44 @@ void run(nlopt_algorithm algorithm, const Box& box, Eigen::VectorXd from, Search
   (void)nlopt_optimize(optimiser.get(), from.data(), &value);
 }
 
-/// The first start is a function of length 1 that is mostly not noise.
-Eigen::VectorXd start(int number, Eigen::Index dimensions, Eigen::Index tasks, const Box& box, std::mt19937& random) {
-  // Written out, because distributions of the standard library draw differently elsewhere.
-  const auto between = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
-  };
+/// A function of length 1 that is mostly not noise.
+Eigen::VectorXd first_start(Eigen::Index dimensions, Eigen::Index tasks, const Box& box) {
   HyperParameters p;
   p.length.setOnes(dimensions);
   p.L = Eigen::MatrixXd::Identity(tasks, tasks);
   p.noise_sd.setConstant(tasks, 0.3);
-  if (number > 0) {
-    for (double& length : p.length) length = std::exp(between(std::log(0.12), std::log(5.0)));
-    for (Eigen::Index i = 0; i < tasks; ++i) {
-      for (Eigen::Index j = 0; j < i; ++j) p.L(i, j) = between(-0.7, 0.7);
-      p.L(i, i) = between(0.3, 2.0);
-    }
-    for (double& noise : p.noise_sd) noise = std::exp(between(std::log(0.03), 0.0));
-  }
   return packed(p).cwiseMax(box.low).cwiseMin(box.high);
+}
+
+Eigen::VectorXd drawn_start(Eigen::Index dimensions, Eigen::Index tasks, const Box& box, std::mt19937& random) {
+  // Written out, because distributions of the standard library draw differently elsewhere.
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
+  };
+  HyperParameters p{Eigen::VectorXd(dimensions), Eigen::MatrixXd::Zero(tasks, tasks), Eigen::VectorXd(tasks)};
+  for (double& length : p.length) length = std::exp(between(std::log(0.12), std::log(5.0)));
+  for (Eigen::Index i = 0; i < tasks; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) p.L(i, j) = between(-0.7, 0.7);
+    p.L(i, i) = between(0.3, 2.0);
+  }
+  for (double& noise : p.noise_sd) noise = std::exp(between(std::log(0.03), 0.0));
+  return packed(p).cwiseMax(box.low).cwiseMin(box.high);
+}
+
+/// The likeliest of some drawn starts: from bad ones the search often ends where all is noise.
+Eigen::VectorXd likeliest_start(const TaskData& data, Kernel kernel, const Box& box, std::mt19937& random) {
+  constexpr int draws = 8;
+  const Eigen::Index dimensions = data.inputs.cols(), tasks = data.tasks();
+  Eigen::VectorXd best;
+  double largest = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < draws; ++i) {
+    const Eigen::VectorXd drawn = drawn_start(dimensions, tasks, box, random);
+    const double value = likelihood_at(kernel, data, unpacked(drawn, dimensions, tasks)).value;
+    if (best.size() > 0 && !(value > largest)) continue;
+    best = drawn;
+    largest = value;
+  }
+  return best;
 }
 
 void require_usable(const TaskData& data, const SearchOptions& options) {
@@ -133,7 +152,8 @@ Fit fit(const TaskData& data, const SearchOptions& options) {
   result.log_likelihood = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < options.starts; ++i) {
     Search search{data, options.kernel, {}};
-    const Eigen::VectorXd from = start(i, dimensions, tasks, box, random);
+    const Eigen::VectorXd from =
+        i == 0 ? first_start(dimensions, tasks, box) : likeliest_start(data, options.kernel, box, random);
     run(NLOPT_LD_LBFGS, box, from, search);
     if (search.best_value < result.log_likelihood - 1e-6 || i == 0)
       run(NLOPT_LD_SLSQP, box, search.best.size() > 0 ? search.best : from, search);
@@ -143,7 +163,8 @@ Fit fit(const TaskData& data, const SearchOptions& options) {
     best = search.best;
   }
   if (best.size() == 0)
-    throw core::NumericalError("regression: no start has a likelihood; two places may be the same, or targets not finite");
+    throw core::NumericalError(
+        "regression: no start has a likelihood; two places may be the same, or targets not finite");
   std::sort(result.of_starts.begin(), result.of_starts.end(), std::greater<>());
   result.parameters = unpacked(best, dimensions, tasks);
   return result;

@@ -22,11 +22,11 @@ struct Bounds {
 struct SearchOptions {
   Kernel kernel = Kernel::squared_exponential;
   Bounds bounds;
-  int starts = 12;    ///< ≥ 1; the first is the same for all data, the others are drawn
+  int starts = 12;    ///< ≥ 1; the first is the same for all data, each other the likeliest of eight draws
   unsigned seed = 1;  ///< of what is drawn: the same seed gives the same answer
 };
 
-/// What the search found.
+/// The outcome of the search.
 struct Fit {
   HyperParameters parameters;
   double log_likelihood = 0.0;
@@ -34,10 +34,10 @@ struct Fit {
 };
 
 /// Type-II maximum likelihood (Rasmussen & Williams 2006, ch. 5.4) by L-BFGS within bounds, and SLSQP after it where it
-/// ended worse than the best start so far (NLopt; Nocedal 1980, Kraft 1994). Likelihoods have several maxima: `of_starts`
-/// tells how many starts reached the best. `data` have targets of the order of 1: see standardised(). Throws InputError
-/// for fewer observations of a task than two, or a number among inputs that is not finite; NumericalError if no start
-/// has a likelihood. Cost: some hundred likelihoods a start.
+/// ended worse than the best start so far (NLopt; Nocedal 1980, Kraft 1994). Likelihoods have several maxima:
+/// `of_starts` tells how many starts reached the best. `data` have targets of the order of 1: see standardised().
+/// Throws InputError for fewer observations of a task than two, or a number among inputs that is not finite;
+/// NumericalError if no start has a likelihood. Cost: some hundred likelihoods a start.
 [[nodiscard]] Fit fit(const TaskData& data, const SearchOptions& options = {});
 
 /// Targets of mean 0 and deviation 1, and the way back.
@@ -63,7 +63,7 @@ class GaussianProcess {
   [[nodiscard]] LeaveOneOut leave_one_out() const;
   /// Deviation of the noise of each task.
   [[nodiscard]] Eigen::VectorXd noise_sd() const;
-  /// What the search found; of given hyper-parameters, their likelihood.
+  /// The outcome of the search; of given hyper-parameters, their likelihood.
   [[nodiscard]] const Fit& found() const { return fit_; }
 
  private:
