@@ -7,7 +7,8 @@ namespace thinwall::identification {
 
 namespace {
 
-/// With no more rows than columns: one row after the other takes the column at the end of the cheapest alternating path.
+/// With no more rows than columns: one row after the other takes the column at the end of the cheapest alternating
+/// path.
 std::vector<int> row_of_columns(const Eigen::MatrixXd& cost) {
   const Eigen::Index rows = cost.rows(), columns = cost.cols();
   constexpr double infinite = std::numeric_limits<double>::infinity();

@@ -17,13 +17,13 @@ struct IdentifyOptions {
   Residues residues = Residues::rank_one;
 };
 
-/// What was found, and on which way.
+/// The fit, and the way on which it was found.
 struct Identification {
   ModalFit fit;
   ResidualTerms terms;
-  std::vector<OrderPoles> diagram;    ///< empty where poles were chosen by hand
-  std::vector<StablePole> stable;     ///< that the fit started from
-  int added = 0, left_out = 0;        ///< modes, against the diagram
+  std::vector<OrderPoles> diagram;  ///< empty where poles were chosen by hand
+  std::vector<StablePole> stable;   ///< that the fit started from
+  int added = 0, left_out = 0;      ///< modes, against the diagram
 };
 
 /// From the stable poles of plscf():

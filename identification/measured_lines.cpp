@@ -19,7 +19,8 @@ void require_usable(const MeasuredLines& measured) {
     const auto line = static_cast<Eigen::Index>(i);
     const bool ascends = measured.hz(line) > (i == 0 ? 0.0 : measured.hz(line - 1));
     if (!ascends || !std::isfinite(measured.hz(line)))
-      throw core::InputError("identification: line " + std::to_string(i + 1) + " at " + std::to_string(measured.hz(line)) +
+      throw core::InputError("identification: line " + std::to_string(i + 1) + " at " +
+                             std::to_string(measured.hz(line)) +
                              " Hz, must be above 0 and the one before it; sort them");
     const Eigen::MatrixXcd& H = measured.H[i];
     const Eigen::MatrixXd& variance = measured.variance[i];

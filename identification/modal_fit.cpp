@@ -28,9 +28,7 @@ struct Unknowns {
   std::vector<Eigen::Index> fixed;
 
   [[nodiscard]] Eigen::Index modes() const { return ln_omega.size(); }
-  [[nodiscard]] Eigen::Index count() const {
-    return 2 * modes() + (L.size() > 0 ? 2 * (L.rows() - 1) * modes() : 0);
-  }
+  [[nodiscard]] Eigen::Index count() const { return 2 * modes() + (L.size() > 0 ? 2 * (L.rows() - 1) * modes() : 0); }
   [[nodiscard]] Complex pole(Eigen::Index r) const {
     const double omega = std::exp(ln_omega(r)), zeta = std::exp(ln_zeta(r));
     return {-zeta * omega, omega * std::sqrt(std::max(1e-12, 1.0 - zeta * zeta))};
@@ -129,8 +127,7 @@ Eigen::MatrixXd columns_of(const Problem& p, const Unknowns& u, const std::vecto
       put(A.col(2 * r).segment(e * rows, rows), pair(p, u.pole(r), f), weight[i]);
       put(A.col(2 * r + 1).segment(e * rows, rows), pair(p, u.pole(r), Complex(0.0, 1.0) * f), weight[i]);
     }
-    for (Eigen::Index k = 0; k < n; ++k)
-      put(A.col(2 * m + n * e + k).segment(e * rows, rows), terms.col(k), weight[i]);
+    for (Eigen::Index k = 0; k < n; ++k) put(A.col(2 * m + n * e + k).segment(e * rows, rows), terms.col(k), weight[i]);
   }
   return A;
 }
@@ -256,8 +253,8 @@ Found search(const Problem& p, Unknowns u, int most_steps) {
 /// Residue matrices of the modes.
 std::vector<Eigen::MatrixXcd> residues_of(const Problem& p, const Found& found) {
   const Eigen::Index m = found.unknowns.modes();
-  std::vector<Eigen::MatrixXcd> residues(
-      static_cast<std::size_t>(m), Eigen::MatrixXcd::Zero(p.measured().responses(), p.measured().references()));
+  std::vector<Eigen::MatrixXcd> residues(static_cast<std::size_t>(m),
+                                         Eigen::MatrixXcd::Zero(p.measured().responses(), p.measured().references()));
   for (std::size_t g = 0; g < p.groups.size(); ++g) {
     for (const Entry& e : p.groups[g]) {
       for (Eigen::Index r = 0; r < m; ++r) {
@@ -354,10 +351,11 @@ ModalFit modal_fit(const MeasuredLines& measured, const Eigen::VectorXcd& start,
   std::vector<std::size_t> order(residues.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return found.unknowns.ln_omega(static_cast<Eigen::Index>(a)) < found.unknowns.ln_omega(static_cast<Eigen::Index>(b));
+    return found.unknowns.ln_omega(static_cast<Eigen::Index>(a)) <
+           found.unknowns.ln_omega(static_cast<Eigen::Index>(b));
   });
-  const Eigen::MatrixXd covariance =
-      Eigen::LDLT<Eigen::MatrixXd>(found.at.JtJ).solve(Eigen::MatrixXd::Identity(found.at.JtJ.rows(), found.at.JtJ.cols()));
+  const Eigen::MatrixXd covariance = Eigen::LDLT<Eigen::MatrixXd>(found.at.JtJ)
+                                         .solve(Eigen::MatrixXd::Identity(found.at.JtJ.rows(), found.at.JtJ.cols()));
   ModalFit fit;
   fit.converged = found.converged;
   fit.covariance.resize(2 * m, 2 * m);

@@ -9,7 +9,7 @@
 
 namespace thinwall::identification {
 
-/// What stands for the modes outside of the band, real matrices a power: LR/s² below it, c_0 + c_1 s + … above. The
+/// The stand-ins for modes outside of the band, real matrices a power: LR/s² below it, c_0 + c_1 s + … above. The
 /// usual pair LR/s² + c_0 is biased beside heavily damped modes above the band; c_1 s takes most of that.
 struct ResidualTerms {
   bool inertia = true;    ///< LR/s², free motion and modes below the band
@@ -36,10 +36,10 @@ struct FittedMode {
   double damping_ratio = 0.0;
   double sd_ln_frequency = 0.0;
   double sd_ln_damping = 0.0;
-  Eigen::MatrixXcd residue;     ///< responses × references, m/(N s)
-  Eigen::VectorXcd right;       ///< residue = right leftᵀ; empty for free residues
-  Eigen::VectorXcd left;        ///< its largest entry is 1
-  double second_singular = 0.0; ///< σ₂/σ₁ of the free residue: how far it is from rank one
+  Eigen::MatrixXcd residue;      ///< responses × references, m/(N s)
+  Eigen::VectorXcd right;        ///< residue = right leftᵀ; empty for free residues
+  Eigen::VectorXcd left;         ///< its largest entry is 1
+  double second_singular = 0.0;  ///< σ₂/σ₁ of the free residue: how far it is from rank one
 
   /// λ, rad/s, Im > 0.
   [[nodiscard]] std::complex<double> pole() const;
@@ -47,12 +47,12 @@ struct FittedMode {
 
 /// The fit.
 struct ModalFit {
-  std::vector<FittedMode> modes;              ///< by rising frequency
-  Eigen::MatrixXd inertia;                    ///< LR, 1/kg; empty without
-  std::vector<Eigen::MatrixXd> powers;        ///< c_0, c_1 …, m/N s^p
-  double chi2 = 0.0;                          ///< weighted sum of squares
-  double degrees_of_freedom = 0.0;            ///< numbers less unknowns
-  Eigen::MatrixXd covariance;                 ///< of all ln ω, then all ln ζ
+  std::vector<FittedMode> modes;        ///< by rising frequency
+  Eigen::MatrixXd inertia;              ///< LR, 1/kg; empty without
+  std::vector<Eigen::MatrixXd> powers;  ///< c_0, c_1 …, m/N s^p
+  double chi2 = 0.0;                    ///< weighted sum of squares
+  double degrees_of_freedom = 0.0;      ///< numbers less unknowns
+  Eigen::MatrixXd covariance;           ///< of all ln ω, then all ln ζ
   bool converged = false;
 
   /// 1 where the model and the variances are right, to within √(2/degrees of freedom).
@@ -65,10 +65,10 @@ struct ModalFit {
 ///
 /// by variable projection (Golub & Pereyra 1973, with the Jacobian of Kaufman 1975): only ln ω_r, ln ζ_r and the left
 /// vectors are unknowns of the search (Levenberg 1944, Marquardt 1963), residues and residual terms follow by linear
-/// least squares at each step. So poles are stable whatever the data, and nothing but `start` (rad/s) has to be guessed.
-/// Forms other than free start from the free residues' singular vectors. Throws InputError as require_usable(), without
-/// a pole, for a pole without Im > 0 and Re < 0, fewer numbers than unknowns, or symmetric residues of a matrix that is
-/// not square. Cost: steps × entries × lines × (2 modes + terms)².
+/// least squares at each step. So poles are stable whatever the data, and nothing but `start` (rad/s) has to be
+/// guessed. Forms other than free start from the free residues' singular vectors. Throws InputError as
+/// require_usable(), without a pole, for a pole without Im > 0 and Re < 0, fewer numbers than unknowns, or symmetric
+/// residues of a matrix that is not square. Cost: steps × entries × lines × (2 modes + terms)².
 [[nodiscard]] ModalFit modal_fit(const MeasuredLines& measured, const Eigen::VectorXcd& start,
                                  const ModalFitOptions& options = {});
 

@@ -59,7 +59,8 @@ Eigen::MatrixXcd denominator(const NormalEquations& e, int order, Eigen::Index r
     M -= S.adjoint() * Eigen::PartialPivLU<Eigen::MatrixXcd>(e.R[o].topLeftCorner(n, n)).solve(S);
   }
   const Eigen::Index known = size - references;
-  return Eigen::PartialPivLU<Eigen::MatrixXcd>(M.topLeftCorner(known, known)).solve(-M.topRightCorner(known, references));
+  return Eigen::PartialPivLU<Eigen::MatrixXcd>(M.topLeftCorner(known, known))
+      .solve(-M.topRightCorner(known, references));
 }
 
 std::vector<OrderPole> poles_of(const Eigen::MatrixXcd& A, int order, Eigen::Index references, double from_hz,
@@ -114,7 +115,8 @@ bool alike(Complex a, Complex b) {
 std::vector<OrderPoles> plscf(const MeasuredLines& measured, int highest_order) {
   require_usable(measured);
   if (highest_order < 1 || highest_order > 200)
-    throw core::InputError("identification: a highest order of " + std::to_string(highest_order) + ", must be 1 to 200");
+    throw core::InputError("identification: a highest order of " + std::to_string(highest_order) +
+                           ", must be 1 to 200");
   if (measured.lines() <= 2 * (highest_order + 1)) {
     throw core::InputError("identification: " + std::to_string(measured.lines()) + " lines for an order of " +
                            std::to_string(highest_order) + ", must be more than " +
@@ -145,8 +147,7 @@ std::vector<std::vector<Stability>> stabilisation(const std::vector<OrderPoles>&
         const OrderPole& before = orders[i - 1].poles[k];
         Stability with;
         with.frequency = std::abs(std::abs(pole.pole) / std::abs(before.pole) - 1.0) < same_frequency;
-        with.damping =
-            with.frequency && std::abs(damping(pole.pole) / damping(before.pole) - 1.0) < same_damping;
+        with.damping = with.frequency && std::abs(damping(pole.pole) / damping(before.pole) - 1.0) < same_damping;
         const double mac = std::norm(pole.participation.dot(before.participation)) /
                            (pole.participation.squaredNorm() * before.participation.squaredNorm());
         with.participation = with.frequency && mac > same_shape;
@@ -177,7 +178,8 @@ std::vector<StablePole> stable_poles(const std::vector<OrderPoles>& orders) {
       Cluster* nearest = nullptr;
       for (Cluster& cluster : clusters) {
         if (cluster.last_order == orders[i].order || !alike(pole, cluster.pole())) continue;
-        if (nearest == nullptr || std::abs(pole - cluster.pole()) < std::abs(pole - nearest->pole())) nearest = &cluster;
+        if (nearest == nullptr || std::abs(pole - cluster.pole()) < std::abs(pole - nearest->pole()))
+          nearest = &cluster;
       }
       if (nearest == nullptr) nearest = &clusters.emplace_back();
       nearest->omega.push_back(std::abs(pole));

@@ -23,7 +23,8 @@ struct OrderPoles {
 
 /// The poles of right matrix fractions H = B(z) A(z)⁻¹ of the orders 1 to `highest_order`,
 ///
-///     z = e^{−(s − iω_a)/(2 (f_b − f_a))},      Σ_k z^k B_k = H Σ_k z^k A_k      in weighted least squares over the lines
+///     z = e^{−(s − iω_a)/(2 (f_b − f_a))},      Σ_k z^k B_k = H Σ_k z^k A_k      in weighted least squares over the
+///     lines
 ///
 /// with A of the highest power the identity (Peeters, Van der Auweraer, Guillaume & Leuridan 2004). z maps the band to
 /// half a circle, whatever its ends, so that the powers are nearly orthogonal; coefficients are complex for that. B is
@@ -33,7 +34,7 @@ struct OrderPoles {
 /// (order references)³).
 [[nodiscard]] std::vector<OrderPoles> plscf(const MeasuredLines& measured, int highest_order);
 
-/// What a pole has in common with the nearest one of the order before.
+/// The agreement of a pole with the nearest one of the order before.
 struct Stability {
   bool frequency = false;      ///< within 1 %
   bool damping = false;        ///< and within 5 %

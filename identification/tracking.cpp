@@ -171,8 +171,7 @@ void doubt(const std::vector<PostureModes>& postures, const Eigen::MatrixXd& dis
 
 double unlikeness(const FittedMode& a, const FittedMode& b) {
   const double size_a = a.left.norm() * a.right.norm(), size_b = b.left.norm() * b.right.norm();
-  return 1.0 - mac(a.left, b.left) * mac(a.right, b.right) +
-         8.0 * std::abs(std::log(a.frequency_hz / b.frequency_hz)) +
+  return 1.0 - mac(a.left, b.left) * mac(a.right, b.right) + 8.0 * std::abs(std::log(a.frequency_hz / b.frequency_hz)) +
          0.5 * std::abs(std::log(a.damping_ratio / b.damping_ratio)) + 0.3 * std::abs(std::log(size_a / size_b));
 }
 
@@ -180,7 +179,8 @@ Tracking track(const std::vector<PostureModes>& postures, int neighbours) {
   if (postures.empty()) throw core::InputError("tracking: no posture, must be at least one");
   for (std::size_t i = 0; i < postures.size(); ++i) {
     if (postures[i].place.size() != postures.front().place.size())
-      throw core::InputError("tracking: posture " + std::to_string(i + 1) + " has a place of another size than the first");
+      throw core::InputError("tracking: posture " + std::to_string(i + 1) +
+                             " has a place of another size than the first");
     for (const FittedMode& mode : postures[i].modes) {
       if (mode.left.size() == 0 || mode.right.size() == 0)
         throw core::InputError("tracking: a mode of posture " + std::to_string(i + 1) +

@@ -60,8 +60,7 @@ Likelihood log_likelihood(const DenseProcess& process) {
   result.value = -0.5 * process.y.dot(process.alpha) - process.K.matrixLLT().diagonal().array().log().sum() -
                  0.5 * static_cast<double>(N) * std::log(2.0 * std::numbers::pi);
   const Eigen::MatrixXd inverse = process.K.solve(Eigen::MatrixXd::Identity(N, N));
-  const Eigen::MatrixXd kappa =
-      correlation(process.kernel, process.inputs, process.inputs, process.parameters.length);
+  const Eigen::MatrixXd kappa = correlation(process.kernel, process.inputs, process.inputs, process.parameters.length);
   const Eigen::MatrixXd B = process.parameters.B();
   // ½ (ααᵀ − K⁻¹) of each pair, summed over the observations of a pair of tasks with κ, and of a pair of places with B.
   Eigen::MatrixXd of_tasks = Eigen::MatrixXd::Zero(tasks, tasks);
@@ -91,8 +90,8 @@ Likelihood log_likelihood(const DenseProcess& process) {
 Prediction predict(const DenseProcess& process, const Eigen::MatrixXd& inputs) {
   const Eigen::MatrixXd B = process.parameters.B();
   const Eigen::Index m = inputs.rows(), tasks = B.rows();
-  const Eigen::MatrixXd k = cross_covariance(
-      process, correlation(process.kernel, process.inputs, inputs, process.parameters.length), B);
+  const Eigen::MatrixXd k =
+      cross_covariance(process, correlation(process.kernel, process.inputs, inputs, process.parameters.length), B);
   const Eigen::MatrixXd between = correlation(process.kernel, inputs, inputs, process.parameters.length);
   Prediction result;
   result.mean = (k.transpose() * process.alpha).reshaped(tasks, m).transpose();

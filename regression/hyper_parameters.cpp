@@ -10,8 +10,7 @@ Eigen::VectorXd packed(const HyperParameters& parameters) {
   theta.head(d) = parameters.length.array().log();
   Eigen::Index at = d;
   for (Eigen::Index i = 0; i < tasks; ++i) {
-    for (Eigen::Index j = 0; j <= i; ++j)
-      theta(at++) = i == j ? std::log(parameters.L(i, i)) : parameters.L(i, j);
+    for (Eigen::Index j = 0; j <= i; ++j) theta(at++) = i == j ? std::log(parameters.L(i, i)) : parameters.L(i, j);
   }
   theta.tail(tasks) = parameters.noise_sd.array().log();
   return theta;

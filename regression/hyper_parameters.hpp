@@ -1,5 +1,5 @@
 #pragma once
-// What a Gaussian process of several tasks is fixed by, and the data that it learns from.
+// The numbers that fix a Gaussian process of several tasks, and the data that it learns from.
 
 #include <Eigen/Core>
 

@@ -55,8 +55,8 @@ Likelihood log_likelihood(const KroneckerProcess& p) {
   slope.L = 2.0 * of_tasks * p.parameters.L;
   const Eigen::VectorXd traces =
       (p.W * Eigen::VectorXd(p.inner.colwise().sum().transpose()).asDiagonal() * p.W.transpose()).diagonal();
-  slope.noise_sd = p.parameters.noise_sd.array().square() *
-                   (p.alpha.colwise().squaredNorm().transpose() - traces).array();
+  slope.noise_sd =
+      p.parameters.noise_sd.array().square() * (p.alpha.colwise().squaredNorm().transpose() - traces).array();
   result.gradient = gradient_of(slope, p.parameters);
   return result;
 }

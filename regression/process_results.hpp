@@ -1,5 +1,5 @@
 #pragma once
-// What a Gaussian process answers.
+// The answers of a Gaussian process.
 
 #include <Eigen/Core>
 #include <limits>

@@ -57,8 +57,10 @@ TEST(ModalFit, CoversTheTruthAsOftenAsItSays) {
     const ModalFit fit = modal_fit(testing::lines_of(truth, 150, 0.01, draw), start, {{false, 0}});
     ASSERT_TRUE(fit.converged);
     for (std::size_t r = 0; r < 4; ++r) {
-      covered += std::abs(std::log(fit.modes[r].frequency_hz / truth[r].frequency_hz)) < 1.96 * fit.modes[r].sd_ln_frequency;
-      covered += std::abs(std::log(fit.modes[r].damping_ratio / truth[r].damping_ratio)) < 1.96 * fit.modes[r].sd_ln_damping;
+      covered +=
+          std::abs(std::log(fit.modes[r].frequency_hz / truth[r].frequency_hz)) < 1.96 * fit.modes[r].sd_ln_frequency;
+      covered +=
+          std::abs(std::log(fit.modes[r].damping_ratio / truth[r].damping_ratio)) < 1.96 * fit.modes[r].sd_ln_damping;
     }
     chi2 += fit.chi2_per_dof() / draws;
   }
@@ -100,7 +102,8 @@ TEST(ModalFit, TellsThatSymmetryIsWrong) {
   }
   const ModalFit fit = modal_fit(testing::lines_of(reciprocal, 300, 0.01, draw), start, {{}, Residues::symmetric});
   EXPECT_NEAR(fit.chi2_per_dof(), 1.0, 0.1);
-  for (const FittedMode& mode : fit.modes) EXPECT_LT((mode.residue - mode.residue.transpose()).norm(), 1e-12 * mode.residue.norm());
+  for (const FittedMode& mode : fit.modes)
+    EXPECT_LT((mode.residue - mode.residue.transpose()).norm(), 1e-12 * mode.residue.norm());
 }
 
 TEST(ModalFit, RefusesWhatItCannotFit) {

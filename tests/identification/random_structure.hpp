@@ -39,7 +39,8 @@ inline std::vector<FittedMode> random_modes(Draw& draw, int modes, int responses
     const double omega = 2.0 * std::numbers::pi * mode.frequency_hz;
     mode.right.resize(responses);
     mode.left.resize(references);
-    for (auto& v : mode.right) v = std::complex<double>(draw.between(-0.2, 0.2), draw.between(-1.0, 1.0)) / (2.0 * omega);
+    for (auto& v : mode.right)
+      v = std::complex<double>(draw.between(-0.2, 0.2), draw.between(-1.0, 1.0)) / (2.0 * omega);
     for (auto& v : mode.left) v = std::complex<double>(draw.between(-1.0, 1.0), draw.between(-0.2, 0.2));
     Eigen::Index largest = 0;
     mode.left.cwiseAbs().maxCoeff(&largest);

@@ -20,8 +20,8 @@ TaskData toy(const std::vector<int>& tasks, bool without_noise = false) {
 }
 
 int starts_that_reach(const Fit& found, double likelihood) {
-  return static_cast<int>(std::count_if(found.of_starts.begin(), found.of_starts.end(),
-                                        [&](double l) { return l > likelihood - 1e-4; }));
+  return static_cast<int>(
+      std::count_if(found.of_starts.begin(), found.of_starts.end(), [&](double l) { return l > likelihood - 1e-4; }));
 }
 
 TEST(Fit, OfOneTaskIsNotBelowTheBestKnown) {

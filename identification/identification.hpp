@@ -1,0 +1,10 @@
+#pragma once
+// The headers of identification/ that other programs may include.
+// Internal: assignment.
+
+#include "core/eigen_alignment.hpp"
+#include "identification/identify.hpp"
+#include "identification/measured_lines.hpp"
+#include "identification/modal_fit.hpp"
+#include "identification/plscf.hpp"
+#include "identification/tracking.hpp"
