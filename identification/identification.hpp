@@ -3,6 +3,8 @@
 // Internal: assignment.
 
 #include "core/eigen_alignment.hpp"
+#include "identification/fit_response.hpp"
+#include "identification/fitted_model.hpp"
 #include "identification/identify.hpp"
 #include "identification/measured_lines.hpp"
 #include "identification/modal_fit.hpp"

@@ -194,11 +194,11 @@ Evaluation evaluate(const Problem& p, const Unknowns& u) {
 }
 
 Unknowns moved(const Unknowns& u, const Eigen::VectorXd& step) {
-  constexpr double largest_zeta = 0.9;
+  constexpr double least_zeta = 1e-7, largest_zeta = 0.9;
   Unknowns next = u;
   const Eigen::Index m = u.modes();
   next.ln_omega += step.head(m);
-  next.ln_zeta = (u.ln_zeta + step.segment(m, m)).cwiseMin(std::log(largest_zeta));
+  next.ln_zeta = (u.ln_zeta + step.segment(m, m)).cwiseMin(std::log(largest_zeta)).cwiseMax(std::log(least_zeta));
   Eigen::Index at = 2 * m;
   for (Eigen::Index r = 0; r < m; ++r) {
     for (Eigen::Index q = 0; q < u.L.rows(); ++q) {
