@@ -246,6 +246,10 @@ ExitCode execute(const CLI::App& app, const Arguments& arguments, const RunCase&
   if (app.got_subcommand("lobes")) return lobes(arguments, run_case, out);
   if (app.got_subcommand("robot")) return robot(arguments, out);
   if (app.got_subcommand("simulate")) return simulate(arguments, out);
+  if (app.got_subcommand("fit")) {
+    out << fit_files(arguments.fit);
+    return ExitCode::done;
+  }
   if (app.got_subcommand("reduce")) return reduce(arguments, out);
   if (app.got_subcommand("inspect")) return inspect(arguments, out);
   if (app.got_subcommand("check")) return check(arguments, out);

@@ -73,6 +73,41 @@ void describe_lobes(CLI::App& app, Arguments& arguments) {
   add_run_arguments(*command, arguments);
 }
 
+void describe_fit(CLI::App& app, FitRequest& fit) {
+  auto* command =
+      app.add_subcommand("fit", "modes with their uncertainty from measured FRFs, as tables that a case reads");
+  command
+      ->add_option(
+          "INPUT", fit.input.sources,
+          "files of FRFs (UFF 58, CSV, MAT, LVM, .frf), which make a matrix together. A file that tells no DOFs "
+          "is P.x/Q.y=FILE (response and force), or x=FILE, xy=FILE at a tool's tip; FILE alone is x")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("--quantity", fit.input.quantity, "what FRFs are, where files do not say")
+      ->type_name("receptance|mobility|accelerance");
+  command->add_option("--unit", fit.input.unit, "of FRFs: m/N, um/N, m/s/N, m/s^2/N …")->type_name("UNIT");
+  command->add_option("--frequency-unit", fit.input.frequency_unit, "of FRFs (default: Hz)")->type_name("Hz|rad/s");
+  command->add_option("--from", fit.from, "first frequency: \"20 Hz\" (default: all)")->type_name("FREQUENCY");
+  command->add_option("--to", fit.to, "last frequency")->type_name("FREQUENCY");
+  command
+      ->add_option("--exclude", fit.left_out,
+                   "lines within 1 % of a frequency, or in a band, several times: \"49 Hz:51 Hz\"")
+      ->type_name("FREQUENCY")
+      ->allow_extra_args(false);
+  command->add_option("--poles", fit.poles, "frequencies of the modes: \"10.4 Hz, 27 Hz\" (default: found)")
+      ->type_name("FREQUENCIES");
+  command->add_option("--order", fit.order, "highest order of the stabilisation diagram (default: 30)")
+      ->check(CLI::Range(1, 200));
+  command->add_option("--terms", fit.terms, "highest power of s beside the modes, 0 to 6, or none (default: as needed)")
+      ->type_name("POWER");
+  command->add_option("--residues", fit.residues, "form of the residues (default: rank_one)")
+      ->type_name("free|rank_one|symmetric");
+  command->add_option("--averages", fit.averages, "number of averages, by which coherence weighs the lines")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--noise", fit.noise, "noise of real and imaginary part, relative: 0.01 (default: by scatter)");
+  command->add_option("-o,--out", fit.out, "folder for the tables (default: fit)")->type_name("DIR");
+}
+
 void describe_reduce(CLI::App& app, Arguments& arguments) {
   ReduceRequest& reduce = arguments.reduce;
   auto* command = app.add_subcommand("reduce", "the part of a case as a small model, its error and a report on it");
@@ -189,6 +224,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   robot_command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
   describe_simulate(app, arguments);
   add_case_arguments(*app.add_subcommand("check", "report every error of a case, and sizes to expect"), arguments);
+  describe_fit(app, arguments.fit);
   describe_reduce(app, arguments);
   describe_inspect(app, arguments);
   describe_sweep(app, arguments.sweep, arguments.merge);

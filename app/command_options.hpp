@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/command_sweep.hpp"
+#include "app/fit_command.hpp"
 #include "app/inspect_command.hpp"
 #include "app/lobes_input.hpp"
 #include "app/reduce_command.hpp"
@@ -23,6 +24,7 @@ struct Arguments {
   std::string progress = "auto", shell, schema = "case";
   std::vector<std::string> overrides, points;
   LobesInput lobes;
+  FitRequest fit;
   ReduceRequest reduce;
   InspectRequest inspect;
   report::PhasesRequest phases;

@@ -70,13 +70,22 @@ bool is_table_of_modes(const io::CsvText& text) {
 
 std::size_t required_column(const io::CsvText& text, const std::string& name) {
   if (const auto found = column(text, name)) return *found;
-  throw core::DataError(
-      text.path.string() + ": no column \"" + name +
-      "\"; a table of modes has frequency_hz, damping_ratio, stiffness (N/m) or mass (kg), direction");
+  throw core::DataError(text.path.string() + ": no column \"" + name +
+                        "\"; a table of modes has frequency_hz, damping_ratio, stiffness (N/m) or mass (kg), direction "
+                        "or direction_x, direction_y, direction_z");
 }
 
-/// The unit vector that the line names; x where the table has no such column.
-Eigen::Vector3d axis_of(const io::CsvText& text, const io::CsvLine& line, const std::optional<std::size_t>& direction) {
+/// The direction that the line names, by a word or by its components; x where the table has no such column.
+Eigen::Vector3d direction_of(const io::CsvText& text, const io::CsvLine& line) {
+  if (const auto x = column(text, "direction_x")) {
+    const Eigen::Vector3d along(io::number(text, line, *x),
+                                io::number(text, line, required_column(text, "direction_y")),
+                                io::number(text, line, required_column(text, "direction_z")));
+    if (along.norm() > 0.0) return along.normalized();
+    throw core::DataError(io::location(text, line) +
+                          ": the direction is zero; give the line along which the mode moves");
+  }
+  const auto direction = column(text, "direction");
   try {
     return dynamics::axis(direction ? line.fields[*direction] : "x");
   } catch (const core::InputError& error) {
@@ -101,7 +110,6 @@ cases::CaseValues modes_values(const io::CsvText& text) {
   const std::size_t stiffness_or_mass = mass ? *mass : required_column(text, "stiffness");
   if (mass && column(text, "stiffness"))
     throw core::DataError(text.path.string() + ": has stiffness and mass; keep one of the two columns");
-  const auto direction = column(text, "direction");
   io::require_columns(text, text.header.size(), "a table of modes");
   cases::CaseValues values;
   for (std::size_t i = 0; i < text.lines.size(); ++i) {
@@ -113,7 +121,7 @@ cases::CaseValues modes_values(const io::CsvText& text) {
     values.push_back({mode + "frequency", hz});
     values.push_back({mode + "damping_ratio", checked(text, line, damping, 0.0, 1.0)});
     values.push_back({mode + "stiffness", mass ? given * omega * omega : given});
-    values.push_back({mode + "direction", std::vector{axis_of(text, line, direction)}});
+    values.push_back({mode + "direction", std::vector{direction_of(text, line)}});
   }
   return values;
 }

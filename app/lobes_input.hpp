@@ -22,9 +22,9 @@ struct LobesInput {
 /// The case to compute. From CSV files it is the tool's TOML with the values of [[tool.measured]] or [[tool.modes]]
 /// added, which its text has as well, so that the case of the results can be run again. A table of modes has the
 /// columns frequency_hz, damping_ratio, stiffness (N/m) or mass (kg), and direction ("x", "-y"; x where there is no
-/// such column). Throws UsageError for words that do not go together, CaseError for a case or tool with errors,
-/// InputError for a case without [lobes], DataError (file and line) for unreadable files or a mode that no structure
-/// has.
+/// such column) or direction_x, direction_y, direction_z. Throws UsageError for words that do not go together,
+/// CaseError for a case or tool with errors, InputError for a case without [lobes], DataError (file and line) for
+/// unreadable files or a mode that no structure has.
 [[nodiscard]] cases::Case lobes_case(const LobesInput& input);
 
 /// "5000 rpm, 0.5 mm". Throws UsageError: anything else, a wrong unit, zero or less.

@@ -18,7 +18,10 @@ ALLOWED = {
     "reduction": ["linalg", "dynamics", "core"],
     "robot": ["linalg", "dynamics", "core"],
     "coupling": ["linalg", "dynamics", "core"],
+    "regression": ["core"],
+    "identification": ["linalg", "dynamics", "core"],
     "milling": ["linalg", "dynamics", "core"],
+    "posture": ["milling", "coupling", "robot", "regression", "identification", "linalg", "dynamics", "core"],
     "io": ["mesh", "dynamics", "core"],
 }
 NUMERICS = list(ALLOWED)
@@ -45,6 +48,7 @@ OWNERS = [
     (re.compile(r"^[A-Za-z]+_?[A-Za-z]*\.hxx$"), ("io/surface/step",)),
     (re.compile(r"^tetgen\.h$"), ("mesh/",)),
     (re.compile(r"^polyclipping/"), ("milling/simulation/part_region.cpp",)),
+    (re.compile(r"^nlopt\.h(pp)?$"), ("regression/gaussian_process.cpp",)),
     (re.compile(r"^(suitesparse/)?cholmod\.h$"), ("linalg/", "tests/linalg/")),
 ]
 

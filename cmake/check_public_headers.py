@@ -8,7 +8,8 @@ import pathlib
 import re
 import sys
 
-FOLDERS = ("core", "dynamics", "linalg", "mesh", "fem", "reduction", "robot", "coupling", "milling", "io", "setup", "case", "study")
+FOLDERS = ("core", "dynamics", "linalg", "mesh", "fem", "reduction", "robot", "coupling", "regression", "identification", "milling",
+           "posture", "io", "setup", "case", "study")
 
 
 def violations(root, folder):

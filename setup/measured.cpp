@@ -12,11 +12,13 @@
 #include "core/messages.hpp"
 #include "dynamics/conversion.hpp"
 #include "dynamics/frf_checks.hpp"
+#include "io/csv_text.hpp"
 #include "io/frf/frf_csv.hpp"
 #include "io/frf/frf_cutpro.hpp"
 #include "io/frf/frf_lvm.hpp"
 #include "io/frf/mat_response.hpp"
 #include "io/frf/resample.hpp"
+#include "io/frf/response_csv.hpp"
 #include "io/frf/uff.hpp"
 #include "io/matrices/mat_version.hpp"
 #include "reduction/damping.hpp"
@@ -125,6 +127,13 @@ io::MeasuredEntries read_file(const MeasuredFrf& measured) {
   return {{{untold, untold, io::read_frf(measured.file, *stated)}}, {}};
 }
 
+/// True of a CSV that io::write_response() wrote: its header names entries.
+bool is_response_table(const std::filesystem::path& file) {
+  if (frf_file_kind(file) != FrfFileKind::csv) return false;
+  const io::CsvText text = io::read_csv_text(file);
+  return text.header.size() > 2 && text.header[1].starts_with("re ") && text.header[1].find('/') != std::string::npos;
+}
+
 }  // namespace
 
 FrfFileKind frf_file_kind(const std::filesystem::path& file) {
@@ -156,6 +165,24 @@ FrfContent read_measured(const MeasuredFrf& measured, FrfFiles& files) {
 FrfContent read_measured(const MeasuredFrf& measured) {
   FrfFiles files;
   return read_measured(measured, files);
+}
+
+io::MeasuredEntries read_all_measured(const MeasuredFrf& measured) {
+  io::MeasuredEntries all = is_response_table(measured.file)
+                                ? entries_of({io::read_response(measured.file), {}, {}}, measured)
+                                : read_file(measured);
+  for (io::MeasuredEntry& entry : all.entries) {
+    if (entry.response.direction.isZero(0.0)) entry.response = dof_of(measured.response);
+    if (entry.force.direction.isZero(0.0)) entry.force = dof_of(measured.force);
+    for (dynamics::Dof* dof : {&entry.response, &entry.force}) {
+      Eigen::Index largest = 0;
+      dof->direction.cwiseAbs().maxCoeff(&largest);
+      if (dof->direction(largest) > 0.0) continue;
+      dof->direction = -dof->direction;
+      entry.frf.H = -entry.frf.H;
+    }
+  }
+  return all;
 }
 
 const io::MeasuredFrf& receptance_of(const MeasuredFrf& measured) {

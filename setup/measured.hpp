@@ -35,6 +35,11 @@ using FrfFiles = std::map<std::string, io::MeasuredEntries>;
 /// Reads one FRF of a file by itself.
 [[nodiscard]] FrfContent read_measured(const MeasuredFrf& measured);
 
+/// All FRFs of a file. Those of a format that tells no DOFs lie between the ones that `measured` names, and a CSV may
+/// be a matrix of io::write_response(). Directions against an axis are turned along it, with the sign of the FRF.
+/// Errors as those of its format in io/, and InputError for a file that does not say what it holds.
+[[nodiscard]] io::MeasuredEntries read_all_measured(const MeasuredFrf& measured);
+
 /// The receptance that was read of the file. Throws InputError where it was not read (setup/data_files.hpp).
 [[nodiscard]] const io::MeasuredFrf& receptance_of(const MeasuredFrf& measured);
 

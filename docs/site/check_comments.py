@@ -12,8 +12,8 @@ import pathlib
 import re
 import sys
 
-FOLDERS = ("core", "dynamics", "linalg", "mesh", "fem", "reduction", "robot", "coupling", "milling", "io", "case", "setup",
-           "study", "report", "app", "thinwall", "python")
+FOLDERS = ("core", "dynamics", "linalg", "mesh", "fem", "reduction", "robot", "coupling", "regression", "identification",
+           "milling", "posture", "io", "case", "setup", "study", "report", "app", "thinwall", "python")
 FIRST_WORDS = re.compile(r"(What|Where|How|Whether|The same|Of the)\b")
 COMMENT = re.compile(r"\s*(///?)(?:\s+(.*))?$")
 MOST = 20

@@ -13,7 +13,8 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-FOLDERS = ("core", "dynamics", "linalg", "mesh", "fem", "reduction", "robot", "coupling", "milling", "io", "setup", "case", "study")
+FOLDERS = ("core", "dynamics", "linalg", "mesh", "fem", "reduction", "robot", "coupling", "regression", "identification", "milling",
+           "posture", "io", "setup", "case", "study")
 HEAD = re.compile(r"\A#pragma once\n((?://(?!/).*\n)+)")
 INSTANTIATION = re.compile(r"^extern template [^;]*;", re.M)
 ABBREVIATION = re.compile(r"\b(Eqs?\.|Fig\.|e\.g\.|i\.e\.|al\.|ch\.) (?=\S)")  # where no sentence ends

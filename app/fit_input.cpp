@@ -1,0 +1,109 @@
+#include "app/fit_input.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "core/error.hpp"
+#include "io/frf/measured_response.hpp"
+#include "setup/measured.hpp"
+
+namespace thinwall::app {
+
+namespace {
+
+bool is_direction(char letter) {
+  return letter == 'x' || letter == 'y' || letter == 'z';
+}
+
+/// The DOFs and the file of a word.
+setup::MeasuredFrf named(const std::string& word) {
+  setup::MeasuredFrf frf;
+  frf.response = frf.force = "tool.x";
+  frf.file = word;
+  const auto equals = word.find('=');
+  if (equals == std::string::npos || std::filesystem::exists(word)) return frf;
+  const std::string entry = word.substr(0, equals);
+  const auto slash = entry.find('/');
+  if (slash != std::string::npos) {
+    frf.response = entry.substr(0, slash);
+    frf.force = entry.substr(slash + 1);
+  } else if (!entry.empty() && entry.size() <= 2 && std::ranges::all_of(entry, is_direction)) {
+    frf.response = std::string("tool.") + entry.front();
+    frf.force = std::string("tool.") + entry.back();
+  } else {
+    throw core::UsageError("\"" + word + "\": write P.x/Q.y=FILE for response and force, or x=FILE, xy=FILE at a tip");
+  }
+  frf.file = word.substr(equals + 1);
+  return frf;
+}
+
+setup::MeasuredFrf source_of(const std::string& word, const FitInput& input) {
+  setup::MeasuredFrf frf = named(word);
+  if (input.quantity.empty() != input.unit.empty())
+    throw core::UsageError("--quantity and --unit belong together; give both, or neither where the files say them");
+  if (input.quantity.empty()) return frf;
+  frf.quantity = core::from_word<io::FrfQuantity>(input.quantity);
+  if (!frf.quantity)
+    throw core::UsageError("--quantity \"" + input.quantity + "\"; write receptance, mobility or accelerance");
+  frf.unit = input.unit;
+  frf.frequency_unit = input.frequency_unit.empty() ? "Hz" : input.frequency_unit;
+  return frf;
+}
+
+/// The coherence of each line as a matrix; none unless every entry has one.
+std::vector<Eigen::MatrixXd> coherence_of(const io::MeasuredResponse& measured) {
+  const dynamics::ResponseModel& model = measured.response;
+  const auto rows = static_cast<Eigen::Index>(model.responses.size()),
+             columns = static_cast<Eigen::Index>(model.forces.size());
+  std::vector<Eigen::MatrixXd> lines(static_cast<std::size_t>(model.axis.size()), Eigen::MatrixXd(rows, columns));
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    for (Eigen::Index j = 0; j < columns; ++j) {
+      const Eigen::VectorXd values = io::coherence_of(measured, i, j);
+      if (values.size() != model.axis.size()) return {};
+      for (Eigen::Index line = 0; line < values.size(); ++line)
+        lines[static_cast<std::size_t>(line)](i, j) = values(line);
+    }
+  }
+  return lines;
+}
+
+/// Adds the entries of the matrix that are absent and whose transpose is there, with a note on each.
+void complete_by_reciprocity(io::MeasuredEntries& all) {
+  std::map<std::pair<std::string, std::string>, std::size_t> known;
+  std::map<std::string, dynamics::Dof> responses, forces;
+  for (std::size_t i = 0; i < all.entries.size(); ++i) {
+    const io::MeasuredEntry& entry = all.entries[i];
+    const std::string response = dynamics::name(entry.response), force = dynamics::name(entry.force);
+    known.emplace(std::pair(response, force), i);
+    responses.emplace(response, entry.response);
+    forces.emplace(force, entry.force);
+  }
+  for (const auto& [response, of_response] : responses) {
+    for (const auto& [force, of_force] : forces) {
+      const auto reverse = known.find({force, response});
+      if (known.contains({response, force}) || reverse == known.end()) continue;
+      io::MeasuredFrf frf = all.entries[reverse->second].frf;
+      all.entries.push_back({of_response, of_force, std::move(frf)});
+      all.notes.push_back(response + "/" + force + " is taken from " + force + "/" + response + " by reciprocity");
+    }
+  }
+}
+
+}  // namespace
+
+FitMatrix fit_matrix(const FitInput& input) {
+  io::MeasuredEntries all;
+  for (const std::string& word : input.sources) {
+    io::MeasuredEntries of_file = setup::read_all_measured(source_of(word, input));
+    std::ranges::move(of_file.entries, std::back_inserter(all.entries));
+    std::ranges::move(of_file.notes, std::back_inserter(all.notes));
+  }
+  complete_by_reciprocity(all);
+  io::MeasuredResponse matrix = io::response_matrix(all);
+  return {matrix.response, coherence_of(matrix), all.notes};
+}
+
+}  // namespace thinwall::app

@@ -1,0 +1,83 @@
+#pragma once
+// A modal model from a measured matrix of receptances, with what speaks against it.
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/words.hpp"
+#include "dynamics/response_model.hpp"
+#include "identification/identify.hpp"
+
+namespace thinwall::identification {
+
+/// A range of frequencies, Hz.
+struct Band {
+  double from_hz = 0.0;
+  double to_hz = std::numeric_limits<double>::infinity();
+};
+
+/// The lines that are used, and what is known of their noise.
+struct ResponseFitOptions {
+  Band band;
+  std::vector<Band> left_out;   ///< within the band, such as the mains
+  std::optional<int> averages;  ///< that the coherence belongs to
+  std::optional<double> noise;  ///< deviation of real and imaginary part alike, relative to |H|; before coherence
+  IdentifyOptions identify;     ///< rank one where nothing else is said
+};
+
+/// The source of the weights of the lines.
+enum class Weights {
+  scatter,    ///< from line to line
+  coherence,  ///< and the number of averages
+  noise,      ///< as it was stated
+};
+
+/// The fit, and the lines that it was made from.
+struct ResponseFit {
+  MeasuredLines lines;
+  Identification found;
+  Weights weights = Weights::scatter;
+  Eigen::MatrixXd misfit;  ///< √(Σ |H − fit|² / Σ |H|²) over the lines, responses × references
+};
+
+/// identify() of a measured matrix. Variances of the lines follow from the stated noise; else from the coherence (one
+/// matrix a line, or none), if its number of averages is known; else from the scatter from line to line. They are taken
+/// once of the lines themselves and twice more by what was fitted before, so that neither small values nor resonances
+/// mislead. Lines at 0 Hz are not used. Throws InputError for a band with fewer than ten lines, noise that is not
+/// positive, and as identify(). Cost: three of its fits.
+[[nodiscard]] ResponseFit fit_response(const dynamics::ResponseModel& measured,
+                                       const std::vector<Eigen::MatrixXd>& coherence,
+                                       const ResponseFitOptions& options = {});
+
+/// The stable poles of the band by the scatter of its lines, from which fit_response() starts. Errors as
+/// fit_response().
+[[nodiscard]] std::vector<StablePole> stable_poles(const dynamics::ResponseModel& measured,
+                                                   const ResponseFitOptions& options = {});
+
+/// Sentences that a user should read before the model is used: χ² that is too large, with the frequency and the entry
+/// where it is and the terms that would help; residues that are not symmetric where symmetric ones were asked for, or
+/// not of rank one; driving points whose phase is that of a mobility or an accelerance, or that are turned; modes of
+/// uncertain damping; a model that gives energy. Cost: two fits at most.
+[[nodiscard]] std::vector<std::string> doubts_about(const ResponseFit& fit, const dynamics::DofTable& responses,
+                                                    const dynamics::DofTable& forces,
+                                                    const ResponseFitOptions& options);
+
+/// The fitted receptances on an axis.
+[[nodiscard]] dynamics::ResponseModel fitted_response(const ModalFit& fit, const dynamics::FrequencyAxis& axis,
+                                                      const dynamics::DofTable& responses,
+                                                      const dynamics::DofTable& forces);
+
+}  // namespace thinwall::identification
+
+namespace thinwall::core {
+
+template <>
+inline constexpr std::array<std::string_view, 3> words<identification::Weights>{"scatter", "coherence", "noise"};
+template <>
+inline constexpr std::array<std::string_view, 3> words<identification::Residues>{"free", "rank_one", "symmetric"};
+
+}  // namespace thinwall::core

@@ -1,0 +1,12 @@
+#pragma once
+// The headers of identification/ that other programs may include.
+// Internal: assignment.
+
+#include "core/eigen_alignment.hpp"
+#include "identification/fit_response.hpp"
+#include "identification/fitted_model.hpp"
+#include "identification/identify.hpp"
+#include "identification/measured_lines.hpp"
+#include "identification/modal_fit.hpp"
+#include "identification/plscf.hpp"
+#include "identification/tracking.hpp"

@@ -1,0 +1,202 @@
+#include "identification/tracking.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <string>
+
+#include "core/error.hpp"
+#include "identification/assignment.hpp"
+
+namespace thinwall::identification {
+
+namespace {
+
+constexpr double most_unlike = 3.0;
+
+double mac(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
+  return std::norm(a.dot(b)) / (a.squaredNorm() * b.squaredNorm());
+}
+
+/// The distances of all pairs of places.
+Eigen::MatrixXd distances(const std::vector<PostureModes>& postures) {
+  const auto n = static_cast<Eigen::Index>(postures.size());
+  Eigen::MatrixXd result(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j)
+      result(i, j) = (postures[static_cast<std::size_t>(i)].place - postures[static_cast<std::size_t>(j)].place).norm();
+  }
+  return result;
+}
+
+/// The posture nearest to the mean place.
+Eigen::Index middle(const std::vector<PostureModes>& postures) {
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(postures.front().place.size());
+  for (const PostureModes& p : postures) mean += p.place / static_cast<double>(postures.size());
+  Eigen::VectorXd distance(static_cast<Eigen::Index>(postures.size()));
+  for (std::size_t i = 0; i < postures.size(); ++i)
+    distance(static_cast<Eigen::Index>(i)) = (postures[i].place - mean).norm();
+  Eigen::Index at = 0;
+  distance.minCoeff(&at);
+  return at;
+}
+
+/// The shortest spanning tree: postures in the order in which they join, and the parent of each.
+struct Tree {
+  std::vector<std::size_t> order;
+  std::vector<int> parent;
+};
+
+Tree spanning_tree(const Eigen::MatrixXd& distance, Eigen::Index root) {
+  const Eigen::Index n = distance.rows();
+  Tree tree{{}, std::vector<int>(static_cast<std::size_t>(n), -1)};
+  Eigen::VectorXd to_tree = distance.col(root);
+  std::vector<int> nearest(static_cast<std::size_t>(n), static_cast<int>(root));
+  to_tree(root) = -1.0;
+  std::vector<bool> joined(static_cast<std::size_t>(n), false);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    Eigen::Index next = -1;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (!joined[static_cast<std::size_t>(i)] && (next < 0 || to_tree(i) < to_tree(next))) next = i;
+    }
+    const auto at = static_cast<std::size_t>(next);
+    joined[at] = true;
+    tree.order.push_back(at);
+    if (next != root) tree.parent[at] = nearest[at];
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (joined[static_cast<std::size_t>(i)] || distance(i, next) >= to_tree(i)) continue;
+      to_tree(i) = distance(i, next);
+      nearest[static_cast<std::size_t>(i)] = static_cast<int>(next);
+    }
+  }
+  return tree;
+}
+
+Eigen::MatrixXd unlikeness_of(const std::vector<const FittedMode*>& a, const std::vector<FittedMode>& b) {
+  Eigen::MatrixXd cost(static_cast<Eigen::Index>(a.size()), static_cast<Eigen::Index>(b.size()));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j)
+      cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = unlikeness(*a[i], b[j]);
+  }
+  return cost;
+}
+
+/// The modes of the labels that a posture's ancestors have, each of the nearest one.
+std::map<int, const FittedMode*> known_modes(const std::vector<PostureModes>& postures, const Tracking& tracking,
+                                             int ancestor) {
+  std::map<int, const FittedMode*> known;
+  for (; ancestor >= 0; ancestor = tracking.parent[static_cast<std::size_t>(ancestor)]) {
+    const auto at = static_cast<std::size_t>(ancestor);
+    for (std::size_t k = 0; k < tracking.label[at].size(); ++k)
+      known.emplace(tracking.label[at][k], &postures[at].modes[k]);
+  }
+  return known;
+}
+
+void label(const std::vector<PostureModes>& postures, std::size_t at, Tracking& tracking) {
+  const std::vector<FittedMode>& modes = postures[at].modes;
+  std::vector<int>& labels = tracking.label[at];
+  labels.assign(modes.size(), -1);
+  std::vector<int> known_labels;
+  std::vector<const FittedMode*> known;
+  for (const auto& [name, mode] : known_modes(postures, tracking, tracking.parent[at])) {
+    known_labels.push_back(name);
+    known.push_back(mode);
+  }
+  if (!known.empty() && !modes.empty()) {
+    const Eigen::MatrixXd cost = unlikeness_of(known, modes);
+    const std::vector<int> pair = cheapest_pairing(cost);
+    for (std::size_t i = 0; i < pair.size(); ++i) {
+      if (pair[i] >= 0 && cost(static_cast<Eigen::Index>(i), pair[i]) <= most_unlike)
+        labels[static_cast<std::size_t>(pair[i])] = known_labels[i];
+    }
+  }
+  for (int& name : labels) {
+    if (name < 0) name = tracking.labels++;
+  }
+}
+
+/// Numbers the labels by the mean logarithm of their frequencies.
+void number(const std::vector<PostureModes>& postures, Tracking& tracking) {
+  std::vector<double> sum(static_cast<std::size_t>(tracking.labels), 0.0), count = sum;
+  for (std::size_t i = 0; i < postures.size(); ++i) {
+    for (std::size_t k = 0; k < postures[i].modes.size(); ++k) {
+      const auto name = static_cast<std::size_t>(tracking.label[i][k]);
+      sum[name] += std::log(postures[i].modes[k].frequency_hz);
+      count[name] += 1.0;
+    }
+  }
+  std::vector<std::size_t> order(sum.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return sum[a] / count[a] < sum[b] / count[b]; });
+  std::vector<int> number_of(sum.size());
+  for (std::size_t i = 0; i < order.size(); ++i) number_of[order[i]] = static_cast<int>(i);
+  for (std::vector<int>& labels : tracking.label) {
+    for (int& name : labels) name = number_of[static_cast<std::size_t>(name)];
+  }
+}
+
+/// Votes of the nearest postures on each label of a posture.
+void doubt(const std::vector<PostureModes>& postures, const Eigen::MatrixXd& distance, int neighbours,
+           Tracking& tracking) {
+  for (std::size_t i = 0; i < postures.size(); ++i) {
+    std::vector<std::size_t> nearest(postures.size());
+    std::iota(nearest.begin(), nearest.end(), std::size_t{0});
+    const auto at = static_cast<Eigen::Index>(i);
+    std::stable_sort(nearest.begin(), nearest.end(), [&](std::size_t a, std::size_t b) {
+      return distance(at, static_cast<Eigen::Index>(a)) < distance(at, static_cast<Eigen::Index>(b));
+    });
+    std::vector<int> votes(postures[i].modes.size(), 0);
+    for (std::size_t k = 1; k < std::min(nearest.size(), static_cast<std::size_t>(neighbours) + 1); ++k) {
+      const PostureModes& other = postures[nearest[k]];
+      std::vector<const FittedMode*> of_other;
+      for (const FittedMode& mode : other.modes) of_other.push_back(&mode);
+      if (of_other.empty() || postures[i].modes.empty()) continue;
+      const Eigen::MatrixXd cost = unlikeness_of(of_other, postures[i].modes);
+      const std::vector<int> pair = cheapest_pairing(cost);
+      for (std::size_t m = 0; m < pair.size(); ++m) {
+        if (pair[m] < 0 || cost(static_cast<Eigen::Index>(m), pair[m]) > most_unlike) continue;
+        const auto mine = static_cast<std::size_t>(pair[m]);
+        votes[mine] += tracking.label[nearest[k]][m] == tracking.label[i][mine] ? 1 : -1;
+      }
+    }
+    for (std::size_t m = 0; m < votes.size(); ++m) tracking.doubtful[i][m] = votes[m] < 0;
+  }
+}
+
+}  // namespace
+
+double unlikeness(const FittedMode& a, const FittedMode& b) {
+  const double size_a = a.left.norm() * a.right.norm(), size_b = b.left.norm() * b.right.norm();
+  return 1.0 - mac(a.left, b.left) * mac(a.right, b.right) + 8.0 * std::abs(std::log(a.frequency_hz / b.frequency_hz)) +
+         0.5 * std::abs(std::log(a.damping_ratio / b.damping_ratio)) + 0.3 * std::abs(std::log(size_a / size_b));
+}
+
+Tracking track(const std::vector<PostureModes>& postures, int neighbours) {
+  if (postures.empty()) throw core::InputError("tracking: no posture, must be at least one");
+  for (std::size_t i = 0; i < postures.size(); ++i) {
+    if (postures[i].place.size() != postures.front().place.size())
+      throw core::InputError("tracking: posture " + std::to_string(i + 1) +
+                             " has a place of another size than the first");
+    for (const FittedMode& mode : postures[i].modes) {
+      if (mode.left.size() == 0 || mode.right.size() == 0)
+        throw core::InputError("tracking: a mode of posture " + std::to_string(i + 1) +
+                               " has no vectors; fit residues of rank one");
+    }
+  }
+  const Eigen::MatrixXd distance = distances(postures);
+  const Tree tree = spanning_tree(distance, middle(postures));
+  Tracking tracking;
+  tracking.label.resize(postures.size());
+  tracking.parent = tree.parent;
+  for (const PostureModes& p : postures) tracking.doubtful.emplace_back(p.modes.size(), false);
+  for (const std::size_t at : tree.order) label(postures, at, tracking);
+  number(postures, tracking);
+  doubt(postures, distance, neighbours, tracking);
+  return tracking;
+}
+
+}  // namespace thinwall::identification

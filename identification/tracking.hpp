@@ -1,0 +1,39 @@
+#pragma once
+// Modes followed over many postures.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identification/modal_fit.hpp"
+
+namespace thinwall::identification {
+
+/// The modes of a posture, each with left and right vector.
+struct PostureModes {
+  Eigen::VectorXd place;  ///< of the posture, in units in which neighbours are some tenths apart
+  std::vector<FittedMode> modes;
+};
+
+/// The names of modes over postures.
+struct Tracking {
+  std::vector<std::vector<int>> label;      ///< of each posture and mode, from 0 on
+  std::vector<std::vector<bool>> doubtful;  ///< neighbours of the posture disagree about it
+  int labels = 0;
+  std::vector<int> parent;  ///< of each posture in the tree, −1 for where it begins
+};
+
+/// The unlikeness of two modes: 1 − MAC of left times MAC of right vectors, plus 8 |Δ ln ω| + ½ |Δ ln ζ| + 3/10 |Δ ln
+/// of the residue's size|. 0 for the same one.
+[[nodiscard]] double unlikeness(const FittedMode& a, const FittedMode& b);
+
+/// Joins modes of neighbouring postures along the shortest tree that spans the places (Prim 1957), from the posture
+/// nearest to the middle outwards: the cheapest pairing by unlikeness(), which follows crossings because shapes change
+/// less between neighbours than the order of frequencies does. A mode of a label that the parent does not have is
+/// compared with the nearest ancestor that has it, so that a gap ends no label; one that is unlike all by more than 3
+/// begins a new one. Then every posture's pairs with its `neighbours` nearest postures are looked at: where more of
+/// them contradict a label than agree with it, it is doubtful. Labels are numbered by the mean frequency of their
+/// modes. Throws InputError for no posture, places of different sizes, or modes without vectors. Cost O(postures² +
+/// postures neighbours modes³).
+[[nodiscard]] Tracking track(const std::vector<PostureModes>& postures, int neighbours = 6);
+
+}  // namespace thinwall::identification

@@ -1,0 +1,204 @@
+// `thinwall fit`: from files of a structure that is known to tables that a case reads.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "app/case_run.hpp"
+#include "app/command_line.hpp"
+#include "core/atomic_file.hpp"
+#include "dynamics/conversion.hpp"
+#include "identification/fit_response.hpp"
+#include "io/frf/modal_table_csv.hpp"
+#include "io/frf/response_csv.hpp"
+#include "io/frf/uff.hpp"
+#include "io/frf/uff_shapes.hpp"
+#include "robot/modal_table.hpp"
+#include "tests/app/lobes_command.hpp"
+#include "tests/identification/random_structure.hpp"
+
+namespace thinwall::tests::fit_command_test {
+namespace {
+
+using identification::FittedMode;
+using identification::testing::Draw;
+
+Outcome command(std::vector<std::string> words) {
+  words.insert(words.begin(), "thinwall");
+  std::vector<const char*> argv;
+  for (const auto& word : words) argv.push_back(word.c_str());
+  std::ostringstream out, err;
+  const int code = run_command_line(static_cast<int>(argv.size()), argv.data(), run_case, out, err);
+  return {code, out.str(), err.str()};
+}
+
+/// Two points along x and y with modes that are not reciprocal, and noise.
+class Fit : public testing::Test {
+ protected:
+  Fit() {
+    Draw draw(31);
+    truth = identification::testing::random_modes(draw, 3, 2, 2, 0.03);
+    // Passive, and not reciprocal by a tenth or two.
+    for (FittedMode& mode : truth) {
+      mode.left = mode.left.real().cast<std::complex<double>>();
+      const Eigen::Vector2cd off(1.0 + draw.between(-0.2, 0.2), 1.0 + draw.between(-0.2, 0.2));
+      mode.right = mode.left.cwiseProduct(off) / std::complex<double>(0.0, 2.0 * mode.pole().imag());
+      mode.residue = mode.right * mode.left.transpose();
+    }
+    const auto lines = identification::testing::lines_of(truth, 700, noise, draw);
+    measured = {{lines.hz}, dofs, dofs, lines.H};
+  }
+  [[nodiscard]] std::string path(const std::string& name) const { return (temporary.path / name).string(); }
+  [[nodiscard]] nlohmann::json figures() const {
+    return nlohmann::json::parse(core::read_file(temporary.path / "out" / "fit.json"));
+  }
+
+  static constexpr double noise = 0.01;
+  const dynamics::DofTable dofs{{"1", Eigen::Vector3d::UnitX(), dynamics::DofKind::translation},
+                                {"1", Eigen::Vector3d::UnitY(), dynamics::DofKind::translation}};
+  std::vector<FittedMode> truth;
+  dynamics::ResponseModel measured;
+  TemporaryFolder temporary;
+};
+
+/// The table that a robot is read from has the receptances of the truth, but for the static part of the lines.
+TEST_F(Fit, WritesATableThatARobotIsReadFrom) {
+  io::write_uff(path("robot.uff"), measured);
+  const Outcome done = command({"fit", path("robot.uff"), "--out", path("out")});
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(done.out.find("warning"), std::string::npos) << done.out;
+  const auto table = io::read_modal_table(temporary.path / "out" / "modal_table.csv", {1.0, 1.0, {}});
+  ASSERT_EQ(table.rows.size(), truth.size());
+  const auto again = dynamics::to_response(robot::modal_model(table, robot::PointPlaces::may_differ), measured.axis);
+  identification::ModalFit exact;
+  exact.modes = truth;
+  for (std::size_t r = 0; r < truth.size(); ++r) {
+    const auto line = static_cast<Eigen::Index>((truth[r].frequency_hz - 20.0) / (380.0 / 699.0));
+    const Eigen::MatrixXcd H = value(exact, measured.axis.hz(line));
+    EXPECT_LT((again.H[static_cast<std::size_t>(line)] - H).norm(), 0.01 * H.norm()) << r;
+    const auto hz = figures()["modes"][r]["frequency_95_hz"];
+    EXPECT_LT(hz[0].get<double>(), hz[1].get<double>());
+    EXPECT_LT(std::abs(std::log(table.rows[r].frequency_hz / truth[r].frequency_hz)),
+              2.0 * std::log(hz[1].get<double>() / hz[0].get<double>()));
+  }
+  EXPECT_EQ(io::read_uff_shapes(temporary.path / "out" / "modes.uff").shapes.size(), truth.size());
+  EXPECT_NEAR(figures()["chi2_per_dof"].get<double>(), 1.0, 0.15);
+}
+
+/// UFF, our CSV, and accelerance in a file that says so are one structure.
+TEST_F(Fit, GivesTheSameModesFromFilesOfAnyKind) {
+  io::write_response(path("robot.csv"), measured);
+  ASSERT_EQ(command({"fit", path("robot.csv"), "--out", path("out")}).code, 0);
+  const nlohmann::json from_csv = figures();
+  io::write_uff(path("robot.uff"), measured);
+  ASSERT_EQ(command({"fit", path("robot.uff"), "--out", path("out")}).code, 0);
+  for (std::size_t r = 0; r < truth.size(); ++r)
+    EXPECT_NEAR(figures()["modes"][r]["frequency_hz"].get<double>(), from_csv["modes"][r]["frequency_hz"].get<double>(),
+                1e-6 * truth[r].frequency_hz);
+  std::vector<std::string> words{"fit"};
+  for (const auto& [name, row, column] :
+       {std::tuple{"xx", 0, 0}, std::tuple{"xy", 0, 1}, std::tuple{"yx", 1, 0}, std::tuple{"yy", 1, 1}}) {
+    std::ostringstream text;
+    text.precision(17);
+    text << "frequency_hz,real,imaginary\n";
+    for (std::size_t i = 0; i < measured.H.size(); ++i) {
+      const double omega = measured.axis.omega_rad_s(static_cast<Eigen::Index>(i));
+      const std::complex<double> A = -omega * omega * measured.H[i](row, column);
+      text << measured.axis.hz(static_cast<Eigen::Index>(i)) << ',' << A.real() << ',' << A.imag() << '\n';
+    }
+    core::write_file_atomically(path(std::string(name) + ".csv"), text.str());
+    words.push_back(std::string(name) + "=" + path(std::string(name) + ".csv"));
+  }
+  for (const char* word : {"--quantity", "accelerance", "--unit", "m/s^2/N", "--out"}) words.emplace_back(word);
+  words.push_back(path("out"));
+  const Outcome done = command(words);
+  ASSERT_EQ(done.code, 0) << done.err;
+  for (std::size_t r = 0; r < truth.size(); ++r)
+    EXPECT_NEAR(figures()["modes"][r]["frequency_hz"].get<double>(), from_csv["modes"][r]["frequency_hz"].get<double>(),
+                1e-6 * truth[r].frequency_hz);
+  EXPECT_EQ(figures()["responses"], (nlohmann::json{"tool.x", "tool.y"}));
+}
+
+TEST_F(Fit, TellsWhatIsMissingOrWrong) {
+  io::write_uff(path("robot.uff"), measured);
+  const Outcome symmetric = command({"fit", path("robot.uff"), "--residues", "symmetric", "--out", path("out")});
+  EXPECT_EQ(symmetric.code, 0);
+  EXPECT_NE(symmetric.out.find("symmetric residues do not fit"), std::string::npos) << symmetric.out;
+  std::string text = core::read_file(path("robot.uff"));
+  // The last entry is left out, then the last but two: "-1" lines delimit data sets.
+  const auto without_last = [&] { text.resize(text.rfind("    -1\n    58")); };
+  without_last();
+  core::write_file_atomically(path("part.uff"), text);
+  const Outcome part = command({"fit", path("part.uff"), "--out", path("out")});
+  EXPECT_EQ(part.code, 4);
+  EXPECT_NE(part.err.find("1.y"), std::string::npos) << part.err;
+  without_last();
+  core::write_file_atomically(path("part.uff"), text);
+  EXPECT_EQ(command({"fit", path("part.uff"), "--out", path("out")}).code, 0);  // a row
+  EXPECT_EQ(command({"fit", path("robot.uff"), "--from", "30 mm"}).code, 2);
+  EXPECT_EQ(command({"fit", path("robot.uff"), "--from", "30 Hz", "--to", "20 Hz"}).code, 2);
+  EXPECT_EQ(command({"fit", path("robot.uff"), "--terms", "9"}).code, 2);
+  EXPECT_EQ(command({"fit", path("robot.uff"), "--residues", "round"}).code, 2);
+  EXPECT_EQ(command({"fit", path("robot.uff"), "--exclude", "50 Hz:"}).code, 2);
+  EXPECT_EQ(command({"fit", "A=" + path("robot.uff")}).code, 2);
+  EXPECT_EQ(command({"fit", path("none.uff")}).code, 4);
+  EXPECT_EQ(command({"fit", path("robot.uff"), "--from", "399 Hz", "--out", path("out")}).code, 3);
+}
+
+/// One cross FRF serves for both, as in `lobes`.
+TEST_F(Fit, TakesACrossEntryForItsReverse) {
+  for (auto& H : measured.H) H(0, 1) = H(1, 0);
+  const auto write_entry = [&](const std::string& name, Eigen::Index row, Eigen::Index column) {
+    dynamics::ResponseModel entry{
+        measured.axis, {dofs[static_cast<std::size_t>(row)]}, {dofs[static_cast<std::size_t>(column)]}, {}};
+    for (const auto& H : measured.H) entry.H.emplace_back(Eigen::MatrixXcd::Constant(1, 1, H(row, column)));
+    io::write_response(path(name), entry);
+    return path(name);
+  };
+  const Outcome three = command({"fit", write_entry("a.csv", 0, 0), write_entry("b.csv", 1, 0),
+                                 write_entry("c.csv", 1, 1), "--out", path("out")});
+  ASSERT_EQ(three.code, 0) << three.err;
+  EXPECT_NE(three.out.find("1.x/1.y is taken from 1.y/1.x by reciprocity"), std::string::npos) << three.out;
+  const nlohmann::json of_three = figures();
+  io::write_response(path("all.csv"), measured);
+  ASSERT_EQ(command({"fit", path("all.csv"), "--out", path("out")}).code, 0);
+  EXPECT_EQ(figures()["modes"], of_three["modes"]);
+}
+
+TEST_F(Fit, StartsFromTheNamedPoles) {
+  io::write_uff(path("robot.uff"), measured);
+  std::ostringstream named;
+  named << truth[0].frequency_hz << " Hz, " << truth[2].frequency_hz << " Hz";
+  const Outcome done = command({"fit", path("robot.uff"), "--poles", named.str(), "--out", path("out")});
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(figures()["modes"].size(), 2u);
+  EXPECT_NE(done.out.find("chi2 a degree of freedom is"), std::string::npos) << done.out;
+}
+
+/// The modes of a tip, as `lobes` reads them, give the chart of the tip's own modes.
+class FitOfATip : public LobesCommand {};
+
+TEST_F(FitOfATip, WritesModesThatLobesReads) {
+  ASSERT_EQ(command({"fit", path("tip.csv"), "--quantity", "receptance", "--unit", "m/N", "--terms", "0", "--to",
+                     "3 kHz", "--out", path("out")})
+                .code,
+            0);
+  ASSERT_EQ(lobes({path("modes.csv"), "--tool", path("tool.toml")}).code, 0);
+  const auto depths = [&] {
+    return io::numbers(io::read_csv(temporary.path / "results" / "lobes" / "tool.csv"), "limiting_depth_m", "lobes");
+  };
+  const std::vector<double> of_modes = depths();
+  const Outcome done = lobes({path("out") + "/modes.csv", "--tool", path("tool.toml")});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const std::vector<double> of_fit = depths();
+  ASSERT_EQ(of_fit.size(), of_modes.size());
+  for (std::size_t i = 0; i < of_fit.size(); ++i) EXPECT_NEAR(of_fit[i], of_modes[i], 1e-5 * of_modes[i]) << i;
+}
+
+}  // namespace
+}  // namespace thinwall::tests::fit_command_test

@@ -1,0 +1,110 @@
+// Modes that cross, vanish and appear over postures.
+
+#include "identification/tracking.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "core/error.hpp"
+#include "identification/assignment.hpp"
+#include "tests/identification/random_structure.hpp"
+
+namespace thinwall::identification::tracking_test {
+namespace {
+
+/// Against all permutations of up to six pairs.
+TEST(CheapestPairing, IsTheCheapestOfAll) {
+  testing::Draw draw(2);
+  for (int trial = 0; trial < 60; ++trial) {
+    const int rows = 1 + trial % 6, columns = 1 + (trial / 6) % 6;
+    Eigen::MatrixXd cost(rows, columns);
+    for (double& c : cost.reshaped()) c = draw.between(-1.0, 1.0);
+    const std::vector<int> pair = cheapest_pairing(cost);
+    double sum = 0.0;
+    int pairs = 0;
+    std::vector<bool> taken(static_cast<std::size_t>(columns), false);
+    for (int i = 0; i < rows; ++i) {
+      const int j = pair[static_cast<std::size_t>(i)];
+      if (j < 0) continue;
+      ASSERT_FALSE(taken[static_cast<std::size_t>(j)]);
+      taken[static_cast<std::size_t>(j)] = true;
+      sum += cost(i, j);
+      ++pairs;
+    }
+    ASSERT_EQ(pairs, std::min(rows, columns));
+    const Eigen::MatrixXd flat = rows <= columns ? cost : Eigen::MatrixXd(cost.transpose());
+    std::vector<int> order(static_cast<std::size_t>(flat.cols()));
+    std::iota(order.begin(), order.end(), 0);
+    double least = 1e9;
+    do {
+      double of_order = 0.0;
+      for (Eigen::Index i = 0; i < flat.rows(); ++i) of_order += flat(i, order[static_cast<std::size_t>(i)]);
+      least = std::min(least, of_order);
+    } while (std::next_permutation(order.begin(), order.end()));
+    EXPECT_NEAR(sum, least, 1e-12);
+  }
+}
+
+/// A mode along a direction that turns slowly, with a frequency that rises or falls over the postures.
+FittedMode mode(double hz, double angle) {
+  FittedMode m;
+  m.frequency_hz = hz;
+  m.damping_ratio = 0.02;
+  m.left = Eigen::Vector2cd(std::cos(angle), std::sin(angle));
+  m.right = m.left * std::complex<double>(0.0, -1.0);
+  return m;
+}
+
+/// 9 × 9 postures: two modes cross along the first direction, a third is not seen in a corner.
+std::vector<PostureModes> crossing_postures() {
+  std::vector<PostureModes> postures;
+  for (int i = 0; i < 9; ++i) {
+    for (int j = 0; j < 9; ++j) {
+      const double x = 0.25 * i - 1.0, y = 0.25 * j - 1.0, turn = 0.3 * y;
+      PostureModes p{Eigen::Vector2d(x, y), {}};
+      p.modes.push_back(mode(50.0 * (1.0 + 0.1 * x), turn));
+      p.modes.push_back(mode(50.0 * (1.0 - 0.1 * x + 0.02 * y), turn + 1.4));
+      if (i > 2 || j > 2) p.modes.push_back(mode(90.0 + 5.0 * y, 0.7));
+      std::sort(p.modes.begin(), p.modes.end(),
+                [](const FittedMode& a, const FittedMode& b) { return a.frequency_hz < b.frequency_hz; });
+      postures.push_back(p);
+    }
+  }
+  return postures;
+}
+
+TEST(Tracking, FollowsModesThroughCrossingsAndGaps) {
+  const std::vector<PostureModes> postures = crossing_postures();
+  const Tracking tracking = track(postures);
+  EXPECT_EQ(tracking.labels, 3);
+  int first_at_middle = -1;
+  for (std::size_t i = 0; i < postures.size(); ++i) {
+    const double turn = 0.3 * postures[i].place.y();
+    for (std::size_t k = 0; k < postures[i].modes.size(); ++k) {
+      const FittedMode& m = postures[i].modes[k];
+      const bool third = m.frequency_hz > 80.0;
+      const bool first = !third && std::abs(std::abs(m.left(0).real()) - std::cos(turn)) < 1e-9;
+      if (first && first_at_middle < 0) first_at_middle = tracking.label[i][k];
+      if (third) EXPECT_EQ(tracking.label[i][k], 2);
+      if (!third) EXPECT_EQ(tracking.label[i][k] == first_at_middle, first) << i;
+      EXPECT_FALSE(tracking.doubtful[i][k]);
+    }
+  }
+}
+
+TEST(Tracking, RefusesModesWithoutVectors) {
+  EXPECT_THROW((void)track({}), core::InputError);
+  std::vector<PostureModes> postures = crossing_postures();
+  postures[3].modes[0].left.resize(0);
+  EXPECT_THROW((void)track(postures), core::InputError);
+  postures = crossing_postures();
+  postures[5].place.resize(3);
+  EXPECT_THROW((void)track(postures), core::InputError);
+}
+
+}  // namespace
+}  // namespace thinwall::identification::tracking_test
