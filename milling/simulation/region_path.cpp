@@ -169,6 +169,7 @@ RegionCut simulate_region(const RelativeStructure& structure, const MillingProce
                           const TurnObserver& after_turn) {
   require_usable(process, law, point, options);
   require_valid(validate(PathOptions{region.steps_a_turn, 1}));
+  require_whole_steps(options, region.steps_a_turn);
   const PathCut cut = path_cut(structure, process, point, options, region.steps_a_turn, 1, region.contact);
   const double cell = region.cell_m > 0.0 ? region.cell_m : cut.radius_m / 20.0;
   Slices slices(part, cell, cut, region.edge);
