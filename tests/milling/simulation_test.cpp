@@ -280,6 +280,10 @@ TEST(Simulation, RefusesWhatItCannotMarch) {
   SimulationOptions short_wall = turns(1, 10);
   short_wall.wall.turns = 3;
   EXPECT_THROW((void)simulated(process, {11000.0, 1e-3, feed_m}, short_wall), core::InputError);
+  SimulationOptions coarse = turns(1, 10);
+  coarse.wall.turns = 8;
+  coarse.wall.cutoff_m = 3.0 * 2.0 * feed_m;  // twice of which are more than the four turns that are left
+  EXPECT_THROW((void)simulated(process, {11000.0, 1e-3, feed_m}, coarse), core::InputError);
 }
 
 }  // namespace
