@@ -137,4 +137,17 @@ SimulatedCut simulate(const RelativeStructure& structure, const MillingProcess& 
   });
 }
 
+Eigen::Vector3d mean_force_of_rigid_tool(const MillingProcess& process, const ForceLaw& law,
+                                         const SimulatedPoint& point) {
+  constexpr double pole_rad_s = 1e5, stiffness_n_per_m = 1e18;
+  RelativeStructure rigid{Eigen::VectorXcd(2), Eigen::Matrix3Xcd::Zero(3, 2), Eigen::Matrix3Xcd::Zero(3, 2)};
+  rigid.poles.setConstant({-0.1 * pole_rad_s, pole_rad_s});
+  rigid.phi.leftCols<2>() = process.frame.rotation().leftCols<2>().cast<std::complex<double>>();
+  rigid.b = rigid.phi * std::complex<double>(0.0, -0.5 * pole_rad_s / stiffness_n_per_m);
+  SimulationOptions options;
+  options.settling_turns = process.cutter.teeth;  // runout leaves a surface to the teeth of a turn
+  options.recorded_turns = 1;
+  return simulate(rigid, process, law, point, options).mean_force_n;
+}
+
 }  // namespace thinwall::milling
