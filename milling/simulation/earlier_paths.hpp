@@ -62,7 +62,7 @@ class EarlierPaths {
     const RaySpan stock = within(stock_, centre, ray.n(), disc.radius_m);
     if (stock.from_m >= stock.to_m) return 0.0;
     if (!ray.found) {
-      ray.found = true;
+      ray.found = ray.in_cut = true;
       ray.farthest_m = farthest_cut(disc, node, centre, ray.n());
       ray.from = centre;
     }

@@ -54,6 +54,7 @@ void require_usable(const MillingProcess& process, const ForceLaw& law, const Si
   require_usable(process, law, point, options);
   require_valid(validate(stock));
   require_valid(validate(paths));
+  require_whole_steps(options, paths.steps_a_turn);
 }
 
 template <class Tool>
@@ -81,6 +82,12 @@ std::vector<std::string> validate(const PathOptions& options) {
                          " earlier passes, must be 1 to 1000; 10 are usual");
   }
   return violations;
+}
+
+void require_whole_steps(const SimulationOptions& options, int steps_a_turn) {
+  if (options.means_a_turn == 0 || steps_a_turn % options.means_a_turn == 0) return;
+  throw core::InputError("simulation: " + std::to_string(steps_a_turn) + " steps a turn do not divide into the " +
+                         std::to_string(options.means_a_turn) + " parts of which means are taken; take a multiple");
 }
 
 SimulatedCut simulate_exact_path(const RelativeStructure& structure, const MillingProcess& process, const ForceLaw& law,

@@ -26,6 +26,10 @@ struct PathOptions {
 /// Every violation, empty if there is none.
 [[nodiscard]] std::vector<std::string> validate(const PathOptions& options);
 
+/// Throws InputError if steps do not divide into the parts of a turn over which SimulationOptions::means_a_turn takes
+/// means, which would then be those of unequal parts.
+void require_whole_steps(const SimulationOptions& options, int steps_a_turn);
+
 /// The centre of the tool moves along C(t) = v_f t x_T + q(t), a tooth's tip along C + R n(φ). A tooth meets, on the
 /// ray from the centre through its tip, the surface that an earlier tooth has left or the edge of the stock:
 ///

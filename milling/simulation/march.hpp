@@ -129,17 +129,18 @@ class March {
   void solve_start(int node, const Eigen::VectorXd& x) {
     const Eigen::Matrix<double, 8, 1> rows = of_state(c_.start.from_state, x);
     MarchNode& start = step_.at[0];
-    start.force_n.setZero();
-    for (int pass = 0;; ++pass) {
-      const Vector before = start.force_n;
-      start.displacement_m = rows.head<3>() + c_.start.displacement * before;
-      start.slope = rows.segment<3>(4) + c_.start.slope * before;
+    const auto load_under = [&](const Vector& force) {
+      start.displacement_m = rows.head<3>() + c_.start.displacement * force;
+      start.slope = rows.segment<3>(4) + c_.start.slope * force;
       load(node, start, surfaces_[0]);
-      if (near<3>(start.force_n, before, settled_tolerance)) return;
-      if (pass < most_passes) continue;
-      if (!near<3>(start.force_n, before, unsettled_tolerance)) ++unsettled_;
-      return;
+      return start.force_n;
+    };
+    start.force_n.setZero();
+    for (int pass = 0; pass < most_passes; ++pass) {
+      const Vector before = start.force_n;
+      if (near<3>(load_under(before), before, settled_tolerance)) return;
     }
+    if (!settle_by_newton<3>(Vector(Vector::Zero()), load_under)) ++unsettled_;
   }
 
   template <class Observer>

@@ -2,6 +2,8 @@
 // A step of a simulation: its three nodes, and the forces at them that agree with the motion they cause.
 
 #include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -82,11 +84,13 @@ inline Eigen::Matrix<double, 8, 1> of_state(const Eigen::Matrix<double, 8, Eigen
   return sum;
 }
 
-/// Iterations of the forces within a step end at the first tolerance, relative to the force; after `most_passes` they
-/// count as settled if they meet the second.
+/// Iterations of the forces within a step end at the first tolerance, relative to the force; fixed-point iterations
+/// that have not met it after `most_passes` give way to Newton's, after `most_newton` of which forces count as settled
+/// if they meet the second.
 inline constexpr double settled_tolerance = 1e-12;
 inline constexpr double unsettled_tolerance = 1e-9;
-inline constexpr int most_passes = 30;
+inline constexpr int most_passes = 12;
+inline constexpr int most_newton = 12;
 
 /// The forces of a node that a march of N of them has, and what they do work on.
 template <int N>
@@ -118,23 +122,41 @@ bool near(const Eigen::Matrix<double, N, 1>& a, const Eigen::Matrix<double, N, 1
   return (a - b).allFinite() && (a - b).cwiseAbs().maxCoeff() <= tolerance * b.cwiseAbs().maxCoeff();
 }
 
+/// Forces with f = F(f) from a first guess by Newton's method, with slopes from differences; `answer(f)` returns F(f).
+/// A law that is linear in the motion is solved at once within a state of contact, however much the motion follows its
+/// force. True if they settled; the last f that was answered is one of them. Cost: M + 1 answers an iteration.
+template <int M, class Answer>
+[[gnu::noinline]] bool settle_by_newton(Eigen::Matrix<double, M, 1> f, const Answer& answer) {
+  using Vector = Eigen::Matrix<double, M, 1>;
+  for (int pass = 0;; ++pass) {
+    const Vector value = answer(f);
+    if (near<M>(f, value, settled_tolerance)) return true;
+    if (pass == most_newton || !value.allFinite()) return near<M>(f, value, unsettled_tolerance);
+    const double step = 1e-6 * std::max(1.0, f.cwiseAbs().maxCoeff());
+    Eigen::Matrix<double, M, M> slope = Eigen::Matrix<double, M, M>::Identity();
+    for (int k = 0; k < M; ++k) slope.col(k) -= (answer(f + step * Vector::Unit(k)) - value) / step;
+    f += slope.inverse() * (value - f);
+  }
+}
+
 /// The forces at the middle and the end of a step, from those that `step.at` brings along as the guess:
 ///
 ///     f_c = F_c(q_c),   q_c = from_state x + Σ_j from_force_cj f_j,      c = 1 (middle), 2 (end)
 ///
 /// by fixed-point iterations. They contract by about w K h²/m, the share of a mode's inertia that the cutting stiffness
-/// moves within a step, some 1e-4, and need two or three passes. `load(c, node)` sets force, torque and chip of a node
-/// from its displacement and, if `rubs`, its slope. Returns the number of nodes that did not settle. No allocation.
+/// moves within a step, some 1e-4, and need two or three passes; where the residual alone moves the chip by as much as
+/// the force demands, w K R ≥ 1, they diverge, and Newton's method takes over. `load(c, node)` sets force, torque and
+/// chip of a node from its displacement and, if `rubs`, its slope. Returns the number of nodes that did not settle. No
+/// allocation.
 template <int N, class LoadAt>
 int settle_forces(const MarchRule<N>& rule, const Eigen::VectorXd& x, bool rubs, MarchStep& step, const LoadAt& load) {
   using Rows = Eigen::Matrix<double, 8, 1>;
   using Forces = Eigen::Matrix<double, N, 1>;
+  using Both = Eigen::Matrix<double, 2 * N, 1>;
   const Rows q_rows = of_state(rule.displacement.from_state, x);
   const Rows slope_rows = rubs ? of_state(rule.slope.from_state, x) : Rows(Rows::Zero());
   const Forces f0 = forces_of<N>(step.at[0]);
-  for (int pass = 0;; ++pass) {
-    const Forces f1 = forces_of<N>(step.at[1]);
-    const Forces f2 = forces_of<N>(step.at[2]);
+  const auto load_under = [&](const Forces& f1, const Forces& f2) {
     for (std::size_t c : {std::size_t{1}, std::size_t{2}}) {
       const auto row = static_cast<Eigen::Index>(4 * (c - 1));
       const auto answer = [&](const Rows& rows, const NodeMap<N>& map) -> Forces {
@@ -145,12 +167,22 @@ int settle_forces(const MarchRule<N>& rule, const Eigen::VectorXd& x, bool rubs,
       if (rubs) set_slope<N>(step.at[c], answer(slope_rows, rule.slope));
       load(c, step.at[c]);
     }
-    const auto settled = [&](double tolerance) {
-      return near<N>(f1, forces_of<N>(step.at[1]), tolerance) && near<N>(f2, forces_of<N>(step.at[2]), tolerance);
-    };
-    if (settled(settled_tolerance)) return 0;
-    if (pass >= most_passes) return settled(unsettled_tolerance) ? 0 : 2;
+  };
+  const auto both = [&step] { return (Both() << forces_of<N>(step.at[1]), forces_of<N>(step.at[2])).finished(); };
+  const Both guess = both();
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const Forces f1 = forces_of<N>(step.at[1]);
+    const Forces f2 = forces_of<N>(step.at[2]);
+    load_under(f1, f2);
+    const bool settled = near<N>(f1, forces_of<N>(step.at[1]), settled_tolerance) &&
+                         near<N>(f2, forces_of<N>(step.at[2]), settled_tolerance);
+    if (settled) return 0;
   }
+  const bool settled = settle_by_newton<2 * N>(guess, [&](const Both& f) {
+    load_under(f.template head<N>(), f.template tail<N>());
+    return both();
+  });
+  return settled ? 0 : 2;
 }
 
 /// The state at the end of a step, from its forces.

@@ -105,6 +105,79 @@ struct PartRegion::Cells {
   [[nodiscard]] cInt row_of(cInt py) const { return std::clamp<cInt>((py - y) / side, 0, rows - 1); }
 };
 
+namespace {
+
+/// A ray from the centre of a tool, units.
+struct Ray {
+  Eigen::Vector2d from, direction;
+  double radius = 0.0, reach = 0.0;
+};
+
+/// The distances at which a ray's line crosses the edges of polygons, ascending.
+void find_crossings(const Paths& material, const Ray& ray, std::vector<double>& crossings) {
+  crossings.clear();
+  const auto from_centre = [&ray](const IntPoint& p) {
+    return Eigen::Vector2d(static_cast<double>(p.X) - ray.from.x(), static_cast<double>(p.Y) - ray.from.y());
+  };
+  for (const Path& path : material) {
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const Eigen::Vector2d a = from_centre(path[i]), b = from_centre(path[i + 1 < path.size() ? i + 1 : 0]);
+      const double beside_a = ray.direction.x() * a.y() - ray.direction.y() * a.x();
+      const double beside_b = ray.direction.x() * b.y() - ray.direction.y() * b.x();
+      if ((beside_a < 0.0) == (beside_b < 0.0)) continue;
+      const double s = beside_a / (beside_a - beside_b);
+      crossings.push_back(ray.direction.dot(a + s * (b - a)));
+    }
+  }
+  std::sort(crossings.begin(), crossings.end());
+}
+
+/// Takes the spans between crossings in, units.
+void take_spans(const std::vector<double>& crossings, double radius, RayMaterial& met) {
+  for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+    const double begin = std::max(crossings[i], 0.0), end = crossings[i + 1];
+    if (end <= 0.0) continue;
+    met.within_m += std::max(0.0, std::min(end, radius) - begin);
+    if (begin < radius && end >= radius) met.tip_within = true;
+    if (end > radius) met.beyond_m = std::min(met.beyond_m, std::max(begin, radius));
+  }
+}
+
+/// The lines of cells that a ray crosses along one axis.
+struct CellLines {
+  cInt cell = 0;
+  int step = 1;
+  double next = std::numeric_limits<double>::infinity();  ///< distance to the next line
+  double every = 0.0;                                     ///< and from line to line
+
+  CellLines(double from, double direction, cInt origin, cInt side)
+      : cell(static_cast<cInt>(std::floor((from - static_cast<double>(origin)) / static_cast<double>(side)))),
+        step(direction < 0.0 ? -1 : 1) {
+    if (direction == 0.0) return;
+    const cInt line = origin + (cell + (step > 0 ? 1 : 0)) * side;
+    next = (static_cast<double>(line) - from) / direction;
+    every = static_cast<double>(side) / std::abs(direction);
+  }
+  double pass() {
+    const double at = next;
+    cell += step;
+    next += every;
+    return at;
+  }
+};
+
+/// Calls look(material) with each cell on a ray that has any, from cell to cell (Amanatides & Woo 1987).
+template <class Cells, class Look>
+void each_cell_on(const Ray& ray, const Cells& c, const Look& look) {
+  CellLines x(ray.from.x(), ray.direction.x(), c.x, c.side), y(ray.from.y(), ray.direction.y(), c.y, c.side);
+  for (double t = 0.0; t <= ray.reach; t = x.next < y.next ? x.pass() : y.pass()) {
+    const bool within = x.cell >= 0 && x.cell < c.columns && y.cell >= 0 && y.cell < c.rows;
+    if (within && !c.at(x.cell, y.cell).empty()) look(c.at(x.cell, y.cell));
+  }
+}
+
+}  // namespace
+
 PartRegion::PartRegion(const std::vector<Outline>& outlines, double cell_m) : cells_(std::make_unique<Cells>()) {
   constexpr double most_cells = 1e7;
   constexpr double largest_m = 1e3;  // where products of units still fit
@@ -177,65 +250,14 @@ void PartRegion::erase(const Outline& polygon) {
 
 RayMaterial PartRegion::on_ray(const Eigen::Vector2d& centre, const Eigen::Vector2d& direction, double radius_m,
                                double reach_m) const {
-  const Cells& c = *cells_;
-  const double side = static_cast<double>(c.side);
-  const Eigen::Vector2d from = centre / unit_m;
-  const double radius = radius_m / unit_m, reach = reach_m / unit_m;
-  double within = 0.0, beyond = reach;
-  bool tip_within = false;
+  const Ray ray{centre / unit_m, direction, radius_m / unit_m, reach_m / unit_m};
+  RayMaterial met{0.0, false, ray.reach};
   std::vector<double> crossings;
-  const auto look = [&](const Paths& material) {
-    crossings.clear();
-    for (const Path& path : material) {
-      for (std::size_t i = 0; i < path.size(); ++i) {
-        const IntPoint& p = path[i];
-        const IntPoint& q = path[i + 1 < path.size() ? i + 1 : 0];
-        const Eigen::Vector2d a(static_cast<double>(p.X) - from.x(), static_cast<double>(p.Y) - from.y());
-        const Eigen::Vector2d b(static_cast<double>(q.X) - from.x(), static_cast<double>(q.Y) - from.y());
-        const double beside_a = direction.x() * a.y() - direction.y() * a.x();
-        const double beside_b = direction.x() * b.y() - direction.y() * b.x();
-        if ((beside_a < 0.0) == (beside_b < 0.0)) continue;
-        const double s = beside_a / (beside_a - beside_b);
-        crossings.push_back(direction.dot(a + s * (b - a)));
-      }
-    }
-    std::sort(crossings.begin(), crossings.end());
-    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
-      const double begin = std::max(crossings[i], 0.0), end = crossings[i + 1];
-      if (end <= 0.0) continue;
-      within += std::max(0.0, std::min(end, radius) - begin);
-      if (begin < radius && end >= radius) tip_within = true;
-      if (end > radius) beyond = std::min(beyond, std::max(begin, radius));
-    }
-  };
-  // From cell to cell along the ray (Amanatides & Woo 1987).
-  const auto cell_of = [&](double v, cInt origin) {
-    return static_cast<cInt>(std::floor((v - static_cast<double>(origin)) / side));
-  };
-  cInt column = cell_of(from.x(), c.x), row = cell_of(from.y(), c.y);
-  const int step_x = direction.x() < 0.0 ? -1 : 1, step_y = direction.y() < 0.0 ? -1 : 1;
-  const auto to_next = [&](cInt cell, cInt origin, int step, double at, double d) {
-    const double line = static_cast<double>(origin) + (static_cast<double>(cell) + (step > 0 ? 1.0 : 0.0)) * side;
-    return d != 0.0 ? (line - at) / d : std::numeric_limits<double>::infinity();
-  };
-  double next_x = to_next(column, c.x, step_x, from.x(), direction.x());
-  double next_y = to_next(row, c.y, step_y, from.y(), direction.y());
-  const double every_x = direction.x() != 0.0 ? side / std::abs(direction.x()) : 0.0;
-  const double every_y = direction.y() != 0.0 ? side / std::abs(direction.y()) : 0.0;
-  for (double t = 0.0; t <= reach;) {
-    if (column >= 0 && column < c.columns && row >= 0 && row < c.rows && !c.at(column, row).empty())
-      look(c.at(column, row));
-    if (next_x < next_y) {
-      t = next_x;
-      column += step_x;
-      next_x += every_x;
-    } else {
-      t = next_y;
-      row += step_y;
-      next_y += every_y;
-    }
-  }
-  return {within * unit_m, tip_within, std::min(beyond, reach) * unit_m};
+  each_cell_on(ray, *cells_, [&](const Paths& material) {
+    find_crossings(material, ray, crossings);
+    take_spans(crossings, ray.radius, met);
+  });
+  return {met.within_m * unit_m, met.tip_within, met.beyond_m * unit_m};
 }
 
 double PartRegion::area_m2() const {

@@ -21,9 +21,10 @@ namespace thinwall::milling {
 
 /// The ray of a disc at a node of the step, and what it meets there.
 struct DiscRay {
-  double sine = 0.0, cosine = 0.0;                 ///< of φ
-  bool found = false;                              ///< the material was looked for, and lies on the ray
-  double farthest_m = 0.0;                         ///< from the centre up to the surface
+  double sine = 0.0, cosine = 0.0;  ///< of φ
+  bool found = false;               ///< the material was looked for, and lies on the ray
+  bool in_cut = false;              ///< the ray crosses the stock, which earlier teeth may have taken away
+  double farthest_m = 0.0;          ///< from the centre up to the surface
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< the centre from which it was found
 
   /// n = (sin φ, cos φ), from the centre to the tip.
@@ -67,8 +68,8 @@ struct PathCut {
 
 /// A motion of turns.hpp. `Material` has
 ///
-///     double chip(const ToothDisc&, DiscRay&, double node, centre)   m; ≤ 0 without contact; sets `found` of the ray
-///                                                                    where there is material on it
+///     double chip(const ToothDisc&, DiscRay&, double node, centre)   m; ≤ 0 without contact; sets `found` and
+///                                                                    `in_cut` of the ray
 ///     void leave(const PathStep&)                                    removes what the teeth of a step have swept
 ///
 /// and `Tool` what ModalTool has (modal_tool.hpp).
@@ -139,7 +140,7 @@ class PathMotion {
       DiscRay& ray = rays_[c][i];
       const double h = material_.chip(disc, ray, node, centre);
       const double sine = ray.sine, cosine = ray.cosine;
-      const bool may_cut = sine > 0.0 && ray.found;  // it is in the material, and ahead of the tool
+      const bool may_cut = sine > 0.0 && ray.in_cut;  // ahead of the tool
       at.points += may_cut;
       at.without_contact += may_cut && h <= 0.0;
       if (h <= 0.0) continue;

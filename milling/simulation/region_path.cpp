@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
+#include <optional>
 
 #include "core/error.hpp"
 #include "milling/simulation/chip_force.hpp"
@@ -25,6 +25,7 @@ class Slices {
     int most = 0;
     for (const ToothDisc& disc : cut.discs) most = std::max(most, disc.slice);
     for (int i = 0; i <= most; ++i) slices_.emplace_back(part, cell_m);
+    before_.emplace(part, 4.0 * cell_m);
     constexpr double off_path_m = 5e-10;
     // A chord over an angle δ leaves the arc by R δ²/8.
     chords_ = edge == SweptEdge::chords
@@ -40,6 +41,7 @@ class Slices {
       const RayMaterial met =
           slices_[static_cast<std::size_t>(disc.slice)].on_ray(centre, ray.n(), disc.radius_m, reach);
       ray.found = met.within_m > 0.0 || met.beyond_m < reach;
+      ray.in_cut = met.within_m > 0.0 || (ray.sine > 0.0 && was_material(ray, disc.radius_m, centre));
       ray.farthest_m = met.within_m > 0.0 || met.tip_within ? disc.radius_m - met.within_m : met.beyond_m;
       ray.from = centre;
       if (!ray.found) return 0.0;
@@ -47,16 +49,12 @@ class Slices {
     return disc.radius_m - ray.farthest_m + ray.n().dot(centre - ray.from);
   }
 
-  /// Takes away the sectors of all discs whose rays have met material.
+  /// Takes away the sectors of the discs whose rays have met material; of all where none was looked for.
   void leave(const PathStep& step) {
+    const auto& rays = step.rays;
     for (std::size_t i = 0; i < cut_.discs.size(); ++i) {
-      if (step.rays[0][i].found || step.rays[1][i].found || step.rays[2][i].found) sweep(step, i);
+      if (rays[0].empty() || rays[0][i].found || rays[1][i].found || rays[2][i].found) sweep(step, i);
     }
-  }
-
-  /// As leave(), of all discs.
-  void clear(const PathStep& step) {
-    for (std::size_t i = 0; i < cut_.discs.size(); ++i) sweep(step, i);
   }
 
   /// Takes away an area of all slices.
@@ -75,6 +73,12 @@ class Slices {
   [[nodiscard]] const PartRegion& slice(int i) const { return slices_[static_cast<std::size_t>(i)]; }
 
  private:
+  /// True if the ray crossed the material before the cut: a tooth that meets nothing there has lost its contact, and
+  /// one beside it has not.
+  [[nodiscard]] bool was_material(const DiscRay& ray, double radius_m, const Point& centre) const {
+    return before_->on_ray(centre, ray.n(), radius_m, radius_m).within_m > 0.0;
+  }
+
   void sweep(const PathStep& step, std::size_t i) {
     const ToothDisc& disc = cut_.discs[i];
     const double phi = cut_.entry_rad + static_cast<double>(step.node) * cut_.node_rad - disc.behind_rad;
@@ -103,6 +107,7 @@ class Slices {
   double beyond_m_;
   int chords_ = 1;
   std::vector<PartRegion> slices_;
+  std::optional<PartRegion> before_;  ///< the part before the cut
   Outline swept_;
 };
 
@@ -125,7 +130,7 @@ void clear_behind(Slices& slices, const PathCut& cut, double behind_m) {
   const std::array<std::vector<DiscRay>, 3> none;
   for (long node = -nodes; node < 0; node += 2) {
     const auto at = [&](long n) { return Point(start + Point(cut.feed_per_node_m * static_cast<double>(n), 0.0)); };
-    slices.clear({node, {at(node), at(node + 1), at(node + 2)}, none});
+    slices.leave({node, {at(node), at(node + 1), at(node + 2)}, none});
   }
 }
 
@@ -164,6 +169,7 @@ RegionCut simulate_region(const RelativeStructure& structure, const MillingProce
                           const TurnObserver& after_turn) {
   require_usable(process, law, point, options);
   require_valid(validate(PathOptions{region.steps_a_turn, 1}));
+  require_whole_steps(options, region.steps_a_turn);
   const PathCut cut = path_cut(structure, process, point, options, region.steps_a_turn, 1, region.contact);
   const double cell = region.cell_m > 0.0 ? region.cell_m : cut.radius_m / 20.0;
   Slices slices(part, cell, cut, region.edge);
@@ -184,26 +190,6 @@ RegionCut simulate_region(const RelativeStructure& structure, const MillingProce
     result.slices.push_back({heights[i].height_m, heights[i].width_m, slices.slice(static_cast<int>(i)).outlines()});
   }
   return result;
-}
-
-Wall wall_of(const PartSlice& slice, int side, double radius_m, double from_m, double to_m, int points) {
-  const double s = side > 0 ? 1.0 : -1.0;
-  Wall wall{side, slice.height_m, Eigen::VectorXd::LinSpaced(points, from_m, to_m), Eigen::VectorXd(points)};
-  const PartRegion region(slice.outlines, radius_m / 20.0);
-  for (int i = 0; i < points; ++i) {
-    const RayMaterial met = region.on_ray({wall.x_m(i), 0.0}, {0.0, s}, 0.0, 2.0 * radius_m);
-    if (met.beyond_m >= 2.0 * radius_m) {
-      std::ostringstream text;
-      text << "wall of a region: no material across the feed at " << wall.x_m(i) << " m; take places within the part";
-      throw core::InputError(text.str());
-    }
-    wall.error_m(i) = met.beyond_m - radius_m;
-  }
-  set_roughness(wall);
-  wall.deepest_m = wall.error_m.maxCoeff();
-  wall.highest_m = wall.error_m.minCoeff();
-  wall.R_t_m = wall.deepest_m - wall.highest_m;
-  return wall;
 }
 
 }  // namespace thinwall::milling

@@ -61,8 +61,4 @@ struct CutWindow {
                                         const std::vector<Outline>& part, const SimulationOptions& options = {},
                                         const RegionOptions& region = {}, const TurnObserver& after_turn = {});
 
-/// The wall of a slice on a side, +1 for +y_T, between two places along the feed: errors as in Wall, by rays across the
-/// feed from the line on which the tool moved. Throws InputError if a ray meets no material.
-[[nodiscard]] Wall wall_of(const PartSlice& slice, int side, double radius_m, double from_m, double to_m, int points);
-
 }  // namespace thinwall::milling

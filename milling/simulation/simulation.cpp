@@ -1,7 +1,9 @@
 #include "milling/simulation/simulation.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -16,6 +18,18 @@ void require_positive(const char* what, double value, const char* unit) {
   if (value > 0.0 && std::isfinite(value)) return;
   std::ostringstream text;
   text << "simulation: " << what << " " << value << " " << unit << ", must be positive; correct it";
+  throw core::InputError(text.str());
+}
+
+/// Throws InputError for a filter that leaves nothing of the recorded wall.
+void require_filter(const WallOptions& wall, double feed_a_turn_m) {
+  if (wall.turns == 0 || wall.cutoff_m == 0.0) return;
+  constexpr int lost_turns = 4;  // at the ends of a wall
+  const double profile_m = (wall.turns - lost_turns) * feed_a_turn_m;
+  if (wall.cutoff_m > 0.0 && 2.0 * wall.cutoff_m < profile_m) return;
+  std::ostringstream text;
+  text << "simulation: a filter of " << wall.cutoff_m << " m cutoff takes as much from either end of a wall of "
+       << std::max(0.0, profile_m) << " m; record more turns of it, or take a shorter one";
   throw core::InputError(text.str());
 }
 
@@ -101,6 +115,7 @@ void require_usable(const MillingProcess& process, const ForceLaw& law, const Si
   require_positive("spindle speed", point.spindle_speed_rpm, "rpm");
   require_positive("depth", point.depth_m, "m");
   require_positive("feed per tooth", point.feed_per_tooth_m, "m");
+  require_filter(options.wall, point.feed_per_tooth_m * process.cutter.teeth);
   for (const double height : options.wall.heights_m) {
     if (height >= 0.0 && height <= point.depth_m) continue;
     std::ostringstream text;
@@ -120,6 +135,19 @@ SimulatedCut simulate(const RelativeStructure& structure, const MillingProcess& 
     CircularMotion motion(cut, chip_force, options.first_force_n);
     return over_turns(motion, process, feed_m_per_rad, options, after_turn);
   });
+}
+
+Eigen::Vector3d mean_force_of_rigid_tool(const MillingProcess& process, const ForceLaw& law,
+                                         const SimulatedPoint& point) {
+  constexpr double pole_rad_s = 1e5, stiffness_n_per_m = 1e18;
+  RelativeStructure rigid{Eigen::VectorXcd(2), Eigen::Matrix3Xcd::Zero(3, 2), Eigen::Matrix3Xcd::Zero(3, 2)};
+  rigid.poles.setConstant({-0.1 * pole_rad_s, pole_rad_s});
+  rigid.phi.leftCols<2>() = process.frame.rotation().leftCols<2>().cast<std::complex<double>>();
+  rigid.b = rigid.phi * std::complex<double>(0.0, -0.5 * pole_rad_s / stiffness_n_per_m);
+  SimulationOptions options;
+  options.settling_turns = process.cutter.teeth;  // runout leaves a surface to the teeth of a turn
+  options.recorded_turns = 1;
+  return simulate(rigid, process, law, point, options).mean_force_n;
 }
 
 }  // namespace thinwall::milling

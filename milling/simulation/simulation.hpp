@@ -126,4 +126,9 @@ using TurnObserver = std::function<void(double share)>;
                                     const ForceLaw& law, const SimulatedPoint& point,
                                     const SimulationOptions& options = {}, const TurnObserver& after_turn = {});
 
+/// The mean force on a tool that does not move, tool axes, N: simulate() of one of 10¹⁸ N/m, for
+/// SimulationOptions::first_force_n. Errors as simulate(). Cost: one turn more than it has teeth.
+[[nodiscard]] Eigen::Vector3d mean_force_of_rigid_tool(const MillingProcess& process, const ForceLaw& law,
+                                                       const SimulatedPoint& point);
+
 }  // namespace thinwall::milling

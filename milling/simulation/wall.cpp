@@ -80,6 +80,12 @@ double highest_cusp(const Wall& wall, const std::vector<const TipPath*>& paths) 
   return highest;
 }
 
+/// Points between the ends that a filter of this cutoff takes.
+Eigen::Index left_by_filter(const Wall& wall, double cutoff_m) {
+  const double step = wall.x_m(1) - wall.x_m(0);
+  return wall.x_m.size() - 2 * static_cast<Eigen::Index>(std::ceil(cutoff_m / step));
+}
+
 }  // namespace
 
 void set_roughness(Wall& wall) {
@@ -173,22 +179,24 @@ std::vector<Wall> WallRecorder::walls() const {
       wall.deepest_m = wall.error_m.maxCoeff();
       wall.highest_m = highest_cusp(wall, paths);
       wall.R_t_m = wall.deepest_m - wall.highest_m;
-      walls.push_back(std::move(wall));
+      if (options_.cutoff_m > 0.0 && !(left_by_filter(wall, options_.cutoff_m) >= 2)) continue;
+      walls.push_back(options_.cutoff_m > 0.0 ? filtered(wall, options_.cutoff_m) : std::move(wall));
     }
   }
   return walls;
 }
 
 Wall filtered(const Wall& wall, double cutoff_m) {
-  const double step = wall.x_m.size() > 1 ? wall.x_m(1) - wall.x_m(0) : 0.0;
-  const auto half = static_cast<Eigen::Index>(std::ceil(cutoff_m / step));
-  const Eigen::Index left = wall.x_m.size() - 2 * half;
-  if (!(cutoff_m > 0.0) || left < 2) {
+  const Eigen::Index size = wall.x_m.size();
+  const double step = size > 1 ? wall.x_m(1) - wall.x_m(0) : 0.0;
+  const Eigen::Index left = cutoff_m > 0.0 && size > 1 ? left_by_filter(wall, cutoff_m) : 0;
+  if (left < 2) {
     std::ostringstream text;
     text << "wall: cutoff " << cutoff_m << " m, must be above 0 and below half of the profile's "
-         << static_cast<double>(wall.x_m.size()) * step << " m; record more turns or take a shorter one";
+         << static_cast<double>(size) * step << " m; record more turns or take a shorter one";
     throw core::InputError(text.str());
   }
+  const Eigen::Index half = (size - left) / 2;
   // ISO 16610-21: weight exp(−π (x/(α λ_c))²)/(α λ_c) with α = √(ln 2/π), which halves a wave of length λ_c.
   const double alpha = std::sqrt(std::numbers::ln2 / std::numbers::pi);
   Eigen::ArrayXd weight(2 * half + 1);

@@ -14,6 +14,7 @@ namespace thinwall::milling {
 struct WallOptions {
   int turns = 0;                          ///< the last of the recorded turns, at least 4; 0: no wall
   std::vector<double> heights_m = {0.0};  ///< from the tip up, within the depth
+  double cutoff_m = 0.0;                  ///< of filtered(); 0: none
 };
 
 /// The tip of a tooth while it passes the wall at a height.
@@ -55,8 +56,9 @@ class WallRecorder {
   /// Takes a step in.
   void operator()(const MarchStep& step);
   /// The walls that the paths leave: none where no arc reaches a wall, two in a slot; one a height, of
-  /// 200 points a turn, without the first and the last turn, whose neighbours are not known. None where the vibration
-  /// is so large that a tip turns back along the feed or that no recorded tip passes some place.
+  /// 200 points a turn, without the first and the last turn, whose neighbours are not known, and filtered if that is
+  /// asked. None where the vibration is so large that a tip turns back along the feed, that no recorded tip passes some
+  /// place, or that less is left than the filter takes.
   [[nodiscard]] std::vector<Wall> walls() const;
 
  private:

@@ -147,5 +147,24 @@ TEST(ExactPath, RefusesWhatItCannotMarch) {
   EXPECT_THROW((void)with(ball, {}, {}), core::InputError);
 }
 
+/// Steps that do not divide into teeth would give means of unequal parts of a turn.
+TEST(ExactPath, TakesMeansOverWholeSteps) {
+  MillingProcess process;
+  process.cutter = {4, 0.01};
+  process.coefficients = {6e8, 2e8, 0.0, 0.0, 0.0, 0.0};
+  process.engagement = engagement_of(process.cutter, 5e-3, MillingDirection::down);
+  SimulationOptions options;
+  options.settling_turns = 0;
+  options.recorded_turns = 1;
+  options.means_a_turn = 4;
+  EXPECT_THROW(require_whole_steps(options, 722), core::InputError);
+  EXPECT_NO_THROW(require_whole_steps(options, 720));
+  const RelativeStructure structure =
+      relative_structure(testing::modal_model({{922.0, 0.011, 1.0, Eigen::Vector3d::UnitX()}}), "P");
+  EXPECT_THROW(
+      (void)simulate_exact_path(structure, process, process.coefficients, {6000.0, 1e-3, 1e-4}, {}, options, {722, 10}),
+      core::InputError);
+}
+
 }  // namespace
 }  // namespace thinwall::milling::exact_path_test

@@ -48,7 +48,8 @@ struct Row {
   ForceLaw law;
   double depth_m;
   ProcessDamping damping = {};
-  double tolerance = 2e-5;  ///< of the range of the motion
+  double tolerance = 2e-5;        ///< of the range of the motion
+  double residual_m_per_n = 0.0;  ///< that follows the force at once, with the linear law
 };
 
 /// Velocity Verlet at equal steps of two teeth from `entry` to π, the surface of the last tooth that cut at each of
@@ -67,8 +68,10 @@ Eigen::Matrix2Xd integrated(const Row& row, const MillingProcess& process, doubl
     const double sine = std::sin(phi), cosine = std::cos(phi);
     const double position = sine * q.x() + cosine * q.y();
     double& left = surface[static_cast<std::size_t>(step)];
-    const double met = left - feed_m * sine, chip = position - met;
-    if (leave_surface) left = std::max(met, position);
+    const double met = left - feed_m * sine;
+    // The residual gives way by R w K_r of the chip that is left.
+    const double chip = (position - met) / (1.0 + row.residual_m_per_n * row.depth_m * process.coefficients.K_r);
+    if (leave_surface) left = met + std::max(0.0, chip);
     if (chip <= 0.0) return Eigen::Vector2d::Zero();
     const double slope = (sine * v.x() + cosine * v.y()) / rad_per_s;
     const Eigen::Vector3d f = force_per_width(row.law, chip);
@@ -81,7 +84,7 @@ Eigen::Matrix2Xd integrated(const Row& row, const MillingProcess& process, doubl
   Eigen::Vector2d after = force(0, false);
   for (int tooth = 0; tooth < teeth; ++tooth) {
     for (int i = 0; i < steps_a_tooth; ++i) {
-      if (i % stride == 0) trace.col(sample++) = q;
+      if (i % stride == 0) trace.col(sample++) = q + row.residual_m_per_n * after;
       if (i <= in_cut) (void)force(i, true);
       after += support.taken_back(q, v);
       const Eigen::Vector2d half =
@@ -181,6 +184,29 @@ TEST(OneSidedContact, IsThatOfAPlainIntegration) {
     EXPECT_GT(cut.contact->open_share, 0.01) << preload;
     EXPECT_EQ(cut.contact->least_n, 0.0);
   }
+}
+
+/// A residual that moves the chip by more than the force demands, R w K_r = 1.8: fixed-point iterations of the force
+/// diverge.
+TEST(Residual, IsThatOfAPlainIntegrationHoweverLarge) {
+  const MillingProcess process = slot();
+  const Row row{"residual", process.coefficients, 0.1e-3, {}, 1e-4, 9e-5};
+  RelativeStructure structure =
+      relative_structure(testing::modal_model({{frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitX()},
+                                               {frequency_hz, damping_ratio, mass_kg, Eigen::Vector3d::UnitY()}}),
+                         "P");
+  structure.R = row.residual_m_per_n * Eigen::Vector3d(1.0, 1.0, 0.0).asDiagonal();
+  SimulationOptions options;
+  options.settling_turns = 0;
+  options.recorded_turns = options.traced_turns = turns_marched;
+  options.samples_a_turn = samples_a_turn;
+  options.steps.steps_in_cut = 1600;
+  const SimulatedPoint point{7000.0, row.depth_m, feed_m};
+  const Eigen::Matrix2Xd plain = integrated(row, process, point.spindle_speed_rpm, 40000);
+  const double range = (plain.rowwise().maxCoeff() - plain.rowwise().minCoeff()).norm();
+  const SimulatedCut cut = simulate(structure, process, process.coefficients, point, options);
+  ASSERT_EQ(cut.status, SimulationStatus::completed);
+  EXPECT_LT((cut.trace.displacement_m.topRows(2) - plain).cwiseAbs().maxCoeff(), row.tolerance * range);
 }
 
 /// Closed all the time it is the linear structure; open all the time, the part without the support.

@@ -161,6 +161,23 @@ TEST(RegionPath, MovesAsExactPathsDo) {
   }
 }
 
+/// A tool that does not vibrate never loses contact, though its rays pass beside the material by less than a cell:
+/// ahead of the entry of up-milling, beyond its exit, beside both walls of a slot.
+TEST(RegionPath, CountsNoRayBesideTheMaterialAsLostContact) {
+  for (const auto direction : {MillingDirection::down, MillingDirection::up}) {
+    for (const double radial : {0.5e-3, 4e-3, 10e-3}) {
+      const MillingProcess process = cut_of(0.01, radial, direction);
+      const SimulatedPoint point{6000.0, 1e-3, 1e-4};
+      const RegionCut result = simulate_region(stiff(), process, process.coefficients, point,
+                                               shoulder_in_window(process, point, radial, direction, 3), turns(0, 3));
+      const SimulatedCut exact = simulate_exact_path(stiff(), process, process.coefficients, point,
+                                                     shoulder(process.cutter, radial, direction), turns(0, 3));
+      EXPECT_NEAR(result.cut.share_without_contact, exact.share_without_contact, 5e-3) << radial;
+      EXPECT_LT(result.cut.share_without_contact, 0.02) << radial;
+    }
+  }
+}
+
 /// Where the tool has left the part nothing is left of its swath, and nothing pushes it.
 TEST(RegionPath, LeavesThePartThroughACorner) {
   const MillingProcess process = cut_of(0.01, 4e-3, MillingDirection::down);
@@ -177,6 +194,16 @@ TEST(RegionPath, LeavesThePartThroughACorner) {
   EXPECT_GT(result.cut.peak_force_n, 0.0);
 }
 
+/// The wall of a slice on the −y_T side between two places along the feed, by rays across the feed.
+Wall wall_of(const PartSlice& slice, double radius_m, double from_m, double to_m, int points) {
+  Wall wall{-1, slice.height_m, Eigen::VectorXd::LinSpaced(points, from_m, to_m), Eigen::VectorXd(points)};
+  const PartRegion region(slice.outlines, radius_m / 20.0);
+  for (int i = 0; i < points; ++i)
+    wall.error_m(i) = region.on_ray({wall.x_m(i), 0.0}, {0.0, -1.0}, 0.0, 2.0 * radius_m).beyond_m - radius_m;
+  set_roughness(wall);
+  return wall;
+}
+
 /// A rigid tool whose tips move in chords of 100 a turn, as in Huynh 2017: 40 phases of the steps by another program
 /// give R_a of 0.2147 to 0.5328 um and R_t of 1.2989 to 2.1970 um, seven times the cusps of arcs.
 TEST(RegionPath, ChordsLeaveThePolygonOnTheWall) {
@@ -188,7 +215,7 @@ TEST(RegionPath, ChordsLeaveThePolygonOnTheWall) {
     const RegionCut cut =
         simulate_region(stiff(), process, process.coefficients, point,
                         shoulder_in_window(process, point, 4e-3, MillingDirection::down, 16), turns(0, 16), region);
-    return wall_of(cut.slices.front(), -1, 5e-3, 4 * feed_a_turn, 12 * feed_a_turn, 4001);
+    return wall_of(cut.slices.front(), 5e-3, 4 * feed_a_turn, 12 * feed_a_turn, 4001);
   };
   const Wall arcs = wall({});
   EXPECT_NEAR(1e6 * arcs.R_a_m, 0.06447, 1e-3);

@@ -235,6 +235,33 @@ TEST(ForceLaws, OfThinAndThickChipsAreLinear) {
   EXPECT_NEAR(thick, tenth, 1e-3 * tenth);
 }
 
+/// Mean forces of a slot by straight teeth are −N w f K_r/4 along the feed and N w f K_t/4 across; runout changes the
+/// chip of each tooth and not their mean. A structure at rest under them has a mean deflection at once that a steady
+/// start needs the time of its slow modes for.
+TEST(Simulation, StartsUnderTheMeanForceOfARigidTool) {
+  MillingProcess process = down_milling(1.0);
+  const SimulatedPoint point{11000.0, 0.1e-3, feed_m};
+  for (const bool runs_out : {false, true}) {
+    if (runs_out) process.cutter.runout_m = {5e-6, -5e-6};
+    const Eigen::Vector3d force = mean_force_of_rigid_tool(process, process.coefficients, point);
+    EXPECT_NEAR(force.x(), -2.0 * 0.1e-3 * feed_m * 2e8 / 4.0, 1e-6 * force.norm());
+    EXPECT_NEAR(force.y(), 2.0 * 0.1e-3 * feed_m * 6e8 / 4.0, 1e-6 * force.norm());
+  }
+  const double stiffness = 1.0 * std::pow(2.0 * pi * 20.0, 2);
+  const RelativeStructure slow = relative_structure(
+      testing::modal_model({{20.0, 0.01, 1.0, Eigen::Vector3d::UnitX()}, {20.0, 0.01, 1.0, Eigen::Vector3d::UnitY()}}),
+      "P");
+  process = down_milling(0.4);
+  const auto mean_y = [&](bool loaded) {
+    SimulationOptions options = turns(0, 5);
+    if (loaded) options.first_force_n = mean_force_of_rigid_tool(process, process.coefficients, point);
+    return simulate(slow, process, process.coefficients, point, options).mean_displacement_m.y();
+  };
+  const double expected = mean_force_of_rigid_tool(process, process.coefficients, point).y() / stiffness;
+  EXPECT_NEAR(mean_y(true), expected, 0.05 * expected);
+  EXPECT_GT(std::abs(mean_y(false) - expected), 0.2 * expected);
+}
+
 TEST(Simulation, KeepsNoMoreThanItIsAskedTo) {
   SimulationOptions options = turns(10, 50);
   options.kept_passes = 6;
@@ -280,6 +307,10 @@ TEST(Simulation, RefusesWhatItCannotMarch) {
   SimulationOptions short_wall = turns(1, 10);
   short_wall.wall.turns = 3;
   EXPECT_THROW((void)simulated(process, {11000.0, 1e-3, feed_m}, short_wall), core::InputError);
+  SimulationOptions coarse = turns(1, 10);
+  coarse.wall.turns = 8;
+  coarse.wall.cutoff_m = 3.0 * 2.0 * feed_m;  // twice of which are more than the four turns that are left
+  EXPECT_THROW((void)simulated(process, {11000.0, 1e-3, feed_m}, coarse), core::InputError);
 }
 
 }  // namespace

@@ -146,5 +146,20 @@ TEST(Wall, FilterHalvesTheWaveOfItsCutoff) {
   EXPECT_THROW((void)filtered(shorter, 0.8e-3), core::InputError);
 }
 
+TEST(Wall, IsFilteredIfAsked) {
+  const MillingProcess process = milling(0.4, MillingDirection::down);
+  const auto wall = [&](double cutoff_m) {
+    SimulationOptions options = walled(50, 200);
+    options.wall.cutoff_m = cutoff_m;
+    return simulate(in_plane(922.0, 0.011, 0.03993), process, process.coefficients, {16500.0, 0.05e-3, feed_m}, options)
+        .walls.at(0);
+  };
+  const Wall plain = wall(0.0), left = wall(1e-3), expected = filtered(plain, 1e-3);
+  EXPECT_EQ(left.R_a_m, expected.R_a_m);
+  EXPECT_EQ(left.x_m.size(), expected.x_m.size());
+  EXPECT_EQ(left.mean_m, plain.mean_m);
+  EXPECT_LT(left.x_m.size(), plain.x_m.size());
+}
+
 }  // namespace
 }  // namespace thinwall::milling::wall_test

@@ -59,15 +59,22 @@ COARSE = {  # what makes a case quick, if no page of the docs shows it anyway
 }
 
 
+SHARED = {"bondarenko-2012-b": "bondarenko-2012-bc", "bondarenko-2012-c": "bondarenko-2012-bc"}  # one script for two cases
+
+
+def script_of(case):
+    return ROOT / f"examples/python/{SHARED.get(case, case).replace('-', '_')}.py"
+
+
 def example(run_case, case):
     """What the script of a case prints."""
     results = run_case(case, *COARSE.get(case, ()))
-    return run(ROOT / f"examples/python/{case.replace('-', '_')}.py", str(results.folder))
+    return run(script_of(case), str(results.folder))
 
 
 def test_every_case_has_a_script_in_cells():
     for case in ROOT.glob("cases/*/case.toml"):
-        text = (ROOT / f"examples/python/{case.parent.name.replace('-', '_')}.py").read_text(encoding="utf-8")
+        text = script_of(case.parent.name).read_text(encoding="utf-8")
         assert text.startswith("# %% [markdown]\n# # ") and text.count("\n# %%\n") >= 3
         assert f'"results/{case.parent.name}"' in text and "plt.show()" in text
 

@@ -12,6 +12,7 @@
 #include "app/case_run.hpp"
 #include "app/command_line.hpp"
 #include "core/atomic_file.hpp"
+#include "tests/system/benchmark_tool.hpp"
 #include "tests/system/run_in_folder.hpp"
 
 namespace thinwall::tests::simulate_test {
@@ -19,28 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* const tool_case = R"(
-[tool]
-teeth = 2
-diameter = "10 mm"
-length = "20 mm"
-[[tool.modes]]
-frequency = "922 Hz"
-damping_ratio = 0.011
-stiffness = "1340049.6480507487 N/m"
-direction = "x"
-[[tool.modes]]
-frequency = "922 Hz"
-damping_ratio = 0.011
-stiffness = "1340049.6480507487 N/m"
-direction = "y"
-[cutting]
-radial_depth = "0.5 mm"
-mode = "down"
-Kt = "600 N/mm^2"
-Kr = "200 N/mm^2"
-feed_per_tooth = "0.1 mm"
-[lobes]
+const std::string tool_case = benchmark_tool + R"([lobes]
 from = "10000 rpm"
 to = "20000 rpm"
 )";
@@ -86,7 +66,7 @@ TEST(Simulate, TellsTheMotionOnBothSidesOfTheBoundary) {
 /// The case's own [simulation] is what an option does not say.
 TEST(Simulate, TakesTheCasesOwnSimulationWithOptionsOnTop) {
   const fs::path folder = scratch("simulate_section");
-  const std::string section = std::string(tool_case) + R"([simulation]
+  const std::string section = tool_case + R"([simulation]
 at = "11000 rpm, 1 mm"
 settling_turns = 1000
 turns = 8

@@ -15,6 +15,7 @@
 #include "report/terminal_report.hpp"
 #include "study/kept/checkpoint.hpp"
 #include "study/kept/stage_keys.hpp"
+#include "tests/system/benchmark_tool.hpp"
 #include "tests/system/run_in_folder.hpp"
 
 namespace thinwall::tests::simulation_run_test {
@@ -22,30 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-/// A tool of one mode along either axis: the benchmark oscillator of tests/milling.
-const std::string tool = R"(
-[tool]
-teeth = 2
-diameter = "10 mm"
-length = "20 mm"
-[[tool.modes]]
-frequency = "922 Hz"
-damping_ratio = 0.011
-stiffness = "1340049.6480507487 N/m"
-direction = "x"
-[[tool.modes]]
-frequency = "922 Hz"
-damping_ratio = 0.011
-stiffness = "1340049.6480507487 N/m"
-direction = "y"
-[cutting]
-radial_depth = "0.5 mm"
-mode = "down"
-Kt = "600 N/mm^2"
-Kr = "200 N/mm^2"
-feed_per_tooth = "0.1 mm"
-)";
 
 const std::string points = R"(
 [simulation]
@@ -59,7 +36,7 @@ trace = 20
 /// what the page draws is what the tables have.
 TEST(SimulationRun, TellsEveryPointAndThatMarchLobesAndClosedFormAgree) {
   const fs::path folder = scratch("simulation_run");
-  const json simulation = run(tool + points, folder)["simulation"];
+  const json simulation = run(benchmark_tool + points, folder)["simulation"];
   ASSERT_EQ(simulation["points"].size(), 2U);
   const json& stable = simulation["points"][0];
   const json& flip = simulation["points"][1];
@@ -81,7 +58,7 @@ TEST(SimulationRun, TellsEveryPointAndThatMarchLobesAndClosedFormAgree) {
 /// The closed form holds for a helix, too, whose heights enter one after the other; teeth that differ have none.
 TEST(SimulationRun, ComparesHelicalTeethWithTheClosedFormAndNotThoseThatDiffer) {
   const auto difference = [](const std::string& of_tool) {
-    std::string text = tool + points;
+    std::string text = benchmark_tool + points;
     text.insert(text.find("length = "), of_tool);
     return run(text, scratch("simulation_teeth"))["simulation"]["forced_difference"];
   };
@@ -92,7 +69,7 @@ TEST(SimulationRun, ComparesHelicalTeethWithTheClosedFormAndNotThoseThatDiffer) 
 /// Every second tooth of the flip cuts alike: it has lines at odd multiples of half the tooth passing, which those of a
 /// stable cut are not.
 TEST(SimulationRun, TellsLinesOfTheTeethFromChatter) {
-  const json simulation = run(tool + points, scratch("simulation_lines"))["simulation"];
+  const json simulation = run(benchmark_tool + points, scratch("simulation_lines"))["simulation"];
   for (const json& line : simulation["points"][0]["vibration_lines"]) EXPECT_EQ(line["origin"], "tooth_passing");
   bool other = false;
   for (const json& line : simulation["points"][1]["vibration_lines"])
@@ -103,7 +80,7 @@ TEST(SimulationRun, TellsLinesOfTheTeethFromChatter) {
 
 TEST(SimulationRun, WritesTheTablesThatThePageDraws) {
   const fs::path folder = scratch("simulation_tables");
-  const RunResult result = run_case(parse_case(tool + points, folder), {folder, true, -1, false});
+  const RunResult result = run_case(parse_case(benchmark_tool + points, folder), {folder, true, -1, false});
   for (const char* name : {"points", "tool-1", "tool-1-spectrum", "tool-1-passes", "tool-1-wall", "tool-2"})
     EXPECT_TRUE(fs::exists(folder / "simulation" / (std::string(name) + ".csv"))) << name;
   const json data = report::simulation_data(folder, result.summary);
@@ -139,7 +116,7 @@ depths = 2
 deepest = "2 mm"
 turns = 800
 )";
-  const json simulation = run(tool + map, folder)["simulation"];
+  const json simulation = run(benchmark_tool + map, folder)["simulation"];
   EXPECT_EQ(simulation["maps"][0]["speeds"], 2);
   const fs::path file = folder / "simulation" / "tool_map.csv";
   EXPECT_EQ(column(file, "spindle_speed_rpm"), (std::vector<double>{11000.0, 11000.0, 19000.0, 19000.0}));
@@ -153,7 +130,7 @@ turns = 800
 /// points are asked in; another feed is another key.
 TEST(SimulationRun, KeepsItsPointsForTheNextRun) {
   const fs::path folder = scratch("simulation_kept");
-  const Case source = parse_case(tool + points, folder);
+  const Case source = parse_case(benchmark_tool + points, folder);
   (void)run_case(source, {folder, false, -1, false});
   study::Checkpoint kept(folder / "cache" / "simulation.bin", study::simulation_key(source), false);
   const std::string* bytes = kept.find("point of the tool: 11000 rpm, 0.001 m");
@@ -164,7 +141,7 @@ TEST(SimulationRun, KeepsItsPointsForTheNextRun) {
   EXPECT_EQ(io::read_json(folder / "summary.json")["simulation"], first);
   EXPECT_EQ(core::read_file(folder / "cache" / "simulation.bin"), before);
   const auto key = [&](const std::string& from, const std::string& to) {
-    std::string text = tool + points;
+    std::string text = benchmark_tool + points;
     text.replace(text.find(from), from.size(), to);
     return study::simulation_key(parse_case(text, folder));
   };
@@ -174,15 +151,16 @@ TEST(SimulationRun, KeepsItsPointsForTheNextRun) {
 }
 
 TEST(SimulationRun, IsForetold) {
-  const Forecast time = forecast(parse_case(tool + points, "."));
+  const Forecast time = forecast(parse_case(benchmark_tool + points, "."));
   ASSERT_TRUE(time.simulation.has_value());
   EXPECT_EQ(time.simulation->points, 2.0);
   EXPECT_EQ(time.simulation->turns, 2.0 * 2040.0);
   EXPECT_GT(time.simulation->seconds, 0.0);
-  std::string longer = tool + points;
+  std::string longer = benchmark_tool + points;
   longer.replace(longer.find("= 2000"), 6, "= 2000000");
   EXPECT_GT(forecast(parse_case(longer, ".")).simulation->turns, 4e6);
-  EXPECT_FALSE(forecast(parse_case(tool + "[lobes]\nfrom = \"1000 rpm\"\nto = \"2000 rpm\"\n", ".")).simulation);
+  EXPECT_FALSE(
+      forecast(parse_case(benchmark_tool + "[lobes]\nfrom = \"1000 rpm\"\nto = \"2000 rpm\"\n", ".")).simulation);
 }
 
 }  // namespace
