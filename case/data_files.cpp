@@ -72,11 +72,8 @@ void read_arm(Case& source, setup::JointedRobot& robot, Findings& findings) {
 void read_described_files(Case& source, Findings& findings) {
   if (auto* robot = model_of<setup::JointedRobot>(source)) read_arm(source, *robot, findings);
   if (auto* robot = model_of<setup::TabledRobot>(source);
-      robot != nullptr && !robot->table.empty() && file_or_absent(robot->table)) {
-    read_or_report("robot.table", findings, [&] {
-      robot->table_modes = std::make_shared<const dynamics::ModalTable>(setup::read_table_of_modes(*robot));
-    });
-  }
+      robot != nullptr && !robot->table.empty() && (robot->postures || file_or_absent(robot->table)))
+    read_or_report("robot.table", findings, [&] { setup::read_table_of_modes(*robot); });
   for (std::size_t i = 0; i < source.contacts.size(); ++i) {
     auto* tabled = std::get_if<setup::TabledContact>(&source.contacts[i].model);
     if (tabled == nullptr || !is_file(tabled->table)) continue;

@@ -1,5 +1,7 @@
 #include "case/machining_case.hpp"
 
+#include <algorithm>
+
 #include "setup/imported_part.hpp"
 
 namespace thinwall::cases {
@@ -23,7 +25,11 @@ std::vector<DataFile> named_files(const setup::Setup& source) {
   section = "robot";
   if (source.robot) {
     if (const auto* robot = std::get_if<setup::MeasuredRobot>(&source.robot->model)) add_measured(robot->measured);
-    if (const auto* robot = std::get_if<setup::TabledRobot>(&source.robot->model)) add(robot->table);
+    if (const auto* robot = std::get_if<setup::TabledRobot>(&source.robot->model)) {
+      if (robot->postures) add(robot->postures->list);
+      if (!robot->postures) add(robot->table);
+      if (robot->learned) std::ranges::for_each(robot->learned->files, add);
+    }
     if (const auto* robot = std::get_if<setup::JointedRobot>(&source.robot->model)) {
       add(robot->urdf);
       add(robot->joints);

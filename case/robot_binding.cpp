@@ -179,6 +179,11 @@ std::vector<robot::Chain> chains_or_none(const Table& table) {
   }
 }
 
+std::optional<setup::TappedPostures> bind_postures(const Table& table, const std::filesystem::path& folder) {
+  if (!table.has("postures")) return std::nullopt;
+  return setup::TappedPostures{file_of(table, "postures", folder), table.names("over"), table.numbers("at")};
+}
+
 setup::RobotModel bind_model(const Table& table, const std::filesystem::path& folder) {
   switch (table.choice<setup::RobotKind>("model")) {
     case setup::RobotKind::one_mode:
@@ -195,6 +200,8 @@ setup::RobotModel bind_model(const Table& table, const std::filesystem::path& fo
                                 table.text("right_unit"),
                                 table.flag("cross_terms"),
                                 bind_base(table),
+                                bind_postures(table, folder),
+                                {},
                                 {}};
     case setup::RobotKind::flexible_joints:
       return setup::JointedRobot{bind_arm(table), file_of(table, "urdf", folder), file_of(table, "joints", folder),

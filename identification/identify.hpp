@@ -9,6 +9,9 @@
 
 namespace thinwall::identification {
 
+/// The poles of the modes of a fit, rad/s, in their order.
+[[nodiscard]] Eigen::VectorXcd poles_of(const ModalFit& fit);
+
 /// The choices of an identification; what is empty is found from the lines.
 struct IdentifyOptions {
   int highest_order = 30;              ///< of the stabilisation diagram; less where there are few lines

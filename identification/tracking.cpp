@@ -20,27 +20,38 @@ double mac(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
   return std::norm(a.dot(b)) / (a.squaredNorm() * b.squaredNorm());
 }
 
-/// The distances of all pairs of places.
-Eigen::MatrixXd distances(const std::vector<PostureModes>& postures) {
-  const auto n = static_cast<Eigen::Index>(postures.size());
-  Eigen::MatrixXd result(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j)
-      result(i, j) = (postures[static_cast<std::size_t>(i)].place - postures[static_cast<std::size_t>(j)].place).norm();
+Eigen::MatrixXd unlikeness_of(const std::vector<const FittedMode*>& a, const std::vector<FittedMode>& b) {
+  Eigen::MatrixXd cost(static_cast<Eigen::Index>(a.size()), static_cast<Eigen::Index>(b.size()));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j)
+      cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = unlikeness(*a[i], b[j]);
   }
-  return result;
+  return cost;
 }
 
-/// The posture nearest to the mean place.
-Eigen::Index middle(const std::vector<PostureModes>& postures) {
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(postures.front().place.size());
-  for (const PostureModes& p : postures) mean += p.place / static_cast<double>(postures.size());
-  Eigen::VectorXd distance(static_cast<Eigen::Index>(postures.size()));
-  for (std::size_t i = 0; i < postures.size(); ++i)
-    distance(static_cast<Eigen::Index>(i)) = (postures[i].place - mean).norm();
-  Eigen::Index at = 0;
-  distance.minCoeff(&at);
-  return at;
+/// What the cheapest pairing of the modes of two postures costs; a mode without a partner as one that is most unlike.
+double difference(const std::vector<FittedMode>& a, const std::vector<FittedMode>& b) {
+  double sum = most_unlike * static_cast<double>(std::max(a.size(), b.size()) - std::min(a.size(), b.size()));
+  if (a.empty() || b.empty()) return sum;
+  std::vector<const FittedMode*> of_a;
+  for (const FittedMode& mode : a) of_a.push_back(&mode);
+  const Eigen::MatrixXd cost = unlikeness_of(of_a, b);
+  const std::vector<int> pair = cheapest_pairing(cost);
+  for (std::size_t i = 0; i < pair.size(); ++i)
+    if (pair[i] >= 0) sum += std::min(most_unlike, cost(static_cast<Eigen::Index>(i), pair[i]));
+  return sum;
+}
+
+/// The differences of all pairs of postures.
+Eigen::MatrixXd differences(const std::vector<std::vector<FittedMode>>& postures) {
+  const auto n = static_cast<Eigen::Index>(postures.size());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j)
+      result(i, j) = result(j, i) =
+          difference(postures[static_cast<std::size_t>(i)], postures[static_cast<std::size_t>(j)]);
+  }
+  return result;
 }
 
 /// The shortest spanning tree: postures in the order in which they join, and the parent of each.
@@ -74,29 +85,19 @@ Tree spanning_tree(const Eigen::MatrixXd& distance, Eigen::Index root) {
   return tree;
 }
 
-Eigen::MatrixXd unlikeness_of(const std::vector<const FittedMode*>& a, const std::vector<FittedMode>& b) {
-  Eigen::MatrixXd cost(static_cast<Eigen::Index>(a.size()), static_cast<Eigen::Index>(b.size()));
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t j = 0; j < b.size(); ++j)
-      cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = unlikeness(*a[i], b[j]);
-  }
-  return cost;
-}
-
 /// The modes of the labels that a posture's ancestors have, each of the nearest one.
-std::map<int, const FittedMode*> known_modes(const std::vector<PostureModes>& postures, const Tracking& tracking,
-                                             int ancestor) {
+std::map<int, const FittedMode*> known_modes(const std::vector<std::vector<FittedMode>>& postures,
+                                             const Tracking& tracking, int ancestor) {
   std::map<int, const FittedMode*> known;
   for (; ancestor >= 0; ancestor = tracking.parent[static_cast<std::size_t>(ancestor)]) {
     const auto at = static_cast<std::size_t>(ancestor);
-    for (std::size_t k = 0; k < tracking.label[at].size(); ++k)
-      known.emplace(tracking.label[at][k], &postures[at].modes[k]);
+    for (std::size_t k = 0; k < tracking.label[at].size(); ++k) known.emplace(tracking.label[at][k], &postures[at][k]);
   }
   return known;
 }
 
-void label(const std::vector<PostureModes>& postures, std::size_t at, Tracking& tracking) {
-  const std::vector<FittedMode>& modes = postures[at].modes;
+void label(const std::vector<std::vector<FittedMode>>& postures, std::size_t at, Tracking& tracking) {
+  const std::vector<FittedMode>& modes = postures[at];
   std::vector<int>& labels = tracking.label[at];
   labels.assign(modes.size(), -1);
   std::vector<int> known_labels;
@@ -119,12 +120,12 @@ void label(const std::vector<PostureModes>& postures, std::size_t at, Tracking& 
 }
 
 /// Numbers the labels by the mean logarithm of their frequencies.
-void number(const std::vector<PostureModes>& postures, Tracking& tracking) {
+void number(const std::vector<std::vector<FittedMode>>& postures, Tracking& tracking) {
   std::vector<double> sum(static_cast<std::size_t>(tracking.labels), 0.0), count = sum;
   for (std::size_t i = 0; i < postures.size(); ++i) {
-    for (std::size_t k = 0; k < postures[i].modes.size(); ++k) {
+    for (std::size_t k = 0; k < postures[i].size(); ++k) {
       const auto name = static_cast<std::size_t>(tracking.label[i][k]);
-      sum[name] += std::log(postures[i].modes[k].frequency_hz);
+      sum[name] += std::log(postures[i][k].frequency_hz);
       count[name] += 1.0;
     }
   }
@@ -140,7 +141,7 @@ void number(const std::vector<PostureModes>& postures, Tracking& tracking) {
 }
 
 /// Votes of the nearest postures on each label of a posture.
-void doubt(const std::vector<PostureModes>& postures, const Eigen::MatrixXd& distance, int neighbours,
+void doubt(const std::vector<std::vector<FittedMode>>& postures, const Eigen::MatrixXd& distance, int neighbours,
            Tracking& tracking) {
   for (std::size_t i = 0; i < postures.size(); ++i) {
     std::vector<std::size_t> nearest(postures.size());
@@ -149,13 +150,12 @@ void doubt(const std::vector<PostureModes>& postures, const Eigen::MatrixXd& dis
     std::stable_sort(nearest.begin(), nearest.end(), [&](std::size_t a, std::size_t b) {
       return distance(at, static_cast<Eigen::Index>(a)) < distance(at, static_cast<Eigen::Index>(b));
     });
-    std::vector<int> votes(postures[i].modes.size(), 0);
+    std::vector<int> votes(postures[i].size(), 0);
     for (std::size_t k = 1; k < std::min(nearest.size(), static_cast<std::size_t>(neighbours) + 1); ++k) {
-      const PostureModes& other = postures[nearest[k]];
       std::vector<const FittedMode*> of_other;
-      for (const FittedMode& mode : other.modes) of_other.push_back(&mode);
-      if (of_other.empty() || postures[i].modes.empty()) continue;
-      const Eigen::MatrixXd cost = unlikeness_of(of_other, postures[i].modes);
+      for (const FittedMode& mode : postures[nearest[k]]) of_other.push_back(&mode);
+      if (of_other.empty() || postures[i].empty()) continue;
+      const Eigen::MatrixXd cost = unlikeness_of(of_other, postures[i]);
       const std::vector<int> pair = cheapest_pairing(cost);
       for (std::size_t m = 0; m < pair.size(); ++m) {
         if (pair[m] < 0 || cost(static_cast<Eigen::Index>(m), pair[m]) > most_unlike) continue;
@@ -175,24 +175,23 @@ double unlikeness(const FittedMode& a, const FittedMode& b) {
          0.5 * std::abs(std::log(a.damping_ratio / b.damping_ratio)) + 0.3 * std::abs(std::log(size_a / size_b));
 }
 
-Tracking track(const std::vector<PostureModes>& postures, int neighbours) {
+Tracking track(const std::vector<std::vector<FittedMode>>& postures, int neighbours) {
   if (postures.empty()) throw core::InputError("tracking: no posture, must be at least one");
   for (std::size_t i = 0; i < postures.size(); ++i) {
-    if (postures[i].place.size() != postures.front().place.size())
-      throw core::InputError("tracking: posture " + std::to_string(i + 1) +
-                             " has a place of another size than the first");
-    for (const FittedMode& mode : postures[i].modes) {
+    for (const FittedMode& mode : postures[i]) {
       if (mode.left.size() == 0 || mode.right.size() == 0)
         throw core::InputError("tracking: a mode of posture " + std::to_string(i + 1) +
                                " has no vectors; fit residues of rank one");
     }
   }
-  const Eigen::MatrixXd distance = distances(postures);
-  const Tree tree = spanning_tree(distance, middle(postures));
+  const Eigen::MatrixXd distance = differences(postures);
+  Eigen::Index middle = 0;
+  distance.colwise().sum().minCoeff(&middle);
+  const Tree tree = spanning_tree(distance, middle);
   Tracking tracking;
   tracking.label.resize(postures.size());
   tracking.parent = tree.parent;
-  for (const PostureModes& p : postures) tracking.doubtful.emplace_back(p.modes.size(), false);
+  for (const auto& modes : postures) tracking.doubtful.emplace_back(modes.size(), false);
   for (const std::size_t at : tree.order) label(postures, at, tracking);
   number(postures, tracking);
   doubt(postures, distance, neighbours, tracking);

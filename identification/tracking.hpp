@@ -8,12 +8,6 @@
 
 namespace thinwall::identification {
 
-/// The modes of a posture, each with left and right vector.
-struct PostureModes {
-  Eigen::VectorXd place;  ///< of the posture, in units in which neighbours are some tenths apart
-  std::vector<FittedMode> modes;
-};
-
 /// The names of modes over postures.
 struct Tracking {
   std::vector<std::vector<int>> label;      ///< of each posture and mode, from 0 on
@@ -26,14 +20,15 @@ struct Tracking {
 /// of the residue's size|. 0 for the same one.
 [[nodiscard]] double unlikeness(const FittedMode& a, const FittedMode& b);
 
-/// Joins modes of neighbouring postures along the shortest tree that spans the places (Prim 1957), from the posture
-/// nearest to the middle outwards: the cheapest pairing by unlikeness(), which follows crossings because shapes change
-/// less between neighbours than the order of frequencies does. A mode of a label that the parent does not have is
-/// compared with the nearest ancestor that has it, so that a gap ends no label; one that is unlike all by more than 3
-/// begins a new one. Then every posture's pairs with its `neighbours` nearest postures are looked at: where more of
-/// them contradict a label than agree with it, it is doubtful. Labels are numbered by the mean frequency of their
-/// modes. Throws InputError for no posture, places of different sizes, or modes without vectors. Cost O(postures² +
-/// postures neighbours modes³).
-[[nodiscard]] Tracking track(const std::vector<PostureModes>& postures, int neighbours = 6);
+/// Joins the modes of postures, each with left and right vector, along the tree of least difference that spans them
+/// (Prim 1957), from the posture that differs least from all others. The difference of two postures is what their
+/// cheapest pairing by unlikeness() costs, so that neither the places nor a scale for them are needed; it follows
+/// crossings because shapes change less between neighbours than the order of frequencies does. A mode of a label that
+/// the parent does not have is compared with the nearest ancestor that has it, so that a gap ends no label; one that is
+/// unlike all by more than 3 begins a new one. Then every posture's pairs with the `neighbours` postures that differ
+/// least are looked at: where more of them contradict a label than agree with it, it is doubtful. Labels are numbered
+/// by the mean frequency of their modes. Throws InputError for no posture or modes without vectors. Cost O(postures²
+/// modes³).
+[[nodiscard]] Tracking track(const std::vector<std::vector<FittedMode>>& postures, int neighbours = 6);
 
 }  // namespace thinwall::identification

@@ -1,5 +1,6 @@
 #include "regression/averaged_process.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "regression/gaussian_process.hpp"
+#include "regression/kernel.hpp"
 
 namespace thinwall::regression {
 
@@ -27,16 +29,26 @@ void require_one_task(const TaskData& data, const AveragingOptions& options) {
   if (options.samples < 1) refuse(std::to_string(options.samples) + " samples, must be at least 1");
 }
 
-/// The logarithm of the posterior, up to a constant.
+/// The logarithm of the posterior, up to a constant. It is asked for some thousand times, so that the differences of
+/// the places are squared once, and α = K⁻¹y is not needed: yᵀα is |L⁻¹y|².
 struct Posterior {
-  const TaskData& data;
   Kernel kernel;
-  Eigen::VectorXd mean, deviation;  ///< of the prior of each logarithm
+  std::vector<Eigen::ArrayXXd> squares{};  ///< of the differences along each column, of the places with a value
+  Eigen::VectorXd y{};
+  Eigen::VectorXd mean{}, deviation{};  ///< of the prior of each logarithm
 
   double operator()(const Eigen::VectorXd& theta) const {
-    const auto process = dense_process(kernel, data, unpacked(theta, data.inputs.cols(), 1));
-    if (!process || !process->alpha.allFinite()) return -std::numeric_limits<double>::infinity();
-    return -0.5 * process->y.dot(process->alpha) - process->K.matrixLLT().diagonal().array().log().sum() -
+    const HyperParameters at = unpacked(theta, std::ssize(squares), 1);
+    Eigen::ArrayXXd r2 = squares.front() / (at.length(0) * at.length(0));
+    for (std::size_t d = 1; d < squares.size(); ++d) {
+      const double length = at.length(static_cast<Eigen::Index>(d));
+      r2 += squares[d] / (length * length);
+    }
+    Eigen::MatrixXd K = at.L(0, 0) * at.L(0, 0) * correlation(kernel, r2);
+    K.diagonal().array() += at.noise_sd(0) * at.noise_sd(0) + jitter;
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(K);
+    if (factor.info() != Eigen::Success || !K.diagonal().allFinite()) return -std::numeric_limits<double>::infinity();
+    return -0.5 * factor.matrixL().solve(y).squaredNorm() - K.diagonal().array().log().sum() -
            0.5 * (theta - mean).cwiseQuotient(deviation).squaredNorm();
   }
 };
@@ -44,8 +56,17 @@ struct Posterior {
 Posterior posterior_of(const TaskData& data, const AveragingOptions& options) {
   const HyperPrior& prior = options.prior;
   const Eigen::Index d = data.inputs.cols();
-  Posterior result{data, options.kernel, Eigen::VectorXd::Constant(d + 2, prior.ln_length),
-                   Eigen::VectorXd::Constant(d + 2, prior.sd_ln_length)};
+  std::vector<Eigen::Index> seen;
+  for (Eigen::Index i = 0; i < data.places(); ++i)
+    if (!std::isnan(data.targets(i, 0))) seen.push_back(i);
+  Posterior result{.kernel = options.kernel};
+  result.y = data.targets.col(0)(seen);
+  for (const auto& column : data.inputs.colwise()) {
+    const Eigen::VectorXd x = column(seen);
+    result.squares.emplace_back((x.replicate(1, x.size()) - x.transpose().replicate(x.size(), 1)).array().square());
+  }
+  result.mean = Eigen::VectorXd::Constant(d + 2, prior.ln_length);
+  result.deviation = Eigen::VectorXd::Constant(d + 2, prior.sd_ln_length);
   result.mean.tail(2) << prior.ln_signal, prior.ln_noise;
   result.deviation.tail(2) << prior.sd_ln_signal, prior.sd_ln_noise;
   return result;
@@ -94,9 +115,8 @@ AveragedProcess::AveragedProcess(const TaskData& data, const AveragingOptions& o
   double value = posterior(theta);
   if (!std::isfinite(value))
     throw core::NumericalError("averaged process: the covariance is not positive definite; two places may be the same");
-  // The draws keep their factors, n² numbers each.
   const double places = static_cast<double>(data.places());
-  const int samples = std::min(options.samples, std::max(12, static_cast<int>(4e5 / (places * places))));
+  const int samples = std::min(options.samples, std::max(12, static_cast<int>(1500.0 / places)));
   std::mt19937 random(options.seed);
   for (int sweep = 0; static_cast<int>(draws_.size()) < samples; ++sweep) {
     for (Eigen::Index k = 0; k < theta.size(); ++k) slice(posterior, theta, k, value, random);

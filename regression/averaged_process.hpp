@@ -19,7 +19,7 @@ struct HyperPrior {
 struct AveragingOptions {
   Kernel kernel = Kernel::squared_exponential;
   HyperPrior prior;
-  int samples = 80;   ///< ≥ 1; of n places at most 4e5/n² or twelve, for many places leave little to average over
+  int samples = 80;   ///< ≥ 1; of n places at most 1500/n or twelve, for many places leave little to average over
   unsigned seed = 1;  ///< the same seed gives the same answer
 };
 

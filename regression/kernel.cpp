@@ -21,7 +21,10 @@ Eigen::MatrixXd squared_distances(const Eigen::MatrixXd& X, const Eigen::MatrixX
 
 Eigen::MatrixXd correlation(Kernel kernel, const Eigen::MatrixXd& X, const Eigen::MatrixXd& other,
                             const Eigen::VectorXd& length) {
-  const Eigen::ArrayXXd r2 = squared_distances(X, other, length).array();
+  return correlation(kernel, squared_distances(X, other, length).array());
+}
+
+Eigen::ArrayXXd correlation(Kernel kernel, const Eigen::ArrayXXd& r2) {
   if (kernel == Kernel::squared_exponential) return (-0.5 * r2).exp();
   const Eigen::ArrayXXd s = ((kernel == Kernel::matern_3_2 ? 3.0 : 5.0) * r2).sqrt();
   if (kernel == Kernel::matern_3_2) return (1.0 + s) * (-s).exp();

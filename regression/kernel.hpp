@@ -21,6 +21,9 @@ enum class Kernel {
 [[nodiscard]] Eigen::MatrixXd correlation(Kernel kernel, const Eigen::MatrixXd& X, const Eigen::MatrixXd& other,
                                           const Eigen::VectorXd& length);
 
+/// κ at the r² of each pair, elementwise. Cost O(pairs).
+[[nodiscard]] Eigen::ArrayXXd correlation(Kernel kernel, const Eigen::ArrayXXd& r2);
+
 /// ∂κ/∂ ln ℓ_d of the rows of X with each other, n × n. Cost O(n² d).
 [[nodiscard]] Eigen::MatrixXd correlation_change(Kernel kernel, const Eigen::MatrixXd& X, const Eigen::VectorXd& length,
                                                  Eigen::Index d);

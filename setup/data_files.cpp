@@ -78,8 +78,7 @@ void read_data_files(Setup& source) {
     if (auto* tabled = std::get_if<TabledContact>(&contact.model); tabled != nullptr && !tabled->rows)
       tabled->rows = std::make_shared<const coupling::ContactTable>(read_contact_table(tabled->table));
   }
-  if (auto* robot = tabled_robot(source); robot != nullptr && !robot->table_modes)
-    robot->table_modes = std::make_shared<const dynamics::ModalTable>(read_table_of_modes(*robot));
+  if (auto* robot = tabled_robot(source); robot != nullptr && !robot->table_modes) read_table_of_modes(*robot);
   if (source.part && from_file(*source.part) && !source.part->imported)
     source.part->imported = read_part_file(*source.part);
 }
@@ -95,11 +94,18 @@ void share_data_files(Setup& varied, const Setup& read) {
   }
   auto* robot = tabled_robot(varied);
   const auto* with_modes = tabled_robot(read);
-  if (robot != nullptr && with_modes != nullptr) robot->table_modes = with_modes->table_modes;
+  if (robot != nullptr && with_modes != nullptr) {
+    robot->table_modes = with_modes->table_modes;
+    robot->learned = with_modes->learned;
+  }
   if (varied.part && read.part) varied.part->imported = read.part->imported;
 }
 
 void tell_of_data_files(const Setup& source) {
+  if (const auto* robot = tabled_robot(source); robot != nullptr && robot->learned) {
+    core::inform(robot->learned->summary);
+    for (const std::string& doubt : robot->learned->doubts) core::warn(doubt);
+  }
   std::set<std::string> told;  // a file of several FRFs is told of once
   for (const MeasuredFrf* frf : measured_frfs(source)) {
     if (!frf->content) continue;

@@ -56,13 +56,29 @@ struct MeasuredRobot {
   std::vector<Sensor> sensors;  ///< during all of `measured`
 };
 
-/// A tip that is known by a table of its modes over postures.
+/// Postures at which a robot was tapped, and the one that is asked for.
+struct TappedPostures {
+  std::filesystem::path list;     ///< CSV with a column "posture" of names and others of numbers
+  std::vector<std::string> over;  ///< the columns over which is learned: joint angles, places of the tip
+  std::vector<double> at;         ///< of the posture that is asked for, as these columns have them
+};
+
+/// Tables of modes at many postures, once they are read and learned from.
+struct LearnedPostures {
+  std::vector<std::filesystem::path> files;
+  std::string summary;              ///< a sentence with the uncertainty of what was learned
+  std::vector<std::string> doubts;  ///< sentences on what speaks against it
+};
+
+/// A tip that is known by a table of its modes, or by one at each of some postures.
 struct TabledRobot {
-  std::filesystem::path table;
+  std::filesystem::path table;  ///< of postures with "{posture}" where the name of each is to stand
   std::string table_point, left_unit, right_unit;
   bool cross_terms = true;
   Eigen::Isometry3d base = Eigen::Isometry3d::Identity();  ///< whose axes are those of the table; world: the part's
+  std::optional<TappedPostures> postures = {};             ///< none: the table is of the posture that is asked for
   std::shared_ptr<const dynamics::ModalTable> table_modes = {};  ///< of the table, once it is read
+  std::shared_ptr<const LearnedPostures> learned = {};           ///< beside it, of postures
 };
 
 /// An arm of rigid links with flexible joints, and the way in which it stands.

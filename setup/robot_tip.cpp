@@ -18,6 +18,7 @@
 #include "robot/measured.hpp"
 #include "robot/modal_table.hpp"
 #include "robot/one_mode.hpp"
+#include "setup/learned_modes.hpp"
 #include "setup/measured.hpp"
 #include "setup/part_geometry.hpp"
 #include "setup/sensor_mass.hpp"
@@ -165,10 +166,16 @@ std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list) {
   return modes;
 }
 
-dynamics::ModalTable read_table_of_modes(const TabledRobot& robot) {
+void read_table_of_modes(TabledRobot& robot) {
+  if (robot.postures) {
+    LearnedModes modes = learned_modes(robot);
+    robot.table_modes = std::make_shared<const dynamics::ModalTable>(std::move(modes.table));
+    robot.learned = std::make_shared<const LearnedPostures>(std::move(modes.learned));
+    return;
+  }
   const io::ModalTableFormat format{
       io::modal_unit(robot.left_unit), io::modal_unit(robot.right_unit), {{robot.table_point, {0.0}}}};
-  return io::read_modal_table(robot.table, format);
+  robot.table_modes = std::make_shared<const dynamics::ModalTable>(io::read_modal_table(robot.table, format));
 }
 
 robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis) {

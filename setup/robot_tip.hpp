@@ -28,8 +28,9 @@ struct RobotPosture {
 /// The modes of a robot's tip or a tool's, as the case lists them. Errors as robot::one_mode().
 [[nodiscard]] std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list);
 
-/// The modes of the file that robot.table names. Errors as io::modal_unit() and io::read_modal_table().
-[[nodiscard]] dynamics::ModalTable read_table_of_modes(const TabledRobot& robot);
+/// Reads the file that robot.table names, or learns from those of all postures (learned_modes()). Errors as
+/// io::modal_unit() and io::read_modal_table(), or as learned_modes().
+void read_table_of_modes(TabledRobot& robot);
 
 /// The tip at any posture, by the model that the case names. Measured receptances are put on `axis`. Throws InputError
 /// for a table of modes or an FRF that was not read.

@@ -60,37 +60,35 @@ FittedMode mode(double hz, double angle) {
 }
 
 /// 9 × 9 postures: two modes cross along the first direction, a third is not seen in a corner.
-std::vector<PostureModes> crossing_postures() {
-  std::vector<PostureModes> postures;
+std::vector<std::vector<FittedMode>> crossing_postures() {
+  std::vector<std::vector<FittedMode>> postures;
   for (int i = 0; i < 9; ++i) {
     for (int j = 0; j < 9; ++j) {
       const double x = 0.25 * i - 1.0, y = 0.25 * j - 1.0, turn = 0.3 * y;
-      PostureModes p{Eigen::Vector2d(x, y), {}};
-      p.modes.push_back(mode(50.0 * (1.0 + 0.1 * x), turn));
-      p.modes.push_back(mode(50.0 * (1.0 - 0.1 * x + 0.02 * y), turn + 1.4));
-      if (i > 2 || j > 2) p.modes.push_back(mode(90.0 + 5.0 * y, 0.7));
-      std::sort(p.modes.begin(), p.modes.end(),
-                [](const FittedMode& a, const FittedMode& b) { return a.frequency_hz < b.frequency_hz; });
-      postures.push_back(p);
+      std::vector<FittedMode> modes{mode(50.0 * (1.0 + 0.1 * x), turn),
+                                    mode(50.0 * (1.0 - 0.1 * x + 0.02 * y), turn + 1.4)};
+      if (i > 2 || j > 2) modes.push_back(mode(90.0 + 5.0 * y, 0.7));
+      std::ranges::sort(modes, {}, &FittedMode::frequency_hz);
+      postures.push_back(modes);
     }
   }
   return postures;
 }
 
 TEST(Tracking, FollowsModesThroughCrossingsAndGaps) {
-  const std::vector<PostureModes> postures = crossing_postures();
+  const std::vector<std::vector<FittedMode>> postures = crossing_postures();
   const Tracking tracking = track(postures);
   EXPECT_EQ(tracking.labels, 3);
   int first_at_middle = -1;
   for (std::size_t i = 0; i < postures.size(); ++i) {
-    const double turn = 0.3 * postures[i].place.y();
-    for (std::size_t k = 0; k < postures[i].modes.size(); ++k) {
-      const FittedMode& m = postures[i].modes[k];
+    const double turn = 0.3 * (0.25 * static_cast<double>(i % 9) - 1.0);
+    for (std::size_t k = 0; k < postures[i].size(); ++k) {
+      const FittedMode& m = postures[i][k];
       const bool third = m.frequency_hz > 80.0;
       const bool first = !third && std::abs(std::abs(m.left(0).real()) - std::cos(turn)) < 1e-9;
       if (first && first_at_middle < 0) first_at_middle = tracking.label[i][k];
-      if (third) EXPECT_EQ(tracking.label[i][k], 2);
-      if (!third) EXPECT_EQ(tracking.label[i][k] == first_at_middle, first) << i;
+      EXPECT_EQ(third, tracking.label[i][k] == 2) << i;
+      EXPECT_EQ(first, tracking.label[i][k] == first_at_middle) << i;
       EXPECT_FALSE(tracking.doubtful[i][k]);
     }
   }
@@ -98,11 +96,8 @@ TEST(Tracking, FollowsModesThroughCrossingsAndGaps) {
 
 TEST(Tracking, RefusesModesWithoutVectors) {
   EXPECT_THROW((void)track({}), core::InputError);
-  std::vector<PostureModes> postures = crossing_postures();
-  postures[3].modes[0].left.resize(0);
-  EXPECT_THROW((void)track(postures), core::InputError);
-  postures = crossing_postures();
-  postures[5].place.resize(3);
+  std::vector<std::vector<FittedMode>> postures = crossing_postures();
+  postures[3][0].left.resize(0);
   EXPECT_THROW((void)track(postures), core::InputError);
 }
 
