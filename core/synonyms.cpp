@@ -32,6 +32,8 @@ constexpr std::array table{
     Synonym{WordKind::key, "nu|poisson", "poisson_ratio"},
     Synonym{WordKind::key, "rho", "density"},
     Synonym{WordKind::key, "t|wall|wall_thickness", "thickness"},
+    Synonym{WordKind::key, "pocket|pockets|rib|ribs", "zones", "a zone has a thickness of its own"},
+    Synonym{WordKind::key, "point|part_point|on_part", "part"},
     Synonym{WordKind::key, "zeta|xi|damping", "damping_ratio"},
     Synonym{WordKind::key, "zeta|xi|damping_ratio", "ratio"},
     Synonym{WordKind::key, "eta", "loss_factor"},

@@ -124,8 +124,9 @@ std::vector<std::string> chart_notes(const LobesSummary& chart) {
   }
   if (chart.static_share.value_or(0.0) > 0.01) {
     notes.push_back(fmt::format(
-        "{:.1f} % of the static compliance lies in modes above lobes.modes_up_to, taken without their dynamics",
-        *chart.static_share * 100.0));
+        "{:.1f} % of the static compliance lies in modes above {}, taken without their dynamics",
+        *chart.static_share * 100.0,
+        chart.modes_up_to_hz ? fmt::format("{:.4g} kHz", *chart.modes_up_to_hz * 1e-3) : "those that are known"));
   }
   if (chart.speeds_not_converged > 0) {
     notes.push_back(fmt::format("{} of {} speeds did not reach the tolerance: see the status column of lobes/{}.csv",

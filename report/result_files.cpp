@@ -18,6 +18,7 @@
 #include "io/results/vtp.hpp"
 #include "mesh/surface/wall_thickness.hpp"
 #include "report/coherence_files.hpp"
+#include "report/damping_files.hpp"
 #include "report/error_summary.hpp"
 #include "report/lobes_files.hpp"
 #include "report/robot_report.hpp"
@@ -121,6 +122,12 @@ void write_structure(const fs::path& folder, const setup::Setup& source, const s
     files.emplace_back(
         [&, name] { write_coherence(folder / "frf" / (name + "_coherence.csv"), measured, response.axis); });
   };
+  const auto* damping = std::get_if<setup::ModalDamping>(&source.damping);
+  if (damping != nullptr && damping->from_frf && results.part && results.part->modal) {
+    files.emplace_back([&, damping] {
+      write_damping_frf(folder / "frf" / "part_damping.csv", *damping->from_frf, *results.part->modal);
+    });
+  }
   if (results.part) add_coherence("part", results.part->response, source.measured_part);
   if (results.robot) {
     if (const auto* robot = std::get_if<setup::MeasuredRobot>(&source.robot->model))

@@ -196,6 +196,7 @@ LobesSummary lobes_of(const setup::Setup& source, const study::StructureLobes& n
   result.maximum = row_of(*deepest);
   result.error_estimate_relative = finite(lobes.worst_error_estimate);
   result.static_share = finite(lobes.residual_share);
+  if (source.part) result.modes_up_to_hz = source.lobes->modes_up_to_hz;
   result.speeds = std::ssize(lobes.rows);
   result.speeds_stable_to_depth_limit = lobes.rows_at_limit;
   result.speeds_not_converged = lobes.rows_not_converged;

@@ -273,6 +273,18 @@ void add_forced_over_speed(const setup::Setup& work, const ContactForceOf& force
   }
 }
 
+/// Sets the bound of the modes that charts and simulations resolve where a case leaves it open and a reduction gives
+/// it.
+void bound_modes(const PartResult& part, setup::Setup& work) {
+  if (!work.lobes || !work.cutting || !work.tool || work.lobes->modes_up_to_hz || !part.reduced) return;
+  work.lobes->modes_up_to_hz = usual_modes_up_to_hz(work, part.reduced->fixed_interface_hz);
+  if (!work.lobes->modes_up_to_hz) return;
+  core::inform(fmt::format(
+      "modes of the part above {:.1f} kHz, one and a half times the highest of its reduction, act by their static "
+      "compliance in the charts; lobes.modes_up_to gives another bound",
+      *work.lobes->modes_up_to_hz * 1e-3));
+}
+
 void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoint>& points, Checkpoint& kept,
                Results& results, Stages& stages) {
   if (!work.lobes || !work.cutting || !work.tool) return;
@@ -332,6 +344,7 @@ Results run(const setup::Setup& setup, const setup::Variation& variation, Kept& 
   if (work.setup.part) run_part(variation, work, kept.part, results, stages);
   if (results.finite_elements && results.finite_elements->reduced)
     run_coupled_updating(variation, work, kept.structure, results, stages);
+  if (results.finite_elements) bound_modes(*results.finite_elements, work.setup);
   run_responses(kept.structure, work.setup, results, stages);
   run_lobes(work.setup, options.points, kept.charts, results, stages);
   kept.charts.arrange();

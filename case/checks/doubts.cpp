@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/units.hpp"
@@ -16,6 +17,9 @@ constexpr double doubtful_wall = 0.5, doubtful_extent = 20.0;
 
 /// Beside a metal, soft rubber is 2e5 times softer.
 constexpr double doubtful_ratio = 1e6;
+
+/// A machine's damping ratio is a hundred times larger.
+constexpr double doubtful_damping = 1e-4;
 
 std::string length(double value) {
   return core::readable_text(value, core::kind::length);
@@ -67,6 +71,20 @@ void ask_about_materials(const Case& source, std::vector<std::string>& doubts) {
                    "and their digits fewer");
 }
 
+/// A robot whose coefficient of damping is next to none, as where a ratio was meant. One without damping may say so.
+void ask_about_robot_damping(const Case& source, std::vector<std::string>& doubts) {
+  const auto* robot = source.robot ? std::get_if<setup::OneModeRobot>(&source.robot->model) : nullptr;
+  if (robot == nullptr || !robot->damping || *robot->damping == 0.0) return;
+  const double omega = 2.0 * std::numbers::pi * robot->frequency_hz.value_or(0.0);
+  const double k = robot->stiffness.value_or(robot->mass.value_or(0.0) * omega * omega);
+  const double m = robot->mass.value_or(k / (omega * omega));
+  const double ratio = *robot->damping / (2.0 * std::sqrt(k * m));
+  if (!(ratio < doubtful_damping)) return;
+  const std::string written = core::number_text(*robot->damping, 3);
+  doubts.push_back("robot.damping is " + written + " N s/m, a damping ratio of " + core::number_text(ratio, 1) +
+                   ": did you mean damping_ratio = " + written + "?");
+}
+
 }  // namespace
 
 std::vector<std::string> doubts_about(const Case& source) {
@@ -74,6 +92,7 @@ std::vector<std::string> doubts_about(const Case& source) {
   ask_about_bare_lengths(source, doubts);
   ask_about_wall(source, doubts);
   ask_about_materials(source, doubts);
+  ask_about_robot_damping(source, doubts);
   if (source.urdf_arm) doubts.insert(doubts.end(), source.urdf_arm->assumed.begin(), source.urdf_arm->assumed.end());
   return doubts;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <complex>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "milling/direct/crossing.hpp"
@@ -18,8 +19,7 @@ namespace thinwall::milling {
 /// greater depth costs little more.
 class CriticalDepths {
  public:
-  /// Keeps `gain`, whose references must outlive the search. Throws NumericalError if an eigen-solution fails. Cost: Z
-  /// at every stop and two products.
+  /// Keeps `gain`, whose references must outlive the search.
   explicit CriticalDepths(GainOnCircle gain);
 
   /// An eigenvalue ν(θ) of −Z, and how it came there.
@@ -30,21 +30,25 @@ class CriticalDepths {
   };
 
   /// Below this depth, m, hardly any crossing lies: 1/max |ν| over the stops, less a quarter for what lies between
-  /// them. Where a search may begin; up_to() finds what lies below all the same.
-  [[nodiscard]] double none_below_m() const { return 0.75 / largest_; }
+  /// them. Where a search may begin; up_to() finds what lies below all the same. Throws NumericalError if Z is not
+  /// finite. Cost: Z at every stop and two products, once.
+  [[nodiscard]] double none_below_m();
 
-  /// Depths from 0 to depth_limit_m (> 0), ascending. Throws NumericalError as above. Cost: an eigenvalue problem of
-  /// the size of Z at every stop that matters.
+  /// Depths from 0 to depth_limit_m (> 0), ascending. Throws NumericalError if Z is not finite or an eigen-solution
+  /// fails. Cost: Z at every stop, and an eigenvalue problem of its size at those that matter.
   [[nodiscard]] std::vector<Crossing> up_to(double depth_limit_m);
 
  private:
   struct Stop {
     Eigen::MatrixXcd Z;
-    double bound = 0.0;   ///< of the eigenvalues' moduli
-    Eigen::VectorXcd nu;  ///< of −Z; empty as long as no depth asked for them
+    double norm = 0.0;            ///< of Z, no less than any eigenvalue's modulus
+    std::optional<double> bound;  ///< of these moduli, sharper; none as long as it was not needed
+    Eigen::VectorXcd nu;          ///< of −Z; empty as long as no depth asked for them
   };
 
   Stop& at(double theta_rad);
+  static double bound_of(Stop& stop);
+  static bool reaches(Stop& stop, double smallest);
   /// Eigenvalues of −Z that a depth within twice the limit can reach.
   std::vector<Path> reached_at(double theta_rad, double depth_limit_m);
   void between(double from_rad, const std::vector<Path>& from, double to_rad, std::vector<Path>& to, int halvings,
@@ -52,7 +56,6 @@ class CriticalDepths {
 
   GainOnCircle gain_;
   std::map<double, Stop> stops_;  ///< by angle
-  double largest_ = 0.0;
   std::vector<Crossing> found_;
 };
 

@@ -271,7 +271,7 @@ struct LobesSummary {
   std::string method;
   double minimum_depth_m = 0.0, at_spindle_speed_rpm = 0.0;
   RowSummary maximum;
-  std::optional<double> error_estimate_relative, static_share;
+  std::optional<double> error_estimate_relative, static_share, modes_up_to_hz;
   long speeds = 0;
   int speeds_stable_to_depth_limit = 0, speeds_not_converged = 0;
   std::vector<double> main_modes_hz;
@@ -300,6 +300,9 @@ void fields(Visitor& visit, Section& chart) {
   visit(Field{"static_share", Kind::ratio, "share of the static compliance that is taken without its dynamics",
               Presence::or_null},
         chart.static_share);
+  visit(Field{"modes_up_to_hz", Kind::frequency,
+              "bound above which modes of the part act by their static compliance; absent: none do"},
+        chart.modes_up_to_hz);
   visit(Field{"speeds", Kind::count, "spindle speeds"}, chart.speeds);
   visit(Field{"speeds_stable_to_depth_limit", Kind::count, "speeds without a limit up to the deepest cut"},
         chart.speeds_stable_to_depth_limit);

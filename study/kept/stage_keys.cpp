@@ -58,6 +58,7 @@ std::string simulation_key(const setup::Setup& source) {
   cut.machine.reset();
   const std::optional<double> modes_up_to_hz =
       cut.lobes ? cut.lobes->modes_up_to_hz : std::nullopt;  // cut_structure.hpp
+  const bool has_chart = cut.lobes.has_value();              // whose modes have a usual bound
   cut.lobes.reset();
   if (cut.cutting) cut.cutting->spindle_speed_rpm.reset();
   std::optional<setup::Simulation> simulation = source.simulation;
@@ -66,7 +67,7 @@ std::string simulation_key(const setup::Setup& source) {
     simulation->structures.clear();
   }
   const bool cuts = source.tool && source.cutting;
-  return input_key(structure_key(source), cut, modes_up_to_hz, simulation,
+  return input_key(structure_key(source), cut, modes_up_to_hz, has_chart, simulation,
                    cuts ? setup::feed_per_tooth(source) : std::nullopt);
 }
 

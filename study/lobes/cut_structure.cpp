@@ -14,6 +14,7 @@
 #include "io/frf/resample.hpp"
 #include "milling/direct/passivity.hpp"
 #include "setup/measured.hpp"
+#include "setup/milling_process.hpp"
 #include "setup/robot_tip.hpp"
 #include "study/lobes/tool_swap.hpp"
 
@@ -97,6 +98,12 @@ milling::FittedStructure fitted(const milling::SampledReceptance& tip,
 dynamics::ModalModel kept_modes(const setup::CutSetup& source, const dynamics::ModalModel& part) {
   if (!source.lobes || !source.lobes->modes_up_to_hz) return part;
   return dynamics::truncate(part, 2.0 * std::numbers::pi * *source.lobes->modes_up_to_hz, true);
+}
+
+std::optional<double> usual_modes_up_to_hz(const setup::CutSetup& source, const Eigen::VectorXd& fixed_interface_hz) {
+  constexpr double beyond_reduction = 1.5;
+  if (fixed_interface_hz.size() == 0 || !setup::milling_process(source).cutter.depends_on_depth()) return std::nullopt;
+  return beyond_reduction * fixed_interface_hz.maxCoeff();
 }
 
 int direction_of_dof(const std::string& dof) {

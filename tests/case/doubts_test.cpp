@@ -48,6 +48,20 @@ TEST(Doubts, AWallThatIsTheLargestExtentIsAskedAboutWithItsUnitToo) {
       << wall[0];
 }
 
+TEST(Doubts, ARobotsCoefficientOfDampingThatIsAsSmallAsARatioIsAskedAbout) {
+  const auto with_robot = [](const std::string& damping) {
+    return doubts(in_mm + "\n[robot]\nfrequency = \"25 Hz\"\nstiffness = \"2e6 N/m\"\ndirection = \"x\"\n" + damping +
+                  "\n[points.P]\nat = [1, 0.5, 0.5]\n[[contacts]]\npart = \"P\"\ndirections = [\"x\"]");
+  };
+  // c / (2 k / omega) = 0.02 * 157.1 / 4e6
+  ASSERT_EQ(with_robot("damping = 0.02").size(), 1U);
+  EXPECT_EQ(with_robot("damping = 0.02")[0],
+            "robot.damping is 0.02 N s/m, a damping ratio of 8e-07: did you mean damping_ratio = 0.02?");
+  EXPECT_TRUE(with_robot("damping = \"510 N s/m\"").empty()) << "2 %";
+  EXPECT_TRUE(with_robot("damping = 0").empty());
+  EXPECT_TRUE(with_robot("damping_ratio = 0.02").empty());
+}
+
 TEST(Doubts, MaterialsOfWhichOneIsAMillionTimesSofterAreAskedAbout) {
   const auto beside = [](const std::string& modulus) {
     return doubts(in_mm + "\n[[part.materials]]\non = \"half\"\nyoungs_modulus = \"" + modulus +

@@ -128,6 +128,10 @@ TEST(Schema, EverySynonymMeansAKeyAWordOrAUnitThatIsKnown) {
     keys.insert(std::string(last_name(key.path)));
     for (const std::string& choice : choices(key)) words.insert(choice);
   }
+  for (const Section& section : case_schema().sections) {
+    const std::string_view path = section.path.substr(0, section.path.find_last_not_of("[]") + 1);
+    keys.insert(std::string(path.substr(path.rfind('.') + 1)));
+  }
   for (const core::Synonym& row : core::synonyms()) {
     const std::string meant(row.meant);
     if (row.kind == core::WordKind::key) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "report/lobes_answers.hpp"
+
 namespace thinwall::report::headline_test {
 namespace {
 
@@ -194,6 +196,16 @@ TEST(Sentences, AreThePointsAndWhatTheRunSaidButForWhatTablesHave) {
                                 "With the robot, 1900 rpm and 2 mm: stable, margin in depth at least 18 mm; the cut "
                                 "pulls the contact open.",
                                 "Part alone: a remark."}));
+}
+
+TEST(Sentences, TellTheBoundOfTheModesThatActStatically) {
+  LobesSummary some = chart(ChartOf::part, 0.001, false);
+  some.static_share = 0.014;
+  some.modes_up_to_hz = 18e3;
+  EXPECT_EQ(chart_notes(some), (std::vector<std::string>{"1.4 % of the static compliance lies in modes above 18 kHz, "
+                                                         "taken without their dynamics"}));
+  some.static_share = 0.001;
+  EXPECT_TRUE(chart_notes(some).empty()) << "not worth a word";
 }
 
 }  // namespace
