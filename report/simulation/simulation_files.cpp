@@ -2,9 +2,12 @@
 
 #include <limits>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/words.hpp"
+#include "io/matrices/mat_variables.hpp"
 #include "io/results/csv_table.hpp"
 #include "io/results/vtp.hpp"
 #include "mesh/planar/stacked_prisms.hpp"
@@ -146,14 +149,35 @@ io::Table table_of(const std::vector<milling::Wall>& walls) {
   return {{"side", side}, {"height_m", height}, {"x_m", x}, {"error_m", error}};
 }
 
+/// The columns of tables as vectors of a MAT file, named with the prefix of each.
+void write_mat(const std::filesystem::path& file, const std::vector<std::pair<std::string, io::Table>>& tables) {
+  std::vector<io::MatVariable> variables;
+  for (const auto& [prefix, table] : tables) {
+    for (const io::Column& column : table) {
+      const auto& values = std::get<std::vector<double>>(column.values);
+      variables.push_back(
+          io::mat_matrix(prefix + column.name,
+                         Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()))));
+    }
+  }
+  if (!variables.empty()) io::write_mat_variables(file, "simulated operating point", variables);
+}
+
 void write_point(const std::filesystem::path& folder, const std::string& name, const milling::SimulatedCut& cut) {
-  if (cut.trace.torque_n_m.size() > 0) io::write_csv(folder / (name + ".csv"), table_of(cut.trace));
+  std::vector<std::pair<std::string, io::Table>> all;
+  const auto write = [&](const std::string& suffix, const std::string& prefix, const io::Table& table,
+                         const std::vector<std::string>& comments) {
+    io::write_csv(folder / (name + suffix + ".csv"), table, comments);
+    all.emplace_back(prefix, table);
+  };
+  if (cut.trace.torque_n_m.size() > 0) write("", "", table_of(cut.trace), {});
   if (const io::Table spectra = spectra_of(cut.trace); !spectra.empty())
-    io::write_csv(folder / (name + "-spectrum.csv"), spectra, {"peak values of sines, through the window of von Hann"});
-  if (!cut.passes.empty()) io::write_csv(folder / (name + "-passes.csv"), table_of(cut.passes));
+    write("-spectrum", "spectrum_", spectra, {"peak values of sines, through the window of von Hann"});
+  if (!cut.passes.empty()) write("-passes", "pass_", table_of(cut.passes), {});
   if (!cut.walls.empty())
-    io::write_csv(folder / (name + "-wall.csv"), table_of(cut.walls),
-                  {"error_m: of the deepest tip at each place along the feed; positive: too much is taken"});
+    write("-wall", "wall_", table_of(cut.walls),
+          {"error_m: of the deepest tip at each place along the feed; positive: too much is taken"});
+  write_mat(folder / (name + ".mat"), all);
 }
 
 /// Writes the part that is left as closed layers, tool axes: x along the feed, z from the tip up.

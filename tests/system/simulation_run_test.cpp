@@ -11,6 +11,7 @@
 #include "app/forecast.hpp"
 #include "core/atomic_file.hpp"
 #include "io/json_file.hpp"
+#include "io/matrices/mat_variables.hpp"
 #include "report/page/simulation_data.hpp"
 #include "report/terminal_report.hpp"
 #include "study/kept/checkpoint.hpp"
@@ -83,6 +84,11 @@ TEST(SimulationRun, WritesTheTablesThatThePageDraws) {
   const RunResult result = run_case(parse_case(benchmark_tool + points, folder), {folder, true, -1, false});
   for (const char* name : {"points", "tool-1", "tool-1-spectrum", "tool-1-passes", "tool-1-wall", "tool-2"})
     EXPECT_TRUE(fs::exists(folder / "simulation" / (std::string(name) + ".csv"))) << name;
+  const std::vector<double> force = column(folder / "simulation" / "tool-1.csv", "force_y_n");
+  const io::MatVariables mat = io::read_mat_variables(
+      folder / "simulation" / "tool-1.mat", {"force_y_n", "spectrum_frequency_hz", "pass_tooth", "wall_error_m"});
+  ASSERT_EQ(mat.size(), 4U);
+  EXPECT_EQ(mat.at("force_y_n").re, force);
   const json data = report::simulation_data(folder, result.summary);
   ASSERT_EQ(data["points"].size(), 2U);
   for (const char* key : {"trace", "spectrum", "passes", "walls"}) EXPECT_TRUE(data["points"][0].contains(key)) << key;
