@@ -129,7 +129,8 @@ py::dict amplitude_maps(const study::Results& results) {
     };
     maps[py::str(core::word_of(map.of))] =
         py::dict("spindle_speed_rpm"_a = array(map.spindle_speeds_rpm), "depth_m"_a = array(map.depths_m),
-                 "peak_to_peak_m"_a = map.peak_to_peak_m, "share_without_contact"_a = map.share_without_contact);
+                 "peak_to_peak_m"_a = map.peak_to_peak_m, "share_without_contact"_a = map.share_without_contact,
+                 "unsettled"_a = map.unsettled);
   }
   return maps;
 }
@@ -185,7 +186,8 @@ void bind_study(py::module_& module) {
       .def_property_readonly(
           "amplitude_maps", amplitude_maps,
           "Peak-to-peak vibration over speed and depth by the names of charts: dicts of\n"
-          "spindle_speed_rpm, depth_m, and peak_to_peak_m and share_without_contact, depths x speeds.")
+          "spindle_speed_rpm, depth_m, and peak_to_peak_m, share_without_contact and unsettled (1: not to be\n"
+          "trusted), depths x speeds.")
       .def("__repr__", [](const study::Results& r) {
         std::vector<std::string> frf, lobes;
         for (const auto& [name, response] : responses(r)) frf.push_back(name);

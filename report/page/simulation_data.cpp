@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/error.hpp"
@@ -120,7 +121,16 @@ json point_of(const fs::path& folder, const SimulatedPointSummary& point, const 
   return result;
 }
 
-/// The vibration, speeds × depths as the table has it.
+/// The words of a column.
+const std::vector<std::string>& words(const io::Table& table, const std::string& name, const fs::path& file) {
+  for (const io::Column& column : table) {
+    const auto* list = std::get_if<std::vector<std::string>>(&column.values);
+    if (column.name == name && list != nullptr) return *list;
+  }
+  throw core::DataError(file.string() + ": has no column \"" + name + "\" of words; run the case again");
+}
+
+/// The vibration, speeds × depths as the table has it; NaN where there is none to be trusted.
 json map_of(const fs::path& file, const AmplitudeMapSummary& map) {
   const io::Table table = io::read_csv(file);
   const auto& speed = io::numbers(table, "spindle_speed_rpm", file);
@@ -134,8 +144,9 @@ json map_of(const fs::path& file, const AmplitudeMapSummary& map) {
   for (std::size_t s = 0; s < speeds; ++s) rpm.push_back(speed[s * depths]);
   std::vector<float> values;
   values.reserve(amplitude.size());
-  for (const double value : amplitude)
-    values.push_back(std::isfinite(value) ? for_picture(value) : std::numeric_limits<float>::quiet_NaN());
+  const auto& status = words(table, "status", file);
+  for (std::size_t i = 0; i < amplitude.size(); ++i)
+    values.push_back(status[i] == "completed" ? for_picture(amplitude[i]) : std::numeric_limits<float>::quiet_NaN());
   return {{"name", core::word_of(map.chart)},
           {"rpm", packed(rpm, {speeds})},
           {"depth_m", packed(std::vector<double>(depth.begin(), depth.begin() + map.depths), {depths})},

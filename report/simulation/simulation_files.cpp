@@ -1,5 +1,6 @@
 #include "report/simulation/simulation_files.hpp"
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -193,6 +194,7 @@ void write_part(const std::filesystem::path& file, const std::vector<milling::Pa
 
 void write_map(const std::filesystem::path& file, const study::AmplitudeMap& map) {
   std::vector<double> speed, depth, amplitude, lost;
+  std::vector<std::string> status;
   for (std::size_t s = 0; s < map.spindle_speeds_rpm.size(); ++s) {
     for (std::size_t d = 0; d < map.depths_m.size(); ++d) {
       const auto row = static_cast<Eigen::Index>(d), column = static_cast<Eigen::Index>(s);
@@ -200,14 +202,20 @@ void write_map(const std::filesystem::path& file, const study::AmplitudeMap& map
       depth.push_back(map.depths_m[d]);
       amplitude.push_back(map.peak_to_peak_m(row, column));
       lost.push_back(map.share_without_contact(row, column));
+      const bool outgrew = !std::isfinite(amplitude.back());
+      status.push_back(milling::name(outgrew                           ? milling::SimulationStatus::overflowed
+                                     : map.unsettled(row, column) != 0 ? milling::SimulationStatus::unsettled
+                                                                       : milling::SimulationStatus::completed));
     }
   }
   io::write_csv(file,
                 {{"spindle_speed_rpm", speed},
                  {"depth_m", depth},
                  {"peak_to_peak_m", amplitude},
-                 {"share_without_contact", lost}},
-                {"peak_to_peak_m: the largest of the three axes; inf where the vibration outgrew the cutter"});
+                 {"share_without_contact", lost},
+                 {"status", status}},
+                {"peak_to_peak_m: the largest of the three axes; inf where the vibration outgrew the cutter",
+                 "status: of unsettled points forces within steps did not settle, and no figure is to be trusted"});
 }
 
 }  // namespace

@@ -128,6 +128,11 @@ std::string text_of(const AmplitudeMapSummary& map) {
   if (map.largest_peak_to_peak_m) text += ", peak to peak up to " + length(*map.largest_peak_to_peak_m);
   if (map.points_outgrown > 0)
     text += fmt::format("; at {} points the vibration outgrew the cutter", map.points_outgrown);
+  if (map.points_unsettled > 0)
+    text += fmt::format(
+        "; at {} points forces within steps did not settle, trust none of these: take more steps by "
+        "simulation.map.steps",
+        map.points_unsettled);
   return text + "\n";
 }
 

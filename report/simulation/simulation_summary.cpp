@@ -104,10 +104,11 @@ AmplitudeMapSummary map_of(const study::AmplitudeMap& map) {
   summary.speeds = std::ssize(map.spindle_speeds_rpm);
   summary.depths = std::ssize(map.depths_m);
   summary.largest_depth_m = map.depths_m.back();
-  for (const double value : map.peak_to_peak_m.reshaped()) {
-    if (std::isfinite(value))
-      summary.largest_peak_to_peak_m = std::max(value, summary.largest_peak_to_peak_m.value_or(0.0));
-    else ++summary.points_outgrown;
+  for (Eigen::Index i = 0; i < map.peak_to_peak_m.size(); ++i) {
+    const double value = map.peak_to_peak_m(i);
+    if (!std::isfinite(value)) ++summary.points_outgrown;
+    else if (map.unsettled(i) != 0) ++summary.points_unsettled;
+    else summary.largest_peak_to_peak_m = std::max(value, summary.largest_peak_to_peak_m.value_or(0.0));
   }
   return summary;
 }

@@ -215,7 +215,7 @@ void fields(Visitor& visit, Section& difference) {
 /// The vibration over speed and depth.
 struct AmplitudeMapSummary {
   study::ChartOf chart = study::ChartOf::part;
-  long speeds = 0, depths = 0, points_outgrown = 0;
+  long speeds = 0, depths = 0, points_outgrown = 0, points_unsettled = 0;
   double largest_depth_m = 0.0;
   std::optional<double> largest_peak_to_peak_m;
 };
@@ -226,6 +226,8 @@ void fields(Visitor& visit, Section& map) {
   visit(Field{"speeds", Kind::count, "spindle speeds"}, map.speeds);
   visit(Field{"depths", Kind::count, "depths"}, map.depths);
   visit(Field{"points_outgrown", Kind::count, "points at which the vibration outgrew the cutter"}, map.points_outgrown);
+  visit(Field{"points_unsettled", Kind::count, "points at which forces within steps did not settle: not to be trusted"},
+        map.points_unsettled);
   visit(Field{"largest_depth_m", Kind::length, "largest depth"}, map.largest_depth_m);
   visit(Field{"largest_peak_to_peak_m", Kind::length, "largest vibration of the other points; null: there are none",
               Presence::or_null},

@@ -32,7 +32,8 @@ AmplitudeMap map_of(const setup::Setup& setup, ChartOf of, const milling::Relati
   const double feed = *setup::feed_per_tooth(setup);
   AmplitudeMap map{of, milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.speeds), even_depths(wanted),
                    Eigen::MatrixXd::Constant(wanted.depths, wanted.speeds, std::numeric_limits<double>::infinity()),
-                   Eigen::MatrixXd::Ones(wanted.depths, wanted.speeds)};
+                   Eigen::MatrixXd::Ones(wanted.depths, wanted.speeds),
+                   Eigen::MatrixXi::Zero(wanted.depths, wanted.speeds)};
   const auto count = static_cast<std::size_t>(map.peak_to_peak_m.size());
   core::Progress progress("points of the map", count);
   core::parallel_for(count, [&](std::size_t i) {
@@ -45,6 +46,7 @@ AmplitudeMap map_of(const setup::Setup& setup, ChartOf of, const milling::Relati
       map.peak_to_peak_m(entry) = cut.displacement_m.range().maxCoeff();
       map.share_without_contact(entry) = cut.share_without_contact;
     }
+    map.unsettled(entry) = cut.status == milling::SimulationStatus::unsettled ? 1 : 0;
     progress.step();
   });
   return map;
