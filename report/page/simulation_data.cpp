@@ -95,14 +95,23 @@ json walls_of(const fs::path& file, std::size_t most) {
   return list;
 }
 
-/// True if points.csv is that of the summary's points: `thinwall simulate` may have put another one there.
+/// True if points.csv has the figures of the summary's points: `thinwall simulate` may have put another one there.
 bool of_this_run(const fs::path& file, const std::vector<SimulatedPointSummary>& points) {
   if (!fs::exists(file)) return false;
   const io::Table table = io::read_csv(file);
-  const auto& speed = io::numbers(table, "spindle_speed_rpm", file);
-  const auto& depth = io::numbers(table, "depth_m", file);
-  return std::ranges::equal(points, speed, {}, &SimulatedPointSummary::spindle_speed_rpm) &&
-         std::ranges::equal(points, depth, {}, &SimulatedPointSummary::depth_m);
+  const auto same = [&](const char* column, const auto& of) {
+    return std::ranges::equal(points, io::numbers(table, column, file), {}, of);
+  };
+  const auto along_feed = [](const SimulatedPointSummary& p) {
+    return p.peak_to_peak_m ? p.peak_to_peak_m->x() : std::numeric_limits<double>::infinity();
+  };
+  const auto peak_force = [](const SimulatedPointSummary& p) {
+    return p.peak_force_n.value_or(std::numeric_limits<double>::infinity());
+  };
+  return same("spindle_speed_rpm", &SimulatedPointSummary::spindle_speed_rpm) &&
+         same("depth_m", &SimulatedPointSummary::depth_m) &&
+         same("feed_per_tooth_m", &SimulatedPointSummary::feed_per_tooth_m) && same("peak_to_peak_x_m", along_feed) &&
+         same("peak_force_n", peak_force);
 }
 
 json point_of(const fs::path& folder, const SimulatedPointSummary& point, const Rows& rows) {

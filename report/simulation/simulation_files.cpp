@@ -28,6 +28,17 @@ io::Column column(const std::vector<PointSimulation>& points, const std::string&
   return {name, values};
 }
 
+/// A column whose cells are empty where the figure is not known.
+template <typename Of, typename IsKnown>
+io::Column known(const std::vector<PointSimulation>& points, const std::string& name, const Of& of,
+                 const IsKnown& is_known) {
+  io::Column figures = column(points, name, [&](const PointSimulation& p) {
+    return is_known(p) ? of(p) : std::numeric_limits<double>::quiet_NaN();
+  });
+  figures.gaps = true;
+  return figures;
+}
+
 io::Table table_of(const std::vector<PointSimulation>& points) {
   std::vector<std::string> of, status, motion;
   for (const PointSimulation& p : points) {
@@ -35,6 +46,8 @@ io::Table table_of(const std::vector<PointSimulation>& points) {
     status.push_back(milling::name(p.cut.status));
     motion.push_back(milling::name(p.cut.motion.motion));
   }
+  const auto marched = [](const PointSimulation& p) { return p.growth.converged; };
+  const auto always = [](const PointSimulation&) { return true; };
   // A vibration that outgrew the cutter has no figures.
   const auto figure = [](const auto& quantity) {
     return [quantity](const PointSimulation& p) {
@@ -53,24 +66,19 @@ io::Table table_of(const std::vector<PointSimulation>& points) {
       {"status", status},
       {"motion", motion},
       column(points, "period", [](const PointSimulation& p) { return p.cut.motion.period; }),
-      column(points, "multiplier_march",
-             [](const PointSimulation& p) {
-               return p.growth.converged ? p.growth.modulus : std::numeric_limits<double>::infinity();
-             }),
-      column(points, "multiplier_march_error",
-             [](const PointSimulation& p) {
-               return p.growth.converged ? p.growth.error_estimate : std::numeric_limits<double>::infinity();
-             }),
-      column(points, "multiplier_lobes", [](const PointSimulation& p) { return p.lobes.modulus; }),
-      column(points, "multiplier_lobes_error", [](const PointSimulation& p) { return p.lobes.error_estimate; }),
-      column(points, "growth_difference",
-             [](const PointSimulation& p) {
-               return p.growth.converged ? p.growth_difference() : std::numeric_limits<double>::infinity();
-             }),
-      column(points, "forced_difference",
-             [](const PointSimulation& p) {
-               return p.forced ? p.forced->difference : std::numeric_limits<double>::infinity();
-             }),
+      known(
+          points, "multiplier_march", [](const PointSimulation& p) { return p.growth.modulus; }, marched),
+      known(
+          points, "multiplier_march_error", [](const PointSimulation& p) { return p.growth.error_estimate; }, marched),
+      known(
+          points, "multiplier_lobes", [](const PointSimulation& p) { return p.lobes.modulus; }, always),
+      known(
+          points, "multiplier_lobes_error", [](const PointSimulation& p) { return p.lobes.error_estimate; }, always),
+      known(
+          points, "growth_difference", [](const PointSimulation& p) { return p.growth_difference(); }, marched),
+      known(
+          points, "forced_difference", [](const PointSimulation& p) { return p.forced->difference; },
+          [](const PointSimulation& p) { return p.forced.has_value(); }),
       column(points, "peak_to_peak_x_m", range(0)),
       column(points, "peak_to_peak_y_m", range(1)),
       column(points, "peak_to_peak_z_m", range(2)),
@@ -224,7 +232,9 @@ void write_simulation(const std::filesystem::path& folder, const study::Results&
   if (results.simulations.empty() && results.amplitude_maps.empty()) return;
   const auto below = folder / "simulation";
   std::filesystem::create_directories(below);
-  if (!results.simulations.empty()) io::write_csv(below / "points.csv", table_of(results.simulations));
+  if (!results.simulations.empty())
+    io::write_csv(below / "points.csv", table_of(results.simulations),
+                  {"inf: the vibration outgrew the cutter; empty: not known"});
   for (std::size_t i = 0; i < results.simulations.size(); ++i) {
     const PointSimulation& p = results.simulations[i];
     if (p.cut.status != milling::SimulationStatus::overflowed)

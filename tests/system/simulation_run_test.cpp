@@ -96,9 +96,12 @@ TEST(SimulationRun, WritesTheTablesThatThePageDraws) {
   const std::string text = report::terminal_report(result.summary, "there");
   EXPECT_NE(text.find("growth and lobes agree to"), std::string::npos) << text;
   EXPECT_NE(text.find("periodic motion and closed form agree to"), std::string::npos) << text;
-  // Another simulation in the same place is not taken for this run's.
+  // Another simulation in the same place is not taken for this run's, be it of the same points.
   report::Summary other = result.summary;
   other.simulation->points[1].depth_m = 1e-3;
+  EXPECT_FALSE(report::simulation_data(folder, other)["points"][0].contains("trace"));
+  other = result.summary;
+  *other.simulation->points[1].peak_force_n *= 1.001;
   EXPECT_FALSE(report::simulation_data(folder, other)["points"][0].contains("trace"));
 }
 
