@@ -59,6 +59,8 @@ struct Simulation {
   std::optional<double> length_m;  ///< of the path that is recorded
   int traced_turns = 50;           ///< the last of them, sample by sample; fewer where fewer are recorded
   int wall_turns = 20;             ///< likewise, whose wall is recorded; none where fewer than 4 are
+  std::vector<double> wall_heights_m = {0.0};  ///< above the tip
+  std::optional<double> wall_cutoff_m;         ///< of the Gaussian filter that takes long waves out of a wall
   int steps = 200;                 ///< of a tooth from entry to exit, on circular paths
   int steps_a_turn = 720;          ///< on exact paths and in a region
   CutStart start = CutStart::steady;

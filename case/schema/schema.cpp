@@ -414,6 +414,8 @@ constexpr Key case_keys[] = {
     Key{"simulation.length", Type::quantity, kind::length, "", positive, "", "In place of `turns`: length of the path that is recorded, along the feed."},
     Key{"simulation.trace", Type::integer, kind::number, "50", {0, 1e5, false, false, false, ""}, "", "Of the recorded turns, the last so many sample by sample: for traces, orbits and spectra."},
     Key{"simulation.wall", Type::integer, kind::number, "20", {0, 1e5, false, false, false, ""}, "", "Likewise, turns whose wall is recorded; at least 4, 0 for none."},
+    Key{"simulation.wall_heights", Type::quantities, kind::length, "", not_negative, "", "Heights above the tip at which the wall is recorded, none above the depth of a point; the tip if not given."},
+    Key{"simulation.wall_cutoff", Type::quantity, kind::length, "", positive, "", "Cutoff of the Gaussian filter (ISO 16610-21) that takes long waves out of the wall before R_a, R_q and R_t are found; the profile loses as much at either end. No filter if not given."},
     Key{"simulation.steps", Type::integer, kind::number, "200", {4, 1e5, false, false, false, "200 bring the multiplier to 1e-7 as a rule"}, "", "Steps of a tooth from entry to exit."},
     Key{"simulation.steps_a_turn", Type::integer, kind::number, "720", {24, 1e6, false, false, false, "720 is usual"}, "", "Steps a turn."},
     Key{"simulation.chords", Type::boolean, kind::number, "false", any, "", "True moves the tips in one chord a step, as Huynh et al. 2017 do, in place of arcs: the wall keeps the corners of a polygon."},

@@ -77,9 +77,10 @@ std::string lines_text(const SimulatedPointSummary& p) {
 
 std::string wall_text(const WallSummary& wall) {
   const std::string place = wall.height_m > 0.0 ? " at " + length(wall.height_m) + " height" : "";
-  return fmt::format(
-      "  wall {}y{}  {} {}, R_a {}, R_t {}\n", wall.side.front(), place, length(std::abs(wall.location_error_m)),
-      wall.location_error_m > 0.0 ? "too deep" : "left standing", length(wall.R_a_m), length(wall.R_t_m));
+  return fmt::format("  wall {}y{}  {} {}, R_a {}, R_q {}, R_t {}\n", wall.side.front(), place,
+                     length(std::abs(wall.location_error_m)),
+                     wall.location_error_m > 0.0 ? "too deep" : "left standing", length(wall.R_a_m), length(wall.R_q_m),
+                     length(wall.R_t_m));
 }
 
 std::string approach_text(const ApproachSummary& approach) {

@@ -163,5 +163,14 @@ TEST(SimulationCase, RefusesABorderOnCirclesAndAContactThatCannotOpen) {
   expect_problem(simulated("at = \"1900 rpm, 1 mm\"\npaths = \"exact\"\nsupport = \"one_sided\"\n"), "rigid");
 }
 
+TEST(SimulationCase, HasTheHeightsAndTheFilterOfAWall) {
+  const Case c = parse_case(
+      simulated("at = \"1900 rpm, 1 mm\"\nwall_heights = [\"0 mm\", \"0.5 mm\"]\nwall_cutoff = \"2 mm\"\n"), ".");
+  const auto options = simulation_options(*c.simulation, 1e-3, 6);
+  EXPECT_EQ(options.wall.heights_m, (std::vector<double>{0.0, 0.5e-3}));
+  EXPECT_EQ(options.wall.cutoff_m, 2e-3);
+  EXPECT_EQ(simulation_options(Simulation{}, 1e-3, 6).wall.cutoff_m, 0.0);
+}
+
 }  // namespace
 }  // namespace thinwall::tests::simulation_case_test
