@@ -10,6 +10,8 @@
 #include "core/parallel.hpp"
 #include "core/time_limit.hpp"
 #include "milling/simulation/exact_path.hpp"
+#include "milling/simulation/march_grid.hpp"
+#include "milling/simulation/region_path.hpp"
 #include "setup/milling_process.hpp"
 #include "setup/simulation_options.hpp"
 #include "study/lobes/stand_in.hpp"
@@ -96,6 +98,20 @@ double map_turn_s(const setup::SimulationMap& map, const StandInCut& cut) {
   });
 }
 
+/// The memory of a part that is kept as a region: the polygons of all cells of the window, slice by slice, and the
+/// corners that the teeth leave on its walls.
+double region_bytes(const setup::Setup& source, const StandInCut& cut, const milling::SimulationOptions& options) {
+  constexpr double cells_a_radius = 20.0, bytes_a_cell = 200.0, bytes_a_pass = 1000.0;
+  if (source.simulation->paths != setup::ToothPaths::region) return 0.0;
+  const milling::SimulatedPoint point = timed_point(source, cut.feed_per_tooth_m);
+  const int turns = options.settling_turns + options.recorded_turns;
+  const milling::CutWindow window = milling::cut_window(cut.process, point, turns);
+  const double cell_m = 0.5 * cut.process.cutter.diameter_m / cells_a_radius;
+  const double cells = (window.high - window.low).prod() / (cell_m * cell_m);
+  const auto slices = static_cast<double>(milling::discs_of(cut.process, point.depth_m, options.steps).size());
+  return slices * (cells * bytes_a_cell + bytes_a_pass * turns * cut.process.cutter.teeth);
+}
+
 SimulationForecast forecast_of(const setup::Setup& source, const StandInCut& cut) {
   const setup::Simulation& wanted = *source.simulation;
   const auto options = setup::simulation_options(wanted, cut.feed_per_tooth_m, cut.process.cutter.teeth);
@@ -109,6 +125,7 @@ SimulationForecast forecast_of(const setup::Setup& source, const StandInCut& cut
     result.seconds = point_turns * point_turn_s(source, cut) / together;
   }
   result.turns = point_turns;
+  result.memory_bytes = std::min<double>(core::thread_count(), result.points) * region_bytes(source, cut, options);
   if (!wanted.map) return result;
   result.map_points = structures(source) * wanted.map->speeds * wanted.map->depths;
   result.turns += result.map_points * wanted.map->turns;

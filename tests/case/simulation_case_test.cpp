@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "case/checks/doubts.hpp"
 #include "case/operating_point.hpp"
 #include "case/problem.hpp"
 #include "case/reader.hpp"
@@ -170,6 +171,14 @@ TEST(SimulationCase, HasTheHeightsAndTheFilterOfAWall) {
   EXPECT_EQ(options.wall.heights_m, (std::vector<double>{0.0, 0.5e-3}));
   EXPECT_EQ(options.wall.cutoff_m, 2e-3);
   EXPECT_EQ(simulation_options(Simulation{}, 1e-3, 6).wall.cutoff_m, 0.0);
+}
+
+/// 0.947 mm a turn: 500 turns are longer than the plate of 392 mm.
+TEST(SimulationCase, TurnsBeyondThePartAreDoubted) {
+  const std::vector<std::string> doubts = doubts_about(parse_case(simulated("turns = 500\n"), "."));
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_NE(doubts[0].find("the part is 392 mm long along the feed"), std::string::npos) << doubts[0];
+  EXPECT_TRUE(doubts_about(parse_case(simulated("turns = 400\n"), ".")).empty());
 }
 
 }  // namespace
