@@ -10,8 +10,8 @@
 #include "case/operating_point.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "setup/contact_model.hpp"
 #include "setup/milling_process.hpp"
+#include "setup/simulation_faults.hpp"
 #include "setup/simulation_options.hpp"
 
 namespace thinwall::cases {
@@ -38,28 +38,6 @@ void check_points(const Case& source, Findings& findings) {
   }
 }
 
-/// The reason why a structure cannot be simulated in this case; empty if there is none.
-std::string fault_of_structure(const Case& source, setup::CutOn structure) {
-  const bool modelled = source.part && setup::may_be_held(*source.part);
-  switch (structure) {
-    case setup::CutOn::part:
-      return modelled ? "" : "a simulation needs a part that is held and modelled; describe it with [[part.supports]]";
-    case setup::CutOn::supported:
-      if (!source.robot || source.contacts.empty()) return "no robot holds the part; add [robot] and [[contacts]]";
-      if (!setup::is_measured(*source.robot)) return "";
-      return "the robot is known by measured FRFs alone, and a simulation needs poles; fit modes to them and give "
-             "robot.modes, or take simulation.structures = \"part\"";
-    case setup::CutOn::tool:
-      return source.part ? "the tool cuts a part, not a rigid block; take \"part\" or \"supported\"" : "";
-    case setup::CutOn::carried:
-      if (!setup::carries_tool(source.robot)) return "no robot carries the tool; give robot.carries = \"tool\"";
-      if (!setup::is_measured(*source.robot)) return "";
-      return "the robot is known by measured FRFs alone, and a simulation needs poles; fit modes to them and give "
-             "robot.modes";
-  }
-  return "";
-}
-
 void check_structures(const Case& source, Findings& findings) {
   if (source.tool && (!source.tool->measured.empty() || source.tool->swap))
     findings.report("simulation",
@@ -69,41 +47,11 @@ void check_structures(const Case& source, Findings& findings) {
     findings.report("simulation",
                     "part.measured has no poles, and a simulation needs them; describe the part "
                     "(part.length …)");
-  std::vector<setup::CutOn> structures = source.simulation->structures;
-  const bool supported = source.robot && !source.contacts.empty();
-  if (structures.empty() && source.part) structures.push_back(setup::CutOn::part);
-  if (structures.size() == 1 && !findings.given("simulation.structures") && supported)
-    structures.push_back(setup::CutOn::supported);
-  if (structures.empty() && setup::carries_tool(source.robot)) structures.push_back(setup::CutOn::carried);
-  for (const setup::CutOn structure : structures) {
-    if (const std::string fault = fault_of_structure(source, structure); !fault.empty())
-      findings.report("simulation.structures", fault);
-  }
-}
-
-/// A contact that may open: the only one, of a known stiffness, pressed.
-void check_one_sided(const Case& source, Findings& findings) {
-  if (source.simulation->support != setup::SupportSides::one_sided) return;
-  if (source.contacts.size() != 1 || !source.robot) {
-    findings.report("simulation.support",
-                    std::to_string(source.contacts.size()) +
-                        " contacts of a robot, must be one that opens; give one, or \"two_sided\"");
-    return;
-  }
-  const auto* springs = std::get_if<setup::SpringContact>(&source.contacts.front().model);
-  if (springs != nullptr && !springs->stiffness.empty() && !std::isfinite(springs->stiffness.front())) {
-    findings.report("simulation.support",
-                    "a rigid contact does not open; give contacts.stiffness, or contacts.model = \"hertz\"");
-  } else if (!setup::preload_of(source, source.contacts.front())) {
-    findings.report("simulation.support", "nothing presses the contact that may open; give robot.preload");
-  } else if (source.contacts.front().directions.size() > 1) {
-    findings.report("simulation.support",
-                    std::to_string(source.contacts.front().directions.size()) +
-                        " directions of the contact, must be one, its normal, for the others do not open; give one");
-  } else if (source.robot->preload.dot(source.contacts.front().directions.front()) == 0.0) {
-    findings.report("simulation.support",
-                    "the side on which the robot stands is told by the sign of robot.preload along the contact's "
-                    "direction; give it");
+  const std::string key = findings.given("simulation.structures") ? "simulation.structures" : "simulation";
+  for (const setup::CutOn structure : setup::simulated_structures(source)) {
+    if (!source.measured_part.empty() && structure == setup::CutOn::part) continue;  // reported above
+    if (const std::string fault = setup::fault_of_structure(source, structure); !fault.empty())
+      findings.report(key, fault);
   }
 }
 
@@ -159,7 +107,8 @@ void check_map(const Case& source, Findings& findings) {
 void check_simulation(const Case& source, Findings& findings) {
   check_points(source, findings);
   check_exact_paths(source, findings);
-  check_one_sided(source, findings);
+  if (const std::string fault = setup::fault_of_opening(source); !fault.empty())
+    findings.report("simulation.support", fault);
   if (source.simulation->map) check_map(source, findings);
   if (!source.tool || !source.cutting) {
     findings.report("simulation", "there is no cut; add [tool] and [cutting]");

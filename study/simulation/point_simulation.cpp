@@ -17,14 +17,12 @@
 #include "milling/simulation/entry.hpp"
 #include "milling/simulation/exact_path.hpp"
 #include "milling/simulation/region_path.hpp"
-#include "setup/contact_model.hpp"
 #include "setup/milling_process.hpp"
+#include "setup/simulation_faults.hpp"
 #include "setup/simulation_options.hpp"
 #include "study/kept/kept_simulation.hpp"
-#include "study/lobes/cut_structure.hpp"
 #include "study/results.hpp"
-#include "study/support/contact_force.hpp"
-#include "study/support/support_stage.hpp"
+#include "study/simulation/felt_structures.hpp"
 
 namespace thinwall::study {
 
@@ -49,53 +47,6 @@ Simulated simulated_cut_of(const setup::Setup& setup) {
   // The ripple from tooth to tooth of unequal ones is no motion that settles.
   if (cut.options.means_a_turn > 0 && !milling::equal_teeth(process)) cut.options.means_a_turn = 1;
   return cut;
-}
-
-milling::RelativeStructure poles_of(const setup::Setup& setup, const dynamics::ModalModel* part,
-                                    const dynamics::ModalModel* carrier = nullptr) {
-  auto poles = cut_poles(setup, part, carrier);
-  if (!poles)
-    throw core::InputError("simulation: nothing moves; give a part, tool.modes, or a robot that carries the tool");
-  return std::move(*poles);
-}
-
-const dynamics::ModalModel& modal(const std::optional<dynamics::ModalModel>& model, const char* what) {
-  if (!model)
-    throw core::InputError(std::string("simulation: ") + what +
-                           " is known by measured receptances alone, and a simulation needs poles; give it by a model");
-  return *model;
-}
-
-/// The contact of the robot that may open. The pair of forces pushes the tip along the direction in which the part
-/// presses it, and the part against it.
-milling::OneSidedContact one_sided_contact(const setup::Setup& setup, const Results& results,
-                                           const dynamics::ModalModel& model, Eigen::Index poles) {
-  const coupling::Contact& joined = results.contacts.front().contact;
-  const bool one = results.contacts.size() == 1 && !joined.has_matrices() && joined.springs.size() == 1 &&
-                   !joined.springs.front().rigid();
-  const auto preload = setup::preload_of(setup, setup.contacts.front());
-  const bool side_known = std::abs(setup.robot->preload.dot(joined.springs.front().direction)) > 0.0;
-  if (!one || !preload || !side_known)
-    throw core::InputError(
-        "simulation.support: a contact that opens must be the only one, along one direction, with a finite stiffness, "
-        "pressed by robot.preload, whose sign tells the side; give these, or take \"two_sided\"");
-  const Eigen::Vector3d normal = pressing_force(setup).second;
-  const dynamics::ModalModel kept = kept_modes(setup, model);
-  const Eigen::Index of_part = milling::relative_structure(kept, setup.cutting->at).poles.size();
-  const setup::SupportContact& contact = setup.contacts.front();
-  return {
-      milling::force_pair(kept, setup.cutting->at, contact.robot_point, contact.part_point, normal, poles - of_part),
-      joined.springs.front().stiffness, joined.springs.front().damping, *preload};
-}
-
-std::vector<ChartOf> wanted_structures(const setup::Setup& setup, const Results& results) {
-  if (!setup.simulation->structures.empty()) return setup.simulation->structures;
-  std::vector<ChartOf> all;
-  if (results.part) all.push_back(ChartOf::part);
-  if (results.coupled) all.push_back(ChartOf::supported);
-  if (setup::carries_tool(setup.robot)) all.push_back(ChartOf::carried);
-  if (all.empty()) all.push_back(ChartOf::tool);
-  return all;
 }
 
 /// Both sides of the boundary at the case's own speed, nearer to it than other crossings as a rule.
@@ -204,6 +155,10 @@ void simulate_point(const Simulated& cut, const FeltStructure& felt, const milli
   p.forced = agreement(cut, structure, p);
 }
 
+void require_no_fault(const std::string& fault) {
+  if (!fault.empty()) throw core::InputError("simulation: " + fault);
+}
+
 }  // namespace
 
 void require_simulation(const setup::Setup& setup, const std::vector<milling::OperatingPoint>& asked) {
@@ -216,6 +171,8 @@ void require_simulation(const setup::Setup& setup, const std::vector<milling::Op
         "cutting.spindle_speed");
   if (!setup.tool->measured.empty() || setup.tool->swap)
     throw core::InputError("tool.measured: a simulation needs poles, and measured lines have none; give tool.modes");
+  for (const ChartOf of : setup::simulated_structures(setup)) require_no_fault(setup::fault_of_structure(setup, of));
+  require_no_fault(setup::fault_of_opening(setup));
   if (setup.simulation->paths != setup::ToothPaths::circular && !setup.cutting->radial_depth)
     throw core::InputError(
         "cutting.radial_depth: not given; exact paths need it, for angles of entry and exit do not "
@@ -227,39 +184,11 @@ void require_simulation(const setup::Setup& setup, const std::vector<milling::Op
         "cutting.spindle_speed for points on both sides of its boundary");
 }
 
-std::vector<FeltStructure> simulated_structures(const setup::Setup& setup, const Results& results) {
-  const bool carried = setup::carries_tool(setup.robot);
-  const auto has = [&](ChartOf of) {
-    return of == ChartOf::tool || (of == ChartOf::part && results.part) ||
-           (of == ChartOf::supported && results.coupled) || (of == ChartOf::carried && carried);
-  };
-  std::vector<FeltStructure> felt;
-  for (const ChartOf of : wanted_structures(setup, results)) {
-    if (!has(of)) {
-      throw core::InputError("simulation.structures: the case has no structure \"" + core::word_of(of) +
-                             "\"; add it, or name others");
-    }
-    if (of == ChartOf::supported) {
-      const dynamics::ModalModel& model = modal(results.coupled->modal, "the supported part");
-      felt.push_back({of, poles_of(setup, &model), {}});
-      if (setup.simulation->support == setup::SupportSides::one_sided)
-        felt.back().contact = one_sided_contact(setup, results, model, felt.back().structure.poles.size());
-      continue;
-    }
-    const bool with_part = of == ChartOf::part || (of == ChartOf::carried && results.part);
-    felt.push_back({of,
-                    poles_of(setup, with_part ? &modal(results.part->modal, "the part") : nullptr,
-                             of == ChartOf::carried ? &carrier_modes(*results.robot) : nullptr),
-                    {}});
-  }
-  return felt;
-}
-
 std::vector<PointSimulation> simulate_points(const setup::Setup& setup, const Results& results,
                                              const std::vector<milling::OperatingPoint>& asked, Checkpoint& kept) {
   require_simulation(setup, asked);
   const Simulated cut = simulated_cut_of(setup);
-  const std::vector<FeltStructure> felt = simulated_structures(setup, results);
+  const std::vector<FeltStructure> felt = felt_structures(setup, results);
   std::vector<PointSimulation> points;
   std::vector<const FeltStructure*> structures;
   for (const FeltStructure& one : felt) {

@@ -45,22 +45,11 @@ struct PointSimulation {
   [[nodiscard]] double growth_difference() const { return growth.modulus / lobes.modulus - 1.0; }
 };
 
-/// A structure at the cut, and the contact of its support where that may open.
-struct FeltStructure {
-  ChartOf of = ChartOf::part;
-  milling::RelativeStructure structure;
-  std::optional<milling::OneSidedContact> contact;
-};
-
 /// Throws InputError where [simulation] asks for what cannot be simulated, before anything is computed: without [tool],
-/// [cutting] or a feed, with measured lines in place of poles, exact paths without a radial depth, or without any point
-/// and a speed of the case's own. `asked`: points for a simulation that names none.
+/// [cutting] or a feed, with measured lines in place of poles, structures or a contact that opens with a fault
+/// (setup/simulation_faults.hpp), exact paths without a radial depth, or without any point and a speed of the case's
+/// own. `asked`: points for a simulation that names none.
 void require_simulation(const setup::Setup& setup, const std::vector<milling::OperatingPoint>& asked);
-
-/// The structures that setup.simulation asks for, with their poles (part axes). `results` are those of run() without
-/// charts. Throws InputError for one that the set-up does not have or that has no poles (lines of a measured FRF need a
-/// fit by modes first).
-[[nodiscard]] std::vector<FeltStructure> simulated_structures(const setup::Setup& setup, const Results& results);
 
 /// Simulates every point of setup.simulation on every structure; where it names none those that are `asked` for, else
 /// nine tenths and eleven tenths of the limiting depth at the case's own speed. What `kept` holds is taken from there.

@@ -7,6 +7,7 @@
 #include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "core/error.hpp"
+#include "setup/simulation_faults.hpp"
 #include "setup/simulation_options.hpp"
 #include "tests/case/case_text.hpp"
 
@@ -179,6 +180,13 @@ TEST(SimulationCase, TurnsBeyondThePartAreDoubted) {
   ASSERT_EQ(doubts.size(), 1U);
   EXPECT_NE(doubts[0].find("the part is 392 mm long along the feed"), std::string::npos) << doubts[0];
   EXPECT_TRUE(doubts_about(parse_case(simulated("turns = 400\n"), ".")).empty());
+}
+
+TEST(SimulationCase, IsOfAllStructuresThatAreThere) {
+  EXPECT_EQ(simulated_structures(parse_case(simulated("at = \"1900 rpm, 1 mm\"\n"), ".")),
+            (std::vector<CutOn>{CutOn::part, CutOn::supported}));
+  EXPECT_EQ(simulated_structures(parse_case(simulated("structures = \"part\"\n"), ".")),
+            std::vector<CutOn>{CutOn::part});
 }
 
 }  // namespace
