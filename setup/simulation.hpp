@@ -21,6 +21,7 @@ enum class ToothPaths {
 /// The place of the tool when a simulation begins.
 enum class CutStart {
   steady,  ///< within the material, which it has cut so far without vibration
+  loaded,  ///< likewise, at rest under the mean force of the cut, so that slow modes have little to settle
   border   ///< outside, touching a straight border across the feed
 };
 
@@ -76,7 +77,7 @@ namespace thinwall::core {
 template <>
 inline constexpr std::array<std::string_view, 3> words<setup::ToothPaths>{"circular", "exact", "region"};
 template <>
-inline constexpr std::array<std::string_view, 2> words<setup::CutStart>{"steady", "border"};
+inline constexpr std::array<std::string_view, 3> words<setup::CutStart>{"steady", "loaded", "border"};
 template <>
 inline constexpr std::array<std::string_view, 2> words<setup::SupportSides>{"two_sided", "one_sided"};
 template <>

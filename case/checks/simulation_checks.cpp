@@ -56,7 +56,12 @@ void check_structures(const Case& source, Findings& findings) {
 }
 
 void check_exact_paths(const Case& source, Findings& findings) {
-  if (source.simulation->paths == setup::ToothPaths::circular) return;
+  if (source.simulation->paths == setup::ToothPaths::circular) {
+    if (source.simulation->start == setup::CutStart::border)
+      findings.report("simulation.start",
+                      "teeth on circles know no border; give simulation.paths = \"exact\" or \"region\"");
+    return;
+  }
   if (source.cutting && !source.cutting->radial_depth)
     findings.report("simulation.paths",
                     "angles of entry and exit do not say where the material lies; paths that are not circles need "

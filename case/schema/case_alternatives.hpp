@@ -128,7 +128,6 @@ inline constexpr Belonging case_belongings[] = {
 
     {"simulation.steps", "simulation.paths", "circular"},
     {"simulation.steps_a_turn", "simulation.paths", "exact|region"},
-    {"simulation.start", "simulation.paths", "exact|region"},
     {"simulation.chords", "simulation.paths", "region"},
     {"simulation.support", "simulation.paths", "exact|region"},
 };

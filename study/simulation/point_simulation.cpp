@@ -73,24 +73,27 @@ std::vector<milling::OperatingPoint> points_of(const Simulated& cut, const milli
 void march(const Simulated& cut, const FeltStructure& felt, const milling::TurnObserver& look, PointSimulation& p) {
   const milling::SimulatedPoint at{p.point.spindle_speed_rpm, p.point.depth_m, cut.feed_per_tooth_m};
   const setup::Simulation& wanted = *cut.setup.simulation;
+  milling::SimulationOptions options = cut.options;
+  if (wanted.start == setup::CutStart::loaded)
+    options.first_force_n = milling::mean_force_of_rigid_tool(cut.process, cut.law, at);
   if (cut.circular()) {
-    p.cut = milling::simulate(felt.structure, cut.process, cut.law, at, cut.options, look);
+    p.cut = milling::simulate(felt.structure, cut.process, cut.law, at, options, look);
     return;
   }
   const milling::Stock stock = setup::stock_of(wanted, *cut.setup.cutting, cut.process.cutter);
   if (wanted.paths == setup::ToothPaths::exact) {
     milling::PathOptions paths = setup::path_options(wanted);
     paths.contact = felt.contact;
-    p.cut = milling::simulate_exact_path(felt.structure, cut.process, cut.law, at, stock, cut.options, paths, look);
+    p.cut = milling::simulate_exact_path(felt.structure, cut.process, cut.law, at, stock, options, paths, look);
     return;
   }
   milling::RegionOptions region = setup::region_options(wanted);
   region.contact = felt.contact;
-  const int turns = cut.options.settling_turns + cut.options.recorded_turns;
+  const int turns = options.settling_turns + options.recorded_turns;
   const milling::CutWindow window = milling::cut_window(cut.process, at, turns);
   milling::RegionCut left =
       milling::simulate_region(felt.structure, cut.process, cut.law, at,
-                               {milling::outline_of(stock, window.low, window.high)}, cut.options, region, look);
+                               {milling::outline_of(stock, window.low, window.high)}, options, region, look);
   p.cut = std::move(left.cut);
   p.part = std::move(left.slices);
 }
