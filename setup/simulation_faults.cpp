@@ -9,6 +9,7 @@ namespace thinwall::setup {
 
 std::vector<CutOn> simulated_structures(const Setup& source) {
   if (!source.simulation->structures.empty()) return source.simulation->structures;
+  if (source.simulation->robot == CarrierMotion::multibody) return {CutOn::carried};
   std::vector<CutOn> all;
   const bool part = source.part || !source.measured_part.empty();
   if (part) all.push_back(CutOn::part);
@@ -56,6 +57,26 @@ std::string fault_of_opening(const Setup& source) {
   if (source.robot->preload.dot(contact.directions.front()) == 0.0)
     return "the side on which the robot stands is told by the sign of robot.preload along the contact's direction; "
            "give it";
+  return "";
+}
+
+std::string fault_of_arm(const Setup& source) {
+  const Simulation& wanted = *source.simulation;
+  if (wanted.robot != CarrierMotion::multibody) return "";
+  if (!carries_tool(source.robot) || !std::holds_alternative<JointedRobot>(source.robot->model))
+    return "a multibody arm must be one of flexible joints that carries the tool; give robot.model = "
+           "\"flexible_joints\" and robot.carries = \"tool\", or take \"linear\"";
+  if (source.part || !source.measured_part.empty())
+    return "a multibody arm is known to cut rigid parts only; leave the part out, or take \"linear\"";
+  if (source.tool && (!source.tool->modes.empty() || !source.tool->measured.empty() || source.tool->swap))
+    return "a multibody arm is known to carry rigid tools only; leave tool.modes out, or take \"linear\"";
+  if (wanted.paths != ToothPaths::exact || wanted.start != CutStart::border)
+    return "a multibody arm feeds through a border; give simulation.paths = \"exact\" and simulation.start = "
+           "\"border\", or take \"linear\"";
+  for (const CutOn of : wanted.structures) {
+    if (of != CutOn::carried) return "a multibody arm has no structure but \"carried\"; name that, or none";
+  }
+  if (wanted.map) return "a map is that of the linear robot; leave it out, or take \"linear\"";
   return "";
 }
 

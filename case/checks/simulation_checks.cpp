@@ -114,6 +114,7 @@ void check_simulation(const Case& source, Findings& findings) {
   check_exact_paths(source, findings);
   if (const std::string fault = setup::fault_of_opening(source); !fault.empty())
     findings.report("simulation.support", fault);
+  if (const std::string fault = setup::fault_of_arm(source); !fault.empty()) findings.report("simulation.robot", fault);
   if (source.simulation->map) check_map(source, findings);
   if (!source.tool || !source.cutting) {
     findings.report("simulation", "there is no cut; add [tool] and [cutting]");

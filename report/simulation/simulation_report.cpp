@@ -102,6 +102,11 @@ std::string contact_text(const OpeningContactSummary& contact) {
                      100.0 * contact.open_share, length(contact.widest_m), contact.largest_n);
 }
 
+std::string lag_text(const std::vector<double>& lag_m) {
+  return fmt::format("  arm        {} along the feed and {} across before the cut, beside the place it is told\n",
+                     length(lag_m[0]), length(lag_m[1]));
+}
+
 std::string text_of(const SimulatedPointSummary& p) {
   std::string text = fmt::format("{} at {:.0f} rpm, {} deep: {}\n", chart_title(p.chart), p.spindle_speed_rpm,
                                  length(p.depth_m), outcome(p));
@@ -114,6 +119,7 @@ std::string text_of(const SimulatedPointSummary& p) {
                       p.peak_force_n.value_or(NAN), p.peak_torque_n_m.value_or(NAN), p.mean_power_w.value_or(NAN));
   text += fmt::format("  contact    lost in {:.2g} % of the cut, thickest chip {}\n",
                       100.0 * p.share_without_contact.value_or(NAN), length(p.thickest_chip_m.value_or(NAN)));
+  if (p.lag_m.size() == 3) text += lag_text(p.lag_m);
   if (p.opening_contact) text += contact_text(*p.opening_contact);
   for (const ApproachSummary& approach : p.approach) {
     if (approach.final_m != 0.0) text += approach_text(approach);

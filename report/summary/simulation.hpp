@@ -151,6 +151,7 @@ struct SimulatedPointSummary {
   std::vector<ForceLineSummary> force_lines;
   std::vector<WallSummary> walls;
   std::vector<ApproachSummary> approach;
+  std::vector<double> lag_m;
   std::optional<OpeningContactSummary> opening_contact;
 };
 
@@ -194,6 +195,11 @@ void fields(Visitor& visit, Section& point) {
   visit(Field{"walls", Kind::section, "walls of the last turns", Presence::if_any}, point.walls);
   visit(Field{"approach", Kind::section, "mean deflection of a cut that began at a border", Presence::if_any},
         point.approach);
+  visit(Field{"lag_m", Kind::length,
+              "of a robot that is a multibody arm: displacement before the cut, beside the place that its motors are "
+              "told, along feed, normal and axis",
+              Presence::if_any},
+        point.lag_m);
   visit(Field{"opening_contact", Kind::section, "contact of a support that may open"}, point.opening_contact);
 }
 

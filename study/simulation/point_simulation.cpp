@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
@@ -18,10 +19,12 @@
 #include "milling/simulation/exact_path.hpp"
 #include "milling/simulation/region_path.hpp"
 #include "setup/milling_process.hpp"
+#include "setup/robot_tip.hpp"
 #include "setup/simulation_faults.hpp"
 #include "setup/simulation_options.hpp"
 #include "study/kept/kept_simulation.hpp"
 #include "study/results.hpp"
+#include "study/simulation/arm_pass.hpp"
 #include "study/simulation/felt_structures.hpp"
 
 namespace thinwall::study {
@@ -98,6 +101,30 @@ void march(const Simulated& cut, const FeltStructure& felt, const milling::TurnO
   p.part = std::move(left.slices);
 }
 
+/// Marches the arm that carries the tool; its posture is that in the middle of the recorded turns.
+void march_arm(const Simulated& cut, const milling::TurnObserver& look, PointSimulation& p) {
+  const milling::SimulatedPoint at{p.point.spindle_speed_rpm, p.point.depth_m, cut.feed_per_tooth_m};
+  const auto& robot = std::get<setup::JointedRobot>(cut.setup.robot->model);
+  const double turn_s = 60.0 / at.spindle_speed_rpm;
+  const double speed_m_s = p.teeth * at.feed_per_tooth_m / turn_s;
+  ArmPass pass{{robot.arm}, setup::robot_posture(cut.setup, cut.setup).posture.q};
+  pass.contact_s = std::max(pass.contact_s, 2.0 * pass.rise_s + pass.steady_s + (pass.free_turns + 1) * turn_s);
+  const double fed_m = robot::along_line({speed_m_s, pass.rise_s, pass.steady_s},
+                                         pass.contact_s + 0.5 * cut.options.recorded_turns * turn_s)
+                           .distance_m;
+  pass.from = robot::pose(pass.arm.arm, pass.posture).tip.translation() - fed_m * cut.process.frame.feed;
+  milling::SimulationOptions options = cut.options;
+  options.settling_turns = pass.free_turns;
+  const auto direction =
+      cut.setup.cutting->down_milling ? milling::MillingDirection::down : milling::MillingDirection::up;
+  ArmPassResult result =
+      simulate_arm_pass(pass, cut.process, cut.law, at,
+                        milling::shoulder(cut.process.cutter, *cut.setup.cutting->radial_depth, direction), options,
+                        setup::path_options(*cut.setup.simulation), look);
+  p.cut = std::move(result.cut);
+  p.lag_m.assign(result.before_m.begin(), result.before_m.end());
+}
+
 /// The approach of the deflection to its end, along feed and normal, of a cut that began at a border.
 void approach(const Simulated& cut, PointSimulation& p) {
   if (cut.setup.simulation->start != setup::CutStart::border) return;
@@ -149,7 +176,8 @@ std::optional<ForcedAgreement> agreement(const Simulated& cut, const milling::Re
 void simulate_point(const Simulated& cut, const FeltStructure& felt, const milling::TurnObserver& look,
                     PointSimulation& p) {
   const milling::RelativeStructure& structure = felt.structure;
-  march(cut, felt, look, p);
+  if (cut.setup.simulation->robot == setup::CarrierMotion::multibody) march_arm(cut, look, p);
+  else march(cut, felt, look, p);
   approach(cut, p);
   p.growth =
       milling::simulated_growth(structure, cut.process, p.point.spindle_speed_rpm, p.point.depth_m, cut.options.steps);
@@ -176,6 +204,7 @@ void require_simulation(const setup::Setup& setup, const std::vector<milling::Op
     throw core::InputError("tool.measured: a simulation needs poles, and measured lines have none; give tool.modes");
   for (const ChartOf of : setup::simulated_structures(setup)) require_no_fault(setup::fault_of_structure(setup, of));
   require_no_fault(setup::fault_of_opening(setup));
+  require_no_fault(setup::fault_of_arm(setup));
   if (setup.simulation->paths != setup::ToothPaths::circular && !setup.cutting->radial_depth)
     throw core::InputError(
         "cutting.radial_depth: not given; exact paths need it, for angles of entry and exit do not "
@@ -196,7 +225,7 @@ std::vector<PointSimulation> simulate_points(const setup::Setup& setup, const Re
   std::vector<const FeltStructure*> structures;
   for (const FeltStructure& one : felt) {
     for (const milling::OperatingPoint& point : points_of(cut, one.structure, asked)) {
-      points.push_back({one.of, point, cut.feed_per_tooth_m, cut.process.cutter.teeth, {}, {}, {}, {}, {}, {}});
+      points.push_back({one.of, point, cut.feed_per_tooth_m, cut.process.cutter.teeth, {}, {}, {}, {}, {}, {}, {}});
       structures.push_back(&one);
     }
   }

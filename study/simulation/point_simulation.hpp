@@ -40,13 +40,14 @@ struct PointSimulation {
   std::optional<ForcedAgreement> forced;    ///< of a stable point, equal teeth, circular paths and the linear law
   std::vector<milling::Approach> approach;  ///< along feed and normal, of a cut that began at a border
   std::vector<milling::PartSlice> part;     ///< what is left of a part that is kept as a region
+  std::vector<double> lag_m;                ///< of a multibody arm: displacement in tool axes before the cut, m
 
   /// |μ| of the march over that of the lobes, less one: how far the two are apart.
   [[nodiscard]] double growth_difference() const { return growth.modulus / lobes.modulus - 1.0; }
 };
 
 /// Throws InputError where [simulation] asks for what cannot be simulated, before anything is computed: without [tool],
-/// [cutting] or a feed, with measured lines in place of poles, structures or a contact that opens with a fault
+/// [cutting] or a feed, with measured lines in place of poles, structures a contact that opens or an arm with a fault
 /// (setup/simulation_faults.hpp), exact paths without a radial depth, or without any point and a speed of the case's
 /// own. `asked`: points for a simulation that names none.
 void require_simulation(const setup::Setup& setup, const std::vector<milling::OperatingPoint>& asked);

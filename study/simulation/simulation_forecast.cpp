@@ -65,8 +65,10 @@ struct StandInCut {
 
 double point_turn_s(const setup::Setup& source, const StandInCut& cut) {
   const setup::Simulation& wanted = *source.simulation;
-  // A part of a million turns would not fit into memory; a region takes some ten times as long as paths.
-  const double longer = wanted.paths == setup::ToothPaths::region ? 10.0 : 1.0;
+  // A part of a million turns would not fit into memory, and an arm would not feed so far.
+  const double longer = wanted.paths == setup::ToothPaths::region         ? 10.0
+                        : wanted.robot == setup::CarrierMotion::multibody ? 4.0
+                                                                          : 1.0;
   milling::SimulationOptions options = setup::simulation_options(wanted, 1.0, 1);
   options.settling_turns = 0;
   options.recorded_turns = 1000000;

@@ -189,5 +189,44 @@ TEST(SimulationCase, IsOfAllStructuresThatAreThere) {
             std::vector<CutOn>{CutOn::part});
 }
 
+const char* const arm_that_mills = R"([robot]
+model = "flexible_joints"
+carries = "tool"
+[[robot.links]]
+axis = "z"
+mass = "300 kg"
+centre = ["0 m", "0 m", "0.3 m"]
+inertia = ["20 kg m^2", "20 kg m^2", "20 kg m^2"]
+stiffness = "4e6 N m/rad"
+[robot.tip]
+position = ["0.5 m", "0 m", "0.5 m"]
+[tool]
+teeth = 2
+diameter = "10 mm"
+length = "12 mm"
+[cutting]
+radial_depth = "4 mm"
+feed_direction = "x"
+Kt = "600 N/mm^2"
+feed_per_tooth = "0.1 mm"
+[simulation]
+at = "6000 rpm, 1 mm"
+robot = "multibody"
+)";
+
+TEST(SimulationCase, HasAMultibodyArmThatFeedsThroughABorder) {
+  const std::string arm = std::string(arm_that_mills) + "paths = \"exact\"\nstart = \"border\"\n";
+  EXPECT_EQ(parse_case(arm, ".").simulation->robot, CarrierMotion::multibody);
+  EXPECT_EQ(simulated_structures(parse_case(arm, ".")), std::vector<CutOn>{CutOn::carried});
+  expect_problem(std::string(arm_that_mills) + "paths = \"exact\"\n", "feeds through a border");
+  expect_problem(std::string(arm_that_mills), "feeds through a border");
+  std::string bent = arm;
+  bent.insert(bent.find("[cutting]"),
+              "[[tool.modes]]\nfrequency = \"900 Hz\"\ndamping_ratio = 0.01\nstiffness = \"1e6 N/m\"\n"
+              "direction = \"x\"\n");
+  expect_problem(bent, "rigid tools only");
+  expect_problem(simulated("at = \"1900 rpm, 1 mm\"\nrobot = \"multibody\"\n"), "must be one of flexible joints");
+}
+
 }  // namespace
 }  // namespace thinwall::tests::simulation_case_test
