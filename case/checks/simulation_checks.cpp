@@ -62,6 +62,11 @@ void check_exact_paths(const Case& source, Findings& findings) {
                       "teeth on circles know no border; give simulation.paths = \"exact\" or \"region\"");
     return;
   }
+  if (source.simulation->start == setup::CutStart::border && findings.written("simulation.settling_turns") &&
+      source.simulation->settling_turns > 0)
+    findings.report("simulation.settling_turns",
+                    std::to_string(source.simulation->settling_turns) +
+                        " turns, but all that follow a border are recorded; give 0, or leave it out");
   if (source.cutting && !source.cutting->radial_depth)
     findings.report("simulation.paths",
                     "angles of entry and exit do not say where the material lies; paths that are not circles need "
@@ -77,6 +82,25 @@ std::optional<double> longest_path(const Case& source) {
   return along > 0.0 ? std::optional(along) : std::nullopt;
 }
 
+/// The key by which the case makes its record long: one that is written, if any is.
+std::string key_of_length(const Findings& findings) {
+  for (const char* key :
+       {"simulation.trace", "simulation.turns", "simulation.length", "simulation.wall", "simulation.wall_heights"}) {
+    if (findings.written(key)) return key;
+  }
+  return "simulation";
+}
+
+/// Means over the parts of a turn are taken from whole steps.
+void check_means(const Case& source, const milling::SimulationOptions& options, Findings& findings) {
+  const int steps = source.simulation->steps_a_turn;
+  const bool equal = setup::cutter_of(*source.tool).equal_teeth();
+  if (options.means_a_turn < 2 || !equal || steps % options.means_a_turn == 0) return;
+  findings.report("simulation.steps_a_turn", std::to_string(steps) + " steps do not divide into the " +
+                                                 std::to_string(options.means_a_turn) +
+                                                 " periods of teeth over which means are taken; take a multiple");
+}
+
 void check_record(const Case& source, double feed_per_tooth_m, Findings& findings) {
   const setup::Simulation& simulation = *source.simulation;
   const std::optional<double> longest = longest_path(source);
@@ -86,9 +110,14 @@ void check_record(const Case& source, double feed_per_tooth_m, Findings& finding
   if (findings.given("simulation.turns") && simulation.length_m)
     findings.report("simulation.length", "give either simulation.turns or simulation.length, not both");
   if (simulation.length_m && !std::isfinite(*simulation.length_m)) return;  // reported as it was read
-  const auto violations =
-      milling::validate(setup::simulation_options(simulation, feed_per_tooth_m, source.tool->teeth));
-  for (const std::string& violation : violations) findings.report("simulation.trace", violation);
+  const milling::SimulationOptions options =
+      setup::simulation_options(simulation, feed_per_tooth_m, source.tool->teeth);
+  for (const std::string& violation : milling::validate(options)) findings.report(key_of_length(findings), violation);
+  if (findings.written("simulation.wall") && simulation.wall_turns > 0 && options.wall.turns == 0)
+    findings.report("simulation.wall", std::to_string(simulation.wall_turns) + " turns of " +
+                                           std::to_string(options.recorded_turns) +
+                                           " that are recorded, must be 4 or more; record more, or give 0");
+  check_means(source, options, findings);
 }
 
 /// False if one of the numbers that give the feed could not be read, which is reported.

@@ -165,6 +165,27 @@ TEST(SimulationCase, RefusesABorderOnCirclesAndAContactThatCannotOpen) {
   expect_problem(simulated("at = \"1900 rpm, 1 mm\"\npaths = \"exact\"\nsupport = \"one_sided\"\n"), "rigid");
 }
 
+/// What a border does not take is refused, not dropped; means are taken over whole steps.
+TEST(SimulationCase, RefusesWhatABorderDoesNotTake) {
+  const std::string border = "at = \"1900 rpm, 1 mm\"\npaths = \"exact\"\nstart = \"border\"\n";
+  expect_problem(simulated(border + "settling_turns = 10\n"), "10 turns, but all that follow a border are recorded");
+  EXPECT_TRUE(parse_case(simulated(border + "settling_turns = 0\n"), ".").simulation);
+  expect_problem(simulated(border + "trace = 10\n"), "simulation.trace");
+  expect_problem(simulated(border + "steps_a_turn = 722\n"), "722 steps do not divide into the 6 periods of teeth");
+  EXPECT_TRUE(parse_case(simulated(border + "steps_a_turn = 726\n"), ".").simulation);
+  expect_problem(simulated("at = \"1900 rpm, 1 mm\"\nwall = 3\n"), "3 turns of 200 that are recorded");
+}
+
+/// A fault is told by a key that the case has.
+TEST(SimulationCase, NamesKeysThatTheCaseHas) {
+  const std::string border = "at = \"1900 rpm, 1 mm\"\npaths = \"exact\"\nstart = \"border\"\n";
+  expect_problem(simulated(border + "turns = 1000000\n"), "simulation.turns: ");
+  std::string free = simulated("at = \"1900 rpm, 1 mm\"\n");
+  const std::string contact = "[[contacts]]\npart = \"P\"\n";
+  free.replace(free.find(contact), contact.size(), "");
+  expect_problem(free + "structures = \"supported\"\n", "simulation.structures: no robot holds the part");
+}
+
 TEST(SimulationCase, HasTheHeightsAndTheFilterOfAWall) {
   const Case c = parse_case(
       simulated("at = \"1900 rpm, 1 mm\"\nwall_heights = [\"0 mm\", \"0.5 mm\"]\nwall_cutoff = \"2 mm\"\n"), ".");
@@ -172,21 +193,6 @@ TEST(SimulationCase, HasTheHeightsAndTheFilterOfAWall) {
   EXPECT_EQ(options.wall.heights_m, (std::vector<double>{0.0, 0.5e-3}));
   EXPECT_EQ(options.wall.cutoff_m, 2e-3);
   EXPECT_EQ(simulation_options(Simulation{}, 1e-3, 6).wall.cutoff_m, 0.0);
-}
-
-/// 0.947 mm a turn: 500 turns are longer than the plate of 392 mm.
-TEST(SimulationCase, TurnsBeyondThePartAreDoubted) {
-  const std::vector<std::string> doubts = doubts_about(parse_case(simulated("turns = 500\n"), "."));
-  ASSERT_EQ(doubts.size(), 1U);
-  EXPECT_NE(doubts[0].find("the part is 392 mm long along the feed"), std::string::npos) << doubts[0];
-  EXPECT_TRUE(doubts_about(parse_case(simulated("turns = 400\n"), ".")).empty());
-}
-
-TEST(SimulationCase, IsOfAllStructuresThatAreThere) {
-  EXPECT_EQ(simulated_structures(parse_case(simulated("at = \"1900 rpm, 1 mm\"\n"), ".")),
-            (std::vector<CutOn>{CutOn::part, CutOn::supported}));
-  EXPECT_EQ(simulated_structures(parse_case(simulated("structures = \"part\"\n"), ".")),
-            std::vector<CutOn>{CutOn::part});
 }
 
 const char* const arm_that_mills = R"([robot]
@@ -226,6 +232,21 @@ TEST(SimulationCase, HasAMultibodyArmThatFeedsThroughABorder) {
               "direction = \"x\"\n");
   expect_problem(bent, "rigid tools only");
   expect_problem(simulated("at = \"1900 rpm, 1 mm\"\nrobot = \"multibody\"\n"), "must be one of flexible joints");
+}
+
+TEST(SimulationCase, IsOfAllStructuresThatAreThere) {
+  EXPECT_EQ(simulated_structures(parse_case(simulated("at = \"1900 rpm, 1 mm\"\n"), ".")),
+            (std::vector<CutOn>{CutOn::part, CutOn::supported}));
+  EXPECT_EQ(simulated_structures(parse_case(simulated("structures = \"part\"\n"), ".")),
+            std::vector<CutOn>{CutOn::part});
+}
+
+/// 0.947 mm a turn: 500 turns are longer than the plate of 392 mm.
+TEST(SimulationCase, TurnsBeyondThePartAreDoubted) {
+  const std::vector<std::string> doubts = doubts_about(parse_case(simulated("turns = 500\n"), "."));
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_NE(doubts[0].find("the part is 392 mm long along the feed"), std::string::npos) << doubts[0];
+  EXPECT_TRUE(doubts_about(parse_case(simulated("turns = 400\n"), ".")).empty());
 }
 
 }  // namespace
