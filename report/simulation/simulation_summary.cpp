@@ -48,7 +48,7 @@ GrowthSummary growth_of(const PointSimulation& p) {
     growth.march_error_estimate_relative = finite(p.growth.error_estimate);
     growth.difference_relative = finite(p.growth_difference());
   }
-  growth.lobes_modulus = p.lobes.modulus;
+  growth.lobes_modulus = finite(p.lobes.modulus);
   growth.lobes_error_estimate_relative = finite(p.lobes.error_estimate);
   return growth;
 }
@@ -89,6 +89,7 @@ SimulatedPointSummary point_of(const PointSimulation& p, std::size_t index) {
         {axis == 0 ? "feed" : "normal", a.final_m, a.overshoot, a.peak_s, a.settling_2_s, a.settling_5_s});
   }
   summary.lag_m = p.lag_m;
+  summary.removal_error_relative = p.removal_error;
   if (p.forced) summary.forced_vibration = {p.forced->peak_to_peak_m, p.forced->difference, p.forced->left};
   return summary;
 }

@@ -61,9 +61,11 @@ void fields(Visitor& visit, Section& wall) {
 /// The growth of a small vibration, by simulation and by the lobes.
 struct GrowthSummary {
   std::optional<double> march_modulus, march_error_estimate_relative;
-  double lobes_modulus = 0.0;
-  std::optional<double> lobes_error_estimate_relative;
+  std::optional<double> lobes_modulus, lobes_error_estimate_relative;
   std::optional<double> difference_relative;
+
+  /// True if small vibrations are known to decay.
+  [[nodiscard]] bool stable() const { return lobes_modulus && *lobes_modulus < 1.0; }
 };
 
 template <class Visitor, Either<GrowthSummary> Section>
@@ -73,7 +75,9 @@ void fields(Visitor& visit, Section& growth) {
   visit(Field{"march_error_estimate_relative", Kind::error_estimate,
               "estimated relative error of that; null: not known", Presence::or_null},
         growth.march_error_estimate_relative);
-  visit(Field{"lobes_modulus", Kind::ratio, "|mu| of a period by the direct method of the lobes"},
+  visit(Field{"lobes_modulus", Kind::ratio,
+              "|mu| of a period by the direct method of the lobes; null: not to be had at so low a speed",
+              Presence::or_null},
         growth.lobes_modulus);
   visit(Field{"lobes_error_estimate_relative", Kind::error_estimate,
               "estimated relative error of that; null: not known", Presence::or_null},
@@ -152,6 +156,7 @@ struct SimulatedPointSummary {
   std::vector<WallSummary> walls;
   std::vector<ApproachSummary> approach;
   std::vector<double> lag_m;
+  std::optional<double> removal_error_relative;
   std::optional<OpeningContactSummary> opening_contact;
 };
 
@@ -200,6 +205,10 @@ void fields(Visitor& visit, Section& point) {
               "told, along feed, normal and axis",
               Presence::if_any},
         point.lag_m);
+  visit(Field{"removal_error_relative", Kind::residual,
+              "area that the teeth remove over that between the walls they leave, less one, of paths that are not "
+              "circles; absent where no wall is known"},
+        point.removal_error_relative);
   visit(Field{"opening_contact", Kind::section, "contact of a support that may open"}, point.opening_contact);
 }
 

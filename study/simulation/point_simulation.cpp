@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <variant>
@@ -52,7 +54,8 @@ Simulated simulated_cut_of(const setup::Setup& setup) {
   return cut;
 }
 
-/// Both sides of the boundary at the case's own speed, nearer to it than other crossings as a rule.
+/// Both sides of the boundary at the case's own speed, nearer to it than other crossings as a rule. A
+/// boundary that is not known well is a warning.
 std::vector<milling::OperatingPoint> around_boundary(const Simulated& cut,
                                                      const milling::RelativeStructure& structure) {
   constexpr double below = 0.9, above = 1.1;
@@ -60,6 +63,11 @@ std::vector<milling::OperatingPoint> around_boundary(const Simulated& cut,
   const double rpm = *cut.setup.cutting->spindle_speed_rpm;
   const milling::LobeRow row =
       milling::limiting_depth(structure, cut.process, rpm, {.depth_limit_m = deepest, .follow = 1.0});
+  if (!milling::answers(row.status))
+    core::warn(fmt::format(
+        "the boundary at {:.6g} rpm is not known well ({}, by estimate {:.1e} of its depth), and so the points on both "
+        "sides of it may not be: name them by simulation.at or --at",
+        rpm, milling::name(row.status), row.error_estimate));
   if (row.at_limit) return {{rpm, deepest}};
   return {{rpm, below * row.limiting_depth_m}, {rpm, std::min(above * row.limiting_depth_m, deepest)}};
 }
@@ -173,17 +181,61 @@ std::optional<ForcedAgreement> agreement(const Simulated& cut, const milling::Re
   return {};
 }
 
+/// The area that the teeth remove, over that between the walls that they leave, less one. None on circles, from a
+/// border, and of motions without a wall.
+std::optional<double> removal_error(const Simulated& cut, const PointSimulation& p) {
+  const bool steady = cut.setup.simulation->start != setup::CutStart::border;
+  const bool walled = !p.cut.walls.empty() && !cut.setup.simulation->wall_cutoff_m;
+  if (cut.circular() || !steady || !walled || p.cut.status != milling::SimulationStatus::completed) return {};
+  double width_m = *cut.setup.cutting->radial_depth;
+  for (const milling::Wall& wall : p.cut.walls) {
+    if (wall.height_m == p.cut.walls.front().height_m) width_m += wall.mean_m;
+  }
+  return p.cut.removed_m2 / (width_m * p.feed_per_tooth_m * p.teeth) - 1.0;
+}
+
+/// The oscillations of the slowest mode while a tooth is in the cut.
+double oscillations_in_cut(const Simulated& cut, const milling::RelativeStructure& structure, double rpm) {
+  const double slowest = structure.poles.imag().minCoeff();
+  return cut.process.engagement.arc_rad() * 60.0 / rpm * slowest / (4.0 * std::numbers::pi * std::numbers::pi);
+}
+
+/// Warns of steps that cannot follow the slowest mode.
+void warn_of_coarse_steps(const Simulated& cut, double oscillations, double rpm) {
+  constexpr double least_a_period = 8.0;
+  const double in_cut = cut.process.engagement.arc_rad() / (2.0 * std::numbers::pi);
+  const double steps = cut.circular() ? cut.options.steps.steps_in_cut : in_cut * cut.setup.simulation->steps_a_turn;
+  if (steps >= least_a_period * oscillations) return;
+  core::warn(fmt::format(
+      "at {:.6g} rpm the slowest mode swings {:.3g} times while a tooth cuts, and {:.0f} steps there cannot follow it: "
+      "take {:.0f} {}, or a higher speed",
+      rpm, oscillations, steps, std::ceil(least_a_period * oscillations / (cut.circular() ? 1.0 : in_cut)),
+      cut.circular() ? "steps (simulation.steps)" : "steps a turn (simulation.steps_a_turn)"));
+}
+
+/// The growth of a small vibration by march and lobes. Neither is asked where the nodes of the lobes cannot resolve the
+/// slowest mode: it would take minutes, and the answer would be none.
+void grow(const Simulated& cut, const milling::RelativeStructure& structure, PointSimulation& p) {
+  const milling::StabilityOptions options{.depth_limit_m = p.point.depth_m};
+  const double rpm = p.point.spindle_speed_rpm, oscillations = oscillations_in_cut(cut, structure, rpm);
+  warn_of_coarse_steps(cut, oscillations, rpm);
+  if (2.0 * oscillations > options.most_nodes) {
+    p.lobes.status = milling::StabilityStatus::node_limit_reached;
+    p.lobes.modulus = p.lobes.error_estimate = std::numeric_limits<double>::quiet_NaN();
+    return;
+  }
+  p.growth = milling::simulated_growth(structure, cut.process, rpm, p.point.depth_m, cut.options.steps);
+  p.lobes = milling::multiplier_at(structure, cut.process, rpm, p.point.depth_m, options);
+}
+
 void simulate_point(const Simulated& cut, const FeltStructure& felt, const milling::TurnObserver& look,
                     PointSimulation& p) {
-  const milling::RelativeStructure& structure = felt.structure;
   if (cut.setup.simulation->robot == setup::CarrierMotion::multibody) march_arm(cut, look, p);
   else march(cut, felt, look, p);
   approach(cut, p);
-  p.growth =
-      milling::simulated_growth(structure, cut.process, p.point.spindle_speed_rpm, p.point.depth_m, cut.options.steps);
-  p.lobes = milling::multiplier_at(structure, cut.process, p.point.spindle_speed_rpm, p.point.depth_m,
-                                   {.depth_limit_m = p.point.depth_m});
-  p.forced = agreement(cut, structure, p);
+  p.removal_error = removal_error(cut, p);
+  grow(cut, felt.structure, p);
+  p.forced = agreement(cut, felt.structure, p);
 }
 
 void require_no_fault(const std::string& fault) {
@@ -225,7 +277,7 @@ std::vector<PointSimulation> simulate_points(const setup::Setup& setup, const Re
   std::vector<const FeltStructure*> structures;
   for (const FeltStructure& one : felt) {
     for (const milling::OperatingPoint& point : points_of(cut, one.structure, asked)) {
-      points.push_back({one.of, point, cut.feed_per_tooth_m, cut.process.cutter.teeth, {}, {}, {}, {}, {}, {}, {}});
+      points.push_back({one.of, point, cut.feed_per_tooth_m, cut.process.cutter.teeth, {}, {}, {}, {}, {}, {}, {}, {}});
       structures.push_back(&one);
     }
   }

@@ -11,12 +11,14 @@
 #include "app/command_line.hpp"
 #include "app/forecast.hpp"
 #include "core/atomic_file.hpp"
+#include "core/messages.hpp"
 #include "io/json_file.hpp"
 #include "io/matrices/mat_variables.hpp"
 #include "report/page/simulation_data.hpp"
 #include "report/terminal_report.hpp"
 #include "study/kept/checkpoint.hpp"
 #include "study/kept/stage_keys.hpp"
+#include "study/run.hpp"
 #include "tests/system/benchmark_tool.hpp"
 #include "tests/system/run_in_folder.hpp"
 
@@ -192,6 +194,50 @@ TEST(SimulationRun, BeginsUnderTheMeanForceOfTheCut) {
   const double expected = -force_n / 1340049.6480507487;
   EXPECT_NEAR(wall_m("loaded"), expected, 0.05 * std::abs(expected));
   EXPECT_GT(std::abs(wall_m("steady") - expected), 0.5 * std::abs(expected));
+}
+
+/// At 10 rpm the mode swings 396 times while a tooth cuts, more than the nodes of the lobes can tell: neither growth is
+/// asked for, and nothing says that it decays.
+TEST(SimulationRun, AsksForNoGrowthThatCannotBeHad) {
+  const fs::path folder = scratch("simulation_slow");
+  const json point = run(benchmark_tool + "[simulation]\nat = \"10 rpm, 1 mm\"\nsettling_turns = 0\nturns = 1\n",
+                         folder)["simulation"]["points"][0];
+  EXPECT_TRUE(point["growth"]["lobes_modulus"].is_null());
+  EXPECT_TRUE(point["growth"]["march_modulus"].is_null());
+  EXPECT_TRUE(point["forced_vibration"].is_null());
+  const io::Table table = io::read_csv(folder / "simulation" / "points.csv");
+  EXPECT_TRUE(std::isnan(io::numbers_or_gaps(table, "multiplier_march", "points.csv")[0]));
+  EXPECT_TRUE(std::isnan(io::numbers_or_gaps(table, "multiplier_lobes", "points.csv")[0]));
+}
+
+/// At 50 rpm, where 79 swings are too many for the nodes of the lobes, the boundary is not known well, and 200 steps
+/// cannot follow them; both are told.
+TEST(SimulationRun, TellsThatABoundaryIsNotKnownAndStepsAreTooFew) {
+  std::string text = benchmark_tool;
+  text.insert(text.find("[cutting]\n") + 10, "spindle_speed = \"50 rpm\"\n");
+  std::string warnings;
+  const core::MessageListener before =
+      core::set_message_listener([&](core::MessageLevel, const std::string& said) { warnings += said + '\n'; });
+  study::Kept nothing;
+  const Case source = parse_case(text + "[simulation]\nsettling_turns = 0\nturns = 1\n", ".");
+  (void)study::run(source, variation_of(source), nothing, {});
+  (void)core::set_message_listener(before);
+  EXPECT_NE(warnings.find("the boundary at 50 rpm is not known well"), std::string::npos) << warnings;
+  EXPECT_NE(warnings.find("steps there cannot follow it"), std::string::npos) << warnings;
+}
+
+/// Seven steps while a tooth of exact paths is in the cut miss a part of its chips.
+TEST(SimulationRun, TellsThatTooFewStepsMissAPartOfTheCut) {
+  const auto error = [](const std::string& steps) {
+    const std::string text = benchmark_tool +
+                             "[simulation]\nat = \"11000 rpm, 0.1 mm\"\npaths = \"exact\"\nsettling_turns = 60\n"
+                             "turns = 8\nsteps_a_turn = " +
+                             steps + "\n";
+    return std::abs(
+        run(text, scratch("simulation_removal"))["simulation"]["points"][0]["removal_error_relative"].get<double>());
+  };
+  EXPECT_LT(error("2880"), 1e-3);
+  EXPECT_GT(error("90"), 1e-2);
 }
 
 }  // namespace
