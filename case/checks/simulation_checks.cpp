@@ -47,6 +47,7 @@ void check_structures(const Case& source, Findings& findings) {
     findings.report("simulation",
                     "part.measured has no poles, and a simulation needs them; describe the part "
                     "(part.length …)");
+  if (!setup::fault_of_arm(source).empty()) return;  // reported of the arm
   const std::string key = findings.given("simulation.structures") ? "simulation.structures" : "simulation";
   for (const setup::CutOn structure : setup::simulated_structures(source)) {
     if (!source.measured_part.empty() && structure == setup::CutOn::part) continue;  // reported above

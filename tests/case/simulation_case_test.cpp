@@ -206,6 +206,8 @@ inertia = ["20 kg m^2", "20 kg m^2", "20 kg m^2"]
 stiffness = "4e6 N m/rad"
 [robot.tip]
 position = ["0.5 m", "0 m", "0.5 m"]
+[robot.posture]
+joints = ["0 rad"]
 [tool]
 teeth = 2
 diameter = "10 mm"

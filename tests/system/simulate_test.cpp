@@ -58,7 +58,7 @@ TEST(Simulate, TellsTheMotionOnBothSidesOfTheBoundary) {
   // Every second tooth: 1.5 times the 633.3 Hz of the teeth, next to the mode at 922 Hz.
   EXPECT_NE(text.find("950.0 Hz"), std::string::npos) << text;
   const std::string points = core::read_file(folder / "out/simulation/points.csv");
-  EXPECT_EQ(std::count(points.begin(), points.end(), '\n'), 3);
+  EXPECT_EQ(std::count(points.begin(), points.end(), '\n'), 4) << "a comment, the names and both points";
   EXPECT_TRUE(fs::exists(folder / "out/simulation/tool-1.csv"));
   EXPECT_TRUE(fs::exists(folder / "out/simulation/tool-2-passes.csv"));
 }
