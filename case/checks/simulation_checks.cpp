@@ -29,6 +29,11 @@ void check_points(const Case& source, Findings& findings) {
   for (const std::string& text : *texts) {
     try {
       const milling::OperatingPoint point = operating_point(text);
+      for (const double height : source.simulation->wall_heights_m) {
+        if (height > point.depth_m)
+          findings.report("simulation.wall_heights", length(height) + " is above the depth of \"" + text +
+                                                         "\", where there is no wall; give a lower height");
+      }
       if (source.tool && point.depth_m > source.tool->length)
         findings.report("simulation.at", "\"" + text + "\" is deeper than the tool's length of " +
                                              length(source.tool->length) + "; give a smaller depth");
@@ -118,6 +123,11 @@ void check_record(const Case& source, double feed_per_tooth_m, Findings& finding
     findings.report("simulation.wall", std::to_string(simulation.wall_turns) + " turns of " +
                                            std::to_string(options.recorded_turns) +
                                            " that are recorded, must be 4 or more; record more, or give 0");
+  const double wall_m = milling::recorded_length_m(options.wall, feed_per_tooth_m * source.tool->teeth);
+  if (options.wall.turns > 0 && 2.0 * options.wall.cutoff_m >= wall_m && options.wall.cutoff_m > 0.0)
+    findings.report("simulation.wall_cutoff", length(options.wall.cutoff_m) +
+                                                  " is taken from either end of a wall of " + length(wall_m) +
+                                                  "; give a shorter one, or more turns of wall");
   check_means(source, options, findings);
 }
 

@@ -193,6 +193,9 @@ TEST(SimulationCase, HasTheHeightsAndTheFilterOfAWall) {
   EXPECT_EQ(options.wall.heights_m, (std::vector<double>{0.0, 0.5e-3}));
   EXPECT_EQ(options.wall.cutoff_m, 2e-3);
   EXPECT_EQ(simulation_options(Simulation{}, 1e-3, 6).wall.cutoff_m, 0.0);
+  expect_problem(simulated("at = \"1900 rpm, 1 mm\"\nwall_heights = \"1.5 mm\"\n"), "1.5 mm is above the depth of");
+  // 0.947 mm a turn, of twenty turns sixteen.
+  expect_problem(simulated("at = \"1900 rpm, 1 mm\"\nwall_cutoff = \"8 mm\"\n"), "either end of a wall of 15.16 mm");
 }
 
 const char* const arm_that_mills = R"([robot]
