@@ -96,9 +96,9 @@ double map_turn_s(const setup::SimulationMap& map, const StandInCut& cut) {
 }
 
 /// The memory of a part that is kept as a region: the polygons of all cells of the window, slice by slice, and the
-/// corners that the teeth leave on its walls.
+/// corners that the teeth leave on its walls, there and in the surface that is written; bytes as they were measured.
 double region_bytes(const setup::Setup& source, const StandInCut& cut, const milling::SimulationOptions& options) {
-  constexpr double cells_a_radius = 20.0, bytes_a_cell = 200.0, bytes_a_pass = 1000.0;
+  constexpr double cells_a_radius = 20.0, bytes_a_cell = 350.0, bytes_a_pass = 8000.0;
   if (source.simulation->paths != setup::ToothPaths::region) return 0.0;
   const milling::SimulatedPoint point = timed_point(source, cut.feed_per_tooth_m);
   const int turns = options.settling_turns + options.recorded_turns;

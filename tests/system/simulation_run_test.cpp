@@ -171,6 +171,11 @@ TEST(SimulationRun, IsForetold) {
   std::string longer = benchmark_tool + points;
   longer.replace(longer.find("= 2000"), 6, "= 2000000");
   EXPECT_GT(forecast(parse_case(longer, ".")).simulation->turns, 4e6);
+  EXPECT_EQ(time.simulation->memory_bytes, 0.0);
+  const std::string region = benchmark_tool + "[simulation]\nat = \"11000 rpm, 1 mm\"\npaths = \"region\"\nturns = ";
+  const double few = forecast(parse_case(region + "10\n", ".")).simulation->memory_bytes;
+  EXPECT_GT(few, 1e6);
+  EXPECT_GT(forecast(parse_case(region + "10000\n", ".")).simulation->memory_bytes, 10.0 * few);
   EXPECT_FALSE(
       forecast(parse_case(benchmark_tool + "[lobes]\nfrom = \"1000 rpm\"\nto = \"2000 rpm\"\n", ".")).simulation);
 }
