@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <new>
 #include <sstream>
@@ -155,6 +156,9 @@ void tell_simulation(const study::SimulationForecast& time, std::ostream& out) {
   if (time.map_points > 0.0) out << ", and a map of " << rounded(time.map_points);
   out << ", " << rounded(time.turns) << " turns together\n  time      " << about(time.seconds) << " on "
       << core::thread_count() << (core::thread_count() == 1 ? " thread\n" : " threads\n");
+  if (time.memory_bytes > 0.0)
+    out << "  memory    about " << core::readable_text(std::ceil(time.memory_bytes / 1e6) * 1e6, core::kind::memory)
+        << " for the parts as regions\n";
 }
 
 void tell_lobes(const setup::LobesOptions& lobes, const Forecast& time, std::ostream& out) {

@@ -2,10 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <string_view>
+#include <utility>
+
 #include "app/forecast.hpp"
 #include "app/lobes_input.hpp"
 #include "app/log.hpp"
 #include "case/numbers.hpp"
+#include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "report/publish.hpp"
@@ -30,10 +35,39 @@ std::string list_of(const std::vector<std::string>& points) {
   return "[" + list + "]";
 }
 
+/// The options of the command and the keys that they stand for.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> options{
+    {{"simulation.at", "--at"},
+     {"simulation.paths", "--paths"},
+     {"simulation.settling_turns", "--settle"},
+     {"simulation.turns", "--turns"},
+     {"simulation.trace", "--trace"},
+     {"simulation.steps", "--steps"}}};
+
+/// The case; a problem of a value that an option gave is told of the option, beyond the first `written` overrides.
+cases::Case read_for_options(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                             std::size_t written) {
+  try {
+    return cases::read_case(path, overrides);
+  } catch (const cases::CaseError& error) {
+    std::vector<cases::Problem> problems = error.problems;
+    for (cases::Problem& problem : problems) {
+      if (problem.line >= -static_cast<int>(written)) continue;
+      for (const auto& [key, option] : options) {
+        if (!problem.text.starts_with(std::string(key) + ":")) continue;
+        problem = {0, 0, std::string(option) + problem.text.substr(key.size())};
+        break;
+      }
+    }
+    throw cases::CaseError(error.source, std::move(problems));
+  }
+}
+
 }  // namespace
 
 cases::Case simulated_case(const std::filesystem::path& path, std::vector<std::string> overrides,
                            const SimulateRequest& request) {
+  const std::size_t written = overrides.size();
   const auto put = [&overrides](const char* key, const auto& value) {
     if (value) overrides.push_back(fmt::format("simulation.{}={}", key, *value));
   };
@@ -43,10 +77,10 @@ cases::Case simulated_case(const std::filesystem::path& path, std::vector<std::s
   put("turns", request.turns);
   put("trace", request.traced_turns);
   put("steps", request.steps);
-  cases::Case source = cases::read_case(path, overrides);
+  cases::Case source = read_for_options(path, overrides, written);
   if (source.simulation) return source;
   overrides.emplace_back("simulation.paths=circular");
-  return cases::read_case(path, overrides);
+  return read_for_options(path, overrides, written);
 }
 
 std::string simulate_case(cases::Case source, const std::filesystem::path& out, ProgressDisplay display) {

@@ -46,6 +46,9 @@ setup::Simulation bind_simulation(const Table& table, const std::optional<setup:
   simulation.length_m = table.optional("length");
   simulation.start = table.choice<setup::CutStart>("start");
   simulation.chords = table.flag("chords");
+  if (const auto heights = table.numbers("wall_heights"); !heights.empty()) simulation.wall_heights_m = heights;
+  simulation.wall_cutoff_m = table.optional("wall_cutoff");
+  simulation.robot = table.choice<setup::CarrierMotion>("robot");
   simulation.support = table.choice<setup::SupportSides>("support");
   if (const Table map = table.table("map"); map.exists()) simulation.map = bind_map(map, lobes);
   return simulation;

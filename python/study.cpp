@@ -1,5 +1,6 @@
 // Cases, their checks, and the whole workflow on them.
 
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -109,9 +110,11 @@ py::dict simulation_of(const study::PointSimulation& p) {
   point["depth_m"] = p.point.depth_m;
   point["feed_per_tooth_m"] = p.feed_per_tooth_m;
   point["multiplier_march"] = number_or_none(p.growth.converged, p.growth.modulus);
-  point["multiplier_lobes"] = p.lobes.modulus;
+  point["multiplier_lobes"] = number_or_none(std::isfinite(p.lobes.modulus), p.lobes.modulus);
   point["growth_difference"] = number_or_none(p.growth.converged, p.growth_difference());
   point["forced_difference"] = number_or_none(p.forced.has_value(), p.forced ? p.forced->difference : 0.0);
+  point["removal_error"] = number_or_none(p.removal_error.has_value(), p.removal_error.value_or(0.0));
+  if (!p.lag_m.empty()) point["lag_m"] = p.lag_m;
   return point;
 }
 
@@ -129,7 +132,8 @@ py::dict amplitude_maps(const study::Results& results) {
     };
     maps[py::str(core::word_of(map.of))] =
         py::dict("spindle_speed_rpm"_a = array(map.spindle_speeds_rpm), "depth_m"_a = array(map.depths_m),
-                 "peak_to_peak_m"_a = map.peak_to_peak_m, "share_without_contact"_a = map.share_without_contact);
+                 "peak_to_peak_m"_a = map.peak_to_peak_m, "share_without_contact"_a = map.share_without_contact,
+                 "unsettled"_a = map.unsettled);
   }
   return maps;
 }
@@ -181,11 +185,13 @@ void bind_study(py::module_& module) {
       .def_property_readonly("simulations", simulations,
                              "The simulated points, structure by structure: each a dict as of simulate(), with chart,\n"
                              "spindle_speed_rpm, depth_m, feed_per_tooth_m, multiplier_march, multiplier_lobes,\n"
-                             "growth_difference and forced_difference (None: not known).")
+                             "growth_difference, forced_difference and removal_error (None: not known), and lag_m of\n"
+                             "a multibody arm.")
       .def_property_readonly(
           "amplitude_maps", amplitude_maps,
           "Peak-to-peak vibration over speed and depth by the names of charts: dicts of\n"
-          "spindle_speed_rpm, depth_m, and peak_to_peak_m and share_without_contact, depths x speeds.")
+          "spindle_speed_rpm, depth_m, and peak_to_peak_m, share_without_contact and unsettled (1: not to be\n"
+          "trusted), depths x speeds.")
       .def("__repr__", [](const study::Results& r) {
         std::vector<std::string> frf, lobes;
         for (const auto& [name, response] : responses(r)) frf.push_back(name);

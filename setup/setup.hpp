@@ -31,6 +31,7 @@
 #include "setup/robot_tip.hpp"
 #include "setup/sensor_mass.hpp"
 #include "setup/simulation.hpp"
+#include "setup/simulation_faults.hpp"
 #include "setup/simulation_options.hpp"
 #include "setup/tool.hpp"
 #include "setup/variation.hpp"

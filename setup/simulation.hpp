@@ -21,7 +21,14 @@ enum class ToothPaths {
 /// The place of the tool when a simulation begins.
 enum class CutStart {
   steady,  ///< within the material, which it has cut so far without vibration
+  loaded,  ///< likewise, at rest under the mean force of the cut, so that slow modes have little to settle
   border   ///< outside, touching a straight border across the feed
+};
+
+/// The model of a robot that carries the tool.
+enum class CarrierMotion {
+  linear,    ///< small vibrations about its posture, as in the lobes
+  multibody  ///< a nonlinear arm that feeds through the cut (study/simulation/arm_pass.hpp)
 };
 
 /// The behaviour of a support's contact when the cut pulls at it.
@@ -54,16 +61,19 @@ struct Simulation {
                                                 ///< sides of the boundary at the case's own speed
   std::vector<CutOn> structures;                ///< empty: all that the case has
   ToothPaths paths = ToothPaths::circular;
-  int settling_turns = 400;        ///< before anything is recorded
-  int turns = 200;                 ///< that are recorded, unless `length_m` says so
-  std::optional<double> length_m;  ///< of the path that is recorded
-  int traced_turns = 50;           ///< the last of them, sample by sample; fewer where fewer are recorded
-  int wall_turns = 20;             ///< likewise, whose wall is recorded; none where fewer than 4 are
-  int steps = 200;                 ///< of a tooth from entry to exit, on circular paths
-  int steps_a_turn = 720;          ///< on exact paths and in a region
+  int settling_turns = 400;                    ///< before anything is recorded
+  int turns = 200;                             ///< that are recorded, unless `length_m` says so
+  std::optional<double> length_m;              ///< of the path that is recorded
+  int traced_turns = 50;                       ///< the last of them, sample by sample; fewer where fewer are recorded
+  int wall_turns = 20;                         ///< likewise, whose wall is recorded; none where fewer than 4 are
+  std::vector<double> wall_heights_m = {0.0};  ///< above the tip
+  std::optional<double> wall_cutoff_m;         ///< of the Gaussian filter that takes long waves out of a wall
+  int steps = 200;                             ///< of a tooth from entry to exit, on circular paths
+  int steps_a_turn = 720;                      ///< on exact paths and in a region
   CutStart start = CutStart::steady;
   bool chords = false;  ///< in a region, tips move in one chord a step
   SupportSides support = SupportSides::two_sided;
+  CarrierMotion robot = CarrierMotion::linear;
   std::optional<SimulationMap> map;
 };
 
@@ -74,7 +84,9 @@ namespace thinwall::core {
 template <>
 inline constexpr std::array<std::string_view, 3> words<setup::ToothPaths>{"circular", "exact", "region"};
 template <>
-inline constexpr std::array<std::string_view, 2> words<setup::CutStart>{"steady", "border"};
+inline constexpr std::array<std::string_view, 3> words<setup::CutStart>{"steady", "loaded", "border"};
+template <>
+inline constexpr std::array<std::string_view, 2> words<setup::CarrierMotion>{"linear", "multibody"};
 template <>
 inline constexpr std::array<std::string_view, 2> words<setup::SupportSides>{"two_sided", "one_sided"};
 template <>

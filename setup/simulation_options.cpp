@@ -24,6 +24,8 @@ milling::SimulationOptions simulation_options(const Simulation& simulation, doub
   options.traced_turns = std::min(simulation.traced_turns, options.recorded_turns);
   const int walled = std::min(simulation.wall_turns, options.recorded_turns);
   options.wall.turns = walled < least_wall_turns ? 0 : walled;
+  options.wall.heights_m = simulation.wall_heights_m;
+  options.wall.cutoff_m = simulation.wall_cutoff_m.value_or(0.0);
   options.steps.steps_in_cut = simulation.steps;
   if (simulation.start == CutStart::border) {
     options.settling_turns = 0;

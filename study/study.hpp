@@ -33,6 +33,7 @@
 #include "study/run.hpp"
 #include "study/simulation/amplitude_map.hpp"
 #include "study/simulation/arm_pass.hpp"
+#include "study/simulation/felt_structures.hpp"
 #include "study/simulation/point_simulation.hpp"
 #include "study/simulation/simulation_forecast.hpp"
 #include "study/stages.hpp"

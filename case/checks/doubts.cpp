@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "core/units.hpp"
+#include "setup/milling_process.hpp"
+#include "setup/simulation_options.hpp"
 
 namespace thinwall::cases {
 
@@ -85,6 +87,21 @@ void ask_about_robot_damping(const Case& source, std::vector<std::string>& doubt
                    ": did you mean damping_ratio = " + written + "?");
 }
 
+/// More turns than the part is long.
+void ask_about_turns(const Case& source, std::vector<std::string>& doubts) {
+  if (!source.simulation || !source.part || !source.cutting || !source.tool || source.simulation->length_m) return;
+  const auto feed = setup::feed_per_tooth(source);
+  if (!feed) return;
+  const double feed_a_turn = *feed * source.tool->teeth;
+  const double extent = setup::box_size(*source.part).dot(source.cutting->feed_direction.cwiseAbs());
+  const int turns = setup::simulation_options(*source.simulation, *feed, source.tool->teeth).recorded_turns;
+  if (!(turns * feed_a_turn > extent) || !(extent > 0.0)) return;
+  doubts.push_back("the " + std::to_string(turns) + " turns that a simulation records feed " +
+                   core::readable_text(turns * feed_a_turn, core::kind::length) + ", and the part is " +
+                   core::readable_text(extent, core::kind::length) +
+                   " long along the feed; take fewer by simulation.turns");
+}
+
 }  // namespace
 
 std::vector<std::string> doubts_about(const Case& source) {
@@ -93,6 +110,7 @@ std::vector<std::string> doubts_about(const Case& source) {
   ask_about_wall(source, doubts);
   ask_about_materials(source, doubts);
   ask_about_robot_damping(source, doubts);
+  ask_about_turns(source, doubts);
   if (source.urdf_arm) doubts.insert(doubts.end(), source.urdf_arm->assumed.begin(), source.urdf_arm->assumed.end());
   return doubts;
 }

@@ -10,8 +10,8 @@
 #include "case/operating_point.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "setup/contact_model.hpp"
 #include "setup/milling_process.hpp"
+#include "setup/simulation_faults.hpp"
 #include "setup/simulation_options.hpp"
 
 namespace thinwall::cases {
@@ -29,6 +29,11 @@ void check_points(const Case& source, Findings& findings) {
   for (const std::string& text : *texts) {
     try {
       const milling::OperatingPoint point = operating_point(text);
+      for (const double height : source.simulation->wall_heights_m) {
+        if (height > point.depth_m)
+          findings.report("simulation.wall_heights", length(height) + " is above the depth of \"" + text +
+                                                         "\", where there is no wall; give a lower height");
+      }
       if (source.tool && point.depth_m > source.tool->length)
         findings.report("simulation.at", "\"" + text + "\" is deeper than the tool's length of " +
                                              length(source.tool->length) + "; give a smaller depth");
@@ -36,28 +41,6 @@ void check_points(const Case& source, Findings& findings) {
       findings.report("simulation.at", "\"" + text + "\": " + error.what() + "; write \"5000 rpm, 0.5 mm\"");
     }
   }
-}
-
-/// The reason why a structure cannot be simulated in this case; empty if there is none.
-std::string fault_of_structure(const Case& source, setup::CutOn structure) {
-  const bool modelled = source.part && setup::may_be_held(*source.part);
-  switch (structure) {
-    case setup::CutOn::part:
-      return modelled ? "" : "a simulation needs a part that is held and modelled; describe it with [[part.supports]]";
-    case setup::CutOn::supported:
-      if (!source.robot || source.contacts.empty()) return "no robot holds the part; add [robot] and [[contacts]]";
-      if (!setup::is_measured(*source.robot)) return "";
-      return "the robot is known by measured FRFs alone, and a simulation needs poles; fit modes to them and give "
-             "robot.modes, or take simulation.structures = \"part\"";
-    case setup::CutOn::tool:
-      return source.part ? "the tool cuts a part, not a rigid block; take \"part\" or \"supported\"" : "";
-    case setup::CutOn::carried:
-      if (!setup::carries_tool(source.robot)) return "no robot carries the tool; give robot.carries = \"tool\"";
-      if (!setup::is_measured(*source.robot)) return "";
-      return "the robot is known by measured FRFs alone, and a simulation needs poles; fit modes to them and give "
-             "robot.modes";
-  }
-  return "";
 }
 
 void check_structures(const Case& source, Findings& findings) {
@@ -69,46 +52,27 @@ void check_structures(const Case& source, Findings& findings) {
     findings.report("simulation",
                     "part.measured has no poles, and a simulation needs them; describe the part "
                     "(part.length …)");
-  std::vector<setup::CutOn> structures = source.simulation->structures;
-  const bool supported = source.robot && !source.contacts.empty();
-  if (structures.empty() && source.part) structures.push_back(setup::CutOn::part);
-  if (structures.size() == 1 && !findings.given("simulation.structures") && supported)
-    structures.push_back(setup::CutOn::supported);
-  if (structures.empty() && setup::carries_tool(source.robot)) structures.push_back(setup::CutOn::carried);
-  for (const setup::CutOn structure : structures) {
-    if (const std::string fault = fault_of_structure(source, structure); !fault.empty())
-      findings.report("simulation.structures", fault);
-  }
-}
-
-/// A contact that may open: the only one, of a known stiffness, pressed.
-void check_one_sided(const Case& source, Findings& findings) {
-  if (source.simulation->support != setup::SupportSides::one_sided) return;
-  if (source.contacts.size() != 1 || !source.robot) {
-    findings.report("simulation.support",
-                    std::to_string(source.contacts.size()) +
-                        " contacts of a robot, must be one that opens; give one, or \"two_sided\"");
-    return;
-  }
-  const auto* springs = std::get_if<setup::SpringContact>(&source.contacts.front().model);
-  if (springs != nullptr && !springs->stiffness.empty() && !std::isfinite(springs->stiffness.front())) {
-    findings.report("simulation.support",
-                    "a rigid contact does not open; give contacts.stiffness, or contacts.model = \"hertz\"");
-  } else if (!setup::preload_of(source, source.contacts.front())) {
-    findings.report("simulation.support", "nothing presses the contact that may open; give robot.preload");
-  } else if (source.contacts.front().directions.size() > 1) {
-    findings.report("simulation.support",
-                    std::to_string(source.contacts.front().directions.size()) +
-                        " directions of the contact, must be one, its normal, for the others do not open; give one");
-  } else if (source.robot->preload.dot(source.contacts.front().directions.front()) == 0.0) {
-    findings.report("simulation.support",
-                    "the side on which the robot stands is told by the sign of robot.preload along the contact's "
-                    "direction; give it");
+  if (!setup::fault_of_arm(source).empty()) return;  // reported of the arm
+  const std::string key = findings.given("simulation.structures") ? "simulation.structures" : "simulation";
+  for (const setup::CutOn structure : setup::simulated_structures(source)) {
+    if (!source.measured_part.empty() && structure == setup::CutOn::part) continue;  // reported above
+    if (const std::string fault = setup::fault_of_structure(source, structure); !fault.empty())
+      findings.report(key, fault);
   }
 }
 
 void check_exact_paths(const Case& source, Findings& findings) {
-  if (source.simulation->paths == setup::ToothPaths::circular) return;
+  if (source.simulation->paths == setup::ToothPaths::circular) {
+    if (source.simulation->start == setup::CutStart::border)
+      findings.report("simulation.start",
+                      "teeth on circles know no border; give simulation.paths = \"exact\" or \"region\"");
+    return;
+  }
+  if (source.simulation->start == setup::CutStart::border && findings.written("simulation.settling_turns") &&
+      source.simulation->settling_turns > 0)
+    findings.report("simulation.settling_turns",
+                    std::to_string(source.simulation->settling_turns) +
+                        " turns, but all that follow a border are recorded; give 0, or leave it out");
   if (source.cutting && !source.cutting->radial_depth)
     findings.report("simulation.paths",
                     "angles of entry and exit do not say where the material lies; paths that are not circles need "
@@ -124,6 +88,25 @@ std::optional<double> longest_path(const Case& source) {
   return along > 0.0 ? std::optional(along) : std::nullopt;
 }
 
+/// The key by which the case makes its record long: one that is written, if any is.
+std::string key_of_length(const Findings& findings) {
+  for (const char* key :
+       {"simulation.trace", "simulation.turns", "simulation.length", "simulation.wall", "simulation.wall_heights"}) {
+    if (findings.written(key)) return key;
+  }
+  return "simulation";
+}
+
+/// Means over the parts of a turn are taken from whole steps.
+void check_means(const Case& source, const milling::SimulationOptions& options, Findings& findings) {
+  const int steps = source.simulation->steps_a_turn;
+  const bool equal = setup::cutter_of(*source.tool).equal_teeth();
+  if (options.means_a_turn < 2 || !equal || steps % options.means_a_turn == 0) return;
+  findings.report("simulation.steps_a_turn", std::to_string(steps) + " steps do not divide into the " +
+                                                 std::to_string(options.means_a_turn) +
+                                                 " periods of teeth over which means are taken; take a multiple");
+}
+
 void check_record(const Case& source, double feed_per_tooth_m, Findings& findings) {
   const setup::Simulation& simulation = *source.simulation;
   const std::optional<double> longest = longest_path(source);
@@ -133,9 +116,19 @@ void check_record(const Case& source, double feed_per_tooth_m, Findings& finding
   if (findings.given("simulation.turns") && simulation.length_m)
     findings.report("simulation.length", "give either simulation.turns or simulation.length, not both");
   if (simulation.length_m && !std::isfinite(*simulation.length_m)) return;  // reported as it was read
-  const auto violations =
-      milling::validate(setup::simulation_options(simulation, feed_per_tooth_m, source.tool->teeth));
-  for (const std::string& violation : violations) findings.report("simulation.trace", violation);
+  const milling::SimulationOptions options =
+      setup::simulation_options(simulation, feed_per_tooth_m, source.tool->teeth);
+  for (const std::string& violation : milling::validate(options)) findings.report(key_of_length(findings), violation);
+  if (findings.written("simulation.wall") && simulation.wall_turns > 0 && options.wall.turns == 0)
+    findings.report("simulation.wall", std::to_string(simulation.wall_turns) + " turns of " +
+                                           std::to_string(options.recorded_turns) +
+                                           " that are recorded, must be 4 or more; record more, or give 0");
+  const double wall_m = milling::recorded_length_m(options.wall, feed_per_tooth_m * source.tool->teeth);
+  if (options.wall.turns > 0 && 2.0 * options.wall.cutoff_m >= wall_m && options.wall.cutoff_m > 0.0)
+    findings.report("simulation.wall_cutoff", length(options.wall.cutoff_m) +
+                                                  " is taken from either end of a wall of " + length(wall_m) +
+                                                  "; give a shorter one, or more turns of wall");
+  check_means(source, options, findings);
 }
 
 /// False if one of the numbers that give the feed could not be read, which is reported.
@@ -159,7 +152,9 @@ void check_map(const Case& source, Findings& findings) {
 void check_simulation(const Case& source, Findings& findings) {
   check_points(source, findings);
   check_exact_paths(source, findings);
-  check_one_sided(source, findings);
+  if (const std::string fault = setup::fault_of_opening(source); !fault.empty())
+    findings.report("simulation.support", fault);
+  if (const std::string fault = setup::fault_of_arm(source); !fault.empty()) findings.report("simulation.robot", fault);
   if (source.simulation->map) check_map(source, findings);
   if (!source.tool || !source.cutting) {
     findings.report("simulation", "there is no cut; add [tool] and [cutting]");

@@ -131,7 +131,7 @@ inline constexpr Belonging case_belongings[] = {
 
     {"simulation.steps", "simulation.paths", "circular"},
     {"simulation.steps_a_turn", "simulation.paths", "exact|region"},
-    {"simulation.start", "simulation.paths", "exact|region"},
+    {"simulation.trace", "simulation.start", "steady|loaded"},
     {"simulation.chords", "simulation.paths", "region"},
     {"simulation.support", "simulation.paths", "exact|region"},
 };

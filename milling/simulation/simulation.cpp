@@ -24,12 +24,11 @@ void require_positive(const char* what, double value, const char* unit) {
 /// Throws InputError for a filter that leaves nothing of the recorded wall.
 void require_filter(const WallOptions& wall, double feed_a_turn_m) {
   if (wall.turns == 0 || wall.cutoff_m == 0.0) return;
-  constexpr int lost_turns = 4;  // at the ends of a wall
-  const double profile_m = (wall.turns - lost_turns) * feed_a_turn_m;
+  const double profile_m = recorded_length_m(wall, feed_a_turn_m);
   if (wall.cutoff_m > 0.0 && 2.0 * wall.cutoff_m < profile_m) return;
   std::ostringstream text;
   text << "simulation: a filter of " << wall.cutoff_m << " m cutoff takes as much from either end of a wall of "
-       << std::max(0.0, profile_m) << " m; record more turns of it, or take a shorter one";
+       << profile_m << " m; record more turns of it, or take a shorter one";
   throw core::InputError(text.str());
 }
 

@@ -88,6 +88,11 @@ Eigen::Index left_by_filter(const Wall& wall, double cutoff_m) {
 
 }  // namespace
 
+double recorded_length_m(const WallOptions& options, double feed_a_turn_m) {
+  constexpr int lost_turns = 4;  // at the ends, and of what vibration shifts
+  return std::max(0, options.turns - lost_turns) * feed_a_turn_m;
+}
+
 void set_roughness(Wall& wall) {
   const Eigen::ArrayXd about = wall.error_m.array() - wall.error_m.mean();
   wall.mean_m = wall.error_m.mean();

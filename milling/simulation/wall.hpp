@@ -17,6 +17,9 @@ struct WallOptions {
   double cutoff_m = 0.0;                  ///< of filtered(); 0: none
 };
 
+/// The least length of the walls that these turns leave, m, whose ends are not known; a filter needs twice its cutoff.
+[[nodiscard]] double recorded_length_m(const WallOptions& options, double feed_a_turn_m);
+
 /// The tip of a tooth while it passes the wall at a height.
 struct TipPath {
   int height = 0;       ///< index into WallOptions::heights_m

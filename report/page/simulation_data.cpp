@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/error.hpp"
@@ -94,14 +95,23 @@ json walls_of(const fs::path& file, std::size_t most) {
   return list;
 }
 
-/// True if points.csv is that of the summary's points: `thinwall simulate` may have put another one there.
+/// True if points.csv has the figures of the summary's points: `thinwall simulate` may have put another one there.
 bool of_this_run(const fs::path& file, const std::vector<SimulatedPointSummary>& points) {
   if (!fs::exists(file)) return false;
   const io::Table table = io::read_csv(file);
-  const auto& speed = io::numbers(table, "spindle_speed_rpm", file);
-  const auto& depth = io::numbers(table, "depth_m", file);
-  return std::ranges::equal(points, speed, {}, &SimulatedPointSummary::spindle_speed_rpm) &&
-         std::ranges::equal(points, depth, {}, &SimulatedPointSummary::depth_m);
+  const auto same = [&](const char* column, const auto& of) {
+    return std::ranges::equal(points, io::numbers(table, column, file), {}, of);
+  };
+  const auto along_feed = [](const SimulatedPointSummary& p) {
+    return p.peak_to_peak_m ? p.peak_to_peak_m->x() : std::numeric_limits<double>::infinity();
+  };
+  const auto peak_force = [](const SimulatedPointSummary& p) {
+    return p.peak_force_n.value_or(std::numeric_limits<double>::infinity());
+  };
+  return same("spindle_speed_rpm", &SimulatedPointSummary::spindle_speed_rpm) &&
+         same("depth_m", &SimulatedPointSummary::depth_m) &&
+         same("feed_per_tooth_m", &SimulatedPointSummary::feed_per_tooth_m) && same("peak_to_peak_x_m", along_feed) &&
+         same("peak_force_n", peak_force);
 }
 
 json point_of(const fs::path& folder, const SimulatedPointSummary& point, const Rows& rows) {
@@ -120,7 +130,16 @@ json point_of(const fs::path& folder, const SimulatedPointSummary& point, const 
   return result;
 }
 
-/// The vibration, speeds × depths as the table has it.
+/// The words of a column.
+const std::vector<std::string>& words(const io::Table& table, const std::string& name, const fs::path& file) {
+  for (const io::Column& column : table) {
+    const auto* list = std::get_if<std::vector<std::string>>(&column.values);
+    if (column.name == name && list != nullptr) return *list;
+  }
+  throw core::DataError(file.string() + ": has no column \"" + name + "\" of words; run the case again");
+}
+
+/// The vibration, speeds × depths as the table has it; NaN where there is none to be trusted.
 json map_of(const fs::path& file, const AmplitudeMapSummary& map) {
   const io::Table table = io::read_csv(file);
   const auto& speed = io::numbers(table, "spindle_speed_rpm", file);
@@ -134,8 +153,9 @@ json map_of(const fs::path& file, const AmplitudeMapSummary& map) {
   for (std::size_t s = 0; s < speeds; ++s) rpm.push_back(speed[s * depths]);
   std::vector<float> values;
   values.reserve(amplitude.size());
-  for (const double value : amplitude)
-    values.push_back(std::isfinite(value) ? for_picture(value) : std::numeric_limits<float>::quiet_NaN());
+  const auto& status = words(table, "status", file);
+  for (std::size_t i = 0; i < amplitude.size(); ++i)
+    values.push_back(status[i] == "completed" ? for_picture(amplitude[i]) : std::numeric_limits<float>::quiet_NaN());
   return {{"name", core::word_of(map.chart)},
           {"rpm", packed(rpm, {speeds})},
           {"depth_m", packed(std::vector<double>(depth.begin(), depth.begin() + map.depths), {depths})},

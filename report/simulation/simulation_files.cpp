@@ -1,10 +1,14 @@
 #include "report/simulation/simulation_files.hpp"
 
+#include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/words.hpp"
+#include "io/matrices/mat_variables.hpp"
 #include "io/results/csv_table.hpp"
 #include "io/results/vtp.hpp"
 #include "mesh/planar/stacked_prisms.hpp"
@@ -24,6 +28,17 @@ io::Column column(const std::vector<PointSimulation>& points, const std::string&
   return {name, values};
 }
 
+/// A column whose cells are empty where the figure is not known.
+template <typename Of, typename IsKnown>
+io::Column known(const std::vector<PointSimulation>& points, const std::string& name, const Of& of,
+                 const IsKnown& is_known) {
+  io::Column figures = column(points, name, [&](const PointSimulation& p) {
+    return is_known(p) ? of(p) : std::numeric_limits<double>::quiet_NaN();
+  });
+  figures.gaps = true;
+  return figures;
+}
+
 io::Table table_of(const std::vector<PointSimulation>& points) {
   std::vector<std::string> of, status, motion;
   for (const PointSimulation& p : points) {
@@ -31,6 +46,8 @@ io::Table table_of(const std::vector<PointSimulation>& points) {
     status.push_back(milling::name(p.cut.status));
     motion.push_back(milling::name(p.cut.motion.motion));
   }
+  const auto marched = [](const PointSimulation& p) { return p.growth.converged; };
+  const auto always = [](const PointSimulation&) { return true; };
   // A vibration that outgrew the cutter has no figures.
   const auto figure = [](const auto& quantity) {
     return [quantity](const PointSimulation& p) {
@@ -49,24 +66,19 @@ io::Table table_of(const std::vector<PointSimulation>& points) {
       {"status", status},
       {"motion", motion},
       column(points, "period", [](const PointSimulation& p) { return p.cut.motion.period; }),
-      column(points, "multiplier_march",
-             [](const PointSimulation& p) {
-               return p.growth.converged ? p.growth.modulus : std::numeric_limits<double>::infinity();
-             }),
-      column(points, "multiplier_march_error",
-             [](const PointSimulation& p) {
-               return p.growth.converged ? p.growth.error_estimate : std::numeric_limits<double>::infinity();
-             }),
-      column(points, "multiplier_lobes", [](const PointSimulation& p) { return p.lobes.modulus; }),
-      column(points, "multiplier_lobes_error", [](const PointSimulation& p) { return p.lobes.error_estimate; }),
-      column(points, "growth_difference",
-             [](const PointSimulation& p) {
-               return p.growth.converged ? p.growth_difference() : std::numeric_limits<double>::infinity();
-             }),
-      column(points, "forced_difference",
-             [](const PointSimulation& p) {
-               return p.forced ? p.forced->difference : std::numeric_limits<double>::infinity();
-             }),
+      known(
+          points, "multiplier_march", [](const PointSimulation& p) { return p.growth.modulus; }, marched),
+      known(
+          points, "multiplier_march_error", [](const PointSimulation& p) { return p.growth.error_estimate; }, marched),
+      known(
+          points, "multiplier_lobes", [](const PointSimulation& p) { return p.lobes.modulus; }, always),
+      known(
+          points, "multiplier_lobes_error", [](const PointSimulation& p) { return p.lobes.error_estimate; }, always),
+      known(
+          points, "growth_difference", [](const PointSimulation& p) { return p.growth_difference(); }, marched),
+      known(
+          points, "forced_difference", [](const PointSimulation& p) { return p.forced->difference; },
+          [](const PointSimulation& p) { return p.forced.has_value(); }),
       column(points, "peak_to_peak_x_m", range(0)),
       column(points, "peak_to_peak_y_m", range(1)),
       column(points, "peak_to_peak_z_m", range(2)),
@@ -146,14 +158,35 @@ io::Table table_of(const std::vector<milling::Wall>& walls) {
   return {{"side", side}, {"height_m", height}, {"x_m", x}, {"error_m", error}};
 }
 
+/// The columns of tables as vectors of a MAT file, named with the prefix of each.
+void write_mat(const std::filesystem::path& file, const std::vector<std::pair<std::string, io::Table>>& tables) {
+  std::vector<io::MatVariable> variables;
+  for (const auto& [prefix, table] : tables) {
+    for (const io::Column& column : table) {
+      const auto& values = std::get<std::vector<double>>(column.values);
+      variables.push_back(
+          io::mat_matrix(prefix + column.name,
+                         Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()))));
+    }
+  }
+  if (!variables.empty()) io::write_mat_variables(file, "simulated operating point", variables);
+}
+
 void write_point(const std::filesystem::path& folder, const std::string& name, const milling::SimulatedCut& cut) {
-  if (cut.trace.torque_n_m.size() > 0) io::write_csv(folder / (name + ".csv"), table_of(cut.trace));
+  std::vector<std::pair<std::string, io::Table>> all;
+  const auto write = [&](const std::string& suffix, const std::string& prefix, const io::Table& table,
+                         const std::vector<std::string>& comments) {
+    io::write_csv(folder / (name + suffix + ".csv"), table, comments);
+    all.emplace_back(prefix, table);
+  };
+  if (cut.trace.torque_n_m.size() > 0) write("", "", table_of(cut.trace), {});
   if (const io::Table spectra = spectra_of(cut.trace); !spectra.empty())
-    io::write_csv(folder / (name + "-spectrum.csv"), spectra, {"peak values of sines, through the window of von Hann"});
-  if (!cut.passes.empty()) io::write_csv(folder / (name + "-passes.csv"), table_of(cut.passes));
+    write("-spectrum", "spectrum_", spectra, {"peak values of sines, through the window of von Hann"});
+  if (!cut.passes.empty()) write("-passes", "pass_", table_of(cut.passes), {});
   if (!cut.walls.empty())
-    io::write_csv(folder / (name + "-wall.csv"), table_of(cut.walls),
-                  {"error_m: of the deepest tip at each place along the feed; positive: too much is taken"});
+    write("-wall", "wall_", table_of(cut.walls),
+          {"error_m: of the deepest tip at each place along the feed; positive: too much is taken"});
+  write_mat(folder / (name + ".mat"), all);
 }
 
 /// Writes the part that is left as closed layers, tool axes: x along the feed, z from the tip up.
@@ -169,6 +202,7 @@ void write_part(const std::filesystem::path& file, const std::vector<milling::Pa
 
 void write_map(const std::filesystem::path& file, const study::AmplitudeMap& map) {
   std::vector<double> speed, depth, amplitude, lost;
+  std::vector<std::string> status;
   for (std::size_t s = 0; s < map.spindle_speeds_rpm.size(); ++s) {
     for (std::size_t d = 0; d < map.depths_m.size(); ++d) {
       const auto row = static_cast<Eigen::Index>(d), column = static_cast<Eigen::Index>(s);
@@ -176,14 +210,20 @@ void write_map(const std::filesystem::path& file, const study::AmplitudeMap& map
       depth.push_back(map.depths_m[d]);
       amplitude.push_back(map.peak_to_peak_m(row, column));
       lost.push_back(map.share_without_contact(row, column));
+      const bool outgrew = !std::isfinite(amplitude.back());
+      status.push_back(milling::name(outgrew                           ? milling::SimulationStatus::overflowed
+                                     : map.unsettled(row, column) != 0 ? milling::SimulationStatus::unsettled
+                                                                       : milling::SimulationStatus::completed));
     }
   }
   io::write_csv(file,
                 {{"spindle_speed_rpm", speed},
                  {"depth_m", depth},
                  {"peak_to_peak_m", amplitude},
-                 {"share_without_contact", lost}},
-                {"peak_to_peak_m: the largest of the three axes; inf where the vibration outgrew the cutter"});
+                 {"share_without_contact", lost},
+                 {"status", status}},
+                {"peak_to_peak_m: the largest of the three axes; inf where the vibration outgrew the cutter",
+                 "status: of unsettled points forces within steps did not settle, and no figure is to be trusted"});
 }
 
 }  // namespace
@@ -192,7 +232,9 @@ void write_simulation(const std::filesystem::path& folder, const study::Results&
   if (results.simulations.empty() && results.amplitude_maps.empty()) return;
   const auto below = folder / "simulation";
   std::filesystem::create_directories(below);
-  if (!results.simulations.empty()) io::write_csv(below / "points.csv", table_of(results.simulations));
+  if (!results.simulations.empty())
+    io::write_csv(below / "points.csv", table_of(results.simulations),
+                  {"inf: the vibration outgrew the cutter; empty: not known"});
   for (std::size_t i = 0; i < results.simulations.size(); ++i) {
     const PointSimulation& p = results.simulations[i];
     if (p.cut.status != milling::SimulationStatus::overflowed)

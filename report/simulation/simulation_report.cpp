@@ -18,7 +18,7 @@ std::string length(double metres) {
 }
 
 std::string motion_in_words(const SimulatedPointSummary& p) {
-  const bool stable = p.growth.lobes_modulus < 1.0;
+  const bool stable = p.growth.stable();
   if (stable && (p.motion == "quasi_periodic" || p.motion == "growing"))
     return "has not settled, though small ones decay: settle more turns";
   if (p.motion == "periodic") return "repeats itself with the cut";
@@ -36,12 +36,14 @@ std::string outcome(const SimulatedPointSummary& p) {
 }
 
 std::string growth_text(const GrowthSummary& growth) {
+  if (!growth.lobes_modulus)
+    return "  growth     not asked for: the slowest mode swings too often in a cut at so low a speed\n";
   if (!growth.march_modulus)
-    return fmt::format("  growth     not found by the march; |mu| {:.6f} by the lobes\n", growth.lobes_modulus);
+    return fmt::format("  growth     not found by the march; |mu| {:.6f} by the lobes\n", *growth.lobes_modulus);
   return fmt::format(
       "  growth     |mu| {:.6f} by the march, {:.6f} by the lobes ({:+.1e} apart; by estimate within {:.0e} and "
       "{:.0e})\n",
-      *growth.march_modulus, growth.lobes_modulus, growth.difference_relative.value_or(NAN),
+      *growth.march_modulus, *growth.lobes_modulus, growth.difference_relative.value_or(NAN),
       growth.march_error_estimate_relative.value_or(NAN), growth.lobes_error_estimate_relative.value_or(NAN));
 }
 
@@ -70,16 +72,17 @@ std::string lines_text(const SimulatedPointSummary& p) {
   for (const VibrationLineSummary& line : p.vibration_lines) {
     if (line.direction != direction || shown == most) continue;
     text += fmt::format("{}{:.1f} Hz {} ({})", shown++ == 0 ? ": " : ", ", line.frequency_hz, length(line.amplitude_m),
-                        word(line.origin, p.growth.lobes_modulus < 1.0));
+                        word(line.origin, p.growth.stable()));
   }
   return text + "\n";
 }
 
 std::string wall_text(const WallSummary& wall) {
   const std::string place = wall.height_m > 0.0 ? " at " + length(wall.height_m) + " height" : "";
-  return fmt::format(
-      "  wall {}y{}  {} {}, R_a {}, R_t {}\n", wall.side.front(), place, length(std::abs(wall.location_error_m)),
-      wall.location_error_m > 0.0 ? "too deep" : "left standing", length(wall.R_a_m), length(wall.R_t_m));
+  return fmt::format("  wall {}y{}  {} {}, R_a {}, R_q {}, R_t {}\n", wall.side.front(), place,
+                     length(std::abs(wall.location_error_m)),
+                     wall.location_error_m > 0.0 ? "too deep" : "left standing", length(wall.R_a_m), length(wall.R_q_m),
+                     length(wall.R_t_m));
 }
 
 std::string approach_text(const ApproachSummary& approach) {
@@ -101,6 +104,18 @@ std::string contact_text(const OpeningContactSummary& contact) {
                      100.0 * contact.open_share, length(contact.widest_m), contact.largest_n);
 }
 
+/// The area that the teeth remove, where it is not that of the cut.
+std::string removal_text(double error) {
+  constexpr double worth_telling = 0.01;
+  if (std::abs(error) < worth_telling) return "";
+  return fmt::format("  removal    {:+.2g} % off the area between the walls: take more steps a turn\n", 100.0 * error);
+}
+
+std::string lag_text(const std::vector<double>& lag_m) {
+  return fmt::format("  arm        {} along the feed and {} across before the cut, beside the place it is told\n",
+                     length(lag_m[0]), length(lag_m[1]));
+}
+
 std::string text_of(const SimulatedPointSummary& p) {
   std::string text = fmt::format("{} at {:.0f} rpm, {} deep: {}\n", chart_title(p.chart), p.spindle_speed_rpm,
                                  length(p.depth_m), outcome(p));
@@ -113,6 +128,8 @@ std::string text_of(const SimulatedPointSummary& p) {
                       p.peak_force_n.value_or(NAN), p.peak_torque_n_m.value_or(NAN), p.mean_power_w.value_or(NAN));
   text += fmt::format("  contact    lost in {:.2g} % of the cut, thickest chip {}\n",
                       100.0 * p.share_without_contact.value_or(NAN), length(p.thickest_chip_m.value_or(NAN)));
+  if (p.removal_error_relative) text += removal_text(*p.removal_error_relative);
+  if (p.lag_m.size() == 3) text += lag_text(p.lag_m);
   if (p.opening_contact) text += contact_text(*p.opening_contact);
   for (const ApproachSummary& approach : p.approach) {
     if (approach.final_m != 0.0) text += approach_text(approach);
@@ -128,6 +145,11 @@ std::string text_of(const AmplitudeMapSummary& map) {
   if (map.largest_peak_to_peak_m) text += ", peak to peak up to " + length(*map.largest_peak_to_peak_m);
   if (map.points_outgrown > 0)
     text += fmt::format("; at {} points the vibration outgrew the cutter", map.points_outgrown);
+  if (map.points_unsettled > 0)
+    text += fmt::format(
+        "; at {} points forces within steps did not settle, trust none of these: take more steps by "
+        "simulation.map.steps",
+        map.points_unsettled);
   return text + "\n";
 }
 

@@ -48,7 +48,7 @@ GrowthSummary growth_of(const PointSimulation& p) {
     growth.march_error_estimate_relative = finite(p.growth.error_estimate);
     growth.difference_relative = finite(p.growth_difference());
   }
-  growth.lobes_modulus = p.lobes.modulus;
+  growth.lobes_modulus = finite(p.lobes.modulus);
   growth.lobes_error_estimate_relative = finite(p.lobes.error_estimate);
   return growth;
 }
@@ -88,6 +88,8 @@ SimulatedPointSummary point_of(const PointSimulation& p, std::size_t index) {
     summary.approach.push_back(
         {axis == 0 ? "feed" : "normal", a.final_m, a.overshoot, a.peak_s, a.settling_2_s, a.settling_5_s});
   }
+  summary.lag_m = p.lag_m;
+  summary.removal_error_relative = p.removal_error;
   if (p.forced) summary.forced_vibration = {p.forced->peak_to_peak_m, p.forced->difference, p.forced->left};
   return summary;
 }
@@ -104,10 +106,11 @@ AmplitudeMapSummary map_of(const study::AmplitudeMap& map) {
   summary.speeds = std::ssize(map.spindle_speeds_rpm);
   summary.depths = std::ssize(map.depths_m);
   summary.largest_depth_m = map.depths_m.back();
-  for (const double value : map.peak_to_peak_m.reshaped()) {
-    if (std::isfinite(value))
-      summary.largest_peak_to_peak_m = std::max(value, summary.largest_peak_to_peak_m.value_or(0.0));
-    else ++summary.points_outgrown;
+  for (Eigen::Index i = 0; i < map.peak_to_peak_m.size(); ++i) {
+    const double value = map.peak_to_peak_m(i);
+    if (!std::isfinite(value)) ++summary.points_outgrown;
+    else if (map.unsettled(i) != 0) ++summary.points_unsettled;
+    else summary.largest_peak_to_peak_m = std::max(value, summary.largest_peak_to_peak_m.value_or(0.0));
   }
   return summary;
 }

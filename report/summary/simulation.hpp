@@ -61,9 +61,11 @@ void fields(Visitor& visit, Section& wall) {
 /// The growth of a small vibration, by simulation and by the lobes.
 struct GrowthSummary {
   std::optional<double> march_modulus, march_error_estimate_relative;
-  double lobes_modulus = 0.0;
-  std::optional<double> lobes_error_estimate_relative;
+  std::optional<double> lobes_modulus, lobes_error_estimate_relative;
   std::optional<double> difference_relative;
+
+  /// True if small vibrations are known to decay.
+  [[nodiscard]] bool stable() const { return lobes_modulus && *lobes_modulus < 1.0; }
 };
 
 template <class Visitor, Either<GrowthSummary> Section>
@@ -73,7 +75,9 @@ void fields(Visitor& visit, Section& growth) {
   visit(Field{"march_error_estimate_relative", Kind::error_estimate,
               "estimated relative error of that; null: not known", Presence::or_null},
         growth.march_error_estimate_relative);
-  visit(Field{"lobes_modulus", Kind::ratio, "|mu| of a period by the direct method of the lobes"},
+  visit(Field{"lobes_modulus", Kind::ratio,
+              "|mu| of a period by the direct method of the lobes; null: not to be had at so low a speed",
+              Presence::or_null},
         growth.lobes_modulus);
   visit(Field{"lobes_error_estimate_relative", Kind::error_estimate,
               "estimated relative error of that; null: not known", Presence::or_null},
@@ -151,6 +155,8 @@ struct SimulatedPointSummary {
   std::vector<ForceLineSummary> force_lines;
   std::vector<WallSummary> walls;
   std::vector<ApproachSummary> approach;
+  std::vector<double> lag_m;
+  std::optional<double> removal_error_relative;
   std::optional<OpeningContactSummary> opening_contact;
 };
 
@@ -194,6 +200,15 @@ void fields(Visitor& visit, Section& point) {
   visit(Field{"walls", Kind::section, "walls of the last turns", Presence::if_any}, point.walls);
   visit(Field{"approach", Kind::section, "mean deflection of a cut that began at a border", Presence::if_any},
         point.approach);
+  visit(Field{"lag_m", Kind::length,
+              "of a robot that is a multibody arm: displacement before the cut, beside the place that its motors are "
+              "told, along feed, normal and axis",
+              Presence::if_any},
+        point.lag_m);
+  visit(Field{"removal_error_relative", Kind::residual,
+              "area that the teeth remove over that between the walls they leave, less one, of paths that are not "
+              "circles; absent where no wall is known"},
+        point.removal_error_relative);
   visit(Field{"opening_contact", Kind::section, "contact of a support that may open"}, point.opening_contact);
 }
 
@@ -215,7 +230,7 @@ void fields(Visitor& visit, Section& difference) {
 /// The vibration over speed and depth.
 struct AmplitudeMapSummary {
   study::ChartOf chart = study::ChartOf::part;
-  long speeds = 0, depths = 0, points_outgrown = 0;
+  long speeds = 0, depths = 0, points_outgrown = 0, points_unsettled = 0;
   double largest_depth_m = 0.0;
   std::optional<double> largest_peak_to_peak_m;
 };
@@ -226,6 +241,8 @@ void fields(Visitor& visit, Section& map) {
   visit(Field{"speeds", Kind::count, "spindle speeds"}, map.speeds);
   visit(Field{"depths", Kind::count, "depths"}, map.depths);
   visit(Field{"points_outgrown", Kind::count, "points at which the vibration outgrew the cutter"}, map.points_outgrown);
+  visit(Field{"points_unsettled", Kind::count, "points at which forces within steps did not settle: not to be trusted"},
+        map.points_unsettled);
   visit(Field{"largest_depth_m", Kind::length, "largest depth"}, map.largest_depth_m);
   visit(Field{"largest_peak_to_peak_m", Kind::length, "largest vibration of the other points; null: there are none",
               Presence::or_null},

@@ -11,7 +11,7 @@
 #include "setup/simulation_options.hpp"
 #include "study/kept/kept_simulation.hpp"
 #include "study/results.hpp"
-#include "study/simulation/point_simulation.hpp"
+#include "study/simulation/felt_structures.hpp"
 
 namespace thinwall::study {
 
@@ -30,9 +30,12 @@ AmplitudeMap map_of(const setup::Setup& setup, ChartOf of, const milling::Relati
   const milling::ForceLaw law = setup::force_law(*setup.cutting, process);
   const milling::SimulationOptions options = setup::map_options(wanted);
   const double feed = *setup::feed_per_tooth(setup);
-  AmplitudeMap map{of, milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.speeds), even_depths(wanted),
+  AmplitudeMap map{of,
+                   milling::spindle_speeds(wanted.from_rpm, wanted.to_rpm, wanted.speeds),
+                   even_depths(wanted),
                    Eigen::MatrixXd::Constant(wanted.depths, wanted.speeds, std::numeric_limits<double>::infinity()),
-                   Eigen::MatrixXd::Ones(wanted.depths, wanted.speeds)};
+                   Eigen::MatrixXd::Ones(wanted.depths, wanted.speeds),
+                   Eigen::MatrixXi::Zero(wanted.depths, wanted.speeds)};
   const auto count = static_cast<std::size_t>(map.peak_to_peak_m.size());
   core::Progress progress("points of the map", count);
   core::parallel_for(count, [&](std::size_t i) {
@@ -45,6 +48,7 @@ AmplitudeMap map_of(const setup::Setup& setup, ChartOf of, const milling::Relati
       map.peak_to_peak_m(entry) = cut.displacement_m.range().maxCoeff();
       map.share_without_contact(entry) = cut.share_without_contact;
     }
+    map.unsettled(entry) = cut.status == milling::SimulationStatus::unsettled ? 1 : 0;
     progress.step();
   });
   return map;
@@ -55,7 +59,7 @@ AmplitudeMap map_of(const setup::Setup& setup, ChartOf of, const milling::Relati
 std::vector<AmplitudeMap> amplitude_maps(const setup::Setup& setup, const Results& results, Checkpoint& kept) {
   std::vector<AmplitudeMap> maps;
   if (!setup.simulation || !setup.simulation->map) return maps;
-  for (const auto& felt : simulated_structures(setup, results))
+  for (const auto& felt : felt_structures(setup, results))
     maps.push_back(map_of_checkpoint(kept, felt.of, [&] { return map_of(setup, felt.of, felt.structure); }));
   return maps;
 }

@@ -20,6 +20,7 @@ struct AmplitudeMap {
   Eigen::MatrixXd peak_to_peak_m;  ///< of tool minus part, the largest of the three tool axes; infinite where the
                                    ///< vibration outgrew the cutter
   Eigen::MatrixXd share_without_contact;  ///< of the time within the angles of the cut; 1 where it outgrew the cutter
+  Eigen::MatrixXi unsettled;              ///< 1 where forces within steps did not settle: not to be trusted, else 0
 };
 
 /// The map of every structure that setup.simulation asks for, by milling::simulate(); empty where it asks for no map.

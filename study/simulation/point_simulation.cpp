@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
@@ -17,14 +20,14 @@
 #include "milling/simulation/entry.hpp"
 #include "milling/simulation/exact_path.hpp"
 #include "milling/simulation/region_path.hpp"
-#include "setup/contact_model.hpp"
 #include "setup/milling_process.hpp"
+#include "setup/robot_tip.hpp"
+#include "setup/simulation_faults.hpp"
 #include "setup/simulation_options.hpp"
 #include "study/kept/kept_simulation.hpp"
-#include "study/lobes/cut_structure.hpp"
 #include "study/results.hpp"
-#include "study/support/contact_force.hpp"
-#include "study/support/support_stage.hpp"
+#include "study/simulation/arm_pass.hpp"
+#include "study/simulation/felt_structures.hpp"
 
 namespace thinwall::study {
 
@@ -51,54 +54,8 @@ Simulated simulated_cut_of(const setup::Setup& setup) {
   return cut;
 }
 
-milling::RelativeStructure poles_of(const setup::Setup& setup, const dynamics::ModalModel* part,
-                                    const dynamics::ModalModel* carrier = nullptr) {
-  auto poles = cut_poles(setup, part, carrier);
-  if (!poles)
-    throw core::InputError("simulation: nothing moves; give a part, tool.modes, or a robot that carries the tool");
-  return std::move(*poles);
-}
-
-const dynamics::ModalModel& modal(const std::optional<dynamics::ModalModel>& model, const char* what) {
-  if (!model)
-    throw core::InputError(std::string("simulation: ") + what +
-                           " is known by measured receptances alone, and a simulation needs poles; give it by a model");
-  return *model;
-}
-
-/// The contact of the robot that may open. The pair of forces pushes the tip along the direction in which the part
-/// presses it, and the part against it.
-milling::OneSidedContact one_sided_contact(const setup::Setup& setup, const Results& results,
-                                           const dynamics::ModalModel& model, Eigen::Index poles) {
-  const coupling::Contact& joined = results.contacts.front().contact;
-  const bool one = results.contacts.size() == 1 && !joined.has_matrices() && joined.springs.size() == 1 &&
-                   !joined.springs.front().rigid();
-  const auto preload = setup::preload_of(setup, setup.contacts.front());
-  const bool side_known = std::abs(setup.robot->preload.dot(joined.springs.front().direction)) > 0.0;
-  if (!one || !preload || !side_known)
-    throw core::InputError(
-        "simulation.support: a contact that opens must be the only one, along one direction, with a finite stiffness, "
-        "pressed by robot.preload, whose sign tells the side; give these, or take \"two_sided\"");
-  const Eigen::Vector3d normal = pressing_force(setup).second;
-  const dynamics::ModalModel kept = kept_modes(setup, model);
-  const Eigen::Index of_part = milling::relative_structure(kept, setup.cutting->at).poles.size();
-  const setup::SupportContact& contact = setup.contacts.front();
-  return {
-      milling::force_pair(kept, setup.cutting->at, contact.robot_point, contact.part_point, normal, poles - of_part),
-      joined.springs.front().stiffness, joined.springs.front().damping, *preload};
-}
-
-std::vector<ChartOf> wanted_structures(const setup::Setup& setup, const Results& results) {
-  if (!setup.simulation->structures.empty()) return setup.simulation->structures;
-  std::vector<ChartOf> all;
-  if (results.part) all.push_back(ChartOf::part);
-  if (results.coupled) all.push_back(ChartOf::supported);
-  if (setup::carries_tool(setup.robot)) all.push_back(ChartOf::carried);
-  if (all.empty()) all.push_back(ChartOf::tool);
-  return all;
-}
-
-/// Both sides of the boundary at the case's own speed, nearer to it than other crossings as a rule.
+/// Both sides of the boundary at the case's own speed, nearer to it than other crossings as a rule. A
+/// boundary that is not known well is a warning.
 std::vector<milling::OperatingPoint> around_boundary(const Simulated& cut,
                                                      const milling::RelativeStructure& structure) {
   constexpr double below = 0.9, above = 1.1;
@@ -106,6 +63,11 @@ std::vector<milling::OperatingPoint> around_boundary(const Simulated& cut,
   const double rpm = *cut.setup.cutting->spindle_speed_rpm;
   const milling::LobeRow row =
       milling::limiting_depth(structure, cut.process, rpm, {.depth_limit_m = deepest, .follow = 1.0});
+  if (!milling::answers(row.status))
+    core::warn(fmt::format(
+        "the boundary at {:.6g} rpm is not known well ({}, by estimate {:.1e} of its depth), and so the points on both "
+        "sides of it may not be: name them by simulation.at or --at",
+        rpm, milling::name(row.status), row.error_estimate));
   if (row.at_limit) return {{rpm, deepest}};
   return {{rpm, below * row.limiting_depth_m}, {rpm, std::min(above * row.limiting_depth_m, deepest)}};
 }
@@ -122,26 +84,53 @@ std::vector<milling::OperatingPoint> points_of(const Simulated& cut, const milli
 void march(const Simulated& cut, const FeltStructure& felt, const milling::TurnObserver& look, PointSimulation& p) {
   const milling::SimulatedPoint at{p.point.spindle_speed_rpm, p.point.depth_m, cut.feed_per_tooth_m};
   const setup::Simulation& wanted = *cut.setup.simulation;
+  milling::SimulationOptions options = cut.options;
+  if (wanted.start == setup::CutStart::loaded)
+    options.first_force_n = milling::mean_force_of_rigid_tool(cut.process, cut.law, at);
   if (cut.circular()) {
-    p.cut = milling::simulate(felt.structure, cut.process, cut.law, at, cut.options, look);
+    p.cut = milling::simulate(felt.structure, cut.process, cut.law, at, options, look);
     return;
   }
   const milling::Stock stock = setup::stock_of(wanted, *cut.setup.cutting, cut.process.cutter);
   if (wanted.paths == setup::ToothPaths::exact) {
     milling::PathOptions paths = setup::path_options(wanted);
     paths.contact = felt.contact;
-    p.cut = milling::simulate_exact_path(felt.structure, cut.process, cut.law, at, stock, cut.options, paths, look);
+    p.cut = milling::simulate_exact_path(felt.structure, cut.process, cut.law, at, stock, options, paths, look);
     return;
   }
   milling::RegionOptions region = setup::region_options(wanted);
   region.contact = felt.contact;
-  const int turns = cut.options.settling_turns + cut.options.recorded_turns;
+  const int turns = options.settling_turns + options.recorded_turns;
   const milling::CutWindow window = milling::cut_window(cut.process, at, turns);
   milling::RegionCut left =
       milling::simulate_region(felt.structure, cut.process, cut.law, at,
-                               {milling::outline_of(stock, window.low, window.high)}, cut.options, region, look);
+                               {milling::outline_of(stock, window.low, window.high)}, options, region, look);
   p.cut = std::move(left.cut);
   p.part = std::move(left.slices);
+}
+
+/// Marches the arm that carries the tool; its posture is that in the middle of the recorded turns.
+void march_arm(const Simulated& cut, const milling::TurnObserver& look, PointSimulation& p) {
+  const milling::SimulatedPoint at{p.point.spindle_speed_rpm, p.point.depth_m, cut.feed_per_tooth_m};
+  const auto& robot = std::get<setup::JointedRobot>(cut.setup.robot->model);
+  const double turn_s = 60.0 / at.spindle_speed_rpm;
+  const double speed_m_s = p.teeth * at.feed_per_tooth_m / turn_s;
+  ArmPass pass{{robot.arm}, setup::robot_posture(cut.setup, cut.setup).posture.q};
+  pass.contact_s = std::max(pass.contact_s, 2.0 * pass.rise_s + pass.steady_s + (pass.free_turns + 1) * turn_s);
+  const double fed_m = robot::along_line({speed_m_s, pass.rise_s, pass.steady_s},
+                                         pass.contact_s + 0.5 * cut.options.recorded_turns * turn_s)
+                           .distance_m;
+  pass.from = robot::pose(pass.arm.arm, pass.posture).tip.translation() - fed_m * cut.process.frame.feed;
+  milling::SimulationOptions options = cut.options;
+  options.settling_turns = pass.free_turns;
+  const auto direction =
+      cut.setup.cutting->down_milling ? milling::MillingDirection::down : milling::MillingDirection::up;
+  ArmPassResult result =
+      simulate_arm_pass(pass, cut.process, cut.law, at,
+                        milling::shoulder(cut.process.cutter, *cut.setup.cutting->radial_depth, direction), options,
+                        setup::path_options(*cut.setup.simulation), look);
+  p.cut = std::move(result.cut);
+  p.lag_m.assign(result.before_m.begin(), result.before_m.end());
 }
 
 /// The approach of the deflection to its end, along feed and normal, of a cut that began at a border.
@@ -192,16 +181,65 @@ std::optional<ForcedAgreement> agreement(const Simulated& cut, const milling::Re
   return {};
 }
 
+/// The area that the teeth remove, over that between the walls that they leave, less one. None on circles, from a
+/// border, and of motions without a wall.
+std::optional<double> removal_error(const Simulated& cut, const PointSimulation& p) {
+  const bool steady = cut.setup.simulation->start != setup::CutStart::border;
+  const bool walled = !p.cut.walls.empty() && !cut.setup.simulation->wall_cutoff_m;
+  if (cut.circular() || !steady || !walled || p.cut.status != milling::SimulationStatus::completed) return {};
+  double width_m = *cut.setup.cutting->radial_depth;
+  for (const milling::Wall& wall : p.cut.walls) {
+    if (wall.height_m == p.cut.walls.front().height_m) width_m += wall.mean_m;
+  }
+  return p.cut.removed_m2 / (width_m * p.feed_per_tooth_m * p.teeth) - 1.0;
+}
+
+/// The oscillations of the slowest mode while a tooth is in the cut.
+double oscillations_in_cut(const Simulated& cut, const milling::RelativeStructure& structure, double rpm) {
+  const double slowest = structure.poles.imag().minCoeff();
+  return cut.process.engagement.arc_rad() * 60.0 / rpm * slowest / (4.0 * std::numbers::pi * std::numbers::pi);
+}
+
+/// Warns of steps that cannot follow the slowest mode.
+void warn_of_coarse_steps(const Simulated& cut, double oscillations, double rpm) {
+  constexpr double least_a_period = 8.0;
+  const double in_cut = cut.process.engagement.arc_rad() / (2.0 * std::numbers::pi);
+  const double steps = cut.circular() ? cut.options.steps.steps_in_cut : in_cut * cut.setup.simulation->steps_a_turn;
+  if (steps >= least_a_period * oscillations) return;
+  core::warn(fmt::format(
+      "at {:.6g} rpm the slowest mode swings {:.3g} times while a tooth cuts, and {:.0f} steps there cannot follow it: "
+      "take {:.0f} {}, or a higher speed",
+      rpm, oscillations, steps, std::ceil(least_a_period * oscillations / (cut.circular() ? 1.0 : in_cut)),
+      cut.circular() ? "steps (simulation.steps)" : "steps a turn (simulation.steps_a_turn)"));
+}
+
+/// The growth of a small vibration by march and lobes. Neither is asked where the nodes of the lobes cannot resolve the
+/// slowest mode: it would take minutes, and the answer would be none.
+void grow(const Simulated& cut, const milling::RelativeStructure& structure, PointSimulation& p) {
+  const milling::StabilityOptions options{.depth_limit_m = p.point.depth_m};
+  const double rpm = p.point.spindle_speed_rpm, oscillations = oscillations_in_cut(cut, structure, rpm);
+  warn_of_coarse_steps(cut, oscillations, rpm);
+  if (2.0 * oscillations > options.most_nodes) {
+    p.lobes.status = milling::StabilityStatus::node_limit_reached;
+    p.lobes.modulus = p.lobes.error_estimate = std::numeric_limits<double>::quiet_NaN();
+    return;
+  }
+  p.growth = milling::simulated_growth(structure, cut.process, rpm, p.point.depth_m, cut.options.steps);
+  p.lobes = milling::multiplier_at(structure, cut.process, rpm, p.point.depth_m, options);
+}
+
 void simulate_point(const Simulated& cut, const FeltStructure& felt, const milling::TurnObserver& look,
                     PointSimulation& p) {
-  const milling::RelativeStructure& structure = felt.structure;
-  march(cut, felt, look, p);
+  if (cut.setup.simulation->robot == setup::CarrierMotion::multibody) march_arm(cut, look, p);
+  else march(cut, felt, look, p);
   approach(cut, p);
-  p.growth =
-      milling::simulated_growth(structure, cut.process, p.point.spindle_speed_rpm, p.point.depth_m, cut.options.steps);
-  p.lobes = milling::multiplier_at(structure, cut.process, p.point.spindle_speed_rpm, p.point.depth_m,
-                                   {.depth_limit_m = p.point.depth_m});
-  p.forced = agreement(cut, structure, p);
+  p.removal_error = removal_error(cut, p);
+  grow(cut, felt.structure, p);
+  p.forced = agreement(cut, felt.structure, p);
+}
+
+void require_no_fault(const std::string& fault) {
+  if (!fault.empty()) throw core::InputError("simulation: " + fault);
 }
 
 }  // namespace
@@ -216,6 +254,9 @@ void require_simulation(const setup::Setup& setup, const std::vector<milling::Op
         "cutting.spindle_speed");
   if (!setup.tool->measured.empty() || setup.tool->swap)
     throw core::InputError("tool.measured: a simulation needs poles, and measured lines have none; give tool.modes");
+  for (const ChartOf of : setup::simulated_structures(setup)) require_no_fault(setup::fault_of_structure(setup, of));
+  require_no_fault(setup::fault_of_opening(setup));
+  require_no_fault(setup::fault_of_arm(setup));
   if (setup.simulation->paths != setup::ToothPaths::circular && !setup.cutting->radial_depth)
     throw core::InputError(
         "cutting.radial_depth: not given; exact paths need it, for angles of entry and exit do not "
@@ -227,44 +268,16 @@ void require_simulation(const setup::Setup& setup, const std::vector<milling::Op
         "cutting.spindle_speed for points on both sides of its boundary");
 }
 
-std::vector<FeltStructure> simulated_structures(const setup::Setup& setup, const Results& results) {
-  const bool carried = setup::carries_tool(setup.robot);
-  const auto has = [&](ChartOf of) {
-    return of == ChartOf::tool || (of == ChartOf::part && results.part) ||
-           (of == ChartOf::supported && results.coupled) || (of == ChartOf::carried && carried);
-  };
-  std::vector<FeltStructure> felt;
-  for (const ChartOf of : wanted_structures(setup, results)) {
-    if (!has(of)) {
-      throw core::InputError("simulation.structures: the case has no structure \"" + core::word_of(of) +
-                             "\"; add it, or name others");
-    }
-    if (of == ChartOf::supported) {
-      const dynamics::ModalModel& model = modal(results.coupled->modal, "the supported part");
-      felt.push_back({of, poles_of(setup, &model), {}});
-      if (setup.simulation->support == setup::SupportSides::one_sided)
-        felt.back().contact = one_sided_contact(setup, results, model, felt.back().structure.poles.size());
-      continue;
-    }
-    const bool with_part = of == ChartOf::part || (of == ChartOf::carried && results.part);
-    felt.push_back({of,
-                    poles_of(setup, with_part ? &modal(results.part->modal, "the part") : nullptr,
-                             of == ChartOf::carried ? &carrier_modes(*results.robot) : nullptr),
-                    {}});
-  }
-  return felt;
-}
-
 std::vector<PointSimulation> simulate_points(const setup::Setup& setup, const Results& results,
                                              const std::vector<milling::OperatingPoint>& asked, Checkpoint& kept) {
   require_simulation(setup, asked);
   const Simulated cut = simulated_cut_of(setup);
-  const std::vector<FeltStructure> felt = simulated_structures(setup, results);
+  const std::vector<FeltStructure> felt = felt_structures(setup, results);
   std::vector<PointSimulation> points;
   std::vector<const FeltStructure*> structures;
   for (const FeltStructure& one : felt) {
     for (const milling::OperatingPoint& point : points_of(cut, one.structure, asked)) {
-      points.push_back({one.of, point, cut.feed_per_tooth_m, cut.process.cutter.teeth, {}, {}, {}, {}, {}, {}});
+      points.push_back({one.of, point, cut.feed_per_tooth_m, cut.process.cutter.teeth, {}, {}, {}, {}, {}, {}, {}, {}});
       structures.push_back(&one);
     }
   }

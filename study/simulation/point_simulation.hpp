@@ -35,37 +35,29 @@ struct PointSimulation {
   double feed_per_tooth_m = 0.0;
   int teeth = 1;
   milling::SimulatedCut cut;
-  milling::SimulatedGrowth growth;          ///< of a small vibration, by the march
-  milling::Multiplier lobes;                ///< what multiplier_at() says of it
+  milling::SimulatedGrowth growth;  ///< of a small vibration, by the march
+  milling::Multiplier lobes;        ///< what multiplier_at() says of it; |μ| NaN where nodes do not suffice to ask
   std::optional<ForcedAgreement> forced;    ///< of a stable point, equal teeth, circular paths and the linear law
   std::vector<milling::Approach> approach;  ///< along feed and normal, of a cut that began at a border
   std::vector<milling::PartSlice> part;     ///< what is left of a part that is kept as a region
+  std::optional<double> removal_error;  ///< area that teeth remove, over that between the walls they leave, less one:
+                                        ///< of paths that are not circles, from start to end in the material
+  std::vector<double> lag_m;            ///< of a multibody arm: displacement in tool axes before the cut, m
 
   /// |μ| of the march over that of the lobes, less one: how far the two are apart.
   [[nodiscard]] double growth_difference() const { return growth.modulus / lobes.modulus - 1.0; }
 };
 
-/// A structure at the cut, and the contact of its support where that may open.
-struct FeltStructure {
-  ChartOf of = ChartOf::part;
-  milling::RelativeStructure structure;
-  std::optional<milling::OneSidedContact> contact;
-};
-
 /// Throws InputError where [simulation] asks for what cannot be simulated, before anything is computed: without [tool],
-/// [cutting] or a feed, with measured lines in place of poles, exact paths without a radial depth, or without any point
-/// and a speed of the case's own. `asked`: points for a simulation that names none.
+/// [cutting] or a feed, with measured lines in place of poles, structures, a contact that opens or an arm with a fault
+/// (setup/simulation_faults.hpp), exact paths without a radial depth, or without any point and a speed of the case's
+/// own. `asked`: points for a simulation that names none.
 void require_simulation(const setup::Setup& setup, const std::vector<milling::OperatingPoint>& asked);
 
-/// The structures that setup.simulation asks for, with their poles (part axes). `results` are those of run() without
-/// charts. Throws InputError for one that the set-up does not have or that has no poles (lines of a measured FRF need a
-/// fit by modes first).
-[[nodiscard]] std::vector<FeltStructure> simulated_structures(const setup::Setup& setup, const Results& results);
-
 /// Simulates every point of setup.simulation on every structure; where it names none those that are `asked` for, else
-/// nine tenths and eleven tenths of the limiting depth at the case's own speed. What `kept` holds is taken from there.
-/// Points share out among the threads. Errors as require_simulation() and simulated_structures(); Interrupted between
-/// turns. Cost: see milling::simulate().
+/// nine tenths and eleven tenths of the limiting depth at the case's own speed; a boundary that is not known well is a
+/// warning. What `kept` holds is taken from there. Points share out among the threads. Errors as require_simulation()
+/// and simulated_structures(); Interrupted between turns. Cost: see milling::simulate().
 [[nodiscard]] std::vector<PointSimulation> simulate_points(const setup::Setup& setup, const Results& results,
                                                            const std::vector<milling::OperatingPoint>& asked,
                                                            Checkpoint& kept);

@@ -10,7 +10,10 @@
 #include "core/parallel.hpp"
 #include "core/time_limit.hpp"
 #include "milling/simulation/exact_path.hpp"
+#include "milling/simulation/march_grid.hpp"
+#include "milling/simulation/region_path.hpp"
 #include "setup/milling_process.hpp"
+#include "setup/simulation_faults.hpp"
 #include "setup/simulation_options.hpp"
 #include "study/lobes/stand_in.hpp"
 
@@ -42,12 +45,6 @@ double seconds_a_turn(const March& march) {
   return turns > 1 ? later.count() / (turns - 1) : all.count();
 }
 
-double structures(const setup::Setup& source) {
-  const auto named = static_cast<double>(source.simulation->structures.size());
-  if (named > 0.0) return named;
-  return source.part && source.robot && !source.contacts.empty() ? 2.0 : 1.0;
-}
-
 /// The point that is timed: the first, else one at a tenth of the tool's length.
 milling::SimulatedPoint timed_point(const setup::Setup& source, double feed_per_tooth_m) {
   constexpr double usual_share = 0.1;
@@ -67,8 +64,11 @@ struct StandInCut {
 };
 
 double point_turn_s(const setup::Setup& source, const StandInCut& cut) {
-  const double longer = source.simulation->paths == setup::ToothPaths::region ? 10.0 : 1.0;
   const setup::Simulation& wanted = *source.simulation;
+  // A part of a million turns would not fit into memory, and an arm would not feed so far.
+  const double longer = wanted.paths == setup::ToothPaths::region         ? 10.0
+                        : wanted.robot == setup::CarrierMotion::multibody ? 4.0
+                                                                          : 1.0;
   milling::SimulationOptions options = setup::simulation_options(wanted, 1.0, 1);
   options.settling_turns = 0;
   options.recorded_turns = 1000000;
@@ -78,7 +78,6 @@ double point_turn_s(const setup::Setup& source, const StandInCut& cut) {
            if (wanted.paths == setup::ToothPaths::circular) {
              (void)milling::simulate(cut.structure, cut.process, cut.law, point, options, look);
            } else {
-             // A part of a million turns would not fit into memory; a region takes some ten times as long as paths.
              (void)milling::simulate_exact_path(cut.structure, cut.process, cut.law, point,
                                                 setup::stock_of(wanted, *source.cutting, cut.process.cutter), options,
                                                 setup::path_options(wanted), look);
@@ -96,21 +95,37 @@ double map_turn_s(const setup::SimulationMap& map, const StandInCut& cut) {
   });
 }
 
+/// The memory of a part that is kept as a region: the polygons of all cells of the window, slice by slice, and the
+/// corners that the teeth leave on its walls, there and in the surface that is written; bytes as they were measured.
+double region_bytes(const setup::Setup& source, const StandInCut& cut, const milling::SimulationOptions& options) {
+  constexpr double cells_a_radius = 20.0, bytes_a_cell = 350.0, bytes_a_pass = 8000.0;
+  if (source.simulation->paths != setup::ToothPaths::region) return 0.0;
+  const milling::SimulatedPoint point = timed_point(source, cut.feed_per_tooth_m);
+  const int turns = options.settling_turns + options.recorded_turns;
+  const milling::CutWindow window = milling::cut_window(cut.process, point, turns);
+  const double cell_m = 0.5 * cut.process.cutter.diameter_m / cells_a_radius;
+  const double cells = (window.high - window.low).prod() / (cell_m * cell_m);
+  const auto slices = static_cast<double>(milling::discs_of(cut.process, point.depth_m, options.steps).size());
+  return slices * (cells * bytes_a_cell + bytes_a_pass * turns * cut.process.cutter.teeth);
+}
+
 SimulationForecast forecast_of(const setup::Setup& source, const StandInCut& cut) {
   const setup::Simulation& wanted = *source.simulation;
   const auto options = setup::simulation_options(wanted, cut.feed_per_tooth_m, cut.process.cutter.teeth);
   const bool around_boundary = wanted.points.empty() && source.cutting->spindle_speed_rpm;
   const double points = around_boundary ? 2.0 : static_cast<double>(wanted.points.size());
   SimulationForecast result;
-  result.points = structures(source) * points;
+  result.points = static_cast<double>(setup::simulated_structures(source).size()) * points;
   const double point_turns = result.points * (options.settling_turns + options.recorded_turns);
   if (result.points > 0.0) {
     const double together = std::min<double>(core::thread_count(), result.points);
     result.seconds = point_turns * point_turn_s(source, cut) / together;
   }
   result.turns = point_turns;
+  result.memory_bytes = std::min<double>(core::thread_count(), result.points) * region_bytes(source, cut, options);
   if (!wanted.map) return result;
-  result.map_points = structures(source) * wanted.map->speeds * wanted.map->depths;
+  result.map_points =
+      static_cast<double>(setup::simulated_structures(source).size()) * wanted.map->speeds * wanted.map->depths;
   result.turns += result.map_points * wanted.map->turns;
   result.seconds += result.map_points * wanted.map->turns * map_turn_s(*wanted.map, cut) / core::thread_count();
   return result;

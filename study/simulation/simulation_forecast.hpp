@@ -13,6 +13,7 @@ struct SimulationForecast {
   double map_points = 0.0;
   double turns = 0.0;  ///< of all of them
   double seconds = 0.0;
+  double memory_bytes = 0.0;  ///< of the parts that are kept as regions, as many at once as there are threads; else 0
 };
 
 /// The time of the turns of all points, and of a map, from that of a turn, measured at the first point and in the

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "case/checks/doubts.hpp"
 #include "case/operating_point.hpp"
 #include "case/problem.hpp"
 #include "case/reader.hpp"
 #include "core/error.hpp"
+#include "setup/simulation_faults.hpp"
 #include "setup/simulation_options.hpp"
 #include "tests/case/case_text.hpp"
 
@@ -161,6 +163,95 @@ TEST(SimulationCase, RefusesABorderOnCirclesAndAContactThatCannotOpen) {
   expect_problem(simulated("at = \"1900 rpm, 1 mm\"\nstart = \"border\"\n"), "exact");
   expect_problem(simulated("at = \"1900 rpm, 1 mm\"\npaths = \"exact\"\nchords = true\n"), "region");
   expect_problem(simulated("at = \"1900 rpm, 1 mm\"\npaths = \"exact\"\nsupport = \"one_sided\"\n"), "rigid");
+}
+
+/// What a border does not take is refused, not dropped; means are taken over whole steps.
+TEST(SimulationCase, RefusesWhatABorderDoesNotTake) {
+  const std::string border = "at = \"1900 rpm, 1 mm\"\npaths = \"exact\"\nstart = \"border\"\n";
+  expect_problem(simulated(border + "settling_turns = 10\n"), "10 turns, but all that follow a border are recorded");
+  EXPECT_TRUE(parse_case(simulated(border + "settling_turns = 0\n"), ".").simulation);
+  expect_problem(simulated(border + "trace = 10\n"), "simulation.trace");
+  expect_problem(simulated(border + "steps_a_turn = 722\n"), "722 steps do not divide into the 6 periods of teeth");
+  EXPECT_TRUE(parse_case(simulated(border + "steps_a_turn = 726\n"), ".").simulation);
+  expect_problem(simulated("at = \"1900 rpm, 1 mm\"\nwall = 3\n"), "3 turns of 200 that are recorded");
+}
+
+/// A fault is told by a key that the case has.
+TEST(SimulationCase, NamesKeysThatTheCaseHas) {
+  const std::string border = "at = \"1900 rpm, 1 mm\"\npaths = \"exact\"\nstart = \"border\"\n";
+  expect_problem(simulated(border + "turns = 1000000\n"), "simulation.turns: ");
+  std::string free = simulated("at = \"1900 rpm, 1 mm\"\n");
+  const std::string contact = "[[contacts]]\npart = \"P\"\n";
+  free.replace(free.find(contact), contact.size(), "");
+  expect_problem(free + "structures = \"supported\"\n", "simulation.structures: no robot holds the part");
+}
+
+TEST(SimulationCase, HasTheHeightsAndTheFilterOfAWall) {
+  const Case c = parse_case(
+      simulated("at = \"1900 rpm, 1 mm\"\nwall_heights = [\"0 mm\", \"0.5 mm\"]\nwall_cutoff = \"2 mm\"\n"), ".");
+  const auto options = simulation_options(*c.simulation, 1e-3, 6);
+  EXPECT_EQ(options.wall.heights_m, (std::vector<double>{0.0, 0.5e-3}));
+  EXPECT_EQ(options.wall.cutoff_m, 2e-3);
+  EXPECT_EQ(simulation_options(Simulation{}, 1e-3, 6).wall.cutoff_m, 0.0);
+  expect_problem(simulated("at = \"1900 rpm, 1 mm\"\nwall_heights = \"1.5 mm\"\n"), "1.5 mm is above the depth of");
+  // 0.947 mm a turn, of twenty turns sixteen.
+  expect_problem(simulated("at = \"1900 rpm, 1 mm\"\nwall_cutoff = \"8 mm\"\n"), "either end of a wall of 15.16 mm");
+}
+
+const char* const arm_that_mills = R"([robot]
+model = "flexible_joints"
+carries = "tool"
+[[robot.links]]
+axis = "z"
+mass = "300 kg"
+centre = ["0 m", "0 m", "0.3 m"]
+inertia = ["20 kg m^2", "20 kg m^2", "20 kg m^2"]
+stiffness = "4e6 N m/rad"
+[robot.tip]
+position = ["0.5 m", "0 m", "0.5 m"]
+[robot.posture]
+joints = ["0 rad"]
+[tool]
+teeth = 2
+diameter = "10 mm"
+length = "12 mm"
+[cutting]
+radial_depth = "4 mm"
+feed_direction = "x"
+Kt = "600 N/mm^2"
+feed_per_tooth = "0.1 mm"
+[simulation]
+at = "6000 rpm, 1 mm"
+robot = "multibody"
+)";
+
+TEST(SimulationCase, HasAMultibodyArmThatFeedsThroughABorder) {
+  const std::string arm = std::string(arm_that_mills) + "paths = \"exact\"\nstart = \"border\"\n";
+  EXPECT_EQ(parse_case(arm, ".").simulation->robot, CarrierMotion::multibody);
+  EXPECT_EQ(simulated_structures(parse_case(arm, ".")), std::vector<CutOn>{CutOn::carried});
+  expect_problem(std::string(arm_that_mills) + "paths = \"exact\"\n", "feeds through a border");
+  expect_problem(std::string(arm_that_mills), "feeds through a border");
+  std::string bent = arm;
+  bent.insert(bent.find("[cutting]"),
+              "[[tool.modes]]\nfrequency = \"900 Hz\"\ndamping_ratio = 0.01\nstiffness = \"1e6 N/m\"\n"
+              "direction = \"x\"\n");
+  expect_problem(bent, "rigid tools only");
+  expect_problem(simulated("at = \"1900 rpm, 1 mm\"\nrobot = \"multibody\"\n"), "must be one of flexible joints");
+}
+
+TEST(SimulationCase, IsOfAllStructuresThatAreThere) {
+  EXPECT_EQ(simulated_structures(parse_case(simulated("at = \"1900 rpm, 1 mm\"\n"), ".")),
+            (std::vector<CutOn>{CutOn::part, CutOn::supported}));
+  EXPECT_EQ(simulated_structures(parse_case(simulated("structures = \"part\"\n"), ".")),
+            std::vector<CutOn>{CutOn::part});
+}
+
+/// 0.947 mm a turn: 500 turns are longer than the plate of 392 mm.
+TEST(SimulationCase, TurnsBeyondThePartAreDoubted) {
+  const std::vector<std::string> doubts = doubts_about(parse_case(simulated("turns = 500\n"), "."));
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_NE(doubts[0].find("the part is 392 mm long along the feed"), std::string::npos) << doubts[0];
+  EXPECT_TRUE(doubts_about(parse_case(simulated("turns = 400\n"), ".")).empty());
 }
 
 }  // namespace

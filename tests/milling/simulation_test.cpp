@@ -247,13 +247,15 @@ TEST(Simulation, StartsUnderTheMeanForceOfARigidTool) {
     EXPECT_NEAR(force.x(), -2.0 * 0.1e-3 * feed_m * 2e8 / 4.0, 1e-6 * force.norm());
     EXPECT_NEAR(force.y(), 2.0 * 0.1e-3 * feed_m * 6e8 / 4.0, 1e-6 * force.norm());
   }
-  const double stiffness = 1.0 * std::pow(2.0 * pi * 20.0, 2);
-  const RelativeStructure slow = relative_structure(
-      testing::modal_model({{20.0, 0.01, 1.0, Eigen::Vector3d::UnitX()}, {20.0, 0.01, 1.0, Eigen::Vector3d::UnitY()}}),
-      "P");
+  constexpr double mass_kg = 100.0;
+  const double stiffness = mass_kg * std::pow(2.0 * pi * 20.0, 2);
+  const RelativeStructure slow =
+      relative_structure(testing::modal_model({{20.0, 0.01, mass_kg, Eigen::Vector3d::UnitX()},
+                                               {20.0, 0.01, mass_kg, Eigen::Vector3d::UnitY()}}),
+                         "P");
   process = down_milling(0.4);
   const auto mean_y = [&](bool loaded) {
-    SimulationOptions options = turns(0, 5);
+    SimulationOptions options = turns(0, 1);
     if (loaded) options.first_force_n = mean_force_of_rigid_tool(process, process.coefficients, point);
     return simulate(slow, process, process.coefficients, point, options).mean_displacement_m.y();
   };

@@ -150,6 +150,7 @@ TEST(Wall, IsFilteredIfAsked) {
   const MillingProcess process = milling(0.4, MillingDirection::down);
   const auto wall = [&](double cutoff_m) {
     SimulationOptions options = walled(50, 200);
+    options.recorded_turns = options.wall.turns = 40;
     options.wall.cutoff_m = cutoff_m;
     return simulate(in_plane(922.0, 0.011, 0.03993), process, process.coefficients, {16500.0, 0.05e-3, feed_m}, options)
         .walls.at(0);

@@ -52,7 +52,7 @@ def test_lobes_from_frf():
 COARSE = {  # what makes a case quick, if no page of the docs shows it anyway
     "barrios-2019-measured": ("part.mesh.tolerance=0.05",),
     "cantilever-wall": ("part.mesh.tolerance=0.05", "lobes.count=10"),
-    "huynh-2017": ("lobes.count=3",),
+    "huynh-2017": ("lobes.count=3", "simulation.settling_turns=20"),
     "huynh-2017-support": ("part.mesh.tolerance=0.05", "path.positions=3", "lobes.count=3"),
     "irb6660-measured": ("part.mesh.tolerance=0.05", "lobes.count=3"),
     "pocketed-rib": ("part.mesh.tolerance=0.1", "lobes.count=10"),

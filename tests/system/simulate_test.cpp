@@ -58,7 +58,7 @@ TEST(Simulate, TellsTheMotionOnBothSidesOfTheBoundary) {
   // Every second tooth: 1.5 times the 633.3 Hz of the teeth, next to the mode at 922 Hz.
   EXPECT_NE(text.find("950.0 Hz"), std::string::npos) << text;
   const std::string points = core::read_file(folder / "out/simulation/points.csv");
-  EXPECT_EQ(std::count(points.begin(), points.end(), '\n'), 3);
+  EXPECT_EQ(std::count(points.begin(), points.end(), '\n'), 4) << "a comment, the names and both points";
   EXPECT_TRUE(fs::exists(folder / "out/simulation/tool-1.csv"));
   EXPECT_TRUE(fs::exists(folder / "out/simulation/tool-2-passes.csv"));
 }
@@ -112,6 +112,23 @@ TEST(Simulate, TellsAVibrationThatOutgrowsTheCutter) {
   EXPECT_NE(text.find("the vibration outgrew the cutter after"), std::string::npos) << text;
   EXPECT_NE(core::read_file(folder / "out/simulation/points.csv").find("overflowed,growing,0"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "out/simulation/tool-1.csv"));
+}
+
+/// A problem is told of the option that the user gave, not of a key that stands nowhere.
+TEST(Simulate, TellsProblemsOfItsOptions) {
+  const fs::path folder = scratch("simulate_options");
+  const auto [deep, code] = simulate(folder, {"--at", "11000 rpm, 30 mm"});
+  EXPECT_EQ(code, 3);
+  EXPECT_NE(deep.find("--at: \"11000 rpm, 30 mm\" is deeper than the tool's length"), std::string::npos) << deep;
+  const std::string border =
+      tool_case + "[simulation]\nat = \"11000 rpm, 1 mm\"\npaths = \"exact\"\nstart = \"border\"\n";
+  const auto [settle, refused] = simulate(folder, {"--settle", "10"}, border);
+  EXPECT_EQ(refused, 3);
+  EXPECT_NE(settle.find("--settle: 10 turns, but all that follow a border are recorded"), std::string::npos) << settle;
+  EXPECT_EQ(settle.find("--set "), std::string::npos) << settle;
+  const auto [set, wrong] = simulate(folder, {"--set", "simulation.settling_turns=10"}, border);
+  EXPECT_EQ(wrong, 3);
+  EXPECT_NE(set.find("--set simulation.settling_turns: 10 turns"), std::string::npos) << set;
 }
 
 TEST(Simulate, TellsWhatItNeeds) {

@@ -9,12 +9,16 @@
 
 #include "app/command_line.hpp"
 #include "app/forecast.hpp"
+#include "case/numbers.hpp"
 #include "core/atomic_file.hpp"
+#include "core/messages.hpp"
 #include "io/json_file.hpp"
+#include "io/matrices/mat_variables.hpp"
 #include "report/page/simulation_data.hpp"
 #include "report/terminal_report.hpp"
 #include "study/kept/checkpoint.hpp"
 #include "study/kept/stage_keys.hpp"
+#include "study/run.hpp"
 #include "tests/system/benchmark_tool.hpp"
 #include "tests/system/run_in_folder.hpp"
 
@@ -83,6 +87,11 @@ TEST(SimulationRun, WritesTheTablesThatThePageDraws) {
   const RunResult result = run_case(parse_case(benchmark_tool + points, folder), {folder, true, -1, false});
   for (const char* name : {"points", "tool-1", "tool-1-spectrum", "tool-1-passes", "tool-1-wall", "tool-2"})
     EXPECT_TRUE(fs::exists(folder / "simulation" / (std::string(name) + ".csv"))) << name;
+  const std::vector<double> force = column(folder / "simulation" / "tool-1.csv", "force_y_n");
+  const io::MatVariables mat = io::read_mat_variables(
+      folder / "simulation" / "tool-1.mat", {"force_y_n", "spectrum_frequency_hz", "pass_tooth", "wall_error_m"});
+  ASSERT_EQ(mat.size(), 4U);
+  EXPECT_EQ(mat.at("force_y_n").re, force);
   const json data = report::simulation_data(folder, result.summary);
   ASSERT_EQ(data["points"].size(), 2U);
   for (const char* key : {"trace", "spectrum", "passes", "walls"}) EXPECT_TRUE(data["points"][0].contains(key)) << key;
@@ -90,9 +99,12 @@ TEST(SimulationRun, WritesTheTablesThatThePageDraws) {
   const std::string text = report::terminal_report(result.summary, "there");
   EXPECT_NE(text.find("growth and lobes agree to"), std::string::npos) << text;
   EXPECT_NE(text.find("periodic motion and closed form agree to"), std::string::npos) << text;
-  // Another simulation in the same place is not taken for this run's.
+  // Another simulation in the same place is not taken for this run's, be it of the same points.
   report::Summary other = result.summary;
   other.simulation->points[1].depth_m = 1e-3;
+  EXPECT_FALSE(report::simulation_data(folder, other)["points"][0].contains("trace"));
+  other = result.summary;
+  *other.simulation->points[1].peak_force_n *= 1.001;
   EXPECT_FALSE(report::simulation_data(folder, other)["points"][0].contains("trace"));
 }
 
@@ -159,8 +171,74 @@ TEST(SimulationRun, IsForetold) {
   std::string longer = benchmark_tool + points;
   longer.replace(longer.find("= 2000"), 6, "= 2000000");
   EXPECT_GT(forecast(parse_case(longer, ".")).simulation->turns, 4e6);
+  EXPECT_EQ(time.simulation->memory_bytes, 0.0);
+  const std::string region = benchmark_tool + "[simulation]\nat = \"11000 rpm, 1 mm\"\npaths = \"region\"\nturns = ";
+  const double few = forecast(parse_case(region + "10\n", ".")).simulation->memory_bytes;
+  EXPECT_GT(few, 1e6);
+  EXPECT_GT(forecast(parse_case(region + "10000\n", ".")).simulation->memory_bytes, 10.0 * few);
   EXPECT_FALSE(
       forecast(parse_case(benchmark_tool + "[lobes]\nfrom = \"1000 rpm\"\nto = \"2000 rpm\"\n", ".")).simulation);
+}
+
+/// A case that asks for it begins under the mean force of its cut: a mode of 20 Hz, which needs thousands of turns to
+/// settle, leaves the wall near where it ends after four; half a tooth period of velocity is left, ω T/2 = 17 % of the
+/// deflection.
+TEST(SimulationRun, BeginsUnderTheMeanForceOfTheCut) {
+  std::string slow = benchmark_tool;
+  for (std::size_t at = 0; (at = slow.find("922 Hz")) != std::string::npos;) slow.replace(at, 6, "20 Hz");
+  const auto wall_m = [&](const std::string& start, const std::string& turns) {
+    const std::string text = slow + "[simulation]\nat = \"11000 rpm, 0.1 mm\"\nturns = 8\nstart = \"" + start +
+                             "\"\nsettling_turns = " + turns + "\n";
+    return run(text, scratch("simulation_" + start))["simulation"]["points"][0]["walls"][0]["location_error_m"]
+        .get<double>();
+  };
+  const double end = wall_m("steady", "3000");
+  EXPECT_NEAR(wall_m("loaded", "4"), end, 0.05 * std::abs(end));
+  EXPECT_GT(std::abs(wall_m("steady", "4") - end), 0.1 * std::abs(end));
+}
+
+/// At 10 rpm the mode swings 396 times while a tooth cuts, more than the nodes of the lobes can tell: neither growth is
+/// asked for, and nothing says that it decays.
+TEST(SimulationRun, AsksForNoGrowthThatCannotBeHad) {
+  const fs::path folder = scratch("simulation_slow");
+  const json point = run(benchmark_tool + "[simulation]\nat = \"10 rpm, 1 mm\"\nsettling_turns = 0\nturns = 1\n",
+                         folder)["simulation"]["points"][0];
+  EXPECT_TRUE(point["growth"]["lobes_modulus"].is_null());
+  EXPECT_TRUE(point["growth"]["march_modulus"].is_null());
+  EXPECT_TRUE(point["forced_vibration"].is_null());
+  const io::Table table = io::read_csv(folder / "simulation" / "points.csv");
+  EXPECT_TRUE(std::isnan(io::numbers_or_gaps(table, "multiplier_march", "points.csv")[0]));
+  EXPECT_TRUE(std::isnan(io::numbers_or_gaps(table, "multiplier_lobes", "points.csv")[0]));
+}
+
+/// At 50 rpm, where 79 swings are too many for the nodes of the lobes, the boundary is not known well, and 200 steps
+/// cannot follow them; both are told.
+TEST(SimulationRun, TellsThatABoundaryIsNotKnownAndStepsAreTooFew) {
+  std::string text = benchmark_tool;
+  text.insert(text.find("[cutting]\n") + 10, "spindle_speed = \"50 rpm\"\n");
+  std::string warnings;
+  const core::MessageListener before =
+      core::set_message_listener([&](core::MessageLevel, const std::string& said) { warnings += said + '\n'; });
+  study::Kept nothing;
+  const Case source = parse_case(text + "[simulation]\nsettling_turns = 0\nturns = 1\n", ".");
+  (void)study::run(source, cases::variation_of(source), nothing, {});
+  (void)core::set_message_listener(before);
+  EXPECT_NE(warnings.find("the boundary at 50 rpm is not known well"), std::string::npos) << warnings;
+  EXPECT_NE(warnings.find("steps there cannot follow it"), std::string::npos) << warnings;
+}
+
+/// Seven steps while a tooth of exact paths is in the cut miss a part of its chips.
+TEST(SimulationRun, TellsThatTooFewStepsMissAPartOfTheCut) {
+  const auto error = [](const std::string& steps) {
+    const std::string text = benchmark_tool +
+                             "[simulation]\nat = \"11000 rpm, 0.1 mm\"\npaths = \"exact\"\nsettling_turns = 60\n"
+                             "turns = 8\nsteps_a_turn = " +
+                             steps + "\n";
+    return std::abs(
+        run(text, scratch("simulation_removal"))["simulation"]["points"][0]["removal_error_relative"].get<double>());
+  };
+  EXPECT_LT(error("2880"), 1e-3);
+  EXPECT_GT(error("90"), 1e-2);
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ import { growing, onShownPoint, showPoint, shownPoint, simulatedPoints, titleOf 
 const origins = { tooth_passing: ['tooth passing', 'part', 'circle'], spindle: ['spindle', 'robot', 'square'], other: ['chatter', 'bad', 'x'] };
 const motions = { periodic: () => 'repeats itself with the cut', period_n: (p) => `repeats itself after ${p.period} periods of the cut`, quasi_periodic: () => 'never repeats itself', growing: () => 'grows' };
 const micrometresOf = (vector) => (vector ? `${number(vector[0] * 1e6, 4)}, ${number(vector[1] * 1e6, 4)} µm` : null); // along the feed, across
-const unsettled = (p) => p.growth?.lobes_modulus < 1 && (p.motion === 'quasi_periodic' || p.motion === 'growing');
+const stable = (p) => isNumber(p.growth?.lobes_modulus) && p.growth.lobes_modulus < 1;
+const unsettled = (p) => stable(p) && (p.motion === 'quasi_periodic' || p.motion === 'growing');
 const motionOf = (p) => (p.approach?.length ? 'enters at a border' : p.status === 'overflowed' ? `outgrew the cutter after ${number(p.simulated_s, 3)} s` : `${unsettled(p) ? 'has not settled, though small ones decay' : motions[p.motion]?.(p) ?? p.motion}${p.status === 'unsettled' ? '; forces did not settle' : ''}`);
 
 /** The section's content; null where nothing was simulated. */
@@ -79,12 +80,12 @@ function pointTable(runs, points) {
   const several = runs.length > 1;
   const columns = [
     ['Point', (p) => titleOf(p, several)], ['Motion', ({ point }) => ({ text: motionOf(point), class: growing(point) ? 'bad' : 'good' })],
-    ['|μ|', ({ point }) => number(point.growth.march_modulus ?? point.growth.lobes_modulus, 6)],
+    ['|μ|', ({ point }) => (isNumber(point.growth.lobes_modulus) ? number(point.growth.march_modulus ?? point.growth.lobes_modulus, 6) : 'not found')],
     ['From lobes', ({ point }) => (isNumber(point.growth.difference_relative) ? number(Math.abs(point.growth.difference_relative), 2) : 'not found')],
     ['Peak to peak', ({ point }) => micrometresOf(point.peak_to_peak_m)],
     ['Peak force', ({ point }) => (isNumber(point.peak_force_n) ? `${number(point.peak_force_n, 4)} N` : null)], ['Power', ({ point }) => (isNumber(point.mean_power_w) ? `${number(point.mean_power_w, 3)} W` : null)],
     ['Without contact', ({ point }) => (isNumber(point.share_without_contact) ? percent(point.share_without_contact, 2) : null)],
-    ['Wall', ({ point }) => (point.walls?.length ? point.walls.map((w) => `${number(w.location_error_m * 1e6, 3)} µm, R_a ${number(w.R_a_m * 1e6, 2)} µm`).join('; ') : null)],
+    ['Wall', ({ point }) => (point.walls?.length ? point.walls.map((w) => `${number(w.location_error_m * 1e6, 3)} µm, R_a ${number(w.R_a_m * 1e6, 2)}, R_q ${number(w.R_q_m * 1e6, 2)}, R_t ${number(w.R_t_m * 1e6, 2)} µm`).join('; ') : null)],
   ].filter(([, of]) => points.some((p) => of(p) !== null));
   return table('Simulated points', columns.map(([head]) => head), points.map((p) => columns.map(([, of]) => of(p))), true);
 }
@@ -112,7 +113,7 @@ function spectrumOf({ tables: { spectrum }, point }, { of, log }, colours, narro
   const found = (vibration ? point.vibration_lines : point.force_lines) ?? [];
   const amplitude = (line) => (vibration ? line.amplitude_m : line.amplitude_n) * factor;
   const marks = Object.entries(origins).flatMap(([origin, [told, colour, symbol]]) => {
-    const name = origin === 'other' && point.growth?.lobes_modulus < 1 ? 'of the structure' : told; // what is left of the beginning
+    const name = origin === 'other' && stable(point) ? 'of the structure' : told; // what is left of the beginning
     const own = found.filter((line) => line.origin === origin);
     return own.length ? [{ name: plain(name), x: own.map((line) => line.frequency_hz), y: own.map(amplitude), mode: 'markers', marker: { symbol, size: 9, color: colours[colour], line: { width: 1.5, color: colours[colour] } }, hovertemplate: `${name}: %{x:.5~g} Hz, %{y:.4~g} ${unit}<extra></extra>`, meta: `lines ${origin}` }] : [];
   });
@@ -163,7 +164,9 @@ function map(runs) {
   const state = { at: 0 };
   const title = ({ run, m }) => `${runs.length > 1 ? `${run.label}: ` : ''}${lobeTitle(m.name)}`;
   const chart = plot({ name: 'simulation-map', label: 'Vibration over speed and depth', build: (colours, narrow) => mapOf(maps[state.at], colours, narrow), columns: () => mapColumns(maps[state.at].m) });
-  return folded('Vibration over speed and depth', chart, maps.length > 1 && el('div', { class: 'controls' }, choice('Map of', maps.map((m, i) => [i, title(m)]), 0, (v) => { state.at = Number(v); chart.draw(); })), chart.figure);
+  const left = maps.map(({ run, m }) => run.summary.simulation.maps.find((s) => s.chart === m.name)).reduce((sum, s) => sum + (s?.points_unsettled ?? 0), 0);
+  const note = left > 0 && el('p', { class: 'lead' }, `At ${left} points forces within steps did not settle; they are left blank.`);
+  return folded('Vibration over speed and depth', chart, maps.length > 1 && el('div', { class: 'controls' }, choice('Map of', maps.map((m, i) => [i, title(m)]), 0, (v) => { state.at = Number(v); chart.draw(); })), note, chart.figure);
 }
 
 function mapOf({ run, m }, colours, narrow) {
