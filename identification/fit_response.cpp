@@ -124,12 +124,6 @@ std::string worst_place(const ResponseFit& fit, const dynamics::DofTable& respon
   return place;
 }
 
-Eigen::VectorXcd poles_of(const ModalFit& fit) {
-  Eigen::VectorXcd poles(static_cast<Eigen::Index>(fit.modes.size()));
-  for (std::size_t i = 0; i < fit.modes.size(); ++i) poles(static_cast<Eigen::Index>(i)) = fit.modes[i].pole();
-  return poles;
-}
-
 /// A sentence on χ², and on the terms that would lower it where they were given.
 void doubt_misfit(const ResponseFit& fit, const dynamics::DofTable& responses, const dynamics::DofTable& forces,
                   const ResponseFitOptions& options, std::vector<std::string>& doubts) {

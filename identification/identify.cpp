@@ -10,12 +10,6 @@ namespace thinwall::identification {
 
 namespace {
 
-Eigen::VectorXcd poles_of(const ModalFit& fit) {
-  Eigen::VectorXcd poles(static_cast<Eigen::Index>(fit.modes.size()));
-  for (std::size_t i = 0; i < fit.modes.size(); ++i) poles(static_cast<Eigen::Index>(i)) = fit.modes[i].pole();
-  return poles;
-}
-
 Eigen::VectorXcd with(const Eigen::VectorXcd& poles, std::complex<double> another) {
   Eigen::VectorXcd all(poles.size() + 1);
   all << poles, another;
