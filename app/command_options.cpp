@@ -98,8 +98,11 @@ void describe_fit(CLI::App& app, FitRequest& fit) {
       ->type_name("FREQUENCIES");
   command->add_option("--order", fit.order, "highest order of the stabilisation diagram (default: 30)")
       ->check(CLI::Range(1, 200));
-  command->add_option("--terms", fit.terms, "highest power of s beside the modes, 0 to 6, or none (default: as needed)")
-      ->type_name("POWER");
+  command
+      ->add_option(
+          "--terms", fit.terms,
+          "terms beside the modes: LR/s^2 and powers of s up to 0 … 6, a constant alone, or none (default: as needed)")
+      ->type_name("none|constant|POWER");
   command->add_option("--residues", fit.residues, "form of the residues (default: rank_one)")
       ->type_name("free|rank_one|symmetric");
   command->add_option("--averages", fit.averages, "number of averages, by which coherence weighs the lines")

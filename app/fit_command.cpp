@@ -46,9 +46,11 @@ Band left_out_band(const std::string& text) {
 }
 
 identification::ResidualTerms terms_of(const std::string& text) {
-  if (text == "none") return {false, -1};
-  if (text.size() == 1 && text[0] >= '0' && text[0] <= '6') return {true, text[0] - '0'};
-  throw core::UsageError("--terms \"" + text + "\": write the highest power of s, 0 to 6, or none");
+  try {
+    return identification::terms_named(text);
+  } catch (const core::InputError& error) {
+    throw core::UsageError(std::string("--terms: ") + error.what());
+  }
 }
 
 identification::ResponseFitOptions options_of(const FitRequest& request) {

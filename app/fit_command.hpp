@@ -16,7 +16,7 @@ struct FitRequest {
   std::vector<std::string> left_out;  ///< "50 Hz", lines within 1 % of it, or "49 Hz:51 Hz"
   std::string poles;                  ///< "10.4 Hz, 27 Hz"; empty: chosen from the diagram
   int order = 30;                     ///< highest one of the diagram
-  std::string terms;  ///< "none", or the highest power of s, 0 to 6; empty: as many as the lines call for
+  std::string terms;                  ///< as identification::terms_named(); empty: as many as the lines call for
   std::string residues = "rank_one";
   std::optional<int> averages;  ///< that the coherence belongs to
   std::optional<double> noise;

@@ -14,7 +14,7 @@ namespace thinwall::app {
 
 namespace {
 
-bool is_direction(char letter) {
+bool names_direction(char letter) {
   return letter == 'x' || letter == 'y' || letter == 'z';
 }
 
@@ -30,7 +30,7 @@ setup::MeasuredFrf named(const std::string& word) {
   if (slash != std::string::npos) {
     frf.response = entry.substr(0, slash);
     frf.force = entry.substr(slash + 1);
-  } else if (!entry.empty() && entry.size() <= 2 && std::ranges::all_of(entry, is_direction)) {
+  } else if (!entry.empty() && entry.size() <= 2 && std::ranges::all_of(entry, names_direction)) {
     frf.response = std::string("tool.") + entry.front();
     frf.force = std::string("tool.") + entry.back();
   } else {

@@ -8,12 +8,6 @@
 
 namespace thinwall::identification {
 
-Eigen::VectorXcd poles_of(const ModalFit& fit) {
-  Eigen::VectorXcd poles(static_cast<Eigen::Index>(fit.modes.size()));
-  for (std::size_t i = 0; i < fit.modes.size(); ++i) poles(static_cast<Eigen::Index>(i)) = fit.modes[i].pole();
-  return poles;
-}
-
 namespace {
 
 Eigen::VectorXcd with(const Eigen::VectorXcd& poles, std::complex<double> another) {
@@ -28,9 +22,10 @@ Eigen::VectorXcd without(const Eigen::VectorXcd& poles, Eigen::Index left_out) {
   return rest;
 }
 
+constexpr double chance_of_modes = 10.0, chance_of_powers = 3.0;  // χ² that chance takes from an unknown, at most
+
 /// True if `richer`, which has more unknowns, is better than by chance.
-bool better(const ModalFit& richer, const ModalFit& poorer) {
-  constexpr double chance = 10.0;
+bool better(const ModalFit& richer, const ModalFit& poorer, double chance = chance_of_modes) {
   const double unknowns = poorer.degrees_of_freedom - richer.degrees_of_freedom;
   return richer.converged && poorer.chi2 - richer.chi2 > chance * unknowns * std::max(1.0, richer.chi2_per_dof());
 }
@@ -69,12 +64,15 @@ std::complex<double> at_the_worst_line(const MeasuredLines& measured, const Moda
   return pole(2.0 * std::numbers::pi * measured.hz(worst), usual_damping);
 }
 
-/// True if all modes lie in the band and ring: what else lowers χ² stands for modes outside, as the residual terms do.
+/// True if all modes lie in the band, ring, and are not narrower than what lines can tell: what else lowers χ² stands
+/// for modes outside, as the residual terms do, or for the noise of a line.
 bool all_in_band(const MeasuredLines& measured, const ModalFit& fit) {
-  constexpr double heaviest = 0.5;
+  constexpr double heaviest = 0.5, narrowest = 0.05;  // the half width, in distances between lines
+  const double distance =
+      (measured.hz(measured.lines() - 1) - measured.hz(0)) / static_cast<double>(measured.lines() - 1);
   return std::all_of(fit.modes.begin(), fit.modes.end(), [&](const FittedMode& mode) {
     return mode.frequency_hz >= measured.hz(0) && mode.frequency_hz <= measured.hz(measured.lines() - 1) &&
-           mode.damping_ratio < heaviest;
+           mode.damping_ratio < heaviest && mode.damping_ratio * mode.frequency_hz > narrowest * distance;
   });
 }
 
@@ -143,7 +141,7 @@ void add_powers(const MeasuredLines& measured, ModalFitOptions& options, ModalFi
     ModalFitOptions more = options;
     ++more.terms.highest_power;
     ModalFit richer = modal_fit(measured, poles_of(fit), more);
-    if (!better(richer, fit)) return;
+    if (!better(richer, fit, chance_of_powers)) return;
     options = more;
     fit = std::move(richer);
   }

@@ -9,9 +9,6 @@
 
 namespace thinwall::identification {
 
-/// The poles of the modes of a fit, rad/s, in their order.
-[[nodiscard]] Eigen::VectorXcd poles_of(const ModalFit& fit);
-
 /// The choices of an identification; what is empty is found from the lines.
 struct IdentifyOptions {
   int highest_order = 30;              ///< of the stabilisation diagram; less where there are few lines
@@ -39,8 +36,9 @@ struct Identification {
 /// 4. where modes were added or left out, powers once more;
 /// 5. modal_fit() with the residues that were asked for.
 ///
-/// "By chance" is ten times the number of unknowns that are added, times χ² a degree of freedom where that is above 1.
-/// Throws InputError where no pole is stable, and as plscf() and modal_fit(). Cost: some ten to twenty fits.
+/// "By chance" is ten times the number of unknowns of modes that are added, three times that of powers, times χ² a
+/// degree of freedom where that is above 1. Powers that are missing would spoil the weights of what is small, and cost
+/// little. Throws InputError where no pole is stable, and as plscf() and modal_fit(). Cost: some ten to twenty fits.
 [[nodiscard]] Identification identify(const MeasuredLines& measured, const IdentifyOptions& options = {});
 
 }  // namespace thinwall::identification

@@ -54,7 +54,7 @@ std::vector<Eigen::MatrixXd> squares_off_neighbours(const Eigen::VectorXd& hz, c
   return squares;
 }
 
-double median(std::vector<double>& values) {
+double middle_of(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -69,7 +69,7 @@ Eigen::ArrayXd medians(const Eigen::ArrayXd& values) {
   for (Eigen::Index k = 0; k < lines; ++k) {
     const auto first = values.begin() + std::clamp<Eigen::Index>(k - around, 0, lines - width);
     window.assign(first, first + width);
-    result(k) = median(window);
+    result(k) = middle_of(window);
   }
   return result;
 }

@@ -235,7 +235,7 @@ Found search(const Problem& p, Unknowns u, int most_steps) {
       Evaluation there = evaluate(p, next);
       const double gain = at.cost - there.cost;
       if (std::isfinite(there.cost) && gain >= 0.0) {
-        const bool done = step.head(2 * u.modes()).cwiseAbs().maxCoeff() < settled || gain <= 1e-14 * at.cost;
+        const bool done = step.head(2 * u.modes()).cwiseAbs().maxCoeff() < settled || gain <= 1e-12 * at.cost;
         u = next;
         at = std::move(there);
         damping = std::max(1e-12, 0.1 * damping);
@@ -326,6 +326,13 @@ void require_start(const MeasuredLines& measured, const Eigen::VectorXcd& start,
 
 }  // namespace
 
+ResidualTerms terms_named(const std::string& word) {
+  if (word == "none") return {false, -1};
+  if (word == "constant") return {false, 0};
+  if (word.size() == 1 && word[0] >= '0' && word[0] <= '6') return {true, word[0] - '0'};
+  throw core::InputError("\"" + word + "\" names no terms; write none, constant, or the highest power of s, 0 to 6");
+}
+
 std::complex<double> FittedMode::pole() const {
   const double omega = 2.0 * std::numbers::pi * frequency_hz;
   return {-damping_ratio * omega, omega * std::sqrt(1.0 - damping_ratio * damping_ratio)};
@@ -390,6 +397,12 @@ ModalFit modal_fit(const MeasuredLines& measured, const Eigen::VectorXcd& start,
   }
   take_terms(problem, found, fit);
   return fit;
+}
+
+Eigen::VectorXcd poles_of(const ModalFit& fit) {
+  Eigen::VectorXcd poles(static_cast<Eigen::Index>(fit.modes.size()));
+  for (std::size_t i = 0; i < fit.modes.size(); ++i) poles(static_cast<Eigen::Index>(i)) = fit.modes[i].pole();
+  return poles;
 }
 
 Eigen::MatrixXcd value(const ModalFit& fit, double hz) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <string>
 #include <vector>
 
 #include "identification/measured_lines.hpp"
@@ -15,6 +16,10 @@ struct ResidualTerms {
   bool inertia = true;    ///< LR/s², free motion and modes below the band
   int highest_power = 1;  ///< of s, −1 to 6: −1 for none
 };
+
+/// The terms of a word: "none", "constant" (c_0 alone, for a model that other stages take), or the highest power of s,
+/// "0" to "6", beside LR/s². Throws InputError for another one.
+[[nodiscard]] ResidualTerms terms_named(const std::string& word);
 
 /// The form of the residues.
 enum class Residues {
@@ -71,6 +76,9 @@ struct ModalFit {
 /// residues of a matrix that is not square. Cost: steps × entries × lines × (2 modes + terms)².
 [[nodiscard]] ModalFit modal_fit(const MeasuredLines& measured, const Eigen::VectorXcd& start,
                                  const ModalFitOptions& options = {});
+
+/// The poles of the modes, rad/s, Im > 0.
+[[nodiscard]] Eigen::VectorXcd poles_of(const ModalFit& fit);
 
 /// The model at a line, responses × references, m/N.
 [[nodiscard]] Eigen::MatrixXcd value(const ModalFit& fit, double hz);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "core/error.hpp"
 #include "identification/identify.hpp"
@@ -84,6 +85,32 @@ TEST(Identify, TakesTheTermsThatAreMissing) {
   EXPECT_GE(beside.terms.highest_power, 2);
   EXPECT_NEAR(beside.fit.chi2_per_dof(), 1.0, 0.1);
   ASSERT_EQ(beside.fit.modes.size(), 4u);
+}
+
+/// A further power would lower χ² by no more than five times the number of its unknowns, which chance does not reach,
+/// unless there is none.
+TEST(Identify, LeavesOutNoPowerThatMatters) {
+  for (unsigned seed = 40; seed < 52; ++seed) {
+    Draw draw(seed);
+    auto truth = testing::random_modes(draw, 3, 2, 2);
+    for (const auto& [number, hz, size, zeta] : {std::tuple{1, 600.0, 1.0, 0.06}, std::tuple{0, 900.0, 2.0, 0.08}}) {
+      FittedMode above = truth[static_cast<std::size_t>(number)];
+      above.frequency_hz = hz;
+      above.damping_ratio = zeta;
+      above.residue *= size;
+      truth.push_back(above);
+    }
+    const MeasuredLines measured = testing::lines_of(truth, 250, 0.01, draw);
+    const Identification found = identify(measured);
+    if (found.terms.highest_power == 5) continue;
+    Eigen::VectorXcd poles(static_cast<Eigen::Index>(found.fit.modes.size()));
+    for (Eigen::Index i = 0; i < poles.size(); ++i) poles(i) = found.fit.modes[static_cast<std::size_t>(i)].pole();
+    ModalFitOptions options{found.terms, Residues::free};
+    const ModalFit poorer = modal_fit(measured, poles, options);
+    ++options.terms.highest_power;
+    const ModalFit richer = modal_fit(measured, poles, options);
+    EXPECT_LT(poorer.chi2 - richer.chi2, 5.0 * (poorer.degrees_of_freedom - richer.degrees_of_freedom)) << seed;
+  }
 }
 
 /// Residues of modes that are not reciprocal do not pass as symmetric.
