@@ -1,6 +1,5 @@
 #include "regression/averaged_process.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "regression/gaussian_process.hpp"
 #include "regression/kernel.hpp"
@@ -46,9 +46,10 @@ struct Posterior {
     }
     Eigen::MatrixXd K = at.L(0, 0) * at.L(0, 0) * correlation(kernel, r2);
     K.diagonal().array() += at.noise_sd(0) * at.noise_sd(0) + jitter;
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(K);
-    if (factor.info() != Eigen::Success || !K.diagonal().allFinite()) return -std::numeric_limits<double>::infinity();
-    return -0.5 * factor.matrixL().solve(y).squaredNorm() - K.diagonal().array().log().sum() -
+    const Eigen::LLT<Eigen::MatrixXd> factor(K);
+    const auto diagonal = factor.matrixLLT().diagonal();
+    if (factor.info() != Eigen::Success || !diagonal.allFinite()) return -std::numeric_limits<double>::infinity();
+    return -0.5 * factor.matrixL().solve(y).squaredNorm() - diagonal.array().log().sum() -
            0.5 * (theta - mean).cwiseQuotient(deviation).squaredNorm();
   }
 };
