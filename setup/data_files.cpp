@@ -102,10 +102,8 @@ void share_data_files(Setup& varied, const Setup& read) {
 }
 
 void tell_of_data_files(const Setup& source) {
-  if (const auto* robot = tabled_robot(source); robot != nullptr && robot->learned) {
+  if (const auto* robot = tabled_robot(source); robot != nullptr && robot->learned)
     core::inform(robot->learned->summary);
-    for (const std::string& doubt : robot->learned->doubts) core::warn(doubt);
-  }
   std::set<std::string> told;  // a file of several FRFs is told of once
   for (const MeasuredFrf* frf : measured_frfs(source)) {
     if (!frf->content) continue;

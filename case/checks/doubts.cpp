@@ -111,6 +111,9 @@ std::vector<std::string> doubts_about(const Case& source) {
   ask_about_materials(source, doubts);
   ask_about_robot_damping(source, doubts);
   ask_about_turns(source, doubts);
+  if (const auto* robot = source.robot ? std::get_if<setup::TabledRobot>(&source.robot->model) : nullptr;
+      robot != nullptr && robot->learned)
+    doubts.insert(doubts.end(), robot->learned->doubts.begin(), robot->learned->doubts.end());
   if (source.urdf_arm) doubts.insert(doubts.end(), source.urdf_arm->assumed.begin(), source.urdf_arm->assumed.end());
   return doubts;
 }

@@ -55,6 +55,7 @@ COARSE = {  # what makes a case quick, if no page of the docs shows it anyway
     "huynh-2017": ("lobes.count=3", "simulation.settling_turns=20"),
     "huynh-2017-support": ("part.mesh.tolerance=0.05", "path.positions=3", "lobes.count=3"),
     "irb6660-measured": ("part.mesh.tolerance=0.05", "lobes.count=3"),
+    "posture-map": ("lobes.count=20",),
     "pocketed-rib": ("part.mesh.tolerance=0.1", "lobes.count=10"),
 }
 
@@ -152,6 +153,12 @@ def test_irb6660_measured(run_case):
     shares = [a / b for a, b in zip(*depths)]
     assert all(0.93 < share < 1.05 for share in shares)  # recorded: −2 to +6 % without cross terms
     assert shares[0] != 1  # at 6000 rpm they change nothing that is printed
+
+
+def test_posture_map(run_case):
+    text = example(run_case, "posture-map")
+    assert number(r"mode +([\d.]+) Hz", text) == pytest.approx(FIRST, rel=0.01)  # the truth at that posture
+    assert number(r"chatter at ([\d.]+) Hz", text) < 20  # a mode of the arm
 
 
 def test_pocketed_rib(run_case):

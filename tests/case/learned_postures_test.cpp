@@ -1,0 +1,122 @@
+// A robot that is known by tables of modes at postures, and asked for at another.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "case/checks/doubts.hpp"
+#include "case/reader.hpp"
+#include "core/error.hpp"
+#include "setup/robot_tip.hpp"
+#include "tests/core/temporary_folder.hpp"
+
+namespace thinwall::cases::learned_postures_test {
+namespace {
+
+/// A robot whose two modes cross over the posture u, 0 … 4: frequencies in closed form, shapes along x and along y.
+struct ClosedForm {
+  static double first_hz(double u) { return 20.0 * std::exp(0.05 * u); }
+  static double second_hz(double u) { return 24.0 * std::exp(-0.04 * u); }
+  static double damping(double u) { return 0.02 + 0.002 * u; }
+};
+
+std::string row(double hz, double damping, double along_x) {
+  const std::string x = std::to_string(along_x), y = std::to_string(1.0 - along_x);
+  return std::to_string(hz) + "," + std::to_string(damping) + "," + x + ",0,0,-" + x + "," + y + ",0,0,-" + y + "\n";
+}
+
+/// Writes tables of `count` postures, each mode in the line of its rank.
+void write_postures(const std::filesystem::path& folder, int count) {
+  std::ofstream list(folder / "postures.csv");
+  list << "posture,u,same\n";
+  for (int i = 0; i < count; ++i) {
+    const double u = 4.0 * i / (count - 1);
+    list << "p" << i << "," << u << ",1\n";
+    std::ofstream table(folder / ("p" + std::to_string(i) + ".csv"));
+    table << "frequency_hz,damping_ratio,R_1X_re,R_1X_im,L_1X_re,L_1X_im,R_1Y_re,R_1Y_im,L_1Y_re,L_1Y_im\n";
+    const std::string first = row(ClosedForm::first_hz(u), ClosedForm::damping(u), 0.9);
+    const std::string second = row(ClosedForm::second_hz(u), ClosedForm::damping(u), 0.1);
+    table << (ClosedForm::first_hz(u) < ClosedForm::second_hz(u) ? first + second : second + first);
+  }
+}
+
+std::string robot(const std::string& keys) {
+  return "[robot]\nmodel = \"modal_table\"\ncarries = \"tool\"\npostures = \"postures.csv\"\n" + keys +
+         "[tool]\nteeth = 2\ndiameter = \"10 mm\"\n[cutting]\nradial_depth = \"5 mm\"\nKt = \"600 N/mm^2\"\n";
+}
+
+const std::string usual = "table = \"{posture}.csv\"\nover = [\"u\"]\n";
+
+std::shared_ptr<const dynamics::ModalTable> modes(const Case& source) {
+  return std::get<setup::TabledRobot>(source.robot->model).table_modes;
+}
+
+TEST(LearnedPostures, FollowModesThroughACrossingToAPostureBetween) {
+  const tests::TemporaryFolder folder;
+  write_postures(folder.path, 9);
+  for (const double u : {0.75, 1.25, 3.25}) {
+    const Case source = parse_case(robot(usual + "at = [" + std::to_string(u) + "]\n"), folder.path);
+    ASSERT_TRUE(modes(source));
+    const auto found = [&](double hz) {
+      double nearest = HUGE_VAL;
+      for (const dynamics::ModalTableRow& mode : modes(source)->rows)
+        nearest = std::min(nearest, std::abs(mode.frequency_hz / hz - 1.0));
+      return nearest;
+    };
+    EXPECT_LT(found(ClosedForm::first_hz(u)), 1e-3) << u;
+    EXPECT_LT(found(ClosedForm::second_hz(u)), 1e-3) << u;
+    EXPECT_TRUE(doubts_about(source).empty()) << doubts_about(source)[0];
+    for (const dynamics::ModalTableRow& mode : modes(source)->rows)
+      EXPECT_NEAR(mode.damping_ratio, ClosedForm::damping(u), 2e-4);
+  }
+}
+
+TEST(LearnedPostures, BeyondTheirHullAreDoubted) {
+  const tests::TemporaryFolder folder;
+  write_postures(folder.path, 6);
+  const Case source = parse_case(robot(usual + "at = [5]\n"), folder.path);
+  ASSERT_EQ(doubts_about(source).size(), 1U);
+  // 1 of a range of 4
+  EXPECT_NE(doubts_about(source)[0].find("robot.at lies 25 % of the postures' range beyond"), std::string::npos)
+      << doubts_about(source)[0];
+}
+
+/// The error of a case, "" without one.
+std::string refusal(const std::string& keys, const std::filesystem::path& folder) {
+  try {
+    (void)parse_case(robot(keys), folder);
+  } catch (const core::Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(LearnedPostures, RefuseWhatCannotBeLearnedFrom) {
+  const tests::TemporaryFolder folder;
+  write_postures(folder.path, 6);
+  const auto told = [&](const std::string& keys, const std::string& words) {
+    EXPECT_NE(refusal(keys, folder.path).find(words), std::string::npos) << refusal(keys, folder.path);
+  };
+  told("table = \"p0.csv\"\nover = [\"u\"]\nat = [1]\n", "{posture}");
+  told(usual, "robot.over has 1 columns and robot.at 0 numbers");
+  told(usual + "at = [1, 2]\n", "robot.at 2 numbers");
+  told("table = \"{posture}.csv\"\nover = [\"v\"]\nat = [1]\n", "no column \"v\"; it has posture, u, same");
+  told("table = \"{posture}.csv\"\nover = [\"same\"]\nat = [1]\n", "is the same at all postures");
+  told("table = \"modes_{posture}.csv\"\nover = [\"u\"]\nat = [1]\n", "modes_p0.csv");
+  std::filesystem::remove(folder.path / "postures.csv");
+  told(usual + "at = [1]\n", "postures.csv");
+}
+
+TEST(LearnedPostures, OfTooFewPosturesLearnNothing) {
+  const tests::TemporaryFolder folder;
+  write_postures(folder.path, 3);
+  const std::string told = refusal(usual + "at = [1]\n", folder.path);
+  EXPECT_NE(told.find("no mode was seen at enough of the 3 postures"), std::string::npos) << told;
+}
+
+}  // namespace
+}  // namespace thinwall::cases::learned_postures_test
