@@ -7,6 +7,7 @@
 #include "linalg/block_lanczos.hpp"
 #include "linalg/bracketed_root.hpp"
 #include "linalg/complex_eigenvalues.hpp"
+#include "linalg/complex_lu.hpp"
 #include "linalg/eigenpair_check.hpp"
 #include "linalg/eigenpairs.hpp"
 #include "linalg/inverse_iteration.hpp"

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <utility>
 
-#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "linalg/complex_lu.hpp"
 
 namespace thinwall::milling {
 
@@ -27,12 +27,12 @@ Eigenpair started_at(Index n, complex<double> nu) {
 }
 
 /// LU of −Z − ν.
-Eigen::PartialPivLU<Eigen::MatrixXcd> factored(const Eigen::MatrixXcd& Z, complex<double> nu) {
+linalg::ComplexLu factored(const Eigen::MatrixXcd& Z, complex<double> nu) {
   core::check_interrupt();
   Eigen::MatrixXcd shifted = -Z;
   // Off by round-off, so that nothing is divided by an exact zero.
   shifted.diagonal().array() -= nu + 1e-14 * std::abs(nu);
-  return Eigen::PartialPivLU<Eigen::MatrixXcd>(shifted);
+  return linalg::ComplexLu(std::move(shifted));
 }
 
 /// −lᵀ Z r / lᵀ r: an error ε of the vectors leaves one of ε² in ν.
@@ -41,9 +41,9 @@ complex<double> rayleigh(const Eigenpair& pair, const Eigen::MatrixXcd& Z) {
 }
 
 /// One inverse iteration on both sides. False if a vector overflows.
-bool improve(const Eigen::MatrixXcd& Z, const Eigen::PartialPivLU<Eigen::MatrixXcd>& lu, Eigenpair& pair) {
-  pair.right = lu.solve(pair.right).normalized().eval();
-  pair.left = lu.transpose().solve(pair.left).normalized().eval();
+bool improve(const Eigen::MatrixXcd& Z, const linalg::ComplexLu& lu, Eigenpair& pair) {
+  pair.right = lu.solve(pair.right).normalized();
+  pair.left = lu.solve_transposed(pair.left).normalized();
   pair.nu = rayleigh(pair, Z);
   return pair.right.allFinite() && pair.left.allFinite() && std::isfinite(std::abs(pair.nu));
 }
@@ -52,7 +52,7 @@ bool improve(const Eigen::MatrixXcd& Z, const Eigen::PartialPivLU<Eigen::MatrixX
 /// False if a vector overflows.
 bool improve(const GainOnCircle& gain, double theta, int solves, Eigenpair& pair) {
   const Eigen::MatrixXcd Z = gain.Z(theta);
-  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu = factored(Z, pair.nu);
+  const linalg::ComplexLu lu = factored(Z, pair.nu);
   for (int i = 0; i < solves; ++i) {
     if (!improve(Z, lu, pair)) return false;
   }
@@ -76,7 +76,7 @@ Eigenpair eigenpair_near(const GainOnCircle& gain, double theta, complex<double>
   Eigenpair pair = started_at(gain.size, guess);
   complex<double> before = INFINITY;
   for (int factorisation = 0; factorisation < most_factorisations; ++factorisation) {
-    const Eigen::PartialPivLU<Eigen::MatrixXcd> lu = factored(Z, pair.nu);
+    const linalg::ComplexLu lu = factored(Z, pair.nu);
     for (int solve = 0; solve < solves_of_each; ++solve) {
       if (!improve(Z, lu, pair)) throw not_found();
       if (std::abs(std::exchange(before, pair.nu) - pair.nu) > 1e-12 * std::abs(pair.nu)) continue;
