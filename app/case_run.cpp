@@ -85,12 +85,22 @@ report::Summary summary_of(const cases::Case& source, const study::Results& resu
   return summary;
 }
 
+/// The expectations of a case, without those of a simulation that it has and `lobes` leaves out.
+std::vector<cases::Expectation> expectations_of(const cases::Case& source) {
+  std::vector<cases::Expectation> all = cases::read_expectations(source.file);
+  const bool left_out = !source.simulation && std::ranges::any_of(source.values, [](const cases::CaseValue& value) {
+    return value.key.starts_with("simulation.");
+  });
+  if (left_out) std::erase_if(all, [](const auto& expected) { return expected.quantity.starts_with("simulation."); });
+  return all;
+}
+
 }  // namespace
 
 RunResult run_case(const cases::Case& source, const RunOptions& options) {
   const std::string started = now_utc();
   tell_of_first_run(source, options);
-  const auto expectations = cases::read_expectations(source.file);
+  const auto expectations = expectations_of(source);
   messages_to_log();
   for (const std::string& doubt : cases::doubts_about(source)) core::warn(doubt);
   StageDisplay display(options.progress      ? ProgressDisplay::line

@@ -114,6 +114,20 @@ TEST(Simulate, TellsAVibrationThatOutgrowsTheCutter) {
   EXPECT_FALSE(fs::exists(folder / "out/simulation/tool-1.csv"));
 }
 
+/// `lobes` leaves the simulation of a case out, and what is expected of it.
+TEST(Simulate, ItsFiguresAreNotExpectedOfLobes) {
+  const fs::path folder = scratch("simulate_expected");
+  std::ofstream(folder / "case.toml") << tool_case
+                                      << "count = 2\nmost_added = 0\n[simulation]\nat = \"11000 rpm, 1 mm\"\n";
+  std::ofstream(folder / "expected.toml")
+      << "[[expect]]\nname = \"speed\"\nquantity = "
+         "\"simulation.points[0].spindle_speed_rpm\"\nvalue = 11000\nrelative = 1e-9\norigin = \"here\"\n";
+  const std::string file = (folder / "case.toml").string(), out = (folder / "out").string();
+  const char* words[] = {"thinwall", "lobes", file.c_str(), "--out", out.c_str(), "-q"};
+  std::ostringstream said, err;
+  EXPECT_EQ(app::run_command_line(6, words, app::run_case, said, err), 0) << said.str() << err.str();
+}
+
 /// A problem is told of the option that the user gave, not of a key that stands nowhere.
 TEST(Simulate, TellsProblemsOfItsOptions) {
   const fs::path folder = scratch("simulate_options");

@@ -164,7 +164,7 @@ function map(runs) {
   const state = { at: 0 };
   const title = ({ run, m }) => `${runs.length > 1 ? `${run.label}: ` : ''}${lobeTitle(m.name)}`;
   const chart = plot({ name: 'simulation-map', label: 'Vibration over speed and depth', build: (colours, narrow) => mapOf(maps[state.at], colours, narrow), columns: () => mapColumns(maps[state.at].m) });
-  const left = maps.map(({ run, m }) => run.summary.simulation.maps.find((s) => s.chart === m.name)).reduce((sum, s) => sum + (s?.points_unsettled ?? 0), 0);
+  const left = maps.map(({ run, m }) => run.summary.simulation?.maps?.find((s) => s.chart === m.name)).reduce((sum, s) => sum + (s?.points_unsettled ?? 0), 0);
   const note = left > 0 && el('p', { class: 'lead' }, `At ${left} points forces within steps did not settle; they are left blank.`);
   return folded('Vibration over speed and depth', chart, maps.length > 1 && el('div', { class: 'controls' }, choice('Map of', maps.map((m, i) => [i, title(m)]), 0, (v) => { state.at = Number(v); chart.draw(); })), note, chart.figure);
 }
