@@ -10,6 +10,7 @@
 #include "setup/cutting.hpp"
 #include "setup/data_files.hpp"
 #include "setup/fit.hpp"
+#include "setup/fitted_tip.hpp"
 #include "setup/graded_mesh.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/loose_pieces.hpp"

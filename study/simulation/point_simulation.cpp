@@ -214,8 +214,9 @@ void require_simulation(const setup::Setup& setup, const std::vector<milling::Op
     throw core::InputError(
         "simulation: chips depend on the feed; give cutting.feed_per_tooth, or cutting.feed_rate and "
         "cutting.spindle_speed");
-  if (!setup.tool->measured.empty() || setup.tool->swap)
-    throw core::InputError("tool.measured: a simulation needs poles, and measured lines have none; give tool.modes");
+  if (setup::known_by_lines(*setup.tool))
+    throw core::InputError(
+        "tool.measured: a simulation needs poles, and measured lines have none; give tool.fit = true, or tool.modes");
   if (setup.simulation->paths != setup::ToothPaths::circular && !setup.cutting->radial_depth)
     throw core::InputError(
         "cutting.radial_depth: not given; exact paths need it, for angles of entry and exit do not "
