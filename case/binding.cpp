@@ -295,6 +295,7 @@ setup::Tool bind_tool(const Table& table, const std::filesystem::path& folder) {
   if (tool.helices.size() == 1) tool.helices.resize(static_cast<std::size_t>(tool.teeth), tool.helices.front());
   tool.modes = bind_modes(table.tables("modes"));
   tool.measured = bind_all_measured(table.tables("measured"), folder);
+  tool.fit = table.flag("fit");
   if (const Table swap = table.table("swap"); swap.exists()) tool.swap = bind_swap(swap, folder);
   for (setup::MeasuredFrf& frf : tool.measured) {
     for (std::string* dof : {&frf.response, &frf.force}) {

@@ -31,6 +31,7 @@ PYBIND11_MODULE(_core, module) {
   bind_reduction(module);
   bind_robot(module);
   bind_coupling(module);
+  bind_identification(module);
   bind_milling(module);
   bind_simulation(module);
   bind_io(module);

@@ -9,6 +9,7 @@
 #include "core/messages.hpp"
 #include "setup/believed_lines.hpp"
 #include "setup/contact_model.hpp"
+#include "setup/identified/fitted_tip.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/measured.hpp"
 #include "setup/robot_tip.hpp"
@@ -74,6 +75,8 @@ void read_data_files(Setup& source) {
   }
   if (source.tool) take_common_band(source.tool->measured);
   if (source.tool && source.tool->swap) take_common_band(source.tool->swap->measured);
+  if (source.tool && source.tool->fit && !source.tool->fitted)
+    source.tool->fitted = std::make_shared<const FittedTip>(fitted_tip(*source.tool));
   for (SupportContact& contact : source.contacts) {
     if (auto* tabled = std::get_if<TabledContact>(&contact.model); tabled != nullptr && !tabled->rows)
       tabled->rows = std::make_shared<const coupling::ContactTable>(read_contact_table(tabled->table));
@@ -87,6 +90,7 @@ void share_data_files(Setup& varied, const Setup& read) {
   const std::vector<MeasuredFrf*> to = measured_frfs(varied);
   const std::vector<const MeasuredFrf*> from = measured_frfs(read);
   for (std::size_t i = 0; i < std::min(to.size(), from.size()); ++i) to[i]->content = from[i]->content;
+  if (varied.tool && read.tool && varied.tool->fit) varied.tool->fitted = read.tool->fitted;
   for (std::size_t i = 0; i < std::min(varied.contacts.size(), read.contacts.size()); ++i) {
     auto* tabled = std::get_if<TabledContact>(&varied.contacts[i].model);
     const auto* with_rows = std::get_if<TabledContact>(&read.contacts[i].model);
@@ -112,6 +116,9 @@ void tell_of_data_files(const Setup& source) {
     for (const std::string& warning : frf->content->warnings)
       if (told.insert(warning).second) core::warn(warning);
   }
+  if (!source.tool || !source.tool->fitted) return;
+  for (const std::string& note : source.tool->fitted->notes) core::inform(note);
+  for (const std::string& warning : source.tool->fitted->warnings) core::warn(warning);
 }
 
 }  // namespace thinwall::setup

@@ -18,7 +18,7 @@
 #include "robot/measured.hpp"
 #include "robot/modal_table.hpp"
 #include "robot/one_mode.hpp"
-#include "setup/learned_modes.hpp"
+#include "setup/identified/learned_modes.hpp"
 #include "setup/measured.hpp"
 #include "setup/part_geometry.hpp"
 #include "setup/sensor_mass.hpp"

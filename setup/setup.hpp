@@ -11,6 +11,7 @@
 #include "setup/data_files.hpp"
 #include "setup/fit.hpp"
 #include "setup/graded_mesh.hpp"
+#include "setup/identified/fitted_tip.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/loose_pieces.hpp"
 #include "setup/machining_setup.hpp"

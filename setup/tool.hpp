@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/words.hpp"
+#include "dynamics/modal_model.hpp"
 #include "setup/measured_frf.hpp"
 #include "setup/robot.hpp"
 
@@ -42,6 +43,12 @@ struct ToolSwap {
   std::vector<ToolStep> reference, target;
 };
 
+/// The modes that were fitted to a measured tip, DOFs tool.x …, and what is to be said of the fit.
+struct FittedTip {
+  dynamics::ModalModel model;
+  std::vector<std::string> notes, warnings;
+};
+
 /// The cutter, and the motion of its tip.
 struct Tool {
   int teeth = 0;
@@ -55,9 +62,16 @@ struct Tool {
   double corner_radial = 0.0, corner_axial = 0.0;  ///< m
   double tip_angle = 0.0, taper = 0.0;             ///< rad
   std::vector<TipMode> modes;
-  std::vector<MeasuredFrf> measured;  ///< DOFs "tool.x", "tool.y", "tool.z"
+  std::vector<MeasuredFrf> measured;             ///< DOFs "tool.x", "tool.y", "tool.z"
+  bool fit = false;                              ///< poles are fitted to `measured` and stand in its place
+  std::shared_ptr<const FittedTip> fitted = {};  ///< these, once files are read (setup/data_files.hpp)
   std::optional<ToolSwap> swap;
 };
+
+/// True of a tool whose tip has no poles of its own: measured lines that are not fitted, or a swapped tool.
+[[nodiscard]] inline bool known_by_lines(const Tool& tool) {
+  return (!tool.measured.empty() && !tool.fit) || tool.swap.has_value();
+}
 
 }  // namespace thinwall::setup
 

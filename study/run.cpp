@@ -187,7 +187,7 @@ void find_contact_limit(const setup::Setup& work, const milling::MillingProcess&
                         const ContactForceOf& force_of) {
   StructureLobes& chart = results.lobes.back();
   const auto feed = setup::feed_per_tooth(work);
-  if (!chart.at_spindle_speed || !feed || !results.coupled->modal || work.tool->swap || !work.tool->measured.empty() ||
+  if (!chart.at_spindle_speed || !feed || !results.coupled->modal || setup::known_by_lines(*work.tool) ||
       !(chart.at_spindle_speed->limiting_depth_m > 0.0))
     return;
   const auto poles = cut_poles(work, &*results.coupled->modal);
@@ -243,7 +243,7 @@ const dynamics::ModalModel* modes_or_null(const std::optional<Component>& compon
 
 /// The poles of which a chart is; none if it is of samples.
 std::optional<milling::RelativeStructure> poles_of(const setup::Setup& work, ChartOf chart, const Results& results) {
-  if (work.tool->swap || !work.tool->measured.empty()) return std::nullopt;
+  if (setup::known_by_lines(*work.tool)) return std::nullopt;
   if (chart == ChartOf::tool) return cut_poles(work, nullptr);
   if (chart == ChartOf::carried) return cut_poles(work, modes_or_null(results.part), &carrier_modes(*results.robot));
   const auto& modal = chart == ChartOf::part ? results.part->modal : results.coupled->modal;

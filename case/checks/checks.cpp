@@ -274,7 +274,8 @@ void check_cutting(const Case& source, Findings& findings) {
 
 void check_lobes(const Case& source, Findings& findings) {
   const setup::LobesOptions& lobes = *source.lobes;
-  if (source.tool && (!source.tool->measured.empty() || source.tool->swap)) check_measured_tool(*source.tool, findings);
+  if (source.tool && (!source.tool->measured.empty() || source.tool->swap || source.tool->fit))
+    check_measured_tool(*source.tool, findings);
   if (!source.cutting) findings.report("lobes", "there is no cut; add [cutting]");
   check_chart_choices(source, findings);
   if (source.part ? !setup::may_be_held(*source.part) : !source.measured_part.empty()) {

@@ -53,9 +53,10 @@ milling::MillingProcess outline_of(const Case& source) {
 
 void check_method(const Case& source, const std::string& key, milling::Method method, Findings& findings) {
   if (method == milling::Method::direct) return;
-  if (source.tool && (!source.tool->measured.empty() || source.tool->swap)) {
-    findings.report(key, "\"" + milling::name(method) +
-                             "\" needs poles, tool.measured has none; take \"direct\", or give tool.modes");
+  if (source.tool && setup::known_by_lines(*source.tool)) {
+    findings.report(
+        key, "\"" + milling::name(method) +
+                 "\" needs poles, tool.measured has none; take \"direct\", or give tool.fit = true or tool.modes");
     return;
   }
   const std::string why = milling::objection(method, outline_of(source));
@@ -96,8 +97,8 @@ void check_noise_samples(const Case& source, Findings& findings) {
   if (source.cutting && !source.cutting->spindle_speed_rpm)
     findings.report("lobes.noise_samples", "draws are made at the case's own speed; give cutting.spindle_speed");
   const auto* robot = source.robot ? std::get_if<setup::MeasuredRobot>(&source.robot->model) : nullptr;
-  const bool noisy = (source.tool && any_noise(source.tool->measured)) || setup::any_noise(source.measured_part) ||
-                     (robot != nullptr && any_noise(robot->measured));
+  const bool noisy = (source.tool && setup::known_by_lines(*source.tool) && any_noise(source.tool->measured)) ||
+                     setup::any_noise(source.measured_part) || (robot != nullptr && any_noise(robot->measured));
   if (!noisy)
     findings.report("lobes.noise_samples",
                     "nothing is noisy; give noise or averages of measured FRFs of tool, part or robot, or remove it");
@@ -110,10 +111,10 @@ void check_chart_choices(const Case& source, Findings& findings) {
   check_method_keys(lobes, findings);
   check_method(source, "lobes.method", lobes.method, findings);
   check_compared(source, findings);
-  if (source.tool && (!source.tool->measured.empty() || source.tool->swap)) {
+  if (source.tool && setup::known_by_lines(*source.tool)) {
     for (const char* key : {"lobes.map_depths", "lobes.uncertainty"}) {
       if (findings.given(key) || has_table(findings.values, key))
-        findings.report(key, "needs poles, tool.measured has none; remove it, or give tool.modes");
+        findings.report(key, "needs poles, tool.measured has none; remove it, or give tool.fit = true or tool.modes");
     }
   }
   if (lobes.robust) check_robust(lobes, findings);

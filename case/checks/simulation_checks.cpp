@@ -44,10 +44,9 @@ void check_points(const Case& source, Findings& findings) {
 }
 
 void check_structures(const Case& source, Findings& findings) {
-  if (source.tool && (!source.tool->measured.empty() || source.tool->swap))
+  if (source.tool && setup::known_by_lines(*source.tool))
     findings.report("simulation",
-                    "tool.measured has no poles, and a simulation needs them; fit modes to it and give "
-                    "tool.modes");
+                    "tool.measured has no poles, and a simulation needs them; give tool.fit = true, or tool.modes");
   if (!source.measured_part.empty())
     findings.report("simulation",
                     "part.measured has no poles, and a simulation needs them; describe the part "

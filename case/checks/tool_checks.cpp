@@ -35,6 +35,9 @@ void check_measured_tool(const setup::Tool& tool, Findings& findings) {
   if (tool.swap) check_swap(tool, findings);
   if (!tool.modes.empty() && !tool.measured.empty())
     findings.report("tool.measured", "give either tool.modes or tool.measured, not both");
+  if (tool.fit && tool.measured.empty())
+    findings.report("tool.fit",
+                    "finds poles of [[tool.measured]], of which there is none; give the FRFs, or remove it");
   for (std::size_t i = 0; i < tool.measured.size(); ++i) {
     const auto& frf = tool.measured[i];
     const auto same = [&](const setup::MeasuredFrf& other) {

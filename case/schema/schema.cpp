@@ -300,6 +300,7 @@ constexpr Key case_keys[] = {
     Key{"tool.corner_axial", Type::quantity, kind::length, "", any, "", "Centre of the corner's arc above the tip, R_z; 0 if not given."},
     Key{"tool.tip_angle", Type::quantity, kind::angle, "", right_angle, "", "Cone at the tip, from the plane across the axis; 0 if not given."},
     Key{"tool.taper", Type::quantity, kind::angle, "", tilt, "", "Angle of the side from the axis, positive where it widens upwards; 0 if not given."},
+    Key{"tool.fit", Type::boolean, kind::number, "false", any, "", "Modes are fitted to `tool.measured` and stand in its place, so that all that needs poles works: semi-discretization, maps, robust limits, simulations (docs/theory/identification.md)."},
     Key{"tool.modes[].frequency", Type::quantity, kind::frequency, "", positive, "", "Natural frequency.", required},
     Key{"tool.modes[].damping_ratio", Type::quantity, kind::number, "", damping_ratio, "", "Damping ratio.", required},
     Key{"tool.modes[].stiffness", Type::quantity, kind::stiffness, "", positive, "", "Modal stiffness at the tip.", required},

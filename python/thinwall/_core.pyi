@@ -287,6 +287,16 @@ def receptances(model: SpatialModel | ModalModel, frequency_hz: ArrayLike) -> Re
 def couple(components: Sequence[SpatialModel], contacts: Contact | Sequence[Contact]) -> SpatialModel: ...
 @overload
 def couple(components: Sequence[Response], contacts: Contact | Sequence[Contact]) -> CoupledResponse: ...
+def fit_modes(
+    response: Response,
+    *,
+    residues: str = "rank_one",
+    terms: str | None = None,
+    band_hz: Sequence[float] | None = None,
+    noise: float | None = None,
+    coherence: ArrayLike | None = None,
+    averages: int | None = None,
+) -> dict[str, Any]: ...
 def route_difference(spatial: Response, receptance: Response) -> float: ...
 def lobes(
     structure: _Structure,

@@ -22,7 +22,12 @@ namespace thinwall::study {
 
 namespace {
 
+bool has_poles(const setup::Tool& tool) {
+  return !tool.modes.empty() || tool.fitted;
+}
+
 milling::RelativeStructure tool_modes(const setup::Tool& tool) {
+  if (tool.fitted) return milling::relative_structure(tool.fitted->model, "tool");
   return milling::relative_structure(dynamics::to_modal(robot::spatial_model(setup::one_modes(tool.modes), "tool")),
                                      "tool");
 }
@@ -79,6 +84,14 @@ milling::SampledReceptance in_tool_axes(milling::SampledReceptance tip, const mi
   return tip;
 }
 
+/// The poles that stand for a measured tip, on its lines.
+milling::SampledReceptance fitted_on_its_lines(const setup::Tool& tool) {
+  milling::SampledReceptance tip{setup::receptance_of(tool.measured.front()).axis.hz, {}};
+  const milling::RelativeStructure poles = tool_modes(tool);
+  for (const double hz : tip.frequency_hz) tip.H.emplace_back(milling::receptance(poles, 2.0 * std::numbers::pi * hz));
+  return tip;
+}
+
 /// The fit, with a warning where the lines are those of no passive structure.
 milling::FittedStructure fitted(const milling::SampledReceptance& tip,
                                 const std::optional<milling::RelativeStructure>& poles, const milling::ToolFrame& frame,
@@ -121,13 +134,14 @@ std::optional<milling::RelativeStructure> cut_poles(const setup::CutSetup& sourc
   std::optional<milling::RelativeStructure> poles;
   const auto add = [&](const milling::RelativeStructure& more) { poles = poles ? milling::sum(*poles, more) : more; };
   if (part != nullptr) add(part_structure(source, *part));
-  if (!source.tool->modes.empty()) add(tool_modes(*source.tool));
+  if (has_poles(*source.tool)) add(tool_modes(*source.tool));
   if (carrier != nullptr) add(milling::relative_structure(*carrier, carrier->dofs.front().point));
   return poles;
 }
 
 std::optional<milling::SampledReceptance> synthesised_tip(const setup::CutSetup& source,
                                                           const CutStructure& structure) {
+  if (source.tool->fitted) return fitted_on_its_lines(*source.tool);
   const auto* fit = std::get_if<milling::FittedStructure>(&structure);
   if (fit == nullptr || (!source.tool->swap && source.tool->measured.empty())) return std::nullopt;
   milling::SampledReceptance tip{fit->lines.samples.frequency_hz, {}};
@@ -149,10 +163,10 @@ milling::FittedStructure sampled_structure(const setup::CutSetup& source, const 
   warn_if_implausible(felt, "the supported part's");
   if (source.tool->swap) throw core::InputError("a swapped tool has lines of its own; give the tool by modes");
   std::optional<milling::RelativeStructure> tool;
-  if (!source.tool->measured.empty()) {
+  if (setup::known_by_lines(*source.tool)) {
     const milling::SampledReceptance tip = measured_tip(source.tool->measured, coupled.axis);
     for (std::size_t line = 0; line < felt.H.size(); ++line) felt.H[line] += tip.H[line];
-  } else if (!source.tool->modes.empty()) {
+  } else if (has_poles(*source.tool)) {
     tool = tool_modes(*source.tool);
   }
   return fitted(felt, tool, frame, "the supported part's");
@@ -166,7 +180,7 @@ CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFra
 CutStructure cut_structure(const setup::CutSetup& source, const milling::ToolFrame& frame,
                            const std::optional<milling::RelativeStructure>& modal) {
   if (source.tool->swap) return fitted(swapped(source), modal, frame, "the swapped tool's");
-  if (!source.tool->measured.empty()) {
+  if (setup::known_by_lines(*source.tool)) {
     const dynamics::FrequencyAxis& lines = setup::receptance_of(source.tool->measured.front()).axis;
     milling::SampledReceptance tip = measured_tip(source.tool->measured, lines);
     warn_if_implausible(tip, "the tool's");

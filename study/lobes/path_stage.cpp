@@ -58,17 +58,13 @@ std::vector<coupling::Contact> contacts_at(const std::vector<setup::JoinedContac
   return contacts;
 }
 
-bool known_by_lines(const setup::Tool& tool) {
-  return !tool.measured.empty() || tool.swap.has_value();
-}
-
 StructuresAlongPath structures_along_path(const PathInput& input, const Results& results,
                                           const milling::ToolFrame& frame) {
   const auto& models = results.finite_elements->along_path;
   const bool supported = results.coupled && results.coupled->model;
   const bool carried = setup::carries_tool(input.support.robot);
   StructuresAlongPath structures;
-  if (known_by_lines(*input.cut.tool))
+  if (setup::known_by_lines(*input.cut.tool))
     structures.tool = std::get<milling::FittedStructure>(cut_structure(input.cut, frame, nullptr));
   core::Progress progress("positions", models.size());
   structures.part.reserve(models.size());

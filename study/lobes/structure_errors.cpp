@@ -48,6 +48,7 @@ milling::SampleCovariance tip_covariance(const std::vector<setup::MeasuredFrf>& 
 
 void add_tool_noise(const setup::CutSetup& source, const milling::ToolFrame& frame, const dynamics::FrequencyAxis& axis,
                     milling::SampleCovariance& noise) {
+  if (!setup::known_by_lines(*source.tool)) return;
   const Matrix9d turn = turn_of_entries(frame);
   const milling::SampleCovariance tool = tip_covariance(source.tool->measured, axis);
   if (noise.empty()) noise.resize(tool.size(), milling::SampleCovariance::value_type::Zero());

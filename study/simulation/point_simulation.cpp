@@ -252,8 +252,9 @@ void require_simulation(const setup::Setup& setup, const std::vector<milling::Op
     throw core::InputError(
         "simulation: chips depend on the feed; give cutting.feed_per_tooth, or cutting.feed_rate and "
         "cutting.spindle_speed");
-  if (!setup.tool->measured.empty() || setup.tool->swap)
-    throw core::InputError("tool.measured: a simulation needs poles, and measured lines have none; give tool.modes");
+  if (setup::known_by_lines(*setup.tool))
+    throw core::InputError(
+        "tool.measured: a simulation needs poles, and measured lines have none; give tool.fit = true, or tool.modes");
   for (const ChartOf of : setup::simulated_structures(setup)) require_no_fault(setup::fault_of_structure(setup, of));
   require_no_fault(setup::fault_of_opening(setup));
   require_no_fault(setup::fault_of_arm(setup));

@@ -1,4 +1,4 @@
-#include "setup/learned_modes.hpp"
+#include "setup/identified/learned_modes.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,0 +1,125 @@
+#include "setup/identified/fitted_tip.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.hpp"
+#include "identification/fit_response.hpp"
+#include "identification/fitted_model.hpp"
+#include "io/frf/resample.hpp"
+#include "setup/measured.hpp"
+#include "setup/measured_layout.hpp"
+
+namespace thinwall::setup {
+
+namespace {
+
+/// The files that have directions in common with each other, directly or through others.
+std::vector<std::vector<MeasuredFrf>> joined_files(const std::vector<MeasuredFrf>& files) {
+  std::vector<std::vector<MeasuredFrf>> groups;
+  for (const MeasuredFrf& file : files) {
+    const auto shares = [&](const MeasuredFrf& other) {
+      return other.response == file.response || other.response == file.force || other.force == file.response ||
+             other.force == file.force;
+    };
+    std::vector<MeasuredFrf> group{file};
+    std::erase_if(groups, [&](const std::vector<MeasuredFrf>& earlier) {
+      if (std::ranges::none_of(earlier, shares)) return false;
+      group.insert(group.end(), earlier.begin(), earlier.end());
+      return true;
+    });
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+/// The coherence of each line as a matrix; none unless all files have it, and their averages.
+std::vector<Eigen::MatrixXd> coherence_of(const std::vector<MeasuredFrf>& files, const MeasuredLayout& layout,
+                                          const dynamics::FrequencyAxis& axis) {
+  std::vector<Eigen::MatrixXd> lines(static_cast<std::size_t>(axis.size()),
+                                     Eigen::MatrixXd(layout.file.rows(), layout.file.cols()));
+  for (Eigen::Index e = 0; e < layout.file.size(); ++e) {
+    const MeasuredFrf& file = files[static_cast<std::size_t>(layout.file(e))];
+    const Eigen::VectorXd values = io::coherence_on(receptance_of(file), axis);
+    if (values.size() != axis.size() || !file.averages) return {};
+    for (Eigen::Index i = 0; i < values.size(); ++i) lines[static_cast<std::size_t>(i)](e) = values(i);
+  }
+  return lines;
+}
+
+/// Modes and a constant alone; noise where every file states it.
+identification::ResponseFitOptions options_of(const std::vector<MeasuredFrf>& files) {
+  identification::ResponseFitOptions options;
+  options.identify.terms = identification::ResidualTerms{false, 0};
+  if (std::ranges::all_of(files, [](const MeasuredFrf& file) { return file.noise && *file.noise > 0.0; }))
+    options.noise = *std::ranges::max_element(files, {}, [](const MeasuredFrf& file) { return *file.noise; })->noise;
+  options.averages = files.front().averages;
+  return options;
+}
+
+/// Residues of rank one, or free ones where a pole is double, as of a round tool in both directions.
+identification::ResponseFit fit_of(const dynamics::ResponseModel& measured,
+                                   const std::vector<Eigen::MatrixXd>& coherence,
+                                   identification::ResponseFitOptions& options) {
+  constexpr double double_pole = 0.05;
+  identification::ResponseFit fit = identification::fit_response(measured, coherence, options);
+  const bool simple = std::ranges::all_of(
+      fit.found.fit.modes, [](const identification::FittedMode& mode) { return mode.second_singular < double_pole; });
+  if (simple) return fit;
+  options.identify.residues = identification::Residues::free;
+  return identification::fit_response(measured, coherence, options);
+}
+
+void tell(const identification::ResponseFit& fit, const dynamics::ResponseModel& measured,
+          const identification::ResponseFitOptions& options, FittedTip& tip) {
+  constexpr double two_sided = 1.96;
+  for (const identification::FittedMode& mode : fit.found.fit.modes) {
+    tip.notes.push_back(fmt::format(
+        "the tool's mode at {:.5g} Hz (± {:.1g} %) with a damping of {:.3g} % (± {:.2g} % of it)", mode.frequency_hz,
+        100.0 * two_sided * mode.sd_ln_frequency, 100.0 * mode.damping_ratio, 100.0 * two_sided * mode.sd_ln_damping));
+  }
+  for (const std::string& doubt : identification::doubts_about(fit, measured.responses, measured.forces, options))
+    tip.warnings.push_back("the tool's fit: " + doubt);
+}
+
+/// The models beside each other: no poles or residual in common.
+dynamics::ModalModel beside(const dynamics::ModalModel& a, const dynamics::ModalModel& b) {
+  if (a.dofs.empty()) return b;
+  const auto joined = [](const auto& upper, const auto& lower) {
+    using Matrix = typename std::decay_t<decltype(upper)>::PlainObject;
+    Matrix all = Matrix::Zero(upper.rows() + lower.rows(), upper.cols() + lower.cols());
+    all.topLeftCorner(upper.rows(), upper.cols()) = upper;
+    all.bottomRightCorner(lower.rows(), lower.cols()) = lower;
+    return all;
+  };
+  dynamics::ModalModel both;
+  both.poles.resize(a.poles.size() + b.poles.size());
+  both.poles << a.poles, b.poles;
+  both.right = joined(a.right, b.right);
+  both.left = joined(a.left, b.left);
+  both.scaling = Eigen::VectorXcd::Ones(both.poles.size());
+  both.residual = joined(a.residual, b.residual);
+  both.dofs = a.dofs;
+  both.dofs.insert(both.dofs.end(), b.dofs.begin(), b.dofs.end());
+  return both;
+}
+
+}  // namespace
+
+FittedTip fitted_tip(const Tool& tool) {
+  FittedTip tip;
+  for (const std::vector<MeasuredFrf>& files : joined_files(tool.measured)) {
+    const dynamics::FrequencyAxis axis = receptance_of(tool.measured.front()).axis;
+    const dynamics::ResponseModel measured = measured_response(files, axis);
+    identification::ResponseFitOptions options = options_of(files);
+    const identification::ResponseFit fit =
+        fit_of(measured, coherence_of(files, measured_layout(files), axis), options);
+    tell(fit, measured, options, tip);
+    tip.model = beside(tip.model, identification::modal_model(fit.found.fit, measured.responses, measured.forces));
+  }
+  return tip;
+}
+
+}  // namespace thinwall::setup
