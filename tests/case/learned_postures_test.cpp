@@ -12,6 +12,7 @@
 #include "case/reader.hpp"
 #include "core/error.hpp"
 #include "setup/robot_tip.hpp"
+#include "setup/simulation_faults.hpp"
 #include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::cases::learned_postures_test {
@@ -70,6 +71,8 @@ TEST(LearnedPostures, FollowModesThroughACrossingToAPostureBetween) {
     EXPECT_LT(found(ClosedForm::first_hz(u)), 1e-3) << u;
     EXPECT_LT(found(ClosedForm::second_hz(u)), 1e-3) << u;
     EXPECT_TRUE(doubts_about(source).empty()) << doubts_about(source)[0];
+    EXPECT_EQ(setup::fault_of_structure(source, setup::CutOn::carried), "")
+        << "a simulation has the poles that it needs";
     for (const dynamics::ModalTableRow& mode : modes(source)->rows)
       EXPECT_NEAR(mode.damping_ratio, ClosedForm::damping(u), 2e-4);
   }
