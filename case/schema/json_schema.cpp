@@ -219,7 +219,9 @@ void add_alternatives(Json& root, const Schema& schema) {
     Json branches = Json::array();
     for (const std::string& word : choices(chooser)) branches.push_back(branch(schema, chooser, word));
     if (chooser.fallback.empty() && !chooser.required) branches.push_back(nothing_chosen(schema, chooser));
-    table_at(root, table_of(chooser.path))["oneOf"] = std::move(branches);
+    Json& table = table_at(root, table_of(chooser.path));
+    if (table.contains("oneOf")) table["allOf"].push_back({{"oneOf", std::move(branches)}});  // a second choice
+    else table["oneOf"] = std::move(branches);
   }
 }
 

@@ -47,7 +47,8 @@ void write_postures(const std::filesystem::path& folder, int count) {
 
 std::string robot(const std::string& keys) {
   return "[robot]\nmodel = \"modal_table\"\ncarries = \"tool\"\npostures = \"postures.csv\"\n" + keys +
-         "[tool]\nteeth = 2\ndiameter = \"10 mm\"\n[cutting]\nradial_depth = \"5 mm\"\nKt = \"600 N/mm^2\"\n";
+         "[tool]\nteeth = 2\ndiameter = \"10 mm\"\nlength = \"8 mm\"\n[cutting]\nradial_depth = \"5 mm\"\nKt = \"600 "
+         "N/mm^2\"\n";
 }
 
 const std::string usual = "table = \"{posture}.csv\"\nover = [\"u\"]\n";
