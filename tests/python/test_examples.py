@@ -158,7 +158,7 @@ def test_irb6660_measured(run_case):
 def test_posture_map(run_case):
     text = example(run_case, "posture-map")
     assert number(r"mode +([\d.]+) Hz", text) == pytest.approx(8.7512, rel=0.005)  # the truth at that posture
-    assert number(r"chatter at ([\d.]+) Hz", text) < 20  # a mode of the arm
+    assert number(r"chatter at ([\d.]+) Hz", text) < 200  # a mode of the arm; those of the spindle lie above 700 Hz
 
 
 def test_pocketed_rib(run_case):
