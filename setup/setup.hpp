@@ -12,6 +12,7 @@
 #include "setup/fit.hpp"
 #include "setup/graded_mesh.hpp"
 #include "setup/identified/fitted_tip.hpp"
+#include "setup/identified/learned_modes.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/loose_pieces.hpp"
 #include "setup/machining_setup.hpp"
