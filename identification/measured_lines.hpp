@@ -12,8 +12,11 @@ struct MeasuredLines {
   std::vector<Eigen::MatrixXcd> H;        ///< m/N
   std::vector<Eigen::MatrixXd> variance;  ///< of |error|², half of it in the real and half in the imaginary part; > 0
 
+  /// The number of lines.
   [[nodiscard]] Eigen::Index lines() const { return hz.size(); }
+  /// The number of responses.
   [[nodiscard]] Eigen::Index responses() const { return H.front().rows(); }
+  /// The number of references.
   [[nodiscard]] Eigen::Index references() const { return H.front().cols(); }
 };
 

@@ -39,6 +39,7 @@ struct Stability {
   bool frequency = false;      ///< within 1 %
   bool damping = false;        ///< and within 5 %
   bool participation = false;  ///< MAC of the references above 0.95
+  /// True if all three agree.
   [[nodiscard]] bool all() const { return frequency && damping && participation; }
 };
 

@@ -57,12 +57,13 @@ class Predictor {
   /// posture (followed()). Cost O(modes numbers samples postures²).
   [[nodiscard]] PosturePrediction predict(const Place& place) const;
 
-  /// Covariances of the function between places, places × places, of each number of each label; and the variances of
-  /// its noise. They do not depend on the means.
+  /// Covariances of the function between places, of each number of each label, and the variances of its noise.
   struct Covariances {
-    std::vector<std::vector<Eigen::MatrixXd>> of;
+    std::vector<std::vector<Eigen::MatrixXd>> of;  ///< places × places
     std::vector<std::vector<double>> noise;
   };
+  /// The covariances between the rows of `places`, which do not depend on the means. Cost O(places² postures) for each
+  /// number and sample.
   [[nodiscard]] Covariances covariances(const Eigen::MatrixXd& places) const;
 
   /// The labels that are predicted.

@@ -46,6 +46,7 @@ struct Standardised {
   Eigen::VectorXd mean;       ///< of each task
   Eigen::VectorXd deviation;  ///< of its population; 1 of a task that does not vary
 };
+/// The targets of each task less their mean and over their deviation; missing ones stay NaN. Cost O(n tasks).
 [[nodiscard]] Standardised standardised(const TaskData& data);
 
 /// A process that has learned, in the units of its targets.

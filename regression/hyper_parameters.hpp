@@ -12,7 +12,9 @@ struct TaskData {
   Eigen::MatrixXd inputs;   ///< n places × d dimensions, scaled to the order of 1
   Eigen::MatrixXd targets;  ///< n × tasks; NaN: not measured there
 
+  /// The number of places.
   [[nodiscard]] Eigen::Index places() const { return inputs.rows(); }
+  /// The number of tasks.
   [[nodiscard]] Eigen::Index tasks() const { return targets.cols(); }
   /// True if every task was measured at every place.
   [[nodiscard]] bool complete() const { return !targets.hasNaN(); }
@@ -26,6 +28,7 @@ struct HyperParameters {
   Eigen::MatrixXd L;         ///< tasks × tasks, lower triangular, diagonal > 0
   Eigen::VectorXd noise_sd;  ///< of each task, > 0
 
+  /// The number of tasks.
   [[nodiscard]] Eigen::Index tasks() const { return L.rows(); }
   /// Covariance of the tasks, L Lᵀ.
   [[nodiscard]] Eigen::MatrixXd B() const { return L * L.transpose(); }
