@@ -103,7 +103,9 @@ void describe_fit(CLI::App& app, FitRequest& fit) {
           "--terms", fit.terms,
           "terms beside the modes: LR/s^2 and powers of s up to 0 … 6, a constant alone, or none (default: as needed)")
       ->type_name("none|constant|POWER");
-  command->add_option("--residues", fit.residues, "form of the residues (default: rank_one)")
+  command
+      ->add_option("--residues", fit.residues,
+                   "form of the residues (default: rank_one, or free where a pole is double)")
       ->type_name("free|rank_one|symmetric");
   command->add_option("--averages", fit.averages, "number of averages, by which coherence weighs the lines")
       ->check(CLI::Range(1, 100000));

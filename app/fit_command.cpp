@@ -1,6 +1,7 @@
 #include "app/fit_command.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -60,9 +61,11 @@ identification::ResponseFitOptions options_of(const FitRequest& request) {
   if (!(options.band.from_hz < options.band.to_hz))
     throw core::UsageError("--from " + request.from + " is not below --to " + request.to);
   for (const std::string& text : request.left_out) options.left_out.push_back(left_out_band(text));
-  const auto residues = core::from_word<identification::Residues>(request.residues);
-  if (!residues) throw core::UsageError("--residues \"" + request.residues + "\": write free, rank_one or symmetric");
-  options.identify.residues = *residues;
+  if (!request.residues.empty()) {
+    const auto residues = core::from_word<identification::Residues>(request.residues);
+    if (!residues) throw core::UsageError("--residues \"" + request.residues + "\": write free, rank_one or symmetric");
+    options.identify.residues = *residues;
+  }
   options.identify.highest_order = request.order;
   if (!request.terms.empty()) options.identify.terms = terms_of(request.terms);
   options.averages = request.averages;
@@ -90,15 +93,37 @@ Eigen::VectorXcd named_poles(const std::string& text, const std::vector<identifi
   return poles;
 }
 
+/// Throws UsageError if a result would take the place of a file that is read.
+void require_other_files(const FitRequest& request) {
+  for (const std::string& source : request.input.sources) {
+    const std::filesystem::path file = source.substr(source.find('=') + 1);  // all of it without "="
+    for (const char* name : report::fit_file_names) {
+      std::error_code absent;
+      if (std::filesystem::equivalent(file, std::filesystem::path(request.out) / name, absent))
+        throw core::UsageError("--out " + request.out + ": " + name +
+                               " there is a file that is read; give another folder");
+    }
+  }
+}
+
 }  // namespace
 
 std::string fit_files(const FitRequest& request) {
+  require_other_files(request);
   identification::ResponseFitOptions options = options_of(request);
   const FitMatrix matrix = fit_matrix(request.input);
   if (!request.poles.empty())
     options.identify.poles = named_poles(request.poles, identification::stable_poles(matrix.measured, options));
-  report::FitReport found{
-      matrix.measured, identification::fit_response(matrix.measured, matrix.coherence, options), {}, {}};
+  report::FitReport found{matrix.measured,
+                          request.residues.empty()
+                              ? identification::fit_of_any_rank(matrix.measured, matrix.coherence, options)
+                              : identification::fit_response(matrix.measured, matrix.coherence, options),
+                          {},
+                          {}};
+  if (request.residues.empty() && options.identify.residues == identification::Residues::free)
+    found.notes.emplace_back(
+        "residues are free, for a pole is double, as that of a round tool; --residues rank_one asks for one shape a "
+        "pole");
   found.doubts = identification::doubts_about(found.fit, matrix.measured.responses, matrix.measured.forces, options);
   if (!matrix.coherence.empty() && !request.averages && !request.noise)
     found.notes.emplace_back("coherence is not used without --averages; the lines are weighed by their scatter");

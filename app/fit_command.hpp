@@ -17,8 +17,8 @@ struct FitRequest {
   std::string poles;                  ///< "10.4 Hz, 27 Hz"; empty: chosen from the diagram
   int order = 30;                     ///< highest one of the diagram
   std::string terms;                  ///< as identification::terms_named(); empty: as many as the lines call for
-  std::string residues = "rank_one";
-  std::optional<int> averages;  ///< that the coherence belongs to
+  std::string residues;               ///< empty: of rank one, or free where a pole is double
+  std::optional<int> averages;        ///< that the coherence belongs to
   std::optional<double> noise;
   std::string out = "fit";
 };

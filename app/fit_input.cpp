@@ -1,5 +1,7 @@
 #include "app/fit_input.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
@@ -87,7 +89,7 @@ void complete_by_reciprocity(io::MeasuredEntries& all) {
       if (known.contains({response, force}) || reverse == known.end()) continue;
       io::MeasuredFrf frf = all.entries[reverse->second].frf;
       all.entries.push_back({of_response, of_force, std::move(frf)});
-      all.notes.push_back(response + "/" + force + " is taken from " + force + "/" + response + " by reciprocity");
+      all.notes.push_back(fmt::format("{0}/{1} is taken from {1}/{0} by reciprocity", response, force));
     }
   }
 }

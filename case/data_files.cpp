@@ -31,6 +31,8 @@ void report_error(const std::string& key, Findings& findings, const core::Error&
 void read_or_report(const std::string& key, Findings& findings, const std::function<void()>& read) {
   try {
     read();
+  } catch (const core::Interrupted&) {
+    throw;  // nothing is wrong with the file
   } catch (const io::UrdfEndError& error) {
     report_error(key + (error.tip ? "_tip" : "_base"), findings, error);
   } catch (const core::Error& error) {

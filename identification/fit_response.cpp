@@ -195,6 +195,18 @@ void doubt_quantity(const ResponseFit& fit, const dynamics::DofTable& responses,
 
 }  // namespace
 
+ResponseFit fit_of_any_rank(const dynamics::ResponseModel& measured, const std::vector<Eigen::MatrixXd>& coherence,
+                            ResponseFitOptions& options) {
+  constexpr double double_pole = 0.05;
+  options.identify.residues = Residues::rank_one;
+  ResponseFit fit = fit_response(measured, coherence, options);
+  const bool simple = std::ranges::all_of(fit.found.fit.modes,
+                                          [](const FittedMode& mode) { return mode.second_singular < double_pole; });
+  if (simple) return fit;
+  options.identify.residues = Residues::free;
+  return fit_response(measured, coherence, options);
+}
+
 std::vector<StablePole> stable_poles(const dynamics::ResponseModel& measured, const ResponseFitOptions& options) {
   dynamics::require_complete(measured);
   MeasuredLines lines = lines_of(measured, used_lines(measured, options));

@@ -53,6 +53,12 @@ struct ResponseFit {
                                        const std::vector<Eigen::MatrixXd>& coherence,
                                        const ResponseFitOptions& options = {});
 
+/// fit_response() with residues of rank one, or with free ones where a pole is double to 5 % of its second singular
+/// value, as that of a round tool in both directions; `options` then tell which. Errors as fit_response(). Cost: two
+/// fits at most.
+[[nodiscard]] ResponseFit fit_of_any_rank(const dynamics::ResponseModel& measured,
+                                          const std::vector<Eigen::MatrixXd>& coherence, ResponseFitOptions& options);
+
 /// The stable poles of the band by the scatter of its lines, from which fit_response() starts. Errors as
 /// fit_response().
 [[nodiscard]] std::vector<StablePole> stable_poles(const dynamics::ResponseModel& measured,

@@ -291,7 +291,7 @@ void take_terms(const Problem& p, const Found& found, ModalFit& fit) {
   const Eigen::Index m = found.unknowns.modes(), n = p.term_count();
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(p.measured().responses(), p.measured().references());
   if (p.terms.inertia) fit.inertia = zero;
-  fit.powers.assign(static_cast<std::size_t>(p.terms.highest_power + 1), zero);
+  fit.powers.assign(static_cast<std::size_t>(p.terms.highest_power) + 1, zero);
   const double first = std::abs(p.s(0)), last = std::abs(p.s(p.s.size() - 1));
   for (std::size_t g = 0; g < p.groups.size(); ++g) {
     for (std::size_t e = 0; e < p.groups[g].size(); ++e) {

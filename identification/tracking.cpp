@@ -34,6 +34,7 @@ double difference(const std::vector<FittedMode>& a, const std::vector<FittedMode
   double sum = most_unlike * static_cast<double>(std::max(a.size(), b.size()) - std::min(a.size(), b.size()));
   if (a.empty() || b.empty()) return sum;
   std::vector<const FittedMode*> of_a;
+  of_a.reserve(a.size());
   for (const FittedMode& mode : a) of_a.push_back(&mode);
   const Eigen::MatrixXd cost = unlikeness_of(of_a, b);
   const std::vector<int> pair = cheapest_pairing(cost);

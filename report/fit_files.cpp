@@ -98,6 +98,37 @@ std::string column_name(const dynamics::Dof& dof) {
   return "";
 }
 
+/// The receptance of the modes of modes.csv at the driving points: Σ d dᵀ/(k (1 − r² + 2iζr)), r = f/f_k.
+Eigen::MatrixXcd of_point_modes(const FitReport& found,
+                                const std::vector<std::optional<identification::PointMode>>& points, double hz) {
+  const Eigen::Index n = points.front()->direction.size();
+  Eigen::MatrixXcd H = Eigen::MatrixXcd::Zero(n, n);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const FittedMode& mode = found.fit.found.fit.modes[k];
+    const double r = hz / mode.frequency_hz;
+    const std::complex<double> stiffness =
+        points[k]->stiffness_N_m * std::complex<double>(1.0 - r * r, 2.0 * mode.damping_ratio * r);
+    H += points[k]->direction * points[k]->direction.transpose() / stiffness;
+  }
+  return H;
+}
+
+/// The median over the lines of the share of the fit that the modes of modes.csv leave out at the driving points.
+double share_left_out(const FitReport& found, const std::vector<std::optional<identification::PointMode>>& points) {
+  const auto common = identification::common_dofs(found.measured.responses, found.measured.forces);
+  const dynamics::ResponseModel fitted = identification::fitted_response(
+      found.fit.found.fit, {found.fit.lines.hz}, found.measured.responses, found.measured.forces);
+  std::vector<double> shares;
+  for (std::size_t i = 0; i < fitted.H.size(); ++i) {
+    const Eigen::MatrixXcd there = fitted.H[i](common.response, common.reference);
+    const double hz = found.fit.lines.hz(static_cast<Eigen::Index>(i));
+    shares.push_back((of_point_modes(found, points, hz) - there).norm() / there.norm());
+  }
+  const auto middle = shares.begin() + std::ssize(shares) / 2;
+  std::ranges::nth_element(shares, middle);
+  return *middle;
+}
+
 void write_modal_table(const std::filesystem::path& file, const dynamics::ModalTable& modes) {
   std::vector<std::string> names;
   std::vector<double> hz, zeta;
@@ -279,6 +310,7 @@ std::string fit_text(const FitReport& found) {
 }
 
 std::vector<std::string> write_fit(const std::filesystem::path& folder, const FitReport& found) {
+  constexpr double told_share = 0.02;
   make_model_folder(folder);
   const identification::ModalFit& fit = found.fit.found.fit;
   std::vector<std::string> left_out;
@@ -295,6 +327,14 @@ std::vector<std::string> write_fit(const std::filesystem::path& folder, const Fi
       left_out.push_back(std::string(name) + " is not written: " + error.what());
     }
   };
+  const auto points = identification::point_modes(fit, found.measured.responses, found.measured.forces);
+  if (!single_point(found).empty() && std::ranges::all_of(points, [](const auto& p) { return p.has_value(); })) {
+    if (const double share = share_left_out(found, points); share > told_share)
+      left_out.push_back(fmt::format(
+          "the modes of modes.csv leave out {:.2g} % of the fit on half of the lines, and so do lobes from it: terms "
+          "beside the modes (--terms constant has fewer) or second shapes of a pole (modal_table.csv has them)",
+          100.0 * share));
+  }
   write("modal_table.csv", write_modal_table);
   write("modes.uff", write_shapes);
   return left_out;

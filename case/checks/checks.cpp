@@ -274,8 +274,6 @@ void check_cutting(const Case& source, Findings& findings) {
 
 void check_lobes(const Case& source, Findings& findings) {
   const setup::LobesOptions& lobes = *source.lobes;
-  if (source.tool && (!source.tool->measured.empty() || source.tool->swap || source.tool->fit))
-    check_measured_tool(*source.tool, findings);
   if (!source.cutting) findings.report("lobes", "there is no cut; add [cutting]");
   check_chart_choices(source, findings);
   if (source.part ? !setup::may_be_held(*source.part) : !source.measured_part.empty()) {
@@ -311,6 +309,9 @@ std::vector<Problem> check_case(const Case& source) {
   check_updating(source, findings);
   if (source.tool) check_tool(*source.tool, findings);
   if (source.cutting) check_cutting(source, findings);
+  if (source.tool && (source.lobes || source.simulation) &&
+      (!source.tool->measured.empty() || source.tool->swap || source.tool->fit))
+    check_measured_tool(*source.tool, findings);
   if (source.lobes) check_lobes(source, findings);
   if (source.machine) check_machine(source, findings);
   if (source.path) check_path(source, findings);

@@ -264,6 +264,11 @@ void check_robot(const Case& source, Findings& findings) {
     if (std::abs(base.direction("x").dot(base.direction("z"))) > 1e-9)
       return findings.report("robot.base.x", "is not at a right angle to robot.base.z; a frame's axes are");
   }
+  const Table keys{source.values, "robot"};
+  for (const char* key : {"over", "at"}) {
+    if (keys.has(key) && !keys.has("postures"))
+      findings.report(std::string("robot.") + key, "belongs to robot.postures; give that list, or remove the key");
+  }
   std::visit(
       core::overloaded{[&](const setup::OneModeRobot& model) { check_one_mode(model, findings); },
                        [](const setup::ModalRobot&) {},

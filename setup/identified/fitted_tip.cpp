@@ -59,19 +59,6 @@ identification::ResponseFitOptions options_of(const std::vector<MeasuredFrf>& fi
   return options;
 }
 
-/// Residues of rank one, or free ones where a pole is double, as of a round tool in both directions.
-identification::ResponseFit fit_of(const dynamics::ResponseModel& measured,
-                                   const std::vector<Eigen::MatrixXd>& coherence,
-                                   identification::ResponseFitOptions& options) {
-  constexpr double double_pole = 0.05;
-  identification::ResponseFit fit = identification::fit_response(measured, coherence, options);
-  const bool simple = std::ranges::all_of(
-      fit.found.fit.modes, [](const identification::FittedMode& mode) { return mode.second_singular < double_pole; });
-  if (simple) return fit;
-  options.identify.residues = identification::Residues::free;
-  return identification::fit_response(measured, coherence, options);
-}
-
 void tell(const identification::ResponseFit& fit, const dynamics::ResponseModel& measured,
           const identification::ResponseFitOptions& options, FittedTip& tip) {
   constexpr double two_sided = 1.96;
@@ -115,7 +102,7 @@ FittedTip fitted_tip(const Tool& tool) {
     const dynamics::ResponseModel measured = measured_response(files, axis);
     identification::ResponseFitOptions options = options_of(files);
     const identification::ResponseFit fit =
-        fit_of(measured, coherence_of(files, measured_layout(files), axis), options);
+        identification::fit_of_any_rank(measured, coherence_of(files, measured_layout(files), axis), options);
     tell(fit, measured, options, tip);
     tip.model = beside(tip.model, identification::modal_model(fit.found.fit, measured.responses, measured.forces));
   }

@@ -119,30 +119,36 @@ std::string span(const std::vector<posture::PredictedMode>& modes, Eigen::Index 
          core::number_text(100.0 * largest->deviation(number), 2) + " %";
 }
 
-std::vector<identification::FittedMode> modes_of(const dynamics::ModalTable& table) {
+std::vector<identification::FittedMode> modes_of(const dynamics::ModalTable& table, const std::string& file) {
   std::vector<identification::FittedMode> modes;
-  for (const dynamics::ModalTableRow& row : table.rows) modes.push_back(mode_of(row));
+  for (const dynamics::ModalTableRow& row : table.rows) {
+    if (row.left.isZero(0.0) || row.right.isZero(0.0))
+      throw core::DataError(file + ": the mode at " + core::number_text(row.frequency_hz, 5) +
+                            " Hz has a vector of zeros, which moves nothing; remove its line");
+    modes.push_back(mode_of(row));
+  }
   return modes;
 }
 
 /// The postures as the predictor takes them: the modes are followed by the shapes at all points, which tell them apart
 /// better than the tip's alone, and learned at the tip.
 std::vector<posture::TappedPosture> tapped(const Eigen::MatrixXd& places,
-                                           const std::vector<dynamics::ModalTable>& tables, const std::string& tip,
+                                           const std::vector<dynamics::ModalTable>& tables,
+                                           const std::vector<std::filesystem::path>& files, const std::string& tip,
                                            std::vector<std::string>& doubts) {
   std::vector<std::vector<identification::FittedMode>> seen;
-  for (const dynamics::ModalTable& table : tables) seen.push_back(modes_of(table));
+  for (std::size_t i = 0; i < tables.size(); ++i) seen.push_back(modes_of(tables[i], files[i].string()));
   const identification::Tracking tracking = identification::track(seen);
   std::ptrdiff_t doubtful = 0;
   for (const std::vector<bool>& of : tracking.doubtful) doubtful += std::ranges::count(of, true);
   if (doubtful > 0)
     doubts.push_back(std::to_string(doubtful) +
-                     " modes could not be followed over the postures without contradiction; the bands there are too "
-                     "narrow: tap postures between");
+                     " modes could not be followed over the postures without contradiction; what is learned of them is "
+                     "less certain than told: tap postures between");
   std::vector<posture::TappedPosture> postures;
   for (std::size_t i = 0; i < seen.size(); ++i)
     postures.push_back({{places.row(static_cast<Eigen::Index>(i)).transpose(), {}, {}},
-                        modes_of(robot::at_point(tables[i], tip)),
+                        modes_of(robot::at_point(tables[i], tip), files[i].string()),
                         tracking.label[i],
                         {}});
   return postures;
@@ -155,7 +161,8 @@ void doubt_prediction(const posture::Predictor& predictor, const posture::Postur
                      " % of the postures' range beyond their hull, where nothing was tapped; tap one there");
   if (!predictor.left_out().empty())
     doubts.push_back(std::to_string(predictor.left_out().size()) +
-                     " modes were seen at too few postures to be learned and are left out");
+                     " of the robot's modes were seen at too few postures to be learned, and their compliance is "
+                     "missing; tap more postures");
 }
 
 void require_valid(const TabledRobot& robot) {
@@ -181,7 +188,7 @@ LearnedModes learned_modes(const TabledRobot& robot) {
   LearnedModes result;
   const auto tables = read_tables(robot, list.names, result.learned.files);
   std::vector<std::string>& doubts = result.learned.doubts;
-  const posture::Predictor predictor(tapped(list.places, tables, robot.table_point, doubts), {});
+  const posture::Predictor predictor(tapped(list.places, tables, result.learned.files, robot.table_point, doubts), {});
   const posture::PosturePrediction there = predictor.predict({at, {}, {}});
   if (there.modes.empty())
     throw core::InputError("no mode was seen at enough of the " + std::to_string(list.names.size()) + " postures of " +
@@ -197,7 +204,7 @@ LearnedModes learned_modes(const TabledRobot& robot) {
   for (dynamics::ModalTableRow& row : result.table.rows) row.place_m = places;
   result.learned.summary = "the robot's modes are learned from " + std::to_string(list.names.size()) +
                            " postures: frequencies within " + span(there.modes, 0) + ", damping ratios within " +
-                           span(there.modes, 1) + " (one standard deviation)";
+                           span(there.modes, 1) + " (one standard deviation), which the error of charts leaves out";
   return result;
 }
 
