@@ -180,6 +180,35 @@ TEST_F(Fit, StartsFromTheNamedPoles) {
   EXPECT_NE(done.out.find("chi2 a degree of freedom is"), std::string::npos) << done.out;
 }
 
+TEST_F(Fit, KeepsTheFilesThatItReads) {
+  std::filesystem::create_directories(temporary.path / "out");
+  const std::filesystem::path file = temporary.path / "out" / "fitted.csv";
+  io::write_response(file, measured);
+  const std::string before = core::read_file(file);
+  const Outcome refused = command({"fit", file.string(), "--out", path("out")});
+  EXPECT_EQ(refused.code, 2) << refused.err;
+  EXPECT_NE(refused.err.find("fitted.csv there is a file that is read"), std::string::npos) << refused.err;
+  EXPECT_EQ(core::read_file(file), before);
+  EXPECT_EQ(command({"fit", file.string(), "--out", path("elsewhere")}).code, 0);
+}
+
+/// A round tool has one pole for two directions; a row of modes.csv is a mode along one.
+TEST_F(Fit, TakesADoublePoleAsItIsAndTellsWhatModesAloneLeaveOut) {
+  dynamics::ResponseModel round = measured;
+  for (std::size_t i = 0; i < round.H.size(); ++i) {
+    const double r = round.axis.hz(static_cast<Eigen::Index>(i)) / round.axis.hz(350);
+    round.H[i] = Eigen::Matrix2cd::Identity() / (1e6 * std::complex<double>(1.0 - r * r, 0.04 * r));
+  }
+  io::write_uff(path("round.uff"), round);
+  const Outcome done = command({"fit", path("round.uff"), "--noise", "0.01", "--terms", "none", "--out", path("out")});
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("residues are free"), std::string::npos) << done.out;
+  ASSERT_EQ(figures()["modes"].size(), 1U);
+  EXPECT_NEAR(figures()["modes"][0]["damping_ratio"].get<double>(), 0.02, 1e-6);
+  // One direction of two equal ones: 1/sqrt(2) of the matrix.
+  EXPECT_NE(done.out.find("modes.csv leave out 71 % of the fit"), std::string::npos) << done.out;
+}
+
 /// The modes of a tip, as `lobes` reads them, give the chart of the tip's own modes.
 class FitOfATip : public LobesCommand {};
 

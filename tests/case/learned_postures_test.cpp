@@ -10,6 +10,7 @@
 
 #include "case/checks/doubts.hpp"
 #include "case/reader.hpp"
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "setup/robot_tip.hpp"
 #include "setup/simulation_faults.hpp"
@@ -90,9 +91,9 @@ TEST(LearnedPostures, BeyondTheirHullAreDoubted) {
 }
 
 /// The error of a case, "" without one.
-std::string refusal(const std::string& keys, const std::filesystem::path& folder) {
+std::string refusal(const std::string& text, const std::filesystem::path& folder) {
   try {
-    (void)parse_case(robot(keys), folder);
+    (void)parse_case(text, folder);
   } catch (const core::Error& error) {
     return error.what();
   }
@@ -103,7 +104,7 @@ TEST(LearnedPostures, RefuseWhatCannotBeLearnedFrom) {
   const tests::TemporaryFolder folder;
   write_postures(folder.path, 6);
   const auto told = [&](const std::string& keys, const std::string& words) {
-    EXPECT_NE(refusal(keys, folder.path).find(words), std::string::npos) << refusal(keys, folder.path);
+    EXPECT_NE(refusal(robot(keys), folder.path).find(words), std::string::npos) << refusal(robot(keys), folder.path);
   };
   told("table = \"p0.csv\"\nover = [\"u\"]\nat = [1]\n", "{posture}");
   told(usual, "robot.over has 1 columns and robot.at 0 numbers");
@@ -111,6 +112,13 @@ TEST(LearnedPostures, RefuseWhatCannotBeLearnedFrom) {
   told("table = \"{posture}.csv\"\nover = [\"v\"]\nat = [1]\n", "no column \"v\"; it has posture, u, same");
   told("table = \"{posture}.csv\"\nover = [\"same\"]\nat = [1]\n", "is the same at all postures");
   told("table = \"modes_{posture}.csv\"\nover = [\"u\"]\nat = [1]\n", "modes_p0.csv");
+  std::string without = robot("table = \"p0.csv\"\nat = [1]\n");
+  without.erase(without.find("postures ="), without.find("table =") - without.find("postures ="));
+  EXPECT_NE(refusal(without, folder.path).find("belongs to robot.postures"), std::string::npos) << without;
+  core::write_file_atomically(folder.path / "p3.csv",
+                              "frequency_hz,damping_ratio,R_1X_re,R_1X_im,L_1X_re,L_1X_im,R_1Y_re,R_1Y_im,L_1Y_re,"
+                              "L_1Y_im\n20,0.02,0,0,0,0,0,0,0,0\n");
+  told(usual + "at = [1]\n", "has a vector of zeros");
   std::filesystem::remove(folder.path / "postures.csv");
   told(usual + "at = [1]\n", "postures.csv");
 }
@@ -118,7 +126,7 @@ TEST(LearnedPostures, RefuseWhatCannotBeLearnedFrom) {
 TEST(LearnedPostures, OfTooFewPosturesLearnNothing) {
   const tests::TemporaryFolder folder;
   write_postures(folder.path, 3);
-  const std::string told = refusal(usual + "at = [1]\n", folder.path);
+  const std::string told = refusal(robot(usual + "at = [1]\n"), folder.path);
   EXPECT_NE(told.find("no mode was seen at enough of the 3 postures"), std::string::npos) << told;
 }
 
