@@ -36,7 +36,7 @@ std::string list_of(const std::vector<std::string>& points) {
 }
 
 /// The options of the command and the keys that they stand for.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> options{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> keys_of_options{
     {{"simulation.at", "--at"},
      {"simulation.paths", "--paths"},
      {"simulation.settling_turns", "--settle"},
@@ -53,7 +53,7 @@ cases::Case read_for_options(const std::filesystem::path& path, const std::vecto
     std::vector<cases::Problem> problems = error.problems;
     for (cases::Problem& problem : problems) {
       if (problem.line >= -static_cast<int>(written)) continue;
-      for (const auto& [key, option] : options) {
+      for (const auto& [key, option] : keys_of_options) {
         if (!problem.text.starts_with(std::string(key) + ":")) continue;
         problem = {0, 0, std::string(option) + problem.text.substr(key.size())};
         break;

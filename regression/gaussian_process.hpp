@@ -21,7 +21,7 @@ struct Bounds {
 /// The search for the largest likelihood.
 struct SearchOptions {
   Kernel kernel = Kernel::squared_exponential;
-  Bounds bounds;
+  Bounds bounds{};
   int starts = 12;    ///< ≥ 1; the first is the same for all data, each other the likeliest of eight draws
   unsigned seed = 1;  ///< of what is drawn: the same seed gives the same answer
 };
