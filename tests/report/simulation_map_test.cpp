@@ -23,8 +23,8 @@ namespace {
 study::Results mapped() {
   study::Results results;
   results.setup.simulation = setup::Simulation{};
-  study::AmplitudeMap map{setup::CutOn::tool, {1000.0, 2000.0},        {1e-3, 2e-3},
-                          Eigen::Matrix2d(),  Eigen::Matrix2d::Zero(), Eigen::Matrix2i::Zero()};
+  study::AmplitudeMap map{setup::CutOn::tool,      {1000.0, 2000.0},        {1e-3, 2e-3},
+                          Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero(), Eigen::Matrix2i::Zero()};
   map.peak_to_peak_m << 1e-6, 3e-6, 9e-6, INFINITY;
   map.unsettled(1, 0) = 1;
   results.amplitude_maps.push_back(map);
