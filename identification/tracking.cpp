@@ -29,7 +29,8 @@ Eigen::MatrixXd unlikeness_of(const std::vector<const FittedMode*>& a, const std
   return cost;
 }
 
-/// What the cheapest pairing of the modes of two postures costs; a mode without a partner as one that is most unlike.
+/// The cost of the cheapest pairing of the modes of two postures; a mode without a partner costs as one that is most
+/// unlike.
 double difference(const std::vector<FittedMode>& a, const std::vector<FittedMode>& b) {
   double sum = most_unlike * static_cast<double>(std::max(a.size(), b.size()) - std::min(a.size(), b.size()));
   if (a.empty() || b.empty()) return sum;

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "core/messages.hpp"
 #include "setup/believed_lines.hpp"
@@ -98,7 +99,9 @@ void share_data_files(Setup& varied, const Setup& read) {
   }
   auto* robot = tabled_robot(varied);
   const auto* with_modes = tabled_robot(read);
-  if (robot != nullptr && with_modes != nullptr) {
+  // Modes that were learned for another posture would be taken for those of this one.
+  const auto asked = [](const TabledRobot& of) { return of.postures ? of.postures->at : std::vector<double>{}; };
+  if (robot != nullptr && with_modes != nullptr && asked(*robot) == asked(*with_modes)) {
     robot->table_modes = with_modes->table_modes;
     robot->learned = with_modes->learned;
   }
