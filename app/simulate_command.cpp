@@ -95,16 +95,16 @@ std::string simulate_case(cases::Case source, const std::filesystem::path& out, 
       source.part ? study::Checkpoint(cache / "part.bin", study::part_key(source), false) : study::Checkpoint(),
       {},
       {},
-      {cache / "simulation.bin", study::simulation_key(source), false}};
+      {cache / "simulated.bin", study::simulation_key(source), false}};
   StageDisplay stages(display);
   const study::Results results = study::run(source, cases::variation_of(source), kept, {.on_stage = stages.listener()});
   const auto staging = core::partial_path(folder.path() / "simulated");
   report::write_simulation(staging, results);
-  report::publish_folder(staging / "simulation", folder.path() / "simulation");
+  report::publish_folder(staging / "simulation", folder.path() / "simulated");
   std::filesystem::remove(staging);
   return (source.title.empty() ? "" : source.title + "\n") +
          report::simulation_text(report::summary_of(results.setup, results)) +
-         "  tables: " + (folder.path() / "simulation").string() + "\n";
+         "  tables: " + (folder.path() / "simulated").string() + "\n";
 }
 
 }  // namespace thinwall::app

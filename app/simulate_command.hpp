@@ -24,8 +24,9 @@ struct SimulateRequest {
                                          const SimulateRequest& request);
 
 /// Computes part, robot and both as `run` does, with the part and the simulations that an earlier run in the same
-/// folder has kept, simulates what the case's [simulation] says, writes simulation/ into `out` (empty: results/<case>)
-/// and returns the text for the terminal. Throws core::Error.
+/// folder has kept, simulates what the case's [simulation] says, writes simulated/ into `out` (empty: results/<case>),
+/// beside the simulation/ of `run` that summary.json belongs to, and returns the text for the terminal. Throws
+/// core::Error.
 [[nodiscard]] std::string simulate_case(cases::Case source, const std::filesystem::path& out, ProgressDisplay display);
 
 }  // namespace thinwall::app

@@ -63,7 +63,7 @@ struct Found {
 };
 
 Found found_again(const CutAtSpeed& cut, const LobePoint& point, const StabilityOptions& options) {
-  Resolution r = finer(resolving(cut, point.depth_m));
+  Resolution r = finer(resolving(cut, point.depth_m), estimating(cut, point.depth_m, options));
   while (true) {
     Found f{r, discrete(cut, r, point.depth_m), {}, {}};
     const GainOnCircle gain = gain_of(f.d);

@@ -34,6 +34,28 @@ Eigen::ArrayXd peaks(const RelativeStructure& s) {
          s.poles.real().cwiseAbs().array();
 }
 
+constexpr double nodes_per_rad = 0.35;     // that resolve a wave
+constexpr double error_over_gain = 0.005;  // of a mode that is not resolved
+
+/// The loop gain 2 w ‖D̄‖ ‖φ‖ ‖b‖ / |Re λ| of each mode at its resonance; `stiffness` is ‖D̄‖.
+Eigen::ArrayXd loop_gains(const CutAtSpeed& cut, double stiffness, double depth_m) {
+  return 2.0 * depth_m * stiffness * peaks(cut.structure);
+}
+
+/// |λ| of the fastest mode whose loop gain is at least so much, rad/s.
+double fastest_of_gain(const CutAtSpeed& cut, const Eigen::ArrayXd& gains, double least) {
+  double fastest = 0.0;
+  for (Index i = 0; i < gains.size(); ++i) {
+    if (gains(i) >= least) fastest = std::max(fastest, std::abs(cut.structure.poles(i)));
+  }
+  return fastest;
+}
+
+/// The phase of a wave through the longest stretch of a tooth in the cut, rad.
+double phase_in_cut(const CutAtSpeed& cut, double omega_rad_s, double depth_m) {
+  return omega_rad_s * longest_stretch_rad(cut.process, depth_m) * 30.0 / (std::numbers::pi * cut.spindle_speed_rpm);
+}
+
 }  // namespace
 
 CutAtSpeed cut_at_speed(const RelativeStructure& structure, const MillingProcess& process, double spindle_speed_rpm) {
@@ -58,26 +80,50 @@ GainOnCircle gain_of(const DiscreteCut& d) {
 }
 
 double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m) {
-  const RelativeStructure& s = cut.structure;
-  const Eigen::ArrayXd peak = peaks(s);
-  const double regenerates = 0.25 / (depth_m * stiffness);
-  double fastest = 0.0;
-  for (Index i = 0; i < s.poles.size(); ++i) {
-    if (peak(i) >= std::min(0.05 * peak.maxCoeff(), regenerates)) fastest = std::max(fastest, std::abs(s.poles(i)));
-  }
-  return fastest;
+  const Eigen::ArrayXd gains = loop_gains(cut, stiffness, depth_m);
+  return fastest_of_gain(cut, gains, std::min(0.05 * gains.maxCoeff(), 0.5));
 }
 
 Resolution resolving(const CutAtSpeed& cut, double depth_m) {
-  const double fastest = fastest_that_matters(cut, mean_stiffness(cut.process, depth_m), depth_m);
   const double phase =
-      fastest * longest_stretch_rad(cut.process, depth_m) * 30.0 / (std::numbers::pi * cut.spindle_speed_rpm);
+      phase_in_cut(cut, fastest_that_matters(cut, mean_stiffness(cut.process, depth_m), depth_m), depth_m);
   const int elements = std::max(1, static_cast<int>(std::ceil(phase / 14.0)));
-  return {elements, static_cast<int>(std::ceil(3.0 + 0.35 * phase / elements))};
+  return {elements, static_cast<int>(std::ceil(3.0 + nodes_per_rad * phase / elements))};
+}
+
+double unresolved(const CutAtSpeed& cut, Resolution resolution, double depth_m) {
+  depth_m = std::min(depth_m, cut.process.cutter.envelope.height_m);  // a search goes a little beyond
+  const Eigen::ArrayXd gains = loop_gains(cut, mean_stiffness(cut.process, depth_m), depth_m);
+  const double resolved_rad = resolution.elements * resolution.nodes / nodes_per_rad;
+  double largest = 0.0;
+  for (Index i = 0; i < gains.size(); ++i) {
+    if (phase_in_cut(cut, std::abs(cut.structure.poles(i)), depth_m) > resolved_rad)
+      largest = std::max(largest, gains(i));
+  }
+  return error_over_gain * largest;
+}
+
+Resolution estimating(const CutAtSpeed& cut, double depth_m, const StabilityOptions& options) {
+  constexpr double share = 0.25;  // of the tolerance, that modes which are not resolved may take
+  const Eigen::ArrayXd gains = loop_gains(cut, mean_stiffness(cut.process, depth_m), depth_m);
+  const double fastest = fastest_of_gain(cut, gains, share * options.error_tolerance / error_over_gain);
+  const double phase = phase_in_cut(cut, fastest, depth_m);
+  const int elements = std::max(1, static_cast<int>(std::ceil(phase / 20.0)));
+  const int nodes = std::max(5, static_cast<int>(std::ceil(nodes_per_rad * phase / elements)));
+  return {std::min(elements, std::max(1, options.most_nodes / nodes)), nodes};
+}
+
+bool coarser(Resolution a, Resolution b) {
+  return a.elements * a.nodes < b.elements * b.nodes;
 }
 
 Resolution finer(Resolution r) {
   return r.nodes < 14 ? Resolution{r.elements, r.nodes + 3} : Resolution{2 * r.elements, r.nodes - 3};
+}
+
+Resolution finer(Resolution r, Resolution least) {
+  const Resolution next = finer(r);
+  return coarser(next, least) ? least : next;
 }
 
 double surely_stable_depth_m(const CutAtSpeed& cut) {

@@ -253,15 +253,18 @@ CoarseCrossings scan(const HelicalSearch& search, const StabilityOptions& option
 /// Grids that each depth has of its own: a level is so many times finer than the depth's first.
 class HelicalGrids : public SearchGrids {
  public:
-  HelicalGrids(const CutAtSpeed& cut, const HelicalSearch& search, int most_nodes)
-      : cut_(cut), search_(search), most_nodes_(most_nodes) {}
+  HelicalGrids(const CutAtSpeed& cut, const HelicalSearch& search, const StabilityOptions& options)
+      : cut_(cut), search_(search), options_(options) {}
 
   [[nodiscard]] OnFinerGrid move_to(std::size_t level, Crossing& crossing) override {
     const Resolution next = resolution(level, crossing.depth_m);
-    if (level > 2 && next.elements * next.nodes > most_nodes_) return OnFinerGrid::none_finer;
+    if (level > 2 && next.elements * next.nodes > options_.most_nodes) return OnFinerGrid::none_finer;
     finest_ = std::max(finest_, next.elements * next.nodes);
     return settle(cut_, next, 0.9 * crossing.depth_m, 1.1 * crossing.depth_m, crossing) ? OnFinerGrid::kept
                                                                                         : OnFinerGrid::lost;
+  }
+  [[nodiscard]] double unresolved(std::size_t level, double depth_m) override {
+    return milling::unresolved(cut_, resolution(level, depth_m), depth_m);
   }
   /// The nodes of the finest grid so far, whatever the level.
   [[nodiscard]] int nodes(std::size_t /*level*/) override { return finest_; }
@@ -278,12 +281,15 @@ class HelicalGrids : public SearchGrids {
 
  private:
   [[nodiscard]] Resolution resolution(std::size_t level, double depth_m) const {
-    return finer_by(search_.resolution(depth_m), level);
+    const Resolution first = search_.resolution(depth_m);
+    if (level == 0) return first;
+    const double depth = std::min(depth_m, cut_.process.cutter.envelope.height_m);
+    return finer_by(finer(first, estimating(cut_, depth, options_)), level - 1);
   }
 
   const CutAtSpeed& cut_;
   const HelicalSearch& search_;
-  int most_nodes_;
+  const StabilityOptions& options_;
   int finest_ = 0;
 };
 
@@ -295,7 +301,7 @@ LobeRow row_of(const CutAtSpeed& cut, std::size_t refinements, const StabilityOp
   LobeRow row;
   row.spindle_speed_rpm = cut.spindle_speed_rpm;
   if (coarse.searched_m > 0.0) {
-    HelicalGrids grids(cut, search, options.most_nodes);
+    HelicalGrids grids(cut, search, options);
     row = checked_row(grids, std::move(coarse), cut.spindle_speed_rpm, options);
   }
   if (ended_early) row.status = StabilityStatus::crossing_missed;

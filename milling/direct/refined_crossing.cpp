@@ -13,7 +13,8 @@ double estimate_from(double change, double change_before) {
   return 1e-11 + std::max({change, 0.1 * change_before, remaining});
 }
 
-void refine_until(std::size_t levels, double tolerance, const ToLevel& to_level, RefinedCrossing& c) {
+void refine_until(std::size_t levels, double tolerance, const ToLevel& to_level, const Unresolved& unresolved,
+                  RefinedCrossing& c) {
   while (c.kept && (c.level < levels || c.error_estimate > tolerance)) {
     const double before = c.crossing.depth_m;
     const OnFinerGrid outcome = to_level(c.level + 1, c.crossing);
@@ -22,7 +23,8 @@ void refine_until(std::size_t levels, double tolerance, const ToLevel& to_level,
     if (c.kept) ++c.level;  // else the crossing stays that of the level before
     const double change_before = std::exchange(c.change, std::abs(before / c.crossing.depth_m - 1.0));
     // The first change has none before it: `change` began as 1, which would stand in as a tenth.
-    c.error_estimate = c.kept ? estimate_from(c.change, c.level > 1 ? change_before : 0.0) : 1.0;
+    c.error_estimate =
+        c.kept ? estimate_from(c.change, c.level > 1 ? change_before : 0.0) + unresolved(c.level, c.crossing) : 1.0;
   }
 }
 

@@ -31,10 +31,14 @@ enum class OnFinerGrid { kept, lost, none_finer };
 /// Moves a crossing to the grid of a level.
 using ToLevel = std::function<OnFinerGrid(std::size_t level, Crossing& crossing)>;
 
+/// The relative error of a crossing on the grid of a level that its distance to other grids does not show.
+using Unresolved = std::function<double(std::size_t level, const Crossing& crossing)>;
+
 /// Follows a crossing to finer grids, at least `levels` of them, until the tolerance is met, the crossing is lost or no
 /// finer grid is left. One level more than an estimate needs is a second change, without which a small one could be
 /// chance.
-void refine_until(std::size_t levels, double tolerance, const ToLevel& to_level, RefinedCrossing& crossing);
+void refine_until(std::size_t levels, double tolerance, const ToLevel& to_level, const Unresolved& unresolved,
+                  RefinedCrossing& crossing);
 
 /// The crossing as it stands in a row.
 [[nodiscard]] LobePoint lobe_point(const RefinedCrossing& crossing, double chatter_frequency_hz);

@@ -18,6 +18,10 @@ ToLevel to_level_of(SearchGrids& grids) {
   return [&grids](std::size_t level, Crossing& crossing) { return grids.move_to(level, crossing); };
 }
 
+Unresolved unresolved_of(SearchGrids& grids) {
+  return [&grids](std::size_t level, const Crossing& crossing) { return grids.unresolved(level, crossing.depth_m); };
+}
+
 /// Leaves out the deepest crossing. The depths up to it are no longer known to be searched: the row ends half way, in
 /// ratio, between the two deepest.
 void drop_last(std::vector<RefinedCrossing>& all, LobeRow& row) {
@@ -40,7 +44,7 @@ int refine_boundaries(SearchGrids& grids, std::vector<RefinedCrossing>& all, con
     const bool bounds = count == 0 || count + c.crossing.unstable_change == 0 || c.crossing.depth_m <= beside_first_m;
     count += c.crossing.unstable_change;
     if (!bounds || c.crossing.depth_m > options.depth_limit_m) continue;
-    refine_until(2, options.error_tolerance, to_level_of(grids), c);
+    refine_until(2, options.error_tolerance, to_level_of(grids), unresolved_of(grids), c);
     // A deep crossing that finer grids do not have was one of the coarse grid only, and what is beyond it is as
     // doubtful. The limiting depth does not depend on it, and the row ends before. Without the first one there is no
     // row.
@@ -64,7 +68,7 @@ std::vector<RefinedCrossing> refined(SearchGrids& grids, std::vector<Crossing> f
   // One finer grid for each before anything is said of their order: the coarse grid's may be another.
   for (Crossing& crossing : found) {
     all.push_back({std::move(crossing)});
-    refine_until(1, 1.0, to_level_of(grids), all.back());
+    refine_until(1, 1.0, to_level_of(grids), unresolved_of(grids), all.back());
   }
   sort_by_depth(all);
   int count = all.empty() ? 0 : refine_boundaries(grids, all, options, row);

@@ -19,6 +19,8 @@ class SearchGrids {
 
   /// Moves a crossing to the grid of a level ≥ 1.
   [[nodiscard]] virtual OnFinerGrid move_to(std::size_t level, Crossing& crossing) = 0;
+  /// The relative error of a depth on that grid which its distance to other grids does not show.
+  [[nodiscard]] virtual double unresolved(std::size_t /*level*/, double /*depth_m*/) { return 0.0; }
   /// Nodes of that grid.
   [[nodiscard]] virtual int nodes(std::size_t level) = 0;
   /// Multipliers outside of the unit circle.

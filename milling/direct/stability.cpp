@@ -32,12 +32,18 @@ complex<double> dominant(const Eigen::VectorXcd& eigenvalues) {
 class PoleGrids : public FixedGrids {
  public:
   PoleGrids(const CutAtSpeed& cut, Resolution first, double depth_m, int most_nodes)
-      : cut_(cut), next_(first), depth_m_(depth_m), most_nodes_(most_nodes) {}
+      : cut_(cut), finest_(first), depth_m_(depth_m), most_nodes_(most_nodes) {}
+
+  /// Lets no level beyond 0 that is not yet made be coarser than this.
+  void beyond_first(Resolution least) { least_ = least; }
 
   const DiscreteCut& operator[](std::size_t level) { return made(level).cut; }
   [[nodiscard]] const GainOnCircle& gain(std::size_t level) override { return made(level).gain; }
   [[nodiscard]] int nodes(std::size_t level) override { return static_cast<int>((*this)[level].grid.node_rad.size()); }
   [[nodiscard]] bool more_after(std::size_t level) override { return 3 * nodes(level) < 2 * most_nodes_; }
+  [[nodiscard]] double unresolved(std::size_t level, double depth_m) override {
+    return milling::unresolved(cut_, made(level).resolution, depth_m);
+  }
   [[nodiscard]] int unstable(std::size_t level, double depth_m) override {
     return milling::unstable((*this)[level], depth_m);
   }
@@ -50,21 +56,23 @@ class PoleGrids : public FixedGrids {
 
  private:
   struct Level {
+    Resolution resolution;
     DiscreteCut cut;
     GainOnCircle gain;
   };
 
   const Level& made(std::size_t level) {
     while (levels_.size() <= level) {
-      levels_.push_back(std::make_unique<Level>(Level{discrete(cut_, next_, depth_m_), {}}));
+      if (!levels_.empty()) finest_ = finer(finest_, least_);
+      levels_.push_back(std::make_unique<Level>(Level{finest_, discrete(cut_, finest_, depth_m_), {}}));
       levels_.back()->gain = gain_of(levels_.back()->cut);
-      next_ = finer(next_);
     }
     return *levels_[level];
   }
 
   const CutAtSpeed& cut_;
-  Resolution next_;
+  Resolution finest_;
+  Resolution least_{0, 0};
   double depth_m_;
   int most_nodes_;
   std::vector<std::unique_ptr<Level>> levels_;
@@ -72,6 +80,7 @@ class PoleGrids : public FixedGrids {
 
 Multiplier multiplier_of(const CutAtSpeed& cut, double depth_m, const StabilityOptions& options) {
   PoleGrids grids(cut, resolving(cut, depth_m), depth_m, options.most_nodes);
+  grids.beyond_first(estimating(cut, depth_m, options));
   double before = std::abs(dominant(multipliers(grids[0], depth_m)));
   double change = 1.0;
   for (std::size_t level = 1;; ++level) {
@@ -81,7 +90,7 @@ Multiplier multiplier_of(const CutAtSpeed& cut, double depth_m, const StabilityO
     result.modulus = std::abs(result.value);
     const double change_before = std::exchange(change, std::abs(before / result.modulus - 1.0));
     before = result.modulus;
-    result.error_estimate = estimate_from(change, change_before);
+    result.error_estimate = estimate_from(change, change_before) + grids.unresolved(level, depth_m);
     result.nodes = grids.nodes(level);
     const bool enough = level > 1 && result.error_estimate <= options.error_tolerance;
     if (!enough && grids.more_after(level)) continue;
@@ -119,7 +128,6 @@ LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
     }
     return row;
   }
-  const auto fewer = [](Resolution a, Resolution b) { return a.elements * a.nodes < b.elements * b.nodes; };
   const double likely = options.expected_depth_m.value_or(8.0 * surely_stable_depth_m(cut));
   Resolution resolution = resolving(cut, std::min(options.depth_limit_m, likely));
   while (true) {
@@ -127,11 +135,12 @@ LobeRow row_of(const CutAtSpeed& cut, const StabilityOptions& options) {
     FirstCrossing first = first_crossing(grids.gain(0), beyond_limit(options));
     // A cut counts as stable up to a depth only if the grid resolves every mode that could regenerate there.
     const Resolution needed = resolving(cut, std::min(options.depth_limit_m, first.depth_m()));
-    if (fewer(resolution, needed)) {
+    if (coarser(resolution, needed)) {
       resolution = needed;
       continue;
     }
     const double wanted = wanted_m(first.found, options);
+    grids.beyond_first(estimating(cut, std::min(options.depth_limit_m, first.depth_m()), options));
     LobeRow row = row_from(grids, std::move(first), cut.spindle_speed_rpm, options);
     if (row.crossings.empty()) describe_depth_limit(row, cut, options);
     // By the nodes of the search: a crossing that is none on finer grids (two flips that become one Hopf crossing

@@ -134,7 +134,7 @@ class Results:
 
     ``frf["part"]``, ``frf["robot"]``, ``frf["coupled_receptance"]``: Response. ``lobes["part"]``,
     ``lobes["supported_crossings"]``, ``modes["modes"]``, ``robot["postures"]``, ``simulation["points"]``: tables, a dict
-    of columns.
+    of columns. ``simulated`` has those that ``thinwall simulate`` left beside the run's.
     """
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
@@ -147,6 +147,7 @@ class Results:
         self.modes: Mapping[str, Table] = _Files(list(self.folder.glob("modes/*.csv")), read_table)
         self.robot: Mapping[str, Table] = _Files(list(self.folder.glob("robot/*.csv")), read_table)
         self.simulation: Mapping[str, Table] = _Files(list(self.folder.glob("simulation/*.csv")), read_table)
+        self.simulated: Mapping[str, Table] = _Files(list(self.folder.glob("simulated/*.csv")), read_table)
 
     def shapes(self, name: str = "part") -> list[Shape]:
         """The mode shapes of "part", or of "coupled", in the order of their modes; the largest entry of each is 1."""

@@ -95,25 +95,6 @@ json walls_of(const fs::path& file, std::size_t most) {
   return list;
 }
 
-/// True if points.csv has the figures of the summary's points: `thinwall simulate` may have put another one there.
-bool of_this_run(const fs::path& file, const std::vector<SimulatedPointSummary>& points) {
-  if (!fs::exists(file)) return false;
-  const io::Table table = io::read_csv(file);
-  const auto same = [&](const char* column, const auto& of) {
-    return std::ranges::equal(points, io::numbers(table, column, file), {}, of);
-  };
-  const auto along_feed = [](const SimulatedPointSummary& p) {
-    return p.peak_to_peak_m ? p.peak_to_peak_m->x() : std::numeric_limits<double>::infinity();
-  };
-  const auto peak_force = [](const SimulatedPointSummary& p) {
-    return p.peak_force_n.value_or(std::numeric_limits<double>::infinity());
-  };
-  return same("spindle_speed_rpm", &SimulatedPointSummary::spindle_speed_rpm) &&
-         same("depth_m", &SimulatedPointSummary::depth_m) &&
-         same("feed_per_tooth_m", &SimulatedPointSummary::feed_per_tooth_m) && same("peak_to_peak_x_m", along_feed) &&
-         same("peak_force_n", peak_force);
-}
-
 json point_of(const fs::path& folder, const SimulatedPointSummary& point, const Rows& rows) {
   json result = {{"files", point.files}};
   const auto add = [&](const char* key, const std::string& ending, const auto& made) {
@@ -168,10 +149,9 @@ json simulation_data(const fs::path& results, const Summary& summary) {
   if (!summary.simulation) return nullptr;
   const fs::path folder = results / "simulation";
   json data = {{"points", json::array()}, {"maps", json::array()}};
-  const bool known = of_this_run(folder / "points.csv", summary.simulation->points);
   const Rows rows = rows_for(summary.simulation->points.size());
   for (const SimulatedPointSummary& point : summary.simulation->points)
-    data["points"].push_back(known ? point_of(folder, point, rows) : json{{"files", point.files}});
+    data["points"].push_back(point_of(folder, point, rows));
   for (const AmplitudeMapSummary& map : summary.simulation->maps) {
     const fs::path file = folder / (core::word_of(map.chart) + "_map.csv");
     if (fs::exists(file)) data["maps"].push_back(map_of(file, map));

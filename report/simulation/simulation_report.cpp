@@ -20,7 +20,11 @@ std::string length(double metres) {
 std::string motion_in_words(const SimulatedPointSummary& p) {
   const bool stable = p.growth.stable();
   if (stable && (p.motion == "quasi_periodic" || p.motion == "growing"))
-    return "has not settled, though small ones decay: settle more turns";
+    return "has not settled, though small ones decay: " +
+           (p.period_difference
+                ? fmt::format("it still changes by {:.2g} % of its size, ", 100.0 * *p.period_difference)
+                : std::string()) +
+           "settle more turns";
   if (p.motion == "periodic") return "repeats itself with the cut";
   if (p.motion == "period_n") return fmt::format("repeats itself after {} periods of the cut", p.period);
   return p.motion == "quasi_periodic" ? "never repeats itself" : "grows";

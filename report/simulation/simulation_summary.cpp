@@ -77,6 +77,7 @@ SimulatedPointSummary point_of(const PointSimulation& p, std::size_t index) {
   summary.status = milling::name(p.cut.status);
   summary.motion = milling::name(p.cut.motion.motion);
   summary.period = p.cut.motion.period;
+  summary.period_difference = finite(p.cut.motion.difference);
   summary.simulated_s = p.cut.simulated_s;
   summary.growth = growth_of(p);
   if (p.cut.status == milling::SimulationStatus::overflowed) return summary;  // figures of such a motion are none

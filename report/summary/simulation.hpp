@@ -146,6 +146,7 @@ struct SimulatedPointSummary {
   double spindle_speed_rpm = 0.0, depth_m = 0.0, feed_per_tooth_m = 0.0;
   std::string status, motion;
   int period = 0;
+  std::optional<double> period_difference;
   double simulated_s = 0.0;
   std::optional<Eigen::Vector3d> peak_to_peak_m, mean_force_n;
   std::optional<double> peak_force_n, peak_torque_n_m, mean_power_w, share_without_contact, thickest_chip_m;
@@ -176,6 +177,11 @@ void fields(Visitor& visit, Section& point) {
   visit(Field{"motion", Kind::text, "\"periodic\", \"period_n\", \"quasi_periodic\" or \"growing\""}, point.motion);
   visit(Field{"period", Kind::count, "periods of the cut after which the motion repeats itself; 0: never"},
         point.period);
+  visit(Field{"period_difference", Kind::residual,
+              "largest change of a sample after that period, over the peak to peak value; where there is none, the "
+              "least of the periods that were tried; null: too few turns to tell",
+              or_null},
+        point.period_difference);
   visit(Field{"simulated_s", Kind::time, "time that was simulated, up to the end or to where the status was met"},
         point.simulated_s);
   visit(Field{"peak_to_peak_m", Kind::length,

@@ -57,10 +57,21 @@ TEST(Simulate, TellsTheMotionOnBothSidesOfTheBoundary) {
   EXPECT_NE(text.find("peak to peak 144.6 µm along the feed, 102.5 µm across"), std::string::npos) << text;
   // Every second tooth: 1.5 times the 633.3 Hz of the teeth, next to the mode at 922 Hz.
   EXPECT_NE(text.find("950.0 Hz"), std::string::npos) << text;
-  const std::string points = core::read_file(folder / "out/simulation/points.csv");
+  const std::string points = core::read_file(folder / "out/simulated/points.csv");
   EXPECT_EQ(std::count(points.begin(), points.end(), '\n'), 4) << "a comment, the names and both points";
-  EXPECT_TRUE(fs::exists(folder / "out/simulation/tool-1.csv"));
-  EXPECT_TRUE(fs::exists(folder / "out/simulation/tool-2-passes.csv"));
+  EXPECT_TRUE(fs::exists(folder / "out/simulated/tool-1.csv"));
+  EXPECT_TRUE(fs::exists(folder / "out/simulated/tool-2-passes.csv"));
+}
+
+/// A motion near the boundary takes long to settle; by how much it has not is told.
+TEST(Simulate, TellsHowFarAMotionHasNotSettled) {
+  const fs::path folder = scratch("simulate_unsettled");
+  const auto [text, code] = simulate(folder, {"--at", "11000 rpm, 1 mm", "--settle", "5", "--turns", "12"});
+  EXPECT_EQ(code, 0) << text;
+  EXPECT_NE(text.find("has not settled, though small ones decay: it still changes by "), std::string::npos) << text;
+  const auto [longer, again] = simulate(folder, {"--at", "11000 rpm, 1 mm", "--settle", "2000", "--turns", "12"});
+  EXPECT_EQ(again, 0) << longer;
+  EXPECT_EQ(longer.find("has not settled"), std::string::npos) << longer;
 }
 
 /// The case's own [simulation] is what an option does not say.
@@ -75,13 +86,13 @@ trace = 4
   const auto [own, done] = simulate(folder, {}, section);
   EXPECT_EQ(done, 0) << own;
   EXPECT_NE(own.find("tool at 11000 rpm, 1 mm deep: vibration repeats itself with the cut"), std::string::npos) << own;
-  EXPECT_EQ(column(folder / "out/simulation/tool-1.csv", "time_s").size(), 4U * 720U);
-  EXPECT_EQ(column(folder / "out/simulation/tool-1-passes.csv", "entry_s").size(), 16U);
+  EXPECT_EQ(column(folder / "out/simulated/tool-1.csv", "time_s").size(), 4U * 720U);
+  EXPECT_EQ(column(folder / "out/simulated/tool-1-passes.csv", "entry_s").size(), 16U);
   const auto [changed, again] = simulate(folder, {"--at", "19000 rpm, 1 mm", "--turns", "3"}, section);
   EXPECT_EQ(again, 0) << changed;
   EXPECT_NE(changed.find("tool at 19000 rpm"), std::string::npos) << changed;
   EXPECT_EQ(changed.find("11000 rpm"), std::string::npos) << changed;
-  EXPECT_EQ(column(folder / "out/simulation/tool-1.csv", "time_s").size(), 3U * 720U);
+  EXPECT_EQ(column(folder / "out/simulated/tool-1.csv", "time_s").size(), 3U * 720U);
 }
 
 /// Without a point: nine tenths and eleven tenths of the limiting depth at the case's own speed.
@@ -91,7 +102,7 @@ TEST(Simulate, LooksAtBothSidesOfTheBoundaryWhereNoPointIsGiven) {
   text.insert(text.find("[cutting]\n") + 10, "spindle_speed = \"19000 rpm\"\n");
   const auto [said, code] = simulate(folder, {"--settle", "50", "--turns", "4"}, text);
   EXPECT_EQ(code, 0) << said;
-  const fs::path points = folder / "out/simulation/points.csv";
+  const fs::path points = folder / "out/simulated/points.csv";
   const auto depth = column(points, "depth_m"), modulus = column(points, "multiplier_lobes");
   ASSERT_EQ(depth.size(), 2U);
   EXPECT_NEAR(depth[1] / depth[0], 11.0 / 9.0, 1e-9);
@@ -110,8 +121,8 @@ TEST(Simulate, TellsAVibrationThatOutgrowsTheCutter) {
   const auto [text, code] = simulate(folder, {"--at", "11000 rpm, 20 mm", "--settle", "0", "--turns", "50"}, soft);
   EXPECT_EQ(code, 0) << text;
   EXPECT_NE(text.find("the vibration outgrew the cutter after"), std::string::npos) << text;
-  EXPECT_NE(core::read_file(folder / "out/simulation/points.csv").find("overflowed,growing,0"), std::string::npos);
-  EXPECT_FALSE(fs::exists(folder / "out/simulation/tool-1.csv"));
+  EXPECT_NE(core::read_file(folder / "out/simulated/points.csv").find("overflowed,growing,0"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "out/simulated/tool-1.csv"));
 }
 
 /// `lobes` leaves the simulation of a case out, and what is expected of it.

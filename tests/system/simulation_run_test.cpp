@@ -9,6 +9,7 @@
 
 #include "app/command_line.hpp"
 #include "app/forecast.hpp"
+#include "app/simulate_command.hpp"
 #include "case/numbers.hpp"
 #include "core/atomic_file.hpp"
 #include "core/messages.hpp"
@@ -99,13 +100,19 @@ TEST(SimulationRun, WritesTheTablesThatThePageDraws) {
   const std::string text = report::terminal_report(result.summary, "there");
   EXPECT_NE(text.find("growth and lobes agree to"), std::string::npos) << text;
   EXPECT_NE(text.find("periodic motion and closed form agree to"), std::string::npos) << text;
-  // Another simulation in the same place is not taken for this run's, be it of the same points.
-  report::Summary other = result.summary;
-  other.simulation->points[1].depth_m = 1e-3;
-  EXPECT_FALSE(report::simulation_data(folder, other)["points"][0].contains("trace"));
-  other = result.summary;
-  *other.simulation->points[1].peak_force_n *= 1.001;
-  EXPECT_FALSE(report::simulation_data(folder, other)["points"][0].contains("trace"));
+}
+
+/// `thinwall simulate` in the folder of a run, by other numbers of turns, leaves the tables of the run as they are.
+TEST(SimulationRun, KeepsItsTablesWhereMoreIsSimulated) {
+  const fs::path folder = scratch("simulation_beside");
+  const Case source = parse_case(benchmark_tool + points, folder);
+  (void)run_case(source, {folder, true, -1, false});
+  const std::string before = core::read_file(folder / "simulation" / "points.csv");
+  Case other = source;
+  other.simulation->turns += 1;
+  (void)app::simulate_case(other, folder, app::ProgressDisplay::none);
+  EXPECT_EQ(core::read_file(folder / "simulation" / "points.csv"), before);
+  EXPECT_NE(core::read_file(folder / "simulated" / "points.csv"), before);
 }
 
 /// A map has at each of its points what a simulation there has.

@@ -13,7 +13,7 @@ const motions = { periodic: () => 'repeats itself with the cut', period_n: (p) =
 const micrometresOf = (vector) => (vector ? `${number(vector[0] * 1e6, 4)}, ${number(vector[1] * 1e6, 4)} µm` : null); // along the feed, across
 const stable = (p) => isNumber(p.growth?.lobes_modulus) && p.growth.lobes_modulus < 1;
 const unsettled = (p) => stable(p) && (p.motion === 'quasi_periodic' || p.motion === 'growing');
-const motionOf = (p) => (p.approach?.length ? 'enters at a border' : p.status === 'overflowed' ? `outgrew the cutter after ${number(p.simulated_s, 3)} s` : `${unsettled(p) ? 'has not settled, though small ones decay' : motions[p.motion]?.(p) ?? p.motion}${p.status === 'unsettled' ? '; forces did not settle' : ''}`);
+const motionOf = (p) => (p.approach?.length ? 'enters at a border' : p.status === 'overflowed' ? `outgrew the cutter after ${number(p.simulated_s, 3)} s` : `${unsettled(p) ? `has not settled, though small ones decay${isNumber(p.period_difference) ? `: it still changes by ${percent(p.period_difference, 2)} of its size` : ''}` : motions[p.motion]?.(p) ?? p.motion}${p.status === 'unsettled' ? '; forces did not settle' : ''}`);
 
 /** The section's content; null where nothing was simulated. */
 export function simulation(runs) {
