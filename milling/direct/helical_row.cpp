@@ -6,6 +6,7 @@
 #include <complex>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -162,9 +163,14 @@ class HelicalSearch {
     return probe;
   }
 
-  /// Deep in an unstable range counts are cheaper, and crossings that cancel there do not matter.
-  [[nodiscard]] Probe after(const Probe& low, double depth_m) const {
-    return low.unstable > 0 ? counted(depth_m) : frozen(depth_m);
+  /// Deep in an unstable range counts are cheaper, and crossings that cancel there do not matter. None where an
+  /// eigen-solution fails.
+  [[nodiscard]] std::optional<Probe> after(const Probe& low, double depth_m) const {
+    try {
+      return low.unstable > 0 ? counted(depth_m) : frozen(depth_m);
+    } catch (const core::NumericalError&) {
+      return std::nullopt;
+    }
   }
 
   /// Steps in which neither the stretch of a tooth in the cut grows by more than 12 % nor, with unequal helices, the
@@ -220,8 +226,8 @@ class HelicalSearch {
       return true;
     }
     if (halvings == 0) return false;
-    const Probe middle = after(low, 0.5 * (low.depth_m + high.depth_m));
-    return between(low, middle, halvings - 1, scan) && between(middle, high, halvings - 1, scan);
+    const std::optional<Probe> middle = after(low, 0.5 * (low.depth_m + high.depth_m));
+    return middle && between(low, *middle, halvings - 1, scan) && between(*middle, high, halvings - 1, scan);
   }
 
  private:
@@ -236,16 +242,18 @@ class HelicalSearch {
   std::size_t refinements_;
 };
 
-/// The depths from 0 to where the crossings are wanted, or to where what is found no longer explains the counts.
+/// The depths from 0 to where the crossings are wanted, to where what is found no longer explains the counts, or to
+/// where an eigen-solution fails.
 CoarseCrossings scan(const HelicalSearch& search, const StabilityOptions& options) {
   CoarseCrossings result;
   Probe low;
   while (low.depth_m < wanted_m(result.found, options)) {
-    Probe high = search.after(low, std::min(search.next_depth(low.depth_m), wanted_m(result.found, options)));
-    const bool explained = search.between(low, high, 5, result);
+    std::optional<Probe> high =
+        search.after(low, std::min(search.next_depth(low.depth_m), wanted_m(result.found, options)));
+    const bool explained = high && search.between(low, *high, 5, result);
     std::ranges::sort(result.found, {}, &Crossing::depth_m);
     if (!explained) break;
-    low = std::move(high);
+    low = std::move(*high);
   }
   return result;
 }

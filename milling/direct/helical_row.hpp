@@ -17,9 +17,9 @@ namespace thinwall::milling {
 ///
 /// Checked as rows without helix (stability.hpp): no multiplier outside just below the first crossing, as many as the
 /// crossings say at the end of the search, or the search ends earlier (searched_m). A row that fails is searched again
-/// on finer grids, twice at most, then `crossing_missed`. The limit of a row without crossings is not filled in. Throws
-/// NumericalError if an eigen-solution fails. Cost: some five searches and five counts, some four factorisations of
-/// the gain a step of Newton's rule.
+/// on finer grids, twice at most, then `crossing_missed`. The limit of a row without crossings is not filled in. An
+/// eigen-solution that fails ends the search at the depth before. Throws NumericalError if one of the checks fails.
+/// Cost: some five searches and five counts, some four factorisations of the gain a step of Newton's rule.
 [[nodiscard]] LobeRow helical_row(const CutAtSpeed& cut, const StabilityOptions& options);
 
 }  // namespace thinwall::milling
