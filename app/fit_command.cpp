@@ -115,7 +115,7 @@ void require_other_files(const FitRequest& request) {
   }
 }
 
-/// What is to be said of the weights. Throws UsageError for averages without a coherence that they belong to.
+/// Tells where coherence is not used. Throws UsageError for averages without a coherence that they belong to.
 void check_weights(const FitMatrix& matrix, const FitRequest& request, std::vector<std::string>& notes) {
   if (request.averages && matrix.coherence.empty())
     throw core::UsageError(

@@ -1,5 +1,5 @@
 #pragma once
-// The functions of frequency that modes and terms are made of, and what an entry sees of them in few rows.
+// The functions of frequency that modes and terms are made of, compressed to few rows for each entry.
 
 #include <Eigen/Core>
 #include <vector>

@@ -162,7 +162,7 @@ Eigen::MatrixXd changes_of(const Problem& p, const Unknowns& u, const std::vecto
   return D;
 }
 
-/// What each entry sees of the functions at the poles, and of its values in the last column.
+/// Each entry's triangle of the functions at the poles, with its values in the last column.
 std::vector<Eigen::MatrixXd> triangles_of(const Problem& p, const Unknowns& u, Digits digits) {
   Eigen::VectorXcd poles(u.modes());
   for (Eigen::Index r = 0; r < poles.size(); ++r) poles(r) = u.pole(r);

@@ -8,7 +8,7 @@
 
 namespace thinwall::identification {
 
-/// What it took to make a fit passive.
+/// The change that made a fit passive.
 struct PassiveChange {
   double before = 0.0;  ///< largest eigenvalue of A over ‖B‖ of the fit as it was, 0 where none is positive
   double after = 0.0;   ///< that is left of it

@@ -1,5 +1,5 @@
 #pragma once
-// How well a fitted receptance agrees with the measured one.
+// Agreement of a fitted receptance with the measured one.
 
 #include <Eigen/Core>
 #include <optional>

@@ -285,7 +285,7 @@ TEST_F(Fit, ReadsArraysOfMatFiles) {
   EXPECT_EQ(figures()["responses"], (nlohmann::json{"2.x"}));
 }
 
-/// What an earlier fit left and this one does not have is gone, other files are not, and a failure changes nothing.
+/// Files that an earlier fit left and this one does not have are gone; other files stay.
 TEST_F(Fit, ReplacesAnEarlierResultAsAWhole) {
   io::write_uff(path("robot.uff"), measured);
   ASSERT_EQ(command({"fit", path("robot.uff"), "--out", path("out")}).code, 0);

@@ -9,7 +9,7 @@ import { receptances } from './receptances.js';
 import { section } from './section.js';
 import { stabilisation, stabilisationLead } from './stabilisation.js';
 
-/** What stands above the sections, these, and what to draw at once. */
+/** The headline, the sections, and a call that draws what is seen first. */
 export function fitPage({ fit, title }) {
   const run = { label: 'fit', summary: {}, frf: [fit.frf] };
   const frf = receptances([run]);

@@ -8,7 +8,7 @@ import { button, choice, el } from './dom.js';
 import { number } from './format.js';
 import { plot } from './plot.js';
 
-// What agrees with the order before: 1 frequency, 2 damping, 4 participation of the references.
+// Marks by the bits that tell agreement with the order before: 1 frequency, 2 damping, 4 participation of the references.
 const kinds = [
   { agrees: 7, name: 'stable', symbol: 'circle', colour: 'supported', size: 7 },
   { agrees: 3, name: 'frequency and damping', symbol: 'triangle-up', colour: 'part', size: 8 },
@@ -68,7 +68,7 @@ function columns({ order, hz, damping, agrees }) {
     { name: 'frequency agrees', values: bit(1) }, { name: 'damping agrees', values: bit(2) }, { name: 'vector agrees', values: bit(4) }];
 }
 
-/** What the diagram shows, in a sentence or two. */
+/** A sentence or two on what the diagram shows. */
 export function stabilisationLead(fit) {
   const stable = fit.stable.length;
   return `Poles of models of rising order against the order before: what is real stays. ${stable} ${stable === 1 ? 'frequency stays' : 'frequencies stay'} over the orders; dotted lines are ${number(fit.figures.modes.length)} modes of this fit. Click on poles to choose others: the line below fits with them.`;
