@@ -276,7 +276,7 @@ ResponseFit fit_response(const dynamics::ResponseModel& measured, const std::vec
     fitted = values_of(result.found.fit, result.lines.hz);
   }
   if (options.passive) {
-    PassiveFit passive = made_passive(result.found.fit, result.lines.hz, measured.responses, measured.forces);
+    PassiveFit passive = made_passive(result.found.fit, result.lines, measured.responses, measured.forces);
     result.found.fit = std::move(passive.fit);
     result.passive = passive.change;
     fitted = values_of(result.found.fit, result.lines.hz);

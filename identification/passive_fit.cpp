@@ -85,7 +85,18 @@ std::vector<Peak> peaks_of(const ModalFit& fit, const std::vector<double>& lines
   return peaks;
 }
 
-/// A residue's change by an unknown of size 1.
+/// The weighted size of what the lines change by with a residue.
+double share_of(const MeasuredLines& lines, Complex pole, const Eigen::MatrixXcd& residue) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < lines.lines(); ++i) {
+    const Complex s(0.0, 2.0 * std::numbers::pi * lines.hz(i));
+    const Eigen::MatrixXcd change = residue / (s - pole) + residue.conjugate() / (s - std::conj(pole));
+    sum += 2.0 * (change.cwiseAbs2().array() / lines.variance[static_cast<std::size_t>(i)].array()).sum();
+  }
+  return std::sqrt(sum);
+}
+
+/// A residue's change by an unknown of size 1, by which χ² rises by 1.
 struct Direction {
   std::size_t mode = 0;
   bool right = false;  ///< of rank one: the vector that moves
@@ -94,12 +105,13 @@ struct Direction {
   Eigen::MatrixXcd change;  ///< between the points
 };
 
-/// The directions in which residues move, of relative size.
-std::vector<Direction> directions_of(const ModalFit& fit, const Points& points) {
+/// The directions in which residues move.
+std::vector<Direction> directions_of(const ModalFit& fit, const MeasuredLines& lines, const Points& points) {
   std::vector<Direction> directions;
   const auto add = [&](std::size_t mode, bool right, Eigen::Index row, Eigen::Index column, Complex unit,
                        const Eigen::MatrixXcd& all) {
-    directions.push_back({mode, right, row, column, unit, points.between(all)});
+    const double share = share_of(lines, fit.modes[mode].pole(), all);
+    directions.push_back({mode, right, row, column, unit / share, points.between(all) / share});
   };
   for (std::size_t r = 0; r < fit.modes.size(); ++r) {
     const FittedMode& mode = fit.modes[r];
@@ -194,14 +206,14 @@ double excess_of(const std::vector<Peak>& peaks) {
 
 }  // namespace
 
-PassiveFit made_passive(const ModalFit& fit, const Eigen::VectorXd& hz, const dynamics::DofTable& responses,
+PassiveFit made_passive(const ModalFit& fit, const MeasuredLines& measured, const dynamics::DofTable& responses,
                         const dynamics::DofTable& forces) {
   constexpr int most_steps = 60;
   constexpr double margin = 1e-4;
   PassiveFit result{fit, {}};
-  const std::vector<Collocated> driving = dynamics::driving_points({{hz}, responses, forces, {}});
+  const std::vector<Collocated> driving = dynamics::driving_points({{measured.hz}, responses, forces, {}});
   if (driving.empty()) return result;
-  const std::vector<double> lines = checked_lines(fit, hz);
+  const std::vector<double> lines = checked_lines(fit, measured.hz);
   const Points points = points_of(fit, lines, driving);
   for (int step = 0; step < most_steps; ++step) {
     core::check_interrupt();
@@ -209,7 +221,7 @@ PassiveFit made_passive(const ModalFit& fit, const Eigen::VectorXd& hz, const dy
     result.change.after = excess_of(peaks);
     if (step == 0) result.change.before = result.change.after;
     if (result.change.after == 0.0) break;
-    const std::vector<Direction> directions = directions_of(result.fit, points);
+    const std::vector<Direction> directions = directions_of(result.fit, measured, points);
     Eigen::VectorXd room(std::ssize(peaks));
     for (Eigen::Index k = 0; k < room.size(); ++k) {
       const Peak& peak = peaks[static_cast<std::size_t>(k)];

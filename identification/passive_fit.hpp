@@ -25,12 +25,13 @@ struct PassiveFit {
 /// between them, A = (B − Bᴴ)/(2i) must not have a positive eigenvalue at any line, nor beside a resonance. Residues
 /// move by first-order steps: at each local maximum of the largest eigenvalue, of vector v,
 ///
-///     vᴴ A v + Im vᴴ [δR/(s − λ) + conj(δR)/(s − λ*)] v ≤ 0,        least Σ |δR_r|²/|R_r|²
+///     vᴴ A v + Im vᴴ [δR/(s − λ) + conj(δR)/(s − λ*)] v ≤ 0,        least Σ |δH|²/variance
 ///
 /// (fast residue perturbation; Gustavsen 2008), a quadratic problem of few constraints, by Hildreth's method (1957),
-/// until none is violated. Residues of rank one stay so: their vectors move. Poles and terms stay. `hz` are the lines.
-/// The fit comes back as it was where it is passive, or has no driving point. Cost O(steps · lines · points³).
-[[nodiscard]] PassiveFit made_passive(const ModalFit& fit, const Eigen::VectorXd& hz,
+/// until none is violated. The sum, over lines and entries, is taken as that of each unknown alone. Residues of rank
+/// one stay so: their vectors move. Poles and terms stay. The fit comes back as it was where it is passive, or has no
+/// driving point. Cost O(steps · lines · points³).
+[[nodiscard]] PassiveFit made_passive(const ModalFit& fit, const MeasuredLines& measured,
                                       const dynamics::DofTable& responses, const dynamics::DofTable& forces);
 
 }  // namespace thinwall::identification

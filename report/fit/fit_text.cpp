@@ -46,7 +46,8 @@ std::string fit_text(const FitReport& found) {
                       fit.chi2_per_dof());
   text += fmt::format("  terms       {}\n", terms_text(found.fit.found.terms));
   text += fmt::format("  misfit      {:.2g} % of the entry that is worst\n", 100.0 * found.fit.misfit.maxCoeff());
-  if (found.fit.passive)
+  if (found.fit.passive && found.fit.passive->before == 0.0) text += "  passive     as it was fitted\n";
+  else if (found.fit.passive)
     text += fmt::format(
         "  passive     residues moved by at most {:.2g} %, for the fit gave energy by {:.2g} % of its size\n",
         100.0 * found.fit.passive->moved, 100.0 * found.fit.passive->before);
