@@ -1,7 +1,8 @@
 #include "app/command_description.hpp"
 
 #include <CLI/CLI.hpp>
-#include <sstream>
+
+#include "core/split.hpp"
 
 namespace thinwall::app {
 
@@ -50,10 +51,7 @@ ValueKind value_kind(const OptionDescription& option) {
 }
 
 std::vector<std::string> choices_of(const OptionDescription& option) {
-  std::vector<std::string> words;
-  std::istringstream text(option.value);
-  for (std::string word; std::getline(text, word, '|');) words.push_back(word);
-  return words;
+  return core::split(option.value, '|');
 }
 
 }  // namespace thinwall::app

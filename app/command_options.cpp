@@ -87,6 +87,23 @@ void describe_fit(CLI::App& app, FitRequest& fit) {
       ->type_name("receptance|mobility|accelerance");
   command->add_option("--unit", fit.input.unit, "of FRFs: m/N, um/N, m/s/N, m/s^2/N …")->type_name("UNIT");
   command->add_option("--frequency-unit", fit.input.frequency_unit, "of FRFs (default: Hz)")->type_name("Hz|rad/s");
+  command
+      ->add_option("--variable", fit.input.variable,
+                   "of another program's MAT file: the FRF, H00 or H(2,1,:), or an array")
+      ->type_name("NAME");
+  command->add_option("--frequency-variable", fit.input.frequency_variable, "beside it: the frequencies")
+      ->type_name("NAME");
+  command->add_option("--coherence-variable", fit.input.coherence_variable, "beside it: the coherence of an array")
+      ->type_name("NAME");
+  command
+      ->add_option("--responses", fit.input.responses,
+                   "DOFs of an array: \"1.x, 2.x\"; responses x forces x lines, or lines first")
+      ->type_name("DOFS");
+  command->add_option("--forces", fit.input.forces, "DOFs of an array: \"1.x\"")->type_name("DOFS");
+  command
+      ->add_option("--geometry", fit.input.geometry,
+                   "places of the points, for the page: UFF, or CSV with point, x_m, y_m, z_m")
+      ->type_name("FILE");
   command->add_option("--from", fit.from, "first frequency: \"20 Hz\" (default: all)")->type_name("FREQUENCY");
   command->add_option("--to", fit.to, "last frequency")->type_name("FREQUENCY");
   command
@@ -110,7 +127,9 @@ void describe_fit(CLI::App& app, FitRequest& fit) {
   command->add_option("--averages", fit.averages, "number of averages, by which coherence weighs the lines")
       ->check(CLI::Range(1, 100000));
   command->add_option("--noise", fit.noise, "noise of real and imaginary part, relative: 0.01 (default: by scatter)");
-  command->add_option("-o,--out", fit.out, "folder for the tables (default: fit)")->type_name("DIR");
+  command->add_flag("--passive", fit.passive,
+                    "residues are moved, as little as needed, until the model gives no energy");
+  command->add_option("-o,--out", fit.out, "folder for the tables and the page (default: fit)")->type_name("DIR");
 }
 
 void describe_reduce(CLI::App& app, Arguments& arguments) {

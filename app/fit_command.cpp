@@ -1,13 +1,20 @@
 #include "app/fit_command.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 
+#include "app/doctor.hpp"
+#include "app/fit_geometry.hpp"
 #include "core/error.hpp"
+#include "core/split.hpp"
 #include "core/units.hpp"
 #include "identification/fit_response.hpp"
-#include "report/fit_files.hpp"
+#include "report/fit/fit_files.hpp"
+#include "report/fit/fit_text.hpp"
 
 namespace thinwall::app {
 
@@ -25,24 +32,17 @@ double frequency(const std::string& text, const std::string& option) {
   throw core::UsageError(option + " \"" + text + "\": must be above 0 Hz");
 }
 
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> words;
-  std::size_t begin = 0;
-  for (;;) {
-    const std::size_t end = text.find(separator, begin);
-    words.push_back(text.substr(begin, end - begin));
-    if (end == std::string::npos) return words;
-    begin = end + 1;
-  }
-}
-
 Band left_out_band(const std::string& text) {
   constexpr double within = 0.01;
-  const std::vector<std::string> ends = split(text, ':');
-  const double from = frequency(ends.front(), "--exclude");
-  if (ends.size() == 1) return {(1.0 - within) * from, (1.0 + within) * from};
-  const double to = frequency(ends.back(), "--exclude");
-  if (ends.size() == 2 && from < to) return {from, to};
+  const std::vector<std::string> ends = core::split(text, ':');
+  if (ends.size() == 1) {
+    const double at = frequency(ends.front(), "--exclude");
+    return {(1.0 - within) * at, (1.0 + within) * at};
+  }
+  if (ends.size() == 2) {
+    const Band band{frequency(ends.front(), "--exclude"), frequency(ends.back(), "--exclude")};
+    if (band.from_hz < band.to_hz) return band;
+  }
   throw core::UsageError("--exclude \"" + text + "\": write \"50 Hz\" or \"49 Hz:51 Hz\"");
 }
 
@@ -67,36 +67,45 @@ identification::ResponseFitOptions options_of(const FitRequest& request) {
     options.identify.residues = *residues;
   }
   options.identify.highest_order = request.order;
+  options.passive = request.passive;
   if (!request.terms.empty()) options.identify.terms = terms_of(request.terms);
-  options.averages = request.averages;
-  options.noise = request.noise;
+  if (request.averages && request.noise)
+    throw core::UsageError("--averages and --noise both weigh the lines; give one of the two");
+  if (request.noise && !(*request.noise > 0.0 && *request.noise < 1.0))
+    throw core::UsageError(
+        fmt::format("--noise {}: must be above 0 and below 1; 0.01 stands for 1 % of |H|", *request.noise));
+  if (request.averages) options.averages = identification::OfEntries::Constant(1, 1, *request.averages);
+  if (request.noise) options.noise = identification::OfEntries::Constant(1, 1, *request.noise);
   return options;
 }
 
-/// Starts at the named frequencies: the nearest stable pole within 5 %, or one of a damping of 1 %.
-Eigen::VectorXcd named_poles(const std::string& text, const std::vector<identification::StablePole>& stable) {
-  constexpr double near = 0.05, usual_damping = 0.01;
-  const std::vector<std::string> words = split(text, ',');
-  Eigen::VectorXcd poles(static_cast<Eigen::Index>(words.size()));
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const double omega = 2.0 * std::numbers::pi * frequency(words[i], "--poles");
-    auto& pole = poles(static_cast<Eigen::Index>(i));
-    pole = {-usual_damping * omega, omega};
-    double least = near * omega;
-    for (const identification::StablePole& candidate : stable) {
-      const double off = std::abs(std::abs(candidate.pole) - omega);
-      if (off >= least) continue;
-      least = off;
-      pole = candidate.pole;
-    }
+/// The named frequencies, Hz. Throws UsageError for two that are alike, and for one outside of the band.
+std::vector<double> named_frequencies(const std::string& text, const Band& band) {
+  constexpr double least_distance = 1e-6;
+  std::vector<double> hz;
+  for (const std::string& word : core::split(text, ',')) {
+    const double named = frequency(word, "--poles");
+    if (named < band.from_hz || named > band.to_hz)
+      throw core::UsageError(
+          fmt::format("--poles: {:.6g} Hz is outside of the band from {:.6g} to {:.6g} Hz; leave it "
+                      "out, or widen the band",
+                      named, band.from_hz, band.to_hz));
+    if (std::ranges::any_of(hz, [&](double other) { return std::abs(other / named - 1.0) < least_distance; }))
+      throw core::UsageError(fmt::format("--poles: {:.6g} Hz stands twice; name each pole once", named));
+    hz.push_back(named);
   }
-  return poles;
+  return hz;
+}
+
+/// The band in which there are lines.
+Band measured_band(const Band& band, const dynamics::FrequencyAxis& axis) {
+  return {std::max(band.from_hz, axis.hz(0)), std::min(band.to_hz, axis.hz(axis.size() - 1))};
 }
 
 /// Throws UsageError if a result would take the place of a file that is read.
 void require_other_files(const FitRequest& request) {
   for (const std::string& source : request.input.sources) {
-    const std::filesystem::path file = source.substr(source.find('=') + 1);  // all of it without "="
+    const std::filesystem::path file = file_of(source);
     for (const char* name : report::fit_file_names) {
       std::error_code absent;
       if (std::filesystem::equivalent(file, std::filesystem::path(request.out) / name, absent))
@@ -106,29 +115,80 @@ void require_other_files(const FitRequest& request) {
   }
 }
 
+/// Tells where coherence is not used. Throws UsageError for averages without a coherence that they belong to.
+void check_weights(const FitMatrix& matrix, const FitRequest& request, std::vector<std::string>& notes) {
+  if (request.averages && matrix.coherence.empty())
+    throw core::UsageError(
+        "--averages weighs the lines by their coherence, which these files do not have for every entry; leave it out, "
+        "or state --noise");
+  if (!matrix.coherence.empty() && !request.averages && !request.noise)
+    notes.emplace_back("coherence is not used without --averages; the lines are weighed by their scatter");
+}
+
+/// The fit in the asked form, or of rank one where that is enough.
+identification::ResponseFit fitted(const FitMatrix& matrix, const FitRequest& request,
+                                   identification::ResponseFitOptions& options, std::vector<std::string>& notes) {
+  if (!request.residues.empty()) return identification::fit_response(matrix.measured, matrix.coherence, options);
+  identification::ResponseFit fit = identification::fit_of_any_rank(matrix.measured, matrix.coherence, options);
+  if (options.identify.residues == identification::Residues::free)
+    notes.emplace_back(
+        "residues are free, for a pole is double, as that of a round tool; --residues rank_one asks for one shape a "
+        "pole");
+  return fit;
+}
+
+/// The words of the command without --poles.
+std::vector<std::string> words_of(const FitRequest& request) {
+  std::vector<std::string> words{"thinwall", "fit"};
+  words.insert(words.end(), request.input.sources.begin(), request.input.sources.end());
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) words.insert(words.end(), {option, value});
+  };
+  const FitInput& input = request.input;
+  add("--quantity", input.quantity);
+  add("--unit", input.unit);
+  add("--frequency-unit", input.frequency_unit);
+  add("--variable", input.variable);
+  add("--frequency-variable", input.frequency_variable);
+  add("--coherence-variable", input.coherence_variable);
+  add("--responses", input.responses);
+  add("--forces", input.forces);
+  add("--geometry", input.geometry);
+  add("--from", request.from);
+  add("--to", request.to);
+  for (const std::string& band : request.left_out) add("--exclude", band);
+  if (request.order != FitRequest().order) add("--order", std::to_string(request.order));
+  add("--terms", request.terms);
+  add("--residues", request.residues);
+  if (request.averages) add("--averages", std::to_string(*request.averages));
+  if (request.noise) add("--noise", fmt::format("{}", *request.noise));
+  if (request.passive) words.emplace_back("--passive");
+  add("--out", request.out);
+  return words;
+}
+
 }  // namespace
 
 std::string fit_files(const FitRequest& request) {
   require_other_files(request);
   identification::ResponseFitOptions options = options_of(request);
   const FitMatrix matrix = fit_matrix(request.input);
-  if (!request.poles.empty())
-    options.identify.poles = named_poles(request.poles, identification::stable_poles(matrix.measured, options));
-  report::FitReport found{matrix.measured,
-                          request.residues.empty()
-                              ? identification::fit_of_any_rank(matrix.measured, matrix.coherence, options)
-                              : identification::fit_response(matrix.measured, matrix.coherence, options),
-                          {},
-                          {}};
-  if (request.residues.empty() && options.identify.residues == identification::Residues::free)
-    found.notes.emplace_back(
-        "residues are free, for a pole is double, as that of a round tool; --residues rank_one asks for one shape a "
-        "pole");
+  report::FitReport found{matrix.measured, {}};
+  check_weights(matrix, request, found.notes);
+  if (!request.poles.empty()) {
+    const auto hz = named_frequencies(request.poles, measured_band(options.band, matrix.measured.axis));
+    found.diagram = identification::stabilisation_diagram(matrix.measured, options);
+    options.identify.poles = identification::poles_near(hz, identification::stable_poles(found.diagram));
+  }
+  found.fit = fitted(matrix, request, options, found.notes);
+  if (found.diagram.empty()) found.diagram = found.fit.found.diagram;
   found.doubts = identification::doubts_about(found.fit, matrix.measured.responses, matrix.measured.forces, options);
-  if (!matrix.coherence.empty() && !request.averages && !request.noise)
-    found.notes.emplace_back("coherence is not used without --averages; the lines are weighed by their scatter");
   found.notes.insert(found.notes.end(), matrix.notes.begin(), matrix.notes.end());
-  const std::vector<std::string> left = report::write_fit(request.out, found);
+  found.coherence = matrix.coherence;
+  found.sources = matrix.files;
+  found.geometry = test_geometry(request.input.geometry, matrix.files);
+  found.command = words_of(request);
+  const std::vector<std::string> left = report::write_fit(request.out, found, program_name());
   found.notes.insert(found.notes.end(), left.begin(), left.end());
   return report::fit_text(found) + "  wrote       " + request.out + "\n";
 }

@@ -20,6 +20,7 @@ struct FitRequest {
   std::string residues;               ///< empty: of rank one, or free where a pole is double
   std::optional<int> averages;        ///< that the coherence belongs to
   std::optional<double> noise;
+  bool passive = false;  ///< residues are moved until the fit gives no energy
   std::string out = "fit";
 };
 

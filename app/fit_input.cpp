@@ -9,8 +9,11 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/split.hpp"
+#include "io/frf/mat_response.hpp"
 #include "io/frf/measured_response.hpp"
 #include "setup/measured.hpp"
+#include "setup/measured_layout.hpp"
 
 namespace thinwall::app {
 
@@ -42,10 +45,30 @@ setup::MeasuredFrf named(const std::string& word) {
   return frf;
 }
 
-setup::MeasuredFrf source_of(const std::string& word, const FitInput& input) {
-  setup::MeasuredFrf frf = named(word);
+/// Throws UsageError for words that say something only beside others.
+void require_together(const FitInput& input) {
   if (input.quantity.empty() != input.unit.empty())
     throw core::UsageError("--quantity and --unit belong together; give both, or neither where the files say them");
+  if (input.quantity.empty() && !input.frequency_unit.empty())
+    throw core::UsageError("--frequency-unit belongs to --quantity and --unit; give them, too, or remove it");
+  if (input.variable.empty() != input.frequency_variable.empty())
+    throw core::UsageError("--variable and --frequency-variable belong together; give both or neither");
+  if (input.responses.empty() != input.forces.empty())
+    throw core::UsageError("--responses and --forces belong together; give both for an array, or neither for one FRF");
+  const bool of_array = !input.responses.empty() || !input.coherence_variable.empty();
+  if (of_array && input.variable.empty())
+    throw core::UsageError(
+        "--responses, --forces and --coherence-variable tell of the array of --variable; give that, too");
+  if (!input.coherence_variable.empty() && input.responses.empty())
+    throw core::UsageError("--coherence-variable needs --responses and --forces; name the DOFs of the array");
+  if (!input.variable.empty() && input.quantity.empty())
+    throw core::UsageError("--variable does not say what it holds; give --quantity and --unit");
+}
+
+setup::MeasuredFrf source_of(const std::string& word, const FitInput& input) {
+  setup::MeasuredFrf frf = named(word);
+  frf.variable = input.variable;
+  frf.frequency_variable = input.frequency_variable;
   if (input.quantity.empty()) return frf;
   frf.quantity = core::from_word<io::FrfQuantity>(input.quantity);
   if (!frf.quantity)
@@ -53,6 +76,32 @@ setup::MeasuredFrf source_of(const std::string& word, const FitInput& input) {
   frf.unit = input.unit;
   frf.frequency_unit = input.frequency_unit.empty() ? "Hz" : input.frequency_unit;
   return frf;
+}
+
+/// "1.x, 2.x" as DOFs. Throws UsageError for a name that is none.
+dynamics::DofTable dofs_of(const std::string& list, const std::string& option) {
+  dynamics::DofTable dofs;
+  for (std::string& word : core::split(list, ',')) {
+    std::erase(word, ' ');
+    try {
+      dofs.push_back(setup::dof_of(word));
+    } catch (const core::InputError& error) {
+      throw core::UsageError(option + " \"" + list + "\": " + error.what());
+    }
+  }
+  return dofs;
+}
+
+/// All FRFs of the array that a MAT file of another program holds.
+io::MeasuredEntries entries_of_array(const std::string& word, const FitInput& input) {
+  const setup::MeasuredFrf source = source_of(word, input);
+  if (setup::frf_file_kind(source.file) != setup::FrfFileKind::mat)
+    throw core::UsageError("--variable is of MAT files, which \"" + source.file.string() + "\" is not; remove it");
+  return io::entries_of(
+      io::read_mat_frf(source.file, {input.frequency_variable, input.variable, input.coherence_variable},
+                       io::frf_format(*source.quantity, source.unit, source.frequency_unit),
+                       dofs_of(input.responses, "--responses"), dofs_of(input.forces, "--forces")),
+      source.file.string());
 }
 
 /// The coherence of each line as a matrix; none unless every entry has one.
@@ -96,16 +145,24 @@ void complete_by_reciprocity(io::MeasuredEntries& all) {
 
 }  // namespace
 
+std::string file_of(const std::string& word) {
+  return named(word).file.string();
+}
+
 FitMatrix fit_matrix(const FitInput& input) {
+  require_together(input);
   io::MeasuredEntries all;
+  std::vector<std::string> files;
   for (const std::string& word : input.sources) {
-    io::MeasuredEntries of_file = setup::read_all_measured(source_of(word, input));
+    files.push_back(file_of(word));
+    io::MeasuredEntries of_file =
+        input.responses.empty() ? setup::read_all_measured(source_of(word, input)) : entries_of_array(word, input);
     std::ranges::move(of_file.entries, std::back_inserter(all.entries));
     std::ranges::move(of_file.notes, std::back_inserter(all.notes));
   }
   complete_by_reciprocity(all);
   io::MeasuredResponse matrix = io::response_matrix(all);
-  return {matrix.response, coherence_of(matrix), all.notes};
+  return {matrix.response, coherence_of(matrix), all.notes, files};
 }
 
 }  // namespace thinwall::app

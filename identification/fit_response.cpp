@@ -31,9 +31,12 @@ std::vector<std::size_t> used_lines(const dynamics::ResponseModel& measured, con
     if (is_used(measured.axis.hz(i), options)) lines.push_back(static_cast<std::size_t>(i));
   }
   if (lines.size() < fewest_lines)
-    throw core::InputError("the band holds " + std::to_string(lines.size()) +
-                           " lines, must be at least 10; the file has them from " +
-                           text("%.6g to %.6g Hz", measured.axis.hz(0), measured.axis.hz(measured.axis.size() - 1)));
+    throw core::InputError(
+        "the band holds " + std::to_string(lines.size()) + " lines above 0 Hz, must be at least 10; " +
+        (measured.axis.size() == 0
+             ? std::string("the file has none: measure again")
+             : "widen it: the file has " + std::to_string(measured.axis.size()) + " from " +
+                   text("%.6g to %.6g Hz", measured.axis.hz(0), measured.axis.hz(measured.axis.size() - 1))));
   return lines;
 }
 
@@ -76,10 +79,11 @@ std::vector<Eigen::MatrixXd> variances(const ResponseFit& fit, const std::vector
     return variance_from_scatter(fit.lines.hz, rest, sizes, least_share);
   }
   std::vector<Eigen::MatrixXd> result;
-  if (fit.weights == Weights::coherence) result = variance_of(sizes, coherence, *options.averages);
+  if (fit.weights == Weights::coherence) result = variance_of(sizes, coherence, options.averages);
+  const Eigen::Index rows = sizes.front().rows(), columns = sizes.front().cols();
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     if (fit.weights == Weights::noise)
-      result.emplace_back(2.0 * *options.noise * *options.noise * sizes[i].cwiseAbs2());
+      result.emplace_back(2.0 * spread_over(options.noise, rows, columns, "noise").square() * sizes[i].array().abs2());
     // Positive also where an entry is zero or known without error.
     const double floor = std::max(1e-300, std::pow(least_share * sizes[i].cwiseAbs().maxCoeff(), 2));
     result[i] = result[i].cwiseMax(floor);
@@ -94,6 +98,14 @@ Eigen::MatrixXd misfit_of(const MeasuredLines& lines, const std::vector<Eigen::M
     all += lines.H[i].cwiseAbs2();
   }
   return (off.array() / all.array().max(1e-300)).sqrt();
+}
+
+/// Σ |H − fit|² over half of the variance, which real and imaginary part have each.
+double chi2_of(const MeasuredLines& lines, const std::vector<Eigen::MatrixXcd>& fitted) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < fitted.size(); ++i)
+    sum += 2.0 * ((lines.H[i] - fitted[i]).cwiseAbs2().array() / lines.variance[i].array()).sum();
+  return sum;
 }
 
 std::string name_of_entry(const dynamics::DofTable& responses, const dynamics::DofTable& forces, Eigen::Index row,
@@ -188,9 +200,24 @@ void doubt_quantity(const ResponseFit& fit, const dynamics::DofTable& responses,
         (std::abs(degrees) > 135.0 ? "an accelerance, or a sensor or force that is turned" : "a mobility") +
         "; check quantity and direction");
   }
-  if (const auto check = dynamics::passivity(fitted); check && !check->holds)
+  if (fit.passive && fit.passive->after > 0.0)
+    doubts.push_back("the model could not be made passive: it gives energy by " +
+                     text("%.2g", 100.0 * fit.passive->after) +
+                     " % of its size at a line; ask for fewer terms or symmetric residues");
+  else if (const auto check = dynamics::passivity(fitted); check && !check->holds)
     doubts.push_back("the model gives energy at " + text("%.5g", check->frequency_hz) + " Hz, by " +
-                     text("%.0f", 100.0 * check->figure) + " % of its size, which no passive structure does");
+                     text("%.0f", 100.0 * check->figure) +
+                     " % of its size, which no passive structure does; see --passive");
+}
+
+/// True if free residues are better than those of rank one by more than chance: noise gives a weak mode a second
+/// singular value, too.
+bool free_are_better(const ResponseFit& fit) {
+  constexpr double chance = 3.0;  // χ² that an unknown takes from noise, at most
+  const ModalFit& one = fit.found.fit;
+  const ModalFit free = modal_fit(fit.lines, poles_of(one), {fit.found.terms, Residues::free});
+  const double unknowns = one.degrees_of_freedom - free.degrees_of_freedom;
+  return one.chi2 - free.chi2 > chance * unknowns * std::max(1.0, free.chi2_per_dof());
 }
 
 }  // namespace
@@ -202,25 +229,29 @@ ResponseFit fit_of_any_rank(const dynamics::ResponseModel& measured, const std::
   ResponseFit fit = fit_response(measured, coherence, options);
   const bool simple = std::ranges::all_of(fit.found.fit.modes,
                                           [](const FittedMode& mode) { return mode.second_singular < double_pole; });
-  if (simple) return fit;
+  if (simple || !free_are_better(fit)) return fit;
   options.identify.residues = Residues::free;
   return fit_response(measured, coherence, options);
 }
 
-std::vector<StablePole> stable_poles(const dynamics::ResponseModel& measured, const ResponseFitOptions& options) {
+std::vector<OrderPoles> stabilisation_diagram(const dynamics::ResponseModel& measured,
+                                              const ResponseFitOptions& options) {
   dynamics::require_complete(measured);
   MeasuredLines lines = lines_of(measured, used_lines(measured, options));
   lines.variance = variance_from_scatter(lines.hz, lines.H, lines.H);
   const auto most = static_cast<int>(lines.lines() / 4);
-  return stable_poles(plscf(lines, std::min(options.identify.highest_order, most)));
+  return plscf(lines, std::min(options.identify.highest_order, most));
 }
 
 ResponseFit fit_response(const dynamics::ResponseModel& measured, const std::vector<Eigen::MatrixXd>& coherence,
                          const ResponseFitOptions& options) {
   constexpr int passes = 3;
   dynamics::require_complete(measured);
-  if (options.noise && !(*options.noise > 0.0 && *options.noise < 1.0))
-    throw core::InputError("noise is " + text("%.3g", *options.noise) + ", must be above 0 and below 1");
+  for (const double noise : options.noise.reshaped()) {
+    if (!(noise > 0.0 && noise < 1.0))
+      throw core::InputError("noise is " + text("%.3g", noise) +
+                             ", must be above 0 and below 1; give it relative to |H|, 0.01 for 1 %");
+  }
   const std::vector<std::size_t> used = used_lines(measured, options);
   ResponseFit result;
   result.lines = lines_of(measured, used);
@@ -228,13 +259,28 @@ ResponseFit fit_response(const dynamics::ResponseModel& measured, const std::vec
   if (!coherence.empty()) {
     for (const std::size_t line : used) of_lines.push_back(coherence.at(line));
   }
-  if (options.noise) result.weights = Weights::noise;
-  else if (options.averages && !coherence.empty()) result.weights = Weights::coherence;
+  if (options.noise.size() > 0) result.weights = Weights::noise;
+  else if (options.averages.size() > 0 && !coherence.empty()) result.weights = Weights::coherence;
   std::vector<Eigen::MatrixXcd> fitted;
   for (int pass = 0; pass < passes; ++pass) {
     result.lines.variance = variances(result, of_lines, fitted, options);
-    result.found = identify(result.lines, options.identify);
+    IdentifyOptions of_pass = options.identify;
+    of_pass.coarse = pass + 1 < passes;
+    if (pass > 0) of_pass.start = poles_of(result.found.fit);
+    Identification found = identify(result.lines, of_pass);
+    if (pass > 0) {
+      found.diagram = std::move(result.found.diagram);
+      found.stable = std::move(result.found.stable);
+    }
+    result.found = std::move(found);
     fitted = values_of(result.found.fit, result.lines.hz);
+  }
+  if (options.passive) {
+    PassiveFit passive = made_passive(result.found.fit, result.lines, measured.responses, measured.forces);
+    result.found.fit = std::move(passive.fit);
+    result.passive = passive.change;
+    fitted = values_of(result.found.fit, result.lines.hz);
+    result.found.fit.chi2 = chi2_of(result.lines, fitted);
   }
   result.misfit = misfit_of(result.lines, fitted);
   return result;
@@ -249,9 +295,14 @@ std::vector<std::string> doubts_about(const ResponseFit& fit, const dynamics::Do
   doubt_residues(fit, options, doubts);
   doubt_quantity(fit, responses, forces, doubts);
   for (const FittedMode& mode : fit.found.fit.modes) {
-    if (1.96 * mode.sd_ln_damping > uncertain)
+    if (!std::isfinite(mode.sd_ln_frequency) || !std::isfinite(mode.sd_ln_damping)) {
+      doubts.push_back(
+          "the mode at " + text("%.5g", mode.frequency_hz) +
+          " Hz has no interval: the lines do not tell it from another one; leave one of them out by --poles");
+    } else if (1.96 * mode.sd_ln_damping > uncertain) {
       doubts.push_back("the damping of the mode at " + text("%.5g", mode.frequency_hz) + " Hz is known to " +
                        text("%.0f", 196.0 * mode.sd_ln_damping) + " % only");
+    }
   }
   return doubts;
 }

@@ -11,6 +11,7 @@
 #include "core/words.hpp"
 #include "dynamics/response_model.hpp"
 #include "identification/identify.hpp"
+#include "identification/passive_fit.hpp"
 
 namespace thinwall::identification {
 
@@ -23,10 +24,11 @@ struct Band {
 /// The lines that are used, and what is known of their noise.
 struct ResponseFitOptions {
   Band band;
-  std::vector<Band> left_out;   ///< within the band, such as the mains
-  std::optional<int> averages;  ///< that the coherence belongs to
-  std::optional<double> noise;  ///< deviation of real and imaginary part alike, relative to |H|; before coherence
-  IdentifyOptions identify;     ///< rank one where nothing else is said
+  std::vector<Band> left_out;  ///< within the band, such as the mains
+  OfEntries averages;          ///< that the coherence belongs to
+  OfEntries noise;             ///< deviation of real and imaginary part alike, relative to |H|; before coherence
+  IdentifyOptions identify;    ///< rank one where nothing else is said
+  bool passive = false;        ///< residues are moved until the fit gives no energy (made_passive())
 };
 
 /// The source of the weights of the lines.
@@ -41,33 +43,34 @@ struct ResponseFit {
   MeasuredLines lines;
   Identification found;
   Weights weights = Weights::scatter;
-  Eigen::MatrixXd misfit;  ///< √(Σ |H − fit|² / Σ |H|²) over the lines, responses × references
+  Eigen::MatrixXd misfit;                ///< √(Σ |H − fit|² / Σ |H|²) over the lines, responses × references
+  std::optional<PassiveChange> passive;  ///< where it was asked for
 };
 
 /// identify() of a measured matrix. Variances of the lines follow from the stated noise; else from the coherence (one
 /// matrix a line, or none), if its number of averages is known; else from the scatter from line to line. They are taken
 /// once of the lines themselves and twice more by what was fitted before, so that neither small values nor resonances
 /// mislead. Lines at 0 Hz are not used. Throws InputError for a band with fewer than ten lines, noise that is not
-/// positive, and as identify(). Cost: three of its fits.
+/// between 0 and 1, and as identify(). Cost: three of its fits.
 [[nodiscard]] ResponseFit fit_response(const dynamics::ResponseModel& measured,
                                        const std::vector<Eigen::MatrixXd>& coherence,
                                        const ResponseFitOptions& options = {});
 
 /// fit_response() with residues of rank one, or with free ones where a pole is double to 5 % of its second singular
-/// value, as that of a round tool in both directions; `options` then tell which. Errors as fit_response(). Cost: two
-/// fits at most.
+/// value, as that of a round tool in both directions, and χ² is lower with them by more than chance; `options` then
+/// tell which. Errors as fit_response(). Cost: two fits at most.
 [[nodiscard]] ResponseFit fit_of_any_rank(const dynamics::ResponseModel& measured,
                                           const std::vector<Eigen::MatrixXd>& coherence, ResponseFitOptions& options);
 
-/// The stable poles of the band by the scatter of its lines, from which fit_response() starts. Errors as
-/// fit_response().
-[[nodiscard]] std::vector<StablePole> stable_poles(const dynamics::ResponseModel& measured,
-                                                   const ResponseFitOptions& options = {});
+/// The poles of the orders 1 to `options.identify.highest_order` in the band, its lines weighed by their scatter:
+/// plscf(). A fit whose poles are named has no diagram of its own. Errors as fit_response().
+[[nodiscard]] std::vector<OrderPoles> stabilisation_diagram(const dynamics::ResponseModel& measured,
+                                                            const ResponseFitOptions& options = {});
 
 /// Sentences that a user should read before the model is used: χ² that is too large, with the frequency and the entry
 /// where it is and the terms that would help; residues that are not symmetric where symmetric ones were asked for, or
 /// not of rank one; driving points whose phase is that of a mobility or an accelerance, or that are turned; modes of
-/// uncertain damping; a model that gives energy. Cost: two fits at most.
+/// uncertain damping, or without an interval; a model that gives energy. Cost: two fits at most.
 [[nodiscard]] std::vector<std::string> doubts_about(const ResponseFit& fit, const dynamics::DofTable& responses,
                                                     const dynamics::DofTable& forces,
                                                     const ResponseFitOptions& options);

@@ -1,6 +1,6 @@
 #pragma once
 // The headers of identification/ that other programs may include.
-// Internal: assignment.
+// Internal: assignment, line_functions.
 
 #include "core/eigen_alignment.hpp"
 #include "identification/fit_response.hpp"
@@ -8,5 +8,6 @@
 #include "identification/identify.hpp"
 #include "identification/measured_lines.hpp"
 #include "identification/modal_fit.hpp"
+#include "identification/passive_fit.hpp"
 #include "identification/plscf.hpp"
 #include "identification/tracking.hpp"

@@ -67,7 +67,7 @@ std::complex<double> at_the_worst_line(const MeasuredLines& measured, const Moda
 /// True if all modes lie in the band, ring, and are not narrower than what lines can tell: what else lowers χ² stands
 /// for modes outside, as the residual terms do, or for the noise of a line.
 bool all_in_band(const MeasuredLines& measured, const ModalFit& fit) {
-  constexpr double heaviest = 0.5, narrowest = 0.05;  // the half width, in distances between lines
+  constexpr double heaviest = 0.5, narrowest = 0.25;  // the half width, in distances between lines
   const double distance =
       (measured.hz(measured.lines() - 1) - measured.hz(0)) / static_cast<double>(measured.lines() - 1);
   return std::all_of(fit.modes.begin(), fit.modes.end(), [&](const FittedMode& mode) {
@@ -112,15 +112,26 @@ double share(const MeasuredLines& measured, const FittedMode& mode) {
   return sum;
 }
 
-/// Leaves out modes that do no more than chance; only those of a small share are tried.
+/// True if another pole lies within a quarter of the mode's half width: two may stand for one, with residues that
+/// nearly cancel.
+bool is_crowded(const ModalFit& fit, std::size_t mode) {
+  const std::complex<double> here = fit.modes[mode].pole();
+  for (std::size_t i = 0; i < fit.modes.size(); ++i) {
+    if (i != mode && std::abs(fit.modes[i].pole() - here) < 0.25 * std::abs(here.real())) return true;
+  }
+  return false;
+}
+
+/// Leaves out modes that do no more than chance; only those of a small share, crowded ones, and those outside of the
+/// band are tried.
 int leave_modes_out(const MeasuredLines& measured, const ModalFitOptions& options, ModalFit& fit) {
   constexpr double small = 100.0;  // times the entries
   int left_out = 0;
   for (std::size_t i = 0; i < fit.modes.size() && fit.modes.size() > 1;) {
     const double entries = static_cast<double>(fit.modes[i].residue.size());
-    const bool doubtful = fit.modes[i].damping_ratio > 0.3 || share(measured, fit.modes[i]) < small * entries ||
-                          fit.modes[i].frequency_hz < measured.hz(0) ||
-                          fit.modes[i].frequency_hz > measured.hz(measured.lines() - 1);
+    const bool doubtful =
+        fit.modes[i].damping_ratio > 0.3 || is_crowded(fit, i) || share(measured, fit.modes[i]) < small * entries ||
+        fit.modes[i].frequency_hz < measured.hz(0) || fit.modes[i].frequency_hz > measured.hz(measured.lines() - 1);
     if (doubtful) {
       ModalFit poorer = modal_fit(measured, without(poles_of(fit), static_cast<Eigen::Index>(i)), options);
       if (!better(fit, poorer)) {
@@ -147,24 +158,30 @@ void add_powers(const MeasuredLines& measured, ModalFitOptions& options, ModalFi
   }
 }
 
+/// The given poles, or the stable ones of the diagram.
+Eigen::VectorXcd start_of(const MeasuredLines& measured, const IdentifyOptions& options, Identification& result) {
+  if (options.poles.size() > 0) return options.poles;
+  if (options.start.size() > 0) return options.start;
+  const auto most = static_cast<int>(measured.lines() / 4);
+  result.diagram = plscf(measured, std::min(options.highest_order, most));
+  result.stable = stable_poles(result.diagram);
+  if (result.stable.empty()) {
+    throw core::InputError(
+        "identification: no pole stays over the orders of the stabilisation diagram; widen the band, or name poles");
+  }
+  Eigen::VectorXcd start(static_cast<Eigen::Index>(result.stable.size()));
+  for (std::size_t i = 0; i < result.stable.size(); ++i) start(static_cast<Eigen::Index>(i)) = result.stable[i].pole;
+  return start;
+}
+
 }  // namespace
 
 Identification identify(const MeasuredLines& measured, const IdentifyOptions& options) {
   Identification result;
-  Eigen::VectorXcd start = options.poles;
-  if (start.size() == 0) {
-    const auto most = static_cast<int>(measured.lines() / 4);
-    result.diagram = plscf(measured, std::min(options.highest_order, most));
-    result.stable = stable_poles(result.diagram);
-    if (result.stable.empty()) {
-      throw core::InputError(
-          "identification: no pole stays over the orders of the stabilisation diagram; widen the band, or name poles");
-    }
-    start.resize(static_cast<Eigen::Index>(result.stable.size()));
-    for (std::size_t i = 0; i < result.stable.size(); ++i) start(static_cast<Eigen::Index>(i)) = result.stable[i].pole;
-  }
+  const Eigen::VectorXcd start = start_of(measured, options, result);
   ModalFitOptions fit_options;
   fit_options.residues = Residues::free;
+  fit_options.coarse = true;
   if (options.terms) fit_options.terms = *options.terms;
   result.fit = modal_fit(measured, start, fit_options);
   if (!options.terms) add_powers(measured, fit_options, result.fit);
@@ -174,7 +191,8 @@ Identification identify(const MeasuredLines& measured, const IdentifyOptions& op
   }
   if (!options.terms && result.added + result.left_out > 0) add_powers(measured, fit_options, result.fit);
   result.terms = fit_options.terms;
-  if (options.residues == Residues::free) return result;
+  if (options.coarse) return result;
+  fit_options.coarse = false;
   fit_options.residues = options.residues;
   result.fit = modal_fit(measured, poles_of(result.fit), fit_options);
   return result;

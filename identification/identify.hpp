@@ -13,6 +13,8 @@ namespace thinwall::identification {
 struct IdentifyOptions {
   int highest_order = 30;              ///< of the stabilisation diagram; less where there are few lines
   Eigen::VectorXcd poles = {};         ///< rad/s; chosen by hand instead of by the diagram
+  Eigen::VectorXcd start = {};         ///< rad/s; in place of those of the diagram, others are added and left out
+  bool coarse = false;                 ///< ends before step 5, with free residues
   std::optional<ResidualTerms> terms;  ///< none: the fewest that the lines call for
   Residues residues = Residues::rank_one;
 };
@@ -21,7 +23,7 @@ struct IdentifyOptions {
 struct Identification {
   ModalFit fit;
   ResidualTerms terms;
-  std::vector<OrderPoles> diagram;  ///< empty where poles were chosen by hand
+  std::vector<OrderPoles> diagram;  ///< empty where poles were given
   std::vector<StablePole> stable;   ///< that the fit started from
   int added = 0, left_out = 0;      ///< modes, against the diagram
 };

@@ -120,19 +120,30 @@ void require_usable(const MeasuredLines& measured) {
   }
 }
 
+Eigen::ArrayXXd spread_over(const OfEntries& figures, Eigen::Index responses, Eigen::Index references,
+                            const char* what) {
+  if (figures.size() == 1) return Eigen::ArrayXXd::Constant(responses, references, figures(0));
+  if (figures.rows() == responses && figures.cols() == references) return figures.array();
+  throw core::InputError(std::string(what) + " of " + std::to_string(figures.rows()) + " x " +
+                         std::to_string(figures.cols()) + " entries for " + std::to_string(responses) + " x " +
+                         std::to_string(references) + " receptances; give one for all, or one each");
+}
+
 std::vector<Eigen::MatrixXd> variance_of(const std::vector<Eigen::MatrixXcd>& H,
-                                         const std::vector<Eigen::MatrixXd>& coherence, int averages) {
+                                         const std::vector<Eigen::MatrixXd>& coherence, const OfEntries& averages) {
   constexpr double least = 1e-6, most = 1.0 - 1e-12;
-  if (averages < 1 || H.size() != coherence.size())
-    throw core::InputError("coherence: " + std::to_string(averages) + " averages over " +
-                           std::to_string(coherence.size()) + " lines for " + std::to_string(H.size()) +
-                           ", must be at least one, and as many lines");
+  if (H.size() != coherence.size())
+    throw core::InputError("coherence: " + std::to_string(coherence.size()) + " lines for " + std::to_string(H.size()) +
+                           ", must be as many");
   std::vector<Eigen::MatrixXd> variance;
   for (std::size_t i = 0; i < H.size(); ++i) {
     if (H[i].rows() != coherence[i].rows() || H[i].cols() != coherence[i].cols())
       throw core::InputError("coherence: line " + std::to_string(i + 1) + " is of another shape than its receptances");
+    const Eigen::ArrayXXd n = spread_over(averages, H[i].rows(), H[i].cols(), "averages");
+    if (!(n.minCoeff() >= 1.0))
+      throw core::InputError("coherence: " + std::to_string(n.minCoeff()) + " averages, must be at least one");
     const Eigen::ArrayXXd g = coherence[i].array().max(least).min(most);
-    variance.push_back((1.0 - g) / (g * averages) * H[i].array().abs2());
+    variance.emplace_back((1.0 - g) / (g * n) * H[i].array().abs2());
   }
   return variance;
 }

@@ -20,6 +20,13 @@ struct MeasuredLines {
   [[nodiscard]] Eigen::Index references() const { return H.front().cols(); }
 };
 
+/// A figure of each entry, responses × references, or one for all (1 × 1); empty where it is not known.
+using OfEntries = Eigen::MatrixXd;
+
+/// The figures as responses × references. Throws InputError, with `what`, for another shape.
+[[nodiscard]] Eigen::ArrayXXd spread_over(const OfEntries& figures, Eigen::Index responses, Eigen::Index references,
+                                          const char* what);
+
 /// Throws InputError unless all is of one shape, finite, the lines ascending and above 0, and the variances positive.
 void require_usable(const MeasuredLines& measured);
 
@@ -27,7 +34,8 @@ void require_usable(const MeasuredLines& measured);
 /// Eq. 9.90): (1 − γ²)/(γ² n) |H|². `H` may be a fit of what was measured: a measured value that happens to be small
 /// would weigh too much. Coherences are held between 1e-6 and 1 − 1e-12. Throws InputError for other shapes, or n < 1.
 [[nodiscard]] std::vector<Eigen::MatrixXd> variance_of(const std::vector<Eigen::MatrixXcd>& H,
-                                                       const std::vector<Eigen::MatrixXd>& coherence, int averages);
+                                                       const std::vector<Eigen::MatrixXd>& coherence,
+                                                       const OfEntries& averages);
 
 /// The variance of each line as far as it differs from its neighbours: with H_k predicted by the cubic through the two
 /// lines on each side, of weights w_j,

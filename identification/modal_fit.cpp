@@ -9,6 +9,7 @@
 #include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "identification/line_functions.hpp"
 
 namespace thinwall::identification {
 
@@ -35,37 +36,57 @@ struct Unknowns {
   }
 };
 
-/// The least squares problem: lines, weights, groups of entries that share their linear unknowns.
+/// The least squares problem: entries with their values and weights over the lines, real parts above imaginary ones, in
+/// groups that share their linear unknowns.
 struct Problem {
   const MeasuredLines* lines;
   ResidualTerms terms;
   Residues residues;
   Eigen::VectorXcd s;  ///< iω of each line
-  std::vector<std::vector<Entry>> groups;
+  std::vector<Entry> entries;
+  WeightedEntries weighted;
+  std::vector<std::vector<std::size_t>> groups;  ///< numbers of entries
 
   [[nodiscard]] const MeasuredLines& measured() const { return *lines; }
 
   [[nodiscard]] Eigen::Index term_count() const { return terms.highest_power + 1 + (terms.inertia ? 1 : 0); }
-  [[nodiscard]] Eigen::Index rows() const { return 2 * s.size(); }  ///< of an entry
 };
 
 /// The solution of the linear unknowns, and what the search needs.
 struct Evaluation {
   double cost = 0.0;  ///< sum of squares
+  double size = 0.0;  ///< that of the weighted values
   Eigen::MatrixXd JtJ;
   Eigen::VectorXd Jtr;
   std::vector<Eigen::VectorXd> linear;  ///< of each group
 };
 
+void add_entry(Problem& p, const Entry& e) {
+  const Eigen::Index lines = p.s.size();
+  const auto column = static_cast<Eigen::Index>(p.entries.size());
+  for (Eigen::Index i = 0; i < lines; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const Complex H = p.measured().H[at](e.response, e.reference);
+    p.weighted.values(i, column) = H.real();
+    p.weighted.values(lines + i, column) = H.imag();
+    p.weighted.weights(i, column) = std::sqrt(2.0 / p.measured().variance[at](e.response, e.reference));
+  }
+  p.entries.push_back(e);
+}
+
 Problem problem_of(const MeasuredLines& measured, const ModalFitOptions& options) {
-  Problem p{&measured, options.terms, options.residues, {}, {}};
+  Problem p{&measured, options.terms, options.residues, {}, {}, {}, {}};
   p.s = Complex(0.0, 2.0 * std::numbers::pi) * measured.hz.cast<Complex>();
+  const Eigen::Index entries = measured.responses() * measured.references();
+  p.weighted.values.resize(2 * measured.lines(), entries);
+  p.weighted.weights.resize(measured.lines(), entries);
   for (Eigen::Index j = 0; j < measured.responses(); ++j) {
     for (Eigen::Index k = 0; k < measured.references(); ++k) {
       const bool opens = options.residues == Residues::free || (options.residues == Residues::rank_one && k == 0) ||
                          (options.residues == Residues::symmetric && j == 0 && k == 0);
       if (opens) p.groups.emplace_back();
-      p.groups.back().push_back({j, k});
+      p.groups.back().push_back(p.entries.size());
+      add_entry(p, {j, k});
     }
   }
   return p;
@@ -84,74 +105,55 @@ Complex factor_change(const Problem& p, const Unknowns& u, Eigen::Index mode, co
   return (e.response == q ? u.L(e.reference, mode) : 0.0) + (e.reference == q ? u.L(e.response, mode) : 0.0);
 }
 
-/// Real and imaginary parts of a line function, weighted for an entry.
-void put(Eigen::Ref<Eigen::VectorXd> column, const Eigen::VectorXcd& values, const Eigen::VectorXd& weight) {
-  column.head(weight.size()) = values.real().cwiseProduct(weight);
-  column.tail(weight.size()) = values.imag().cwiseProduct(weight);
-}
-
-Eigen::VectorXd weights_of(const Problem& p, const Entry& e) {
-  Eigen::VectorXd weight(p.s.size());
-  for (Eigen::Index i = 0; i < weight.size(); ++i)
-    weight(i) = std::sqrt(2.0 / p.measured().variance[static_cast<std::size_t>(i)](e.response, e.reference));
-  return weight;
-}
-
-/// The residual terms at all lines, a column each, scaled to the order of 1.
-Eigen::MatrixXcd term_columns(const Problem& p) {
-  Eigen::MatrixXcd columns(p.s.size(), p.term_count());
-  Eigen::Index k = 0;
-  if (p.terms.inertia) columns.col(k++) = (p.s / std::abs(p.s(0))).array().square().inverse();
-  const Eigen::VectorXcd scaled = p.s / std::abs(p.s(p.s.size() - 1));
-  for (int power = 0; power <= p.terms.highest_power; ++power) columns.col(k++) = scaled.array().pow(power);
-  return columns;
-}
-
-/// φ/(s − λ) + conj(φ)/(s − λ*) of a pole to some power.
-Eigen::VectorXcd pair(const Problem& p, Complex pole, Complex amplitude, int power = 1) {
-  const Eigen::ArrayXcd up = p.s.array() - pole, down = p.s.array() - std::conj(pole);
-  if (power == 1) return amplitude / up + std::conj(amplitude) / down;
-  return amplitude / up.square() + std::conj(amplitude) / down.square();
+/// The columns of a pole with an amplitude a, in the few rows of an entry: a/(s − λ) + conj(a)/(s − λ*), or with the
+/// squares of the denominators.
+Eigen::VectorXd pair(const Eigen::MatrixXd& triangle, Eigen::Index mode, Complex amplitude, int power = 1) {
+  const Eigen::Index at = 4 * mode + 2 * (power - 1);
+  return amplitude.real() * triangle.col(at) + amplitude.imag() * triangle.col(at + 1);
 }
 
 /// The columns of a group: two a mode for the real and imaginary part of its residue, then the terms of each entry.
-Eigen::MatrixXd columns_of(const Problem& p, const Unknowns& u, const std::vector<Entry>& group,
-                           const Eigen::MatrixXcd& terms, const std::vector<Eigen::VectorXd>& weight) {
-  const Eigen::Index m = u.modes(), n = p.term_count(), rows = p.rows();
+/// `triangles` are those of all entries.
+Eigen::MatrixXd columns_of(const Problem& p, const Unknowns& u, const std::vector<std::size_t>& group,
+                           const std::vector<Eigen::MatrixXd>& triangles) {
+  const Eigen::Index m = u.modes(), n = p.term_count(), rows = triangles.front().rows();
   const auto entries = static_cast<Eigen::Index>(group.size());
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows * entries, 2 * m + n * entries);
   for (Eigen::Index e = 0; e < entries; ++e) {
-    const auto i = static_cast<std::size_t>(e);
+    const std::size_t number = group[static_cast<std::size_t>(e)];
+    const Eigen::MatrixXd& triangle = triangles[number];
     for (Eigen::Index r = 0; r < m; ++r) {
-      const Complex f = factor(p, u, r, group[i]);
-      put(A.col(2 * r).segment(e * rows, rows), pair(p, u.pole(r), f), weight[i]);
-      put(A.col(2 * r + 1).segment(e * rows, rows), pair(p, u.pole(r), Complex(0.0, 1.0) * f), weight[i]);
+      const Complex f = factor(p, u, r, p.entries[number]);
+      A.col(2 * r).segment(e * rows, rows) = pair(triangle, r, f);
+      A.col(2 * r + 1).segment(e * rows, rows) = pair(triangle, r, Complex(0.0, 1.0) * f);
     }
-    for (Eigen::Index k = 0; k < n; ++k) put(A.col(2 * m + n * e + k).segment(e * rows, rows), terms.col(k), weight[i]);
+    A.block(e * rows, 2 * m + n * e, rows, n) = triangle.middleCols(4 * m, n);
   }
   return A;
 }
 
 /// The change of the group's model with each unknown, its linear unknowns c held.
-Eigen::MatrixXd changes_of(const Problem& p, const Unknowns& u, const std::vector<Entry>& group,
-                           const Eigen::VectorXd& c, const std::vector<Eigen::VectorXd>& weight) {
-  const Eigen::Index m = u.modes(), rows = p.rows();
+Eigen::MatrixXd changes_of(const Problem& p, const Unknowns& u, const std::vector<std::size_t>& group,
+                           const Eigen::VectorXd& c, const std::vector<Eigen::MatrixXd>& triangles) {
+  const Eigen::Index m = u.modes(), rows = triangles.front().rows();
   Eigen::MatrixXd D = Eigen::MatrixXd::Zero(rows * static_cast<Eigen::Index>(group.size()), u.count());
   for (std::size_t i = 0; i < group.size(); ++i) {
     const Eigen::Index at = static_cast<Eigen::Index>(i) * rows;
+    const Entry& entry = p.entries[group[i]];
+    const Eigen::MatrixXd& triangle = triangles[group[i]];
     for (Eigen::Index r = 0; r < m; ++r) {
-      const Complex a(c(2 * r), c(2 * r + 1)), f = factor(p, u, r, group[i]), pole = u.pole(r);
+      const Complex a(c(2 * r), c(2 * r + 1)), f = factor(p, u, r, entry), pole = u.pole(r);
       const double omega = std::abs(pole), zeta = -pole.real() / omega;
       const Complex by_zeta(-zeta * omega, -zeta * zeta * omega / std::sqrt(1.0 - zeta * zeta));
-      put(D.col(r).segment(at, rows), pair(p, pole, a * f * pole, 2), weight[i]);
-      put(D.col(m + r).segment(at, rows), pair(p, pole, a * f * by_zeta, 2), weight[i]);
+      D.col(r).segment(at, rows) = pair(triangle, r, a * f * pole, 2);
+      D.col(m + r).segment(at, rows) = pair(triangle, r, a * f * by_zeta, 2);
       Eigen::Index column = 2 * m + 2 * (u.L.rows() - 1) * r;
       for (Eigen::Index q = 0; q < u.L.rows(); ++q) {
         if (q == u.fixed[static_cast<std::size_t>(r)]) continue;
-        const Complex change = a * factor_change(p, u, r, group[i], q);
+        const Complex change = a * factor_change(p, u, r, entry, q);
         if (change != 0.0) {
-          put(D.col(column).segment(at, rows), pair(p, pole, change), weight[i]);
-          put(D.col(column + 1).segment(at, rows), pair(p, pole, Complex(0.0, 1.0) * change), weight[i]);
+          D.col(column).segment(at, rows) = pair(triangle, r, change);
+          D.col(column + 1).segment(at, rows) = pair(triangle, r, Complex(0.0, 1.0) * change);
         }
         column += 2;
       }
@@ -160,32 +162,34 @@ Eigen::MatrixXd changes_of(const Problem& p, const Unknowns& u, const std::vecto
   return D;
 }
 
-Evaluation evaluate(const Problem& p, const Unknowns& u) {
+/// Each entry's triangle of the functions at the poles, with its values in the last column.
+std::vector<Eigen::MatrixXd> triangles_of(const Problem& p, const Unknowns& u, Digits digits) {
+  Eigen::VectorXcd poles(u.modes());
+  for (Eigen::Index r = 0; r < poles.size(); ++r) poles(r) = u.pole(r);
+  return compressed(line_functions(p.s, poles, p.terms), p.weighted, digits);
+}
+
+Evaluation evaluate(const Problem& p, const Unknowns& u, Digits digits) {
   Evaluation result;
   result.JtJ = Eigen::MatrixXd::Zero(u.count(), u.count());
   result.Jtr = Eigen::VectorXd::Zero(u.count());
-  const Eigen::MatrixXcd terms = term_columns(p);
-  const Eigen::Index rows = p.rows();
-  for (const std::vector<Entry>& group : p.groups) {
-    std::vector<Eigen::VectorXd> weight;
+  const std::vector<Eigen::MatrixXd> triangles = triangles_of(p, u, digits);
+  const Eigen::Index rows = triangles.front().rows();
+  for (const std::vector<std::size_t>& group : p.groups) {
     Eigen::VectorXd y(rows * static_cast<Eigen::Index>(group.size()));
-    for (const Entry& e : group) {
-      Eigen::VectorXcd H(p.s.size());
-      for (Eigen::Index i = 0; i < H.size(); ++i)
-        H(i) = p.measured().H[static_cast<std::size_t>(i)](e.response, e.reference);
-      weight.push_back(weights_of(p, e));
-      put(y.segment(rows * static_cast<Eigen::Index>(weight.size() - 1), rows), H, weight.back());
-    }
-    const Eigen::MatrixXd A = columns_of(p, u, group, terms, weight);
+    for (std::size_t i = 0; i < group.size(); ++i)
+      y.segment(rows * static_cast<Eigen::Index>(i), rows) = triangles[group[i]].col(rows - 1);
+    const Eigen::MatrixXd A = columns_of(p, u, group, triangles);
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A);
     const Eigen::Index n = A.cols();
     const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(A.rows(), n);
     const Eigen::VectorXd Qy = Q.transpose() * y;
     const Eigen::VectorXd c = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>().solve(Qy);
     const Eigen::VectorXd residual = y - Q * Qy;
-    Eigen::MatrixXd J = changes_of(p, u, group, c, weight);
+    Eigen::MatrixXd J = changes_of(p, u, group, c, triangles);
     J -= Q * (Q.transpose() * J);
     result.cost += residual.squaredNorm();
+    result.size += y.squaredNorm();
     result.JtJ.noalias() += J.transpose() * J;
     result.Jtr.noalias() -= J.transpose() * residual;
     result.linear.push_back(c);
@@ -217,11 +221,12 @@ struct Found {
   bool converged = false;
 };
 
-Found search(const Problem& p, Unknowns u, int most_steps) {
-  constexpr double settled = 1e-10, largest_move = 0.3, most_damping = 1e12;
-  Evaluation at = evaluate(p, u);
+/// Levenberg's and Marquardt's steps from `u`, where the sum of squares is `at`.
+Found descended(const Problem& p, Unknowns u, Evaluation at, const ModalFitOptions& options, Digits digits) {
+  constexpr double largest_move = 0.3, most_damping = 1e12;
+  const double settled = options.coarse ? 1e-6 : 1e-10, least_gain = options.coarse ? 1e-8 : 1e-12;
   double damping = 1e-3;
-  for (int i = 0; i < most_steps; ++i) {
+  for (int i = 0; i < options.most_steps; ++i) {
     core::check_interrupt();
     const Eigen::VectorXd diagonal = at.JtJ.diagonal().cwiseMax(1e-30 * at.JtJ.diagonal().maxCoeff());
     for (;;) {
@@ -232,10 +237,10 @@ Found search(const Problem& p, Unknowns u, int most_steps) {
       const double largest = step.head(u.modes()).cwiseAbs().maxCoeff();
       if (largest > largest_move) step *= largest_move / largest;
       const Unknowns next = moved(u, step);
-      Evaluation there = evaluate(p, next);
+      Evaluation there = evaluate(p, next, digits);
       const double gain = at.cost - there.cost;
       if (std::isfinite(there.cost) && gain >= 0.0) {
-        const bool done = step.head(2 * u.modes()).cwiseAbs().maxCoeff() < settled || gain <= 1e-12 * at.cost;
+        const bool done = step.head(2 * u.modes()).cwiseAbs().maxCoeff() < settled || gain <= least_gain * at.cost;
         u = next;
         at = std::move(there);
         damping = std::max(1e-12, 0.1 * damping);
@@ -250,13 +255,22 @@ Found search(const Problem& p, Unknowns u, int most_steps) {
   return {u, at, false};
 }
 
+/// The search: with half the digits first, and with all where so little is left that half of them do not tell it.
+Found search(const Problem& p, const Unknowns& u, const ModalFitOptions& options) {
+  constexpr double told_by_half = 1e-6;
+  Found found = descended(p, u, evaluate(p, u, Digits::half), options, Digits::half);
+  if (options.coarse || found.at.cost > told_by_half * found.at.size) return found;
+  return descended(p, found.unknowns, evaluate(p, found.unknowns, Digits::all), options, Digits::all);
+}
+
 /// Residue matrices of the modes.
 std::vector<Eigen::MatrixXcd> residues_of(const Problem& p, const Found& found) {
   const Eigen::Index m = found.unknowns.modes();
   std::vector<Eigen::MatrixXcd> residues(static_cast<std::size_t>(m),
                                          Eigen::MatrixXcd::Zero(p.measured().responses(), p.measured().references()));
   for (std::size_t g = 0; g < p.groups.size(); ++g) {
-    for (const Entry& e : p.groups[g]) {
+    for (const std::size_t number : p.groups[g]) {
+      const Entry& e = p.entries[number];
       for (Eigen::Index r = 0; r < m; ++r) {
         const Complex a(found.at.linear[g](2 * r), found.at.linear[g](2 * r + 1));
         residues[static_cast<std::size_t>(r)](e.response, e.reference) = a * factor(p, found.unknowns, r, e);
@@ -295,7 +309,7 @@ void take_terms(const Problem& p, const Found& found, ModalFit& fit) {
   const double first = std::abs(p.s(0)), last = std::abs(p.s(p.s.size() - 1));
   for (std::size_t g = 0; g < p.groups.size(); ++g) {
     for (std::size_t e = 0; e < p.groups[g].size(); ++e) {
-      const Entry& entry = p.groups[g][e];
+      const Entry& entry = p.entries[p.groups[g][e]];
       Eigen::Index at = 2 * m + n * static_cast<Eigen::Index>(e);
       if (p.terms.inertia) fit.inertia(entry.response, entry.reference) = found.at.linear[g](at++) * first * first;
       for (std::size_t power = 0; power < fit.powers.size(); ++power)
@@ -346,12 +360,12 @@ ModalFit modal_fit(const MeasuredLines& measured, const Eigen::VectorXcd& start,
   u.ln_omega = start.cwiseAbs().array().log();
   u.ln_zeta = (-start.real().array() / start.cwiseAbs().array()).log();
   Problem problem = problem_of(measured, free);
-  Found found = search(problem, u, options.most_steps);
+  Found found = search(problem, u, options);
   const std::vector<Eigen::MatrixXcd> free_residues = residues_of(problem, found);
   if (options.residues != Residues::free) {
     start_vectors(free_residues, options.residues, found.unknowns);
     problem = problem_of(measured, options);
-    found = search(problem, found.unknowns, options.most_steps);
+    found = search(problem, found.unknowns, options);
   }
   const std::vector<Eigen::MatrixXcd> residues = residues_of(problem, found);
   const Eigen::Index m = start.size();

@@ -33,6 +33,7 @@ struct ModalFitOptions {
   ResidualTerms terms;
   Residues residues = Residues::rank_one;
   int most_steps = 60;
+  bool coarse = false;  ///< ends where χ² falls by less than 1e-8 of itself, to compare models
 };
 
 /// A mode with its uncertainty: standard deviations to first order, from the variances of the lines.
@@ -73,7 +74,7 @@ struct ModalFit {
 /// least squares at each step. So poles are stable whatever the data, and nothing but `start` (rad/s) has to be
 /// guessed. Forms other than free start from the free residues' singular vectors. Throws InputError as
 /// require_usable(), without a pole, for a pole without Im > 0 and Re < 0, fewer numbers than unknowns, or symmetric
-/// residues of a matrix that is not square. Cost: steps × entries × lines × (2 modes + terms)².
+/// residues of a matrix that is not square. Cost: steps × entries × lines × (4 modes + terms)².
 [[nodiscard]] ModalFit modal_fit(const MeasuredLines& measured, const Eigen::VectorXcd& start,
                                  const ModalFitOptions& options = {});
 

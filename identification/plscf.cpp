@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -24,28 +25,52 @@ struct NormalEquations {
   Eigen::MatrixXcd T;                  ///< summed over the responses
 };
 
-NormalEquations normal_equations(const MeasuredLines& m, int order) {
-  const Eigen::Index n = order + 1, references = m.references(), lines = m.lines();
-  const double from = m.hz(0), band = m.hz(lines - 1) - from;
-  Eigen::MatrixXcd z(lines, n);
-  for (Eigen::Index i = 0; i < lines; ++i) {
+/// Σ_i e^{−iθ_i d} data_i over the lines for d = −order … order, a row each, with θ from 0 to π over the band.
+Eigen::MatrixXcd moments(const MeasuredLines& m, int order, const Eigen::MatrixXcd& data) {
+  const double from = m.hz(0), band = m.hz(m.lines() - 1) - from;
+  Eigen::MatrixXcd turns(2 * order + 1, m.lines());
+  for (Eigen::Index i = 0; i < m.lines(); ++i) {
     const double angle = std::numbers::pi * (m.hz(i) - from) / band;
-    for (Eigen::Index k = 0; k < n; ++k) z(i, k) = std::polar(1.0, -angle * static_cast<double>(k));
+    for (Eigen::Index d = 0; d <= order; ++d) {
+      turns(order + d, i) = std::polar(1.0, -angle * static_cast<double>(d));
+      turns(order - d, i) = std::conj(turns(order + d, i));
+    }
   }
+  return turns * data;
+}
+
+/// The matrix of blocks whose block (k, l) is the moment of d = l − k, of `height` × `width` numbers from a column on.
+Eigen::MatrixXcd blocks(const Eigen::MatrixXcd& moments, int order, Eigen::Index first, Eigen::Index height,
+                        Eigen::Index width) {
+  const Eigen::Index n = order + 1;
+  Eigen::MatrixXcd all(n * height, n * width);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    for (Eigen::Index l = 0; l < n; ++l)
+      all.block(k * height, l * width, height, width) =
+          moments.row(order + l - k).segment(first, height * width).reshaped(height, width);
+  }
+  return all;
+}
+
+/// Because |z| is 1 on the lines, the products z_k* z_l depend on l − k alone.
+NormalEquations normal_equations(const MeasuredLines& m, int order) {
+  const Eigen::Index references = m.references(), lines = m.lines();
   NormalEquations e;
-  e.T = Eigen::MatrixXcd::Zero(n * references, n * references);
+  e.T = Eigen::MatrixXcd::Zero((order + 1) * references, (order + 1) * references);
   for (Eigen::Index o = 0; o < m.responses(); ++o) {
-    Eigen::MatrixXcd X(lines, n), Y(lines, n * references);
+    Eigen::MatrixXcd data(lines, 1 + references + references * references);
     for (Eigen::Index i = 0; i < lines; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      const double weight = 1.0 / std::sqrt(m.variance[at].row(o).mean());
-      X.row(i) = weight * z.row(i);
-      for (Eigen::Index k = 0; k < n; ++k)
-        Y.row(i).segment(k * references, references) = -weight * z(i, k) * m.H[at].row(o);
+      const double weight = 1.0 / m.variance[at].row(o).mean();
+      const Eigen::RowVectorXcd H = m.H[at].row(o);
+      data(i, 0) = weight;
+      data.row(i).segment(1, references) = -weight * H;
+      data.row(i).tail(references * references) = weight * (H.adjoint() * H).eval().reshaped().transpose();
     }
-    e.R.emplace_back(X.adjoint() * X);
-    e.S.emplace_back(X.adjoint() * Y);
-    e.T.noalias() += Y.adjoint() * Y;
+    const Eigen::MatrixXcd sums = moments(m, order, data);
+    e.R.push_back(blocks(sums, order, 0, 1, 1));
+    e.S.push_back(blocks(sums, order, 1, 1, references));
+    e.T += blocks(sums, order, 1 + references, references, references);
   }
   return e;
 }
@@ -72,7 +97,7 @@ std::vector<OrderPole> poles_of(const Eigen::MatrixXcd& A, int order, Eigen::Ind
   for (int k = 0; k < order; ++k)
     companion.block(size - references, k * references, references, references) =
         -A.middleRows(k * references, references);
-  const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(companion);
+  const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(companion, false);
   std::vector<OrderPole> poles;
   if (solver.info() != Eigen::Success) return poles;
   const double dt = 0.5 / (to_hz - from_hz);
@@ -195,6 +220,21 @@ std::vector<StablePole> stable_poles(const std::vector<OrderPoles>& orders) {
   std::sort(result.begin(), result.end(),
             [](const StablePole& a, const StablePole& b) { return std::abs(a.pole) < std::abs(b.pole); });
   return result;
+}
+
+Eigen::VectorXcd poles_near(const std::vector<double>& hz, const std::vector<StablePole>& stable) {
+  constexpr double near = 0.05, usual_damping = 0.01;
+  const Eigen::ArrayXd chosen = 2.0 * std::numbers::pi * Eigen::Map<const Eigen::ArrayXd>(hz.data(), std::ssize(hz));
+  Eigen::VectorXcd poles = chosen * Complex(-usual_damping, std::sqrt(1.0 - usual_damping * usual_damping));
+  Eigen::ArrayXd off = near * chosen;
+  for (const StablePole& candidate : stable) {
+    Eigen::Index nearest = 0;
+    const double distance = (chosen - std::abs(candidate.pole)).abs().minCoeff(&nearest);
+    if (distance >= off(nearest)) continue;
+    off(nearest) = distance;
+    poles(nearest) = candidate.pole;
+  }
+  return poles;
 }
 
 }  // namespace thinwall::identification

@@ -56,4 +56,8 @@ struct StablePole {
 /// which the highest need not be one. By rising frequency. Cost O(poles²).
 [[nodiscard]] std::vector<StablePole> stable_poles(const std::vector<OrderPoles>& orders);
 
+/// Poles to start from at chosen frequencies (Hz): the stable pole that is nearest within 5 %, each for one frequency
+/// only, or one of a damping of 1 %.
+[[nodiscard]] Eigen::VectorXcd poles_near(const std::vector<double>& hz, const std::vector<StablePole>& stable);
+
 }  // namespace thinwall::identification

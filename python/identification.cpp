@@ -1,5 +1,8 @@
 // Bindings of identification: modes from measured receptances.
 
+#include <iterator>
+#include <numbers>
+
 #include "core/error.hpp"
 #include "identification/fit_response.hpp"
 #include "identification/fitted_model.hpp"
@@ -52,6 +55,31 @@ py::object model_of(const ResponseFit& fit, const dynamics::ResponseModel& respo
   return py::cast(identification::modal_model(fit.found.fit, response.responses, response.forces));
 }
 
+/// The stabilisation diagram as columns.
+py::dict diagram_of(const std::vector<identification::OrderPoles>& orders) {
+  const auto stability = identification::stabilisation(orders);
+  std::vector<double> order, hz, damping;
+  std::vector<bool> stable;
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    for (std::size_t k = 0; k < orders[i].poles.size(); ++k) {
+      const std::complex<double> pole = orders[i].poles[k].pole;
+      order.push_back(orders[i].order);
+      hz.push_back(std::abs(pole) / (2.0 * std::numbers::pi));
+      damping.push_back(-pole.real() / std::abs(pole));
+      stable.push_back(stability[i][k].all());
+    }
+  }
+  const auto column = [](const std::vector<double>& values) {
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)));
+  };
+  py::dict result;
+  result["order"] = column(order);
+  result["frequency_hz"] = column(hz);
+  result["damping_ratio"] = column(damping);
+  result["stable"] = py::array(py::cast(stable));
+  return result;
+}
+
 py::dict dict_of(const ResponseFit& fit, const dynamics::ResponseModel& response,
                  const std::vector<std::string>& warnings) {
   py::dict result;
@@ -76,20 +104,28 @@ py::dict fit_modes(const dynamics::ResponseModel& response, const std::string& r
                    const std::optional<std::string>& terms, const std::optional<std::vector<double>>& band_hz,
                    std::optional<double> noise,
                    const std::optional<py::array_t<double, py::array::c_style | py::array::forcecast>>& coherence,
-                   std::optional<int> averages) {
+                   std::optional<int> averages, const std::optional<std::vector<double>>& poles_hz, int order) {
   identification::ResponseFitOptions options = options_of(residues, terms, band_hz);
-  options.noise = noise;
-  options.averages = averages;
+  if (noise) options.noise = Eigen::MatrixXd::Constant(1, 1, *noise);
+  if (averages) options.averages = Eigen::MatrixXd::Constant(1, 1, *averages);
   const std::vector<Eigen::MatrixXd> of_lines =
       coherence ? matrices_of(*coherence, response) : std::vector<Eigen::MatrixXd>();
+  options.identify.highest_order = order;
   ResponseFit fit;
+  std::vector<identification::OrderPoles> diagram;
   std::vector<std::string> warnings;
   {
     const LongCall call;
+    if (poles_hz) {
+      diagram = identification::stabilisation_diagram(response, options);
+      options.identify.poles = identification::poles_near(*poles_hz, identification::stable_poles(diagram));
+    }
     fit = identification::fit_response(response, of_lines, options);
     warnings = identification::doubts_about(fit, response.responses, response.forces, options);
   }
-  return dict_of(fit, response, warnings);
+  py::dict result = dict_of(fit, response, warnings);
+  result["diagram"] = diagram_of(poles_hz ? diagram : fit.found.diagram);
+  return result;
 }
 
 }  // namespace
@@ -98,9 +134,11 @@ void bind_identification(py::module_& module) {
   module.def(
       "fit_modes", fit_modes, "response"_a, py::kw_only(), "residues"_a = "rank_one", "terms"_a = py::none(),
       "band_hz"_a = py::none(), "noise"_a = py::none(), "coherence"_a = py::none(), "averages"_a = py::none(),
+      "poles_hz"_a = py::none(), "order"_a = 30,
       "The modes of measured receptances, found without a guess: a dict of frequency_hz, damping_ratio and their\n"
-      "standard deviations, residues in m/(N s), chi2_per_dof, misfit by entry, warnings, fitted (a Response) and\n"
-      "model (a ModalModel; None without a driving point).\n"
+      "standard deviations, residues in m/(N s), chi2_per_dof, misfit by entry, warnings, fitted (a Response),\n"
+      "model (a ModalModel; None without a driving point), and diagram: order, frequency_hz, damping_ratio and\n"
+      "stable of the poles of the orders up to `order`. poles_hz names frequencies in place of the diagram's.\n"
       "residues: \"free\", \"rank_one\" or \"symmetric\". terms beside the modes: \"none\", \"constant\", or the\n"
       "highest power of s, \"0\" to \"6\"; as needed if not given. Lines are weighed by their noise (of real and\n"
       "imaginary part, relative), by coherence (lines x responses x forces) and averages, or by their scatter.");

@@ -139,9 +139,13 @@ class Moves {
   std::vector<std::pair<fs::path, fs::path>> done_;
 };
 
-void replace_one_by_one(const fs::path& staging, const fs::path& folder) {
+std::vector<std::string> names_of_a_run() {
   std::vector<std::string> names(result_subfolders.begin(), result_subfolders.end());
   names.insert(names.end(), result_files.begin(), result_files.end());
+  return names;
+}
+
+void replace_one_by_one(const fs::path& staging, const fs::path& folder, const std::vector<std::string>& names) {
   const fs::path earlier = core::partial_path(folder / "earlier");
   fs::create_directory(earlier);
   Moves moves;
@@ -176,7 +180,7 @@ Published publish(const fs::path& staging, const fs::path& folder) {
   try {
     const fs::path place = fs::canonical(folder);  // a link to a folder stays one
     if (exchange(place / staging.filename(), place)) return Published::by_exchange;
-    replace_one_by_one(place / staging.filename(), place);
+    replace_one_by_one(place / staging.filename(), place, names_of_a_run());
     return Published::by_moves;
   } catch (const fs::filesystem_error& error) {
     throw core::DataError(std::string("cannot replace the results of an earlier run: ") + error.what());
@@ -189,6 +193,14 @@ void publish_folder(const fs::path& complete, const fs::path& folder) {
     remove_or_tell(complete);
   } catch (const fs::filesystem_error& error) {
     throw core::DataError("cannot replace \"" + folder.string() + "\": " + error.what());
+  }
+}
+
+void publish_files(const fs::path& staging, const fs::path& folder, const std::vector<std::string>& names) {
+  try {
+    replace_one_by_one(staging, folder, names);
+  } catch (const fs::filesystem_error& error) {
+    throw core::DataError(std::string("cannot replace the files of an earlier result: ") + error.what());
   }
 }
 

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace thinwall::report {
 
@@ -37,5 +39,11 @@ Published publish(const std::filesystem::path& staging, const std::filesystem::p
 /// where the file system has no exchange, in two, the earlier one away first and back if the second fails. Throws
 /// DataError if it cannot be replaced; it is then the earlier one.
 void publish_folder(const std::filesystem::path& complete, const std::filesystem::path& folder);
+
+/// Moves these files from `staging`, a folder within `folder`, to it, in the place of earlier ones of these names,
+/// those that are not in staging included; the last name goes first and comes last. Other files of the folder stay,
+/// staging is gone afterwards. Throws DataError if they cannot be replaced; they are then the earlier ones.
+void publish_files(const std::filesystem::path& staging, const std::filesystem::path& folder,
+                   const std::vector<std::string>& names);
 
 }  // namespace thinwall::report

@@ -39,24 +39,6 @@ std::optional<io::FrfFormat> stated_format(const MeasuredFrf& measured) {
   return io::frf_format(*measured.quantity, measured.unit, measured.frequency_unit);
 }
 
-/// The FRFs of our own MAT file, row by row.
-io::MeasuredEntries entries_of(const io::MeasuredResponse& measured, const MeasuredFrf& file) {
-  io::MeasuredEntries list;
-  const dynamics::ResponseModel& model = measured.response;
-  for (std::size_t i = 0; i < model.responses.size(); ++i) {
-    for (std::size_t j = 0; j < model.forces.size(); ++j) {
-      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
-      Eigen::VectorXcd H(model.axis.size());
-      for (Eigen::Index line = 0; line < H.size(); ++line)
-        H(line) = model.H[static_cast<std::size_t>(line)](row, column);
-      list.entries.push_back({model.responses[i],
-                              model.forces[j],
-                              {model.axis, H, file.file.string(), io::coherence_of(measured, row, column)}});
-    }
-  }
-  return list;
-}
-
 /// Turns the sign of an FRF for a sensor or hammer along −x. One along another axis than the case names is doubted, for
 /// the axes of a test need not be the part's.
 void turn_to_named_axes(const io::MeasuredEntry& entry, const MeasuredFrf& measured, FrfContent& content) {
@@ -120,7 +102,7 @@ io::MeasuredEntries read_file(const MeasuredFrf& measured) {
   if (kind == FrfFileKind::mat && stated &&
       (stated->quantity != io::FrfQuantity::receptance || stated->unit_in_si != 1.0))
     throw core::InputError("\"" + measured.file.string() + "\" holds receptances in m/N: leave out quantity and unit");
-  if (kind == FrfFileKind::mat) return entries_of(io::read_mat_response(measured.file), measured);
+  if (kind == FrfFileKind::mat) return io::entries_of(io::read_mat_response(measured.file), measured.file.string());
   if (!stated)
     throw core::InputError("\"" + measured.file.string() + "\" does not say what it holds: give quantity and unit");
   if (kind == FrfFileKind::lvm) return {{{untold, untold, io::read_lvm_frf(measured.file, *stated)}}, {}};
@@ -169,7 +151,7 @@ FrfContent read_measured(const MeasuredFrf& measured) {
 
 io::MeasuredEntries read_all_measured(const MeasuredFrf& measured) {
   io::MeasuredEntries all = is_response_table(measured.file)
-                                ? entries_of({io::read_response(measured.file), {}, {}}, measured)
+                                ? io::entries_of({io::read_response(measured.file), {}, {}}, measured.file.string())
                                 : read_file(measured);
   for (io::MeasuredEntry& entry : all.entries) {
     if (entry.response.direction.isZero(0.0)) entry.response = dof_of(measured.response);

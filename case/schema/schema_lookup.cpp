@@ -5,6 +5,7 @@
 #include "case/schema/physical_range.hpp"
 #include "case/schema/schema.hpp"
 #include "core/error.hpp"
+#include "core/split.hpp"
 
 namespace thinwall::cases {
 
@@ -134,10 +135,7 @@ std::string section_text(const Schema& schema, const Section& section) {
 }  // namespace
 
 std::vector<std::string> words_of(std::string_view list) {
-  std::vector<std::string> words;
-  std::istringstream text{std::string(list)};
-  for (std::string word; std::getline(text, word, '|');) words.push_back(word);
-  return words;
+  return core::split(list, '|');
 }
 
 std::string_view table_of(std::string_view path) {

@@ -100,6 +100,22 @@ Eigen::VectorXd coherence_of(const MeasuredResponse& measured, Eigen::Index row,
   return {};
 }
 
+MeasuredEntries entries_of(const MeasuredResponse& measured, const std::string& source) {
+  MeasuredEntries list{{}, measured.notes};
+  const dynamics::ResponseModel& model = measured.response;
+  for (std::size_t i = 0; i < model.responses.size(); ++i) {
+    for (std::size_t j = 0; j < model.forces.size(); ++j) {
+      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
+      Eigen::VectorXcd H(model.axis.size());
+      for (Eigen::Index line = 0; line < H.size(); ++line)
+        H(line) = model.H[static_cast<std::size_t>(line)](row, column);
+      list.entries.push_back(
+          {model.responses[i], model.forces[j], {model.axis, H, source, coherence_of(measured, row, column)}});
+    }
+  }
+  return list;
+}
+
 MeasuredResponse response_matrix(const MeasuredEntries& measured) {
   const auto& entries = measured.entries;
   if (entries.empty()) throw core::DataError("no frequency response function was read; nothing makes a matrix");

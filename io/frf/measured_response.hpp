@@ -48,6 +48,9 @@ struct MeasuredResponse {
 /// The coherence of an entry, empty if there is none.
 [[nodiscard]] Eigen::VectorXd coherence_of(const MeasuredResponse& measured, Eigen::Index row, Eigen::Index column);
 
+/// The entries of a matrix, row by row, with its notes; `source` names its file.
+[[nodiscard]] MeasuredEntries entries_of(const MeasuredResponse& measured, const std::string& source);
+
 /// The entries as a matrix, with rows and columns in the order in which their DOFs appear. Throws DataError that names
 /// every entry that is absent or occurs twice, has no direction, or has other frequencies than the first (relative
 /// 1e-12). Cost O(n log n), and one copy of the values.

@@ -173,6 +173,12 @@ void require_entries_within(const matvar_t& stated, std::size_t bytes, const std
   if (left == 0) fail_in(path, "the variable " + name + " states more entries than the file holds: write it again");
 }
 
+/// The bytes that a file of version 7.3 can hold at most, for deflate makes a byte of 1032 at best.
+std::size_t most_bytes_within(const std::filesystem::path& path) {
+  constexpr std::size_t ratio_of_deflate = 1032;
+  return std::filesystem::file_size(path) * ratio_of_deflate;
+}
+
 /// The characters of a cell as UTF-8, from the 16-bit characters of MATLAB or the bytes of other programs.
 std::string utf8_text(const matvar_t& cell, const std::filesystem::path& path) {
   const std::size_t length = cell.dims[0] * cell.dims[1];
@@ -324,11 +330,10 @@ MatVariables read_mat_variables(const std::filesystem::path& path, const std::ve
   return in_memory(path, [&] {
     const MatVersion version = mat_version_of_file(path);
     if (version == MatVersion::four) return mat4_variables(core::read_file(path), names, path.string());
-    if (version == MatVersion::hdf5)
-      fail_in(path, "is a MAT file of version 7.3 (HDF5), which is not read; write it again by save(…, '-v7')");
-    const std::size_t most_bytes = require_whole_mat5(core::read_file(path), path);
+    const std::size_t most_bytes =
+        version == MatVersion::hdf5 ? most_bytes_within(path) : require_whole_mat5(core::read_file(path), path);
     const MatFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
-    if (!file) fail_in(path, "cannot be read as a MAT file");
+    if (!file) fail_in(path, "cannot be read as a MAT file; write it again by save(…, '-v7')");
     MatVariables variables;
     for (const std::string& name : names) {
       const Variable stated(Mat_VarReadInfo(file.get(), name.c_str()));
@@ -342,9 +347,10 @@ MatVariables read_mat_variables(const std::filesystem::path& path, const std::ve
 }
 
 std::vector<std::string> mat_variable_names(const std::filesystem::path& path) {
-  if (mat_version_of_file(path) != MatVersion::five) return {};
+  const MatVersion version = mat_version_of_file(path);
+  if (version != MatVersion::five && version != MatVersion::hdf5) return {};
   return in_memory(path, [&] {
-    (void)require_whole_mat5(core::read_file(path), path);
+    if (version == MatVersion::five) (void)require_whole_mat5(core::read_file(path), path);
     const MatFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
     std::size_t count = 0;
     char** const directory = file ? Mat_GetDir(file.get(), &count) : nullptr;

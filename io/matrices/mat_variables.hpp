@@ -52,12 +52,12 @@ void write_mat_variables(const std::filesystem::path& path, const std::string& t
                          const std::vector<MatVariable>& variables);
 
 /// Reads those of the named variables that the file contains: arrays of numbers of any type (whole ones beyond 2⁵³ are
-/// rounded), real sparse matrices of doubles, cell arrays of texts. Files of version 4 are read, too (mat4.hpp). Throws
-/// DataError that names the file, and the variable if it is of another kind, contains NaN or infinity or states more
-/// entries than the file can contain; and for a file of version 7.3 (HDF5) or a truncated one.
+/// rounded), real sparse matrices of doubles, cell arrays of texts. Files of version 4 (mat4.hpp) and of version
+/// 7.3 (HDF5) are read, too. Throws DataError that names the file, and the variable if it is of another kind, contains
+/// NaN or infinity or states more entries than the file can contain; and for a truncated file.
 [[nodiscard]] MatVariables read_mat_variables(const std::filesystem::path& path, const std::vector<std::string>& names);
 
-/// The names of the variables of a file of version 5, in their order, for messages; none of other files.
+/// The names of the variables of a file of version 5 or 7.3, in their order, for messages; none of other files.
 [[nodiscard]] std::vector<std::string> mat_variable_names(const std::filesystem::path& path);
 
 /// The variable of that name. Throws DataError "path: has no variable name" if there is none.

@@ -296,6 +296,8 @@ def fit_modes(
     noise: float | None = None,
     coherence: ArrayLike | None = None,
     averages: int | None = None,
+    poles_hz: Sequence[float] | None = None,
+    order: int = 30,
 ) -> dict[str, Any]: ...
 def route_difference(spatial: Response, receptance: Response) -> float: ...
 def lobes(

@@ -51,7 +51,7 @@ std::string data_text(const json& document) {
 }
 
 std::string title_of(const json& document) {
-  std::string title;
+  std::string title = document.value("title", std::string());
   for (const json& run : document.at("runs")) {
     const auto given = run["summary"].value("title", std::string());
     title += (title.empty() ? "" : " | ") + (given.empty() ? run.value("label", std::string("results")) : given);

@@ -12,6 +12,7 @@
 
 #include "dynamics/response_model.hpp"
 #include "io/results/csv_table.hpp"
+#include "report/page/agreement.hpp"
 #include "report/page/arrays.hpp"
 #include "report/page/thinned_lines.hpp"
 
@@ -70,33 +71,28 @@ std::vector<std::size_t> lines_of(const io::Table& table, const std::filesystem:
   return thinned_lines({&measured}, most);
 }
 
-/// The figures of an entry besides its receptance: the lines of the poles' and how well both agree, over all lines that
-/// both have. FRAC = |Σ H̄ G|² / (Σ|H|² Σ|G|²) (Heylen & Lammens 1996), error = (Σ|G − H|² / Σ|H|²)^½.
+/// The figures of an entry besides its receptance: the lines of the poles' and how well both agree.
 struct Synthesised {
   std::vector<double> real, imaginary;
-  double frac = 0.0, error = 0.0;
+  Agreement agreement;
 };
 
 std::optional<Synthesised> synthesised_of(const io::Table& table, const std::filesystem::path& file,
                                           const std::string& entry) {
   if (!has(table, "synthesised re " + entry + " m/N")) return std::nullopt;
   Synthesised found{io::numbers_or_gaps(table, "synthesised re " + entry + " m/N", file),
-                    io::numbers_or_gaps(table, "synthesised im " + entry + " m/N", file)};
+                    io::numbers_or_gaps(table, "synthesised im " + entry + " m/N", file),
+                    {}};
   const auto &re = io::numbers(table, "re " + entry + " m/N", file),
              &im = io::numbers(table, "im " + entry + " m/N", file);
-  std::complex<double> across = 0.0;
-  double measured = 0.0, poles = 0.0, apart = 0.0;
+  Eigen::VectorXcd H(std::ssize(re)), G(std::ssize(re));
   for (std::size_t line = 0; line < re.size(); ++line) {
-    const std::complex<double> H(re[line], im[line]), G(found.real[line], found.imaginary[line]);
-    if (std::isnan(G.real())) continue;
-    across += std::conj(H) * G;
-    measured += std::norm(H);
-    poles += std::norm(G);
-    apart += std::norm(G - H);
+    H(static_cast<Eigen::Index>(line)) = {re[line], im[line]};
+    G(static_cast<Eigen::Index>(line)) = {found.real[line], found.imaginary[line]};
   }
-  if (!(measured > 0.0) || !(poles > 0.0)) return std::nullopt;
-  found.frac = std::norm(across) / (measured * poles);
-  found.error = std::sqrt(apart / measured);
+  const std::optional<Agreement> agreement = agreement_of(H, G);
+  if (!agreement) return std::nullopt;
+  found.agreement = *agreement;
   return found;
 }
 
@@ -134,8 +130,8 @@ json tool_frf_data(const std::filesystem::path& file, std::size_t most) {
         poles.push_back(synthesised ? for_picture_or_nothing(synthesised->real[line]) : nothing);
         poles.push_back(synthesised ? for_picture_or_nothing(synthesised->imaginary[line]) : nothing);
       }
-      agreement.push_back(synthesised ? synthesised->frac : std::nan(""));
-      agreement.push_back(synthesised ? synthesised->error : std::nan(""));
+      agreement.push_back(synthesised ? synthesised->agreement.frac : std::nan(""));
+      agreement.push_back(synthesised ? synthesised->agreement.error : std::nan(""));
     }
   }
   json frf = {{"name", "tool"}, {"responses", responses}, {"forces", forces}, {"hz", packed(hz, {hz.size()})}};

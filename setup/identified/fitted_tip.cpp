@@ -49,13 +49,25 @@ std::vector<Eigen::MatrixXd> coherence_of(const std::vector<MeasuredFrf>& files,
   return lines;
 }
 
-/// Modes and a constant alone; noise where every file states it.
-identification::ResponseFitOptions options_of(const std::vector<MeasuredFrf>& files) {
+/// A figure of the files as one of each entry; empty unless every file has it.
+template <class Figure>
+identification::OfEntries of_entries(const std::vector<MeasuredFrf>& files, const MeasuredLayout& layout,
+                                     const Figure& figure) {
+  identification::OfEntries all(layout.file.rows(), layout.file.cols());
+  for (Eigen::Index e = 0; e < layout.file.size(); ++e) {
+    const auto value = figure(files[static_cast<std::size_t>(layout.file(e))]);
+    if (!value || !(*value > 0)) return {};
+    all(e) = *value;
+  }
+  return all;
+}
+
+/// Modes and a constant alone; noise and averages where every file states them.
+identification::ResponseFitOptions options_of(const std::vector<MeasuredFrf>& files, const MeasuredLayout& layout) {
   identification::ResponseFitOptions options;
   options.identify.terms = identification::ResidualTerms{false, 0};
-  if (std::ranges::all_of(files, [](const MeasuredFrf& file) { return file.noise && *file.noise > 0.0; }))
-    options.noise = *std::ranges::max_element(files, {}, [](const MeasuredFrf& file) { return *file.noise; })->noise;
-  options.averages = files.front().averages;
+  options.noise = of_entries(files, layout, [](const MeasuredFrf& file) { return file.noise; });
+  options.averages = of_entries(files, layout, [](const MeasuredFrf& file) { return file.averages; });
   return options;
 }
 
@@ -100,9 +112,10 @@ FittedTip fitted_tip(const Tool& tool) {
   for (const std::vector<MeasuredFrf>& files : joined_files(tool.measured)) {
     const dynamics::FrequencyAxis axis = receptance_of(tool.measured.front()).axis;
     const dynamics::ResponseModel measured = measured_response(files, axis);
-    identification::ResponseFitOptions options = options_of(files);
+    const MeasuredLayout layout = measured_layout(files);
+    identification::ResponseFitOptions options = options_of(files, layout);
     const identification::ResponseFit fit =
-        identification::fit_of_any_rank(measured, coherence_of(files, measured_layout(files), axis), options);
+        identification::fit_of_any_rank(measured, coherence_of(files, layout, axis), options);
     tell(fit, measured, options, tip);
     tip.model = beside(tip.model, identification::modal_model(fit.found.fit, measured.responses, measured.forces));
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "core/atomic_file.hpp"
 #include "dynamics/conversion.hpp"
 #include "identification/fit_response.hpp"
+#include "io/frf/mat_response.hpp"
 #include "io/frf/modal_table_csv.hpp"
 #include "io/frf/response_csv.hpp"
 #include "io/frf/uff.hpp"
@@ -179,6 +181,124 @@ TEST_F(Fit, StartsFromTheNamedPoles) {
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(figures()["modes"].size(), 2u);
   EXPECT_NE(done.out.find("chi2 a degree of freedom is"), std::string::npos) << done.out;
+}
+
+TEST_F(Fit, TakesEachNamedPoleOnceAndWithinTheBand) {
+  io::write_uff(path("robot.uff"), measured);
+  const auto with = [&](const std::string& poles) {
+    return command({"fit", path("robot.uff"), "--poles", poles, "--out", path("out")});
+  };
+  EXPECT_NE(with("60 Hz, 60.00000001 Hz").err.find("60 Hz stands twice"), std::string::npos);
+  EXPECT_EQ(with("60 Hz, 60 Hz").code, 2);
+  EXPECT_EQ(with("10 Hz, 60 Hz").code, 2);
+  EXPECT_NE(with("60 Hz, 500 Hz").err.find("500 Hz is outside of the band from 20 to 400 Hz"), std::string::npos);
+  EXPECT_EQ(with("").code, 0);  // none is named
+  // Two names near one pole of the diagram start apart.
+  std::ostringstream close;
+  close << 0.99 * truth[0].frequency_hz << " Hz, " << 1.01 * truth[0].frequency_hz << " Hz, " << truth[1].frequency_hz
+        << " Hz, " << truth[2].frequency_hz << " Hz";
+  const Outcome apart = with(close.str());
+  ASSERT_EQ(apart.code, 0) << apart.err;
+  EXPECT_EQ(figures()["modes"].size(), 4U);
+}
+
+TEST_F(Fit, RefusesWordsThatSayNothingByThemselves) {
+  io::write_uff(path("robot.uff"), measured);
+  const auto refused = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"fit", path("robot.uff"), "--out", path("out")});
+    const Outcome done = command(words);
+    EXPECT_EQ(done.code, 2) << words.back() << ": " << done.err;
+    return done.err;
+  };
+  EXPECT_NE(refused({"--noise", "nan"}).find("0.01 stands for 1 %"), std::string::npos);
+  EXPECT_NE(refused({"--noise", "0"}).find("above 0"), std::string::npos);
+  EXPECT_NE(refused({"--averages", "8"}).find("these files do not have"), std::string::npos);
+  EXPECT_NE(refused({"--averages", "8", "--noise", "0.01"}).find("one of the two"), std::string::npos);
+  EXPECT_NE(refused({"--frequency-unit", "Hz"}).find("--frequency-unit"), std::string::npos);
+  EXPECT_NE(refused({"--variable", "H"}).find("--frequency-variable"), std::string::npos);
+  EXPECT_NE(refused({"--responses", "1.x"}).find("--forces"), std::string::npos);
+  EXPECT_NE(refused({"--exclude", ""}).find("--exclude"), std::string::npos);
+  const Outcome empty = command({"fit", path("robot.uff"), "--from", "399.9 Hz", "--out", path("out")});
+  EXPECT_EQ(empty.code, 3);
+  EXPECT_NE(empty.err.find("widen it: the file has 700 from 20 to 400 Hz"), std::string::npos) << empty.err;
+}
+
+/// The page holds the figures of fit.json, and the command without the poles that it was given.
+TEST_F(Fit, LeavesAPage) {
+  io::write_uff(path("robot.uff"), measured);
+  std::ostringstream named;
+  for (const FittedMode& mode : truth) named << (named.str().empty() ? "" : ", ") << mode.frequency_hz << " Hz";
+  ASSERT_EQ(command({"fit", path("robot.uff"), "--poles", named.str(), "--order", "20", "--out", path("out")}).code, 0);
+  const std::string page = core::read_file(temporary.path / "out" / "fit.html");
+  const std::string opening = R"(<script type="application/json" id="data">)";
+  const auto begin = page.find(opening) + opening.size();
+  const auto document = nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  const nlohmann::json& fit = document.at("fit");
+  EXPECT_EQ(fit.at("figures"), figures());
+  EXPECT_EQ(fit.at("command"),
+            (nlohmann::json{"thinwall", "fit", path("robot.uff"), "--order", "20", "--out", path("out")}));
+  EXPECT_EQ(fit.at("frf").at("H").at("shape"), (nlohmann::json{2, 2, 700, 2}));
+  EXPECT_EQ(fit.at("frf").at("synthesised").at("shape"), fit.at("frf").at("H").at("shape"));
+  EXPECT_GT(fit.at("diagram").at("hz").at("shape")[0].get<int>(), 20);
+  EXPECT_FALSE(fit.contains("shapes")) << "the points have no places";
+  EXPECT_EQ(document.at("title"), "Fit of 2 x 2 receptances: robot.uff");
+}
+
+/// Points from a table, lines from nothing: a shape at two places.
+TEST_F(Fit, ShowsShapesOnPointsWithPlaces) {
+  measured.responses[1].point = "2";
+  io::write_response(path("robot.csv"), measured);
+  core::write_file_atomically(path("points.csv"), "point,x_m,y_m,z_m\n1,0,0,0\n2,0.5,0,0.1\n");
+  const Outcome done =
+      command({"fit", path("robot.csv"), "--geometry", path("points.csv"), "--residues", "free", "--out", path("out")});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const std::string page = core::read_file(temporary.path / "out" / "fit.html");
+  EXPECT_NE(page.find(R"("position_m":[0.5,0.0,0.1])"), std::string::npos);
+  EXPECT_EQ(command({"fit", path("robot.csv"), "--geometry", path("none.csv"), "--out", path("out")}).code, 4);
+}
+
+/// Arrays of another program, by the names of their variables.
+TEST_F(Fit, ReadsArraysOfMatFiles) {
+  io::write_mat_response(path("ours.mat"), {measured, {}, {}});
+  const std::vector<std::string> array{
+      "--variable", "H",   "--frequency-variable", "frequency_hz", "--quantity", "receptance",
+      "--unit",     "m/N", "--responses",          "1.x, 1.y",     "--forces",   "1.x,1.y"};
+  std::vector<std::string> words{"fit", path("ours.mat"), "--out", path("out")};
+  ASSERT_EQ(command(words).code, 0);
+  const nlohmann::json ours = figures();
+  words.insert(words.end(), array.begin(), array.end());
+  const Outcome done = command(words);
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(figures()["modes"], ours["modes"]);
+  EXPECT_EQ(figures()["responses"], ours["responses"]);
+  const std::string hdf5 = std::string(THINWALL_SOURCE_DIR) + "/tests/io/data/frf_73.mat";
+  const Outcome of_hdf5 =
+      command({"fit", hdf5, "--variable", "H", "--frequency-variable", "f", "--quantity", "receptance", "--unit", "m/N",
+               "--responses", "1.x, 2.x", "--forces", "1.x", "--out", path("out")});
+  ASSERT_EQ(of_hdf5.code, 0) << of_hdf5.err;
+  ASSERT_EQ(figures()["modes"].size(), 2U);
+  EXPECT_NEAR(figures()["modes"][0]["frequency_hz"].get<double>(), 40.0, 1e-6);
+  EXPECT_NEAR(figures()["modes"][1]["damping_ratio"].get<double>(), 0.03, 1e-8);
+  const Outcome one = command({"fit", "2.x/1.x=" + hdf5, "--variable", "H(2,1,:)", "--frequency-variable", "f",
+                               "--quantity", "receptance", "--unit", "m/N", "--out", path("out")});
+  ASSERT_EQ(one.code, 0) << one.err;
+  EXPECT_EQ(figures()["responses"], (nlohmann::json{"2.x"}));
+}
+
+/// Files that an earlier fit left and this one does not have are gone; other files stay.
+TEST_F(Fit, ReplacesAnEarlierResultAsAWhole) {
+  io::write_uff(path("robot.uff"), measured);
+  ASSERT_EQ(command({"fit", path("robot.uff"), "--out", path("out")}).code, 0);
+  core::write_file_atomically(temporary.path / "out" / "notes.txt", "mine");
+  ASSERT_TRUE(std::filesystem::exists(temporary.path / "out" / "modes.uff"));
+  dynamics::ResponseModel cross{measured.axis, {dofs[0]}, {dofs[1]}, {}};
+  for (const auto& H : measured.H) cross.H.emplace_back(H.block(0, 1, 1, 1));
+  io::write_response(path("cross.csv"), cross);
+  ASSERT_EQ(command({"fit", path("cross.csv"), "--out", path("out")}).code, 0);
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(temporary.path / "out"))
+    names.insert(entry.path().filename().string());
+  EXPECT_EQ(names, (std::set<std::string>{"fit.html", "fit.json", "fitted.csv", "modes.csv", "notes.txt"}));
 }
 
 TEST_F(Fit, KeepsTheFilesThatItReads) {

@@ -73,11 +73,11 @@ TEST(FitResponse, WeighsByCoherenceAndByStatedNoise) {
   const double gamma2 = 1.0 / (1.0 + 10 * noise * noise);
   const std::vector<Eigen::MatrixXd> coherence(measured.H.size(), Eigen::Matrix2d::Constant(gamma2));
   ResponseFitOptions options;
-  options.averages = 10;
+  options.averages = Eigen::MatrixXd::Constant(1, 1, 10.0);
   const ResponseFit by_coherence = fit_response(measured, coherence, options);
   EXPECT_EQ(by_coherence.weights, Weights::coherence);
   EXPECT_NEAR(by_coherence.found.fit.chi2_per_dof(), 1.0, 0.05);
-  options.noise = noise / std::numbers::sqrt2;
+  options.noise = Eigen::MatrixXd::Constant(1, 1, noise / std::numbers::sqrt2);
   const ResponseFit by_noise = fit_response(measured, {}, options);
   EXPECT_EQ(by_noise.weights, Weights::noise);
   EXPECT_NEAR(by_noise.found.fit.chi2_per_dof(), by_coherence.found.fit.chi2_per_dof(), 1e-3);
@@ -171,6 +171,52 @@ TEST(FittedModel, HasTheWholeMatrixByReciprocity) {
   }
   EXPECT_THROW((void)modal_model(fit_response(whole, {}).found.fit, dofs_of({"P", "Q", "R"}), dofs_of({"A", "B", "C"})),
                core::InputError);
+}
+
+/// Entries of different averages: with the number of each χ² is 1, with the first one's for all it is not.
+TEST(FitResponse, WeighsEachEntryByItsOwnAverages) {
+  Draw draw(27);
+  const auto truth = reciprocal_modes(draw, 3, 2);
+  const dynamics::ResponseModel measured = response_of(testing::lines_of(truth, 800, 0.02, draw));
+  const Eigen::MatrixXd averages = (Eigen::Matrix2d() << 5.0, 40.0, 40.0, 10.0).finished();
+  const Eigen::MatrixXd gamma2 = (1.0 + averages.array() * 0.02 * 0.02).inverse();
+  const std::vector<Eigen::MatrixXd> coherence(800, gamma2);
+  ResponseFitOptions options;
+  options.averages = averages;
+  EXPECT_NEAR(fit_response(measured, coherence, options).found.fit.chi2_per_dof(), 1.0, 0.05);
+  options.averages = averages.topLeftCorner(1, 1);
+  EXPECT_LT(fit_response(measured, coherence, options).found.fit.chi2_per_dof(), 0.7);
+  options.averages = Eigen::MatrixXd::Ones(3, 2);
+  EXPECT_THROW((void)fit_response(measured, coherence, options), core::InputError);
+}
+
+/// Noise that is stated must lie between 0 and 1, and intervals that are no numbers are told.
+TEST(FitResponse, TellsOfNumbersThatAreNone) {
+  Draw draw(28);
+  const auto truth = reciprocal_modes(draw, 2, 1);
+  const dynamics::ResponseModel measured = response_of(testing::lines_of(truth, 300, 0.01, draw));
+  ResponseFitOptions options;
+  for (const double wrong : {0.0, 1.0, std::nan("")}) {
+    options.noise = Eigen::MatrixXd::Constant(1, 1, wrong);
+    EXPECT_THROW((void)fit_response(measured, {}, options), core::InputError) << wrong;
+  }
+  options.noise = {};
+  ResponseFit fit = fit_response(measured, {}, options);
+  EXPECT_FALSE(any_has(doubts_about(fit, measured.responses, measured.forces, options), "no interval"));
+  fit.found.fit.modes[0].sd_ln_damping = std::nan("");
+  EXPECT_TRUE(any_has(doubts_about(fit, measured.responses, measured.forces, options), "has no interval"));
+}
+
+/// A stable pole serves the nearest of the frequencies that were chosen; the others start at 1 % of damping.
+TEST(StablePoles, ServeTheNearestChoiceEach) {
+  const auto pole = [](double hz, double zeta) {
+    return 2.0 * std::numbers::pi * hz * std::complex<double>(-zeta, std::sqrt(1.0 - zeta * zeta));
+  };
+  const std::vector<StablePole> stable{{pole(100.0, 0.03), 5}, {pole(200.0, 0.002), 7}};
+  const Eigen::VectorXcd chosen = poles_near({99.0, 102.0, 230.0}, stable);
+  EXPECT_EQ(chosen(0), stable[0].pole);
+  EXPECT_LT(std::abs(chosen(1) - pole(102.0, 0.01)), 1e-9);
+  EXPECT_LT(std::abs(chosen(2) - pole(230.0, 0.01)), 1e-9);
 }
 
 /// A mass of 2 kg on a spring of 1 MN/m that moves along (0.6, 0.8).

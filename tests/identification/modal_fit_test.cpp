@@ -151,7 +151,7 @@ TEST(ModalFit, RefusesWhatItCannotFit) {
   bad.variance[3](0, 1) = 0.0;
   EXPECT_THROW((void)modal_fit(bad, start), core::InputError);
   EXPECT_THROW((void)plscf(measured, 60), core::InputError);
-  EXPECT_THROW((void)variance_of(measured.H, {}, 8), core::InputError);
+  EXPECT_THROW((void)variance_of(measured.H, {}, Eigen::MatrixXd::Constant(1, 1, 8.0)), core::InputError);
 }
 
 }  // namespace

@@ -1,14 +1,16 @@
-// MAT files that others write: whole numbers as SciPy and MATLAB store them, version 4, and version 7.3, which is told.
+// MAT files that others write: whole numbers as SciPy and MATLAB store them, versions 4 and 7.3.
 // The bytes are made by hand after the format's description.
 
 #include <gtest/gtest.h>
 
+#include <complex>
 #include <cstdint>
 #include <cstring>
 
 #include "core/error.hpp"
 #include "io/matrices/mat4.hpp"
 #include "io/matrices/mat_sparse.hpp"
+#include "io/matrices/mat_variables.hpp"
 #include "io/matrices/mat_version.hpp"
 #include "io/matrices/matrix_files.hpp"
 #include "scratch_folder.hpp"
@@ -145,14 +147,38 @@ TEST_F(MatVersions, FourIsRefusedWhereItIsDamaged) {
   EXPECT_NE(refused(whole + "K = 3;").find("no whole"), std::string::npos);
 }
 
-TEST_F(MatVersions, SevenPointThreeIsNamedWithTheRemedy) {
+/// data/frf_73.mat holds two modes, 40 Hz and 120 Hz, of 1 µm/N at H(1,1,:) and half of it, the second one turned, at
+/// H(2,1,:).
+TEST(MatFilesOfHdf5, AreReadAsThoseOfVersionFive) {
+  const std::filesystem::path file = std::filesystem::path(THINWALL_SOURCE_DIR) / "tests/io/data/frf_73.mat";
+  ASSERT_EQ(mat_version_of_file(file), MatVersion::hdf5);
+  EXPECT_EQ(mat_variable_names(file), (std::vector<std::string>{"H", "f"}));
+  const MatVariables variables = read_mat_variables(file, {"H", "f", "none"});
+  EXPECT_EQ(variables.size(), 2U);
+  const MatVariable& H = variables.at("H");
+  ASSERT_EQ(H.size, (std::vector<std::size_t>{2, 1, 96}));
+  ASSERT_EQ(variables.at("f").re.size(), 96U);
+  for (std::size_t line = 0; line < 96; ++line) {
+    const double f = variables.at("f").re[line];
+    EXPECT_NEAR(f, 10.0 + 2.0 * static_cast<double>(line), 1e-12);
+    const auto mode = [f](double f0, double zeta) {
+      return 1e-6 / std::complex<double>(1.0 - f * f / (f0 * f0), 2.0 * zeta * f / f0);
+    };
+    const std::complex<double> expected[] = {mode(40.0, 0.02) + mode(120.0, 0.03),
+                                             0.5 * (mode(40.0, 0.02) - mode(120.0, 0.03))};
+    for (std::size_t i = 0; i < 2; ++i)
+      EXPECT_LT(std::abs(std::complex<double>(H.re[2 * line + i], H.im[2 * line + i]) - expected[i]), 1e-18);
+  }
+}
+
+TEST_F(MatVersions, SevenPointThreeThatIsDamagedIsNamedWithTheRemedy) {
   std::string titled = "MATLAB 7.3 MAT-file, Platform: GLNXA64";
   titled.resize(512, '\0');
   const std::string signature = "\x89HDF\r\n\x1a\n";
   for (const std::string& bytes : {titled + signature + std::string(100, '\0'), signature + std::string(600, '\0')}) {
     const auto file = write("new.mat", bytes);
     const std::string message = message_of<core::DataError>([&] { (void)read_matrices(in_metres(file)); });
-    EXPECT_NE(message.find("new.mat: is a MAT file of version 7.3"), std::string::npos) << message;
+    EXPECT_NE(message.find("new.mat: cannot be read as a MAT file"), std::string::npos) << message;
     EXPECT_NE(message.find("'-v7'"), std::string::npos) << message;
   }
 }

@@ -45,3 +45,17 @@ def test_what_cannot_be_fitted_is_refused():
                   {"coherence": np.ones(3), "averages": 4}):
         with pytest.raises(thinwall.InputError):
             thinwall.fit_modes(EXACT, **wrong)
+
+
+def test_poles_are_chosen_by_their_frequencies_from_the_diagram():
+    every = thinwall.fit_modes(noisy(0.01), noise=0.01, terms="none", order=20)
+    diagram = every["diagram"]
+    assert diagram["order"].max() == 20
+    assert len({len(column) for column in diagram.values()}) == 1
+    stable = diagram["frequency_hz"][diagram["stable"]]
+    for hz in every["frequency_hz"]:
+        assert np.sum(np.abs(stable / hz - 1.0) < 0.01) > 3
+    chosen = thinwall.fit_modes(noisy(0.01), noise=0.01, terms="none", poles_hz=every["frequency_hz"][[0, 2]] * 1.004)
+    assert len(chosen["frequency_hz"]) == 2
+    assert chosen["chi2_per_dof"] > 2.0
+    assert any("chi2" in warning for warning in chosen["warnings"])

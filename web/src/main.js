@@ -19,13 +19,8 @@ import { modes3d } from './modes3d.js';
 import { quality } from './reduction.js';
 import { provenance } from './provenance.js';
 import { simulation, simulationLead } from './simulation.js';
-
-/** A section with its heading (an anchor), what to see in a sentence, and its content; null where there is none. The sentence is asked for where there is a content only. */
-function section(id, title, sentence, content) {
-  const filled = content.flat(3).filter(Boolean);
-  if (!filled.length) return null;
-  return Object.assign(el('section', { id }, el('h2', {}, el('a', { href: `#${id}` }, title)), el('p', { class: 'lead' }, sentence()), filled), { title });
-}
+import { section } from './section.js';
+import { fitPage } from './fit.js';
 
 /** The runs' own blocks, side by side and each under its label where there are two. */
 function sideBySide(runs, of) {
@@ -47,7 +42,8 @@ function macLead(runs) {
     runs.some((run) => run.auto_mac) ? 'Against itself, a high value off the diagonal says that two modes are hard to tell apart.' : ''].filter(Boolean).join(' ');
 }
 
-function build(data) {
+/** The page of one run or of several: what stands above the sections, these, and what to draw at once. */
+function runsPage(data) {
   const { runs } = data;
   const charts = { lobes: lobes(runs), path: paths(runs), frf: receptances(runs), shapes: modes3d(runs), quality: quality(runs) };
   for (const p of [charts.frf?.chart, charts.path?.chart, charts.quality?.chart]) if (p) later(p.draw);
@@ -67,21 +63,20 @@ function build(data) {
     section('checks', 'Checks', () => 'Values that the case expects, with where the expectation comes from.', [runs.map((run) => [runs.length > 1 && checkTable(run) && el('h3', {}, run.label), checkTable(run), routesNote(run, runs.length > 1)])]),
     section('provenance', 'Provenance', () => 'What was computed, from what, by which program.', [provenance(data)]),
   ].filter(Boolean);
-  return { charts, sections };
+  return { header: headline(data), sections, start: () => { charts.lobes?.chart.draw(); charts.shapes?.start(); } };
 }
 
 function main() {
   const page = document.getElementById('page');
   try {
     const data = readDocument();
-    const { charts, sections } = build(data);
+    const { header, sections, start } = data.fit ? fitPage(data) : runsPage(data);
     const links = [['answer', 'Answer'], ...sections.map((s) => [s.id, s.title])];
     page.replaceChildren(
       el('nav', { 'aria-label': 'Contents' }, el('div', { class: 'links' }, links.map(([id, title]) => el('a', { href: `#${id}` }, title))),
         button(icon('half'), 'Light or dark', toggleTheme)),
-      el('main', {}, headline(data), sections, el('footer', {}, `Made by ${data.program}. This file holds all that it shows and fetches nothing.`)));
-    charts.lobes?.chart.draw();
-    charts.shapes?.start();
+      el('main', {}, header, sections, el('footer', {}, `Made by ${data.program}. This file holds all that it shows and fetches nothing.`)));
+    start();
   } catch (error) {
     page.replaceChildren(el('p', { class: 'failure', role: 'alert' }, `This page cannot be shown: ${error.message}.`));
     console.error(error);

@@ -7,8 +7,8 @@ import { faint } from './colours.js';
 import { number, plain } from './format.js';
 import { between, decades, plot } from './plot.js';
 
-const names = { tool: 'tool', part: 'part', robot: 'robot', coupled_receptance: 'coupled, receptances', coupled_spatial: 'coupled, matrices' };
-const colour = { tool: 'robot', part: 'part', robot: 'robot', coupled_receptance: 'supported', coupled_spatial: 'spatial' };
+const names = { measured: 'measured', tool: 'tool', part: 'part', robot: 'robot', coupled_receptance: 'coupled, receptances', coupled_spatial: 'coupled, matrices' };
+const colour = { measured: 'part', tool: 'robot', part: 'part', robot: 'robot', coupled_receptance: 'supported', coupled_spatial: 'spatial' };
 
 // What is drawn of re + i im (m/N), its axis, and whether an error band (of the modulus) belongs to it.
 const displays = {
@@ -164,7 +164,7 @@ function difference(run, i, runs, colours) {
 function synthesisedOf(one, { synthesised }, x, display, runs, colours) {
   if (!synthesised) return [];
   const { re, im, frac, error } = synthesised;
-  return [{ name: plain(`${label(one, runs)}, fitted: FRAC ${number(frac, 4)}, ${error < 1e-4 ? 'below 0.01' : number(error * 100, 2)} % off`), x, y: x.map((_, k) => display.of(re[k], im[k])).map((v) => (Number.isFinite(v) ? v : null)), mode: 'lines',
+  return [{ name: plain(`${one.frf.name === 'measured' ? '' : `${label(one, runs)}, `}fitted: FRAC ${number(frac, 4)}, ${error < 1e-4 ? 'below 0.01' : number(error * 100, 2)} % off`), x, y: x.map((_, k) => display.of(re[k], im[k])).map((v) => (Number.isFinite(v) ? v : null)), mode: 'lines',
     line: { simplify: false, color: colours.mark, width: 1.4, dash: 'dash' }, hovertemplate: `%{y:.4~g} ${display.unit ?? 'µm/N'}`, meta: `${one.i} ${one.frf.name} synthesised` }];
 }
 
@@ -176,20 +176,26 @@ function coherenceOf(one, { hz, coherence }, runs, colours) {
 }
 
 function nyquist(shown, runs, note, margin, colours, narrow) {
-  const data = shown.map(({ one, e }) => ({ name: plain(label(one, runs)), x: Array.from(e.re, (v) => v * 1e6), y: Array.from(e.im, (v) => v * 1e6), customdata: Array.from(e.hz), mode: 'lines', line: style(one, colours),
-    hovertemplate: '%{customdata:.5~g} Hz: %{x:.4~g}, %{y:.4~g} µm/N', meta: `${one.i} ${one.frf.name}` }));
+  const trace = (name, e, { re, im }, line, meta) => ({ name, x: Array.from(re, (v) => v * 1e6), y: Array.from(im, (v) => v * 1e6), customdata: Array.from(e.hz), mode: 'lines', line, hovertemplate: '%{customdata:.5~g} Hz: %{x:.4~g}, %{y:.4~g} µm/N', meta });
+  const data = shown.flatMap(({ one, e }) => [trace(plain(label(one, runs)), e, e, style(one, colours), `${one.i} ${one.frf.name}`),
+    ...(e.synthesised ? [trace('fitted', e, e.synthesised, { simplify: false, color: colours.mark, width: 1.4, dash: 'dash' }, `${one.i} ${one.frf.name} synthesised`)] : [])]);
   return { data, layout: { height: narrow ? 480 : 580, hovermode: 'closest', uirevision: 'nyquist', margin, annotations: [note],
     xaxis: { title: 'Re H (µm/N)', zeroline: true }, yaxis: { title: 'Im H (µm/N)', scaleanchor: 'x', zeroline: true } } };
 }
 
 /** Singular values of the whole matrices: the first strong, the others thin, of every FRF with more than one degree of freedom. */
 function indicator(all, runs, state, margin, colours, narrow) {
-  const data = all.flatMap((one) => {
+  const curves = all.flatMap((one) => {
     if (one.frf.name === 'coupled_spatial') return []; // lies upon that of the receptances
-    const found = cmif(one.frf);
     const line = style(one, colours);
-    return (found?.values ?? []).map((values, k) => ({ name: plain(`${label(one, runs)}${k ? `, singular value ${k + 1}` : ''}`), showlegend: k === 0, legendgroup: `${one.i} ${one.frf.name}`, x: Array.from(found.hz), y: Array.from(values, (v) => (v > 0 ? v * 1e6 : null)),
-      mode: 'lines', line: { ...line, width: k ? 0.9 : 2, color: k ? faint(line.color, 0.7) : line.color }, hovertemplate: '%{y:.4~g} µm/N', meta: `${one.i} ${one.frf.name} cmif ${k}` }));
+    const fitted = one.frf.name === 'measured' && one.frf.synthesised; // of every entry
+    return [{ frf: one.frf, line, name: label(one, runs), meta: `${one.i} ${one.frf.name}` },
+      ...(fitted ? [{ frf: { ...one.frf, H: fitted }, line: { ...line, color: colours.mark, dash: 'dash' }, name: 'fitted', meta: `${one.i} ${one.frf.name} synthesised` }] : [])];
+  });
+  const data = curves.flatMap(({ frf, line, name, meta }) => {
+    const found = cmif(frf);
+    return (found?.values ?? []).map((values, k) => ({ name: plain(`${name}${k ? `, singular value ${k + 1}` : ''}`), showlegend: k === 0, legendgroup: meta, x: Array.from(found.hz), y: Array.from(values, (v) => (v > 0 ? v * 1e6 : null)),
+      mode: 'lines', line: { ...line, width: k ? 0.9 : 2, color: k ? faint(line.color, 0.7) : line.color }, hovertemplate: '%{y:.4~g} µm/N', meta: `${meta} cmif ${k}` }));
   });
   return { data, layout: { height: narrow ? 480 : 580, hovermode: 'x unified', uirevision: `cmif ${state.logFrequency}`, margin,
     xaxis: { title: 'Frequency (Hz)', unifiedhovertitle: { text: '%{x:.5~g} Hz' }, type: state.logFrequency ? 'log' : 'linear' }, yaxis: { title: 'Singular values of H (µm/N)', type: 'log', dtick: 1 } } };

@@ -16,11 +16,17 @@ export function compose(data, dist = 'dist') {
   const [script, style] = [read(`${dist}/page.js`), read(`${dist}/page.css`)];
   const values = {
     SCRIPT: script, STYLE: style, SCRIPT_HASH: sha256(script), STYLE_HASH: sha256(style),
-    TITLE: (data.runs[0].summary.title ?? data.runs[0].label).replace(/[<>&"]/g, (c) => entities[c]),
+    TITLE: (data.title ?? data.runs[0].summary.title ?? data.runs[0].label).replace(/[<>&"]/g, (c) => entities[c]),
     DATA: JSON.stringify(data).replace(/[<>&\u2028\u2029]/g, (c) => escapes[c]),
   };
   return read('template.html').replace(/\{\{(\w+)\}\}/g, (_, name) => values[name]);
 }
+
+/** The data document of a finished page. */
+export const documentOf = (file) => JSON.parse(readFileSync(file, 'utf8').match(/<script type="application\/json" id="data">(.*?)<\/script>/s)[1]);
+
+/** True of the page of a fit. */
+export const isFit = (file) => Boolean(documentOf(file).fit);
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
   writeFileSync(process.argv[3], compose(JSON.parse(readFileSync(process.argv[2], 'utf8'))));

@@ -9,12 +9,12 @@ import { after, before, describe, test } from 'node:test';
 import { inflateSync } from 'node:zlib';
 import { table } from './csv.mjs';
 import { drawn, launch, open, pixels, saved, slide, traces } from './browser.mjs';
-import { compose } from './compose.mjs';
+import { compose, documentOf, isFit } from './compose.mjs';
 import { oneRun, twoRuns } from './synthetic.mjs';
 
 const folder = mkdtempSync(path.join(os.tmpdir(), 'thinwall-page-'));
 const made = (name, data) => { const file = path.join(folder, `${name}.html`); writeFileSync(file, compose(data)); return file; };
-const given = (process.env.THINWALL_REPORTS ?? '').split(':').filter(Boolean).map((f) => path.resolve(f));
+const given = (process.env.THINWALL_REPORTS ?? '').split(':').filter(Boolean).map((f) => path.resolve(f)).filter((f) => !isFit(f));
 const reports = given.length ? given : [made('one', oneRun()), made('two', twoRuns())];
 // A time depends on the machine and on what else it does: it is told always, and held to a bound only where one is given.
 const bound = Number(process.env.THINWALL_READY_MS ?? Infinity);
@@ -26,7 +26,6 @@ before(async () => { browser = await launch(); });
 after(async () => { await browser.close(); rmSync(folder, { recursive: true }); });
 
 const close = (a, b, tolerance = 1e-6) => assert.ok(Math.abs(a - b) <= tolerance * Math.abs(b), `${a} is not ${b}`);
-const documentOf = (file) => JSON.parse(readFileSync(file, 'utf8').match(/<script type="application\/json" id="data">(.*?)<\/script>/s)[1]);
 
 /** Numbers of an array of the document, decoded here by another way than the page's. */
 function numbers({ type, deflate, shuffled }) {

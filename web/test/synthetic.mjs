@@ -234,3 +234,29 @@ export function hostile() {
   data.program = evil;
   return data;
 }
+
+/** The page of a fit: two modes of a beam on three points along y, measured by one hammer, of which the second point is not named by the diagram's first orders. */
+export function fitted({ coherence = true, shapes = true, warnings = ['the damping of the mode at 180 Hz is known to 24 % only'] } = {}) {
+  const hz = range(200).map((i) => 20 + 1.5 * i);
+  const [responses, forces] = [['1.x', '2.x', '3.x'], ['3.x']];
+  const modes = [{ f: 60.25, z: 0.01, k: 1e6, u: [0.2, 0.6, 1] }, { f: 180.5, z: 0.02, k: 4e6, u: [-0.7, -0.4, 1] }];
+  const value = (r, f) => modes.reduce(([re, im], m) => {
+    const [a, b] = [1 - (f / m.f) ** 2, (2 * m.z * f) / m.f];
+    const scale = (m.u[r] * m.u[2]) / (m.k * (a * a + b * b));
+    return [re + a * scale, im - b * scale];
+  }, [0, 0]);
+  const H = (factor) => pack('f32', [3, 1, hz.length, 2], range(3).flatMap((r) => hz.flatMap((f) => value(r, f).map((v) => v * factor))), true);
+  const orders = range(10).flatMap((i) => [...modes.map((m, k) => [i + 1, m.f * (1 + 0.02 / (i + 1) ** 2), m.z, i < 2 ? 0 : i === 2 + k ? 3 : i < 5 ? 1 : 7]), [i + 1, 100 + 13 * i, 0.05, i % 2 ? 5 : 0]]);
+  const column = (k) => orders.map((row) => row[k]);
+  const interval = (v) => [v * 0.99, v * 1.01];
+  const figures = { modes: modes.map((m, i) => ({ frequency_hz: m.f, frequency_95_hz: interval(m.f), damping_ratio: m.z, damping_ratio_95: i ? [null, null] : interval(m.z), second_singular: 0, mass_kg: i ? undefined : 7, stiffness_n_m: i ? undefined : m.k })),
+    chi2_per_dof: 1.02, converged: true, weights: 'scatter', terms: { inertia: true, highest_power: 1 }, lines: { count: hz.length, from_hz: hz[0], to_hz: hz.at(-1) }, misfit: [[0.01], [0.02], [0.005]], warnings, responses, forces };
+  return { schema: 1, program: 'thinwall 0.0', title: 'Fit of 3 x 1 receptances: <beam>.uff', runs: [], fit: {
+    figures, notes: ['2.x/3.x is taken from 3.x/2.x by reciprocity'], command: ['thinwall', 'fit', "it's a beam.uff", '--from', '20 Hz', '--out', 'fit'],
+    frf: { name: 'measured', responses, forces, hz: pack('f64', [hz.length], hz), H: H(1), synthesised: H(1.01), agreement: pack('f64', [3, 1, 2], [1, 0.01, 1, 0.01, 1, 0.01]),
+      ...(coherence ? { coherence: pack('f32', [3, 1, hz.length], range(3 * hz.length).map((i) => 1 - (i % 7) / 50)) } : {}) },
+    diagram: { order: pack('u32', [orders.length], column(0)), hz: pack('f32', [orders.length], column(1)), damping: pack('f32', [orders.length], column(2)), agrees: pack('u32', [orders.length], column(3)) },
+    stable: modes.map((m) => ({ hz: m.f, damping: m.z, orders: 5 })),
+    mac: { values: pack('f32', [2, 2], [1, 0.1, 0.1, 1]), row_hz: modes.map((m) => m.f), column_hz: modes.map((m) => m.f) },
+    ...(shapes ? { shapes: { points: responses.map((name, i) => ({ name: name.slice(0, 1), position_m: [0, i * 0.1, 0] })), lines: [[0, 1], [1, 2]], modes: modes.map((m) => ({ hz: m.f, shape: m.u.map((u) => [u, 0, 0, 0, 0, 0]) })) } } : {}) } };
+}

@@ -1,4 +1,4 @@
-#include "report/fit_files.hpp"
+#include "report/fit/fit_files.hpp"
 
 #include <fmt/format.h>
 
@@ -6,33 +6,26 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "identification/fitted_model.hpp"
 #include "io/frf/response_csv.hpp"
 #include "io/frf/uff_shapes.hpp"
 #include "io/json_file.hpp"
 #include "io/results/csv_table.hpp"
+#include "report/fit/fit_json.hpp"
+#include "report/fit/fit_page.hpp"
 #include "report/model_files.hpp"
+#include "report/page/page.hpp"
+#include "report/publish.hpp"
 
 namespace thinwall::report {
 
 namespace {
 
 using identification::FittedMode;
-using nlohmann::json;
-
-constexpr double two_sided = 1.959964;  // 95 % of a normal distribution
-
-struct Interval {
-  double low = 0.0, high = 0.0;
-};
-
-Interval interval(double value, double sd_ln) {
-  return {value * std::exp(-two_sided * sd_ln), value * std::exp(two_sided * sd_ln)};
-}
 
 /// The point at which all DOFs with both roles are, as translations; empty if there are several, or none.
 std::string single_point(const FitReport& found) {
@@ -77,8 +70,9 @@ void write_modes(const std::filesystem::path& file, const FitReport& found) {
     const Eigen::Vector3d along = direction_in_space(found, points[r]->direction);
     for (std::size_t i = 0; i < 3; ++i) direction.at(i).push_back(along(static_cast<Eigen::Index>(i)));
   }
-  io::Table table{{"frequency_hz", hz},    {"frequency_low_hz", hz_low},    {"frequency_high_hz", hz_high},
-                  {"damping_ratio", zeta}, {"damping_ratio_low", zeta_low}, {"damping_ratio_high", zeta_high}};
+  io::Table table{
+      {"frequency_hz", hz},    {"frequency_low_hz", hz_low, true},    {"frequency_high_hz", hz_high, true},
+      {"damping_ratio", zeta}, {"damping_ratio_low", zeta_low, true}, {"damping_ratio_high", zeta_high, true}};
   if (single) {
     table.push_back({"stiffness", stiffness});
     table.push_back({"direction_x", direction[0]});
@@ -202,116 +196,10 @@ void write_shapes(const std::filesystem::path& file, const dynamics::ModalTable&
   io::write_uff_shapes(file, shapes);
 }
 
-json matrix_json(const Eigen::MatrixXd& values) {
-  json rows = json::array();
-  for (Eigen::Index i = 0; i < values.rows(); ++i) {
-    json row = json::array();
-    for (Eigen::Index j = 0; j < values.cols(); ++j) row.push_back(values(i, j));
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-json mode_json(const FittedMode& mode, const std::optional<identification::PointMode>& point) {
-  const Interval f = interval(mode.frequency_hz, mode.sd_ln_frequency),
-                 z = interval(mode.damping_ratio, mode.sd_ln_damping);
-  json entry{{"frequency_hz", mode.frequency_hz},
-             {"frequency_95_hz", {f.low, f.high}},
-             {"damping_ratio", mode.damping_ratio},
-             {"damping_ratio_95", {z.low, z.high}},
-             {"second_singular", mode.second_singular},
-             {"residue_re", matrix_json(mode.residue.real())},
-             {"residue_im", matrix_json(mode.residue.imag())}};
-  if (point) {
-    entry["mass_kg"] = point->mass_kg;
-    entry["stiffness_n_m"] = point->stiffness_N_m;
-    entry["direction"] = std::vector<double>(point->direction.begin(), point->direction.end());
-  }
-  return entry;
-}
-
-/// |aᴴb|²/(aᴴa bᴴb) of the residues as vectors.
-json mac_json(const std::vector<FittedMode>& modes) {
-  Eigen::MatrixXd mac(static_cast<Eigen::Index>(modes.size()), static_cast<Eigen::Index>(modes.size()));
-  for (Eigen::Index i = 0; i < mac.rows(); ++i) {
-    for (Eigen::Index j = 0; j < mac.cols(); ++j) {
-      const Eigen::MatrixXcd &a = modes[static_cast<std::size_t>(i)].residue,
-                             &b = modes[static_cast<std::size_t>(j)].residue;
-      mac(i, j) = std::norm(a.reshaped().dot(b.reshaped())) / (a.squaredNorm() * b.squaredNorm());
-    }
-  }
-  return matrix_json(mac);
-}
-
-json fit_json(const FitReport& found) {
-  const identification::ModalFit& fit = found.fit.found.fit;
-  const auto points = identification::point_modes(fit, found.measured.responses, found.measured.forces);
-  json document{
-      {"modes", json::array()},
-      {"chi2_per_dof", fit.chi2_per_dof()},
-      {"converged", fit.converged},
-      {"weights", core::word_of(found.fit.weights)},
-      {"terms", {{"inertia", found.fit.found.terms.inertia}, {"highest_power", found.fit.found.terms.highest_power}}},
-      {"lines",
-       {{"count", found.fit.lines.lines()},
-        {"from_hz", found.fit.lines.hz(0)},
-        {"to_hz", found.fit.lines.hz(found.fit.lines.lines() - 1)}}},
-      {"misfit", matrix_json(found.fit.misfit)},
-      {"mac", mac_json(fit.modes)},
-      {"warnings", found.doubts}};
-  for (std::size_t r = 0; r < fit.modes.size(); ++r) document["modes"].push_back(mode_json(fit.modes[r], points[r]));
-  for (const auto& [key, dofs] :
-       {std::pair{"responses", &found.measured.responses}, {"forces", &found.measured.forces}}) {
-    document[key] = json::array();
-    for (const dynamics::Dof& dof : *dofs) document[key].push_back(dynamics::name(dof));
-  }
-  return document;
-}
-
-std::string terms_text(const identification::ResidualTerms& terms) {
-  std::string text = terms.inertia ? "LR/s^2" : "";
-  for (int power = 0; power <= terms.highest_power; ++power)
-    text += fmt::format("{}c{}{}", text.empty() ? "" : ", ", power,
-                        power == 0   ? ""
-                        : power == 1 ? " s"
-                                     : fmt::format(" s^{}", power));
-  return text.empty() ? "none" : text;
-}
-
-std::string mode_line(std::size_t number, const FittedMode& mode,
-                      const std::optional<identification::PointMode>& point) {
-  std::string line = fmt::format("  {:>4}  {:>10.5g} ± {:<8.2g}  {:>8.4g} ± {:<8.2g}", number, mode.frequency_hz,
-                                 two_sided * mode.sd_ln_frequency * mode.frequency_hz, 100.0 * mode.damping_ratio,
-                                 100.0 * two_sided * mode.sd_ln_damping * mode.damping_ratio);
-  line += point ? fmt::format("  {:>9.4g}  {:>9.4g}", point->mass_kg, point->stiffness_N_m * 1e-6)
-                : fmt::format("  {:>9}  {:>9}", "-", "-");
-  return line + fmt::format("  {:>7.2g}\n", mode.second_singular);
-}
-
-}  // namespace
-
-std::string fit_text(const FitReport& found) {
-  const identification::ModalFit& fit = found.fit.found.fit;
-  const identification::MeasuredLines& lines = found.fit.lines;
-  const auto points = identification::point_modes(fit, found.measured.responses, found.measured.forces);
-  std::string text = fmt::format("{} x {} receptances, {} lines from {:.6g} to {:.6g} Hz, weighed by {}\n",
-                                 lines.responses(), lines.references(), lines.lines(), lines.hz(0),
-                                 lines.hz(lines.lines() - 1), core::word_of(found.fit.weights));
-  text += fmt::format("  {:>4}  {:>21}  {:>19}  {:>9}  {:>9}  {:>7}\n", "mode", "frequency (Hz, 95 %)",
-                      "damping (%, 95 %)", "mass (kg)", "k (N/um)", "s2/s1");
-  for (std::size_t r = 0; r < fit.modes.size(); ++r) text += mode_line(r + 1, fit.modes[r], points[r]);
-  text += fmt::format("  chi2        {:.3g} a degree of freedom; 1 where model and weights are right\n",
-                      fit.chi2_per_dof());
-  text += fmt::format("  terms       {}\n", terms_text(found.fit.found.terms));
-  text += fmt::format("  misfit      {:.2g} % of the entry that is worst\n", 100.0 * found.fit.misfit.maxCoeff());
-  for (const std::string& doubt : found.doubts) text += "  warning     " + doubt + "\n";
-  for (const std::string& note : found.notes) text += "  note        " + note + "\n";
-  return text;
-}
-
-std::vector<std::string> write_fit(const std::filesystem::path& folder, const FitReport& found) {
+/// The tables and the page, each as far as it can be written; what could not, and what they leave out.
+std::vector<std::string> write_into(const std::filesystem::path& folder, const FitReport& found,
+                                    const std::string& program) {
   constexpr double told_share = 0.02;
-  make_model_folder(folder);
   const identification::ModalFit& fit = found.fit.found.fit;
   std::vector<std::string> left_out;
   write_modes(folder / "modes.csv", found);
@@ -319,11 +207,11 @@ std::vector<std::string> write_fit(const std::filesystem::path& folder, const Fi
   io::write_response(
       folder / "fitted.csv",
       identification::fitted_response(fit, {found.fit.lines.hz}, found.measured.responses, found.measured.forces));
+  core::write_file_atomically(folder / "fit.html", page(fit_document(found, program)));
   const auto write = [&](const char* name, const auto& write_table) {
     try {
       write_table(folder / name, identification::modal_table(fit, found.measured.responses, found.measured.forces));
     } catch (const core::InputError& error) {
-      std::filesystem::remove(folder / name);  // of an earlier fit
       left_out.push_back(std::string(name) + " is not written: " + error.what());
     }
   };
@@ -338,6 +226,24 @@ std::vector<std::string> write_fit(const std::filesystem::path& folder, const Fi
   write("modal_table.csv", write_modal_table);
   write("modes.uff", write_shapes);
   return left_out;
+}
+
+}  // namespace
+
+std::vector<std::string> write_fit(const std::filesystem::path& folder, const FitReport& found,
+                                   const std::string& program) {
+  make_model_folder(folder);
+  const std::filesystem::path staging = core::partial_path(folder / "fit");
+  std::filesystem::create_directory(staging);
+  try {
+    std::vector<std::string> left_out = write_into(staging, found, program);
+    publish_files(staging, folder, {fit_file_names.begin(), fit_file_names.end()});
+    return left_out;
+  } catch (...) {
+    std::error_code error;
+    std::filesystem::remove_all(staging, error);
+    throw;
+  }
 }
 
 }  // namespace thinwall::report
