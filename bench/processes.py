@@ -97,8 +97,9 @@ def run(command, time_limit_s, folder, env, processor_limit_s=None):
     child.stdout.close()
     failure = ""
     if exceeded.is_set():
-        limits = f"{time_limit_s:g} s" + ("" if processor_limit_s is None else f" or {processor_limit_s:g} s of processor time")
-        failure = f"stopped at the limit of {limits}"
+        failure = f"stopped at the limit of {time_limit_s:g} s"
+        if processor_limit_s is not None:
+            failure += f" or {processor_limit_s:g} s of processor time"
     elif child.returncode != 0:
         said = [line for line in errors.read_text(errors="replace").splitlines() if line.strip()]
         how = f"signal {-child.returncode}" if child.returncode < 0 else f"exit {child.returncode}"

@@ -1,5 +1,5 @@
-"""The scripted parts by name. `turn` is the number of facets on a full turn of a coarse tessellation, `fine` that of all
-facets of a fine one, about."""
+"""The scripted parts by name. `turn` is the number of facets on a full turn of a coarse tessellation, `fine` about that
+of all facets of a fine one."""
 
 import dataclasses
 import functools

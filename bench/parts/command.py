@@ -1,9 +1,7 @@
 """bench/run parts: the program on parts from files that nobody here made fit, with a table and a page."""
 
-import argparse
 import pathlib
 import re
-import sys
 import tempfile
 
 import fem
@@ -18,16 +16,19 @@ def add_command(commands):
     parser.add_argument("--make", type=pathlib.Path, metavar="DIR",
                         help="make the scripted parts that are missing in DIR and run them (takes Gmsh)")
     parser.add_argument("--variants", default="", metavar="LIST", help="of the parts that are made; all if not given")
-    parser.add_argument("--only", type=re.compile, default=re.compile(""), metavar="PATTERN", help="in the files' names")
+    parser.add_argument("--only", type=re.compile, default=re.compile(""), metavar="PATTERN",
+                        help="in the files' names")
     parser.add_argument("--no-runs", action="store_true", help="only make the parts")
     parser.add_argument("--time", type=fem.positive(float), default=30.0, metavar="S", help="of one run, seconds (30)")
     parser.add_argument("--processor-time", type=fem.positive(float), metavar="S",
                         help="of all processes of one run, seconds (the time on all threads); on a busy machine give "
                              "this and a longer --time")
-    parser.add_argument("--memory", type=fem.positive(float), default=6.0, metavar="GB", help="of one process (6)")
+    parser.add_argument("--memory", type=fem.positive(float), default=6.0, metavar="GB", help="of one run (6)")
     parser.add_argument("--threads", type=fem.positive(int), default=2, metavar="N")
-    parser.add_argument("--tolerance", type=fem.positive(float), default=0.01, metavar="X", help="part.mesh.tolerance (0.01)")
-    parser.add_argument("--unit", default="mm", metavar="UNIT", help="of files that do not tell it, but NAME.inch.ENDING (mm)")
+    parser.add_argument("--tolerance", type=fem.positive(float), default=0.01, metavar="X",
+                        help="part.mesh.tolerance (0.01)")
+    parser.add_argument("--unit", default="mm", metavar="UNIT",
+                        help="of files that do not tell it (mm); NAME.inch.ENDING is in inches")
     parser.add_argument("--reference", type=pathlib.Path, metavar="DIR",
                         help="compare with CalculiX on ten-node tetrahedra by Gmsh; what was computed is kept in DIR")
     parser.add_argument("--out", type=pathlib.Path, metavar="FILE.json", help="write all figures as JSON")
@@ -42,8 +43,8 @@ def made(settings):
     try:
         from parts import catalogue, make
     except ImportError as error:
-        raise SystemExit(f"bench/run parts: {error}; Debian's packages python3-gmsh and python3-numpy bring what --make "
-                         "and --reference take, for /usr/bin/python3") from error
+        raise SystemExit(f"bench/run parts: {error}; Debian's packages python3-gmsh and python3-numpy bring what "
+                         "--make takes, for /usr/bin/python3") from error
     names = [name for name in settings.variants.split(",") if name] or make.VARIANTS
     unknown = [name for name in names if name not in make.VARIANTS]
     if unknown:

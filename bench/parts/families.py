@@ -1,4 +1,4 @@
-"""The families of scripted parts: each function leaves one solid (or several that touch) in Gmsh's current model, in mm."""
+"""The families of scripted parts: each function leaves a solid, or several that touch, in Gmsh's model, in mm."""
 
 import math
 
@@ -252,8 +252,9 @@ def threaded_rod(radius, depth, lead, turns, places=8):
 
 def spring(radius, wire_radius, lead, turns, places=12):
     """A helical spring of round wire."""
-    return swept(wire_radius, [(radius * math.cos(2 * math.pi * k / places), radius * math.sin(2 * math.pi * k / places),
-                                lead * k / places) for k in range(turns * places + 1)])
+    angles = [2 * math.pi * k / places for k in range(turns * places + 1)]
+    return swept(wire_radius, [(radius * math.cos(angle), radius * math.sin(angle), lead * angle / (2 * math.pi))
+                               for angle in angles])
 
 
 def heat_sink(length, width, base, fins, fin, height):
@@ -297,7 +298,8 @@ def lattice(cells, pitch, strut, round_struts=False):
         for j in n:
             a, b = i * pitch, j * pitch
             if round_struts:
-                struts += [cylinder(strut / 2, reach, (a, b, 0.0)), cylinder(strut / 2, reach, (0.0, a, b), (1.0, 0.0, 0.0)),
+                struts += [cylinder(strut / 2, reach, (a, b, 0.0)),
+                           cylinder(strut / 2, reach, (0.0, a, b), (1.0, 0.0, 0.0)),
                            cylinder(strut / 2, reach, (a, 0.0, b), (0.0, 1.0, 0.0))]
             else:
                 h, full = strut / 2, reach + strut

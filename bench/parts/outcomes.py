@@ -72,7 +72,7 @@ def share(rows, holds):
 
 
 def summary_of(rows):
-    """What is measured against the bars: (words, figure, bar in words, whether it holds; None where there is nothing)."""
+    """What is held against the bars: (words, figure, bar in words, True if it holds; None where there is no bar)."""
     ratios = [row["error_over_estimate"] for row in rows if row.get("error_over_estimate") is not None]
     broken = sum(row["outcome"] in (CRASH, INTERNAL) for row in rows)
     unsound = sum(has_answer(row) and row.get("rigid_motions") != 6 for row in rows)
@@ -84,6 +84,8 @@ def summary_of(rows):
              ("answers without six rigid motions", str(unsound), "0", unsound == 0),
              (f"answers in {BARS['first_answer_s']:g} s of processor time", percent(prompt),
               f"≥ {percent(BARS['first_answer'])}", prompt >= BARS["first_answer"])]
+    lines.append(("runs above the memory given", str(sum(row.get("above_memory", False) for row in rows)), "0",
+                  not any(row.get("above_memory", False) for row in rows)))
     if ratios:
         beyond, worst = share(ratios, lambda ratio: ratio > 1.0), max(ratios)
         lines += [("true error above the estimate", percent(beyond), f"≤ {percent(BARS['beyond_estimate'])}",

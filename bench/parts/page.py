@@ -10,8 +10,8 @@ COLOURS = {outcomes.MET: "#d9f2dc", outcomes.ESTIMATED: "#fff3c9", outcomes.REFU
 COLUMNS = [("file", "file"), ("outcome", "outcome"), ("wall_s", "wall, s"), ("processor_s", "processor, s"),
            ("memory_bytes", "memory, GB"), ("dofs", "unknowns"), ("order", "order"), ("estimate", "estimate"),
            ("volume_difference", "volume against the surface"), ("rigid_motions", "rigid motions"),
-           ("true_error", "true error"), ("error_over_estimate", "over the estimate"), ("frequencies_hz", "frequencies, Hz"),
-           ("message", "message")]
+           ("true_error", "true error"), ("error_over_estimate", "over the estimate"),
+           ("frequencies_hz", "frequencies, Hz"), ("message", "message")]
 STYLE = """body { font: 14px sans-serif; margin: 2em; } table { border-collapse: collapse; margin: 1em 0; }
 td, th { border: 1px solid #bbb; padding: 2px 8px; text-align: left; } td.number { text-align: right; }
 th { position: sticky; top: 0; background: #eee; cursor: pointer; } details { max-width: 60em; }"""

@@ -1,4 +1,4 @@
-"""Small words for Open CASCADE's kernel in Gmsh, in mm. A solid is a list of (dimension, tag), as Gmsh's own calls take it."""
+"""Solids of Open CASCADE's kernel in Gmsh, in mm, each a list of (dimension, tag) as Gmsh's own calls take it."""
 
 import math
 

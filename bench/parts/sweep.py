@@ -12,12 +12,12 @@ PROGRAM = fem.ROOT / "build" / "release" / "app" / "thinwall"
 ENDINGS = (".stl", ".off", ".obj", ".ply", ".3mf", ".glb", ".gltf", ".step", ".stp", ".msh", ".inp", ".vtu")
 OWN_UNIT = (".3mf", ".glb", ".gltf", ".step", ".stp")
 YOUNG_PA, POISSON, DENSITY_KG_M3 = 70e9, 0.33, 2700.0
+ADDRESSES_PER_BYTE = 1.3
 MODES = 12
-RIGID_MOTIONS = 6
 
 
 def files_in(folder, pattern):
-    """Parts in a folder: coarse tessellations first, since they tell most in least time, then STEP; small before large."""
+    """Parts in a folder: coarse tessellations first, for they tell most in least time, then STEP; small before large."""
     found = [path for path in sorted(folder.iterdir()) if path.suffix.lower() in ENDINGS and pattern.search(path.name)]
     return sorted(found, key=lambda path: (".coarse." not in path.name, path.suffix != ".step", path.stat().st_size))
 
@@ -35,17 +35,20 @@ def case_text(path, unit, tolerance):
     if unit:
         lines.append(f'unit = "{unit}"')
     lines += ["[part.material]", f'youngs_modulus = "{YOUNG_PA:g} Pa"', f"poisson_ratio = {POISSON:g}",
-              f'density = "{DENSITY_KG_M3:g} kg/m^3"', "[part.mesh]", f"tolerance = {tolerance!r}", "[modes]", f"count = {RIGID_MOTIONS + MODES}"]
+              f'density = "{DENSITY_KG_M3:g} kg/m^3"', "[part.mesh]", f"tolerance = {tolerance!r}", "[modes]",
+              f"count = {MODES}"]
     return "\n".join([*lines, ""])
 
 
 def limited(command, settings):
-    """The command with a bound on the address space of each of its processes."""
-    return ["prlimit", f"--as={settings.memory * 1e9:.0f}", *command]
+    """The command told of its memory, and with a bound on the address space of each of its processes somewhat above,
+    for addresses are taken that memory is never behind."""
+    return ["prlimit", f"--as={ADDRESSES_PER_BYTE * settings.memory * 1e9:.0f}", *command, "--memory",
+            f"{settings.memory:g} GB"]
 
 
 def row_of(path, settings, folder):
-    """Runs the program on a file. Its log is kept beside its results until the next part takes the folder."""
+    """Runs the program on a file in a folder of its own, which is made anew."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     (folder / "case.toml").write_text(case_text(path.resolve(), unit_of(path, settings.unit), settings.tolerance))
@@ -57,7 +60,8 @@ def row_of(path, settings, folder):
     message = last_message(done, folder)
     timed_out = done.failure.startswith("stopped at the limit")
     row = {"file": path.name, "outcome": outcomes.outcome(done.exit_code, timed_out, message, summary),
-           "wall_s": done.wall_s, "processor_s": done.cpu_s, "memory_bytes": done.peak_memory_bytes, "message": message,
+           "wall_s": done.wall_s, "processor_s": done.cpu_s, "memory_bytes": done.peak_memory_bytes,
+           "above_memory": done.peak_memory_bytes > settings.memory * 1e9, "message": message,
            "log": log.read_text(errors="replace").splitlines()[-40:] if log.exists() else []}
     if outcomes.has_answer(row):
         row.update(outcomes.figures(summary), message="")
@@ -105,4 +109,6 @@ def run_all(files, settings, folder, add):
             compare(row, path, known_volumes(path.parent), settings)
         rows.append(row)
         add(rows)
+        if settings.work is None:
+            shutil.rmtree(folder)
     return rows

@@ -118,7 +118,8 @@ class Outcomes(unittest.TestCase):
         cases = [((0, False, "", self.MET), outcomes.MET), ((0, False, "", self.NOT), outcomes.ESTIMATED),
                  ((3, False, "error: open edges", None), outcomes.REFUSED),
                  ((5, False, "error: no mesher could fill the surface", None), outcomes.REFUSED),
-                 ((5, False, "", None), outcomes.INTERNAL), ((1, False, "internal error: assertion", None), outcomes.INTERNAL),
+                 ((5, False, "", None), outcomes.INTERNAL),
+                 ((1, False, "internal error: assertion", None), outcomes.INTERNAL),
                  ((5, False, "internal error: assertion", None), outcomes.INTERNAL),
                  ((0, False, "", None), outcomes.INTERNAL), ((-11, False, "", None), outcomes.CRASH),
                  ((-9, True, "", None), outcomes.OUT_OF_TIME), ((-24, False, "", None), outcomes.OUT_OF_TIME)]
@@ -146,7 +147,8 @@ class Outcomes(unittest.TestCase):
 
     def test_the_limit_of_two_meshes(self):
         # f = 100 (1 + 0.1 h²) with h = 0.4 and 0.2, so eight times as many tetrahedra
-        coarse, fine = ({"tets": n, "frequencies_hz": [100.0 * (1 + 0.1 * h * h)]} for n, h in ((1000, 0.4), (8000, 0.2)))
+        coarse, fine = ({"tets": n, "frequencies_hz": [100.0 * (1 + 0.1 * h * h)]}
+                        for n, h in ((1000, 0.4), (8000, 0.2)))
         found = reference.extrapolated(coarse, fine)
         self.assertAlmostEqual(found["frequencies_hz"][0], 100.0)
         self.assertAlmostEqual(found["error"], 0.004)
