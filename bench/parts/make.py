@@ -3,6 +3,7 @@
 import contextlib
 import json
 import math
+import multiprocessing
 import os
 import sys
 
@@ -138,6 +139,7 @@ def variant(part, name, kept):
     """Points and triangles of a variant, mm; `kept` has the tessellations that several share."""
     base = "fine" if name in ("fine", "shuffled") else "coarse"
     if base not in kept:
+        begin(part)  # anew, for what was asked of the edges by one tessellation stays for the next
         kept[base] = (fine if base == "fine" else coarse)(part)
     points, triangles = kept[base]
     seed = sum(map(ord, part.name))
@@ -161,32 +163,47 @@ def file_name(part, name, turn):
 
 
 def make(folder, parts, names, only):
-    """Writes the files that are not there yet, and what each encloses into volumes.json (m³)."""
+    """Writes the files that are not there yet, and what each encloses into volumes.json (m³). Each part is made in a
+    process of its own, for Gmsh aborts on some errors: such a part is told and left out."""
     folder.mkdir(parents=True, exist_ok=True)
-    record = folder / "volumes.json"
-    volumes = json.loads(record.read_text()) if record.exists() else {}
-    quietly()
     for i, part in enumerate(parts):
         files = {name: folder / file_name(part, name, i + VARIANTS.index(name)) for name in names}
         files = {name: path for name, path in files.items() if only.search(path.name) and not path.exists()}
         if not files:
             continue
-        exact, kept = begin(part), {}
-        for name, path in files.items():
-            if name == "step":
-                write_step(path)
-                volumes[path.name] = 1e-9 * exact
-                continue
-            points, triangles = variant(part, name, kept)
-            if not surfaces.is_closed(triangles):
-                print(f"bench/run parts: {path.name} is not closed and left out", file=sys.stderr)
-                continue
-            surfaces.write(path, points, triangles, 7 if name == "inch" else 17)
-            inside = surfaces.volume(points, triangles) * (MILLIMETRES_PER_INCH**3 if name == "inch" else 1.0)
-            volumes[path.name] = 1e-9 * inside
-            print(f"{path.name}: {len(triangles)} triangles, volume {inside / exact - 1.0:+.2%}", file=sys.stderr)
-        record.write_text(json.dumps(volumes, indent=1, sort_keys=True) + "\n")
+        child = multiprocessing.get_context("fork").Process(target=make_part, args=(part, files, folder))
+        child.start()
+        child.join()
+        if child.exitcode != 0:
+            missing = ", ".join(path.name for path in files.values() if not path.exists())
+            print(f"bench/run parts: Gmsh gave up on {part.name}; left out: {missing}", file=sys.stderr)
+
+
+def make_part(part, files, folder):
+    """The files of one part. What each encloses is recorded before it is there, since it then stays as it is."""
+    quietly()
+    exact, kept = begin(part), {}
+    for name, path in files.items():
+        if name == "step":
+            record(folder, path.name, exact)
+            write_step(path)
+            continue
+        points, triangles = variant(part, name, kept)
+        if not surfaces.is_closed(triangles):
+            print(f"bench/run parts: {path.name} is not closed and left out", file=sys.stderr)
+            continue
+        inside = surfaces.volume(points, triangles) * (MILLIMETRES_PER_INCH**3 if name == "inch" else 1.0)
+        record(folder, path.name, inside)
+        surfaces.write(path, points, triangles, 7 if name == "inch" else 17)
+        print(f"{path.name}: {len(triangles)} triangles, volume {inside / exact - 1.0:+.2%}", file=sys.stderr)
     gmsh.finalize()
+
+
+def record(folder, name, volume_mm3):
+    """Adds what a file encloses to volumes.json."""
+    path = folder / "volumes.json"
+    volumes = json.loads(path.read_text()) if path.exists() else {}
+    path.write_text(json.dumps({**volumes, name: 1e-9 * volume_mm3}, indent=1, sort_keys=True) + "\n")
 
 
 @contextlib.contextmanager
