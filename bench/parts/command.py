@@ -5,6 +5,7 @@ import re
 import tempfile
 
 import fem
+import peers
 import processes
 
 from parts import outcomes, page, sweep
@@ -38,13 +39,23 @@ def add_command(commands):
     parser.set_defaults(run=run)
 
 
-def made(settings):
-    """Makes what is missing of the scripted parts."""
+def require_peers(settings):
+    """Ends with the package that is missing for what was asked."""
     try:
-        from parts import catalogue, make
+        if settings.make or settings.reference:
+            import gmsh  # noqa: F401
+            import numpy  # noqa: F401
     except ImportError as error:
         raise SystemExit(f"bench/run parts: {error}; Debian's packages python3-gmsh and python3-numpy bring what "
-                         "--make takes, for /usr/bin/python3") from error
+                         "--make and --reference take, for /usr/bin/python3") from error
+    if settings.reference and (missing := peers.absent(None, ["ccx"])):
+        raise SystemExit("bench/run parts: " + missing["ccx"])
+
+
+def made(settings):
+    """Makes what is missing of the scripted parts."""
+    from parts import catalogue, make
+
     names = [name for name in settings.variants.split(",") if name] or make.VARIANTS
     unknown = [name for name in names if name not in make.VARIANTS]
     if unknown:
@@ -54,7 +65,8 @@ def made(settings):
 
 def run(settings):
     if (settings.folder is None) == (settings.make is None):
-        raise SystemExit("bench/run parts: give --folder with parts or --make with a folder for the scripted ones")
+        raise SystemExit("bench/run parts: give one of --folder, of parts, and --make, for the scripted ones")
+    require_peers(settings)
     if settings.make:
         made(settings)
     if settings.no_runs:
