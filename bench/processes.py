@@ -10,6 +10,8 @@ import sys
 import threading
 import time
 
+PERIOD_S = 0.2  # between two looks at the processor time
+
 
 @dataclasses.dataclass
 class Finished:
@@ -20,6 +22,7 @@ class Finished:
     peak_memory_bytes: float
     failure: str  # empty if all went well
     lines: list
+    exit_code: int = 0  # negative for a signal
 
     @property
     def last_line(self):
@@ -41,8 +44,20 @@ def bring_pages(size_bytes):
     subprocess.run([sys.executable, "-c", touch, str(size_bytes)], check=False)
 
 
-def run(command, time_limit_s, folder, env):
-    """Runs to the end or to the limit; memory is the largest of any one process in it (getrusage of the child)."""
+def processor_time_s(session):
+    """User and system time of all processes of a session and of the children that they have waited for."""
+    ticks = 0
+    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):  # it may just have ended
+            fields = stat.read_text().rpartition(")")[2].split()  # from the state on, the third field of proc(5)
+            if int(fields[3]) == session:
+                ticks += sum(map(int, fields[11:15]))
+    return ticks / os.sysconf("SC_CLK_TCK")
+
+
+def run(command, time_limit_s, folder, env, processor_limit_s=None):
+    """Runs to the end or to a limit, of wall time or of the processor time of all its processes; memory is the largest
+    of any one process in it (getrusage of the child)."""
     start = time.monotonic()
     errors = pathlib.Path(folder) / "stderr.txt"
     with errors.open("wb") as error_file:
@@ -55,8 +70,19 @@ def run(command, time_limit_s, folder, env):
             with contextlib.suppress(ProcessLookupError):  # it may just have ended
                 os.killpg(child.pid, signal.SIGKILL)
 
+        ended = threading.Event()
+        seen_s = [0.0]
+
+        def watch():
+            while not ended.wait(PERIOD_S):
+                seen_s[0] = max(seen_s[0], processor_time_s(child.pid))
+                if seen_s[0] > processor_limit_s:
+                    return stop()
+
         timer = threading.Timer(time_limit_s, stop)
         timer.start()
+        if processor_limit_s is not None:
+            threading.Thread(target=watch, daemon=True).start()
         try:
             lines = [(time.monotonic() - start, line.rstrip("\n")) for line in child.stdout]
             _, status, usage = os.wait4(child.pid, 0)
@@ -65,17 +91,22 @@ def run(command, time_limit_s, folder, env):
             raise
         finally:
             timer.cancel()
+            ended.set()
     wall_s = time.monotonic() - start
     child.returncode = os.waitstatus_to_exitcode(status)
     child.stdout.close()
     failure = ""
     if exceeded.is_set():
         failure = f"stopped at the limit of {time_limit_s:g} s"
+        if processor_limit_s is not None:
+            failure += f" or {processor_limit_s:g} s of processor time"
     elif child.returncode != 0:
         said = [line for line in errors.read_text(errors="replace").splitlines() if line.strip()]
         how = f"signal {-child.returncode}" if child.returncode < 0 else f"exit {child.returncode}"
         failure = f"{how}: {said[0].strip() if said else 'no message'}"
-    return Finished(wall_s, usage.ru_utime + usage.ru_stime, 1024.0 * usage.ru_maxrss, failure, lines)
+    cpu_s = max(seen_s[0], usage.ru_utime + usage.ru_stime)  # a killed process has not waited for its own children
+    return Finished(wall_s, cpu_s, 1024.0 * usage.ru_maxrss, failure, lines,
+                    child.returncode)
 
 
 def machine():

@@ -1,0 +1,1 @@
+"""Parts made by script as files, the sweep over them, and its table."""
