@@ -133,7 +133,7 @@ std::vector<Eigen::VectorXd> starts_of(const TaskData& data, const SearchOptions
   core::parallel_for(drawn.size(), [&](std::size_t i) {
     value[i] = value_at(options.kernel, data, unpacked(drawn[i], data.inputs.cols(), data.tasks()));
   });
-  std::vector<Eigen::VectorXd> starts{within(first_start(data))};
+  std::vector<Eigen::VectorXd> starts{within(options.first ? *options.first : first_start(data))};
   for (auto first = value.begin(); first != value.end(); first += draws)
     starts.push_back(drawn[static_cast<std::size_t>(std::max_element(first, first + draws) - value.begin())]);
   return starts;
@@ -165,6 +165,11 @@ void require_usable(const TaskData& data, const SearchOptions& options) {
   if (!data.inputs.allFinite()) throw core::InputError("regression: a place is not finite; correct it");
   if (options.starts < 1)
     throw core::InputError("regression: " + std::to_string(options.starts) + " starts, must be at least 1");
+  if (options.first && (options.first->length.size() != data.inputs.cols() || options.first->tasks() != data.tasks()))
+    throw core::InputError("regression: a first start of " + std::to_string(options.first->length.size()) +
+                           " lengths and " + std::to_string(options.first->tasks()) + " tasks, must be of " +
+                           std::to_string(data.inputs.cols()) + " and " + std::to_string(data.tasks()) +
+                           ", as the data are");
   for (Eigen::Index t = 0; t < data.tasks(); ++t) {
     const auto seen = data.targets.col(t).array().isNaN().size() - data.targets.col(t).array().isNaN().count();
     if (seen < 2) {

@@ -24,6 +24,8 @@ struct SearchOptions {
   Bounds bounds{};
   int starts = 12;    ///< ≥ 1; the first is that of the targets, each other the likeliest of eight draws
   unsigned seed = 1;  ///< of what is drawn: the same seed gives the same answer
+  std::optional<HyperParameters>
+      first{};  ///< the first start, as of data that hardly differ; none: that of the targets
 };
 
 /// The outcome of the search.

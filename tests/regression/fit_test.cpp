@@ -53,6 +53,15 @@ TEST(Fit, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(alone.of_starts, shared.of_starts);
 }
 
+/// One search from where another ended stays there.
+TEST(Fit, BeginsWhereItIsTold) {
+  const Fit found = fit(toy({0, 1}), {.starts = 3});
+  const Fit again = fit(toy({0, 1}), {.starts = 1, .first = found.parameters});
+  EXPECT_NEAR(again.log_likelihood, found.log_likelihood, 1e-6);
+  EXPECT_LT((packed(again.parameters) - packed(found.parameters)).norm(), 0.01);
+  EXPECT_THROW((void)fit(toy({0}), {.first = found.parameters}), core::InputError);
+}
+
 /// Many tasks, of which a search takes long, are searched from fewer places.
 TEST(Fit, StartsFromFewerPlacesWhereParametersAreMany) {
   EXPECT_EQ(search_starts({}, 3, 3), 12);
