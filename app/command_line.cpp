@@ -32,9 +32,11 @@
 #include "report/lobes_report.hpp"
 #include "report/page/page.hpp"
 #include "report/page/phases.hpp"
+#include "report/postures/posture_summary.hpp"
 #include "report/publish.hpp"
 #include "report/result_folder.hpp"
 #include "report/robot_report.hpp"
+#include "report/summary/schema_of.hpp"
 #include "report/summary/summary_schema.hpp"
 #include "report/terminal_report.hpp"
 #include "setup/imported_part.hpp"
@@ -121,6 +123,14 @@ ExitCode simulate(const Arguments& arguments, std::ostream& out) {
   const ProgressDisplay display = start_log(arguments);
   if (arguments.threads > 0) core::set_thread_count(arguments.threads);
   out << simulate_case(simulated_case(arguments.case_path, arguments.overrides, request), arguments.out, display);
+  return ExitCode::done;
+}
+
+ExitCode postures(const Arguments& arguments, std::ostream& out) {
+  const ProgressDisplay display = start_log(arguments);
+  if (arguments.threads > 0) core::set_thread_count(arguments.threads);
+  out << study_postures(cases::read_case(arguments.case_path, arguments.overrides), arguments.postures, arguments.out,
+                        display);
   return ExitCode::done;
 }
 
@@ -219,8 +229,13 @@ ExitCode print_schema(const std::string& file, std::ostream& out) {
     out << report::summary_schema().dump(2) << '\n';
     return ExitCode::done;
   }
+  if (file == "postures") {
+    out << report::file_schema<report::LearnedRobotSummary>("postures.json of thinwall").dump(2) << '\n';
+    return ExitCode::done;
+  }
   if (file != "case" && file != "expected" && file != "joints")
-    throw core::UsageError("there is no schema of \"" + file + "\"; there are case, expected, joints, summary");
+    throw core::UsageError("there is no schema of \"" + file +
+                           "\"; there are case, expected, joints, summary, postures");
   const cases::Schema& schema = file == "case"       ? cases::case_schema()
                                 : file == "expected" ? cases::expectation_schema()
                                                      : cases::joints_schema();
@@ -249,6 +264,7 @@ ExitCode execute(const CLI::App& app, const Arguments& arguments, const RunCase&
   if (app.got_subcommand("run")) return run(arguments, run_case, out);
   if (app.got_subcommand("lobes")) return lobes(arguments, run_case, out);
   if (app.got_subcommand("robot")) return robot(arguments, out);
+  if (app.got_subcommand("postures")) return postures(arguments, out);
   if (app.got_subcommand("simulate")) return simulate(arguments, out);
   if (app.got_subcommand("fit")) {
     out << fit_files(arguments.fit);

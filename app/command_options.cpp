@@ -215,6 +215,37 @@ void describe_simulate(CLI::App& app, Arguments& arguments) {
   command->add_option("--threads", arguments.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
 }
 
+void describe_postures(CLI::App& app, Arguments& arguments) {
+  PosturesRequest& postures = arguments.postures;
+  auto* command = app.add_subcommand(
+      "postures",
+      "a robot that was tapped at many postures (robot.postures): errors of what is learned at postures held out, "
+      "modes "
+      "over the postures, first frequency and depth over the workspace, and the posture to tap next");
+  add_case_arguments(*command, arguments);
+  command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
+  command->add_option("--parts", postures.parts, "what is answered (default: errors,sharing,map,envelope,next)")
+      ->type_name("PARTS");
+  command
+      ->add_option("--speed", postures.speed,
+                   "spindle speed of the depths: \"9000 rpm\", or best, of each place of the map (default: the case's)")
+      ->type_name("SPEED");
+  command->add_option("--grid", postures.grid, "places of the map along each column (default: 5)")
+      ->check(CLI::Range(2, 1000));
+  command->add_option("--folds", postures.folds, "parts of the postures that are held out in turn (default: 5)")
+      ->check(CLI::Range(2, 1000));
+  command
+      ->add_option("--path", postures.path,
+                   "CSV of places that matter for the next posture, with the columns of robot.over (default: robot.at)")
+      ->type_name("FILE");
+  command->add_option("--candidates", postures.candidates, "CSV of places that can be tapped (default: the map's grid)")
+      ->type_name("FILE");
+  command->add_option("--split", postures.split, "between low and high modes (default: in the widest gap)")
+      ->type_name("FREQUENCY");
+  add_log_arguments(*command, arguments);
+  command->add_option("--threads", arguments.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
+}
+
 void describe_for_the_shell(CLI::App& app, Arguments& arguments) {
   auto* completion = app.add_subcommand("completion", "print a script that completes thinwall's words in a shell");
   completion->add_option("SHELL", arguments.shell, "the shell")
@@ -223,9 +254,9 @@ void describe_for_the_shell(CLI::App& app, Arguments& arguments) {
   app.add_subcommand("man", "print the manual page: thinwall man | man -l -");
   auto* schema = app.add_subcommand("schema",
                                     "print the JSON Schema of a case, for editors that check TOML by one, or of "
-                                    "summary.json, for scripts that read it");
+                                    "summary.json or postures.json, for scripts that read it");
   auto* file = schema->add_option("FILE", arguments.schema, "of which file (default: case)")
-                   ->type_name("case|expected|joints|summary");
+                   ->type_name("case|expected|joints|summary|postures");
   schema
       ->add_flag_callback(
           "--summary", [&arguments] { arguments.schema = "summary"; },
@@ -246,6 +277,7 @@ void describe(CLI::App& app, Arguments& arguments) {
       "robot", "modes and stiffness of the robot's tip in its posture, along a path, over a workspace");
   add_case_arguments(*robot_command, arguments);
   robot_command->add_option("--out", arguments.out, "result folder (default: results/<case>)")->type_name("DIR");
+  describe_postures(app, arguments);
   describe_simulate(app, arguments);
   add_case_arguments(*app.add_subcommand("check", "report every error of a case, and sizes to expect"), arguments);
   describe_fit(app, arguments.fit);

@@ -8,6 +8,7 @@
 #include "app/fit_command.hpp"
 #include "app/inspect_command.hpp"
 #include "app/lobes_input.hpp"
+#include "app/postures_command.hpp"
 #include "app/reduce_command.hpp"
 #include "app/simulate_command.hpp"
 #include "report/page/phases.hpp"
@@ -29,6 +30,7 @@ struct Arguments {
   InspectRequest inspect;
   report::PhasesRequest phases;
   SimulateRequest simulate;
+  PosturesRequest postures;
   SweepRequest sweep;
   MergeRequest merge;
   bool fresh = false, quiet = false, verbose = false, all = false;

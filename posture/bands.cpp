@@ -153,7 +153,7 @@ milling::RelativeStructure structure_of(const std::vector<FittedMode>& modes, co
     structure.b.rightCols(ranks) = cut.references * svd.matrixV().leftCols(ranks).conjugate();
   }
   if (rest.size() > 0) structure.R = cut.responses * rest * cut.references.transpose();
-  return structure;
+  return cut.beside ? milling::sum(structure, *cut.beside) : structure;
 }
 
 Eigen::VectorXd limiting_depths(const std::vector<FittedMode>& modes, const PostureCut& cut,

@@ -2,6 +2,7 @@
 // Receptances and limiting depths at a predicted posture, with their bands.
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "milling/cut/process.hpp"
@@ -46,10 +47,11 @@ struct PostureCut {
   Eigen::Matrix3Xd references;  ///< likewise of the references
   std::vector<double> spindle_speeds_rpm;
   milling::StabilityOptions stability;
+  std::optional<milling::RelativeStructure> beside{};  ///< what yields beside the robot, as a tool; part axes
 };
 
-/// The structure that the cut feels: the workpiece is rigid. A residue gives as many pairs of shapes as its rank.
-/// `rest` is the static compliance that the modes leave out, m/N; empty: none.
+/// The structure that the cut feels, with what yields beside the robot. A residue gives as many pairs of shapes as its
+/// rank. `rest` is the static compliance that the modes leave out, m/N; empty: none.
 [[nodiscard]] milling::RelativeStructure structure_of(const std::vector<identification::FittedMode>& modes,
                                                       const PostureCut& cut, const Eigen::MatrixXd& rest = {});
 

@@ -9,8 +9,11 @@
 #include "case/numbers.hpp"
 #include "case/reader.hpp"
 #include "python/bindings.hpp"
+#include "report/postures/posture_summary.hpp"
 #include "report/summary.hpp"
 #include "report/summary/summary_json.hpp"
+#include "report/summary/write_json.hpp"
+#include "study/postures/posture_study.hpp"
 #include "study/run.hpp"
 
 namespace thinwall::python {
@@ -148,6 +151,59 @@ std::map<std::string, dynamics::ResponseModel> responses(const study::Results& r
   return list;
 }
 
+/// A row a place: value, lower and upper end of the band of 95 %.
+template <typename Of>
+Eigen::MatrixXd bands_of(const std::vector<posture::MappedPlace>& map, const Of& of) {
+  Eigen::MatrixXd bands(std::ssize(map), 3);
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const posture::Banded band = of(map[i]);
+    bands.row(static_cast<Eigen::Index>(i)) << band.value, band.low, band.high;
+  }
+  return bands;
+}
+
+py::dict dict_of(const study::PostureStudy& found) {
+  const std::string figures = report::json_of(report::summary_of(found)).dump();
+  py::dict result = py::module_::import("json").attr("loads")(figures);
+  if (!found.map.empty()) {
+    result["map_places"] = found.mapped_at;
+    result["map_first_hz"] = bands_of(found.map, [](const posture::MappedPlace& at) { return at.first_hz; });
+    if (found.map.front().depth)
+      result["map_depth_m"] = bands_of(found.map, [](const posture::MappedPlace& at) { return at.depth->depth_m; });
+  }
+  if (found.envelope) {
+    result["chart_rpm"] = found.chart_rpm;
+    result["low_modes_depth_m"] = found.envelope->low;
+    result["high_modes_depth_m"] = found.envelope->high;
+    result["all_modes_depth_m"] = found.envelope->together;
+  }
+  if (found.next) {
+    result["candidates"] = found.candidates;
+    result["reduction"] = found.next->reduction;
+  }
+  return result;
+}
+
+study::PostureStudy answers(const LoadedCase& loaded, const study::PostureQuestions& questions) {
+  const LongCall guard;
+  return study::study_postures(loaded.value, questions);
+}
+
+py::dict study_postures(const LoadedCase& loaded, const std::optional<OneOrMore<std::string>>& parts,
+                        std::optional<double> spindle_speed_rpm, bool best_speed, int grid, int folds,
+                        const std::optional<Eigen::MatrixXd>& path, const std::optional<Eigen::MatrixXd>& candidates,
+                        std::optional<double> split_hz) {
+  study::PostureQuestions questions = parts ? study::questions_on(parts->values) : study::PostureQuestions();
+  questions.spindle_speed_rpm = spindle_speed_rpm;
+  questions.best_speed = best_speed;
+  questions.grid = grid;
+  questions.folds = folds;
+  questions.path = path.value_or(Eigen::MatrixXd());
+  questions.candidates = candidates.value_or(Eigen::MatrixXd());
+  questions.split_hz = split_hz;
+  return dict_of(answers(loaded, questions));
+}
+
 }  // namespace
 
 void bind_study(py::module_& module) {
@@ -203,6 +259,18 @@ void bind_study(py::module_& module) {
   module.def("run", run, "case"_a, "progress"_a = py::none(),
              "Computes all that the case asks for, without files. progress(stage): called when each stage begins;\n"
              "an exception that it raises ends the call.");
+  module.def(
+      "study_postures", study_postures, "case"_a, "parts"_a = py::none(), py::kw_only(),
+      "spindle_speed_rpm"_a = py::none(), "best_speed"_a = false, "grid"_a = 5, "folds"_a = 5, "path"_a = py::none(),
+      "candidates"_a = py::none(), "split_hz"_a = py::none(),
+      "A robot that was tapped at several postures (robot.postures). parts, all unless some are named: errors (at\n"
+      "postures that were held out), sharing (numbers learned alone and together), map (over the workspace), envelope\n"
+      "(of low and high modes), next (the posture to tap). A dict of the figures of postures.json and, as far as "
+      "asked\n"
+      "for, arrays: map_places, map_first_hz and map_depth_m (value, low and high of the band of 95 %), chart_rpm "
+      "with\n"
+      "low_modes_depth_m, high_modes_depth_m and all_modes_depth_m, candidates with reduction. path and candidates: a\n"
+      "row a place, as robot.over has them.");
 }
 
 }  // namespace thinwall::python

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <random>
 #include <string>
 #include <utility>
 
-#include "core/dense_factorisations.hpp"
 #include "core/error.hpp"
 #include "regression/gaussian_process.hpp"
-#include "regression/kernel.hpp"
+#include "regression/one_task.hpp"
 
 namespace thinwall::regression {
 
@@ -29,27 +27,13 @@ void require_one_task(const TaskData& data, const AveragingOptions& options) {
   if (options.samples < 1) refuse(std::to_string(options.samples) + " samples, must be at least 1");
 }
 
-/// The logarithm of the posterior, up to a constant. It is asked for some thousand times, so that the differences of
-/// the places are squared once, and α = K⁻¹y is not needed: yᵀα is |L⁻¹y|².
+/// The logarithm of the posterior, up to a constant.
 struct Posterior {
-  Kernel kernel;
-  std::vector<Eigen::ArrayXXd> squares{};  ///< of the differences along each column, of the places with a value
-  Eigen::VectorXd y{};
+  OneTask task;
   Eigen::VectorXd mean{}, deviation{};  ///< of the prior of each logarithm
 
   double operator()(const Eigen::VectorXd& theta) const {
-    const HyperParameters at = unpacked(theta, std::ssize(squares), 1);
-    Eigen::ArrayXXd r2 = squares.front() / (at.length(0) * at.length(0));
-    for (std::size_t d = 1; d < squares.size(); ++d) {
-      const double length = at.length(static_cast<Eigen::Index>(d));
-      r2 += squares[d] / (length * length);
-    }
-    Eigen::MatrixXd K = at.L(0, 0) * at.L(0, 0) * correlation(kernel, r2);
-    K.diagonal().array() += at.noise_sd(0) * at.noise_sd(0) + jitter;
-    const Eigen::LLT<Eigen::MatrixXd> factor(K);
-    const auto diagonal = factor.matrixLLT().diagonal();
-    if (factor.info() != Eigen::Success || !diagonal.allFinite()) return -std::numeric_limits<double>::infinity();
-    return -0.5 * factor.matrixL().solve(y).squaredNorm() - diagonal.array().log().sum() -
+    return log_likelihood(task, unpacked(theta, std::ssize(task.squares), 1)) -
            0.5 * (theta - mean).cwiseQuotient(deviation).squaredNorm();
   }
 };
@@ -57,15 +41,7 @@ struct Posterior {
 Posterior posterior_of(const TaskData& data, const AveragingOptions& options) {
   const HyperPrior& prior = options.prior;
   const Eigen::Index d = data.inputs.cols();
-  std::vector<Eigen::Index> seen;
-  for (Eigen::Index i = 0; i < data.places(); ++i)
-    if (!std::isnan(data.targets(i, 0))) seen.push_back(i);
-  Posterior result{.kernel = options.kernel};
-  result.y = data.targets.col(0)(seen);
-  for (const auto& column : data.inputs.colwise()) {
-    const Eigen::VectorXd x = column(seen);
-    result.squares.emplace_back((x.replicate(1, x.size()) - x.transpose().replicate(x.size(), 1)).array().square());
-  }
+  Posterior result{.task = one_task(options.kernel, data)};
   result.mean = Eigen::VectorXd::Constant(d + 2, prior.ln_length);
   result.deviation = Eigen::VectorXd::Constant(d + 2, prior.sd_ln_length);
   result.mean.tail(2) << prior.ln_signal, prior.ln_noise;

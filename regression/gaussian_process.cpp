@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "regression/one_task.hpp"
 
 namespace thinwall::regression {
 
@@ -22,6 +24,12 @@ Likelihood likelihood_at(Kernel kernel, const TaskData& data, const HyperParamet
   }
   const auto process = dense_process(kernel, data, parameters);
   return process ? log_likelihood(*process) : Likelihood{};
+}
+
+/// ln p alone, −∞ where there is none.
+double value_at(Kernel kernel, const TaskData& data, const HyperParameters& parameters) {
+  if (data.tasks() == 1) return log_likelihood(one_task(kernel, data), parameters);
+  return likelihood_at(kernel, data, parameters).value;
 }
 
 /// The search from one start, and the best place it has seen.
@@ -71,7 +79,7 @@ Box box_of(const Bounds& bounds, Eigen::Index dimensions, Eigen::Index tasks) {
 
 /// Runs an algorithm from a place; the search keeps the best that it saw, however the algorithm ends.
 void run(nlopt_algorithm algorithm, const Box& box, Eigen::VectorXd from, Search& search) {
-  constexpr int most_likelihoods = 400;
+  const int most_likelihoods = std::max(400, static_cast<int>(5 * from.size()));
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimiser(
       nlopt_create(algorithm, static_cast<unsigned>(from.size())), &nlopt_destroy);
   nlopt_set_min_objective(optimiser.get(), objective, &search);
@@ -83,44 +91,70 @@ void run(nlopt_algorithm algorithm, const Box& box, Eigen::VectorXd from, Search
   (void)nlopt_optimize(optimiser.get(), from.data(), &value);
 }
 
-/// A function of length 1 that is mostly not noise.
-Eigen::VectorXd first_start(Eigen::Index dimensions, Eigen::Index tasks, const Box& box) {
-  HyperParameters p;
-  p.length.setOnes(dimensions);
-  p.L = Eigen::MatrixXd::Identity(tasks, tasks);
-  p.noise_sd.setConstant(tasks, 0.3);
-  return packed(p).cwiseMax(box.low).cwiseMin(box.high);
+/// L with L Lᵀ near the correlation of the targets; values that are missing count as their mean.
+Eigen::MatrixXd factor_of_targets(const TaskData& data) {
+  constexpr double own = 0.05;  // share of a task that is its own, without which the matrix may be singular
+  const Eigen::MatrixXd Y = data.targets.array().isNaN().select(0.0, data.targets);
+  const Eigen::MatrixXd C = (1.0 - own) / static_cast<double>(data.places()) * (Y.transpose() * Y);
+  return Eigen::LLT<Eigen::MatrixXd>(Eigen::MatrixXd(C + own * Eigen::MatrixXd::Identity(C.rows(), C.cols())))
+      .matrixL();
 }
 
-Eigen::VectorXd drawn_start(Eigen::Index dimensions, Eigen::Index tasks, const Box& box, std::mt19937& random) {
+/// A function of length 1 that is mostly not noise, with tasks as alike as their targets.
+HyperParameters first_start(const TaskData& data) {
+  return {Eigen::VectorXd::Ones(data.inputs.cols()), factor_of_targets(data),
+          Eigen::VectorXd::Constant(data.tasks(), 0.3)};
+}
+
+HyperParameters drawn_start(const TaskData& data, std::mt19937& random) {
   // Written out, because distributions of the standard library draw differently elsewhere.
   const auto between = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
   };
-  HyperParameters p{Eigen::VectorXd(dimensions), Eigen::MatrixXd::Zero(tasks, tasks), Eigen::VectorXd(tasks)};
+  HyperParameters p = first_start(data);
   for (double& length : p.length) length = std::exp(between(std::log(0.12), std::log(5.0)));
-  for (Eigen::Index i = 0; i < tasks; ++i) {
-    for (Eigen::Index j = 0; j < i; ++j) p.L(i, j) = between(-0.7, 0.7);
-    p.L(i, i) = between(0.3, 2.0);
-  }
+  for (Eigen::Index i = 0; i < data.tasks(); ++i) p.L.row(i) *= between(0.3, 2.0);
   for (double& noise : p.noise_sd) noise = std::exp(between(std::log(0.03), 0.0));
-  return packed(p).cwiseMax(box.low).cwiseMin(box.high);
+  return p;
 }
 
-/// The likeliest of some drawn starts: from bad ones the search often ends where all is noise.
-Eigen::VectorXd likeliest_start(const TaskData& data, Kernel kernel, const Box& box, std::mt19937& random) {
-  constexpr int draws = 8;
-  const Eigen::Index dimensions = data.inputs.cols(), tasks = data.tasks();
-  Eigen::VectorXd best;
-  double largest = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < draws; ++i) {
-    const Eigen::VectorXd drawn = drawn_start(dimensions, tasks, box, random);
-    const double value = likelihood_at(kernel, data, unpacked(drawn, dimensions, tasks)).value;
-    if (best.size() > 0 && !(value > largest)) continue;
-    best = drawn;
-    largest = value;
-  }
-  return best;
+/// The first start, and of each other the likeliest of some draws: from bad ones the search often ends where all is
+/// noise.
+std::vector<Eigen::VectorXd> starts_of(const TaskData& data, const SearchOptions& options, const Box& box) {
+  constexpr std::size_t draws = 8;
+  const auto within = [&](const HyperParameters& p) {
+    return Eigen::VectorXd(packed(p).cwiseMax(box.low).cwiseMin(box.high));
+  };
+  const auto count = static_cast<std::size_t>(search_starts(options, data.inputs.cols(), data.tasks()));
+  std::vector<Eigen::VectorXd> drawn;
+  std::mt19937 random(options.seed);
+  for (std::size_t i = 0; i < draws * (count - 1); ++i) drawn.push_back(within(drawn_start(data, random)));
+  std::vector<double> value(drawn.size());
+  core::parallel_for(drawn.size(), [&](std::size_t i) {
+    value[i] = value_at(options.kernel, data, unpacked(drawn[i], data.inputs.cols(), data.tasks()));
+  });
+  std::vector<Eigen::VectorXd> starts{within(options.first ? *options.first : first_start(data))};
+  for (auto first = value.begin(); first != value.end(); first += draws)
+    starts.push_back(drawn[static_cast<std::size_t>(std::max_element(first, first + draws) - value.begin())]);
+  return starts;
+}
+
+/// Where the searches from all starts end. Those that ended worse than the best, and one at least, search on by the
+/// second algorithm, of which a step costs the cube of the number of parameters.
+std::vector<Search> searches_from(const std::vector<Eigen::VectorXd>& starts, const TaskData& data,
+                                  const SearchOptions& options, const Box& box) {
+  constexpr Eigen::Index most_for_slsqp = 60;
+  std::vector<Search> searches(starts.size(), Search{data, options.kernel, {}});
+  core::parallel_for(starts.size(), [&](std::size_t i) { run(NLOPT_LD_LBFGS, box, starts[i], searches[i]); });
+  const auto best = std::ranges::max_element(searches, {}, &Search::best_value);
+  const double largest = best->best_value;
+  const auto one = static_cast<std::size_t>(best - searches.begin());
+  core::parallel_for(starts.size(), [&](std::size_t i) {
+    if (i != one && searches[i].best_value >= largest - 1e-6) return;
+    const Eigen::VectorXd from = searches[i].best.size() > 0 ? searches[i].best : starts[i];
+    run(from.size() > most_for_slsqp ? NLOPT_LD_LBFGS : NLOPT_LD_SLSQP, box, from, searches[i]);
+  });
+  return searches;
 }
 
 void require_usable(const TaskData& data, const SearchOptions& options) {
@@ -131,6 +165,11 @@ void require_usable(const TaskData& data, const SearchOptions& options) {
   if (!data.inputs.allFinite()) throw core::InputError("regression: a place is not finite; correct it");
   if (options.starts < 1)
     throw core::InputError("regression: " + std::to_string(options.starts) + " starts, must be at least 1");
+  if (options.first && (options.first->length.size() != data.inputs.cols() || options.first->tasks() != data.tasks()))
+    throw core::InputError("regression: a first start of " + std::to_string(options.first->length.size()) +
+                           " lengths and " + std::to_string(options.first->tasks()) + " tasks, must be of " +
+                           std::to_string(data.inputs.cols()) + " and " + std::to_string(data.tasks()) +
+                           ", as the data are");
   for (Eigen::Index t = 0; t < data.tasks(); ++t) {
     const auto seen = data.targets.col(t).array().isNaN().size() - data.targets.col(t).array().isNaN().count();
     if (seen < 2) {
@@ -142,31 +181,24 @@ void require_usable(const TaskData& data, const SearchOptions& options) {
 
 }  // namespace
 
+int search_starts(const SearchOptions& options, Eigen::Index dimensions, Eigen::Index tasks) {
+  constexpr Eigen::Index many = 100;
+  constexpr int of_many = 4;
+  return parameter_count(dimensions, tasks) > many ? std::min(options.starts, of_many) : options.starts;
+}
+
 Fit fit(const TaskData& data, const SearchOptions& options) {
   require_usable(data, options);
   const Eigen::Index dimensions = data.inputs.cols(), tasks = data.tasks();
   const Box box = box_of(options.bounds, dimensions, tasks);
-  std::mt19937 random(options.seed);
-  Fit result;
-  Eigen::VectorXd best;
-  result.log_likelihood = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < options.starts; ++i) {
-    Search search{data, options.kernel, {}};
-    const Eigen::VectorXd from =
-        i == 0 ? first_start(dimensions, tasks, box) : likeliest_start(data, options.kernel, box, random);
-    run(NLOPT_LD_LBFGS, box, from, search);
-    if (search.best_value < result.log_likelihood - 1e-6 || i == 0)
-      run(NLOPT_LD_SLSQP, box, search.best.size() > 0 ? search.best : from, search);
-    result.of_starts.push_back(search.best_value);
-    if (search.best_value <= result.log_likelihood) continue;
-    result.log_likelihood = search.best_value;
-    best = search.best;
-  }
-  if (best.size() == 0)
+  const std::vector<Search> searches = searches_from(starts_of(data, options, box), data, options, box);
+  const auto best = std::ranges::max_element(searches, {}, &Search::best_value);
+  if (best->best.size() == 0)
     throw core::NumericalError(
         "regression: no start has a likelihood; two places may be the same, or targets not finite");
-  std::sort(result.of_starts.begin(), result.of_starts.end(), std::greater<>());
-  result.parameters = unpacked(best, dimensions, tasks);
+  Fit result{unpacked(best->best, dimensions, tasks), best->best_value, {}};
+  for (const Search& search : searches) result.of_starts.push_back(search.best_value);
+  std::ranges::sort(result.of_starts, std::greater<>());
   return result;
 }
 

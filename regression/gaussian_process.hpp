@@ -22,8 +22,10 @@ struct Bounds {
 struct SearchOptions {
   Kernel kernel = Kernel::squared_exponential;
   Bounds bounds{};
-  int starts = 12;    ///< ≥ 1; the first is the same for all data, each other the likeliest of eight draws
+  int starts = 12;    ///< ≥ 1; the first is that of the targets, each other the likeliest of eight draws
   unsigned seed = 1;  ///< of what is drawn: the same seed gives the same answer
+  std::optional<HyperParameters>
+      first{};  ///< the first start, as of data that hardly differ; none: that of the targets
 };
 
 /// The outcome of the search.
@@ -33,9 +35,14 @@ struct Fit {
   std::vector<double> of_starts;  ///< the likelihoods at which all starts ended, largest first
 };
 
-/// Type-II maximum likelihood (Rasmussen & Williams 2006, ch. 5.4) by L-BFGS within bounds, and SLSQP after it where it
-/// ended worse than the best start so far (NLopt; Nocedal 1980, Kraft 1994). Likelihoods have several maxima:
-/// `of_starts` tells how many starts reached the best. `data` have targets of the order of 1: see standardised().
+/// The number of starts that a search makes: `options.starts`, and at most four of more than a hundred parameters, as
+/// twelve tasks have, of which a search takes a thousand likelihoods.
+[[nodiscard]] int search_starts(const SearchOptions& options, Eigen::Index dimensions, Eigen::Index tasks);
+
+/// Type-II maximum likelihood (Rasmussen & Williams 2006, ch. 5.4) by L-BFGS within bounds, and after it where it ended
+/// worse than the best start SLSQP, or L-BFGS again of more than 60 parameters (NLopt; Nocedal 1980, Kraft 1994).
+/// Starts are shared out among core::thread_count() threads. Likelihoods have several maxima: `of_starts` tells how
+/// many starts reached the best. `data` have targets of the order of 1: see standardised().
 /// Throws InputError for fewer observations of a task than two, or a number among inputs that is not finite;
 /// NumericalError if no start has a likelihood. Cost: some hundred likelihoods a start.
 [[nodiscard]] Fit fit(const TaskData& data, const SearchOptions& options = {});

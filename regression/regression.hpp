@@ -9,4 +9,5 @@
 #include "regression/hyper_parameters.hpp"
 #include "regression/kernel.hpp"
 #include "regression/kronecker_process.hpp"
+#include "regression/one_task.hpp"
 #include "regression/process_results.hpp"

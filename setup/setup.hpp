@@ -13,6 +13,8 @@
 #include "setup/graded_mesh.hpp"
 #include "setup/identified/fitted_tip.hpp"
 #include "setup/identified/learned_modes.hpp"
+#include "setup/identified/posture_tables.hpp"
+#include "setup/identified/table_modes.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/loose_pieces.hpp"
 #include "setup/machining_setup.hpp"

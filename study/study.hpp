@@ -29,6 +29,7 @@
 #include "study/part/part_stage.hpp"
 #include "study/part/path_models.hpp"
 #include "study/part/solution.hpp"
+#include "study/postures/posture_study.hpp"
 #include "study/results.hpp"
 #include "study/run.hpp"
 #include "study/simulation/amplitude_map.hpp"

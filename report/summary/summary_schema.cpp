@@ -2,76 +2,13 @@
 
 #include <cctype>
 
+#include "report/summary/schema_of.hpp"
+
 namespace thinwall::report {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class T>
-Json type_schema();
-
-/// Collects the schema of an object from the fields that it visits.
-struct SchemaWriter {
-  Json properties = Json::object(), required = Json::array();
-
-  template <class T>
-  void operator()(const Field& field, const T&) {
-    Json value = schema_of<T>(field);
-    value["description"] = field.meaning;
-    if (field.kind != Kind::section) value["kind"] = core::word_of(field.kind);
-    if (!unit_of(field.kind).empty()) value["unit"] = unit_of(field.kind);
-    const std::string key(field.key);
-    properties[key] = std::move(value);
-    const bool there = is_optional<T> ? field.presence == Presence::or_null : field.presence != Presence::if_any;
-    if (there) required.push_back(key);
-  }
-
- private:
-  /// An optional whose absence is an absent key is not null but where it holds another optional.
-  template <class T>
-  static Json schema_of(const Field& field) {
-    if constexpr (is_optional<T>) {
-      if (field.presence == Presence::by_type) return type_schema<typename T::value_type>();
-    }
-    return type_schema<T>();
-  }
-};
-
-template <class T>
-Json object_schema() {
-  SchemaWriter writer;
-  const T section{};
-  fields(writer, section);
-  return {{"type", "object"},
-          {"properties", std::move(writer.properties)},
-          {"required", std::move(writer.required)},
-          {"additionalProperties", false}};
-}
-
-template <class T>
-Json type_schema() {
-  if constexpr (is_optional<T>) {
-    Json schema = type_schema<typename T::value_type>();
-    schema["type"] = Json::array({schema["type"], "null"});
-    return schema;
-  } else if constexpr (is_list<T>) {
-    return {{"type", "array"}, {"items", type_schema<typename T::value_type>()}};
-  } else if constexpr (std::same_as<T, Eigen::Vector3d>) {
-    return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}};
-  } else if constexpr (std::same_as<T, std::map<std::string, double>>) {
-    return {{"type", "object"}, {"additionalProperties", {{"type", "number"}}}};
-  } else if constexpr (IsWord<T>) {
-    return {{"type", "string"}, {"enum", core::words<T>}};
-  } else if constexpr (IsSection<T>) {
-    return object_schema<T>();
-  } else {
-    return {{"type", std::same_as<T, bool>          ? "boolean"
-                     : std::same_as<T, std::string> ? "string"
-                     : std::integral<T>             ? "integer"
-                                                    : "number"}};
-  }
-}
 
 /// Collects the kinds of the values below a path.
 struct KindCollector {
@@ -125,9 +62,7 @@ const Kind* known_kind(const std::string& path) {
 }  // namespace
 
 Json summary_schema() {
-  Json root = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "summary.json of thinwall"}};
-  root.update(object_schema<Summary>());
-  return root;
+  return file_schema<Summary>("summary.json of thinwall");
 }
 
 const std::map<std::string, Kind>& summary_kinds() {

@@ -155,6 +155,14 @@ def test_irb6660_measured(run_case):
     assert shares[0] != 1  # at 6000 rpm they change nothing that is printed
 
 
+def test_lei_2022(run_case):
+    text = example(run_case, "lei-2022")
+    means = [float(percent) for percent in re.findall(r"(?:frequency|damping) ([\d.]+) %", text)]
+    assert means == [1.21, 2.54, 0.31, 2.79]  # from the printed values, summed by hand
+    assert number(r"within ([\d.]+) %", text) < 0.1  # the rounding of a frequency of 8.19 Hz
+    assert 1.0 < number(r"10800 rpm: limit ([\d.]+) mm", text) < 2.0  # the trials
+
+
 def test_posture_map(run_case):
     text = example(run_case, "posture-map")
     assert number(r"mode +([\d.]+) Hz", text) == pytest.approx(8.7512, rel=0.005)  # the truth at that posture

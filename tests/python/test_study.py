@@ -88,3 +88,31 @@ def test_what_the_progress_raises_ends_the_call():
 
     with pytest.raises(RuntimeError):
         thinwall.run(thinwall.Case.load(CASE, QUICK), progress=stop)
+
+
+def test_a_robot_over_its_postures_is_mapped(tmp_path):
+    """Two modes along x and y, 20 e^(0.05 u) and 40 e^(-0.03 u) Hz, at nine postures u."""
+    lines = ["posture,u"]
+    for i in range(9):
+        u = 0.5 * i
+        lines.append(f"p{i},{u}")
+        rows = [f"{20 * np.exp(0.05 * u)},0.02,0.009,0,0,-0.009,0.001,0,0,-0.001", f"{40 * np.exp(-0.03 * u)},0.03,0.001,0,0,-0.001,0.009,0,0,-0.009"]
+        header = "frequency_hz,damping_ratio,R_1X_re,R_1X_im,L_1X_re,L_1X_im,R_1Y_re,R_1Y_im,L_1Y_re,L_1Y_im"
+        (tmp_path / f"p{i}.csv").write_text("\n".join([header, *rows]) + "\n", encoding="utf-8")
+    (tmp_path / "postures.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    case = thinwall.Case.parse(
+        """
+robot = { model = "modal_table", carries = "tool", postures = "postures.csv", table = "{posture}.csv", over = ["u"], at = [1.7] }
+tool = { teeth = 2, diameter = "10 mm", length = "60 mm" }
+cutting = { radial_depth = "5 mm", Kt = "600 N/mm^2", spindle_speed = "700 rpm" }
+""",
+        tmp_path,
+    )
+    found = thinwall.study_postures(case, ["map", "next"], grid=5, path=[[3.9]], candidates=[[0.2], [3.8]])
+    assert np.allclose(found["map_places"][:, 0], np.linspace(0, 4, 5))
+    assert np.allclose(found["map_first_hz"][:, 0], 20 * np.exp(0.05 * found["map_places"][:, 0]), rtol=1e-3)
+    assert np.all(found["map_depth_m"][:, 1] <= found["map_depth_m"][:, 2])
+    assert found["next"]["at"] == [3.8]
+    assert "shared" not in found
+    with pytest.raises(thinwall.InputError, match="is no part"):
+        thinwall.study_postures(case, "maps")

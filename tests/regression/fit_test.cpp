@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "regression/cross_validation.hpp"
 #include "regression/gaussian_process.hpp"
 #include "tests/regression/toy.hpp"
@@ -38,6 +39,34 @@ TEST(Fit, OfThreeTasksIsNotBelowTheBestKnown) {
   const Fit found = fit(toy({0, 1, 2}));
   EXPECT_GT(found.log_likelihood, best - 1e-4);
   EXPECT_GE(starts_that_reach(found, best), 10);
+}
+
+/// Starts are shared out among threads, and what is found does not depend on their number.
+TEST(Fit, DoesNotDependOnTheNumberOfThreads) {
+  const int threads = core::thread_count();
+  core::set_thread_count(1);
+  const Fit alone = fit(toy({0, 1}), {.starts = 3});
+  core::set_thread_count(3);
+  const Fit shared = fit(toy({0, 1}), {.starts = 3});
+  core::set_thread_count(threads);
+  EXPECT_EQ(packed(alone.parameters), packed(shared.parameters));
+  EXPECT_EQ(alone.of_starts, shared.of_starts);
+}
+
+/// One search from where another ended stays there.
+TEST(Fit, BeginsWhereItIsTold) {
+  const Fit found = fit(toy({0, 1}), {.starts = 3});
+  const Fit again = fit(toy({0, 1}), {.starts = 1, .first = found.parameters});
+  EXPECT_NEAR(again.log_likelihood, found.log_likelihood, 1e-6);
+  EXPECT_LT((packed(again.parameters) - packed(found.parameters)).norm(), 0.01);
+  EXPECT_THROW((void)fit(toy({0}), {.first = found.parameters}), core::InputError);
+}
+
+/// Many tasks, of which a search takes long, are searched from fewer places.
+TEST(Fit, StartsFromFewerPlacesWhereParametersAreMany) {
+  EXPECT_EQ(search_starts({}, 3, 3), 12);
+  EXPECT_EQ(search_starts({}, 3, 24), 4);
+  EXPECT_EQ(search_starts({.starts = 2}, 3, 24), 2);
 }
 
 /// R² of the pooled folds: 0.97291, 0.85104, 0.43977 alone; 0.97322, 0.86309, 0.48568 together.

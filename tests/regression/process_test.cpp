@@ -9,6 +9,7 @@
 
 #include "regression/dense_process.hpp"
 #include "regression/kronecker_process.hpp"
+#include "regression/one_task.hpp"
 #include "tests/regression/toy.hpp"
 
 namespace thinwall::regression::process_test {
@@ -170,6 +171,29 @@ TEST(DenseProcess, LeavesOneOut) {
       EXPECT_NEAR(left.variance(i, t), at.covariance(t, t) + noise * noise + jitter, 1e-9);
     }
   }
+}
+
+/// The likelihood that searches and averages ask for is that of the dense process, with values missing, too.
+TEST(OneTask, HasTheLikelihoodOfTheDenseProcess) {
+  const HyperParameters parameters = unpacked(vector_of(single_theta), 3, 1);
+  for (const Kernel kernel : {Kernel::squared_exponential, Kernel::matern_3_2, Kernel::matern_5_2}) {
+    for (const bool third_at_28 : {false, true}) {
+      const TaskData data = toy({2}, third_at_28);
+      const double dense = log_likelihood(*dense_process(kernel, data, parameters)).value;
+      EXPECT_NEAR(log_likelihood(one_task(kernel, data), parameters), dense, 1e-10 * std::abs(dense));
+    }
+  }
+}
+
+TEST(OneTask, HasNoLikelihoodWhereTheCovarianceIsSingular) {
+  TaskData data = toy({0});
+  data.inputs.setZero();
+  HyperParameters parameters = unpacked(vector_of(single_theta), 3, 1);
+  parameters.L(0, 0) = 1e9;
+  parameters.noise_sd(0) = 1e-3;
+  EXPECT_FALSE(dense_process(Kernel::squared_exponential, data, parameters));
+  EXPECT_EQ(log_likelihood(one_task(Kernel::squared_exponential, data), parameters),
+            -std::numeric_limits<double>::infinity());
 }
 
 TEST(HyperParameters, ArePackedAndUnpacked) {

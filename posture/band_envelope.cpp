@@ -1,0 +1,46 @@
+#include "posture/band_envelope.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace thinwall::posture {
+
+namespace {
+
+using identification::FittedMode;
+
+Eigen::VectorXd depths_of(const std::vector<FittedMode>& modes, const PostureCut& cut, const Eigen::MatrixXd& rest) {
+  if (modes.empty())
+    return Eigen::VectorXd::Constant(std::ssize(cut.spindle_speeds_rpm), std::numeric_limits<double>::infinity());
+  return limiting_depths(modes, cut, rest);
+}
+
+}  // namespace
+
+double widest_gap_hz(const std::vector<FittedMode>& modes) {
+  if (modes.size() < 2)
+    throw core::InputError("low and high modes of " + std::to_string(modes.size()) + ", must be at least 2");
+  std::vector<double> ln_hz;
+  for (const FittedMode& mode : modes) ln_hz.push_back(std::log(mode.frequency_hz));
+  std::ranges::sort(ln_hz);
+  std::size_t widest = 1;
+  for (std::size_t i = 1; i < ln_hz.size(); ++i) {
+    if (ln_hz[i] - ln_hz[i - 1] > ln_hz[widest] - ln_hz[widest - 1]) widest = i;
+  }
+  return std::exp(0.5 * (ln_hz[widest] + ln_hz[widest - 1]));
+}
+
+BandEnvelope band_envelope(const std::vector<FittedMode>& modes, const PostureCut& cut, double split_hz,
+                           const Eigen::MatrixXd& rest) {
+  std::vector<FittedMode> low, high;
+  for (const FittedMode& mode : modes) (mode.frequency_hz < split_hz ? low : high).push_back(mode);
+  BandEnvelope result{split_hz, depths_of(low, cut, {}), depths_of(high, cut, rest), {}, depths_of(modes, cut, rest)};
+  result.lower = result.low.cwiseMin(result.high);
+  return result;
+}
+
+}  // namespace thinwall::posture

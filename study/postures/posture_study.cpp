@@ -1,0 +1,209 @@
+#include "study/postures/posture_study.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "robot/modal_table.hpp"
+#include "setup/identified/posture_tables.hpp"
+#include "setup/identified/table_modes.hpp"
+#include "setup/milling_process.hpp"
+#include "study/lobes/cut_structure.hpp"
+
+namespace thinwall::study {
+
+namespace {
+
+constexpr double depth_tolerance = 1e-3;  // relative; bands are wider by far
+constexpr int most_chart_speeds = 60;
+
+const setup::TabledRobot& tabled_robot(const setup::Setup& source) {
+  const auto* robot = source.robot ? std::get_if<setup::TabledRobot>(&source.robot->model) : nullptr;
+  if (robot == nullptr || !robot->postures)
+    throw core::InputError("the case has no robot that was tapped at several postures; give robot.postures");
+  return *robot;
+}
+
+/// The robot and what its files hold.
+struct TappedRobot {
+  const setup::TabledRobot& robot;
+  setup::PostureTables read;
+
+  [[nodiscard]] dynamics::DofTable tip_dofs() const {
+    return robot::at_point(read.tables.front(), robot.table_point).dofs;
+  }
+};
+
+/// The postures with their modes at the tip, as the predictor takes them.
+std::vector<posture::TappedPosture> tapped_at_tip(const TappedRobot& tapped) {
+  const setup::PostureTables& read = tapped.read;
+  const Eigen::MatrixXd places = setup::scaled_places(read, tapped.robot.postures->at).places;
+  std::vector<posture::TappedPosture> postures;
+  for (std::size_t i = 0; i < read.tables.size(); ++i) {
+    const auto at_tip = robot::at_point(read.tables[i], tapped.robot.table_point);
+    postures.push_back({{places.row(static_cast<Eigen::Index>(i)).transpose(), {}, {}},
+                        setup::modes_of(at_tip, read.files[i].string()),
+                        read.labels[i],
+                        {}});
+  }
+  return postures;
+}
+
+std::vector<std::string> names_of(const dynamics::DofTable& dofs) {
+  std::vector<std::string> names;
+  for (const dynamics::Dof& dof : dofs) names.push_back(dynamics::name(dof));
+  return names;
+}
+
+/// Rows as the columns of robot.over have them, scaled as the postures are.
+std::vector<posture::Place> scaled(const TappedRobot& tapped, const Eigen::MatrixXd& rows) {
+  if (rows.cols() != tapped.read.places.cols())
+    throw core::InputError(fmt::format("places with {} numbers, must have one for each of the {} columns of robot.over",
+                                       rows.cols(), tapped.read.places.cols()));
+  std::vector<posture::Place> places;
+  for (const auto& row : rows.rowwise())
+    places.push_back({setup::scaled_places(tapped.read, {row.begin(), row.end()}).at, {}, {}});
+  return places;
+}
+
+Eigen::MatrixXd asked_place(const setup::TabledRobot& robot) {
+  return Eigen::Map<const Eigen::RowVectorXd>(robot.postures->at.data(), std::ssize(robot.postures->at));
+}
+
+/// The even speeds of the chart; none without one.
+std::vector<double> chart_speeds(const setup::Setup& source) {
+  if (!source.lobes) return {};
+  const int count = std::min(source.lobes->count, most_chart_speeds);
+  const Eigen::VectorXd rpm = Eigen::VectorXd::LinSpaced(count, source.lobes->from_rpm, source.lobes->to_rpm);
+  return {rpm.begin(), rpm.end()};
+}
+
+/// The cut of a robot that carries the tool, without a speed yet.
+std::optional<posture::PostureCut> cut_of(const setup::Setup& source, const TappedRobot& tapped,
+                                          std::vector<std::string>& notes) {
+  if (!setup::carries_tool(source.robot) || !source.tool || !source.cutting) return std::nullopt;
+  if (setup::known_by_lines(*source.tool))
+    throw core::InputError("the tool is known by lines, must have poles beside the robot's; give tool.fit = true");
+  posture::PostureCut cut;
+  cut.process = setup::milling_process(source);
+  const dynamics::DofTable dofs = tapped.tip_dofs();
+  cut.responses.resize(3, std::ssize(dofs));
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const bool moves = dofs[i].kind == dynamics::DofKind::translation;
+    cut.responses.col(static_cast<Eigen::Index>(i)) =
+        moves ? Eigen::Vector3d(tapped.robot.base.linear() * dofs[i].direction) : Eigen::Vector3d::Zero();
+  }
+  cut.references = cut.responses;
+  cut.stability.depth_limit_m = source.lobes ? source.lobes->depth_limit : source.tool->length;
+  cut.stability.error_tolerance = depth_tolerance;
+  cut.beside = cut_poles(source, nullptr);
+  if (source.part) notes.emplace_back("depths count the part as rigid; `run` has them with the part");
+  return cut;
+}
+
+/// The speed of the depths: one that is asked for, the case's, else the best of the chart at robot.at.
+double chosen_speed(const setup::Setup& source, const PostureQuestions& questions, posture::PostureCut cut,
+                    const posture::PosturePrediction& at) {
+  if (questions.spindle_speed_rpm) return *questions.spindle_speed_rpm;
+  if (source.cutting->spindle_speed_rpm) return *source.cutting->spindle_speed_rpm;
+  cut.spindle_speeds_rpm = chart_speeds(source);
+  if (cut.spindle_speeds_rpm.empty())
+    throw core::InputError("the depths have no speed; give cutting.spindle_speed, [lobes], or --speed");
+  Eigen::Index best = 0;
+  posture::limiting_depths(posture::expected_modes(at), cut, at.rest).maxCoeff(&best);
+  return cut.spindle_speeds_rpm[static_cast<std::size_t>(best)];
+}
+
+void tell_labels(const posture::Predictor& predictor, const PostureStudy& study, std::vector<std::string>& notes) {
+  notes.push_back(fmt::format("{} modes are learned from {} postures", predictor.labels().size(), study.names.size()));
+}
+
+void answer_map(const TappedRobot& robot, const posture::Predictor& predictor, const PostureQuestions& questions,
+                std::optional<posture::PostureCut> cut, PostureStudy& study) {
+  if (cut && questions.best_speed && !study.chart_rpm.empty()) cut->spindle_speeds_rpm = study.chart_rpm;
+  study.mapped_at = posture::grid_within_hull(study.places, questions.grid);
+  study.map = posture::workspace_map(predictor, scaled(robot, study.mapped_at), cut);
+}
+
+void answer_envelope(const posture::PosturePrediction& at, const PostureQuestions& questions, posture::PostureCut cut,
+                     PostureStudy& study) {
+  const auto modes = posture::expected_modes(at);
+  if (study.chart_rpm.empty() || modes.size() < 2) {
+    study.notes.emplace_back("the envelope over low and high modes needs [lobes] and two modes");
+    return;
+  }
+  cut.spindle_speeds_rpm = study.chart_rpm;
+  study.envelope =
+      posture::band_envelope(modes, cut, questions.split_hz.value_or(posture::widest_gap_hz(modes)), at.rest);
+}
+
+void answer_next(const TappedRobot& robot, const posture::Predictor& predictor, const PostureQuestions& questions,
+                 const std::optional<posture::PostureCut>& cut, PostureStudy& study) {
+  study.path = questions.path.size() > 0 ? questions.path : asked_place(robot.robot);
+  study.candidates =
+      questions.candidates.size() > 0 ? questions.candidates : posture::grid_within_hull(study.places, questions.grid);
+  study.next = posture::next_posture(predictor, scaled(robot, study.path), scaled(robot, study.candidates), cut);
+}
+
+}  // namespace
+
+PostureQuestions questions_on(const std::vector<std::string>& parts) {
+  PostureQuestions questions;
+  const std::array<bool*, posture_parts.size()> asked{&questions.errors, &questions.sharing, &questions.map,
+                                                      &questions.envelope, &questions.next};
+  for (bool* part : asked) *part = false;
+  for (const std::string& part : parts) {
+    const auto found = std::ranges::find(posture_parts, part);
+    if (found == posture_parts.end())
+      throw core::InputError(fmt::format("\"{}\" is no part; name some of {}", part, fmt::join(posture_parts, ",")));
+    *asked.at(static_cast<std::size_t>(found - posture_parts.begin())) = true;
+  }
+  return questions;
+}
+
+PostureStudy study_postures(const setup::Setup& source, const PostureQuestions& questions,
+                            const StageListener& listener) {
+  Stages stages(listener);
+  const setup::TabledRobot& tabled = tabled_robot(source);
+  const TappedRobot robot{tabled, setup::read_posture_tables(tabled)};
+  PostureStudy study{robot.read.names, tabled.postures->over, names_of(robot.tip_dofs()), robot.read.places,
+                     tapped_at_tip(robot)};
+  study.doubts = setup::doubts_about(robot.read, tabled.postures->at);
+  study.chart_rpm = chart_speeds(source);
+  std::optional<posture::PostureCut> cut = cut_of(source, robot, study.notes);
+  stages.begin("learning");
+  const posture::Predictor predictor(study.postures, {});
+  const posture::PosturePrediction at = predictor.predict(scaled(robot, asked_place(tabled)).front());
+  tell_labels(predictor, study, study.notes);
+  if (cut) {
+    study.spindle_speed_rpm = chosen_speed(source, questions, *cut, at);
+    cut->spindle_speeds_rpm = {*study.spindle_speed_rpm};
+  }
+  const std::vector<int> fold =
+      posture::folds_in_turn(study.names.size(), std::min<int>(questions.folds, static_cast<int>(study.names.size())));
+  if (questions.errors) {
+    stages.begin("errors");
+    study.held_out = posture::held_out(study.postures, {}, fold, cut);
+  }
+  if (questions.sharing) {
+    stages.begin("sharing");
+    study.shared = posture::alone_and_together(study.postures, fold);
+  }
+  if (questions.map) {
+    stages.begin("map");
+    answer_map(robot, predictor, questions, cut, study);
+  }
+  if (questions.envelope && cut) answer_envelope(at, questions, *cut, study);
+  if (questions.next) {
+    stages.begin("next posture");
+    answer_next(robot, predictor, questions, cut, study);
+  }
+  stages.end();
+  return study;
+}
+
+}  // namespace thinwall::study
