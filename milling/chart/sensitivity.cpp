@@ -6,6 +6,7 @@
 #include <complex>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -140,6 +141,18 @@ class DepthFollower {
     return (rows(1, 0) * nu_p.real() - rows(0, 0) * nu_p.imag()) / rows.determinant() / w;
   }
 
+  /// The depth, m, to which the crossing moves with the loop of another structure in tool axes; none if Newton's rule
+  /// does not settle there.
+  [[nodiscard]] std::optional<double> depth_with(const RelativeStructure& structure) const {
+    const RegenerativeLoop loop = regenerative_loop(structure, found_.d.grid, cut_.spindle_speed_rpm);
+    const GainOnCircle gain{loop.K.rows(),
+                            [&](double theta) { return loop_gain(loop, on_circle(theta)); },
+                            [&](double theta) { return loop_gain_slope(loop, on_circle(theta)); },
+                            {}};
+    Crossing moved = found_.crossing;
+    return to_axis(gain, 1.0 / moved.depth_m, moved) ? std::optional(moved.depth_m) : std::nullopt;
+  }
+
  private:
   const CutAtSpeed& cut_;
   Found found_;
@@ -186,6 +199,28 @@ double relative_depth_change(const RelativeStructure& structure, const RelativeS
   const CutAtSpeed cut = cut_at_speed(structure, process, spindle_speed_rpm);
   const DepthFollower follower(cut, point, options);
   return follower.relative_change(follower.gain(in_tool_axes(other, process.frame)) - follower.gain(cut.structure));
+}
+
+std::vector<double> moved_depths_m(const RelativeStructure& structure, const std::vector<RelativeStructure>& others,
+                                   const MillingProcess& process, double spindle_speed_rpm, const LobePoint& point,
+                                   const StabilityOptions& options) {
+  require_usable(process, options);
+  const CutAtSpeed cut = cut_at_speed(structure, process, spindle_speed_rpm);
+  const DepthFollower follower(cut, point, options);
+  const Eigen::MatrixXcd Z = follower.gain(cut.structure);
+  const bool one_grid = !process.cutter.depends_on_depth();
+  std::vector<double> depths;
+  depths.reserve(others.size());
+  for (const RelativeStructure& other : others) {
+    const RelativeStructure turned = in_tool_axes(other, process.frame);
+    if (const auto depth = one_grid ? follower.depth_with(turned) : std::nullopt) {
+      depths.push_back(*depth);
+      continue;
+    }
+    const double of_reciprocal = 1.0 - follower.relative_change(follower.gain(turned) - Z);
+    depths.push_back(of_reciprocal > 0.0 ? point.depth_m / of_reciprocal : INFINITY);
+  }
+  return depths;
 }
 
 std::vector<std::string> validate(const Uncertainty& u) {
