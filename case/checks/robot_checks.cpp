@@ -169,8 +169,14 @@ void check_arm(const Case& source, const setup::JointedRobot& robot, Findings& f
 /// Checks an arm that is the mean of modes over postures.
 void check_mean(const Case& source, const setup::TabledRobot& tabled, Findings& findings) {
   if (!tabled.mean) {
-    if (findings.given("robot.joint_columns"))
-      findings.report("robot.joint_columns", "is of an arm that is the mean; give it by [[robot.links]] or robot.urdf");
+    const Table keys{source.values, "robot"};
+    for (const char* key : {"joint_columns", "gravity", "posture", "tip"}) {
+      if (keys.has(key) || keys.table(key).exists())
+        findings.report(
+            std::string("robot.") + key,
+            "is of an arm that is the mean of modes over postures; give its [[robot.links]] or robot.urdf, or "
+            "remove it");
+    }
     return;
   }
   if (!tabled.postures)

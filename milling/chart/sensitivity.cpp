@@ -112,6 +112,20 @@ Eigen::MatrixXcd gain_by(Coefficient which, const CutAtSpeed& cut, const Found& 
   return -Z.topRightCorner(contacts, others) * Z.bottomLeftCorner(others, contacts) / f.pair.nu;
 }
 
+/// The gain that is a share of the way from that of one loop to that of another with the same contacts; both must
+/// outlive it.
+GainOnCircle gain_between(const RegenerativeLoop& from, const RegenerativeLoop& to, double share) {
+  const auto between = [&from, &to, share](const auto& of, double theta) {
+    Eigen::MatrixXcd there = of(to, on_circle(theta));
+    if (share < 1.0) there = (share * there + (1.0 - share) * of(from, on_circle(theta))).eval();
+    return there;
+  };
+  return {to.K.rows(),
+          [between](double theta) { return between(loop_gain, theta); },
+          [between](double theta) { return between(loop_gain_slope, theta); },
+          {}};
+}
+
 /// A crossing found again, and how its depth follows the gain.
 class DepthFollower {
  public:
@@ -142,15 +156,18 @@ class DepthFollower {
   }
 
   /// The depth, m, to which the crossing moves with the loop of another structure in tool axes; none if Newton's rule
-  /// does not settle there.
+  /// does not settle there, on the way in one step, in two or in four.
   [[nodiscard]] std::optional<double> depth_with(const RelativeStructure& structure) const {
     const RegenerativeLoop loop = regenerative_loop(structure, found_.d.grid, cut_.spindle_speed_rpm);
-    const GainOnCircle gain{loop.K.rows(),
-                            [&](double theta) { return loop_gain(loop, on_circle(theta)); },
-                            [&](double theta) { return loop_gain_slope(loop, on_circle(theta)); },
-                            {}};
-    Crossing moved = found_.crossing;
-    return to_axis(gain, 1.0 / moved.depth_m, moved) ? std::optional(moved.depth_m) : std::nullopt;
+    for (int steps = 1; steps <= 4; steps *= 2) {
+      Crossing moved = found_.crossing;
+      bool settled = true;
+      for (int k = 1; k <= steps && settled; ++k)
+        settled =
+            to_axis(gain_between(found_.d.loop, loop, static_cast<double>(k) / steps), 1.0 / moved.depth_m, moved);
+      if (settled) return moved.depth_m;
+    }
+    return std::nullopt;
   }
 
  private:
