@@ -206,21 +206,20 @@ std::vector<double> errors_of(Case source, const TestPosture& there) {
   return errors;
 }
 
-double median_error(const FewPostures& postures, bool with_mean) {
+double median_error(const FewPostures& postures) {
   std::vector<double> errors;
   for (const TestPosture& there : test_postures) {
-    const auto here = errors_of(postures.at(there, with_mean ? mean_at(there) : ""), there);
+    const auto here = errors_of(postures.at(there, mean_at(there)), there);
     errors.insert(errors.end(), here.begin(), here.end());
   }
   std::ranges::sort(errors);
-  printf("median %g 90%% %g\n", errors[errors.size() / 2], errors[errors.size() * 9 / 10]);
   return errors[errors.size() / 2];
 }
 
-TEST(ArmMean, NeedsAQuarterOfThePostures) {
-  const FewPostures seven(7);
-  EXPECT_LT(median_error(seven, true), 0.07);
-  EXPECT_GT(median_error(seven, false), 0.2);
+/// With an arm as the mean the median error of the depth is below 7 % from seven postures. All eight test postures are
+/// learned for, which takes ten seconds, for a median of fewer would hang on one lobe.
+TEST(ArmMean, MakesSevenPosturesDo) {
+  EXPECT_LT(median_error(FewPostures(7)), 0.07);
 }
 
 }  // namespace
