@@ -40,12 +40,12 @@ std::string now_utc() {
   return text;
 }
 
-/// The part's checkpoint: of this result folder, or one of those that several runs share.
-study::Checkpoint part_checkpoint(const cases::Case& source, const RunOptions& options) {
-  if (!source.part) return {};
-  const std::string key = study::part_key(source);
-  if (options.parts.empty()) return {options.out / "cache" / "part.bin", key, options.fresh};
-  return {options.parts / ("part-" + key.substr(0, 16) + ".bin"), key, false};
+/// The checkpoint of a stage that points of a sweep have in common: of this result folder, or one of those that several
+/// runs share. None for an empty key.
+study::Checkpoint shared_checkpoint(const std::string& stage, const std::string& key, const RunOptions& options) {
+  if (key.empty()) return {};
+  if (options.parts.empty()) return {options.out / "cache" / (stage + ".bin"), key, options.fresh};
+  return {options.parts / (stage + "-" + key.substr(0, 16) + ".bin"), key, false};
 }
 
 /// The case with the values that the fits found.
@@ -106,12 +106,14 @@ RunResult run_case(const cases::Case& source, const RunOptions& options) {
   StageDisplay display(options.progress      ? ProgressDisplay::line
                        : options.stage_lines ? ProgressDisplay::lines
                                              : ProgressDisplay::none);
-  study::Kept kept{part_checkpoint(source, options),
+  study::Kept kept{shared_checkpoint("part", source.part ? study::part_key(source) : "", options),
                    {options.out / "cache" / "structure.bin", study::structure_key(source), options.fresh},
                    {options.out / "cache" / "lobes.bin", study::charts_key(source), options.fresh},
                    source.simulation ? study::Checkpoint(options.out / "cache" / "simulation.bin",
                                                          study::simulation_key(source), options.fresh)
-                                     : study::Checkpoint()};
+                                     : study::Checkpoint(),
+                   shared_checkpoint("tool", study::tool_key(source), options),
+                   shared_checkpoint("robot", study::robot_key(source), options)};
   study::Results results = study::run(source, cases::variation_of(source), kept, {options.points, display.listener()});
   study::Stages stages(display.listener());
   stages.begin("output");

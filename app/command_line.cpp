@@ -178,7 +178,7 @@ void tell_lobes(const setup::LobesOptions& lobes, const Forecast& time, std::ost
   out << "  time      " << about(time.lobes_s(), time.at_least()) << " for some "
       << core::readable_text(time.lobes->rows.of_structure + time.lobes->rows.of_lines, core::kind::number)
       << " rows of all charts on " << core::thread_count() << (core::thread_count() == 1 ? " thread" : " threads");
-  if (time.part) out << "; " << about(time.whole_s(), time.at_least()) << " in all";
+  if (time.part || time.identification_s > 0.0) out << "; " << about(time.whole_s(), time.at_least()) << " in all";
   out << '\n';
 }
 
@@ -197,6 +197,8 @@ ExitCode check(const Arguments& arguments, std::ostream& out) {
     for (const std::string& warning : setup::unreachable_tolerances(source)) out << "  warning   " << warning << '\n';
   }
   for (const std::string& doubt : cases::doubts_about(source)) out << "  warning   " << doubt << '\n';
+  if (time.identification_s > 0.0)
+    out << "  time      " << about(time.identification_s) << " to fit or learn what is identified, once: it is kept\n";
   if (source.lobes) tell_lobes(*source.lobes, time, out);
   if (time.simulation) tell_simulation(*time.simulation, out);
   if (!expectations.empty()) out << "  expected  " << expectations.size() << " figures\n";

@@ -9,6 +9,7 @@
 #include "app/stage_display.hpp"
 #include "case/checks/mesh_size.hpp"
 #include "core/error.hpp"
+#include "study/identification_forecast.hpp"
 #include "study/part/part_forecast.hpp"
 
 namespace thinwall::app {
@@ -25,6 +26,7 @@ setup::PartSize size_of(const cases::Case& source) {
 
 Forecast forecast(const cases::Case& source) {
   Forecast result;
+  result.identification_s = study::forecast_identification(source);
   if (source.part) result.part = size_of(source);
   result.lobes = study::forecast_lobes(source);
   result.simulation = study::forecast_simulation(source);
@@ -37,8 +39,9 @@ std::string about(double seconds, bool at_least) {
 
 std::string text(const Forecast& forecast) {
   const std::string line = "this takes " + about(forecast.whole_s(), forecast.at_least());
-  const std::array<std::tuple<const char*, double, bool>, 3> pieces{
-      {{"the part ", forecast.part_s(), false},
+  const std::array<std::tuple<const char*, double, bool>, 4> pieces{
+      {{"the identification ", forecast.identification_s, false},
+       {"the part ", forecast.part_s(), false},
        {"the lobes ", forecast.lobes_s(), forecast.at_least()},
        {"the simulation ", forecast.simulation_s(), false}}};
   std::string list;

@@ -13,6 +13,7 @@ namespace thinwall::app {
 
 /// The expectations of a run before it begins; none of what the case does not have.
 struct Forecast {
+  double identification_s = 0.0;  ///< of a fitted tool and a learned robot
   std::optional<setup::PartSize> part;
   std::optional<study::LobesForecast> lobes;
   std::optional<study::SimulationForecast> simulation;
@@ -20,15 +21,15 @@ struct Forecast {
   [[nodiscard]] double part_s() const { return part ? part->seconds : 0.0; }
   [[nodiscard]] double lobes_s() const { return lobes ? lobes->seconds : 0.0; }
   [[nodiscard]] double simulation_s() const { return simulation ? simulation->seconds : 0.0; }
-  [[nodiscard]] double whole_s() const { return part_s() + lobes_s() + simulation_s(); }
+  [[nodiscard]] double whole_s() const { return identification_s + part_s() + lobes_s() + simulation_s(); }
   /// True if it is known only that the run takes as long or longer.
   [[nodiscard]] bool at_least() const { return lobes && lobes->at_least; }
 };
 
 /// The forecast of a case: the part from its first mesh where a file holds it (study::forecast()), else by
-/// cases::estimate_size(), study::forecast_lobes() and study::forecast_simulation(). Throws InputError for points that
-/// do not hold the part, and as study::forecast(). Cost: two seconds for charts and simulation at most each, and the
-/// first mesh.
+/// cases::estimate_size(), study::forecast_identification(), study::forecast_lobes() and study::forecast_simulation().
+/// Throws InputError for points that do not hold the part, and as study::forecast(). Cost: two seconds for charts and
+/// simulation at most each, and the first mesh.
 [[nodiscard]] Forecast forecast(const cases::Case& source);
 
 /// "about 3 min" or, of what is only known to be longer, "over 3 min"; a second at least.

@@ -91,11 +91,15 @@ std::string simulate_case(cases::Case source, const std::filesystem::path& out, 
   tell_of_long_run(source);
   messages_to_log();
   const auto cache = folder.path() / "cache";
-  study::Kept kept{
-      source.part ? study::Checkpoint(cache / "part.bin", study::part_key(source), false) : study::Checkpoint(),
-      {},
-      {},
-      {cache / "simulated.bin", study::simulation_key(source), false}};
+  const auto kept_under = [&cache](const std::string& stage, const std::string& key) {
+    return key.empty() ? study::Checkpoint() : study::Checkpoint(cache / (stage + ".bin"), key, false);
+  };
+  study::Kept kept{kept_under("part", source.part ? study::part_key(source) : ""),
+                   {},
+                   {},
+                   {cache / "simulated.bin", study::simulation_key(source), false},
+                   kept_under("tool", study::tool_key(source)),
+                   kept_under("robot", study::robot_key(source))};
   StageDisplay stages(display);
   const study::Results results = study::run(source, cases::variation_of(source), kept, {.on_stage = stages.listener()});
   const auto staging = core::partial_path(folder.path() / "simulated");

@@ -13,6 +13,7 @@
 #include "io/urdf.hpp"
 #include "setup/contact_model.hpp"
 #include "setup/data_files.hpp"
+#include "setup/identified/posture_tables.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/robot_tip.hpp"
 
@@ -35,6 +36,8 @@ void read_or_report(const std::string& key, Findings& findings, const std::funct
     throw;  // nothing is wrong with the file
   } catch (const io::UrdfEndError& error) {
     report_error(key + (error.tip ? "_tip" : "_base"), findings, error);
+  } catch (const setup::TabledRobotError& error) {
+    report_error("robot." + error.key, findings, error);
   } catch (const core::Error& error) {
     report_error(key, findings, error);
   }
@@ -57,6 +60,12 @@ Model* model_of(Case& source) {
   return source.robot ? std::get_if<Model>(&source.robot->model) : nullptr;
 }
 
+/// The arm with joints of the case: the robot itself, or the mean of its modes over postures; null if there is none.
+setup::JointedRobot* jointed_of(Case& source) {
+  if (auto* tabled = model_of<setup::TabledRobot>(source)) return tabled->mean ? &*tabled->mean : nullptr;
+  return model_of<setup::JointedRobot>(source);
+}
+
 /// The arm of a URDF, unless keys speak against it, which the checks report.
 void read_arm(Case& source, setup::JointedRobot& robot, Findings& findings) {
   if (robot.urdf.empty() || robot.joints.empty() || array_size(source.values, "robot.links") > 0) return;
@@ -72,7 +81,7 @@ void read_arm(Case& source, setup::JointedRobot& robot, Findings& findings) {
 }  // namespace
 
 void read_described_files(Case& source, Findings& findings) {
-  if (auto* robot = model_of<setup::JointedRobot>(source)) read_arm(source, *robot, findings);
+  if (auto* robot = jointed_of(source)) read_arm(source, *robot, findings);
   if (auto* robot = model_of<setup::TabledRobot>(source);
       robot != nullptr && !robot->table.empty() && (robot->postures || file_or_absent(robot->table)))
     read_or_report("robot.table", findings, [&] { setup::read_table_of_modes(*robot); });
@@ -102,7 +111,7 @@ void share_data_files(Case& varied, const Case& read) {
   setup::share_data_files(varied, read);
   varied.data_files = read.data_files;
   varied.urdf_arm = read.urdf_arm;
-  auto* robot = model_of<setup::JointedRobot>(varied);
+  auto* robot = jointed_of(varied);
   if (robot != nullptr && varied.urdf_arm) robot->arm = arm_in_place({varied.values, "robot"}, varied.urdf_arm->arm);
 }
 

@@ -15,6 +15,10 @@ std::vector<DataFile> named_files(const setup::Setup& source) {
   const auto add_measured = [&](const std::vector<setup::MeasuredFrf>& all) {
     for (const setup::MeasuredFrf& frf : all) add(frf.file);
   };
+  const auto add_arm = [&](const setup::JointedRobot& arm) {
+    add(arm.urdf);
+    add(arm.joints);
+  };
   section = "part";
   if (const auto* matrices = source.part ? std::get_if<setup::MatrixShape>(&source.part->shape) : nullptr) {
     const io::MatrixFiles& of = matrices->files;
@@ -28,12 +32,10 @@ std::vector<DataFile> named_files(const setup::Setup& source) {
     if (const auto* robot = std::get_if<setup::TabledRobot>(&source.robot->model)) {
       if (robot->postures) add(robot->postures->list);
       if (!robot->postures) add(robot->table);
-      if (robot->learned) std::ranges::for_each(robot->learned->files, add);
+      if (robot->tapped) std::ranges::for_each(robot->tapped->files, add);
+      if (robot->mean) add_arm(*robot->mean);
     }
-    if (const auto* robot = std::get_if<setup::JointedRobot>(&source.robot->model)) {
-      add(robot->urdf);
-      add(robot->joints);
-    }
+    if (const auto* robot = std::get_if<setup::JointedRobot>(&source.robot->model)) add_arm(*robot);
   }
   section = "contacts";
   for (const setup::SupportContact& contact : source.contacts) {

@@ -184,6 +184,17 @@ std::optional<setup::TappedPostures> bind_postures(const Table& table, const std
   return setup::TappedPostures{file_of(table, "postures", folder), table.names("over"), table.numbers("at")};
 }
 
+setup::JointedRobot bind_jointed(const Table& table, const std::filesystem::path& folder) {
+  return {bind_arm(table), file_of(table, "urdf", folder), file_of(table, "joints", folder),
+          bind_posture(table.table("posture")), bind_workspace(table.table("workspace"))};
+}
+
+/// The arm that is the mean of modes over postures, where the case has one.
+std::optional<setup::JointedRobot> bind_mean(const Table& table, const std::filesystem::path& folder) {
+  if (!table.has("urdf") && table.tables("links").empty()) return std::nullopt;
+  return bind_jointed(table, folder);
+}
+
 setup::RobotModel bind_model(const Table& table, const std::filesystem::path& folder) {
   switch (table.choice<setup::RobotKind>("model")) {
     case setup::RobotKind::one_mode:
@@ -201,11 +212,13 @@ setup::RobotModel bind_model(const Table& table, const std::filesystem::path& fo
                                 table.flag("cross_terms"),
                                 bind_base(table),
                                 bind_postures(table, folder),
+                                bind_mean(table, folder),
+                                table.names("joint_columns"),
+                                {},
                                 {},
                                 {}};
     case setup::RobotKind::flexible_joints:
-      return setup::JointedRobot{bind_arm(table), file_of(table, "urdf", folder), file_of(table, "joints", folder),
-                                 bind_posture(table.table("posture")), bind_workspace(table.table("workspace"))};
+      return bind_jointed(table, folder);
     case setup::RobotKind::virtual_joints:
       return setup::ChainedRobot{chains_or_none(table)};
   }

@@ -3,6 +3,7 @@
 // Internal: assignment, line_functions.
 
 #include "core/eigen_alignment.hpp"
+#include "identification/drawn_fits.hpp"
 #include "identification/fit_response.hpp"
 #include "identification/fitted_model.hpp"
 #include "identification/identify.hpp"

@@ -7,6 +7,7 @@
 // uniform_step_stability, vanishing_powers.
 
 #include "core/eigen_alignment.hpp"
+#include "milling/chart/depth_band.hpp"
 #include "milling/chart/line_error.hpp"
 #include "milling/chart/lobe_field.hpp"
 #include "milling/chart/lobe_method.hpp"

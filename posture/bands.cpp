@@ -6,8 +6,10 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <tuple>
 
 #include "core/dense_factorisations.hpp"
+#include "core/draws.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "milling/direct/stability.hpp"
@@ -22,16 +24,6 @@ using Complex = std::complex<double>;
 Eigen::MatrixXcd of_one_mode(const FittedMode& mode, double hz) {
   const Complex s(0.0, 2.0 * std::numbers::pi * hz), pole = mode.pole();
   return mode.residue / (s - pole) + mode.residue.conjugate() / (s - std::conj(pole));
-}
-
-/// A normal number by Box and Muller, written out because distributions of the standard library draw differently
-/// elsewhere.
-double normal_draw(std::mt19937& random) {
-  const auto uniform = [&] {
-    return (static_cast<double>(random()) + 0.5) / (static_cast<double>(std::mt19937::max()) + 1.0);
-  };
-  const double radius = std::sqrt(-2.0 * std::log(uniform()));
-  return radius * std::cos(2.0 * std::numbers::pi * uniform());
 }
 
 /// A mode with one of its numbers moved by so many deviations.
@@ -51,6 +43,20 @@ Eigen::MatrixXcd roots_of_parts(const Eigen::MatrixXcd& square) {
 Eigen::MatrixXcd rest_variance(const PosturePrediction& prediction, const Eigen::MatrixXcd& H) {
   if (prediction.rest.size() == 0) return Eigen::MatrixXcd::Zero(H.rows(), H.cols());
   return prediction.rest_deviation.cwiseAbs2().cast<Complex>();
+}
+
+Eigen::VectorXd normal_draws(Eigen::Index count, std::mt19937& random) {
+  Eigen::VectorXd draws(count);
+  for (double& draw : draws) draw = core::normal_draw(random);
+  return draws;
+}
+
+/// Deviations of a mode's numbers with the covariance of its residuals over the postures where it was seen, by one
+/// normal number for each posture.
+Eigen::VectorXd correlated(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& of_postures) {
+  const auto seen = (residuals.colwise().squaredNorm().array() > 0.0).count();
+  return residuals * of_postures.head(residuals.cols()) /
+         std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, seen)));
 }
 
 /// True if the resonance of another mode overlaps this one's: their frequencies differ by less than twice the mean of
@@ -83,10 +89,12 @@ std::vector<std::vector<FittedMode>> drawn_modes(const PosturePrediction& predic
   std::mt19937 random(seed);
   std::vector<std::vector<FittedMode>> result(static_cast<std::size_t>(std::max(draws, 0)));
   for (std::vector<FittedMode>& modes : result) {
+    Eigen::VectorXd of_postures;
     for (const PredictedMode& mode : prediction.modes) {
-      Eigen::VectorXd deviations(mode.mean.size());
-      for (double& deviation : deviations) deviation = normal_draw(random);
-      modes.push_back(moved(prediction, mode, deviations));
+      if (of_postures.size() < mode.residuals.cols()) of_postures = normal_draws(mode.residuals.cols(), random);
+      modes.push_back(moved(prediction, mode,
+                            mode.residuals.size() > 0 ? correlated(mode.residuals, of_postures)
+                                                      : normal_draws(mode.mean.size(), random)));
     }
     cut_ranks(modes);
   }
@@ -181,11 +189,8 @@ DepthBand depth_band_from_draws(const PosturePrediction& prediction, const Postu
   DepthBand band{limiting_depths(expected_modes(prediction), cut, prediction.rest), Eigen::VectorXd(drawn.rows()),
                  Eigen::VectorXd(drawn.rows())};
   for (Eigen::Index i = 0; i < drawn.rows(); ++i) {
-    Eigen::VectorXd row = drawn.row(i);
-    std::ranges::sort(row);
-    const auto tail = static_cast<Eigen::Index>(0.025 * draws);
-    band.low(i) = row(tail);
-    band.high(i) = row(row.size() - 1 - tail);
+    const Eigen::VectorXd row = drawn.row(i);
+    std::tie(band.low(i), band.high(i)) = core::middle_95_percent({row.begin(), row.end()});
   }
   return band;
 }

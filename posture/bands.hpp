@@ -17,7 +17,14 @@ namespace thinwall::posture {
 /// and only the sum of their residues, which the cut would change, is smooth over the postures. Drawn modes likewise.
 [[nodiscard]] std::vector<identification::FittedMode> expected_modes(const PosturePrediction& prediction);
 
-/// Modes drawn from the prediction, each number by itself from its normal distribution.
+/// Modes drawn from the prediction. The numbers' deviations are normal, and correlated as the errors were where each
+/// posture was predicted from the others: with the standardised residuals r_ti of number t at posture i, and a normal
+/// g_i for each of the n postures,
+///
+///     t = mean + deviation Σ_i r_ti g_i/√n
+///
+/// so that entries of one residue, and modes that exchange their shapes near a crossing, err together, and deviations
+/// that were too large or too small there are so no more. Numbers without residuals are drawn by themselves.
 [[nodiscard]] std::vector<std::vector<identification::FittedMode>> drawn_modes(const PosturePrediction& prediction,
                                                                                int draws, unsigned seed = 1);
 

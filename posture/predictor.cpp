@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/progress.hpp"
 #include "posture/calibration.hpp"
 #include "posture/hull.hpp"
 #include "posture/mode_targets.hpp"
@@ -138,12 +139,14 @@ Predictor::Predictor(std::vector<TappedPosture> postures, PredictorOptions optio
     model_.push_back(paired(postures_[i].modes, of_model[i]));
     for (const int label : postures_[i].label) ++seen[label];
   }
+  core::Progress progress("modes learned", seen.size());
   for (const auto& [label, count] : seen) {
     if (count < std::max(2, options_.fewest_postures)) {
       left_out_.push_back(label);
     } else {
       learn(label, of_model);
     }
+    progress.step();
   }
 }
 
@@ -167,6 +170,10 @@ void Predictor::learn(int label, const std::vector<std::vector<FittedMode>>& of_
   });
   for (std::optional<regression::AveragedProcess>& process : processes)
     learned.processes.push_back(std::move(*process));
+  learned.residuals = Eigen::MatrixXd::Zero(numbers.values.cols(), places_.rows());
+  for (std::size_t t = 0; t < learned.processes.size(); ++t)
+    learned.residuals(static_cast<Eigen::Index>(t), numbers.rows) =
+        learned.processes[t].standardised_residuals().transpose();
   learned_.push_back(std::move(learned));
 }
 
@@ -195,6 +202,7 @@ PredictedMode Predictor::predicted(const Learned& learned, const Place& place, c
   const auto numbers = std::ssize(learned.processes);
   PredictedMode mode{learned.label, Eigen::VectorXd(numbers), Eigen::VectorXd(numbers)};
   if (learned.in_tip_frame) mode.turn = place.turn;
+  mode.residuals = learned.residuals;
   for (Eigen::Index t = 0; t < numbers; ++t) {
     const regression::AveragedPrediction at =
         learned.processes[static_cast<std::size_t>(t)].predict(place.at.transpose());

@@ -15,8 +15,10 @@ namespace thinwall::posture {
 struct PredictedMode {
   int label = -1;  ///< −1: a mode of the arm's model that no posture has shown
   Eigen::VectorXd mean;
-  Eigen::VectorXd deviation;  ///< of the function, without the noise of a test
-  Turn turn{};                ///< into the frame of the residue's numbers; empty: the world's
+  Eigen::VectorXd deviation;    ///< of the function, without the noise of a test
+  Turn turn{};                  ///< into the frame of the residue's numbers; empty: the world's
+  Eigen::MatrixXd residuals{};  ///< numbers × postures: errors over their deviations where a posture is left out, 0
+                                ///< where the mode was not seen; empty: not known
 };
 
 /// The modes to be expected at a posture.
@@ -79,6 +81,7 @@ class Predictor {
     bool on_model = false;
     bool in_tip_frame = false;
     std::vector<regression::AveragedProcess> processes;
+    Eigen::MatrixXd residuals{};  ///< as of PredictedMode
   };
   [[nodiscard]] std::vector<int> model_numbers(const Place& place) const;
   void predict_rest(const Place& place, PosturePrediction& at) const;

@@ -120,4 +120,18 @@ AveragedPrediction AveragedProcess::predict(const Eigen::MatrixXd& inputs) const
   return result;
 }
 
+Eigen::VectorXd AveragedProcess::standardised_residuals() const {
+  const Eigen::VectorXd& y = draws_.front().y;
+  const double share = 1.0 / static_cast<double>(draws_.size());
+  Eigen::ArrayXd mean = Eigen::ArrayXd::Zero(y.size()), square = mean;
+  for (const DenseProcess& process : draws_) {
+    const LeaveOneOut without = leave_one_out(process);
+    const std::vector<int>& seen = process.place;
+    const Eigen::ArrayXd there = without.mean.col(0)(seen).array();
+    mean += share * there;
+    square += share * (there.square() + without.variance.col(0)(seen).array());
+  }
+  return (y.array() - mean) / (square - mean.square()).sqrt();
+}
+
 }  // namespace thinwall::regression

@@ -46,6 +46,10 @@ class AveragedProcess {
 
   /// The function at the rows of `inputs`, in the targets' units. Cost O(samples n² m).
   [[nodiscard]] AveragedPrediction predict(const Eigen::MatrixXd& inputs) const;
+  /// The error of each value as the others predict it, over its standard deviation with noise: of leave_one_out()
+  /// averaged over the draws as above. Their root mean square is 1 where the process knows how far it may be off. Cost
+  /// O(samples n³).
+  [[nodiscard]] Eigen::VectorXd standardised_residuals() const;
   /// The draws, for standardised targets.
   [[nodiscard]] const std::vector<DenseProcess>& draws() const { return draws_; }
 

@@ -78,23 +78,27 @@ ErrorBudgetSummary error_budget_summary(const study::Results& results) {
 
 std::optional<ChartErrorsSummary> chart_errors_summary(const study::StructureLobes& named) {
   if (named.errors.empty()) return std::nullopt;
-  std::optional<double> truncation, noise;
+  std::optional<double> truncation, noise, identification;
   const study::DepthError* least = nullptr;
   for (std::size_t i = 0; i < named.errors.size(); ++i) {
     const study::DepthError& error = named.errors[i];
     const double depth = named.lobes.rows[i].limiting_depth_m;
     if (named.lobes.rows[i].spindle_speed_rpm == named.lobes.at_spindle_speed_rpm) least = &error;
     if (error.truncation_m) truncation = std::max(truncation.value_or(0.0), std::abs(*error.truncation_m) / depth);
+    if (error.low_m && error.high_m)
+      identification =
+          std::max({identification.value_or(0.0), 1.0 - *error.low_m / depth, *error.high_m / depth - 1.0});
     if (error.noise_m) noise = std::max(noise.value_or(0.0), *error.noise_m / depth);
   }
-  ChartErrorsSummary result{truncation, noise, {}};
+  ChartErrorsSummary result{truncation, noise, identification, {}};
   if (least != nullptr) result.at_minimum = row_errors_summary(*least, std::nullopt, 0);
   return result;
 }
 
 DepthErrorsSummary row_errors_summary(const study::DepthError& error,
                                       const std::optional<milling::DepthScatter>& scatter, int seed) {
-  DepthErrorsSummary result{error.truncation_m, error.noise_m, {}};
+  DepthErrorsSummary result{error.truncation_m, error.noise_m, {}, {}};
+  if (error.low_m && error.high_m) result.identification = {*error.low_m, *error.high_m};
   if (!scatter) return result;
   const auto with_limit = std::ssize(scatter->depth_m) - scatter->without_limit;
   SampledDepthSummary& sampled = result.sampled.emplace();

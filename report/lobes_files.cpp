@@ -83,10 +83,14 @@ void write_chart(const fs::path& file, const milling::Lobes& lobes, const millin
   }
   add_error_column(table, "truncation_m", errors, &study::DepthError::truncation_m);
   add_error_column(table, "noise_deviation_m", errors, &study::DepthError::noise_m);
+  add_error_column(table, "identification_low_m", errors, &study::DepthError::low_m);
+  add_error_column(table, "identification_high_m", errors, &study::DepthError::high_m);
   if (!errors.empty()) {
     comments.emplace_back(
         "truncation_m: this depth less that with what the part's reduction leaves out. noise_deviation_m: standard, by "
-        "the noise of what was measured. First order; inf where it is not known");
+        "the noise of what was measured. First order; inf where it is not known. identification_low_m, "
+        "identification_high_m: "
+        "95 % of the limits lie between, by the uncertainty of a fitted tool or a learned robot");
   }
   io::write_csv(file, table, comments);
 }

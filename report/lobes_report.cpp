@@ -22,17 +22,18 @@ std::string estimate_text(const std::optional<double>& relative) {
 
 std::string chart_text(const LobesSummary& chart) {
   const bool all = chart.speeds_stable_to_depth_limit == chart.speeds;
-  std::string text = fmt::format("  {}\n    least depth   {} {}\n    error         {} (estimate)\n",
+  std::string text = fmt::format("  {}\n    least depth   {} {}{}\n    error         {} (estimate)\n",
                                  chart_title(chart.name), depth_text(chart.minimum_depth_m, all),
                                  all ? "at every speed" : fmt::format("at {:.0f} rpm", chart.at_spindle_speed_rpm),
+                                 chart.error_budget ? range_text(chart.error_budget->at_minimum) : "",
                                  estimate_text(chart.error_estimate_relative));
   text += pockets_text(chart.best_pockets, "pockets") + asked_text(chart);
   if (const auto& best = chart.best_pocket)
     text += fmt::format("    {}: {} at {:.0f} rpm\n", best_pocket_title(chart),
                         depth_text(best->depth_m, best->at_depth_limit), best->spindle_speed_rpm);
   if (const auto& row = chart.at_case_speed) {
-    text += fmt::format("    at {:.0f} rpm {}\n", row->spindle_speed_rpm,
-                        depth_text(row->limiting_depth_m, row->at_depth_limit));
+    text += fmt::format("    at {:.0f} rpm {}{}\n", row->spindle_speed_rpm,
+                        depth_text(row->limiting_depth_m, row->at_depth_limit), range_text(row->error_budget));
     text += sensitivities_text(row->sensitivities);
   }
   return text;

@@ -46,8 +46,8 @@ void answer(std::string& out, const Summary& summary) {
   for (const LobesSummary& lobes : summary.lobes) {
     if (!lobes.at_case_speed) continue;
     const CaseSpeedSummary& row = *lobes.at_case_speed;
-    out += fmt::format("  {:<15} stable up to {} at {:.0f} rpm", chart_title(lobes.name), depth(row),
-                       row.spindle_speed_rpm);
+    out += fmt::format("  {:<15} stable up to {} at {:.0f} rpm{}", chart_title(lobes.name), depth(row),
+                       row.spindle_speed_rpm, range_text(row.error_budget));
     if (!row.at_depth_limit)
       out +=
           fmt::format(", chatter at {:.1f} Hz ({})", row.chatter_frequency_hz.value_or(not_a_number), row.bifurcation);

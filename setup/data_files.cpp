@@ -10,7 +10,6 @@
 #include "core/messages.hpp"
 #include "setup/believed_lines.hpp"
 #include "setup/contact_model.hpp"
-#include "setup/identified/fitted_tip.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/measured.hpp"
 #include "setup/robot_tip.hpp"
@@ -38,12 +37,6 @@ std::vector<Frf*> all_frfs(Source& source) {
   if (source.tool) add(source.tool->measured);
   if (source.tool && source.tool->swap) add(source.tool->swap->measured);
   return all;
-}
-
-/// The robot that a table of modes describes; null for another one, and where there is none.
-template <class Source>
-auto* tabled_robot(Source& source) {
-  return source.robot ? std::get_if<TabledRobot>(&source.robot->model) : nullptr;
 }
 
 /// True for an FRF of the tool or the robot, which stand on something; a part may hang freely.
@@ -76,13 +69,12 @@ void read_data_files(Setup& source) {
   }
   if (source.tool) take_common_band(source.tool->measured);
   if (source.tool && source.tool->swap) take_common_band(source.tool->swap->measured);
-  if (source.tool && source.tool->fit && !source.tool->fitted)
-    source.tool->fitted = std::make_shared<const FittedTip>(fitted_tip(*source.tool));
   for (SupportContact& contact : source.contacts) {
     if (auto* tabled = std::get_if<TabledContact>(&contact.model); tabled != nullptr && !tabled->rows)
       tabled->rows = std::make_shared<const coupling::ContactTable>(read_contact_table(tabled->table));
   }
-  if (auto* robot = tabled_robot(source); robot != nullptr && !robot->table_modes) read_table_of_modes(*robot);
+  if (auto* robot = tabled_robot(source.robot); robot != nullptr && !robot->table_modes && !robot->tapped)
+    read_table_of_modes(*robot);
   if (source.part && from_file(*source.part) && !source.part->imported)
     source.part->imported = read_part_file(*source.part);
 }
@@ -91,26 +83,21 @@ void share_data_files(Setup& varied, const Setup& read) {
   const std::vector<MeasuredFrf*> to = measured_frfs(varied);
   const std::vector<const MeasuredFrf*> from = measured_frfs(read);
   for (std::size_t i = 0; i < std::min(to.size(), from.size()); ++i) to[i]->content = from[i]->content;
-  if (varied.tool && read.tool && varied.tool->fit) varied.tool->fitted = read.tool->fitted;
   for (std::size_t i = 0; i < std::min(varied.contacts.size(), read.contacts.size()); ++i) {
     auto* tabled = std::get_if<TabledContact>(&varied.contacts[i].model);
     const auto* with_rows = std::get_if<TabledContact>(&read.contacts[i].model);
     if (tabled != nullptr && with_rows != nullptr) tabled->rows = with_rows->rows;
   }
-  auto* robot = tabled_robot(varied);
-  const auto* with_modes = tabled_robot(read);
-  // Modes that were learned for another posture would be taken for those of this one.
-  const auto asked = [](const TabledRobot& of) { return of.postures ? of.postures->at : std::vector<double>{}; };
-  if (robot != nullptr && with_modes != nullptr && asked(*robot) == asked(*with_modes)) {
-    robot->table_modes = with_modes->table_modes;
-    robot->learned = with_modes->learned;
+  auto* robot = tabled_robot(varied.robot);
+  const auto* with_modes = tabled_robot(read.robot);
+  if (robot != nullptr && with_modes != nullptr) {
+    robot->tapped = with_modes->tapped;
+    if (!robot->postures) robot->table_modes = with_modes->table_modes;
   }
   if (varied.part && read.part) varied.part->imported = read.part->imported;
 }
 
 void tell_of_data_files(const Setup& source) {
-  if (const auto* robot = tabled_robot(source); robot != nullptr && robot->learned)
-    core::inform(robot->learned->summary);
   std::set<std::string> told;  // a file of several FRFs is told of once
   for (const MeasuredFrf* frf : measured_frfs(source)) {
     if (!frf->content) continue;
@@ -119,9 +106,6 @@ void tell_of_data_files(const Setup& source) {
     for (const std::string& warning : frf->content->warnings)
       if (told.insert(warning).second) core::warn(warning);
   }
-  if (!source.tool || !source.tool->fitted) return;
-  for (const std::string& note : source.tool->fitted->notes) core::inform(note);
-  for (const std::string& warning : source.tool->fitted->warnings) core::warn(warning);
 }
 
 }  // namespace thinwall::setup

@@ -56,6 +56,14 @@ struct MeasuredRobot {
   std::vector<Sensor> sensors;  ///< during all of `measured`
 };
 
+/// An arm of rigid links with flexible joints, and the way in which it stands.
+struct JointedRobot {
+  robot::SerialArm arm;                ///< world: the part's axes
+  std::filesystem::path urdf, joints;  ///< that the arm was read from; empty: from the case
+  PostureWish posture;
+  std::vector<Eigen::Vector3d> workspace;  ///< places of the tip, m
+};
+
 /// Postures at which a robot was tapped, and the one that is asked for.
 struct TappedPostures {
   std::filesystem::path list;     ///< CSV with a column "posture" of names and others of numbers
@@ -63,11 +71,21 @@ struct TappedPostures {
   std::vector<double> at;         ///< of the posture that is asked for, as these columns have them
 };
 
-/// Tables of modes at many postures, once they are read and learned from.
+/// The content of the files of tapped postures, with the modes of each followed over all of them.
+struct PostureTables {
+  std::vector<std::string> names;  ///< of the postures
+  Eigen::MatrixXd places;          ///< a row a posture: the columns over which is learned, as the list has them
+  Eigen::MatrixXd joints;          ///< a row a posture: q of the arm that is the mean, rad (m); empty: none is
+  std::vector<std::filesystem::path> files;  ///< of the tables
+  std::vector<dynamics::ModalTable> tables;
+  std::vector<std::vector<int>> labels;  ///< of each posture and mode: modes of one label are one mode of the robot
+  int doubtful = 0;                      ///< labels that neighbours contradict
+};
+
+/// The uncertainty of modes that were learned.
 struct LearnedPostures {
-  std::vector<std::filesystem::path> files;
-  std::string summary;              ///< a sentence with the uncertainty of what was learned
-  std::vector<std::string> doubts;  ///< sentences on what speaks against it
+  std::string summary;                      ///< a sentence
+  std::vector<dynamics::ModalTable> drawn;  ///< tables of modes that are as likely as the one that is expected
 };
 
 /// A tip that is known by a table of its modes, or by one at each of some postures.
@@ -77,16 +95,14 @@ struct TabledRobot {
   bool cross_terms = true;
   Eigen::Isometry3d base = Eigen::Isometry3d::Identity();  ///< whose axes are those of the table; world: the part's
   std::optional<TappedPostures> postures = {};             ///< none: the table is of the posture that is asked for
-  std::shared_ptr<const dynamics::ModalTable> table_modes = {};  ///< of the table, once it is read
-  std::shared_ptr<const LearnedPostures> learned = {};           ///< beside it, of postures
-};
-
-/// An arm of rigid links with flexible joints, and the way in which it stands.
-struct JointedRobot {
-  robot::SerialArm arm;                ///< world: the part's axes
-  std::filesystem::path urdf, joints;  ///< that the arm was read from; empty: from the case
-  PostureWish posture;
-  std::vector<Eigen::Vector3d> workspace;  ///< places of the tip, m
+  std::optional<JointedRobot> mean = {};  ///< of `postures`: an arm whose modes, once it is calibrated, are the mean of
+                                          ///< what is learned; its posture is the one that is asked for
+  std::vector<std::string> joint_columns =
+      {};  ///< of the list: q of the joints of `mean`, rad (m); "0": it stands still
+  std::shared_ptr<const PostureTables> tapped = {};  ///< of `postures`, once they are read
+  std::shared_ptr<const dynamics::ModalTable> table_modes =
+      {};                                               ///< of the table once it is read, or learned of `tapped`
+  std::shared_ptr<const LearnedPostures> learned = {};  ///< beside learned ones
 };
 
 /// Chains of links and elastic joints that hold one tip.
@@ -115,6 +131,15 @@ struct Robot {
 /// True if there is a robot whose tip is the tool's.
 [[nodiscard]] inline bool carries_tool(const std::optional<Robot>& robot) {
   return robot && robot->carries == RobotCarries::tool;
+}
+
+/// The robot of a table of modes, or of tables at postures; null for another one, and where there is none.
+[[nodiscard]] inline const TabledRobot* tabled_robot(const std::optional<Robot>& robot) {
+  return robot ? std::get_if<TabledRobot>(&robot->model) : nullptr;
+}
+/// The robot of a set-up that may change.
+[[nodiscard]] inline TabledRobot* tabled_robot(std::optional<Robot>& robot) {
+  return robot ? std::get_if<TabledRobot>(&robot->model) : nullptr;
 }
 
 /// The kind of a robot's model.

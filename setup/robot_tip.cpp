@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/overloaded.hpp"
 #include "dynamics/conversion.hpp"
-#include "io/frf/modal_table_csv.hpp"
 #include "io/frf/resample.hpp"
 #include "robot/arm_kinematics.hpp"
 #include "robot/flexible_joints.hpp"
@@ -18,7 +17,7 @@
 #include "robot/measured.hpp"
 #include "robot/modal_table.hpp"
 #include "robot/one_mode.hpp"
-#include "setup/identified/learned_modes.hpp"
+#include "setup/identified/posture_tables.hpp"
 #include "setup/measured.hpp"
 #include "setup/part_geometry.hpp"
 #include "setup/sensor_mass.hpp"
@@ -55,7 +54,9 @@ dynamics::ResponseModel measured_tip(const MeasuredRobot& robot, const std::stri
 /// The tip's part of the table, its axes turned into the part's.
 dynamics::ModalModel tabled_tip(const TabledRobot& robot, const std::string& point) {
   if (!robot.table_modes)
-    throw core::InputError("\"" + robot.table.string() + "\" was not read; call setup::read_data_files()");
+    throw core::InputError("\"" + robot.table.string() + "\" " +
+                           (robot.tapped ? "was not learned from; call setup::identify()"
+                                         : "was not read; call setup::read_data_files()"));
   dynamics::ModalModel tip = robot::modal_model(robot::at_point(*robot.table_modes, robot.table_point));
   if (!robot.cross_terms) tip = robot::without_cross_terms(tip);
   for (dynamics::Dof& dof : tip.dofs) {
@@ -168,14 +169,10 @@ std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list) {
 
 void read_table_of_modes(TabledRobot& robot) {
   if (robot.postures) {
-    LearnedModes modes = learned_modes(robot);
-    robot.table_modes = std::make_shared<const dynamics::ModalTable>(std::move(modes.table));
-    robot.learned = std::make_shared<const LearnedPostures>(std::move(modes.learned));
+    robot.tapped = std::make_shared<const PostureTables>(read_posture_tables(robot));
     return;
   }
-  const io::ModalTableFormat format{
-      io::modal_unit(robot.left_unit), io::modal_unit(robot.right_unit), {{robot.table_point, {0.0}}}};
-  robot.table_modes = std::make_shared<const dynamics::ModalTable>(io::read_modal_table(robot.table, format));
+  robot.table_modes = std::make_shared<const dynamics::ModalTable>(read_tip_table(robot.table, robot));
 }
 
 robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis) {
@@ -194,6 +191,10 @@ robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axi
             return robot::in_one_posture(robot::spatial_model(robot::reduced_tip(model.chains), point));
           }},
       robot.model);
+}
+
+Eigen::VectorXd wished_joints(const PartSetup& part, const SupportSetup& support, const JointedRobot& robot) {
+  return joints_of(part, support, robot, std::nullopt);
 }
 
 RobotPosture robot_posture(const PartSetup& part, const SupportSetup& support,

@@ -28,13 +28,18 @@ struct RobotPosture {
 /// The modes of a robot's tip or a tool's, as the case lists them. Errors as robot::one_mode().
 [[nodiscard]] std::vector<robot::OneMode> one_modes(const std::vector<TipMode>& list);
 
-/// Reads the file that robot.table names, or learns from those of all postures (learned_modes()). Errors as
-/// io::modal_unit() and io::read_modal_table(), or as learned_modes().
+/// Reads the file that robot.table names, or those of all postures (read_posture_tables()). Errors as
+/// read_tip_table() or read_posture_tables().
 void read_table_of_modes(TabledRobot& robot);
 
 /// The tip at any posture, by the model that the case names. Measured receptances are put on `axis`. Throws InputError
-/// for a table of modes or an FRF that was not read.
+/// for a table of modes or an FRF that was not read, or modes that were not learned (identify()).
 [[nodiscard]] robot::TipModel tip_model(const Robot& robot, const dynamics::FrequencyAxis& axis);
+
+/// The joints q (rad, m) of an arm in the posture that is asked of it, as robot_posture() has them. Errors as that
+/// does.
+[[nodiscard]] Eigen::VectorXd wished_joints(const PartSetup& part, const SupportSetup& support,
+                                            const JointedRobot& robot);
 
 /// The posture of the set-up's robot: its joints by the case's word, or by inverse kinematics for the place of its tip,
 /// from `near` on where a search is needed. For a model without posture only the preload is told. Throws InputError for

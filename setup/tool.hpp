@@ -46,6 +46,7 @@ struct ToolSwap {
 /// The modes that were fitted to a measured tip, DOFs tool.x …, and what is to be said of the fit.
 struct FittedTip {
   dynamics::ModalModel model;
+  std::vector<dynamics::ModalModel> drawn;  ///< models that lines with another noise would have given
   std::vector<std::string> notes, warnings;
 };
 
@@ -64,7 +65,7 @@ struct Tool {
   std::vector<TipMode> modes;
   std::vector<MeasuredFrf> measured;             ///< DOFs "tool.x", "tool.y", "tool.z"
   bool fit = false;                              ///< poles are fitted to `measured` and stand in its place
-  std::shared_ptr<const FittedTip> fitted = {};  ///< these, once files are read (setup/data_files.hpp)
+  std::shared_ptr<const FittedTip> fitted = {};  ///< these, once they are found (setup/identified/)
   std::optional<ToolSwap> swap;
 };
 

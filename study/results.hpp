@@ -133,8 +133,9 @@ struct ErrorBudget {
 
 /// The error of a limiting depth, m; none where it is not known: no limit there, or not found again.
 struct DepthError {
-  std::optional<double> truncation_m;  ///< signed: this depth less that with what the part's reduction left out
-  std::optional<double> noise_m;       ///< standard deviation by the noise of what was measured, first order
+  std::optional<double> truncation_m;   ///< signed: this depth less that with what the part's reduction left out
+  std::optional<double> noise_m;        ///< standard deviation by the noise of what was measured, first order
+  std::optional<double> low_m, high_m;  ///< 95 % of the limits lie between by the uncertainty of what was identified
 };
 
 /// The reduction by which the coupled receptance is at a resonance of the part.

@@ -9,12 +9,15 @@
 #include "core/error.hpp"
 #include "core/messages.hpp"
 #include "setup/data_files.hpp"
+#include "setup/identified/identify.hpp"
 #include "setup/measured.hpp"
 #include "setup/milling_process.hpp"
 #include "study/error_budget.hpp"
 #include "study/kept/kept_coupling.hpp"
+#include "study/kept/kept_identified.hpp"
 #include "study/kept/kept_part.hpp"
 #include "study/lobes/cut_structure.hpp"
+#include "study/lobes/drawn_structures.hpp"
 #include "study/lobes/forced_over_speed.hpp"
 #include "study/lobes/lobes_stage.hpp"
 #include "study/lobes/path_stage.hpp"
@@ -168,11 +171,12 @@ void run_responses(Checkpoint& kept, const setup::Setup& work, Results& results,
 }
 
 /// The supported part where the robot has no poles. What cannot be charted from samples leaves the rest of the run.
-void add_sampled_chart(const setup::CutSetup& work, const milling::ToolFrame& frame,
+void add_sampled_chart(const setup::Setup& work, const milling::ToolFrame& frame,
                        const std::vector<milling::OperatingPoint>& points, Checkpoint& kept, Results& results) {
   try {
     const auto structure = sampled_structure(work, frame, results.coupled->receptance.response);
-    const StructureErrors errors = sampled_structure_errors(work, frame, results);
+    StructureErrors errors = sampled_structure_errors(work, frame, results);
+    errors.drawn_changes = drawn_changes(work, frame, results);
     results.lobes.push_back(compute_lobes(work, ChartOf::supported, structure, errors, points, kept));
   } catch (const core::Interrupted&) {
     throw;
@@ -294,7 +298,8 @@ void run_lobes(const setup::Setup& work, const std::vector<milling::OperatingPoi
     const dynamics::ModalModel* carrier = of == ChartOf::carried ? &carrier_modes(*results.robot) : nullptr;
     const CutStructure structure = cut_structure(work, frame, part, carrier);
     if (!results.synthesised_tip) results.synthesised_tip = synthesised_tip(work, structure);
-    const StructureErrors errors = structure_errors(work, frame, structure, richer, carrier);
+    StructureErrors errors = structure_errors(work, frame, structure, richer, carrier);
+    errors.draws = drawn_poles(work, of, part, results);
     results.lobes.push_back(compute_lobes(work, of, structure, errors, points, kept));
   };
   stages.begin("lobes");
@@ -332,6 +337,14 @@ void run_simulation(const setup::Setup& work, const std::vector<milling::Operati
   results.amplitude_maps = amplitude_maps(work, results, kept);
 }
 
+/// Finds the models of tool and robot that are identified from measurements.
+void run_identification(Kept& kept, setup::Setup& work, Stages& stages) {
+  if (!setup::awaits_fit(work) && !setup::awaits_learning(work)) return;
+  stages.begin("identification");
+  identify_or_take(kept.tool, kept.robot, work);
+  setup::tell_of_identified(work);
+}
+
 }  // namespace
 
 Results run(const setup::Setup& setup, const setup::Variation& variation, Kept& kept, const RunOptions& options) {
@@ -341,9 +354,11 @@ Results run(const setup::Setup& setup, const setup::Variation& variation, Kept& 
   Stages stages(options.on_stage);
   Results results;
   setup::VariedSetup work{setup, {}};
-  if (work.setup.part) run_part(variation, work, kept.part, results, stages);
+  run_identification(kept, work.setup, stages);
+  const setup::Variation varied = identified_variation(variation, work.setup);
+  if (work.setup.part) run_part(varied, work, kept.part, results, stages);
   if (results.finite_elements && results.finite_elements->reduced)
-    run_coupled_updating(variation, work, kept.structure, results, stages);
+    run_coupled_updating(varied, work, kept.structure, results, stages);
   if (results.finite_elements) bound_modes(*results.finite_elements, work.setup);
   run_responses(kept.structure, work.setup, results, stages);
   run_lobes(work.setup, options.points, kept.charts, results, stages);

@@ -24,13 +24,15 @@ struct RunOptions {
 /// added. A default Checkpoint keeps nothing and finds nothing.
 struct Kept {
   Checkpoint part, structure, charts, simulations;
+  Checkpoint tool{}, robot{};  ///< what was identified of them
 };
 
-/// Computes what the set-up holds: the part (mesh, modes, reduction), fits of its numbers by `variation`, receptances
-/// of part and robot, both joined by two routes, the error budget, stability charts, and simulated points. Messages go
-/// to core::set_message_listener, the progress of long loops to core::set_progress_listener. A set-up without fits
-/// needs no `variation`. Throws core::Error: InputError for what cannot be computed, NumericalError where a stage does
-/// not converge, Interrupted after core::request_interrupt().
+/// Computes what the set-up holds: what is identified from measurements (setup::identify()), the part (mesh, modes,
+/// reduction), fits of its numbers by `variation`, receptances of part and robot, both joined by two routes, the error
+/// budget, stability charts, and simulated points. Messages go to core::set_message_listener, the progress of long
+/// loops to core::set_progress_listener. A set-up without fits needs no `variation`. Throws core::Error: InputError for
+/// what cannot be computed, NumericalError where a stage does not converge, Interrupted after
+/// core::request_interrupt().
 [[nodiscard]] Results run(const setup::Setup& setup, const setup::Variation& variation, Kept& kept,
                           const RunOptions& options);
 

@@ -1,14 +1,17 @@
 #pragma once
 // All that study/ offers to other programs.
-// Internal: archive, archive_models, input_key, kept_coupling, kept_part, kept_simulation.
+// Internal: archive, archive_models, input_key, kept_coupling, kept_identified, kept_part,
+// kept_simulation.
 
 #include "core/eigen_alignment.hpp"
 #include "study/error_budget.hpp"
+#include "study/identification_forecast.hpp"
 #include "study/kept/checkpoint.hpp"
 #include "study/kept/stage_keys.hpp"
 #include "study/least_squares.hpp"
 #include "study/lobes/chart_of.hpp"
 #include "study/lobes/cut_structure.hpp"
+#include "study/lobes/drawn_structures.hpp"
 #include "study/lobes/forced_over_speed.hpp"
 #include "study/lobes/lobe_sensitivity.hpp"
 #include "study/lobes/lobes_forecast.hpp"

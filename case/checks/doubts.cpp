@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/units.hpp"
+#include "setup/identified/posture_tables.hpp"
 #include "setup/milling_process.hpp"
 #include "setup/simulation_options.hpp"
 
@@ -111,9 +112,10 @@ std::vector<std::string> doubts_about(const Case& source) {
   ask_about_materials(source, doubts);
   ask_about_robot_damping(source, doubts);
   ask_about_turns(source, doubts);
-  if (const auto* robot = source.robot ? std::get_if<setup::TabledRobot>(&source.robot->model) : nullptr;
-      robot != nullptr && robot->learned)
-    doubts.insert(doubts.end(), robot->learned->doubts.begin(), robot->learned->doubts.end());
+  if (const setup::TabledRobot* robot = setup::tabled_robot(source.robot)) {
+    const std::vector<std::string> of_postures = setup::doubts_about(*robot);
+    doubts.insert(doubts.end(), of_postures.begin(), of_postures.end());
+  }
   if (source.urdf_arm) doubts.insert(doubts.end(), source.urdf_arm->assumed.begin(), source.urdf_arm->assumed.end());
   return doubts;
 }

@@ -11,6 +11,8 @@
 #include "core/error.hpp"
 #include "core/overloaded.hpp"
 #include "robot/flexible_joints.hpp"
+#include "setup/identified/arm_mean.hpp"
+#include "setup/identified/posture_tables.hpp"
 #include "setup/measured_layout.hpp"
 #include "setup/robot_tip.hpp"
 
@@ -126,13 +128,8 @@ bool check_urdf(const Case& source, const setup::JointedRobot& robot, Findings& 
   return source.urdf_arm != nullptr;
 }
 
-void check_arm(const Case& source, const setup::JointedRobot& robot, Findings& findings) {
-  if (!robot.urdf.empty()) {
-    if (!check_urdf(source, robot, findings)) return;
-  } else if (robot.arm.links.empty()) {
-    findings.report("robot.model", "flexible_joints needs [[robot.links]], from the base to the tip, or robot.urdf");
-    return;
-  }
+/// Checks the links of an arm and how it is to stand; true if it is one.
+bool is_arm(const Case& source, const setup::JointedRobot& robot, bool posture_given, Findings& findings) {
   const std::size_t before = findings.problems.size();
   check_counterbalances(robot.arm, findings);
   for (std::size_t i = 0; i < robot.arm.links.size(); ++i) {
@@ -142,25 +139,82 @@ void check_arm(const Case& source, const setup::JointedRobot& robot, Findings& f
     if (list != nullptr && !list->empty() && list->size() != 3 && list->size() != 6)
       findings.report(key, "must have three moments, xx, yy, zz, or these and xy, xz, yz");
   }
-  check_posture_keys(robot, findings);
-  if (findings.problems.size() > before || !all_read(robot.arm)) return;
+  if (posture_given) check_posture_keys(robot, findings);
+  if (findings.problems.size() > before || !all_read(robot.arm)) return false;
   try {
     robot::require_valid(robot.arm);
   } catch (const core::InputError& error) {
     findings.report("robot.links", error.what());
+    return false;
+  }
+  return true;
+}
+
+void check_arm(const Case& source, const setup::JointedRobot& robot, Findings& findings) {
+  if (!robot.urdf.empty()) {
+    if (!check_urdf(source, robot, findings)) return;
+  } else if (robot.arm.links.empty()) {
+    findings.report("robot.model", "flexible_joints needs [[robot.links]], from the base to the tip, or robot.urdf");
     return;
   }
-  // Places of a workspace that are not reached are told by the survey; what the coupling needs must be.
-  if (!robot.workspace.empty() && source.contacts.empty() && !robot.posture.tip) return;
+  if (!is_arm(source, robot, true, findings)) return;
+  // Places of a workspace that are not reached are told by the survey; those of a coupling or a cut must be.
+  const bool surveyed_only = source.contacts.empty() && !setup::carries_tool(source.robot) && !robot.posture.tip;
+  if (!robot.workspace.empty() && surveyed_only) return;
   std::optional<Eigen::VectorXd> near;
   if (const std::string fault = fault_of_posture(source, source, near); !fault.empty())
     findings.report("robot.posture", fault);
 }
 
-void check_table(const setup::Robot& robot, const setup::TabledRobot& tabled, Findings& findings) {
-  if (!tabled.table_modes) return;  // a fault of the file was reported when it was read
+/// Checks an arm that is the mean of modes over postures.
+void check_mean(const Case& source, const setup::TabledRobot& tabled, Findings& findings) {
+  if (!tabled.mean) {
+    const Table keys{source.values, "robot"};
+    for (const char* key : {"joint_columns", "gravity", "posture", "tip"}) {
+      if (keys.has(key) || keys.table(key).exists())
+        findings.report(
+            std::string("robot.") + key,
+            "is of an arm that is the mean of modes over postures; give its [[robot.links]] or robot.urdf, or "
+            "remove it");
+    }
+    return;
+  }
+  if (!tabled.postures)
+    return findings.report("robot.links",
+                           "an arm beside a table is the mean of its modes over robot.postures; give "
+                           "those, or remove the arm");
+  if (!tabled.mean->urdf.empty() && !check_urdf(source, *tabled.mean, findings)) return;
+  if (!is_arm(source, *tabled.mean, Table{source.values, "robot.posture"}.exists(), findings)) return;
+  const std::size_t columns = tabled.joint_columns.size(), links = tabled.mean->arm.links.size();
+  if (columns != links)
+    return findings.report("robot.joint_columns",
+                           "names " + std::to_string(columns) + " columns of robot.postures for the " +
+                               std::to_string(links) +
+                               " joints of the arm; give one for each, \"0\" if it stands still");
+  for (const robot::Link& link : tabled.mean->arm.links) {
+    if (!(link.joint.damping > 0.0))
+      findings.report("robot.links", "\"" + link.name +
+                                         "\" has no damping, must be above 0 for the calibration on "
+                                         "postures; give it a first guess");
+  }
+  if (setup::joints_from_columns(tabled).size() > 0 || !tabled.tapped) return;
   try {
-    (void)setup::tip_model(robot, {});
+    (void)setup::wished_joints(source, source, *tabled.mean);
+  } catch (const core::InputError& error) {
+    findings.report("robot.posture", error.what());
+  }
+}
+
+/// The robot; one that is to be learned with the modes of its first posture.
+setup::Robot before_learning(setup::Robot robot) {
+  if (auto* tabled = std::get_if<setup::TabledRobot>(&robot.model)) *tabled = setup::as_first_posture(*tabled);
+  return robot;
+}
+
+void check_table(const setup::Robot& robot, const setup::TabledRobot& tabled, Findings& findings) {
+  if (!tabled.table_modes && !tabled.tapped) return;  // a fault of the file was reported when it was read
+  try {
+    (void)setup::tip_model(before_learning(robot), {});
   } catch (const core::Error& error) {
     findings.report("robot.table", error.what());
   }
@@ -182,7 +236,7 @@ void check_elements(const Case& source, Findings& findings) {
 std::vector<Eigen::Vector3d> modelled_directions(const setup::Robot& robot) {
   std::vector<Eigen::Vector3d> directions;
   try {
-    const robot::Tip tip = setup::tip_model(robot, {})({});
+    const robot::Tip tip = setup::tip_model(before_learning(robot), {})({});
     const auto* modal = std::get_if<dynamics::ModalModel>(&tip);
     const auto* spatial = std::get_if<dynamics::SpatialModel>(&tip);
     for (const dynamics::Dof& dof : modal != nullptr ? modal->dofs : spatial->dofs) {
@@ -265,7 +319,7 @@ void check_robot(const Case& source, Findings& findings) {
       return findings.report("robot.base.x", "is not at a right angle to robot.base.z; a frame's axes are");
   }
   const Table keys{source.values, "robot"};
-  for (const char* key : {"over", "at"}) {
+  for (const char* key : {"over", "at", "joint_columns"}) {
     if (keys.has(key) && !keys.has("postures"))
       findings.report(std::string("robot.") + key, "belongs to robot.postures; give that list, or remove the key");
   }
@@ -273,7 +327,10 @@ void check_robot(const Case& source, Findings& findings) {
       core::overloaded{[&](const setup::OneModeRobot& model) { check_one_mode(model, findings); },
                        [](const setup::ModalRobot&) {},
                        [&](const setup::MeasuredRobot& model) { check_measured_robot(model, robot.point, findings); },
-                       [&](const setup::TabledRobot& model) { check_table(robot, model, findings); },
+                       [&](const setup::TabledRobot& model) {
+                         check_table(robot, model, findings);
+                         check_mean(source, model, findings);
+                       },
                        [&](const setup::JointedRobot& model) { check_arm(source, model, findings); },
                        [&](const setup::ChainedRobot&) { check_elements(source, findings); }},
       robot.model);

@@ -167,6 +167,7 @@ constexpr Key case_keys[] = {
     Key{"robot.postures", Type::file, kind::number, "", any, "", "CSV of postures at which the robot was tapped: a column `posture` of names, others of numbers. `table` then has `{posture}` where the name of each stands, and the modes are learned over the postures."},
     Key{"robot.over", Type::names, kind::number, "", any, "", "Columns of `postures` over which the modes are learned, such as joint angles or places of the tip."},
     Key{"robot.at", Type::quantities, kind::number, "", any, "", "The posture that is asked for: a number for each column of `over`, as the file has them."},
+    Key{"robot.joint_columns", Type::names, kind::number, "", any, "", "With [[robot.links]] or `urdf` beside `postures`: an arm whose joints are calibrated on the postures, and whose modes are the mean of what is learned. Columns of `postures` with the joints' values in the order of the links, rad or m; `\"0\"`: the joint stands still. Where `over` has not all of them, `robot.posture` says how the arm stands at the posture that is asked for."},
     Key{"robot.table_point", Type::text, kind::number, "\"1\"", any, "", "The table's name of the tip; its X, Y, Z are the axes of `base`."},
     Key{"robot.left_unit", Type::text, kind::number, "\"sqrt(s/kg)\"", any, "", "Unit of the left vectors: `sqrt(s/kg)`, `1e-7 sqrt(s/kg)`."},
     Key{"robot.right_unit", Type::text, kind::number, "\"sqrt(s/kg)\"", any, "", "Unit of the right vectors."},

@@ -6,6 +6,7 @@
 #include <complex>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -111,6 +112,20 @@ Eigen::MatrixXcd gain_by(Coefficient which, const CutAtSpeed& cut, const Found& 
   return -Z.topRightCorner(contacts, others) * Z.bottomLeftCorner(others, contacts) / f.pair.nu;
 }
 
+/// The gain that is a share of the way from that of one loop to that of another with the same contacts; both must
+/// outlive it.
+GainOnCircle gain_between(const RegenerativeLoop& from, const RegenerativeLoop& to, double share) {
+  const auto between = [&from, &to, share](const auto& of, double theta) {
+    Eigen::MatrixXcd there = of(to, on_circle(theta));
+    if (share < 1.0) there = (share * there + (1.0 - share) * of(from, on_circle(theta))).eval();
+    return there;
+  };
+  return {to.K.rows(),
+          [between](double theta) { return between(loop_gain, theta); },
+          [between](double theta) { return between(loop_gain_slope, theta); },
+          {}};
+}
+
 /// A crossing found again, and how its depth follows the gain.
 class DepthFollower {
  public:
@@ -138,6 +153,21 @@ class DepthFollower {
     Eigen::Matrix2d rows;
     rows << pair.slope.real(), by_depth_.real(), pair.slope.imag(), by_depth_.imag();
     return (rows(1, 0) * nu_p.real() - rows(0, 0) * nu_p.imag()) / rows.determinant() / w;
+  }
+
+  /// The depth, m, to which the crossing moves with the loop of another structure in tool axes; none if Newton's rule
+  /// does not settle there, on the way in one step, in two or in four.
+  [[nodiscard]] std::optional<double> depth_with(const RelativeStructure& structure) const {
+    const RegenerativeLoop loop = regenerative_loop(structure, found_.d.grid, cut_.spindle_speed_rpm);
+    for (int steps = 1; steps <= 4; steps *= 2) {
+      Crossing moved = found_.crossing;
+      bool settled = true;
+      for (int k = 1; k <= steps && settled; ++k)
+        settled =
+            to_axis(gain_between(found_.d.loop, loop, static_cast<double>(k) / steps), 1.0 / moved.depth_m, moved);
+      if (settled) return moved.depth_m;
+    }
+    return std::nullopt;
   }
 
  private:
@@ -186,6 +216,28 @@ double relative_depth_change(const RelativeStructure& structure, const RelativeS
   const CutAtSpeed cut = cut_at_speed(structure, process, spindle_speed_rpm);
   const DepthFollower follower(cut, point, options);
   return follower.relative_change(follower.gain(in_tool_axes(other, process.frame)) - follower.gain(cut.structure));
+}
+
+std::vector<double> moved_depths_m(const RelativeStructure& structure, const std::vector<RelativeStructure>& others,
+                                   const MillingProcess& process, double spindle_speed_rpm, const LobePoint& point,
+                                   const StabilityOptions& options) {
+  require_usable(process, options);
+  const CutAtSpeed cut = cut_at_speed(structure, process, spindle_speed_rpm);
+  const DepthFollower follower(cut, point, options);
+  const Eigen::MatrixXcd Z = follower.gain(cut.structure);
+  const bool one_grid = !process.cutter.depends_on_depth();
+  std::vector<double> depths;
+  depths.reserve(others.size());
+  for (const RelativeStructure& other : others) {
+    const RelativeStructure turned = in_tool_axes(other, process.frame);
+    if (const auto depth = one_grid ? follower.depth_with(turned) : std::nullopt) {
+      depths.push_back(*depth);
+      continue;
+    }
+    const double of_reciprocal = 1.0 - follower.relative_change(follower.gain(turned) - Z);
+    depths.push_back(of_reciprocal > 0.0 ? point.depth_m / of_reciprocal : INFINITY);
+  }
+  return depths;
 }
 
 std::vector<std::string> validate(const Uncertainty& u) {

@@ -2,6 +2,8 @@
 // The sensitivity of a critical depth to the structure and the coefficients.
 
 #include <Eigen/Core>
+#include <string>
+#include <vector>
 
 #include "milling/cut/process.hpp"
 #include "milling/direct/lobe_row.hpp"
@@ -45,6 +47,17 @@ struct DepthSensitivity {
 [[nodiscard]] double relative_depth_change(const RelativeStructure& structure, const RelativeStructure& other,
                                            const MillingProcess& process, double spindle_speed_rpm,
                                            const LobePoint& point, const StabilityOptions& options);
+
+/// The depths, m, to which a critical depth w moves where `structure` becomes each of `others`. On the grid of the
+/// crossing Newton's rule brings it to the axis of the changed loop (to_axis() of crossing.hpp), so that the depth is
+/// exact up to the grid's error and that of a crossing of the other structure, though not always of its first. Where
+/// the rule does not settle, and for a cut whose shape changes with the depth, 1/w is taken to first order as in
+/// relative_depth_change(); infinite where that is no longer positive. `point`, errors: as depth_sensitivity(). Cost:
+/// one value of Z and some four factorisations of its size for each of the others.
+[[nodiscard]] std::vector<double> moved_depths_m(const RelativeStructure& structure,
+                                                 const std::vector<RelativeStructure>& others,
+                                                 const MillingProcess& process, double spindle_speed_rpm,
+                                                 const LobePoint& point, const StabilityOptions& options);
 
 /// Standard uncertainties, relative, of every mode and coefficient alike.
 struct Uncertainty {

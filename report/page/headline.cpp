@@ -22,7 +22,8 @@ struct Answer {
 };
 
 /// The relative error that a depth may have: the estimate of the computation, what the part's reduction left out, and
-/// twice the standard deviation by the noise of measured FRFs, as the chart's band has them. Where the row does not
+/// twice the standard deviation by the noise of measured FRFs, as the chart's band has them, and the range by what was
+/// identified. Where the row does not
 /// tell, the chart's largest. 0: nothing is known.
 double depth_error(double depth_m, const std::optional<double>& estimate, const DepthErrorsSummary* of_row,
                    const std::optional<ChartErrorsSummary>& of_chart) {
@@ -31,8 +32,11 @@ double depth_error(double depth_m, const std::optional<double>& estimate, const 
   };
   const DepthErrorsSummary row = of_row != nullptr ? *of_row : DepthErrorsSummary{};
   const ChartErrorsSummary chart = of_chart.value_or(ChartErrorsSummary{});
+  double identification = chart.largest_identification_relative.value_or(0.0);
+  if (row.identification && depth_m > 0.0)
+    identification = std::max(1.0 - row.identification->low_m / depth_m, row.identification->high_m / depth_m - 1.0);
   return estimate.value_or(0.0) + share(row.truncation_m, chart.largest_truncation_relative) +
-         2.0 * share(row.noise_deviation_m, chart.largest_noise_relative);
+         2.0 * share(row.noise_deviation_m, chart.largest_noise_relative) + identification;
 }
 
 double error_of_least(const LobesSummary& chart) {

@@ -47,9 +47,15 @@ bool is_sound(const std::string& status) {
   return status == "converged" || status == "stable_to_depth_limit" || status == "data_limited";
 }
 
+std::string range_text(const std::optional<DepthErrorsSummary>& errors) {
+  if (!errors || !errors->identification) return "";
+  return fmt::format(", 95 %: {:.3g} to {}", 1e3 * errors->identification->low_m,
+                     millimetres(errors->identification->high_m));
+}
+
 std::string text_of(const Limit& limit) {
   return (limit.converged ? "stable up to " : "not converged: ") + millimetres(limit.depth_m) + limit.at +
-         remarks(limit) + limit.provided;
+         remarks(limit) + limit.range + limit.provided;
 }
 
 std::string short_text_of(const Limit& limit) {
@@ -59,11 +65,13 @@ std::string short_text_of(const Limit& limit) {
 Limit limit_of_chart(const LobesSummary& chart, const std::optional<CuttingSummary>& cutting) {
   if (const auto& row = chart.at_case_speed) {
     Limit limit = at_speed(*row, cutting);
+    limit.range = range_text(row->error_budget);
     if (row->contact && row->contact->lost_above_m)
       limit.provided = " if the contact holds; it is lost above " + millimetres(*row->contact->lost_above_m);
     return limit;
   }
   Limit limit{chart.minimum_depth_m, " at every speed", chart.speeds_not_converged == 0, "", ""};
+  if (chart.error_budget) limit.range = range_text(chart.error_budget->at_minimum);
   if (chart.speeds_stable_to_depth_limit == chart.speeds) limit.of_depth_limit = depth_limit_in_words(cutting);
   if (!limit.converged)
     limit.more = fmt::format("{} of {} speeds did not reach the tolerance", chart.speeds_not_converged, chart.speeds);

@@ -28,8 +28,12 @@ struct Limit {
   bool converged = true;
   std::string of_depth_limit;  ///< what the depth limit is, where the depth is no more than that: "tool length"
   std::string more;            ///< "weakest at position 6 of 7"
+  std::string range = {};      ///< ", 95 %: 4.95 to 5.42 mm", of a limit that hangs on what was identified
   std::string provided = {};   ///< " if the contact holds; it is lost above 0.31 mm"
 };
+
+/// ", 95 %: 4.95 to 5.42 mm" of a depth with a range by what was identified, else "".
+[[nodiscard]] std::string range_text(const std::optional<DepthErrorsSummary>& errors);
 
 /// "stable up to 20 mm at 1900 rpm (tool length)", "not converged: 13.7 mm at 1900 rpm".
 [[nodiscard]] std::string text_of(const Limit& limit);

@@ -90,7 +90,8 @@ json chart_of(const fs::path& folder, const std::string& name) {
                  {"chatter_hz", chart.rough("chatter_frequency_hz")},
                  {"kind", chart.words("bifurcation")},
                  {"status", chart.statuses()}};
-  for (const char* column : {"truncation_m", "noise_deviation_m", "robust_depth_m"}) {
+  for (const char* column :
+       {"truncation_m", "noise_deviation_m", "identification_low_m", "identification_high_m", "robust_depth_m"}) {
     if (chart.has(column)) result[column] = chart.rough(column);
   }
   const fs::path file = folder / (name + "_crossings.csv");

@@ -62,9 +62,22 @@ void fields(Visitor& visit, Section& sampled) {
         sampled.without_limit);
 }
 
+/// The range in which a limiting depth lies by the uncertainty of what was identified.
+struct DepthRangeSummary {
+  double low_m = 0.0, high_m = 0.0;
+};
+
+template <class Visitor, Either<DepthRangeSummary> Section>
+void fields(Visitor& visit, Section& range) {
+  visit(Field{"low_m", Kind::length, "2.5 % of the limits lie below"}, range.low_m);
+  visit(Field{"high_m", Kind::length, "2.5 % of the limits lie above; the depth limit if they are stable up to it"},
+        range.high_m);
+}
+
 /// The errors of a limiting depth by errors of the structure.
 struct DepthErrorsSummary {
   std::optional<double> truncation_m, noise_deviation_m;
+  std::optional<DepthRangeSummary> identification;
   std::optional<SampledDepthSummary> sampled;
 };
 
@@ -76,12 +89,16 @@ void fields(Visitor& visit, Section& errors) {
   visit(Field{"noise_deviation_m", Kind::length,
               "standard deviation by the noise of what was measured, first order; null: not known", Presence::or_null},
         errors.noise_deviation_m);
-  visit(Field{"sampled", Kind::section, "the same by drawn samples, where they were asked for"}, errors.sampled);
+  visit(Field{"identification", Kind::section,
+              "95 % of the limits lie between, by the uncertainty of a fitted tool or a learned robot; absent: neither "
+              "is there, or it is not known"},
+        errors.identification);
+  visit(Field{"sampled", Kind::section, "the noise by drawn samples, where they were asked for"}, errors.sampled);
 }
 
 /// The errors of a chart by errors of the structure.
 struct ChartErrorsSummary {
-  std::optional<double> largest_truncation_relative, largest_noise_relative;
+  std::optional<double> largest_truncation_relative, largest_noise_relative, largest_identification_relative;
   std::optional<DepthErrorsSummary> at_minimum;
 };
 
@@ -93,6 +110,10 @@ void fields(Visitor& visit, Section& errors) {
   visit(Field{"largest_noise_relative", Kind::error_estimate,
               "largest standard deviation of a row over its depth; null: not known", Presence::or_null},
         errors.largest_noise_relative);
+  visit(Field{"largest_identification_relative", Kind::error_estimate,
+              "largest distance of a depth from an end of its range of 95 % by what was identified, over the depth; "
+              "absent: nothing was identified"},
+        errors.largest_identification_relative);
   visit(Field{"at_minimum", Kind::section, "of the row of least depth"}, errors.at_minimum);
 }
 

@@ -6,9 +6,11 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "identification/drawn_fits.hpp"
 #include "identification/fit_response.hpp"
 #include "identification/fitted_model.hpp"
 #include "io/frf/resample.hpp"
+#include "setup/identified/draws.hpp"
 #include "setup/measured.hpp"
 #include "setup/measured_layout.hpp"
 
@@ -109,6 +111,7 @@ dynamics::ModalModel beside(const dynamics::ModalModel& a, const dynamics::Modal
 
 FittedTip fitted_tip(const Tool& tool) {
   FittedTip tip;
+  unsigned seed = 1;
   for (const std::vector<MeasuredFrf>& files : joined_files(tool.measured)) {
     const dynamics::FrequencyAxis axis = receptance_of(tool.measured.front()).axis;
     const dynamics::ResponseModel measured = measured_response(files, axis);
@@ -117,7 +120,16 @@ FittedTip fitted_tip(const Tool& tool) {
     const identification::ResponseFit fit =
         identification::fit_of_any_rank(measured, coherence_of(files, layout, axis), options);
     tell(fit, measured, options, tip);
-    tip.model = beside(tip.model, identification::modal_model(fit.found.fit, measured.responses, measured.forces));
+    const auto add = [&](dynamics::ModalModel& model, const identification::ModalFit& found) {
+      model = beside(model, identification::modal_model(found, measured.responses, measured.forces));
+    };
+    add(tip.model, fit.found.fit);
+    const std::vector<identification::ModalFit> drawn =
+        identification::drawn_fits(fit.lines, fit.found.fit, {fit.found.terms, options.identify.residues},
+                                   measured_layout(files).file, identified_draws, seed);
+    seed += identified_draws;  // each group has draws of its own
+    tip.drawn.resize(drawn.size());
+    for (std::size_t i = 0; i < drawn.size(); ++i) add(tip.drawn[i], drawn[i]);
   }
   return tip;
 }

@@ -12,14 +12,11 @@ struct LearnedModes {
   LearnedPostures learned;
 };
 
-/// Reads the postures' list and the table of each, follows the modes over the postures (identification::track()),
-/// learns ln f, ln ζ and the residues over the columns, each scaled to −1 … 1 (posture::Predictor, without a model as
-/// the mean), and predicts them at the posture that is asked for. A residue of more than rank one, as of modes that
-/// overlap, becomes several rows. Doubts: a posture beyond the hull of the tapped ones, modes that were seen at too few
-/// of them, labels that neighbours contradict. Throws InputError for a robot without postures, a table without
-/// "{posture}" in its name, columns and numbers that are not as many, a column that does not vary, tables with
-/// different DOFs of the tip; DataError for files as io::read_csv_text() and io::read_modal_table(). Cost: the reading,
-/// then a process for each number of each mode (posture::Predictor).
-[[nodiscard]] LearnedModes learned_modes(const TabledRobot& robot);
+/// Learns ln f, ln ζ and the residues at the tip over the columns of postures that were read (posture::Predictor),
+/// plainly or as the difference to a calibrated arm (arm_mean.hpp), whose joints are `asked_joints` (rad, m) at the
+/// posture that is asked for, and predicts them at the posture that is asked for, with identified_draws tables that are
+/// drawn from the prediction (posture::drawn_modes()). Throws InputError for a robot whose postures were not read, and
+/// as posture::Predictor. Cost: a process for each number of each mode (posture::Predictor).
+[[nodiscard]] LearnedModes learned_modes(const TabledRobot& robot, const Eigen::VectorXd& asked_joints = {});
 
 }  // namespace thinwall::setup

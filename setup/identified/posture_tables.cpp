@@ -5,15 +5,16 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <map>
+#include <memory>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "identification/tracking.hpp"
 #include "io/csv_text.hpp"
-#include "io/frf/modal_table_csv.hpp"
 #include "posture/hull.hpp"
 #include "posture/predictor.hpp"
+#include "robot/modal_table.hpp"
 
 namespace thinwall::setup {
 
@@ -21,37 +22,106 @@ namespace {
 
 constexpr std::string_view place_of_name = "{posture}";
 
-std::size_t column_of(const io::CsvText& text, const std::string& name) {
+[[noreturn]] void refuse(const char* key, const std::string& what) {
+  throw TabledRobotError(key, core::InputError(what));
+}
+
+/// Calls `read`, whose errors are those of the key.
+template <class Read>
+auto read_for(const char* key, const Read& read) {
+  try {
+    return read();
+  } catch (const core::Interrupted&) {
+    throw;
+  } catch (const TabledRobotError&) {
+    throw;
+  } catch (const core::Error& error) {
+    throw TabledRobotError(key, error);
+  }
+}
+
+void require_keys(const TabledRobot& robot) {
+  if (!robot.postures) refuse("postures", "a robot without postures has nothing to learn; give robot.postures");
+  if (robot.table.string().find(place_of_name) == std::string::npos)
+    refuse("table", "robot.table = \"" + robot.table.string() +
+                        "\" names one file; with robot.postures it must have {posture} where the name of each stands, "
+                        "as \"fits/{posture}/modal_table.csv\"");
+  const std::size_t over = robot.postures->over.size(), at = robot.postures->at.size();
+  if (over == 0)
+    refuse("over", "no column is named; name those of " + robot.postures->list.string() + " over which is learned");
+  if (over != at)
+    refuse("at", "has " + std::to_string(at) + " numbers for the " + std::to_string(over) +
+                     " columns of robot.over; give one for each");
+}
+
+std::size_t column_of(const io::CsvText& text, const std::string& name, const char* key) {
   const auto found = std::ranges::find(text.header, name);
   if (found == text.header.end())
-    throw core::DataError(text.path.string() + " has no column \"" + name + "\"; it has " +
-                          fmt::format("{}", fmt::join(text.header, ", ")));
+    refuse(key, text.path.string() + " has no column \"" + name + "\"; it has " +
+                    fmt::format("{}", fmt::join(text.header, ", ")));
   return static_cast<std::size_t>(found - text.header.begin());
 }
 
-void read_list(const TappedPostures& postures, PostureTables& read) {
+/// A name is that of one posture, for it names a file.
+void require_names(const io::CsvText& text, const std::vector<std::string>& names) {
+  std::map<std::string, int> line_of;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto [first, is_new] = line_of.try_emplace(names[i], text.lines[i].number);
+    if (!is_new)
+      refuse("postures", io::location(text, text.lines[i]) + ": posture \"" + names[i] + "\" stands in line " +
+                             std::to_string(first->second) + ", too; give each a name of its own");
+  }
+}
+
+/// Each column varies, and no two postures are at one place.
+void require_places(const TappedPostures& postures, const PostureTables& read) {
+  for (Eigen::Index c = 0; c < read.places.cols(); ++c) {
+    if (!(read.places.col(c).maxCoeff() > read.places.col(c).minCoeff()))
+      refuse("over", "\"" + postures.over[static_cast<std::size_t>(c)] + "\" is the same at all postures of " +
+                         postures.list.string() + "; leave it out");
+  }
+  for (Eigen::Index i = 0; i < read.places.rows(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      if (read.places.row(i) == read.places.row(j))
+        refuse("postures", "\"" + read.names[static_cast<std::size_t>(j)] + "\" and \"" +
+                               read.names[static_cast<std::size_t>(i)] + "\" are at one place of " +
+                               fmt::format("{}", fmt::join(postures.over, ", ")) +
+                               "; average their tables or leave one out");
+    }
+  }
+}
+
+/// The joints of the arm that is the mean; "0" stands for one that does not move.
+Eigen::MatrixXd read_joints(const io::CsvText& text, const std::vector<std::string>& columns) {
+  Eigen::MatrixXd joints = Eigen::MatrixXd::Zero(std::ssize(text.lines), std::ssize(columns));
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    if (columns[c] == "0") continue;
+    const std::size_t column = column_of(text, columns[c], "joint_columns");
+    for (std::size_t i = 0; i < text.lines.size(); ++i)
+      joints(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) = io::number(text, text.lines[i], column);
+  }
+  return joints;
+}
+
+void read_list(const TabledRobot& robot, PostureTables& read) {
+  const TappedPostures& postures = *robot.postures;
   const io::CsvText text = io::read_csv_text(postures.list);
   io::require_columns(text, text.header.size(), "those of the header");
-  const std::size_t name = column_of(text, "posture");
+  const std::size_t name = column_of(text, "posture", "postures");
+  for (const io::CsvLine& line : text.lines) read.names.push_back(line.fields[name]);
+  require_names(text, read.names);
   read.places.resize(std::ssize(text.lines), std::ssize(postures.over));
   for (std::size_t c = 0; c < postures.over.size(); ++c) {
-    const std::size_t column = column_of(text, postures.over[c]);
+    const std::size_t column = column_of(text, postures.over[c], "over");
     for (std::size_t i = 0; i < text.lines.size(); ++i)
       read.places(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) = io::number(text, text.lines[i], column);
   }
-  for (const io::CsvLine& line : text.lines) read.names.push_back(line.fields[name]);
-}
-
-void require_variation(const TappedPostures& postures, const Eigen::MatrixXd& places) {
-  for (Eigen::Index c = 0; c < places.cols(); ++c) {
-    if (!(places.col(c).maxCoeff() > places.col(c).minCoeff()))
-      throw core::InputError("robot.over: \"" + postures.over[static_cast<std::size_t>(c)] +
-                             "\" is the same at all postures of " + postures.list.string() + "; leave it out");
-  }
+  require_places(postures, read);
+  if (robot.mean) read.joints = read_joints(text, robot.joint_columns);
 }
 
 /// The file of a posture's modes.
-std::filesystem::path file_of(const std::filesystem::path& pattern, const std::string& posture) {
+std::filesystem::path table_of(const std::filesystem::path& pattern, const std::string& posture) {
   std::string path = pattern.string();
   for (auto at = path.find(place_of_name); at != std::string::npos; at = path.find(place_of_name, at + posture.size()))
     path.replace(at, place_of_name.size(), posture);
@@ -65,16 +135,14 @@ std::vector<std::string> names_of(const dynamics::DofTable& dofs) {
 }
 
 void read_tables(const TabledRobot& robot, PostureTables& read) {
-  const io::ModalTableFormat format{
-      io::modal_unit(robot.left_unit), io::modal_unit(robot.right_unit), {{robot.table_point, {0.0}}}};
   for (const std::string& name : read.names) {
-    read.files.push_back(file_of(robot.table, name));
-    read.tables.push_back(io::read_modal_table(read.files.back(), format));
+    read.files.push_back(table_of(robot.table, name));
+    read.tables.push_back(read_tip_table(read.files.back(), robot));
     const auto dofs = names_of(read.tables.back().dofs), first = names_of(read.tables.front().dofs);
     if (dofs != first)
-      throw core::InputError(read.files.back().string() + " has " + fmt::format("{}", fmt::join(dofs, ", ")) + ", " +
-                             read.files.front().string() + " has " + fmt::format("{}", fmt::join(first, ", ")) +
-                             "; tap the same at every posture");
+      refuse("table", read.files.back().string() + " has " + fmt::format("{}", fmt::join(dofs, ", ")) + ", " +
+                          read.files.front().string() + " has " + fmt::format("{}", fmt::join(first, ", ")) +
+                          "; tap the same at every posture");
   }
 }
 
@@ -87,43 +155,39 @@ void follow_modes(PostureTables& read) {
   for (const std::vector<bool>& of : tracking.doubtful) read.doubtful += static_cast<int>(std::ranges::count(of, true));
 }
 
-/// The number of modes that are seen at too few postures to be learned.
-int too_few(const PostureTables& read) {
+/// The number of modes that are seen at enough postures to be learned, and of those that are not.
+struct LearnedCount {
+  int enough = 0, too_few = 0;
+};
+
+LearnedCount count_of(const PostureTables& read) {
   std::map<int, int> postures;
   for (const std::vector<int>& of : read.labels) {
     for (const int label : of) ++postures[label];
   }
-  return static_cast<int>(std::ranges::count_if(postures, [](const auto& seen) {
-    return seen.second < std::max(2, posture::PredictorOptions{}.fewest_postures);
-  }));
-}
-
-void require_valid(const TabledRobot& robot) {
-  if (!robot.postures) throw core::InputError("a robot without postures has nothing to learn; give robot.postures");
-  if (robot.table.string().find(place_of_name) == std::string::npos)
-    throw core::InputError("robot.table = \"" + robot.table.string() +
-                           "\" names one file; with robot.postures it must have {posture} where the name of each "
-                           "stands, as \"fits/{posture}/modal_table.csv\"");
-  const std::size_t over = robot.postures->over.size(), at = robot.postures->at.size();
-  if (over == 0 || over != at)
-    throw core::InputError("robot.over has " + std::to_string(over) + " columns and robot.at " + std::to_string(at) +
-                           " numbers; give a number for each column of " + robot.postures->list.string());
+  LearnedCount count;
+  for (const auto& [label, seen] : postures)
+    ++(seen < std::max(2, posture::PredictorOptions{}.fewest_postures) ? count.too_few : count.enough);
+  return count;
 }
 
 }  // namespace
 
 PostureTables read_posture_tables(const TabledRobot& robot) {
-  require_valid(robot);
+  require_keys(robot);
   PostureTables read;
-  read_list(*robot.postures, read);
-  require_variation(*robot.postures, read.places);
-  read_tables(robot, read);
-  follow_modes(read);
+  read_for("postures", [&] { read_list(robot, read); });
+  read_for("table", [&] { read_tables(robot, read); });
+  read_for("table", [&] { follow_modes(read); });
+  if (count_of(read).enough == 0)
+    refuse("postures", "no mode was seen at enough of the " + std::to_string(read.names.size()) + " postures of " +
+                           robot.postures->list.string() + " to be learned; tap more");
   return read;
 }
 
-ScaledPlaces scaled_places(const PostureTables& read, const std::vector<double>& at) {
-  ScaledPlaces scaled{read.places, Eigen::Map<const Eigen::VectorXd>(at.data(), std::ssize(at))};
+ScaledPlaces scaled_places(const TabledRobot& robot) {
+  const std::vector<double>& at = robot.postures->at;
+  ScaledPlaces scaled{robot.tapped->places, Eigen::Map<const Eigen::VectorXd>(at.data(), std::ssize(at))};
   for (Eigen::Index c = 0; c < scaled.places.cols(); ++c) {
     const double low = scaled.places.col(c).minCoeff(), high = scaled.places.col(c).maxCoeff();
     scaled.places.col(c) = (scaled.places.col(c).array() - 0.5 * (low + high)) / (0.5 * (high - low));
@@ -132,21 +196,40 @@ ScaledPlaces scaled_places(const PostureTables& read, const std::vector<double>&
   return scaled;
 }
 
-std::vector<std::string> doubts_about(const PostureTables& read, const std::vector<double>& at) {
+std::vector<posture::TappedPosture> tapped_at_tip(const TabledRobot& robot) {
+  const PostureTables& read = *robot.tapped;
+  const Eigen::MatrixXd places = scaled_places(robot).places;
+  std::vector<posture::TappedPosture> postures;
+  for (std::size_t i = 0; i < read.tables.size(); ++i)
+    postures.push_back({{places.row(static_cast<Eigen::Index>(i)).transpose(), {}, {}},
+                        modes_of(robot::at_point(read.tables[i], robot.table_point), read.files[i].string()),
+                        read.labels[i],
+                        {}});
+  return postures;
+}
+
+std::vector<std::string> doubts_about(const TabledRobot& robot) {
   std::vector<std::string> doubts;
-  if (read.doubtful > 0)
-    doubts.push_back(std::to_string(read.doubtful) +
+  if (!robot.postures || !robot.tapped) return doubts;
+  if (robot.tapped->doubtful > 0)
+    doubts.push_back(std::to_string(robot.tapped->doubtful) +
                      " modes could not be followed over the postures without contradiction; what is learned of them is "
                      "less certain than told: tap postures between");
-  const ScaledPlaces scaled = scaled_places(read, at);
+  const ScaledPlaces scaled = scaled_places(robot);
   if (const double distance = posture::distance_from_hull(scaled.places, scaled.at); distance > 1e-9)
     doubts.push_back("robot.at lies " + core::number_text(50.0 * distance, 2) +
                      " % of the postures' range beyond their hull, where nothing was tapped; tap one there");
-  if (const int few = too_few(read); few > 0)
-    doubts.push_back(std::to_string(few) +
+  if (const int too_few = count_of(*robot.tapped).too_few; too_few > 0)
+    doubts.push_back(std::to_string(too_few) +
                      " of the robot's modes were seen at too few postures to be learned, and their compliance is "
                      "missing; tap more postures");
   return doubts;
+}
+
+TabledRobot as_first_posture(TabledRobot robot) {
+  if (robot.tapped && !robot.table_modes)
+    robot.table_modes = std::make_shared<const dynamics::ModalTable>(robot.tapped->tables.front());
+  return robot;
 }
 
 }  // namespace thinwall::setup

@@ -1,11 +1,15 @@
 #include "setup/identified/table_modes.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <complex>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
 #include "identification/fitted_model.hpp"
+#include "io/frf/modal_table_csv.hpp"
 
 namespace thinwall::setup {
 
@@ -25,6 +29,22 @@ identification::FittedMode mode_of(const dynamics::ModalTableRow& row) {
 }
 
 }  // namespace
+
+dynamics::ModalTable read_tip_table(const std::filesystem::path& file, const TabledRobot& robot) {
+  dynamics::ModalTable table =
+      io::read_modal_table(file, {io::modal_unit(robot.left_unit), io::modal_unit(robot.right_unit), {}});
+  std::vector<std::string> points;
+  for (const dynamics::Dof& dof : table.dofs) {
+    if (std::ranges::count(points, dof.point) == 0) points.push_back(dof.point);
+  }
+  if (std::ranges::count(points, robot.table_point) == 0)
+    throw TabledRobotError("table_point",
+                           core::InputError("\"" + robot.table_point + "\" is no point of " + file.string() +
+                                            "; it has \"" + fmt::format("{}", fmt::join(points, "\", \"")) + "\""));
+  for (dynamics::ModalTableRow& row : table.rows)
+    row.place_m(dynamics::rows_of_point(table.dofs, robot.table_point)).setZero();
+  return table;
+}
 
 std::vector<identification::FittedMode> modes_of(const dynamics::ModalTable& table, const std::string& file) {
   std::vector<identification::FittedMode> modes;

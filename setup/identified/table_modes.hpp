@@ -1,13 +1,29 @@
 #pragma once
 // Rows of a table of modes as an identification gives them, and back.
 
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "dynamics/modal_table.hpp"
 #include "identification/modal_fit.hpp"
+#include "setup/robot.hpp"
 
 namespace thinwall::setup {
+
+/// A fault of a robot that is known by tables, and the key of the robot that is at fault: "table", "table_point",
+/// "postures", "over", "at", "joint_columns".
+struct TabledRobotError : core::Error {
+  TabledRobotError(std::string key_at_fault, const core::Error& fault)
+      : core::Error(fault.code(), fault.what()), key(std::move(key_at_fault)) {}
+  std::string key;
+};
+
+/// Reads a table of modes in the units of the robot, with its tip at one place. Throws TabledRobotError for a file
+/// without the tip's point, and errors as io::modal_unit() and io::read_modal_table().
+[[nodiscard]] dynamics::ModalTable read_tip_table(const std::filesystem::path& file, const TabledRobot& robot);
 
 /// The rows of a table as an identification would give them: residue R Lᵀ, largest entry of the left vector 1. Throws
 /// DataError, with the file's name, for a mode that moves nothing.

@@ -2,6 +2,7 @@
 
 #include "core/messages.hpp"
 #include "study/kept/archive_models.hpp"
+#include "study/kept/input_key.hpp"
 
 // Members of each type, for cereal, which looks in the type's own namespace.
 namespace thinwall {
@@ -112,6 +113,10 @@ void serialize(Archive& archive, UpdatingResult::Target& t) {
   archive(t.quantity, t.wanted, t.reached, t.sensitivity);
 }
 template <class Archive>
+void serialize(Archive& archive, DepthError& e) {
+  archive(e.truncation_m, e.noise_m, e.low_m, e.high_m);
+}
+template <class Archive>
 void serialize(Archive& archive, UpdatingResult& u) {
   archive(u.name, u.parameters, u.targets, u.evaluations, u.converged);
 }
@@ -161,6 +166,21 @@ void fits_of_checkpoint(Checkpoint& kept, const setup::Variation& variation, set
   compute(work, results);
   fits.assign(results.updating.begin() + before, results.updating.end());
   kept.add("fits", to_bytes(fits));
+}
+
+std::vector<DepthError> errors_of_checkpoint(Checkpoint& kept, const std::string& chart,
+                                             const std::vector<double>& speeds_rpm,
+                                             const std::function<std::vector<DepthError>()>& compute) {
+  // Operating points add speeds to a chart of the same key.
+  const std::string name = chart + "-errors-" + key_of_bytes(to_bytes(speeds_rpm)).substr(0, 16);
+  std::vector<DepthError> errors;
+  if (const std::string* bytes = kept.find(name)) {
+    from_bytes(*bytes, errors);
+    return errors;
+  }
+  errors = compute();
+  kept.add(name, to_bytes(errors));
+  return errors;
 }
 
 milling::KeptRows kept_rows(Checkpoint& kept, const std::string& chart) {

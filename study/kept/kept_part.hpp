@@ -24,4 +24,9 @@ void fits_of_checkpoint(Checkpoint& kept, const setup::Variation& variation, set
 /// Rows of a chart of that name from the checkpoint and into it.
 [[nodiscard]] milling::KeptRows kept_rows(Checkpoint& kept, const std::string& chart);
 
+/// The errors of a chart's rows at these speeds, kept or computed now.
+[[nodiscard]] std::vector<DepthError> errors_of_checkpoint(Checkpoint& kept, const std::string& chart,
+                                                           const std::vector<double>& speeds_rpm,
+                                                           const std::function<std::vector<DepthError>()>& compute);
+
 }  // namespace thinwall::study

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <variant>
 
 #include "setup/imported_part.hpp"
 #include "setup/milling_process.hpp"
+#include "setup/robot_tip.hpp"
 #include "study/kept/input_key.hpp"
 
 namespace thinwall::study {
@@ -35,6 +37,18 @@ std::string part_key(const setup::Setup& source) {
   std::vector<setup::Updating> fits;
   std::ranges::copy_if(source.updating, std::back_inserter(fits), fits_the_part);
   return part_key(part_input(source), fits);
+}
+
+std::string tool_key(const setup::CutSetup& source) {
+  return source.tool && source.tool->fit ? input_key(source.tool->measured) : "";
+}
+
+std::string robot_key(const setup::Setup& source) {
+  const setup::TabledRobot* robot = setup::tabled_robot(source.robot);
+  if (robot == nullptr || !robot->postures) return "";
+  const auto place = robot->mean ? setup::tip_place(source, source) : std::nullopt;  // where the arm is asked to stand
+  return input_key(*robot->postures, robot->tapped, robot->table_point, robot->mean, robot->joint_columns,
+                   robot->base.linear().eval(), place);
 }
 
 std::string structure_key(const setup::Setup& source) {

@@ -17,6 +17,13 @@ namespace thinwall::study {
 /// The key of a set-up's part, with its fits. Errors as part_input().
 [[nodiscard]] std::string part_key(const setup::Setup& source);
 
+/// The key of the fit of a measured tool: its files and lines. Empty where none is asked for.
+[[nodiscard]] std::string tool_key(const setup::CutSetup& source);
+
+/// The key of a robot's modes that are learned: its postures, their tables, an arm that is their mean, and the posture
+/// that is asked for. Empty where none are.
+[[nodiscard]] std::string robot_key(const setup::Setup& source);
+
 /// The key of part, robot and their receptances: everything but the cut and the charts. Errors as part_input().
 [[nodiscard]] std::string structure_key(const setup::Setup& source);
 

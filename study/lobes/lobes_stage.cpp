@@ -82,19 +82,20 @@ milling::Lobes refined_chart(const setup::CutSetup& source, const Chart& chart,
 }
 
 /// Errors of the limiting depths, and at the case's own speed; the rows share out among the threads.
-void add_errors(const setup::CutSetup& source, const Chart& chart, const StructureErrors& errors,
+void add_errors(const setup::CutSetup& source, const Chart& chart, const StructureErrors& errors, Checkpoint& kept,
                 StructureLobes& result) {
   if (errors.none() || (chart.poles() != nullptr && !chart.direct)) return;  // crossings of other methods are their own
   const auto at = [&](const milling::LobeRow& row) {
-    if (row.crossings.empty()) return DepthError{};
-    return depth_error(chart.structure, errors, chart.process, row.spindle_speed_rpm, row.crossings.front(),
-                       chart.options.stability);
+    return depth_error(chart.structure, errors, chart.process, row, chart.options.stability);
   };
-  result.errors.resize(result.lobes.rows.size());
-  core::Progress progress("errors of limits", result.errors.size());
-  core::parallel_for(result.errors.size(), [&](std::size_t i) {
-    result.errors[i] = at(result.lobes.rows[i]);
-    progress.step();
+  result.errors = errors_of_checkpoint(kept, core::word_of(result.of), speeds_of(result.lobes), [&] {
+    std::vector<DepthError> list(result.lobes.rows.size());
+    core::Progress progress("errors of limits", list.size());
+    core::parallel_for(list.size(), [&](std::size_t i) {
+      list[i] = at(result.lobes.rows[i]);
+      progress.step();
+    });
+    return list;
   });
   if (!result.at_spindle_speed) return;
   result.error_at_spindle_speed = at(*result.at_spindle_speed);
@@ -250,7 +251,7 @@ StructureLobes compute_lobes(const setup::CutSetup& source, ChartOf of, CutStruc
   result.doubtful = limit_below_resonance(chart.structure,
                                           result.at_spindle_speed ? *result.at_spindle_speed : least_row(result.lobes));
   tell_of_doubt(result);
-  add_errors(source, chart, errors, result);
+  add_errors(source, chart, errors, kept, result);
   for (const auto& point : points) {
     result.points.push_back(stability_of(point, chart, wanted.method, result.lobes));
     result.points.back().forced = forced_at(source, result.points.back(), chart);

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "setup/identified/identify.hpp"
+#include "setup/identified/posture_tables.hpp"
 #include "setup/imported_part.hpp"
+#include "setup/measured.hpp"
 #include "setup/robot_tip.hpp"
 #include "study/lobes/cut_structure.hpp"
 #include "study/support/support_stage.hpp"
@@ -51,6 +54,36 @@ Eigen::Vector3d direction_of_mode(const setup::Part& part, const Plate& plate, E
   return (main + 0.1 * beside).normalized();
 }
 
+/// A mode at the highest resonance of each measured direction, as damped as tools are.
+std::vector<setup::TipMode> highest_resonances(const setup::Tool& tool) {
+  constexpr double damping_ratio = 0.02;
+  std::vector<setup::TipMode> modes;
+  for (const setup::MeasuredFrf& file : tool.measured) {
+    if (file.response != file.force) continue;
+    const io::MeasuredFrf& lines = setup::receptance_of(file);
+    Eigen::Index line = 0;
+    const double peak = lines.H.cwiseAbs().maxCoeff(&line);
+    if (peak > 0.0)
+      modes.push_back({lines.axis.hz(line), damping_ratio, 1.0 / (2.0 * damping_ratio * peak),
+                       Eigen::Vector3d::Unit(direction_of_dof(file.response))});
+  }
+  return modes;
+}
+
+/// The set-up with models in place of those that are still to be identified: the robot as in its first posture, the
+/// tool by its highest resonances.
+setup::Setup before_identification(setup::Setup source) {
+  if (setup::awaits_fit(source)) {
+    source.tool->modes = highest_resonances(*source.tool);
+    source.tool->measured.clear();
+  }
+  if (setup::awaits_learning(source)) {
+    auto& robot = std::get<setup::TabledRobot>(source.robot->model);
+    robot = setup::as_first_posture(robot);
+  }
+  return source;
+}
+
 }  // namespace
 
 milling::RelativeStructure modes_like(const setup::Setup& source) {
@@ -75,7 +108,8 @@ milling::RelativeStructure modes_like(const setup::Setup& source) {
   return structure;
 }
 
-std::optional<milling::RelativeStructure> poles_like(const setup::Setup& source) {
+std::optional<milling::RelativeStructure> poles_like(const setup::Setup& given) {
+  const setup::Setup source = before_identification(given);
   std::optional<Component> robot;
   if (setup::carries_tool(source.robot)) {
     robot = robot_component(*source.robot, {Eigen::VectorXd::Ones(1)}, setup::robot_posture(source, source).posture);

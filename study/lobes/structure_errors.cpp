@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "coupling/error_budget.hpp"
 #include "io/frf/resample.hpp"
+#include "milling/chart/depth_band.hpp"
 #include "milling/chart/sensitivity.hpp"
 #include "setup/measured.hpp"
 #include "setup/measured_noise.hpp"
@@ -105,6 +106,36 @@ DepthError sampled_error(const milling::FittedStructure& structure, const Struct
   return result;
 }
 
+DepthError error_of_crossing(const CutStructure& structure, const StructureErrors& errors,
+                             const milling::MillingProcess& process, const milling::LobeRow& row,
+                             const milling::StabilityOptions& options) {
+  if (row.crossings.empty()) return {};
+  const milling::LobePoint& point = row.crossings.front();
+  try {
+    if (const auto* sampled = std::get_if<milling::FittedStructure>(&structure))
+      return sampled_error(*sampled, errors, process, row.spindle_speed_rpm, point, options);
+    if (!errors.richer) return {};
+    const double change =
+        milling::relative_depth_change(std::get<milling::RelativeStructure>(structure), *errors.richer, process,
+                                       row.spindle_speed_rpm, point, options);
+    DepthError result;
+    result.truncation_m = if_finite(-change * point.depth_m);
+    return result;
+  } catch (const core::NumericalError&) {
+    return {};  // the crossing was not found again
+  }
+}
+
+std::optional<milling::DepthRange> identified_range(const CutStructure& structure, const StructureErrors& errors,
+                                                    const milling::MillingProcess& process, const milling::LobeRow& row,
+                                                    const milling::StabilityOptions& options) {
+  if (const auto* sampled = std::get_if<milling::FittedStructure>(&structure))
+    return errors.drawn_changes.empty() ? std::nullopt
+                                        : milling::depth_range(*sampled, errors.drawn_changes, process, row, options);
+  if (errors.draws.empty()) return std::nullopt;
+  return milling::depth_range(std::get<milling::RelativeStructure>(structure), errors.draws, process, row, options);
+}
+
 }  // namespace
 
 StructureErrors structure_errors(const setup::CutSetup& source, const milling::ToolFrame& frame,
@@ -133,18 +164,14 @@ StructureErrors sampled_structure_errors(const setup::CutSetup& source, const mi
 }
 
 DepthError depth_error(const CutStructure& structure, const StructureErrors& errors,
-                       const milling::MillingProcess& process, double spindle_speed_rpm,
-                       const milling::LobePoint& point, const milling::StabilityOptions& options) {
-  try {
-    if (const auto* sampled = std::get_if<milling::FittedStructure>(&structure))
-      return sampled_error(*sampled, errors, process, spindle_speed_rpm, point, options);
-    if (!errors.richer) return {};
-    const double change = milling::relative_depth_change(std::get<milling::RelativeStructure>(structure),
-                                                         *errors.richer, process, spindle_speed_rpm, point, options);
-    return {if_finite(-change * point.depth_m), std::nullopt};
-  } catch (const core::NumericalError&) {
-    return {};  // the crossing was not found again
+                       const milling::MillingProcess& process, const milling::LobeRow& row,
+                       const milling::StabilityOptions& options) {
+  DepthError result = error_of_crossing(structure, errors, process, row, options);
+  if (const auto range = identified_range(structure, errors, process, row, options)) {
+    result.low_m = range->low_m;
+    result.high_m = range->high_m;
   }
+  return result;
 }
 
 }  // namespace thinwall::study

@@ -16,9 +16,13 @@ struct StructureErrors {
   std::optional<milling::RelativeStructure> richer{};  ///< its poles with what a reduction left out, part axes
   std::vector<Eigen::Matrix3cd> truncation{};          ///< of its samples, signed, tool axes, one a line
   milling::SampleCovariance noise{};                   ///< of its samples, tool axes, one a line
+  std::vector<milling::RelativeStructure> draws{};     ///< its poles by each draw of what was identified, part axes
+  std::vector<std::vector<Eigen::Matrix3cd>> drawn_changes{};  ///< of its samples likewise, tool axes, one a line
 
   /// True if nothing is known to be wrong.
-  [[nodiscard]] bool none() const { return !richer && truncation.empty() && noise.empty(); }
+  [[nodiscard]] bool none() const {
+    return !richer && truncation.empty() && noise.empty() && draws.empty() && drawn_changes.empty();
+  }
 };
 
 /// Of cut_structure() with the part (`richer_part`: with what its reduction left out, null if nothing was) or with the
@@ -32,11 +36,12 @@ struct StructureErrors {
 [[nodiscard]] StructureErrors sampled_structure_errors(const setup::CutSetup& source, const milling::ToolFrame& frame,
                                                        const Results& results);
 
-/// Of one crossing of a chart, first order in both (milling/chart/sensitivity.hpp,
-/// milling/chart/sampled_uncertainty.hpp). Where the crossing is not found again, or stands where its depth has no
+/// Of the limit of a row: truncation and noise of its first crossing, first order in both
+/// (milling/chart/sensitivity.hpp, milling/chart/sampled_uncertainty.hpp), and the range by draws of what was
+/// identified (milling/chart/depth_band.hpp). Where a crossing is not found again, or stands where its depth has no
 /// derivative, nothing is known. Errors as theirs otherwise.
 [[nodiscard]] DepthError depth_error(const CutStructure& structure, const StructureErrors& errors,
-                                     const milling::MillingProcess& process, double spindle_speed_rpm,
-                                     const milling::LobePoint& point, const milling::StabilityOptions& options);
+                                     const milling::MillingProcess& process, const milling::LobeRow& row,
+                                     const milling::StabilityOptions& options);
 
 }  // namespace thinwall::study

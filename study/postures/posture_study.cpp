@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "core/error.hpp"
@@ -28,29 +29,15 @@ const setup::TabledRobot& tabled_robot(const setup::Setup& source) {
   return *robot;
 }
 
-/// The robot and what its files hold.
-struct TappedRobot {
-  const setup::TabledRobot& robot;
-  setup::PostureTables read;
+/// The robot of a set-up with its files read.
+setup::TabledRobot tapped_robot(const setup::Setup& source) {
+  setup::TabledRobot robot = tabled_robot(source);
+  if (!robot.tapped) robot.tapped = std::make_shared<const setup::PostureTables>(setup::read_posture_tables(robot));
+  return robot;
+}
 
-  [[nodiscard]] dynamics::DofTable tip_dofs() const {
-    return robot::at_point(read.tables.front(), robot.table_point).dofs;
-  }
-};
-
-/// The postures with their modes at the tip, as the predictor takes them.
-std::vector<posture::TappedPosture> tapped_at_tip(const TappedRobot& tapped) {
-  const setup::PostureTables& read = tapped.read;
-  const Eigen::MatrixXd places = setup::scaled_places(read, tapped.robot.postures->at).places;
-  std::vector<posture::TappedPosture> postures;
-  for (std::size_t i = 0; i < read.tables.size(); ++i) {
-    const auto at_tip = robot::at_point(read.tables[i], tapped.robot.table_point);
-    postures.push_back({{places.row(static_cast<Eigen::Index>(i)).transpose(), {}, {}},
-                        setup::modes_of(at_tip, read.files[i].string()),
-                        read.labels[i],
-                        {}});
-  }
-  return postures;
+dynamics::DofTable tip_dofs(const setup::TabledRobot& robot) {
+  return robot::at_point(robot.tapped->tables.front(), robot.table_point).dofs;
 }
 
 std::vector<std::string> names_of(const dynamics::DofTable& dofs) {
@@ -60,13 +47,15 @@ std::vector<std::string> names_of(const dynamics::DofTable& dofs) {
 }
 
 /// Rows as the columns of robot.over have them, scaled as the postures are.
-std::vector<posture::Place> scaled(const TappedRobot& tapped, const Eigen::MatrixXd& rows) {
-  if (rows.cols() != tapped.read.places.cols())
+std::vector<posture::Place> scaled(setup::TabledRobot robot, const Eigen::MatrixXd& rows) {
+  if (rows.cols() != robot.tapped->places.cols())
     throw core::InputError(fmt::format("places with {} numbers, must have one for each of the {} columns of robot.over",
-                                       rows.cols(), tapped.read.places.cols()));
+                                       rows.cols(), robot.tapped->places.cols()));
   std::vector<posture::Place> places;
-  for (const auto& row : rows.rowwise())
-    places.push_back({setup::scaled_places(tapped.read, {row.begin(), row.end()}).at, {}, {}});
+  for (const auto& row : rows.rowwise()) {
+    robot.postures->at.assign(row.begin(), row.end());
+    places.push_back({setup::scaled_places(robot).at, {}, {}});
+  }
   return places;
 }
 
@@ -83,19 +72,19 @@ std::vector<double> chart_speeds(const setup::Setup& source) {
 }
 
 /// The cut of a robot that carries the tool, without a speed yet.
-std::optional<posture::PostureCut> cut_of(const setup::Setup& source, const TappedRobot& tapped,
+std::optional<posture::PostureCut> cut_of(const setup::Setup& source, const setup::TabledRobot& robot,
                                           std::vector<std::string>& notes) {
   if (!setup::carries_tool(source.robot) || !source.tool || !source.cutting) return std::nullopt;
   if (setup::known_by_lines(*source.tool))
     throw core::InputError("the tool is known by lines, must have poles beside the robot's; give tool.fit = true");
   posture::PostureCut cut;
   cut.process = setup::milling_process(source);
-  const dynamics::DofTable dofs = tapped.tip_dofs();
+  const dynamics::DofTable dofs = tip_dofs(robot);
   cut.responses.resize(3, std::ssize(dofs));
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     const bool moves = dofs[i].kind == dynamics::DofKind::translation;
     cut.responses.col(static_cast<Eigen::Index>(i)) =
-        moves ? Eigen::Vector3d(tapped.robot.base.linear() * dofs[i].direction) : Eigen::Vector3d::Zero();
+        moves ? Eigen::Vector3d(robot.base.linear() * dofs[i].direction) : Eigen::Vector3d::Zero();
   }
   cut.references = cut.responses;
   cut.stability.depth_limit_m = source.lobes ? source.lobes->depth_limit : source.tool->length;
@@ -122,7 +111,7 @@ void tell_labels(const posture::Predictor& predictor, const PostureStudy& study,
   notes.push_back(fmt::format("{} modes are learned from {} postures", predictor.labels().size(), study.names.size()));
 }
 
-void answer_map(const TappedRobot& robot, const posture::Predictor& predictor, const PostureQuestions& questions,
+void answer_map(const setup::TabledRobot& robot, const posture::Predictor& predictor, const PostureQuestions& questions,
                 std::optional<posture::PostureCut> cut, PostureStudy& study) {
   if (cut && questions.best_speed && !study.chart_rpm.empty()) cut->spindle_speeds_rpm = study.chart_rpm;
   study.mapped_at = posture::grid_within_hull(study.places, questions.grid);
@@ -141,9 +130,10 @@ void answer_envelope(const posture::PosturePrediction& at, const PostureQuestion
       posture::band_envelope(modes, cut, questions.split_hz.value_or(posture::widest_gap_hz(modes)), at.rest);
 }
 
-void answer_next(const TappedRobot& robot, const posture::Predictor& predictor, const PostureQuestions& questions,
-                 const std::optional<posture::PostureCut>& cut, PostureStudy& study) {
-  study.path = questions.path.size() > 0 ? questions.path : asked_place(robot.robot);
+void answer_next(const setup::TabledRobot& robot, const posture::Predictor& predictor,
+                 const PostureQuestions& questions, const std::optional<posture::PostureCut>& cut,
+                 PostureStudy& study) {
+  study.path = questions.path.size() > 0 ? questions.path : asked_place(robot);
   study.candidates =
       questions.candidates.size() > 0 ? questions.candidates : posture::grid_within_hull(study.places, questions.grid);
   study.next = posture::next_posture(predictor, scaled(robot, study.path), scaled(robot, study.candidates), cut);
@@ -168,16 +158,15 @@ PostureQuestions questions_on(const std::vector<std::string>& parts) {
 PostureStudy study_postures(const setup::Setup& source, const PostureQuestions& questions,
                             const StageListener& listener) {
   Stages stages(listener);
-  const setup::TabledRobot& tabled = tabled_robot(source);
-  const TappedRobot robot{tabled, setup::read_posture_tables(tabled)};
-  PostureStudy study{robot.read.names, tabled.postures->over, names_of(robot.tip_dofs()), robot.read.places,
-                     tapped_at_tip(robot)};
-  study.doubts = setup::doubts_about(robot.read, tabled.postures->at);
+  const setup::TabledRobot robot = tapped_robot(source);
+  PostureStudy study{robot.tapped->names, robot.postures->over, names_of(tip_dofs(robot)), robot.tapped->places,
+                     setup::tapped_at_tip(robot)};
+  study.doubts = setup::doubts_about(robot);
   study.chart_rpm = chart_speeds(source);
   std::optional<posture::PostureCut> cut = cut_of(source, robot, study.notes);
   stages.begin("learning");
   const posture::Predictor predictor(study.postures, {});
-  const posture::PosturePrediction at = predictor.predict(scaled(robot, asked_place(tabled)).front());
+  const posture::PosturePrediction at = predictor.predict(scaled(robot, asked_place(robot)).front());
   tell_labels(predictor, study, study.notes);
   if (cut) {
     study.spindle_speed_rpm = chosen_speed(source, questions, *cut, at);

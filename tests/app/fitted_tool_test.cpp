@@ -14,8 +14,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "dynamics/conversion.hpp"
-#include "setup/data_files.hpp"
-#include "setup/identified/fitted_tip.hpp"
+#include "setup/identified/identify.hpp"
 #include "tests/app/lobes_command.hpp"
 
 namespace thinwall::tests::fitted_tool_test {
@@ -109,7 +108,7 @@ TEST_F(FittedTool, HasTheReceptancesOfARoundToolWithNoise) {
   write("case.toml", helical_tool + "fit = true\n" + measured("xx.csv", "x", "x") + measured("yx.csv", "y", "x") +
                          measured("yy.csv", "y", "y") + cut);
   Case source = read_case(path("case.toml"));
-  setup::read_data_files(source);
+  setup::identify(source);
   ASSERT_TRUE(source.tool->fitted);
   const dynamics::ModalModel& model = source.tool->fitted->model;
   const dynamics::ResponseModel response = dynamics::to_response(model, {Eigen::Vector3d(600.0, 922.0, 1400.0)});
@@ -134,7 +133,7 @@ TEST_F(FittedTool, KeepsDirectionsApartThatNothingJoins) {
   write_entry("yy.csv", 0.0, 1.0, 0.0, 1);
   write("case.toml", helical_tool + "fit = true\n" + measured("xx.csv", "x", "x") + measured("yy.csv", "y", "y") + cut);
   Case source = read_case(path("case.toml"));
-  setup::read_data_files(source);
+  setup::identify(source);
   ASSERT_TRUE(source.tool->fitted);
   const dynamics::ModalModel& model = source.tool->fitted->model;
   EXPECT_EQ(model.poles.size(), 4);

@@ -9,11 +9,15 @@
 #include <string>
 
 #include "case/checks/doubts.hpp"
+#include "case/numbers.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "setup/identified/draws.hpp"
+#include "setup/identified/identify.hpp"
 #include "setup/robot_tip.hpp"
 #include "setup/simulation_faults.hpp"
+#include "study/kept/kept_identified.hpp"
 #include "tests/core/temporary_folder.hpp"
 
 namespace thinwall::cases::learned_postures_test {
@@ -62,7 +66,9 @@ TEST(LearnedPostures, FollowModesThroughACrossingToAPostureBetween) {
   const tests::TemporaryFolder folder;
   write_postures(folder.path, 9);
   for (const double u : {0.75, 1.25, 3.25}) {
-    const Case source = parse_case(robot(usual + "at = [" + std::to_string(u) + "]\n"), folder.path);
+    Case source = parse_case(robot(usual + "at = [" + std::to_string(u) + "]\n"), folder.path);
+    EXPECT_FALSE(modes(source)) << "reading a case learns nothing";
+    setup::identify(source);
     ASSERT_TRUE(modes(source));
     const auto found = [&](double hz) {
       double nearest = HUGE_VAL;
@@ -107,10 +113,14 @@ TEST(LearnedPostures, RefuseWhatCannotBeLearnedFrom) {
     EXPECT_NE(refusal(robot(keys), folder.path).find(words), std::string::npos) << refusal(robot(keys), folder.path);
   };
   told("table = \"p0.csv\"\nover = [\"u\"]\nat = [1]\n", "{posture}");
-  told(usual, "robot.over has 1 columns and robot.at 0 numbers");
-  told(usual + "at = [1, 2]\n", "robot.at 2 numbers");
+  told(usual, "robot.at: has 0 numbers for the 1 columns of robot.over");
+  told(usual + "at = [1, 2]\n", "robot.at: has 2 numbers");
+  told("table = \"{posture}.csv\"\nat = [1]\n", "robot.over: no column is named");
   told("table = \"{posture}.csv\"\nover = [\"v\"]\nat = [1]\n", "no column \"v\"; it has posture, u, same");
-  told("table = \"{posture}.csv\"\nover = [\"same\"]\nat = [1]\n", "is the same at all postures");
+  told("table = \"{posture}.csv\"\nover = [\"v\"]\nat = [1]\n", "robot.over: ");
+  told("table = \"{posture}.csv\"\nover = [\"same\"]\nat = [1]\n", "robot.over: \"same\" is the same at all postures");
+  told(usual + "at = [1]\ntable_point = \"7\"\n", "robot.table_point: \"7\" is no point of ");
+  told(usual + "at = [1]\ntable_point = \"7\"\n", "it has \"1\"");
   told("table = \"modes_{posture}.csv\"\nover = [\"u\"]\nat = [1]\n", "modes_p0.csv");
   std::string without = robot("table = \"p0.csv\"\nat = [1]\n");
   without.erase(without.find("postures ="), without.find("table =") - without.find("postures ="));
@@ -121,6 +131,60 @@ TEST(LearnedPostures, RefuseWhatCannotBeLearnedFrom) {
   told(usual + "at = [1]\n", "has a vector of zeros");
   std::filesystem::remove(folder.path / "postures.csv");
   told(usual + "at = [1]\n", "postures.csv");
+}
+
+/// Postures are told by their names and lines, under the key of their list.
+TEST(LearnedPostures, RefuseAPostureThatStandsTwice) {
+  const tests::TemporaryFolder folder;
+  write_postures(folder.path, 6);
+  const auto told = [&](const std::string& lines) {
+    core::write_file_atomically(folder.path / "postures.csv", "posture,u,same\np0,0,1\np1,1,1\n" + lines);
+    return refusal(robot(usual + "at = [1]\n"), folder.path);
+  };
+  EXPECT_NE(told("p0,2,1\n").find("robot.postures: "), std::string::npos) << told("p0,2,1\n");
+  EXPECT_NE(told("p0,2,1\n").find("postures.csv:4: posture \"p0\" stands in line 2, too"), std::string::npos)
+      << told("p0,2,1\n");
+  EXPECT_NE(told("p2,1,1\n").find("\"p1\" and \"p2\" are at one place of u"), std::string::npos) << told("p2,1,1\n");
+}
+
+/// Draws scatter about what is expected, and each is a table of the same DOFs.
+TEST(LearnedPostures, AreDrawnAboutWhatIsExpected) {
+  const tests::TemporaryFolder folder;
+  write_postures(folder.path, 6);
+  Case source = parse_case(robot(usual + "at = [1.9]\n"), folder.path);
+  setup::identify(source);
+  ASSERT_EQ(setup::draws_of(source), static_cast<std::size_t>(setup::identified_draws));
+  const double expected = modes(source)->rows.front().frequency_hz;
+  double mean = 0.0, square = 0.0;
+  for (std::size_t i = 0; i < setup::draws_of(source); ++i) {
+    setup::CutSetup cut = source;
+    setup::SupportSetup support = source;
+    setup::take_draw(i, cut, support);
+    const auto& drawn = *std::get<setup::TabledRobot>(support.robot->model).table_modes;
+    ASSERT_EQ(drawn.dofs.size(), modes(source)->dofs.size());
+    const double off = std::log(drawn.rows.front().frequency_hz / expected);
+    mean += off / setup::identified_draws;
+    square += off * off / setup::identified_draws;
+  }
+  EXPECT_GT(square, 0.0);
+  EXPECT_LT(std::abs(mean), 4.0 * std::sqrt(square / setup::identified_draws));
+}
+
+/// A variation of the posture that is asked for learns anew, one of another number takes what was learned.
+TEST(LearnedPostures, OfAVariationAreThoseOfItsPosture) {
+  const tests::TemporaryFolder folder;
+  write_postures(folder.path, 9);
+  Case source = parse_case(robot(usual + "at = [0.75]\n"), folder.path);
+  const setup::Variation given = variation_of(source);
+  setup::identify(source);
+  const setup::Variation variation = study::identified_variation(given, source);
+  const auto modes_of = [](const setup::Setup& varied) {
+    return std::get<setup::TabledRobot>(varied.robot->model).table_modes;
+  };
+  EXPECT_EQ(modes_of(variation.with({{"tool.diameter", 0.012}})), modes(source));
+  const auto there = modes_of(variation.with({{"robot.at", 3.25}}));
+  ASSERT_TRUE(there);
+  EXPECT_NEAR(there->rows.back().frequency_hz, ClosedForm::first_hz(3.25), 0.03);
 }
 
 TEST(LearnedPostures, OfTooFewPosturesLearnNothing) {

@@ -270,6 +270,24 @@ TEST(ExpectedModes, KeepTheSumOfResiduesWhereModesOverlap) {
   }
 }
 
+/// Two modes whose errors at every posture were opposite err oppositely in every draw, by half of their deviations
+/// where the residuals are halves; 3 % is the standard error of a deviation from 600 draws.
+TEST(DrawnModes, ErrAsTheirResidualsDid) {
+  PosturePrediction at = one_mode(0.01);
+  at.modes.push_back(at.modes.front());
+  at.modes[0].residuals = Eigen::MatrixXd::Zero(4, 30);
+  for (Eigen::Index i = 0; i < 30; ++i) at.modes[0].residuals(0, i) = i % 2 == 0 ? 0.5 : -0.5;
+  at.modes[1].residuals = -at.modes[0].residuals;
+  double square = 0.0;
+  for (const auto& modes : drawn_modes(at, 600)) {
+    const double first = std::log(modes[0].frequency_hz / 50.0), second = std::log(modes[1].frequency_hz / 50.0);
+    EXPECT_NEAR(first, -second, 1e-12);
+    EXPECT_NEAR(modes[0].damping_ratio, 0.03, 1e-12) << "no posture has shown an error of it";
+    square += first * first / 600.0;
+  }
+  EXPECT_NEAR(std::sqrt(square), 0.5 * 0.01, 3.0 * 0.03 * 0.5 * 0.01);
+}
+
 /// The structure of a cut has the receptance of the modes, whatever the rank of their residues, and the rest.
 TEST(StructureOf, HasTheReceptanceOfTheModes) {
   std::vector<identification::FittedMode> modes(2);

@@ -137,6 +137,16 @@ TEST(Headline, TheErrorIsThatOfTheDepthsInTheSentence) {
   EXPECT_NE(headline(summary)[1].find("estimated error 40 %"), std::string::npos) << "not known there: the chart's";
 }
 
+/// The range by what was identified stands behind the limit that it is of, and counts as its error.
+TEST(Headline, TellsTheRangeByWhatWasIdentified) {
+  Summary summary;
+  summary.lobes = {chart(ChartOf::supported, 0.010, false)};
+  summary.lobes[0].at_case_speed->error_budget.emplace().identification = {0.0092, 0.0115};
+  EXPECT_NE(headline(summary)[0].find("stable up to 10 mm at 1900 rpm, 95 %: 9.2 to 11.5 mm"), std::string::npos)
+      << headline(summary)[0];
+  EXPECT_NE(headline(summary)[1].find("estimated error 15 %"), std::string::npos) << headline(summary)[1];
+}
+
 PathSummary path(ChartOf name, double depth_m) {
   PathSummary path;
   path.name = name;

@@ -233,7 +233,10 @@ setup::TabledRobot* tabled_robot(setup::Setup& source) {
 void read_anew(setup::Setup& source) {
   for (setup::MeasuredFrf* frf : setup::measured_frfs(source)) frf->content.reset();
   if (auto* contact = tabled_contact(source)) contact->rows.reset();
-  if (auto* robot = tabled_robot(source)) robot->table_modes.reset();
+  if (auto* robot = tabled_robot(source)) {
+    robot->table_modes.reset();
+    robot->tapped.reset();
+  }
   setup::read_data_files(source);
 }
 

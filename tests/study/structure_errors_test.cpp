@@ -46,40 +46,42 @@ TEST(DepthError, WhatIsNotFiniteIsUnknown) {
   const milling::StabilityOptions options;
   const CutStructure structure = sampled(process);
   const auto& samples = std::get<milling::FittedStructure>(structure).lines.samples;
-  const milling::LobePoint point =
-      milling::limiting_depth(std::get<milling::FittedStructure>(structure), process, rpm, options).crossings.front();
+  const milling::LobeRow row =
+      milling::limiting_depth(std::get<milling::FittedStructure>(structure), process, rpm, options);
+  const milling::LobePoint& point = row.crossings.front();
   StructureErrors errors;
   for (const Eigen::Matrix3cd& H : samples.H) errors.truncation.emplace_back(0.01 * H);
   errors.noise.assign(samples.H.size(), 1e-20 * milling::SampleCovariance::value_type::Identity());
-  const DepthError known = depth_error(structure, errors, process, rpm, point, options);
+  const DepthError known = depth_error(structure, errors, process, row, options);
   ASSERT_TRUE(known.truncation_m && known.noise_m);
   // A model whose receptance is 1 % too large is cut 1 % too shallow.
   EXPECT_NEAR(*known.truncation_m, -0.01 * point.depth_m, 1e-4 * point.depth_m);
 
   errors.truncation[200].fill(std::numeric_limits<double>::quiet_NaN());
-  const DepthError without_truncation = depth_error(structure, errors, process, rpm, point, options);
+  const DepthError without_truncation = depth_error(structure, errors, process, row, options);
   EXPECT_FALSE(without_truncation.truncation_m);
   EXPECT_EQ(without_truncation.noise_m, known.noise_m);
 
   errors.truncation.clear();
   errors.noise.assign(samples.H.size(), 1e308 * milling::SampleCovariance::value_type::Identity());
-  EXPECT_FALSE(depth_error(structure, errors, process, rpm, point, options).noise_m) << "it overflows";
+  EXPECT_FALSE(depth_error(structure, errors, process, row, options).noise_m) << "it overflows";
 }
 
 TEST(DepthError, OfPolesThatOverflowIsUnknown) {
   const milling::MillingProcess process = slot();
   const milling::StabilityOptions options;
   const CutStructure structure = one_mode(0.4);
-  const milling::LobePoint point =
-      milling::limiting_depth(std::get<milling::RelativeStructure>(structure), process, rpm, options).crossings.front();
+  const milling::LobeRow row =
+      milling::limiting_depth(std::get<milling::RelativeStructure>(structure), process, rpm, options);
+  const milling::LobePoint& point = row.crossings.front();
   StructureErrors errors;
   errors.richer = one_mode(0.4 / 1.01);
-  const DepthError known = depth_error(structure, errors, process, rpm, point, options);
+  const DepthError known = depth_error(structure, errors, process, row, options);
   ASSERT_TRUE(known.truncation_m);
   EXPECT_NEAR(*known.truncation_m, 0.01 * point.depth_m, 1e-4 * point.depth_m);
   errors.richer->b *= 1e308;
   errors.richer->phi *= 1e10;
-  EXPECT_FALSE(depth_error(structure, errors, process, rpm, point, options).truncation_m);
+  EXPECT_FALSE(depth_error(structure, errors, process, row, options).truncation_m);
 }
 
 }  // namespace

@@ -44,6 +44,7 @@ export function lobesLead(runs) {
   const robust = [...new Set(runs.flatMap((run) => (run.summary.lobes ?? []).map((chart) => chart.robust?.confidence)).filter(isNumber))];
   return [places.length ? `The cut is at ${places.join(' or ')}.` : '', `Cuts below a line are stable${has('stable_to_depth_limit') ? '; where it is broad, down to the depth limit of the chart' : ''}.`,
     all.some(({ run, lobe }) => starred(run, lobe).length) ? 'Stars mark the best pockets.' : '', robust.length ? `Dotted: the robust limit, which holds for ${robust.map((k) => number(k, 3)).join(' or ')} standard deviations of what the case calls uncertain.` : '',
+    all.some(({ lobe }) => lobe.identification_low_m) ? 'Shaded: 95 % of the limits lie there by the uncertainty of what was fitted or learned.' : '',
     all.some(({ lobe }) => lobe.compared) ? 'Thin lines: the limits of other methods, where they converged.' : '', has('not_converged') ? 'Crosses on the line did not converge.' : '',
     kinds.length ? `The lower panel gives the frequency of the chatter that begins at the line (${kinds.map((k) => signs[k]).join(', ')}${runs.length > 1 ? '; open of the first run, filled of the second' : ''}).` : '',
     runs.some((run) => pointsOf(run).length) ? 'Operating points are circles where they are stable, crosses where they chatter.' : '',
@@ -75,7 +76,7 @@ function decodeLobe(lobe) {
   const [rpm, depth, error, chatter] = [lobe.rpm, lobe.depth_m, lobe.error_relative, lobe.chatter_hz].map(numbers);
   const found = lobe.status.map((s, k) => s === 'converged' && Number.isFinite(chatter[k]));
   const compared = (lobe.compared ?? []).map((other) => ({ name: other.name, rpm: numbers(other.rpm), depth: numbers(other.depth_m), status: other.status }));
-  return { rpm, depth, error, chatter, found, compared, robust: numbers(lobe.robust_depth_m), truncation: numbers(lobe.truncation_m), noise: numbers(lobe.noise_deviation_m) };
+  return { rpm, depth, error, chatter, found, compared, robust: numbers(lobe.robust_depth_m), low: numbers(lobe.identification_low_m), high: numbers(lobe.identification_high_m), truncation: numbers(lobe.truncation_m), noise: numbers(lobe.noise_deviation_m) };
 }
 
 const label = (curve, runs) => plain((runs.length > 1 ? `${curve.run.label}: ` : '') + lobeTitle(curve.lobe.name));
@@ -127,7 +128,7 @@ function limit(curve, runs, colours, log) {
   const group = `${i} ${lobe.name}`;
   const line = { simplify: false, color: colour, width: 2, dash: dashes[i % dashes.length] };
   const filled = runs.length === 1 && !log && lobe === (curve.run.lobes.find((l) => withRobot(l.name)) ?? lobe);
-  const result = [...band(curve, x, colour, group),
+  const result = [...identified(curve, x, colour, group), ...band(curve, x, colour, group),
     { name, x, y, mode: 'lines', line, legendgroup: group, fill: filled ? 'tozeroy' : 'none', fillcolor: faint(colour, 0.07), hovertemplate: '%{y:.4~g} mm', meta: `limit ${group}` }];
   if (lobe.status.includes('stable_to_depth_limit')) {
     result.push({ name: `${name}: stable to the depth limit`, x, y: at('stable_to_depth_limit'), mode: 'lines', showlegend: false, line: { color: faint(colour, 0.45), width: 7 }, legendgroup: group, hoverinfo: 'skip', meta: `to limit ${group}` });
@@ -170,6 +171,13 @@ function band({ lobe, depth, error, truncation, noise }, x, colour, group) {
   const width = Array.from(depth, (d, k) => [error?.[k] * d, Math.abs(truncation?.[k]), 2 * noise?.[k]].filter(Number.isFinite).reduce((a, b) => a + b, 0));
   const edge = (sign) => width.map((w, k) => (lobe.status[k] === 'converged' ? Math.max(0, depth[k] + sign * w) * 1e3 : null));
   return [{ ...between(x, edge(-1), edge(1)), fillcolor: faint(colour, 0.28), legendgroup: group, meta: `band ${group}` }];
+}
+
+/** The range in which 95 % of the limits lie by the uncertainty of a fitted tool or a learned robot. */
+function identified({ low, high }, x, colour, group) {
+  if (!low || !high) return [];
+  const edge = (values) => Array.from(values, (d, k) => (Number.isFinite(low[k]) && Number.isFinite(high[k]) ? d * 1e3 : null));
+  return [{ ...between(x, edge(low), edge(high)), fillcolor: faint(colour, 0.18), legendgroup: group, meta: `identified ${group}` }];
 }
 
 /** The best pockets that are some: the list is filled up with what is hardly deeper than the rest. */
@@ -260,11 +268,12 @@ function limitNotes(runs, curves, log, colours) {
 }
 
 function columns(curves) {
-  return curves.flatMap(({ run, lobe, rpm, depth, error, chatter, robust, compared }) => {
+  return curves.flatMap(({ run, lobe, rpm, depth, error, chatter, robust, low, high, compared }) => {
     const of = `${run.label}, ${lobeTitle(lobe.name)}`;
     return [{ name: `${of}: spindle speed (rpm)`, values: Array.from(rpm) }, { name: `${of}: limiting depth (mm)`, values: scaled(depth, 1e3) },
       { name: `${of}: estimated error (relative)`, values: Array.from(error ?? []) }, { name: `${of}: chatter frequency (Hz)`, values: Array.from(chatter) },
       { name: `${of}: kind`, values: lobe.kind }, { name: `${of}: status`, values: lobe.status },
+      ...(low && high ? [{ name: `${of}: low end of 95 % (mm)`, values: scaled(low, 1e3) }, { name: `${of}: high end of 95 % (mm)`, values: scaled(high, 1e3) }] : []),
       ...(robust ? [{ name: `${of}: robust depth (mm)`, values: scaled(robust, 1e3) }] : []),
       ...compared.flatMap((other) => [{ name: `${of}, ${other.name}: spindle speed (rpm)`, values: Array.from(other.rpm) }, { name: `${of}, ${other.name}: limiting depth (mm)`, values: scaled(other.depth, 1e3) }])];
   });

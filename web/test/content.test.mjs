@@ -10,7 +10,7 @@ import { cmif, singularValues } from '../src/cmif.js';
 import { extent, shapeOf, surface } from '../src/shapes.js';
 import { colours, drawn, launch, open, slide, traces } from './browser.mjs';
 import { compose } from './compose.mjs';
-import { alongPath, forced, measured, noArm, oneRun, pack, partAlone, robust, simulated, toolMeasured, toolOnly, turning, twoRuns } from './synthetic.mjs';
+import { alongPath, forced, identified, measured, noArm, oneRun, pack, partAlone, robust, simulated, toolMeasured, toolOnly, turning, twoRuns } from './synthetic.mjs';
 
 const folder = mkdtempSync(path.join(os.tmpdir(), 'thinwall-content-'));
 let browser;
@@ -248,6 +248,18 @@ describe('the charts', () => {
       dotted.y.forEach((y, k) => (limit.y[k] === null ? assert.equal(y, null) : assert.ok(Math.abs(y - 0.8 * limit.y[k]) < 1e-5 * y)));
       assert.deepEqual(other.x, [1000, 2000, 3000]);
       assert.deepEqual(other.y.map((y) => y && Number(y.toPrecision(5))), [2, null, 3]);
+    });
+  });
+
+  test('the range by what was identified is shaded, and said', async () => {
+    await shown(oneRun(), async (page) => assert.doesNotMatch(await lead(page, 'lobes'), /Shaded/));
+    await shown(identified(), async (page) => {
+      assert.match(await lead(page, 'lobes'), /Shaded: 95 % of the limits lie there/);
+      const list = await traces(page, 'lobes');
+      const [limit, range] = ['limit', 'identified'].map((kind) => list.find((t) => t.meta === `${kind} 0 supported`));
+      assert.equal(range.fill, 'toself');
+      assert.equal(range.x[0], limit.x[1]); // the first is not known
+      assert.ok(Math.abs(range.y[0] - 0.9 * limit.y[1]) < 1e-5 * range.y[0]);
     });
   });
 

@@ -116,6 +116,16 @@ export function robust() {
   return data;
 }
 
+/** With a range of the limit by what was identified, which is not known at the first speed. */
+export function identified() {
+  const data = oneRun();
+  const [, chart] = data.runs[0].lobes;
+  const depth = lobe('supported', 0.002, 2400).depth;
+  const end = (share) => pack('f32', chart.rpm.shape, depth.map((d, k) => (k ? share * d : NaN)));
+  Object.assign(chart, { identification_low_m: end(0.9), identification_high_m: end(1.2) });
+  return data;
+}
+
 /** With the forced motion over five speeds, three of which chatter; `expected` has the supported part's numbers. */
 export function forced() {
   const data = oneRun();

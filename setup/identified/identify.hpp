@@ -1,0 +1,30 @@
+#pragma once
+// Models of a set-up that are found from measurements before a chart is computed: a fitted tool, a robot that is
+// learned from postures.
+
+#include <cstddef>
+
+#include "setup/machining_setup.hpp"
+
+namespace thinwall::setup {
+
+/// True if modes are to be fitted to a measured tool (`tool.fit`) and are not yet.
+[[nodiscard]] bool awaits_fit(const CutSetup& source);
+
+/// True if a robot's modes are to be learned from postures and are not yet.
+[[nodiscard]] bool awaits_learning(const SupportSetup& source);
+
+/// Fits the tool (fitted_tip()) and learns the robot's modes (learned_modes()) where that is asked for and not done.
+/// Errors as theirs; those of the fit name tool.fit. Cost: theirs.
+void identify(Setup& source);
+
+/// Sends what was identified, and what speaks against it, as messages (core/messages.hpp).
+void tell_of_identified(const Setup& source);
+
+/// The number of draws that stand beside what was identified; 0 where nothing was.
+[[nodiscard]] std::size_t draws_of(const Setup& source);
+
+/// Puts draw `i` of what was identified, below draws_of(), in place of the models of tool and robot.
+void take_draw(std::size_t i, CutSetup& cut, SupportSetup& support);
+
+}  // namespace thinwall::setup
