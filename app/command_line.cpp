@@ -9,7 +9,6 @@
 
 #include "app/command_description.hpp"
 #include "app/command_options.hpp"
-#include "app/command_sweep.hpp"
 #include "app/completion.hpp"
 #include "app/doctor.hpp"
 #include "app/forecast.hpp"
@@ -18,6 +17,7 @@
 #include "app/log.hpp"
 #include "app/manual_page.hpp"
 #include "app/reduce_command.hpp"
+#include "app/sweep/command_sweep.hpp"
 #include "app/terminal.hpp"
 #include "app/unknown_word.hpp"
 #include "case/checks/doubts.hpp"

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "app/command_sweep.hpp"
 #include "app/fit_command.hpp"
 #include "app/inspect_command.hpp"
 #include "app/lobes_input.hpp"
 #include "app/postures_command.hpp"
 #include "app/reduce_command.hpp"
 #include "app/simulate_command.hpp"
+#include "app/sweep/command_sweep.hpp"
 #include "report/page/phases.hpp"
 
 namespace CLI {

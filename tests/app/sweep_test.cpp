@@ -1,13 +1,13 @@
 // A case over a grid of its keys: exact values, shards, going on after a stop, failures as rows.
 
-#include "app/sweep.hpp"
+#include "app/sweep/sweep.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <sstream>
 
-#include "app/sweep_table.hpp"
+#include "app/sweep/sweep_table.hpp"
 #include "case/reader.hpp"
 #include "core/atomic_file.hpp"
 #include "core/interrupt.hpp"

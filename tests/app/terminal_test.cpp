@@ -142,12 +142,14 @@ TEST_F(OnATerminal, OneLineWithStageAndCountIsOverwritten) {
 
 TEST(Forecast, SaysTheWholeTimeAndItsTwoParts) {
   const auto part = [](double seconds) { return setup::PartSize{2, 1.0, 1.0, seconds}; };
-  EXPECT_EQ(text({part(0.2), study::LobesForecast{{}, 0.1, false}, {}}), "this takes about 1 s");
-  EXPECT_EQ(text({part(30.0), study::LobesForecast{{}, 90.0, false}, {}}),
+  EXPECT_EQ(text({0.0, part(0.2), study::LobesForecast{{}, 0.1, false}, {}}), "this takes about 1 s");
+  EXPECT_EQ(text({0.0, part(30.0), study::LobesForecast{{}, 90.0, false}, {}}),
             "this takes about 2 min: the part about 30 s, the lobes about 90 s");
-  EXPECT_EQ(text({{}, study::LobesForecast{{}, 7200.0, true}, {}}), "this takes over 2 h");
-  EXPECT_EQ(text({part(0.2), study::LobesForecast{{}, 90.0, false}, study::SimulationForecast{2.0, 0.0, 1200.0, 29.0}}),
-            "this takes about 2 min: the lobes about 90 s, the simulation about 29 s");
+  EXPECT_EQ(text({0.0, {}, study::LobesForecast{{}, 7200.0, true}, {}}), "this takes over 2 h");
+  EXPECT_EQ(
+      text({0.0, part(0.2), study::LobesForecast{{}, 90.0, false}, study::SimulationForecast{2.0, 0.0, 1200.0, 29.0}}),
+      "this takes about 2 min: the lobes about 90 s, the simulation about 29 s");
+  EXPECT_EQ(text({12.0, {}, {}, {}}).find("this takes about 12 s"), 0U) << text({12.0, {}, {}, {}});
 }
 
 TEST(StageDisplay, AStageWithoutALoopIsToldOfAgainWhileItGoesOn) {

@@ -1,4 +1,4 @@
-#include "app/sweep.hpp"
+#include "app/sweep/sweep.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -14,8 +14,8 @@
 #include "app/log.hpp"
 #include "app/signals.hpp"
 #include "app/stage_display.hpp"
-#include "app/sweep_record.hpp"
-#include "app/sweep_table.hpp"
+#include "app/sweep/sweep_record.hpp"
+#include "app/sweep/sweep_table.hpp"
 #include "app/terminal.hpp"
 #include "case/reader.hpp"
 #include "case/schema/schema.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "app/sweep_table.hpp"
+#include "app/sweep/sweep_table.hpp"
 #include "core/units.hpp"
 #include "io/xml_text.hpp"
 

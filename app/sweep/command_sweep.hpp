@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/sweep.hpp"
+#include "app/sweep/sweep.hpp"
 
 namespace thinwall::app {
 

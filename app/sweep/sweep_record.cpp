@@ -1,4 +1,4 @@
-#include "app/sweep_record.hpp"
+#include "app/sweep/sweep_record.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

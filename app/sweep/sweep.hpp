@@ -13,7 +13,7 @@ namespace thinwall::app {
 
 struct SweepRequest {
   std::string case_path;
-  std::vector<std::string> keys;       ///< "part.thickness=4 mm:8 mm:0.5 mm" (app/sweep_grid.hpp)
+  std::vector<std::string> keys;       ///< "part.thickness=4 mm:8 mm:0.5 mm" (app/sweep/sweep_grid.hpp)
   std::vector<std::string> overrides;  ///< of every point
   std::string out;                     ///< empty: results/<case>-sweep
   std::string shard;                   ///< "2/4": a quarter of the points; empty: all

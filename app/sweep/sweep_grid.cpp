@@ -1,4 +1,4 @@
-#include "app/sweep_grid.hpp"
+#include "app/sweep/sweep_grid.hpp"
 
 #include <algorithm>
 #include <cmath>

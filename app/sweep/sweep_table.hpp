@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/sweep_grid.hpp"
+#include "app/sweep/sweep_grid.hpp"
 #include "report/summary/summary.hpp"
 
 namespace thinwall::app {

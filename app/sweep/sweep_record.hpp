@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/sweep_table.hpp"
+#include "app/sweep/sweep_table.hpp"
 #include "case/machining_case.hpp"
 
 namespace thinwall::app {

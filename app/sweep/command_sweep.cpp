@@ -1,4 +1,4 @@
-#include "app/command_sweep.hpp"
+#include "app/sweep/command_sweep.hpp"
 
 #include "app/memory_option.hpp"
 #include "core/parallel.hpp"

@@ -1,4 +1,4 @@
-#include "app/sweep_table.hpp"
+#include "app/sweep/sweep_table.hpp"
 
 #include <algorithm>
 #include <cmath>
