@@ -34,21 +34,31 @@ Eigen::ArrayXd peaks(const RelativeStructure& s) {
          s.poles.real().cwiseAbs().array();
 }
 
-constexpr double nodes_per_rad = 0.35;     // that resolve a wave
-constexpr double error_over_gain = 0.005;  // of a mode that is not resolved
+constexpr double nodes_per_rad = 0.35;  // that resolve a wave
+constexpr double error_over_gain =
+    0.005;  // of a mode that is not resolved, times the share of the cut in which it swings
 
 /// The loop gain 2 w ‖D̄‖ ‖φ‖ ‖b‖ / |Re λ| of each mode at its resonance; `stiffness` is ‖D̄‖.
 Eigen::ArrayXd loop_gains(const CutAtSpeed& cut, double stiffness, double depth_m) {
   return 2.0 * depth_m * stiffness * peaks(cut.structure);
 }
 
-/// |λ| of the fastest mode whose loop gain is at least so much, rad/s.
-double fastest_of_gain(const CutAtSpeed& cut, const Eigen::ArrayXd& gains, double least) {
+/// |λ| of the fastest mode whose figure is at least so much, rad/s.
+double fastest_of(const CutAtSpeed& cut, const Eigen::ArrayXd& figures, double least) {
   double fastest = 0.0;
-  for (Index i = 0; i < gains.size(); ++i) {
-    if (gains(i) >= least) fastest = std::max(fastest, std::abs(cut.structure.poles(i)));
+  for (Index i = 0; i < figures.size(); ++i) {
+    if (figures(i) >= least) fastest = std::max(fastest, std::abs(cut.structure.poles(i)));
   }
   return fastest;
+}
+
+/// The errors that a grid would have for each mode if it did not resolve it: a tooth that enters excites the mode,
+/// which swings for 1/|Re λ| of the stretch T in the cut; only this wave is missed, for motion that the teeth force at
+/// lower frequencies is smooth.
+Eigen::ArrayXd errors_if_unresolved(const CutAtSpeed& cut, double depth_m) {
+  const double T = longest_stretch_rad(cut.process, depth_m) * 30.0 / (std::numbers::pi * cut.spindle_speed_rpm);
+  const Eigen::ArrayXd swings = 1.0 / (T * cut.structure.poles.real().cwiseAbs().array());
+  return error_over_gain * swings.min(1.0) * loop_gains(cut, mean_stiffness(cut.process, depth_m), depth_m);
 }
 
 /// The phase of a wave through the longest stretch of a tooth in the cut, rad.
@@ -81,7 +91,7 @@ GainOnCircle gain_of(const DiscreteCut& d) {
 
 double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m) {
   const Eigen::ArrayXd gains = loop_gains(cut, stiffness, depth_m);
-  return fastest_of_gain(cut, gains, std::min(0.05 * gains.maxCoeff(), 0.5));
+  return fastest_of(cut, gains, std::min(0.05 * gains.maxCoeff(), 0.5));
 }
 
 Resolution resolving(const CutAtSpeed& cut, double depth_m) {
@@ -93,20 +103,19 @@ Resolution resolving(const CutAtSpeed& cut, double depth_m) {
 
 double unresolved(const CutAtSpeed& cut, Resolution resolution, double depth_m) {
   depth_m = std::min(depth_m, cut.process.cutter.envelope.height_m);  // a search goes a little beyond
-  const Eigen::ArrayXd gains = loop_gains(cut, mean_stiffness(cut.process, depth_m), depth_m);
+  const Eigen::ArrayXd errors = errors_if_unresolved(cut, depth_m);
   const double resolved_rad = resolution.elements * resolution.nodes / nodes_per_rad;
   double largest = 0.0;
-  for (Index i = 0; i < gains.size(); ++i) {
-    if (phase_in_cut(cut, std::abs(cut.structure.poles(i)), depth_m) > resolved_rad)
-      largest = std::max(largest, gains(i));
+  for (Index i = 0; i < errors.size(); ++i) {
+    const double r = phase_in_cut(cut, std::abs(cut.structure.poles(i)), depth_m) / resolved_rad;
+    if (r > 1.0) largest = std::max(largest, errors(i) * std::min(1.0, std::exp(10.0 * (r - 1.4))));
   }
-  return error_over_gain * largest;
+  return largest;
 }
 
 Resolution estimating(const CutAtSpeed& cut, double depth_m, const StabilityOptions& options) {
   constexpr double share = 0.25;  // of the tolerance, that modes which are not resolved may take
-  const Eigen::ArrayXd gains = loop_gains(cut, mean_stiffness(cut.process, depth_m), depth_m);
-  const double fastest = fastest_of_gain(cut, gains, share * options.error_tolerance / error_over_gain);
+  const double fastest = fastest_of(cut, errors_if_unresolved(cut, depth_m), share * options.error_tolerance);
   const double phase = phase_in_cut(cut, fastest, depth_m);
   const int elements = std::max(1, static_cast<int>(std::ceil(phase / 20.0)));
   const int nodes = std::max(5, static_cast<int>(std::ceil(nodes_per_rad * phase / elements)));

@@ -42,10 +42,11 @@ struct DiscreteCut {
 /// |λ| of that mode, rad/s; `stiffness` is the norm of the mean directional matrix, N/m².
 [[nodiscard]] double fastest_that_matters(const CutAtSpeed& cut, double stiffness, double depth_m);
 
-/// The error that a grid may have for the modes that it does not resolve, whose phase in the cut is more than 1/0.35
-/// rad a node: 0.005 of the largest of their loop gains. The distance of two grids that both miss them does not show
-/// it, as they may err alike: a wall with modes up to 51 kHz had 53 of 200 rows beyond their estimates, up to
-/// sixteenfold, and errors of up to 0.004 of these gains.
+/// The error that a grid may have for the modes that it does not resolve, whose phase in the cut is r > 1 times 1/0.35
+/// rad a node: 0.005 g min(1, e^{10 (r − 1.4)}) of the one for which it is largest, g its loop gain times the share of
+/// the cut, 1 at most, in which it swings once it is excited. The distance of two grids that both miss a mode does not
+/// show it, as they may err alike: a wall with modes up to 51 kHz had 53 of 200 rows beyond their estimates, up to
+/// sixteenfold, errors of up to 0.004 of these gains, and a tenth of that at r = 1.2.
 [[nodiscard]] double unresolved(const CutAtSpeed& cut, Resolution resolution, double depth_m);
 
 /// The coarsest grid on which unresolved() is below a quarter of the tolerance, in elements of at most 20 rad, but of
