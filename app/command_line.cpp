@@ -39,6 +39,7 @@
 #include "report/summary/schema_of.hpp"
 #include "report/summary/summary_schema.hpp"
 #include "report/terminal_report.hpp"
+#include "setup/identified/identify.hpp"
 #include "setup/imported_part.hpp"
 #include "setup/part_geometry.hpp"
 #include "study/support/robot_survey.hpp"
@@ -101,7 +102,8 @@ ExitCode lobes(const Arguments& arguments, const RunCase& run_case, std::ostream
 }
 
 ExitCode robot(const Arguments& arguments, std::ostream& out) {
-  const cases::Case source = cases::read_case(arguments.case_path, arguments.overrides);
+  cases::Case source = cases::read_case(arguments.case_path, arguments.overrides);
+  setup::identify(source);
   const study::RobotSurvey found = study::survey(study::survey_input(source));
   const report::ResultFolder folder(arguments.out.empty() ? report::default_result_folder(source.name)
                                                           : std::filesystem::path(arguments.out));

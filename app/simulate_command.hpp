@@ -23,7 +23,7 @@ struct SimulateRequest {
 [[nodiscard]] cases::Case simulated_case(const std::filesystem::path& path, std::vector<std::string> overrides,
                                          const SimulateRequest& request);
 
-/// Computes part, robot and both as `run` does, with the part and the simulations that an earlier run in the same
+/// Computes part, robot and both as `run` does, with the part that an earlier run in the same
 /// folder has kept, simulates what the case's [simulation] says, writes simulated/ into `out` (empty: results/<case>),
 /// beside the simulation/ of `run` that summary.json belongs to, and returns the text for the terminal. Throws
 /// core::Error.

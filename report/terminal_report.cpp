@@ -112,13 +112,19 @@ void coupled_modes(std::string& out, const CouplingSummary& coupling) {
   modes(out, "part with robot", list);
 }
 
+/// "0.35 %", "below 0.01 %" or "unknown".
+std::string error_in_percent(const std::optional<double>& error) {
+  if (!error) return "unknown";
+  return *error < 5e-5 ? "below 0.01 %" : fmt::format("{:.2f} %", *error * 100.0);
+}
+
 void charts(std::string& out, const Summary& summary) {
   if (summary.lobes.empty()) return;
   out += "\n  stability chart        least depth anywhere                   best pocket               error est.\n";
   for (const LobesSummary& lobes : summary.lobes) {
     const auto& error = lobes.error_estimate_relative;
     out += fmt::format("  {:<22} {:<38} {:<25} {}\n", chart_title(lobes.name), minimum(lobes), best(lobes),
-                       error ? fmt::format("{:.2f} %", *error * 100.0) : "unknown");
+                       error_in_percent(error));
     if (const auto& pocket = lobes.best_pocket)
       out += fmt::format("    {}: nine tenths of its depth at {}, limited by {}\n", best_pocket_title(lobes),
                          width_text(*pocket), in_words(pocket->limited_by));

@@ -36,13 +36,12 @@ double learning_s(const setup::SupportSetup& source) {
 }
 
 double fitting_s(const setup::CutSetup& source) {
-  constexpr double a_line = 4e-3,
-                   a_draw = 1.0;  // of an entry: of the search for poles, and of the draws over all threads
+  constexpr double a_line = 4e-3;  // of an entry: the search for poles, and the draws over two threads
   if (!setup::awaits_fit(source)) return 0.0;
   double lines = 0.0;
   for (const setup::MeasuredFrf& file : source.tool->measured)
     lines += static_cast<double>(setup::receptance_of(file).axis.size()) * (file.response == file.force ? 1.0 : 2.0);
-  return lines * a_line * a_draw;
+  return lines * a_line;
 }
 
 }  // namespace

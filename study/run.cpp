@@ -170,13 +170,27 @@ void run_responses(Checkpoint& kept, const setup::Setup& work, Results& results,
   }
 }
 
+/// The changes in each draw of what was identified; none, with a warning, where one of them cannot be coupled.
+std::vector<std::vector<Eigen::Matrix3cd>> drawn_changes_or_none(const setup::Setup& work,
+                                                                 const milling::ToolFrame& frame,
+                                                                 const Results& results) {
+  try {
+    return drawn_changes(work, frame, results);
+  } catch (const core::Interrupted&) {
+    throw;
+  } catch (const core::Error& error) {
+    core::warn(fmt::format("no range of depths by what was identified: {}", error.what()));
+    return {};
+  }
+}
+
 /// The supported part where the robot has no poles. What cannot be charted from samples leaves the rest of the run.
 void add_sampled_chart(const setup::Setup& work, const milling::ToolFrame& frame,
                        const std::vector<milling::OperatingPoint>& points, Checkpoint& kept, Results& results) {
   try {
     const auto structure = sampled_structure(work, frame, results.coupled->receptance.response);
     StructureErrors errors = sampled_structure_errors(work, frame, results);
-    errors.drawn_changes = drawn_changes(work, frame, results);
+    errors.drawn_changes = drawn_changes_or_none(work, frame, results);
     results.lobes.push_back(compute_lobes(work, ChartOf::supported, structure, errors, points, kept));
   } catch (const core::Interrupted&) {
     throw;

@@ -197,7 +197,7 @@ void check_mean(const Case& source, const setup::TabledRobot& tabled, Findings& 
                                          "\" has no damping, must be above 0 for the calibration on "
                                          "postures; give it a first guess");
   }
-  if (setup::joints_from_columns(tabled).size() > 0 || !tabled.tapped) return;
+  if (!tabled.tapped || setup::joints_from_columns(tabled).size() > 0) return;
   try {
     (void)setup::wished_joints(source, source, *tabled.mean);
   } catch (const core::InputError& error) {

@@ -60,15 +60,15 @@ std::optional<DepthRange> depth_range(const RelativeStructure& structure, const 
   MillingProcess endless = process;
   StabilityOptions further = options;
   std::vector<LobePoint> crossings = row.crossings;
-  if (crossings.empty()) {
-    const auto beyond = crossings_beyond(structure, process, row.spindle_speed_rpm, options);
-    if (!beyond) return std::nullopt;
-    if (beyond->empty()) return DepthRange{row.limiting_depth_m, row.limiting_depth_m};
-    crossings = *beyond;
-    endless.cutter.envelope.height_m = INFINITY;
-    further.depth_limit_m *= 2.0;
-  }
   try {
+    if (crossings.empty()) {
+      const auto beyond = crossings_beyond(structure, process, row.spindle_speed_rpm, options);
+      if (!beyond) return std::nullopt;
+      if (beyond->empty()) return DepthRange{row.limiting_depth_m, row.limiting_depth_m};
+      crossings = *beyond;
+      endless.cutter.envelope.height_m = INFINITY;
+      further.depth_limit_m *= 2.0;
+    }
     return range_of(limits_of(crossings,
                               [&](const LobePoint& point) {
                                 return moved_depths_m(structure, draws, endless, row.spindle_speed_rpm, point, further);

@@ -41,7 +41,7 @@ StandIn lines_like(const setup::Setup& source, const milling::ToolFrame& frame) 
   const dynamics::FrequencyAxis axis = frequency_axis(source.response, source, source);
   const Eigen::Index lines = std::min(enough, axis.size());
   milling::SampledStructure felt{{Eigen::VectorXd::LinSpaced(lines, axis.hz(0), axis.hz(axis.size() - 1)), {}},
-                                 cut_poles(source, nullptr)};
+                                 cut_poles(before_identification(source), nullptr)};
   const milling::RelativeStructure part = milling::in_tool_axes(modes_like(source), frame);
   for (const double hz : felt.samples.frequency_hz)
     felt.samples.H.push_back(milling::receptance(part, 2.0 * std::numbers::pi * hz));

@@ -70,8 +70,8 @@ std::vector<setup::TipMode> highest_resonances(const setup::Tool& tool) {
   return modes;
 }
 
-/// The set-up with models in place of those that are still to be identified: the robot as in its first posture, the
-/// tool by its highest resonances.
+}  // namespace
+
 setup::Setup before_identification(setup::Setup source) {
   if (setup::awaits_fit(source)) {
     source.tool->modes = highest_resonances(*source.tool);
@@ -83,8 +83,6 @@ setup::Setup before_identification(setup::Setup source) {
   }
   return source;
 }
-
-}  // namespace
 
 milling::RelativeStructure modes_like(const setup::Setup& source) {
   constexpr double damping_ratio = 0.01;

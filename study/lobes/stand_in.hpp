@@ -12,6 +12,10 @@ namespace thinwall::study {
 /// Petersson 2005), each of a quarter of its mass: φ φᵀ / (2 i ω_d (iω − λ)) + conjugate. The set-up must have a part.
 [[nodiscard]] milling::RelativeStructure modes_like(const setup::Setup& source);
 
+/// The set-up with models in place of those that are still to be identified: the robot as in its first posture, the
+/// tool by its highest resonances.
+[[nodiscard]] setup::Setup before_identification(setup::Setup source);
+
 /// The modes that the cut feels, those of the tool and those that stand in for the part's; none if neither has any.
 [[nodiscard]] std::optional<milling::RelativeStructure> poles_like(const setup::Setup& source);
 

@@ -8,7 +8,9 @@
 #include <fstream>
 #include <numbers>
 #include <random>
+#include <sstream>
 
+#include "app/command_line.hpp"
 #include "app/simulate_command.hpp"
 #include "case/numbers.hpp"
 #include "core/draws.hpp"
@@ -96,6 +98,18 @@ TEST(LearnedRobot, GivesItsChartARangeAndIsKept) {
   EXPECT_EQ(fs::last_write_time(folder / "cache" / "robot.bin"), learned_at) << "another chart of the same robot";
   const auto elsewhere = run_kept(robot(0.5) + tool + cut, folder);
   EXPECT_NE(elsewhere["robot"]["modes"], first["robot"]["modes"]);
+}
+
+/// `thinwall robot` looks at the modes that are learned, between those of the two postures beside.
+TEST(LearnedRobot, IsSurveyed) {
+  const fs::path folder = scratch("learned_survey");
+  write_postures(folder);
+  std::ofstream(folder / "case.toml") << robot(2.5) + tool + cut;
+  const std::string file = (folder / "case.toml").string(), out = (folder / "out").string();
+  const char* words[] = {"thinwall", "robot", file.c_str(), "--out", out.c_str()};
+  std::ostringstream said, err;
+  EXPECT_EQ(run_command_line(5, words, run_case, said, err), 0) << said.str() << err.str();
+  EXPECT_NE(said.str().find("Hz"), std::string::npos) << said.str();
 }
 
 /// A tip of one mode with noise: the range covers the depth of the mode itself, and less noise makes it narrower by as
