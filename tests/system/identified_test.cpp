@@ -49,9 +49,9 @@ void write_postures(const fs::path& folder) {
   for (int i = 0; i < 6; ++i) {
     list << "p" << i << "," << i << "\n";
     std::ofstream table(folder / ("p" + std::to_string(i) + ".csv"));
-    const double hz = 300.0 * std::exp(0.01 * i + 0.003 * core::normal_draw(random));
-    // φ of 2 kg: R L = 1/(2i ω m) = (a (1 − i))², a² = 1/(4 ω m)
-    const double a = std::sqrt(1.0 / (4.0 * 2.0 * std::numbers::pi * hz * 2.0));
+    const double hz = 360.0 * std::exp(0.01 * i + 0.003 * core::normal_draw(random));
+    // φ of 0.5 kg: R L = 1/(2i ω m) = (a (1 − i))², a² = 1/(4 ω m)
+    const double a = std::sqrt(1.0 / (4.0 * 2.0 * std::numbers::pi * hz * 0.5));
     table << "frequency_hz,damping_ratio,R_1X_re,R_1X_im,L_1X_re,L_1X_im\n"
           << hz << ",0.03," << a << "," << -a << "," << a << "," << -a << "\n";
   }
